@@ -1,0 +1,23 @@
+//! How an array of grippers must move to lay a carbon-fibre ply on a mold without wrinkles.
+//!
+//! The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh,
+//! Jakobsen and Sherwood 2018; the equations are numbered in `docs/theory.md`. Modules follow the
+//! stages of the method, and data flows one way:
+//!
+//! 1. [`scene`]: a file becomes a checked [`scene::Scene`];
+//! 2. [`mold`], [`catenary`]: the surface, and one span of ply;
+//! 3. [`ply`]: grippers, edges, diagonals, shear and the slope rules;
+//! 4. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
+//! 5. [`draping`]: the motion step by step, contact with the mold, the measures;
+//! 6. [`output`]: result files and the figure.
+//!
+//! SI units throughout, z up, gravity along −z.
+
+pub mod catenary;
+pub mod draping;
+pub mod equilibrium;
+pub mod material;
+pub mod mold;
+pub mod output;
+pub mod ply;
+pub mod scene;

@@ -1,0 +1,68 @@
+//! The ply as a net of catenaries between grippers.
+
+mod grid;
+
+pub use grid::{Catenary, Grid, GripperId, Kind};
+
+use crate::material::{Line, Material, Section};
+use serde::Serialize;
+
+/// A rectangular woven ply held by a grid of grippers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ply {
+    /// Grippers along u and v.
+    pub grid: Grid,
+    /// Fabric length of a cell along u and along v: a, b (m).
+    pub cell: [f64; 2],
+    /// What it is made of.
+    pub material: Material,
+    /// The grid direction along which the warp runs.
+    pub warp: Direction,
+}
+
+/// A direction of the gripper grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// Along the first gripper index.
+    U,
+    /// Along the second gripper index.
+    V,
+}
+
+impl Ply {
+    /// Fabric length of a catenary in the flat ply (m): a, b, or √(a²+b²) for a diagonal.
+    #[must_use]
+    pub fn flat_length(&self, kind: Kind) -> f64 {
+        let [a, b] = self.cell;
+        match kind {
+            Kind::EdgeU => a,
+            Kind::EdgeV => b,
+            Kind::Rising | Kind::Falling => a.hypot(b),
+        }
+    }
+
+    /// Mass per length and flexural rigidity of a catenary.
+    ///
+    /// With areal properties each catenary stands for a strip one cell wide: `b` for the lines along
+    /// u, `a` for those along v. A diagonal is no tow; it takes the mean of both.
+    #[must_use]
+    pub fn line(&self, kind: Kind) -> Line {
+        match self.material.section {
+            Section::Line { mass, flexural_rigidity } => Line { mass, flexural_rigidity },
+            Section::Areal { mass, warp_rigidity, weft_rigidity } => {
+                let (along_u, along_v) = match self.warp {
+                    Direction::U => (warp_rigidity, weft_rigidity),
+                    Direction::V => (weft_rigidity, warp_rigidity),
+                };
+                let [a, b] = self.cell;
+                let (width, rigidity) = match kind {
+                    Kind::EdgeU => (b, along_u),
+                    Kind::EdgeV => (a, along_v),
+                    Kind::Rising | Kind::Falling => ((a + b) / 2.0, (along_u + along_v) / 2.0),
+                };
+                Line { mass: mass * width, flexural_rigidity: rigidity * width }
+            }
+        }
+    }
+}

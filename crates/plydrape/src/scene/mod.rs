@@ -1,0 +1,135 @@
+//! A scene: everything one drape needs, read from a TOML file and checked.
+
+use crate::mold::Mold;
+use crate::ply::Ply;
+use serde::Serialize;
+
+/// A checked scene.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Name for reports: the file's stem or the `title` key.
+    pub title: String,
+    /// What hangs between the grippers.
+    pub ply: Ply,
+    /// What it is laid on; a ply may also just hang.
+    pub mold: Option<Mold>,
+    /// Where the grippers are in every step.
+    pub motion: Motion,
+    /// Where the ply should end, if it is to be draped.
+    pub target: Option<Target>,
+    /// Rules of the model.
+    pub settings: Settings,
+    /// What an accepted drape keeps to.
+    pub limits: Limits,
+}
+
+/// Gripper positions over the steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Time of each step (s), ascending, from 0.
+    pub times: Vec<f64>,
+    /// Positions (m) of each step, in the order of [`crate::ply::Grid::index`].
+    pub positions: Vec<Vec<[f64; 3]>>,
+}
+
+/// Where the ideal drape puts the grippers and the fabric.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// Final gripper positions (m), in the order of [`crate::ply::Grid::index`].
+    pub grippers: Vec<[f64; 3]>,
+    /// The ideal drape, where it is known beyond the grippers.
+    pub drape: Option<FlatDrape>,
+}
+
+/// The ideal drape on a plane: a parallelogram, affine in the fabric coordinates.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FlatDrape {
+    /// Place of the fabric point (0, 0) (m).
+    pub origin: [f64; 3],
+    /// Unit vector along u in the mold.
+    pub along_u: [f64; 3],
+    /// Unit vector along v in the mold, sheared from perpendicular by the pre-shear.
+    pub along_v: [f64; 3],
+}
+
+/// Rules of the model that a scene may choose.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Settings {
+    /// How shared slopes are found.
+    pub slopes: SlopeRule,
+    /// Axial stiffness EA (N); infinite for an inextensible ply (written as null).
+    pub axial_stiffness: f64,
+    /// Acceleration of gravity g (m/s²).
+    pub gravity: f64,
+    /// Limit of the ball joints: largest gripper tilt (rad).
+    pub max_tilt: f64,
+    /// How contact is found.
+    pub contact: Contact,
+}
+
+/// How shared slopes are found, eqs. (9) and (10) of `docs/theory.md`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SlopeRule {
+    /// The paper's: smallest norm of the horizontal forces.
+    MinForce,
+    /// A ball joint passes no moment: EI z'' is continuous across each gripper.
+    MomentBalance,
+}
+
+/// How contact between ply and mold is found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Contact {
+    /// Distance that counts as touching (m).
+    pub tolerance: f64,
+    /// Once per step, or with steps cut where the ply would dip deeper than the tolerance.
+    pub stepping: Stepping,
+    /// Slope of a span where it leaves the mold.
+    pub end: ContactEnd,
+}
+
+/// When contact is evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stepping {
+    /// Once per step, as in the paper.
+    Once,
+    /// A step that would carry a point deeper than the tolerance is halved until it does not.
+    Cut,
+}
+
+/// The slope of a span at the end of a contact segment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactEnd {
+    /// Free, as in the paper.
+    Free,
+    /// The slope of the mold.
+    Tangent,
+}
+
+/// What an accepted drape keeps to.
+///
+/// Overstretch, tilt, shear and force are judged in every step of every scene; slack, bridging,
+/// landing errors and contact share at the end of scenes with a [`Target`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Limits {
+    /// Slack of any span as a share of its free length.
+    pub slack_ratio: f64,
+    /// Bridging gap (m).
+    pub bridging: f64,
+    /// Chord beyond the free length, as a share of the whole edge.
+    pub overstretch: f64,
+    /// Distance of a contact point from its ideal place (m).
+    pub landing_contact: f64,
+    /// Distance of a gripper from its ideal place (m).
+    pub landing_gripper: f64,
+    /// Shear angle (rad); the material's locking angle unless given.
+    pub shear: Option<f64>,
+    /// Gripper tilt (rad).
+    pub tilt: f64,
+    /// Horizontal force of a span (N).
+    pub force: Option<f64>,
+    /// Share of the ply's edges that lies on the mold.
+    pub contact_share: f64,
+}
