@@ -1,0 +1,319 @@
+//! The result file: every force, slope, shape, contact and measure of every step.
+//!
+//! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise. All other
+//! outputs can be made from it.
+
+use crate::material::Material;
+use crate::mold::Mold;
+use crate::ply::{Direction, Grid, GripperId};
+use crate::scene::{FlatDrape, Limits, Settings};
+use serde::Serialize;
+
+/// Name of the format, the first key of every result file.
+pub const FORMAT: &str = "plydrape-result";
+/// Version of the format; it grows when a key changes its meaning.
+pub const VERSION: u32 = 1;
+
+/// A whole result file.
+#[derive(Debug, Clone, Serialize)]
+pub struct ResultFile {
+    /// [`FORMAT`].
+    pub format: &'static str,
+    /// [`VERSION`].
+    pub version: u32,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// The scene, as it was understood.
+    pub scene: SceneEcho,
+    /// One entry a step, the start being step 1.
+    pub steps: Vec<Step>,
+    /// The outcome.
+    pub summary: Summary,
+}
+
+/// The scene, as it was understood.
+#[derive(Debug, Clone, Serialize)]
+pub struct SceneEcho {
+    /// Its title.
+    pub title: String,
+    /// Grippers along u and v.
+    pub grid: Grid,
+    /// Fabric length of a cell along u and v (m).
+    pub cell: [f64; 2],
+    /// The ply's material.
+    pub material: Material,
+    /// The grid direction of the warp.
+    pub warp: Direction,
+    /// The mold, if any.
+    pub mold: Option<Mold>,
+    /// Final gripper positions of the ideal drape (m), if the ply is to be draped.
+    pub target_grippers: Option<Vec<[f64; 3]>>,
+    /// The ideal drape, where it is known.
+    pub ideal_drape: Option<FlatDrape>,
+    /// Rules of the model.
+    pub settings: Settings,
+    /// Limits of an accepted drape.
+    pub limits: Limits,
+}
+
+/// The ply in one step.
+#[derive(Debug, Clone, Serialize)]
+pub struct Step {
+    /// Counts from 1, the start.
+    pub step: usize,
+    /// Time (s).
+    pub time: f64,
+    /// Grippers, i running fastest.
+    pub grippers: Vec<Gripper>,
+    /// How the equilibrium was found.
+    pub solver: Solver,
+    /// Edges along u, edges along v, then two diagonals per cell.
+    pub catenaries: Vec<CatenaryState>,
+    /// Cells, i running fastest.
+    pub cells: Vec<Cell>,
+    /// Worst values of this step, each with its place.
+    pub measures: Measures,
+}
+
+/// A gripper in one step.
+#[derive(Debug, Clone, Serialize)]
+pub struct Gripper {
+    /// Grid indices.
+    pub id: GripperId,
+    /// Position (m).
+    pub position: [f64; 3],
+    /// Slope of the ply along u, where there is one.
+    pub slope_u: Option<f64>,
+    /// Slope of the ply along v, where there is one.
+    pub slope_v: Option<f64>,
+    /// Angle between the ply's normal and the vertical (°).
+    pub tilt_deg: f64,
+    /// Orientation (x, y, z, w): z axis along the ply's normal, x axis along u.
+    pub quaternion: [f64; 4],
+    /// Distance from where the ideal drape puts it (mm), where that is known.
+    pub target_distance_mm: Option<f64>,
+}
+
+/// How the equilibrium of a step was found.
+#[derive(Debug, Clone, Serialize)]
+pub struct Solver {
+    /// `converged`, or what stopped it.
+    pub status: &'static str,
+    /// Iterations of the last equilibrium.
+    pub iterations: usize,
+    /// Its optimality residual.
+    pub residual: f64,
+    /// Equilibria solved in this step.
+    pub equilibria: usize,
+}
+
+/// One catenary in one step.
+#[derive(Debug, Clone, Serialize)]
+pub struct CatenaryState {
+    /// `edge` or `diagonal`.
+    pub kind: &'static str,
+    /// `u`, `v`, `rising` or `falling`.
+    pub direction: &'static str,
+    /// Gripper at its first end.
+    pub from: GripperId,
+    /// Gripper at its second end.
+    pub to: GripperId,
+    /// Set length (m).
+    pub length: f64,
+    /// A diagonal stretched by the shear of its cell: straight.
+    pub shearing: bool,
+    /// Force of a shearing diagonal (N), where the material has a shear curve.
+    pub shear_force_n: Option<f64>,
+    /// Free rests, in order.
+    pub spans: Vec<SpanState>,
+    /// What the mold has caught.
+    pub contact: Option<ContactState>,
+    /// A touch away from the contact segment.
+    pub bridging: Option<Bridging>,
+}
+
+/// One free span in one step.
+#[derive(Debug, Clone, Serialize)]
+pub struct SpanState {
+    /// Fabric arc length of its ends from the first gripper (m).
+    pub arc: [f64; 2],
+    /// Fabric length (m).
+    pub length: f64,
+    /// Horizontal distance of its ends (m).
+    pub run: f64,
+    /// Height of its second end above its first (m).
+    pub rise: f64,
+    /// `hanging`, `overstretched`, `straight` (shearing, or taut without a force) or `lying`.
+    pub state: &'static str,
+    /// Horizontal force (N); null where the model gives none.
+    #[serde(rename = "H_N")]
+    pub force: Option<f64>,
+    /// Slopes at its ends.
+    pub slopes: [f64; 2],
+    /// Which of these slopes were prescribed; the others are free.
+    pub prescribed: [bool; 2],
+    /// Its shape at equally spaced stations (m).
+    pub points: Vec<[f64; 3]>,
+    /// Free length minus the path between its ends (mm), not negative.
+    pub slack_mm: f64,
+    /// Slack as a share of its free length.
+    pub slack_ratio: f64,
+    /// Amplitude of the wrinkle that the slack makes, (2/π)√(chord·slack) (mm).
+    pub wrinkle_mm: f64,
+    /// Chord beyond the free length (mm), not negative.
+    pub overstretch_mm: f64,
+    /// Chord beyond the free length as a share of the whole catenary.
+    pub overstretch: f64,
+}
+
+/// The part of a catenary that lies on the mold.
+#[derive(Debug, Clone, Serialize)]
+pub struct ContactState {
+    /// Fabric arc length of its ends from the first gripper (m).
+    pub arc: [f64; 2],
+    /// Its line on the mold (m), first to last.
+    pub points: Vec<[f64; 3]>,
+    /// Distance of its two ends from their place in the ideal drape (mm), where that is known.
+    pub landing_error_mm: Option<[f64; 2]>,
+}
+
+/// A touch away from the contact segment, which the model does not follow.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Bridging {
+    /// Place of the largest gap between segment and touch (m).
+    pub place: [f64; 3],
+    /// That gap (m).
+    pub gap: f64,
+}
+
+/// A cell in one step.
+#[derive(Debug, Clone, Serialize)]
+pub struct Cell {
+    /// Its lowest gripper.
+    pub cell: GripperId,
+    /// Shear angle (°), 0 where no diagonal shears.
+    pub shear_deg: f64,
+    /// The shearing diagonal, `rising` or `falling`.
+    pub shearing: Option<&'static str>,
+}
+
+/// A worst value and where it is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Worst {
+    /// The value, in the unit that the measure names.
+    pub value: f64,
+    /// Which part of the ply: a catenary, a cell or a gripper, in words.
+    pub at: String,
+    /// Place in space (m).
+    pub place: [f64; 3],
+}
+
+/// Worst values of one step; null where a measure has no meaning.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Measures {
+    /// Slack (mm).
+    pub slack_mm: Option<Worst>,
+    /// Slack as a share of the span's free length.
+    pub slack_ratio: Option<Worst>,
+    /// Wrinkle amplitude of the worst slack (mm).
+    pub wrinkle_mm: Option<Worst>,
+    /// Chord of an edge's span beyond its free length, as a share of the whole edge.
+    pub overstretch: Option<Worst>,
+    /// Chord of an edge's span beyond its free length (mm).
+    pub overstretch_mm: Option<Worst>,
+    /// Gap of a bridge (mm).
+    pub bridging_mm: Option<Worst>,
+    /// Shear angle (°).
+    pub shear_deg: Option<Worst>,
+    /// Gripper tilt (°).
+    pub tilt_deg: Option<Worst>,
+    /// Horizontal force (N).
+    pub force_n: Option<Worst>,
+    /// Distance of landed points and landed grippers from their ideal place (mm).
+    pub landing_error_mm: Option<Worst>,
+    /// Largest distance between ply and mold (mm).
+    pub gap_mm: Option<Worst>,
+    /// Share of the edges' length that lies on the mold.
+    pub contact_share: Option<f64>,
+}
+
+/// The worst values as plain numbers.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct Numbers {
+    /// Slack (mm).
+    pub slack_mm: Option<f64>,
+    /// Slack as a share of the span's free length.
+    pub slack_ratio: Option<f64>,
+    /// Overstretch of an edge, as a share of the whole edge.
+    pub overstretch: Option<f64>,
+    /// Gap of a bridge (mm).
+    pub bridging_mm: Option<f64>,
+    /// Shear angle (°).
+    pub shear_deg: Option<f64>,
+    /// Gripper tilt (°).
+    pub tilt_deg: Option<f64>,
+    /// Landing error (mm).
+    pub landing_error_mm: Option<f64>,
+}
+
+/// A limit and whether it holds.
+#[derive(Debug, Clone, Serialize)]
+pub struct Verdict {
+    /// Key of the limit in the scene.
+    pub name: &'static str,
+    /// Worst value, in the unit of the limit as reported.
+    pub value: f64,
+    /// The limit, in the same unit.
+    pub limit: f64,
+    /// Unit of both.
+    pub unit: &'static str,
+    /// Whether it holds.
+    pub ok: bool,
+    /// Step of the worst value.
+    pub step: usize,
+    /// Place of the worst value, in words.
+    pub at: String,
+}
+
+/// A catenary by its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct CatenaryId {
+    /// `edge` or `diagonal`.
+    pub kind: &'static str,
+    /// Gripper at its first end.
+    pub from: GripperId,
+    /// Gripper at its second end.
+    pub to: GripperId,
+}
+
+/// The outcome of a drape: what `plydrape simulate --json` prints.
+#[derive(Debug, Clone, Serialize)]
+pub struct Summary {
+    /// Every limit holds.
+    pub accepted: bool,
+    /// Steps done.
+    pub steps: usize,
+    /// Steps of the scene; more than `steps` if the run was interrupted.
+    pub steps_planned: usize,
+    /// First step with contact.
+    pub first_contact_step: Option<usize>,
+    /// The catenaries that touched in that step.
+    pub first_contact: Vec<CatenaryId>,
+    /// First step in which a cell shears.
+    pub first_shear_step: Option<usize>,
+    /// First step in which all cells shear.
+    pub all_shear_step: Option<usize>,
+    /// Worst values over all steps.
+    pub worst: Numbers,
+    /// The same of the last step.
+    #[serde(rename = "final")]
+    pub last: Numbers,
+    /// Share of the edges' length that lies on the mold at the end.
+    pub contact_share: Option<f64>,
+    /// Every limit, judged.
+    pub limits: Vec<Verdict>,
+    /// Equilibria solved.
+    pub equilibria: usize,
+    /// Mean time of an equilibrium (µs).
+    pub mean_equilibrium_us: f64,
+}
