@@ -286,7 +286,7 @@ pub struct CatenaryId {
     pub to: GripperId,
 }
 
-/// The outcome of a drape: what `plydrape simulate --json` prints.
+/// The outcome of a drape: what `plydrape simulate --json` prints, but for its timing.
 #[derive(Debug, Clone, Serialize)]
 pub struct Summary {
     /// Every limit holds.
@@ -314,6 +314,4 @@ pub struct Summary {
     pub limits: Vec<Verdict>,
     /// Equilibria solved.
     pub equilibria: usize,
-    /// Mean time of an equilibrium (µs).
-    pub mean_equilibrium_us: f64,
 }
