@@ -1,0 +1,226 @@
+//! Slope functions U, V, G of zero mean that span the solutions of eq. (1), at a given H.
+//!
+//! With t = x/ℓ every solution has the slope `z' = θ + ρ G(t) + α U(t) + β V(t)`, θ = h/ℓ. Three forms
+//! of the same thing, each accurate where it is used; χ is the shape parameter, ρ the load:
+//!
+//! | form | where | χ | ρ | U, V, G |
+//! |---|---|---|---|---|
+//! | stiff | κ < 25 | κ = Hℓ²/EI | qℓ³/EI | t c₁, t² c₂, −t³ c₃ of κt², less their means |
+//! | taut | κ ≥ 25 | k = ℓ√(H/EI) | qℓ/H | e^(−kt), e^(−k(1−t)), t, less their means |
+//! | limp | EI = 0 | – | qℓ/H | 0, 0, t − ½ |
+
+use super::Span;
+use super::entire::{curvature, entire, slope, terms};
+
+/// κ from which the exponential form is used.
+const TAUT_KAPPA: f64 = 25.0;
+
+/// The functions of one span at one H.
+#[derive(Debug, Clone, Copy)]
+pub enum Form {
+    /// Small or negative κ.
+    Stiff {
+        /// κ = Hℓ²/EI.
+        kappa: f64,
+        /// Terms of the series.
+        terms: usize,
+        /// c₀ … c₈ at κ: the means, and the values at t = 1.
+        c: [f64; 9],
+    },
+    /// Large κ: boundary layers of width 1/k at the ends.
+    Taut {
+        /// k = ℓ√(H/EI).
+        k: f64,
+        /// e^(−k).
+        far: f64,
+        /// Mean of U and of V with its first and second derivative to k.
+        mean: [f64; 3],
+    },
+    /// No bending stiffness.
+    Limp,
+}
+
+/// Values of U, V, G (or of their t-derivatives) at one t, with first and second χ-derivatives.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Values {
+    /// U, V, G.
+    pub value: [f64; 3],
+    /// ∂/∂χ of U, V, G.
+    pub first: [f64; 3],
+    /// ∂²/∂χ² of U, V, G.
+    pub second: [f64; 3],
+}
+
+impl Form {
+    /// The form that fits the span at horizontal force `force` (N).
+    pub fn new(span: &Span, force: f64) -> Form {
+        if span.flexural_rigidity == 0.0 {
+            return Form::Limp;
+        }
+        let kappa = force * span.run * span.run / span.flexural_rigidity;
+        if kappa < TAUT_KAPPA {
+            let terms = terms(kappa.abs());
+            return Form::Stiff {
+                kappa,
+                terms,
+                c: entire(kappa, terms),
+            };
+        }
+        let k = kappa.sqrt();
+        let far = (-k).exp();
+        let mean = (1.0 - far) / k;
+        let first = (far - mean) / k;
+        let second = (-far - 2.0 * first) / k;
+        Form::Taut {
+            k,
+            far,
+            mean: [mean, first, second],
+        }
+    }
+
+    /// U, V, G at t, given e^(−kt) and e^(−k(1−t)) (used by the taut form only).
+    #[inline]
+    pub fn at(&self, t: f64, near: f64, far: f64) -> Values {
+        match *self {
+            Form::Stiff {
+                kappa,
+                terms,
+                c: mean,
+            } => {
+                let (t2, c) = (t * t, entire(kappa * t * t, terms));
+                // tⁿ c_n(κt²) − c_{n+1}(κ); each κ-derivative brings t²
+                let (t3, t4) = (t2 * t, t2 * t2);
+                let (t5, t6, t7) = (t4 * t, t4 * t2, t4 * t3);
+                Values {
+                    value: [t * c[1] - mean[2], t2 * c[2] - mean[3], mean[4] - t3 * c[3]],
+                    first: [
+                        t3 * slope(&c, 1) - slope(&mean, 2),
+                        t4 * slope(&c, 2) - slope(&mean, 3),
+                        slope(&mean, 4) - t5 * slope(&c, 3),
+                    ],
+                    second: [
+                        t5 * curvature(&c, 1) - curvature(&mean, 2),
+                        t6 * curvature(&c, 2) - curvature(&mean, 3),
+                        curvature(&mean, 4) - t7 * curvature(&c, 3),
+                    ],
+                }
+            }
+            Form::Taut { mean, .. } => {
+                let s = 1.0 - t;
+                Values {
+                    value: [near - mean[0], far - mean[0], t - 0.5],
+                    first: [-t * near - mean[1], -s * far - mean[1], 0.0],
+                    second: [t * t * near - mean[2], s * s * far - mean[2], 0.0],
+                }
+            }
+            Form::Limp => Values {
+                value: [0.0, 0.0, t - 0.5],
+                ..Values::default()
+            },
+        }
+    }
+
+    /// e^(−kt) and e^(−k(1−t)) of the taut form; 0 where they no longer count.
+    #[inline]
+    pub fn layers(&self, t: f64) -> [f64; 2] {
+        match *self {
+            Form::Taut { k, .. } => [layer(k * t), layer(k * (1.0 - t))],
+            _ => [0.0; 2],
+        }
+    }
+
+    /// U, V, G at t.
+    pub fn slope(&self, t: f64) -> Values {
+        let [near, far] = self.layers(t);
+        self.at(t, near, far)
+    }
+
+    /// ∂/∂t of U, V, G at t = 0 or t = 1.
+    pub fn end_derivative(&self, end: usize) -> Values {
+        match *self {
+            Form::Stiff { c, .. } => {
+                if end == 0 {
+                    return Values {
+                        value: [1.0, 0.0, 0.0],
+                        ..Values::default()
+                    };
+                }
+                Values {
+                    value: [c[0], c[1], -c[2]],
+                    first: [slope(&c, 0), slope(&c, 1), -slope(&c, 2)],
+                    second: [curvature(&c, 0), curvature(&c, 1), -curvature(&c, 2)],
+                }
+            }
+            Form::Taut { k, far, .. } => {
+                // −k e^(−kt) and k e^(−k(1−t)): `near` belongs to the layer of this end
+                let (near, away) = ([k, 1.0, 0.0], [k * far, (1.0 - k) * far, (k - 2.0) * far]);
+                let pick = |d: usize| {
+                    if end == 0 {
+                        [-near[d], away[d]]
+                    } else {
+                        [-away[d], near[d]]
+                    }
+                };
+                Values {
+                    value: [pick(0)[0], pick(0)[1], 1.0],
+                    first: [pick(1)[0], pick(1)[1], 0.0],
+                    second: [pick(2)[0], pick(2)[1], 0.0],
+                }
+            }
+            Form::Limp => Values {
+                value: [0.0, 0.0, 1.0],
+                ..Values::default()
+            },
+        }
+    }
+
+    /// ∫₀ᵗ, value, ∂/∂t and ∂²/∂t² of U, V, G at t.
+    pub fn station(&self, t: f64) -> [[f64; 3]; 4] {
+        match *self {
+            Form::Stiff {
+                kappa,
+                terms,
+                c: mean,
+            } => {
+                let (t2, c) = (t * t, entire(kappa * t * t, terms));
+                let (t3, t4) = (t2 * t, t2 * t2);
+                [
+                    [
+                        t2 * c[2] - t * mean[2],
+                        t3 * c[3] - t * mean[3],
+                        t * mean[4] - t4 * c[4],
+                    ],
+                    [t * c[1] - mean[2], t2 * c[2] - mean[3], mean[4] - t3 * c[3]],
+                    [c[0], t * c[1], -t2 * c[2]],
+                    [kappa * t * c[1], c[0], -t * c[1]],
+                ]
+            }
+            Form::Taut { k, far: e, mean } => {
+                let [near, far] = self.layers(t);
+                let m = mean[0];
+                [
+                    [
+                        (1.0 - near) / k - m * t,
+                        (far - e) / k - m * t,
+                        0.5 * (t * t - t),
+                    ],
+                    [near - m, far - m, t - 0.5],
+                    [-k * near, k * far, 1.0],
+                    [k * k * near, k * k * far, 0.0],
+                ]
+            }
+            Form::Limp => [
+                [0.0, 0.0, 0.5 * (t * t - t)],
+                [0.0, 0.0, t - 0.5],
+                [0.0, 0.0, 1.0],
+                [0.0; 3],
+            ],
+        }
+    }
+}
+
+/// e^(−x), 0 where it no longer counts.
+#[inline]
+fn layer(x: f64) -> f64 {
+    if x > 60.0 { 0.0 } else { (-x).exp() }
+}
