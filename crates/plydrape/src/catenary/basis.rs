@@ -10,7 +10,8 @@
 //! | limp | EI = 0 | – | qℓ/H | 0, 0, t − ½ |
 
 use super::Span;
-use super::entire::{curvature, entire, slope, terms};
+use super::entire::{curvature, entire, entire_at, slope, terms};
+use super::quadrature::POINTS;
 
 /// κ from which the exponential form is used.
 const TAUT_KAPPA: f64 = 25.0;
@@ -51,6 +52,27 @@ pub struct Values {
     pub second: [f64; 3],
 }
 
+/// [`Values`] at several points: `[U, V, G][point]`.
+#[derive(Debug, Clone, Copy)]
+pub struct Panel<const P: usize> {
+    /// U, V, G.
+    pub value: [[f64; P]; 3],
+    /// ∂/∂χ of U, V, G.
+    pub first: [[f64; P]; 3],
+    /// ∂²/∂χ² of U, V, G.
+    pub second: [[f64; P]; 3],
+}
+
+impl<const P: usize> Default for Panel<P> {
+    fn default() -> Self {
+        Panel {
+            value: [[0.0; P]; 3],
+            first: [[0.0; P]; 3],
+            second: [[0.0; P]; 3],
+        }
+    }
+}
+
 impl Form {
     /// The form that fits the span at horizontal force `force` (N).
     pub fn new(span: &Span, force: f64) -> Form {
@@ -78,48 +100,6 @@ impl Form {
         }
     }
 
-    /// U, V, G at t, given e^(−kt) and e^(−k(1−t)) (used by the taut form only).
-    #[inline]
-    pub fn at(&self, t: f64, near: f64, far: f64) -> Values {
-        match *self {
-            Form::Stiff {
-                kappa,
-                terms,
-                c: mean,
-            } => {
-                let (t2, c) = (t * t, entire(kappa * t * t, terms));
-                // tⁿ c_n(κt²) − c_{n+1}(κ); each κ-derivative brings t²
-                let (t3, t4) = (t2 * t, t2 * t2);
-                let (t5, t6, t7) = (t4 * t, t4 * t2, t4 * t3);
-                Values {
-                    value: [t * c[1] - mean[2], t2 * c[2] - mean[3], mean[4] - t3 * c[3]],
-                    first: [
-                        t3 * slope(&c, 1) - slope(&mean, 2),
-                        t4 * slope(&c, 2) - slope(&mean, 3),
-                        slope(&mean, 4) - t5 * slope(&c, 3),
-                    ],
-                    second: [
-                        t5 * curvature(&c, 1) - curvature(&mean, 2),
-                        t6 * curvature(&c, 2) - curvature(&mean, 3),
-                        curvature(&mean, 4) - t7 * curvature(&c, 3),
-                    ],
-                }
-            }
-            Form::Taut { mean, .. } => {
-                let s = 1.0 - t;
-                Values {
-                    value: [near - mean[0], far - mean[0], t - 0.5],
-                    first: [-t * near - mean[1], -s * far - mean[1], 0.0],
-                    second: [t * t * near - mean[2], s * s * far - mean[2], 0.0],
-                }
-            }
-            Form::Limp => Values {
-                value: [0.0, 0.0, t - 0.5],
-                ..Values::default()
-            },
-        }
-    }
-
     /// e^(−kt) and e^(−k(1−t)) of the taut form; 0 where they no longer count.
     #[inline]
     pub fn layers(&self, t: f64) -> [f64; 2] {
@@ -129,10 +109,82 @@ impl Form {
         }
     }
 
+    /// U, V, G at several t, given e^(−kt) and e^(−k(1−t)) there (which only the taut form reads).
+    #[inline]
+    pub fn at<const P: usize>(&self, t: &[f64; P], near: &[f64; P], far: &[f64; P]) -> Panel<P> {
+        let mut out = Panel::default();
+        let Panel {
+            value: [u, v, g],
+            first: [ux, vx, gx],
+            second: [uxx, vxx, gxx],
+        } = &mut out;
+        match *self {
+            Form::Stiff {
+                kappa,
+                terms,
+                c: mean,
+            } => {
+                // tⁿ c_n(κt²) − c_{n+1}(κ); each κ-derivative brings t²
+                let c = entire_at(&t.map(|t| kappa * t * t), terms);
+                for p in 0..P {
+                    let c = c.map(|c| c[p]);
+                    let t = t[p];
+                    let (t2, t3) = (t * t, t * t * t);
+                    let (t4, t5) = (t2 * t2, t2 * t3);
+                    u[p] = t * c[1] - mean[2];
+                    v[p] = t2 * c[2] - mean[3];
+                    g[p] = mean[4] - t3 * c[3];
+                    ux[p] = t3 * slope(&c, 1) - slope(&mean, 2);
+                    vx[p] = t4 * slope(&c, 2) - slope(&mean, 3);
+                    gx[p] = slope(&mean, 4) - t5 * slope(&c, 3);
+                    uxx[p] = t5 * curvature(&c, 1) - curvature(&mean, 2);
+                    vxx[p] = t3 * t3 * curvature(&c, 2) - curvature(&mean, 3);
+                    gxx[p] = curvature(&mean, 4) - t4 * t3 * curvature(&c, 3);
+                }
+            }
+            Form::Taut { mean, .. } => {
+                for p in 0..P {
+                    let (t, s) = (t[p], 1.0 - t[p]);
+                    u[p] = near[p] - mean[0];
+                    v[p] = far[p] - mean[0];
+                    g[p] = t - 0.5;
+                    ux[p] = -t * near[p] - mean[1];
+                    vx[p] = -s * far[p] - mean[1];
+                    uxx[p] = t * t * near[p] - mean[2];
+                    vxx[p] = s * s * far[p] - mean[2];
+                }
+            }
+            Form::Limp => *g = t.map(|t| t - 0.5),
+        }
+        out
+    }
+
+    /// e^(−kt) at the points of a panel that spans [0, 1]: they are symmetric, and
+    /// e^(−k(1−t)) = e^(−k)/e^(−kt), so half the exponentials do.
+    #[inline]
+    pub fn near_layer(&self, t: &[f64; POINTS]) -> [f64; POINTS] {
+        let mut near = [0.0; POINTS];
+        if let Form::Taut { k, far, .. } = *self {
+            for p in 0..POINTS / 2 {
+                near[p] = (-k * t[p]).exp();
+            }
+            for p in 0..POINTS / 2 {
+                near[POINTS - 1 - p] = far / near[p];
+            }
+        }
+        near
+    }
+
     /// U, V, G at t.
     pub fn slope(&self, t: f64) -> Values {
         let [near, far] = self.layers(t);
-        self.at(t, near, far)
+        let values = self.at(&[t], &[near], &[far]);
+        let pick = |f: &[[f64; 1]; 3]| [f[0][0], f[1][0], f[2][0]];
+        Values {
+            value: pick(&values.value),
+            first: pick(&values.first),
+            second: pick(&values.second),
+        }
     }
 
     /// ∂/∂t of U, V, G at t = 0 or t = 1.
@@ -222,5 +274,5 @@ impl Form {
 /// e^(−x), 0 where it no longer counts.
 #[inline]
 fn layer(x: f64) -> f64 {
-    if x > 60.0 { 0.0 } else { (-x).exp() }
+    if x > 45.0 { 0.0 } else { (-x).exp() }
 }

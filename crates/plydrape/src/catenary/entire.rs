@@ -51,15 +51,23 @@ pub fn terms(bound: f64) -> usize {
 /// c₀ … c₈ at y, summing the given number of terms.
 #[inline]
 pub fn entire(y: f64, terms: usize) -> [f64; 9] {
-    let terms = terms.min(TERMS);
-    let (mut c7, mut c8) = (0.0, 0.0);
-    for j in (0..terms).rev() {
-        c7 = c7 * y + SERIES[0][j];
-        c8 = c8 * y + SERIES[1][j];
+    entire_at(&[y], terms).map(|[c]| c)
+}
+
+/// c₀ … c₈ at several y at once: `[n][point]`.
+#[inline]
+pub fn entire_at<const P: usize>(y: &[f64; P], terms: usize) -> [[f64; P]; 9] {
+    let mut c = [[0.0; P]; 9];
+    for j in (0..terms.min(TERMS)).rev() {
+        for p in 0..P {
+            c[7][p] = c[7][p] * y[p] + SERIES[0][j];
+            c[8][p] = c[8][p] * y[p] + SERIES[1][j];
+        }
     }
-    let mut c = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, c7, c8];
     for n in (0..7).rev() {
-        c[n] = INVERSE_FACTORIAL[n] + y * c[n + 2];
+        for p in 0..P {
+            c[n][p] = INVERSE_FACTORIAL[n] + y[p] * c[n + 2][p];
+        }
     }
     c
 }

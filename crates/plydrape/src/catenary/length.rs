@@ -4,6 +4,7 @@
 //! `√(1+z'²) − σ − θw/σ = w² / (σ(σ√(1+z'²) + 1 + θz'))`, and w has zero mean: every term is positive
 //! and nothing cancels, however taut the span.
 
+use super::basis::Panel;
 use super::jet::{Chain, Jet};
 use super::profile::{INNER, Profile, Response};
 use super::quadrature::{ABSCISSAS, POINTS, WEIGHTS, stretches};
@@ -18,30 +19,27 @@ pub struct Excess {
 }
 
 impl Profile {
-    /// Calls `visit(weight, t, e^(−kt), e^(−k(1−t)))` for every quadrature point.
+    /// Calls `visit(scale, panel)` for every panel; the weights of its points are `scale·WEIGHTS`.
     #[inline]
-    fn for_each_point(&self, mut visit: impl FnMut(f64, f64, f64, f64)) {
+    fn for_each_panel(&self, mut visit: impl FnMut(f64, &Panel<POINTS>)) {
         let stretches = stretches(self);
         if stretches.is_single() {
-            // the abscissas are symmetric: one exponential serves both ends
-            let mut layers = [0.0; POINTS];
-            for n in 0..POINTS {
-                layers[n] = self.form.layers(ABSCISSAS[n])[0];
-            }
-            for n in 0..POINTS {
-                visit(WEIGHTS[n], ABSCISSAS[n], layers[n], layers[POINTS - 1 - n]);
-            }
+            let near = self.form.near_layer(&ABSCISSAS);
+            let mut far = near;
+            far.reverse();
+            visit(1.0, &self.form.at(&ABSCISSAS, &near, &far));
             return;
         }
         for stretch in stretches.iter() {
             let width = (stretch.end - stretch.start) / stretch.panels as f64;
             for panel in 0..stretch.panels {
                 let start = stretch.start + panel as f64 * width;
-                for n in 0..POINTS {
-                    let t = start + width * ABSCISSAS[n];
-                    let [near, far] = self.form.layers(t);
-                    visit(width * WEIGHTS[n], t, near, far);
+                let t = ABSCISSAS.map(|s| start + width * s);
+                let (mut near, mut far) = ([0.0; POINTS], [0.0; POINTS]);
+                for p in 0..POINTS {
+                    [near[p], far[p]] = self.form.layers(t[p]);
                 }
+                visit(width, &self.form.at(&t, &near, &far));
             }
         }
     }
@@ -52,21 +50,36 @@ impl Profile {
         let chain = Chain::<3>::new(self);
         let response = self.response();
         let [chi_h, rho_h] = [chain.to_force(0), chain.to_force(1)];
-        let [alpha, beta] = self.amplitude;
-        let (rho, theta) = (self.rho, self.theta);
+        let ([alpha, beta], rho, theta) = (self.amplitude, self.rho, self.theta);
         let sigma = theta.hypot(1.0);
         // ∂z'/∂H = χ_H (ρ G_χ + α U_χ + β V_χ + α_χ U + β_χ V) + ρ_H (G + α_ρ U + β_ρ V)
         let [a1, b1] = [0, 1].map(|n| chi_h * response.first[0][n] + rho_h * response.first[1][n]);
+        let [a0, b0, r0] = [alpha, beta, rho].map(|x| x * chi_h);
         let (mut value, mut to_force) = (0.0, 0.0);
-        self.for_each_point(|weight, t, near, far| {
-            let basis = self.form.at(t, near, far);
-            let ([u, v, g], [ux, vx, gx]) = (basis.value, basis.first);
-            let w = rho * g + alpha * u + beta * v;
-            let w_h = chi_h * (rho * gx + alpha * ux + beta * vx) + rho_h * g + a1 * u + b1 * v;
-            let p = theta + w;
-            let r = (1.0 + p * p).sqrt();
-            value += weight * w * w / (sigma * (sigma * r + 1.0 + theta * p));
-            to_force += weight * p / r * w_h;
+        self.for_each_panel(|scale, panel| {
+            let Panel {
+                value: [u, v, g],
+                first: [ux, vx, gx],
+                ..
+            } = panel;
+            let mut sums = [[0.0; LANES]; 2];
+            for chunk in (0..POINTS).step_by(LANES) {
+                for lane in 0..LANES {
+                    let p = chunk + lane;
+                    let w = rho * g[p] + alpha * u[p] + beta * v[p];
+                    let w_h =
+                        r0 * gx[p] + a0 * ux[p] + b0 * vx[p] + rho_h * g[p] + a1 * u[p] + b1 * v[p];
+                    let slope = theta + w;
+                    let r = (1.0 + slope * slope).sqrt();
+                    // one division for both terms
+                    let d = sigma * (sigma * r + 1.0 + theta * slope);
+                    let both = WEIGHTS[p] / (d * r);
+                    sums[0][lane] += both * w * w * r;
+                    sums[1][lane] += both * d * slope * w_h;
+                }
+            }
+            value += scale * total(sums[0]);
+            to_force += scale * total(sums[1]);
         });
         Excess { value, to_force }
     }
@@ -104,37 +117,72 @@ impl Profile {
 
     fn sums(&self) -> Sums {
         let mut sums = Sums::default();
-        let [alpha, beta] = self.amplitude;
-        let (rho, theta) = (self.rho, self.theta);
+        let ([alpha, beta], rho, theta) = (self.amplitude, self.rho, self.theta);
         let sigma = theta.hypot(1.0);
-        self.for_each_point(|weight, t, near, far| {
-            let basis = self.form.at(t, near, far);
-            let ([u, v, g], [ux, vx, gx], [uxx, vxx, gxx]) =
-                (basis.value, basis.first, basis.second);
-            let w = rho * g + alpha * u + beta * v;
-            let drift = rho * gx + alpha * ux + beta * vx;
-            let p = theta + w;
-            let r = 1.0 / (1.0 + p * p).sqrt();
-            sums.excess += weight * w * w / (sigma * (sigma / r + 1.0 + theta * p));
-            let tilt = weight * p * r;
-            let functions = [1.0, u, v, g, drift];
-            let others = [ux, vx, gx, rho * gxx + alpha * uxx + beta * vxx];
+        self.for_each_panel(|scale, panel| {
+            let Panel {
+                value: [u, v, g],
+                first: [ux, vx, gx],
+                second: [uxx, vxx, gxx],
+            } = panel;
+            let mut excess = [0.0; LANES];
+            let mut mean = [[0.0; LANES]; 9];
+            let mut gram = [[0.0; LANES]; 15];
+            for chunk in (0..POINTS).step_by(LANES) {
+                for lane in 0..LANES {
+                    let p = chunk + lane;
+                    let w = rho * g[p] + alpha * u[p] + beta * v[p];
+                    let drift = rho * gx[p] + alpha * ux[p] + beta * vx[p];
+                    let drift_chi = rho * gxx[p] + alpha * uxx[p] + beta * vxx[p];
+                    let slope = theta + w;
+                    let square = 1.0 + slope * slope;
+                    let r = square.sqrt();
+                    let d = sigma * (sigma * r + 1.0 + theta * slope);
+                    let both = WEIGHTS[p] / (d * r * square);
+                    excess[lane] += both * w * w * r * square;
+                    let stretch = both * d;
+                    let tilt = stretch * square * slope;
+                    let f = [1.0, u[p], v[p], g[p], drift];
+                    let others = [ux[p], vx[p], gx[p], drift_chi];
+                    for n in 0..5 {
+                        mean[n][lane] += tilt * f[n];
+                    }
+                    for n in 0..4 {
+                        mean[5 + n][lane] += tilt * others[n];
+                    }
+                    let mut n = 0;
+                    for i in 0..5 {
+                        for j in 0..=i {
+                            gram[n][lane] += stretch * f[i] * f[j];
+                            n += 1;
+                        }
+                    }
+                }
+            }
+            sums.excess += scale * total(excess);
             for n in 0..5 {
-                sums.mean[n] += tilt * functions[n];
+                sums.mean[n] += scale * total(mean[n]);
             }
             for n in 0..4 {
-                sums.mean_chi[n] += tilt * others[n];
+                sums.mean_chi[n] += scale * total(mean[5 + n]);
             }
-            let stretch = weight * r * r * r;
+            let mut n = 0;
             for i in 0..5 {
-                let left = stretch * functions[i];
                 for j in 0..=i {
-                    sums.gram[i][j] += left * functions[j];
+                    sums.gram[i][j] += scale * total(gram[n]);
+                    n += 1;
                 }
             }
         });
         sums
     }
+}
+
+/// Points that are summed side by side.
+const LANES: usize = 4;
+
+fn total(lanes: [f64; LANES]) -> f64 {
+    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3])
 }
 
 /// Integrals over a span from which all derivatives of its length follow.

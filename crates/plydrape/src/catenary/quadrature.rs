@@ -69,8 +69,17 @@ pub const WEIGHTS: [f64; POINTS] = [
 /// Slope range that one panel takes to the last digits.
 const SWEEP: f64 = 2.5;
 
-/// Widths of the graded panels of a boundary layer, in units of 1/k.
-const GRADES: [f64; 4] = [3.0, 9.0, 24.0, 60.0];
+/// Width in units of 1/k beyond which a boundary layer no longer counts: e^(−24) = 4e-11.
+const LAYER: f64 = 24.0;
+
+/// Where the layer's panel is cut if its amplitude is large, in units of 1/k.
+const GRADES: [f64; 3] = [3.0, 9.0, LAYER];
+
+/// k(0.6 + amplitude) up to which 24 points take both layers of a span in one panel to about 1e-11.
+const SINGLE_PANEL: f64 = 28.0;
+
+/// Amplitude up to which one panel takes a whole layer to about 1e-11.
+const WEAK_LAYER: f64 = 0.5;
 
 /// Most stretches that a span is cut into.
 const STRETCHES: usize = 2 * GRADES.len() + 1;
@@ -95,6 +104,9 @@ pub struct Stretches {
 
 impl Stretches {
     fn push(&mut self, start: f64, end: f64, sweep: f64) {
+        if end <= start {
+            return;
+        }
         // a slope of thousands is a fold that no quadrature needs to resolve
         let panels = (sweep / SWEEP).ceil().clamp(1.0, 256.0) as usize;
         self.list[self.count] = Stretch { start, end, panels };
@@ -125,55 +137,44 @@ pub fn stretches(profile: &Profile) -> Stretches {
         out.push(0.0, 1.0, sweep);
         return out;
     };
-    if k <= SINGLE_PANEL_K && alpha.max(beta) <= SINGLE_PANEL_AMPLITUDE {
-        out.push(0.0, 1.0, rho + alpha + beta);
+    let amplitude = alpha.max(beta);
+    if k * (0.6 + amplitude) <= SINGLE_PANEL {
+        out.push(0.0, 1.0, rho + amplitude);
         return out;
     }
-    // a layer from each end, graded, and what is between
-    let mut from = 0.0;
-    let mut decay = 1.0;
-    let mut left = [[0.0; 2]; GRADES.len()];
-    let mut used = 0;
-    for width in GRADES {
-        let to = width / k;
-        if to >= 0.5 {
-            break;
-        }
-        left[used] = [from, to];
-        let slope = decay + (-(k * (1.0 - to))).exp();
-        out.push(from, to, alpha.max(beta) * slope + rho * (to - from));
-        used += 1;
-        from = to;
-        decay = (-width).exp();
+    // a layer from each end, graded if it is strong, and what is between
+    let mut cuts = [0.0; GRADES.len() + 1];
+    for (cut, width) in cuts[1..].iter_mut().zip(GRADES) {
+        *cut = (width / k).min(0.5);
     }
-    out.push(from, 1.0 - from, (alpha + beta) * decay + rho);
-    for &[a, b] in left[..used].iter().rev() {
-        let sweep = alpha.max(beta) * ((-k * a).exp() + (-(k * (1.0 - b))).exp());
-        out.push(1.0 - b, 1.0 - a, sweep + rho * (b - a));
+    let first = if amplitude <= WEAK_LAYER {
+        GRADES.len() - 1
+    } else {
+        0
+    };
+    cuts[first] = 0.0;
+    let layer = &cuts[first..];
+    let sweep = |a: f64, b: f64| amplitude * (-k * a).exp() + rho * (b - a);
+    for ab in layer.windows(2) {
+        out.push(ab[0], ab[1], sweep(ab[0], ab[1]));
+    }
+    let inner = layer[layer.len() - 1];
+    out.push(inner, 1.0 - inner, rho);
+    for ab in layer.windows(2).rev() {
+        out.push(1.0 - ab[1], 1.0 - ab[0], sweep(ab[0], ab[1]));
     }
     out
 }
 
-/// k up to which the whole span is one panel, if its layers are weak.
-const SINGLE_PANEL_K: f64 = 24.0;
-
-/// Amplitude of a weak layer.
-const SINGLE_PANEL_AMPLITUDE: f64 = 0.25;
-
 /// How far the slope would sweep over the whole span at its fastest, from nine samples.
 fn fastest_sweep(profile: &Profile) -> f64 {
+    let t = std::array::from_fn::<f64, 9, _>(|n| n as f64 / 8.0);
+    let [u, v, g] = profile.form.at(&t, &[0.0; 9], &[0.0; 9]).value;
     let [alpha, beta] = profile.amplitude;
-    let slope = |n: usize| {
-        let [u, v, g] = profile.form.slope(n as f64 / 8.0).value;
-        profile.rho * g + alpha * u + beta * v
-    };
-    let (mut fastest, mut before) = (0.0_f64, slope(0));
-    for n in 1..=8 {
-        let here = slope(n);
-        fastest = fastest.max((here - before).abs());
-        before = here;
-    }
-    8.0 * fastest
+    let slope = |n: usize| profile.rho * g[n] + alpha * u[n] + beta * v[n];
+    8.0 * (1..9)
+        .map(|n| (slope(n) - slope(n - 1)).abs())
+        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
