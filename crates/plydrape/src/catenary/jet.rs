@@ -21,6 +21,8 @@ pub enum Variable {
     Weight = 5,
     /// Flexural rigidity EI (N·m²).
     Rigidity = 6,
+    /// Fabric length to reach L_set (m), on which the shape at a given H does not depend.
+    Length = 7,
 }
 
 /// A value with its gradient and Hessian to the first `N` [`Variable`]s.
@@ -52,8 +54,8 @@ pub struct Chain<const N: usize> {
     second: [[[f64; N]; N]; 3],
 }
 
-/// Second derivative of f·g from the derivatives of both.
-fn product<const N: usize>(f: &Jet<N>, g: &Jet<N>) -> Jet<N> {
+/// f·g.
+pub(crate) fn product<const N: usize>(f: &Jet<N>, g: &Jet<N>) -> Jet<N> {
     let mut out = Jet {
         value: f.value * g.value,
         ..Jet::default()
@@ -71,7 +73,7 @@ fn product<const N: usize>(f: &Jet<N>, g: &Jet<N>) -> Jet<N> {
 }
 
 /// f(x) of one variable, from f and its first two derivatives there.
-fn compose<const N: usize>(x: &Jet<N>, f: f64, d1: f64, d2: f64) -> Jet<N> {
+pub(crate) fn compose<const N: usize>(x: &Jet<N>, f: f64, d1: f64, d2: f64) -> Jet<N> {
     let mut out = Jet {
         value: f,
         ..Jet::default()
@@ -86,7 +88,7 @@ fn compose<const N: usize>(x: &Jet<N>, f: f64, d1: f64, d2: f64) -> Jet<N> {
 }
 
 /// xᵖ.
-fn power<const N: usize>(x: &Jet<N>, p: f64) -> Jet<N> {
+pub(crate) fn power<const N: usize>(x: &Jet<N>, p: f64) -> Jet<N> {
     let v = x.value;
     compose(
         x,
@@ -97,7 +99,7 @@ fn power<const N: usize>(x: &Jet<N>, p: f64) -> Jet<N> {
 }
 
 /// A variable itself; one beyond the first N is a constant.
-fn variable<const N: usize>(value: f64, which: Variable) -> Jet<N> {
+pub(crate) fn variable<const N: usize>(value: f64, which: Variable) -> Jet<N> {
     let mut out = Jet {
         value,
         ..Jet::default()

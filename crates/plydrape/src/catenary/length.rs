@@ -87,6 +87,12 @@ impl Profile {
     /// Arc length L (m) with derivatives to the first `N` variables.
     #[must_use]
     pub fn length_jet<const N: usize>(&self) -> Jet<N> {
+        self.length_and_excess().0
+    }
+
+    /// Arc length L (m) with derivatives, and its excess over the chord per run.
+    #[must_use]
+    pub fn length_and_excess<const N: usize>(&self) -> (Jet<N>, Excess) {
         let response = self.response();
         let sums = self.sums();
         let chain = Chain::<N>::new(self);
@@ -112,7 +118,13 @@ impl Profile {
                 out.hessian[i][run_slot] += relative.gradient[i];
             }
         }
-        out
+        (
+            out,
+            Excess {
+                value: sums.excess,
+                to_force: relative.gradient[0],
+            },
+        )
     }
 
     fn sums(&self) -> Sums {

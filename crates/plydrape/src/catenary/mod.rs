@@ -15,6 +15,7 @@ mod shape;
 mod solve;
 
 pub use jet::{Jet, Variable};
+pub(crate) use jet::{compose, power, product, variable};
 pub use length::Excess;
 pub use profile::Profile;
 pub use shape::Station;

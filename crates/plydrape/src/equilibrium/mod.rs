@@ -1,1 +1,23 @@
-//! equilibrium
+//! All horizontal forces and shared slopes of a ply at given gripper positions.
+//!
+//! Given the shared slopes, every edge force is a scalar root and the diagonals follow, so only the
+//! slopes are solved for together. [`net`] states what hangs where, [`element`] differentiates one span,
+//! [`min_force`] and [`moment_balance`] are the two rules for the slopes, eqs. (9) and (10) of
+//! `docs/theory.md`, and [`tangent`] is the exact derivative of the solved state.
+
+mod element;
+mod min_force;
+mod moment_balance;
+mod net;
+mod solver;
+mod tangent;
+
+pub use net::{Element, End, Joint, Net, PlaneSlope, Side, SlopeSource};
+pub use solver::{Equilibrium, Solver, Status};
+pub use tangent::{Direction, StateTangent};
+
+use num_dual::DualNum;
+
+/// A plain number, or one that carries its derivative along.
+pub trait Number: DualNum<Primitive = f64> + Copy {}
+impl<T: DualNum<Primitive = f64> + Copy> Number for T {}

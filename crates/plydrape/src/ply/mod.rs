@@ -1,8 +1,11 @@
 //! The ply as a net of catenaries between grippers.
 
 mod grid;
+mod laid;
+pub mod shear;
 
 pub use grid::{Catenary, Grid, GripperId, Kind};
+pub use laid::Laid;
 
 use crate::material::{Line, Material, Section};
 use serde::Serialize;

@@ -1,0 +1,529 @@
+//! What hangs where: the spans of a ply at given gripper positions, and what holds their ends.
+//!
+//! The slope rules of the paper (section 2.2), eqs. (6)–(8) of `docs/theory.md`. Everything that
+//! depends on a position is a [`Number`], so the same code gives the net and its derivative.
+
+use super::Number;
+use crate::catenary::SpanState;
+use crate::ply::{Catenary, Grid, Kind, Laid, Ply, shear};
+use crate::scene::{ContactEnd, Settings};
+
+/// One free span of the ply.
+#[derive(Debug, Clone, Copy)]
+pub struct Element<T> {
+    /// Index of its catenary, see [`Grid::catenary`].
+    pub catenary: usize,
+    /// 0 for a whole catenary or the rest before the contact segment, 1 for the rest after it.
+    pub rest: usize,
+    /// Horizontal distance of its ends ℓ (m).
+    pub run: T,
+    /// Height of its second end above its first h (m).
+    pub rise: T,
+    /// Fabric length L_set (m).
+    pub length: T,
+    /// Weight per length (N/m).
+    pub weight: T,
+    /// Flexural rigidity EI (N·m²).
+    pub rigidity: T,
+    /// What holds its ends.
+    pub ends: [End<T>; 2],
+    /// How it holds its length.
+    pub state: SpanState,
+}
+
+/// What holds an end of an element.
+#[derive(Debug, Clone, Copy)]
+pub enum End<T> {
+    /// No moment.
+    Free,
+    /// A given slope: governed by a shearing diagonal, or the mold's.
+    Given(T),
+    /// The shared slope of a joint.
+    Joint(usize),
+    /// A diagonal: the plane through two edge slopes.
+    Plane(PlaneSlope<T>),
+}
+
+/// Slope of the plane through the two edge slopes of a cell at a gripper, along a diagonal.
+#[derive(Debug, Clone, Copy)]
+pub struct PlaneSlope<T> {
+    /// Share of the edge slope along u and along v.
+    pub share: [T; 2],
+    /// Those edge slopes.
+    pub source: [SlopeSource<T>; 2],
+}
+
+/// Where an edge slope at a gripper comes from.
+#[derive(Debug, Clone, Copy)]
+pub enum SlopeSource<T> {
+    /// Known beforehand.
+    Given(T),
+    /// The shared slope of a joint.
+    Joint(usize),
+    /// The free end of an element: (element, end).
+    Outcome(usize, usize),
+}
+
+/// A gripper through which a line of edges passes with one unknown slope.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Joint {
+    /// Index of the gripper.
+    pub gripper: usize,
+    /// 0 along u, 1 along v.
+    pub direction: usize,
+    /// The elements that end and begin here.
+    pub elements: [usize; 2],
+}
+
+/// An edge of the ply on one side of a gripper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Side<T> {
+    /// The ply ends here.
+    None,
+    /// It hangs: this element, by this end.
+    Hanging(usize, usize),
+    /// It is straight or lies on the mold, at this slope.
+    Fixed(T),
+}
+
+/// A ply at given gripper positions.
+#[derive(Debug, Clone)]
+pub struct Net<T> {
+    /// All free spans: those of edges first, then those of diagonals.
+    pub elements: Vec<Element<T>>,
+    /// Number of edge elements.
+    pub edge_elements: usize,
+    /// Unknown shared slopes, line by line: u-lines first, each in ascending order.
+    pub joints: Vec<Joint>,
+    /// Taut path of the stretched diagonal of each cell (m) and whether it is the falling one.
+    pub shearing: Vec<Option<(T, bool)>>,
+    /// Slope of the ply at each gripper along u and v, where a shearing diagonal governs it.
+    pub governed: Vec<[Option<T>; 2]>,
+    /// The edges around each gripper: `[direction][before, after]`.
+    pub sides: Vec<[[Side<T>; 2]; 2]>,
+    joint_at: Vec<[Option<usize>; 2]>,
+    directions: Vec<[[T; 2]; 2]>,
+}
+
+/// Horizontal parts of a straight line.
+#[derive(Clone, Copy)]
+struct Line<T> {
+    delta: [T; 2],
+    run: T,
+    rise: T,
+    chord: T,
+}
+
+/// Runs below this share of the length are vertical lines: no horizontal force, no catenary.
+const VERTICAL: f64 = 1e-3;
+
+fn constant<T: Number>(p: [f64; 3]) -> [T; 3] {
+    p.map(T::from)
+}
+
+/// √(x²), which at 0 has the derivative 0.
+fn root<T: Number>(square: T) -> T {
+    if square.re() > 0.0 {
+        square.sqrt()
+    } else {
+        T::from(0.0)
+    }
+}
+
+fn line<T: Number>(from: [T; 3], to: [T; 3]) -> Line<T> {
+    let delta = [to[0] - from[0], to[1] - from[1]];
+    let rise = to[2] - from[2];
+    let square = delta[0] * delta[0] + delta[1] * delta[1];
+    Line {
+        delta,
+        run: root(square),
+        rise,
+        chord: root(square + rise * rise),
+    }
+}
+
+impl<T: Number> Line<T> {
+    fn is_vertical(&self, length: f64) -> bool {
+        self.run.re() <= VERTICAL * length.max(self.chord.re())
+    }
+
+    /// Slope from the first end to the second; 0 if they coincide.
+    fn slope(&self) -> T {
+        if self.run.re() > 0.0 {
+            self.rise / self.run
+        } else {
+            T::from(0.0)
+        }
+    }
+
+    fn unit(&self) -> [T; 2] {
+        if self.run.re() > 0.0 {
+            self.delta.map(|d| d / self.run)
+        } else {
+            [T::from(0.0); 2]
+        }
+    }
+}
+
+/// The catenaries around a cell and the contact on them, for building a [`Net`].
+pub struct Build<'a, T> {
+    /// The ply.
+    pub ply: &'a Ply,
+    /// Rules of the model.
+    pub settings: &'a Settings,
+    /// Positions of the grippers (m).
+    pub positions: &'a [[T; 3]],
+    /// What the mold has caught of each catenary.
+    pub laid: &'a [Option<Laid>],
+    /// Factors on every fabric length, on the weight and on the flexural rigidity: 1, but for their
+    /// derivatives.
+    pub factors: [T; 3],
+}
+
+impl<T: Number> Build<'_, T> {
+    fn grid(&self) -> Grid {
+        self.ply.grid
+    }
+
+    fn ends(&self, c: &Catenary) -> [[T; 3]; 2] {
+        [c.from, c.to].map(|g| self.positions[self.grid().index(g)])
+    }
+
+    /// The rest that holds on to an end of a catenary: the line from its first to its second end.
+    fn rest_line(&self, catenary: usize, end: usize) -> Line<T> {
+        let ends = self.ends(&self.grid().catenary(catenary));
+        match &self.laid[catenary] {
+            None => line(ends[0], ends[1]),
+            Some(laid) if laid.rest(end) <= 0.0 && laid.arc[1] > laid.arc[0] => {
+                line(constant(laid.point[0]), constant(laid.point[1]))
+            }
+            Some(laid) if end == 0 => line(ends[0], constant(laid.point[0])),
+            Some(laid) => line(constant(laid.point[1]), ends[1]),
+        }
+    }
+
+    /// Straight path from end to end, over the contact segment where there is one.
+    fn taut_path(&self, catenary: usize) -> T {
+        let ends = self.ends(&self.grid().catenary(catenary));
+        match &self.laid[catenary] {
+            None => line(ends[0], ends[1]).chord,
+            Some(laid) => {
+                let [a, b] = laid.point.map(constant);
+                line(ends[0], a).chord + line(b, ends[1]).chord + (laid.arc[1] - laid.arc[0])
+            }
+        }
+    }
+}
+
+impl<T> Default for Net<T> {
+    fn default() -> Self {
+        Net {
+            elements: Vec::new(),
+            edge_elements: 0,
+            joints: Vec::new(),
+            shearing: Vec::new(),
+            governed: Vec::new(),
+            sides: Vec::new(),
+            joint_at: Vec::new(),
+            directions: Vec::new(),
+        }
+    }
+}
+
+impl<T: Number> Net<T> {
+    /// Rebuilds the net in place.
+    pub fn rebuild(&mut self, build: &Build<T>) {
+        let grid = build.grid();
+        self.elements.clear();
+        self.joints.clear();
+        self.shear(build);
+        self.govern(build);
+        self.sides.clear();
+        self.sides.resize(grid.grippers(), [[Side::None; 2]; 2]);
+        self.joint_at.clear();
+        self.joint_at.resize(grid.grippers(), [None; 2]);
+        self.directions.clear();
+        for catenary in 0..grid.edges() {
+            self.edge(build, catenary);
+        }
+        self.edge_elements = self.elements.len();
+        self.join(build);
+        for catenary in grid.edges()..grid.catenaries() {
+            self.diagonal(build, catenary);
+        }
+    }
+
+    /// Which diagonal of each cell is stretched.
+    fn shear(&mut self, build: &Build<T>) {
+        let grid = build.grid();
+        self.shearing.clear();
+        for cell in 0..grid.cells() {
+            let [rising, falling] = [0, 1].map(|n| build.taut_path(grid.edges() + 2 * cell + n));
+            let longer = if falling.re() > rising.re() {
+                (falling, true)
+            } else {
+                (rising, false)
+            };
+            let shears = shear::is_shearing(build.ply.cell, longer.0.re());
+            self.shearing.push(shears.then_some(longer));
+        }
+    }
+
+    /// Slopes at the grippers of shearing diagonals: their outward slope, each taken in the line's own
+    /// direction; where several meet, the mean.
+    fn govern(&mut self, build: &Build<T>) {
+        let grid = build.grid();
+        self.governed.clear();
+        self.governed.resize(grid.grippers(), [None; 2]);
+        if build.ply.line(Kind::EdgeU).flexural_rigidity == 0.0 {
+            return; // a limp ply has no slope to govern
+        }
+        let mut counts = vec![[0.0; 2]; grid.grippers()];
+        for (cell, shearing) in self.shearing.iter().enumerate() {
+            let Some((_, falling)) = shearing else {
+                continue;
+            };
+            let index = grid.edges() + 2 * cell + usize::from(*falling);
+            let catenary = grid.catenary(index);
+            for (end, gripper) in [catenary.from, catenary.to].into_iter().enumerate() {
+                // slope in the diagonal's direction from its first end; outward at its second end is minus it
+                let slope = build.rest_line(index, end).slope();
+                let outward = if end == 0 { slope } else { -slope };
+                let along_u = match (catenary.kind, end) {
+                    (Kind::Falling, 0) | (Kind::Rising, 1) => -outward,
+                    _ => outward,
+                };
+                let along_v = if end == 0 { outward } else { -outward };
+                let g = grid.index(gripper);
+                for (d, slope) in [along_u, along_v].into_iter().enumerate() {
+                    let sum = self.governed[g][d].unwrap_or(T::from(0.0));
+                    self.governed[g][d] = Some(sum + slope);
+                    counts[g][d] += 1.0;
+                }
+            }
+        }
+        for (governed, counts) in self.governed.iter_mut().zip(counts) {
+            for (slope, count) in governed.iter_mut().zip(counts) {
+                *slope = slope.map(|sum| sum / count);
+            }
+        }
+    }
+
+    fn element(
+        &self,
+        build: &Build<T>,
+        catenary: usize,
+        rest: usize,
+        line: &Line<T>,
+        length: T,
+    ) -> Element<T> {
+        let section = build.ply.line(build.grid().catenary(catenary).kind);
+        let mut element = Element {
+            catenary,
+            rest,
+            run: line.run,
+            rise: line.rise,
+            length,
+            weight: build.factors[1] * (section.mass * build.settings.gravity),
+            rigidity: build.factors[2] * section.flexural_rigidity,
+            ends: [End::Free; 2],
+            state: SpanState::Straight,
+        };
+        if !line.is_vertical(length.re()) {
+            element.state = element.span(build.settings.axial_stiffness, &[]).state();
+        }
+        element
+    }
+
+    /// The elements of an edge, and what its grippers see of it.
+    fn edge(&mut self, build: &Build<T>, catenary: usize) {
+        let grid = build.grid();
+        let c = grid.catenary(catenary);
+        let direction = usize::from(c.kind == Kind::EdgeV);
+        let flat = T::from(build.ply.flat_length(c.kind)) * build.factors[0];
+        let mut directions = [[T::from(0.0); 2]; 2];
+        let mut whole = None;
+        for end in 0..2 {
+            let line = build.rest_line(catenary, end);
+            directions[end] = line.unit();
+            let gripper = grid.index(if end == 0 { c.from } else { c.to });
+            let side = 1 - end;
+            let (hangs, length) = match &build.laid[catenary] {
+                None => (true, flat),
+                Some(laid) => (laid.hangs(end), T::from(laid.rest(end)) * build.factors[0]),
+            };
+            let mut seen = Side::Fixed(line.slope());
+            if hangs {
+                let index = match whole {
+                    Some(index) => index,
+                    None => {
+                        let mut element = self.element(build, catenary, end, &line, length);
+                        if let Some(laid) = &build.laid[catenary] {
+                            element.ends[1 - end] = contact_end(build, laid, end, &line);
+                        } else {
+                            element.rest = 0;
+                        }
+                        self.elements.push(element);
+                        self.elements.len() - 1
+                    }
+                };
+                if build.laid[catenary].is_none() {
+                    whole = Some(index);
+                }
+                if self.elements[index].state != SpanState::Straight {
+                    seen = Side::Hanging(index, end);
+                }
+            }
+            self.sides[gripper][direction][side] = seen;
+        }
+        self.directions.push(directions);
+    }
+
+    /// Joins the edges on both sides of a gripper, and holds those that a shearing diagonal governs.
+    fn join(&mut self, build: &Build<T>) {
+        let grid = build.grid();
+        let rigid = build.ply.line(Kind::EdgeU).flexural_rigidity > 0.0;
+        let lines = (0..grid.nv)
+            .map(|j| (0, j))
+            .chain((0..grid.nu).map(|i| (1, i)));
+        for (direction, fixed) in lines {
+            let count = if direction == 0 { grid.nu } else { grid.nv };
+            for moving in 0..count {
+                let id = if direction == 0 {
+                    [moving, fixed]
+                } else {
+                    [fixed, moving]
+                };
+                let gripper = grid.index(id);
+                let sides = self.sides[gripper][direction];
+                if let Some(slope) = self.governed[gripper][direction] {
+                    for side in sides {
+                        if let Side::Hanging(element, end) = side {
+                            self.elements[element].ends[end] = End::Given(slope);
+                        }
+                    }
+                } else if let ([Side::Hanging(a, end_a), Side::Hanging(b, end_b)], true) =
+                    (sides, rigid)
+                {
+                    let joint = self.joints.len();
+                    self.joints.push(Joint {
+                        gripper,
+                        direction,
+                        elements: [a, b],
+                    });
+                    self.joint_at[gripper][direction] = Some(joint);
+                    self.elements[a].ends[end_a] = End::Joint(joint);
+                    self.elements[b].ends[end_b] = End::Joint(joint);
+                }
+            }
+        }
+    }
+
+    /// The elements of a diagonal, unless it is stretched straight.
+    fn diagonal(&mut self, build: &Build<T>, catenary: usize) {
+        let grid = build.grid();
+        let cell = (catenary - grid.edges()) / 2;
+        let c = grid.catenary(catenary);
+        let falling = c.kind == Kind::Falling;
+        let stretched = self.shearing[cell];
+        if stretched.is_some_and(|(_, which)| which == falling) {
+            return;
+        }
+        let flat = T::from(build.ply.flat_length(c.kind)) * build.factors[0];
+        let length = match stretched {
+            Some((path, _)) => {
+                shear::partner_length(build.ply.cell.map(|side| build.factors[0] * side), path)
+            }
+            None => flat,
+        };
+        for rest in 0..2 {
+            let line = build.rest_line(catenary, rest);
+            let ends = [0, 1].map(|end| self.plane(build, cell, c, end, &line));
+            match &build.laid[catenary] {
+                None => {
+                    let mut element = self.element(build, catenary, 0, &line, length);
+                    element.ends = ends;
+                    self.elements.push(element);
+                    return;
+                }
+                Some(laid) if laid.hangs(rest) => {
+                    let length = T::from(laid.rest(rest)) * build.factors[0];
+                    let mut element = self.element(build, catenary, rest, &line, length);
+                    element.ends[rest] = ends[rest];
+                    element.ends[1 - rest] = contact_end(build, laid, rest, &line);
+                    self.elements.push(element);
+                }
+                Some(_) => {}
+            }
+        }
+    }
+
+    /// The end of a diagonal at a gripper: the plane through the two edge slopes of its cell there.
+    ///
+    /// Free where those edges are parallel in plan and define no plane, and in a limp ply.
+    fn plane(
+        &self,
+        build: &Build<T>,
+        cell: usize,
+        c: Catenary,
+        end: usize,
+        along: &Line<T>,
+    ) -> End<T> {
+        let grid = build.grid();
+        if build.ply.line(c.kind).flexural_rigidity == 0.0 {
+            return End::Free;
+        }
+        let gripper = if end == 0 { c.from } else { c.to };
+        let (i, j) = (cell % (grid.nu - 1), cell / (grid.nu - 1));
+        let [di, dj] = [gripper[0] - i, gripper[1] - j];
+        // the cell's edges at this gripper: it stands at their start (0) or at their end (1)
+        let edges = [grid.edge_u([i, gripper[1]]), grid.edge_v([gripper[0], j])];
+        let [u, v] = [self.directions[edges[0]][di], self.directions[edges[1]][dj]];
+        let along = along.unit();
+        let determinant = u[0] * v[1] - u[1] * v[0];
+        if determinant.re().abs() < 1e-6 {
+            return End::Free;
+        }
+        let share = [
+            (along[0] * v[1] - along[1] * v[0]) / determinant,
+            (u[0] * along[1] - u[1] * along[0]) / determinant,
+        ];
+        let g = grid.index(gripper);
+        let source = [0, 1].map(|d| {
+            if let Some(slope) = self.governed[g][d] {
+                return SlopeSource::Given(slope);
+            }
+            if let Some(joint) = self.joint_at[g][d] {
+                return SlopeSource::Joint(joint);
+            }
+            let at = if d == 0 { di } else { dj };
+            match self.sides[g][d][1 - at] {
+                Side::Hanging(element, end) => SlopeSource::Outcome(element, end),
+                Side::Fixed(slope) => SlopeSource::Given(slope),
+                Side::None => SlopeSource::Given(T::from(0.0)),
+            }
+        });
+        End::Plane(PlaneSlope { share, source })
+    }
+
+    /// The unknown joint of a gripper along a direction, if it has one.
+    #[must_use]
+    pub fn joint(&self, gripper: usize, direction: usize) -> Option<usize> {
+        self.joint_at[gripper][direction]
+    }
+}
+
+/// What holds a rest where it leaves the mold.
+fn contact_end<T: Number>(build: &Build<T>, laid: &Laid, rest: usize, line: &Line<T>) -> End<T> {
+    match build.settings.contact.end {
+        ContactEnd::Free => End::Free,
+        ContactEnd::Tangent => {
+            let section = build.ply.line(Kind::EdgeU);
+            let ([nx, ny, nz], unit) = (laid.normal[rest], line.unit());
+            if section.flexural_rigidity == 0.0 || nz <= 0.0 {
+                return End::Free;
+            }
+            End::Given((unit[0] * -nx + unit[1] * -ny) / nz)
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! The solver: one [`Net`], its forces and slopes, and the memory that makes the next step cheap.
+//!
+//! [`Solver::solve`] is the paper's section 3: build the net, iterate on the shared slopes by one of
+//! the two rules, read off the forces. Between calls it remembers forces and slopes by place, so a net
+//! that has gained or lost a span still starts warm. The iteration allocates nothing.
+
+use super::element::{Settled, Wanted, settle};
+use super::net::{Build, Element, End, Net, PlaneSlope, SlopeSource};
+use super::{min_force, moment_balance};
+use crate::catenary::SpanState;
+use crate::ply::{Laid, Ply};
+use crate::scene::{Settings, SlopeRule};
+
+/// How a solve ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// The slopes satisfy their rule to rounding.
+    Converged,
+    /// The rule could not be satisfied further: no step improves it.
+    Stalled,
+    /// The iteration limit came first.
+    IterationLimit,
+}
+
+impl Status {
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Converged => "converged",
+            Status::Stalled => "stalled",
+            Status::IterationLimit => "iteration-limit",
+        }
+    }
+}
+
+/// How the last solve went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Equilibrium {
+    /// How it ended.
+    pub status: Status,
+    /// Iterations on the slopes.
+    pub iterations: usize,
+    /// Optimality that is left: the Newton step of the slopes still to go, bounds respected.
+    pub residual: f64,
+}
+
+/// Iterations after which a solve gives up.
+pub(super) const MAX_ITERATIONS: usize = 100;
+
+/// Newton step of the slopes below which the last one is taken by series: its error is the square.
+pub(super) const LAST_STEP: f64 = 1e-5;
+
+/// Finds equilibria, one after the other.
+#[derive(Debug, Clone)]
+pub struct Solver {
+    pub(super) ply: Ply,
+    pub(super) settings: Settings,
+    pub(super) net: Net<f64>,
+    /// Shared slopes, one a joint.
+    pub(super) slopes: Vec<f64>,
+    /// Slopes that hold both ends of each element; a free end's is its outcome.
+    pub(super) held: Vec<[f64; 2]>,
+    /// Each element's force with its derivatives.
+    pub(super) settled: Vec<Settled<2>>,
+    /// What is needed of each element's ends.
+    pub(super) wanted: Vec<Wanted>,
+    pub(super) work: Work,
+    forces: Vec<[Option<f64>; 2]>,
+    memory: Vec<[f64; 2]>,
+}
+
+/// Buffers of the iteration.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Work {
+    pub gradient: Vec<f64>,
+    pub step: Vec<f64>,
+    pub trial: Vec<f64>,
+    pub active: Vec<bool>,
+    pub diagonal: Vec<f64>,
+    pub vectors: [Vec<f64>; 4],
+    pub blocks: Vec<[[f64; 2]; 2]>,
+    pub adjoint: Vec<[f64; 2]>,
+    pub rows: Vec<[[(usize, f64); 2]; 2]>,
+}
+
+impl Solver {
+    /// A solver for a ply under given rules, with nothing remembered.
+    #[must_use]
+    pub fn new(ply: &Ply, settings: &Settings) -> Solver {
+        Solver {
+            ply: ply.clone(),
+            settings: *settings,
+            net: Net::default(),
+            slopes: Vec::new(),
+            held: Vec::new(),
+            settled: Vec::new(),
+            wanted: Vec::new(),
+            work: Work::default(),
+            forces: vec![[None; 2]; ply.grid.catenaries()],
+            memory: vec![[0.0; 2]; ply.grid.grippers()],
+        }
+    }
+
+    /// Forgets earlier solutions: the next solve starts cold.
+    pub fn forget(&mut self) {
+        self.forces.fill([None; 2]);
+        self.memory.fill([0.0; 2]);
+    }
+
+    /// Solves the equilibrium at gripper positions (m), in the order of [`crate::ply::Grid::index`],
+    /// with what the mold has caught of each catenary.
+    pub fn solve(&mut self, positions: &[[f64; 3]], laid: &[Option<Laid>]) -> Equilibrium {
+        let build = Build {
+            ply: &self.ply,
+            settings: &self.settings,
+            positions,
+            laid,
+            factors: [1.0; 3],
+        };
+        self.net.rebuild(&build);
+        self.recall();
+        let outcome = match self.settings.slopes {
+            SlopeRule::MinForce => min_force::solve(self),
+            SlopeRule::MomentBalance => moment_balance::solve(self),
+        };
+        self.remember();
+        outcome
+    }
+
+    /// The net of the last solve.
+    #[must_use]
+    pub fn net(&self) -> &Net<f64> {
+        &self.net
+    }
+
+    /// Shared slopes of the last solve, one a joint of the net.
+    #[must_use]
+    pub fn slopes(&self) -> &[f64] {
+        &self.slopes
+    }
+
+    /// Horizontal force (N) of an element; none for a straight inextensible or vertical one.
+    #[must_use]
+    pub fn force(&self, element: usize) -> Option<f64> {
+        let hangs = self.net.elements[element].state != SpanState::Straight;
+        hangs.then(|| self.settled[element].force.value)
+    }
+
+    /// Slopes at both ends of an element.
+    #[must_use]
+    pub fn end_slopes(&self, element: usize) -> [f64; 2] {
+        self.held[element]
+    }
+
+    /// The span of an element, as solved.
+    #[must_use]
+    pub fn span(&self, element: usize) -> crate::catenary::Span {
+        self.net.elements[element].span(self.settings.axial_stiffness, &self.held[element])
+    }
+
+    /// Largest slope of a ball joint.
+    pub(super) fn bound(&self) -> f64 {
+        self.settings.max_tilt.tan()
+    }
+
+    /// Starts from what was found last time at the same places.
+    fn recall(&mut self) {
+        let (count, bound) = (self.net.elements.len(), self.bound());
+        self.slopes.clear();
+        for joint in &self.net.joints {
+            let slope = self.memory[joint.gripper][joint.direction];
+            self.slopes.push(slope.clamp(-bound, bound));
+        }
+        self.held.clear();
+        self.held.resize(count, [f64::NAN; 2]);
+        self.settled.clear();
+        self.settled.resize(count, Settled::default());
+        self.wanted.clear();
+        self.wanted.resize(count, Wanted::default());
+        for element in &self.net.elements[self.net.edge_elements..] {
+            for end in element.ends {
+                let End::Plane(plane) = end else { continue };
+                for source in plane.source {
+                    if let SlopeSource::Outcome(edge, end) = source {
+                        self.wanted[edge].slope[end] = true;
+                    }
+                }
+            }
+        }
+        for (n, element) in self.net.elements.iter().enumerate() {
+            // a remembered force that the search will refuse: the span is new here
+            let force = self.forces[element.catenary][element.rest];
+            self.settled[n].force.value = force.unwrap_or(f64::NAN);
+        }
+    }
+
+    fn remember(&mut self) {
+        for (n, element) in self.net.elements.iter().enumerate() {
+            self.forces[element.catenary][element.rest] =
+                (element.state != SpanState::Straight).then_some(self.settled[n].force.value);
+        }
+        for (joint, slope) in self.net.joints.iter().zip(&self.slopes) {
+            self.memory[joint.gripper][joint.direction] = *slope;
+        }
+    }
+
+    /// Settles the elements of a range at the present shared slopes.
+    pub(super) fn settle(&mut self, elements: std::ops::Range<usize>) {
+        for n in elements {
+            let element = self.net.elements[n];
+            if element.state == SpanState::Straight {
+                let slope = if element.run > 0.0 {
+                    element.rise / element.run
+                } else {
+                    0.0
+                };
+                self.held[n] = [slope; 2];
+                self.settled[n] = Settled::default();
+                self.settled[n]
+                    .slope
+                    .iter_mut()
+                    .for_each(|s| s.value = slope);
+                continue;
+            }
+            let slopes = [0, 1].map(|end| self.slope_at(&element, end));
+            // nothing that holds it has moved: keep what is known
+            if slopes == self.held[n] {
+                continue;
+            }
+            let guess = self.predict(n, slopes);
+            let span = element.span(self.settings.axial_stiffness, &slopes);
+            self.settled[n] = settle::<3, 2>(&span, guess, self.wanted[n]);
+            self.held[n] = slopes;
+        }
+    }
+
+    /// The slope that holds an end; 0 where nothing does.
+    fn slope_at(&self, element: &Element<f64>, end: usize) -> f64 {
+        match element.ends[end] {
+            End::Free => 0.0,
+            End::Given(slope) => slope,
+            End::Joint(joint) => self.slopes[joint],
+            End::Plane(plane) => self.plane_slope(&plane),
+        }
+    }
+
+    fn plane_slope(&self, plane: &PlaneSlope<f64>) -> f64 {
+        let slope = |source| match source {
+            SlopeSource::Given(slope) => slope,
+            SlopeSource::Joint(joint) => self.slopes[joint],
+            SlopeSource::Outcome(edge, end) => self.settled[edge].slope[end].value,
+        };
+        plane.share[0] * slope(plane.source[0]) + plane.share[1] * slope(plane.source[1])
+    }
+
+    /// Force at new end slopes by the second-order series about the last ones.
+    fn predict(&self, n: usize, slopes: [f64; 2]) -> Option<f64> {
+        let jet = &self.settled[n].force;
+        if jet.value.is_nan() {
+            return None;
+        }
+        let held = self.held[n];
+        if held[0].is_nan() {
+            return Some(jet.value);
+        }
+        Some(series(jet, [slopes[0] - held[0], slopes[1] - held[1]]))
+    }
+
+    /// Takes a last small step of the shared slopes by series, without settling anew.
+    pub(super) fn finish(&mut self, elements: std::ops::Range<usize>) {
+        for n in elements {
+            let element = self.net.elements[n];
+            if element.state == SpanState::Straight {
+                continue;
+            }
+            let slopes = [0, 1].map(|end| self.slope_at(&element, end));
+            let step = [slopes[0] - self.held[n][0], slopes[1] - self.held[n][1]];
+            let settled = &mut self.settled[n];
+            settled.force.value = series(&settled.force, step);
+            for end in 0..2 {
+                settled.slope[end].value = series(&settled.slope[end], step);
+            }
+            self.held[n] = slopes;
+        }
+    }
+
+    /// Writes the outcome of free ends where their slope is reported.
+    pub(super) fn read_free_ends(&mut self) {
+        for (n, element) in self.net.elements.iter().enumerate() {
+            if element.state == SpanState::Straight {
+                continue;
+            }
+            let free = element.ends.map(|end| matches!(end, End::Free));
+            if free[0] || free[1] {
+                let span = element.span(self.settings.axial_stiffness, &self.held[n]);
+                let profile = crate::catenary::Profile::new(&span, self.settled[n].force.value);
+                for end in 0..2 {
+                    if free[end] {
+                        self.held[n][end] = profile.end_slope(end);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Second-order series of a jet about its point.
+fn series(jet: &crate::catenary::Jet<2>, step: [f64; 2]) -> f64 {
+    let [a, b] = step;
+    let [[aa, ab], [_, bb]] = jet.hessian;
+    jet.value
+        + jet.gradient[0] * a
+        + jet.gradient[1] * b
+        + 0.5 * (aa * a * a + bb * b * b)
+        + ab * a * b
+}

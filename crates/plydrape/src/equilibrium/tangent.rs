@@ -1,0 +1,241 @@
+//! Exact derivatives of the solved state, by the implicit function theorem, eq. (11) of
+//! `docs/theory.md`.
+//!
+//! A direction of change of positions, lengths or material is carried as a dual number through the
+//! same net and the same rule; what it does to the rule's residual at fixed slopes gives the slopes'
+//! response through the matrix of the last Newton step, and a second pass gives every force.
+
+use super::element::{Settled, Wanted, settle};
+use super::min_force::{self, Response};
+use super::moment_balance;
+use super::net::{Build, End, Net, SlopeSource};
+use super::solver::Solver;
+use crate::catenary::{Jet, SpanState};
+use crate::ply::Laid;
+use crate::scene::SlopeRule;
+use num_dual::Dual64;
+
+/// A direction in which a ply's circumstances change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Direction {
+    /// Velocity of each gripper (m), in the order of [`crate::ply::Grid::index`].
+    pub grippers: Vec<[f64; 3]>,
+    /// Relative change of all fabric lengths.
+    pub length: f64,
+    /// Relative change of the weight.
+    pub weight: f64,
+    /// Relative change of the flexural rigidity.
+    pub rigidity: f64,
+}
+
+impl Direction {
+    /// No change, for `grippers` grippers.
+    #[must_use]
+    pub fn none(grippers: usize) -> Direction {
+        Direction {
+            grippers: vec![[0.0; 3]; grippers],
+            length: 0.0,
+            weight: 0.0,
+            rigidity: 0.0,
+        }
+    }
+}
+
+/// How the solved state changes along a [`Direction`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateTangent {
+    /// Change of each shared slope, one a joint of the net.
+    pub slopes: Vec<f64>,
+    /// Change of each element's horizontal force (N); 0 where it has none.
+    pub force: Vec<f64>,
+    /// Change of the slopes at both ends of each element.
+    pub end_slopes: Vec<[f64; 2]>,
+}
+
+/// A jet along the direction: its value and gradient to the end slopes as dual numbers.
+fn along(jet: &Jet<7>, x: &[f64; 7]) -> (Dual64, [Dual64; 2]) {
+    let dot = |row: &[f64; 7]| row.iter().zip(x).map(|(a, b)| a * b).sum::<f64>();
+    let gradient = [0, 1].map(|k| Dual64::new(jet.gradient[k], dot(&jet.hessian[k])));
+    (Dual64::new(jet.value, dot(&jet.gradient)), gradient)
+}
+
+/// Every element's response along the direction, the shared slopes changing by `slopes`.
+struct Pass {
+    responses: Vec<Response<Dual64>>,
+    curvatures: Vec<[Dual64; 2]>,
+    held: Vec<[Dual64; 2]>,
+}
+
+impl Solver {
+    /// Derivative of the last solved state along a direction.
+    ///
+    /// `positions` and `laid` must be those of the last [`Solver::solve`]. Exact wherever the state is
+    /// differentiable: not where a diagonal just begins to shear or a slope just reaches its limit.
+    pub fn tangent(
+        &mut self,
+        positions: &[[f64; 3]],
+        laid: &[Option<Laid>],
+        direction: &Direction,
+    ) -> StateTangent {
+        let moving: Vec<[Dual64; 3]> = positions
+            .iter()
+            .zip(&direction.grippers)
+            .map(|(p, v)| [0, 1, 2].map(|n| Dual64::new(p[n], v[n])))
+            .collect();
+        let factor = |change| Dual64::new(1.0, change);
+        let build = Build {
+            ply: &self.ply,
+            settings: &self.settings,
+            positions: &moving,
+            laid,
+            factors: [
+                factor(direction.length),
+                factor(direction.weight),
+                factor(direction.rigidity),
+            ],
+        };
+        let mut net = Net::default();
+        net.rebuild(&build);
+        let jets: Vec<Settled<7>> = (0..net.elements.len()).map(|n| self.all_jets(n)).collect();
+
+        // what the direction does to the rule at fixed slopes
+        let joints = self.slopes.len();
+        let still = vec![0.0; joints];
+        let pass = self.pass(&net, &jets, &still);
+        let change: Vec<f64> = match self.settings.slopes {
+            SlopeRule::MinForce => {
+                let mut gradient = vec![Dual64::from(0.0); joints];
+                let mut adjoint = vec![[Dual64::from(0.0); 2]; net.elements.len()];
+                min_force::gradient(&net, |n| pass.responses[n], &mut gradient, &mut adjoint);
+                gradient.iter().map(|g| g.eps).collect()
+            }
+            SlopeRule::MomentBalance => (0..joints)
+                .map(|j| moment_balance::jump(&net, j, |e, end| pass.curvatures[e][end]).eps)
+                .collect(),
+        };
+        // what the slopes answer, and with it everything else
+        let mut slopes = vec![0.0; joints];
+        self.refresh(&jets, &net);
+        match self.settings.slopes {
+            SlopeRule::MinForce => min_force::respond(self, &change, &mut slopes),
+            SlopeRule::MomentBalance => moment_balance::respond(self, &change, &mut slopes),
+        }
+        let pass = self.pass(&net, &jets, &slopes);
+        StateTangent {
+            slopes,
+            force: pass.responses.iter().map(|r| r.force.0.eps).collect(),
+            end_slopes: pass.held.iter().map(|h| h.map(|s| s.eps)).collect(),
+        }
+    }
+
+    /// An element with derivatives to everything it depends on.
+    fn all_jets(&self, n: usize) -> Settled<7> {
+        let element = &self.net.elements[n];
+        if element.state == SpanState::Straight {
+            return Settled::default();
+        }
+        let span = element.span(self.settings.axial_stiffness, &self.held[n]);
+        let wanted = Wanted {
+            slope: [true; 2],
+            curvature: [true; 2],
+        };
+        settle::<8, 7>(&span, Some(self.settled[n].force.value), wanted)
+    }
+
+    /// Puts exact derivatives at the solution where the last step was taken by series.
+    fn refresh(&mut self, jets: &[Settled<7>], net: &Net<Dual64>) {
+        let small = |jet: &Jet<7>| Jet {
+            value: jet.value,
+            gradient: [jet.gradient[0], jet.gradient[1]],
+            hessian: [0, 1].map(|i| [jet.hessian[i][0], jet.hessian[i][1]]),
+        };
+        for (settled, jets) in self.settled.iter_mut().zip(jets) {
+            settled.force = small(&jets.force);
+            for end in 0..2 {
+                settled.slope[end] = small(&jets.slope[end]);
+                settled.curvature[end] = small(&jets.curvature[end]);
+            }
+        }
+        // the adjoint of the free ends, for the Hessian
+        let settled = &self.settled;
+        let response = |n: usize| Response {
+            force: (settled[n].force.value, settled[n].force.gradient),
+            slope: settled[n].slope.map(|s| (s.value, s.gradient)),
+        };
+        debug_assert_eq!(net.elements.len(), self.net.elements.len());
+        self.work.gradient.resize(self.slopes.len(), 0.0);
+        self.work.adjoint.resize(self.net.elements.len(), [0.0; 2]);
+        if self.settings.slopes == SlopeRule::MinForce {
+            min_force::gradient(
+                &self.net,
+                response,
+                &mut self.work.gradient,
+                &mut self.work.adjoint,
+            );
+        }
+    }
+
+    fn pass(&self, net: &Net<Dual64>, jets: &[Settled<7>], slopes: &[f64]) -> Pass {
+        let zero = Dual64::from(0.0);
+        let count = net.elements.len();
+        let mut pass = Pass {
+            responses: Vec::with_capacity(count),
+            curvatures: Vec::with_capacity(count),
+            held: Vec::with_capacity(count),
+        };
+        let joint = |j: usize| Dual64::new(self.slopes[j], slopes[j]);
+        for (n, element) in net.elements.iter().enumerate() {
+            if element.state == SpanState::Straight {
+                let slope = if element.run.re > 0.0 {
+                    element.rise / element.run
+                } else {
+                    zero
+                };
+                pass.responses.push(Response {
+                    force: (zero, [zero; 2]),
+                    slope: [(slope, [zero; 2]); 2],
+                });
+                pass.curvatures.push([zero; 2]);
+                pass.held.push([slope; 2]);
+                continue;
+            }
+            let held = element.ends.map(|end| match end {
+                End::Free => None,
+                End::Given(slope) => Some(slope),
+                End::Joint(j) => Some(joint(j)),
+                End::Plane(plane) => {
+                    let [u, v] = plane.source.map(|source| match source {
+                        SlopeSource::Given(slope) => slope,
+                        SlopeSource::Joint(j) => joint(j),
+                        SlopeSource::Outcome(edge, end) => {
+                            let response: &Response<Dual64> = &pass.responses[edge];
+                            response.slope[end].0
+                        }
+                    });
+                    Some(plane.share[0] * u + plane.share[1] * v)
+                }
+            });
+            let eps = |slope: Option<Dual64>| slope.map_or(0.0, |s| s.eps);
+            let x = [
+                eps(held[0]),
+                eps(held[1]),
+                element.run.eps,
+                element.rise.eps,
+                element.weight.eps,
+                element.rigidity.eps,
+                element.length.eps,
+            ];
+            let jets = &jets[n];
+            let slope = [0, 1].map(|end| along(&jets.slope[end], &x));
+            pass.responses.push(Response {
+                force: along(&jets.force, &x),
+                slope,
+            });
+            pass.curvatures
+                .push([0, 1].map(|end| along(&jets.curvature[end], &x).0));
+            pass.held
+                .push([0, 1].map(|end| held[end].unwrap_or(slope[end].0)));
+        }
+        pass
+    }
+}

@@ -1,0 +1,42 @@
+//! Shear of a cell: the trellis of sides a, b whose one diagonal is stretched, eqs. (6)–(8) of
+//! `docs/theory.md`, after Krogh et al. 2018, section 2.3.
+
+use num_dual::DualNum;
+
+/// Relative length by which a diagonal must exceed that of the flat cell to count as shearing.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether a diagonal whose taut path is `path` (m) is stretched beyond the flat cell's.
+#[must_use]
+pub fn is_shearing([a, b]: [f64; 2], path: f64) -> bool {
+    path > a.hypot(b) * (1.0 + ROUNDING)
+}
+
+/// Shear angle γ (rad) of a cell with sides a, b (m) and stretched diagonal d₁ (m):
+/// sin γ = (d₁² − a² − b²)/2ab, at most a right angle.
+#[must_use]
+pub fn angle([a, b]: [f64; 2], stretched: f64) -> f64 {
+    let sine = (stretched * stretched - a * a - b * b) / (2.0 * a * b);
+    sine.clamp(-1.0, 1.0).asin()
+}
+
+/// Set length (m) of the diagonal across the stretched one: √(2(a²+b²) − d₁²).
+///
+/// A stretched diagonal close to a + b has folded the cell; its partner keeps a millionth of a side.
+#[must_use]
+pub fn partner_length<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T) -> T {
+    let square = (a * a + b * b) * 2.0 - stretched * stretched;
+    let least = 1e-6 * a.re().min(b.re());
+    if square.re() > least * least {
+        square.sqrt()
+    } else {
+        T::from(least)
+    }
+}
+
+/// Force (N) in the stretched diagonal: τ d₁/cos γ by virtual work, τ (N/m) the picture-frame shear
+/// force per length at γ. Infinite where the cell has folded.
+#[must_use]
+pub fn force(cell: [f64; 2], stretched: f64, shear_force_per_length: f64) -> f64 {
+    shear_force_per_length * stretched / angle(cell, stretched).cos()
+}

@@ -1,0 +1,323 @@
+//! The equilibrium of a net against printed reference values, its own optimality conditions and
+//! central differences.
+
+use plydrape::catenary::Profile;
+use plydrape::equilibrium::{Direction, End, Solver, Status};
+use plydrape::material::{Material, Section};
+use plydrape::ply::{Direction as Along, Grid, Kind, Ply};
+use plydrape::scene::{Contact, ContactEnd, Settings, SlopeRule, Stepping};
+use proptest::prelude::*;
+
+/// The ply of Krogh et al. 2018, Table 1, in cells of 100 mm.
+fn paper_ply(nu: usize, nv: usize) -> Ply {
+    Ply {
+        grid: Grid { nu, nv },
+        cell: [0.1; 2],
+        material: Material {
+            name: "krogh2018".into(),
+            source: "Krogh et al. 2018, Table 1".into(),
+            section: Section::Line {
+                mass: 0.3143,
+                flexural_rigidity: 9e-6,
+            },
+            shear_curve: None,
+            locking_angle: None,
+        },
+        warp: Along::U,
+    }
+}
+
+fn settings(slopes: SlopeRule, axial_stiffness: f64, max_tilt_deg: f64) -> Settings {
+    Settings {
+        slopes,
+        axial_stiffness,
+        gravity: 9.8,
+        max_tilt: max_tilt_deg.to_radians(),
+        contact: Contact {
+            tolerance: 1e-3,
+            stepping: Stepping::Once,
+            end: ContactEnd::Free,
+        },
+    }
+}
+
+fn level(grid: Grid, spacing: f64) -> Vec<[f64; 3]> {
+    (0..grid.grippers())
+        .map(|n| {
+            let [i, j] = grid.id(n);
+            [i as f64 * spacing, j as f64 * spacing, 0.0]
+        })
+        .collect()
+}
+
+fn forces(solver: &Solver, kind: Kind) -> Vec<f64> {
+    let grid_kind = |n: usize| {
+        let element = &solver.net().elements[n];
+        (element.catenary, solver.force(n).expect("it hangs"))
+    };
+    let grid = Grid { nu: 4, nv: 2 };
+    (0..solver.net().elements.len())
+        .map(grid_kind)
+        .filter(|(catenary, _)| grid.catenary(*catenary).kind == kind)
+        .map(|(_, force)| force)
+        .collect()
+}
+
+fn close(found: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (a, b) in found.iter().zip(expected) {
+        assert!((a - b).abs() <= tolerance, "{found:?} for {expected:?}");
+    }
+}
+
+/// Reference of the model description: 4 × 2 grippers 98 mm apart, all slack, inextensible, worked out
+/// with a different program; all digits printed there.
+#[test]
+fn min_force_meets_the_reference_solution() {
+    let ply = paper_ply(4, 2);
+    let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce, f64::INFINITY, 40.0));
+    let outcome = solver.solve(&level(ply.grid, 0.098), &vec![None; 16]);
+    assert_eq!(outcome.status, Status::Converged);
+    close(
+        &forces(&solver, Kind::EdgeU),
+        &[0.372456, 0.332103, 0.372456].repeat(2),
+        6e-7,
+    );
+    close(&forces(&solver, Kind::EdgeV), &[0.417284; 4], 6e-7);
+    for kind in [Kind::Rising, Kind::Falling] {
+        close(
+            &forces(&solver, kind),
+            &[0.605601, 0.574293, 0.605601],
+            6e-7,
+        );
+    }
+    close(
+        solver.slopes(),
+        &[-0.022395, 0.022395, -0.022395, 0.022395],
+        6e-7,
+    );
+    let all = (0..16)
+        .map(|n| solver.force(n).expect("hangs").powi(2))
+        .sum::<f64>()
+        .sqrt();
+    close(&[all], &[1.897002], 6e-7);
+}
+
+/// The same, with the moments balanced.
+#[test]
+fn moment_balance_meets_the_reference_solution() {
+    let ply = paper_ply(4, 2);
+    let mut solver = Solver::new(
+        &ply,
+        &settings(SlopeRule::MomentBalance, f64::INFINITY, 40.0),
+    );
+    let outcome = solver.solve(&level(ply.grid, 0.098), &vec![None; 16]);
+    assert_eq!(outcome.status, Status::Converged);
+    close(
+        &forces(&solver, Kind::EdgeU),
+        &[0.37426, 0.32819, 0.37426].repeat(2),
+        6e-6,
+    );
+    close(
+        solver.slopes(),
+        &[-0.00130, 0.00130, -0.00130, 0.00130],
+        6e-6,
+    );
+}
+
+/// Gripper arrays of several sizes, spacings from slack to stretched, uneven heights, some sheared.
+fn any_array() -> impl Strategy<Value = (Ply, Vec<[f64; 3]>)> {
+    (
+        2usize..6,
+        1usize..5,
+        0.9..1.0,
+        -0.4..0.4,
+        0.0..0.02,
+        prop::collection::vec(-1.0..1.0, 3 * 30),
+    )
+        .prop_map(|(nu, nv, spacing, shear, noise, random)| {
+            let ply = paper_ply(nu, nv);
+            let positions = (0..ply.grid.grippers())
+                .map(|n| {
+                    let [i, j] = ply.grid.id(n).map(|k| 0.1 * spacing * k as f64);
+                    let r = |k: usize| noise * random[3 * n + k];
+                    let (sin, cos) = f64::sin_cos(shear);
+                    [
+                        i + j * sin + 0.2 * r(0),
+                        j * cos + 0.2 * r(1),
+                        0.05 + 3.0 * r(2),
+                    ]
+                })
+                .collect();
+            (ply, positions)
+        })
+}
+
+fn any_rule() -> impl Strategy<Value = Settings> {
+    (any::<bool>(), prop::sample::select(vec![3.0, 15.0, 40.0])).prop_map(|(min_force, tilt)| {
+        let rule = if min_force {
+            SlopeRule::MinForce
+        } else {
+            SlopeRule::MomentBalance
+        };
+        settings(rule, 1e5, tilt)
+    })
+}
+
+/// Sum of squares of all forces with the shared slopes put where the caller wants them.
+fn norm_at(solver: &Solver, slopes: &[f64]) -> f64 {
+    let net = solver.net();
+    let mut outcome = vec![[0.0; 2]; net.elements.len()];
+    let mut sum = 0.0;
+    for (n, element) in net.elements.iter().enumerate() {
+        let mut span = solver.span(n);
+        for end in 0..2 {
+            let slope = match element.ends[end] {
+                End::Joint(j) => slopes[j],
+                End::Plane(plane) => {
+                    let at = |source| match source {
+                        plydrape::equilibrium::SlopeSource::Given(s) => s,
+                        plydrape::equilibrium::SlopeSource::Joint(j) => slopes[j],
+                        plydrape::equilibrium::SlopeSource::Outcome(e, k) => {
+                            let pair: [f64; 2] = outcome[e];
+                            pair[k]
+                        }
+                    };
+                    plane.share[0] * at(plane.source[0]) + plane.share[1] * at(plane.source[1])
+                }
+                _ => continue,
+            };
+            span.ends[end] = plydrape::catenary::EndCondition::Slope(slope);
+        }
+        let Some(force) = span.solve(solver.force(n)).force else {
+            continue;
+        };
+        let profile = Profile::new(&span, force);
+        outcome[n] = [profile.end_slope(0), profile.end_slope(1)];
+        sum += force * force;
+    }
+    sum
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..Default::default() })]
+
+    /// Every length is met, and no slope within the bounds does better (min-force) or leaves a moment
+    /// (moment-balance).
+    #[test]
+    fn an_equilibrium_satisfies_its_rule((ply, positions) in any_array(), settings in any_rule()) {
+        let laid = vec![None; ply.grid.catenaries()];
+        let mut solver = Solver::new(&ply, &settings);
+        let outcome = solver.solve(&positions, &laid);
+        prop_assert_eq!(outcome.status, Status::Converged, "{:?}", outcome);
+        prop_assert!(outcome.residual < 1e-8);
+        for n in 0..solver.net().elements.len() {
+            let Some(force) = solver.force(n) else { continue };
+            let span = solver.span(n);
+            let chord = span.chord() / span.run;
+            let goal = span.length * (1.0 + force * chord / span.axial_stiffness);
+            let length = Profile::new(&span, force).length_jet::<3>().value;
+            prop_assert!((length / goal - 1.0).abs() < 1e-9, "{} {length} {goal}", n);
+        }
+        let bound = settings.max_tilt.tan();
+        let slopes = solver.slopes().to_vec();
+        for (joint, slope) in slopes.iter().enumerate() {
+            prop_assert!(slope.abs() <= bound);
+            if settings.slopes == SlopeRule::MinForce {
+                let best = norm_at(&solver, &slopes);
+                for delta in [-1e-4, 1e-4] {
+                    let mut other = slopes.clone();
+                    other[joint] = (slope + delta).clamp(-bound, bound);
+                    prop_assert!(norm_at(&solver, &other) >= best * (1.0 - 1e-10), "joint {}", joint);
+                }
+            } else {
+                let moment = |k: usize| {
+                    let element = solver.net().joints[joint].elements[k];
+                    let span = solver.span(element);
+                    let profile = Profile::new(&span, solver.force(element).expect("hangs"));
+                    profile.station(if k == 0 { span.run } else { 0.0 }).moment
+                };
+                let (before, after) = (moment(0), moment(1));
+                let scale = before.abs().max(after.abs()).max(1e-6);
+                let jump = (before - after) / scale;
+                let carried = (*slope >= bound && jump < 0.0) || (*slope <= -bound && jump > 0.0);
+                prop_assert!(jump.abs() < 1e-5 || carried, "joint {}: {} {}", joint, before, after);
+            }
+        }
+    }
+
+    /// A warm start reaches the same state as a cold one.
+    #[test]
+    fn a_warm_start_changes_nothing((ply, positions) in any_array(), settings in any_rule()) {
+        let laid = vec![None; ply.grid.catenaries()];
+        let mut warm = Solver::new(&ply, &settings);
+        warm.solve(&level(ply.grid, 0.097), &laid);
+        warm.solve(&positions, &laid);
+        let mut cold = Solver::new(&ply, &settings);
+        cold.solve(&positions, &laid);
+        for (a, b) in warm.slopes().iter().zip(cold.slopes()) {
+            prop_assert!((a - b).abs() < 1e-7, "{a} {b}");
+        }
+        for n in 0..cold.net().elements.len() {
+            let (a, b) = (warm.force(n).unwrap_or(0.0), cold.force(n).unwrap_or(0.0));
+            prop_assert!((a - b).abs() < 1e-6 * b.abs().max(0.1), "{n}: {a} {b}");
+        }
+    }
+
+    /// Sensitivities to gripper positions, lengths and material agree with central differences.
+    #[test]
+    fn tangents_agree_with_central_differences(
+        (ply, positions) in any_array(),
+        settings in any_rule(),
+        random in prop::collection::vec(-1.0..1.0, 3 * 30),
+        others in (-1.0..1.0, -1.0..1.0, -1.0..1.0),
+    ) {
+        let laid = vec![None; ply.grid.catenaries()];
+        let count = ply.grid.grippers();
+        let direction = Direction {
+            grippers: (0..count).map(|n| [0, 1, 2].map(|k| 0.01 * random[3 * n + k])).collect(),
+            length: 0.0,
+            weight: others.1,
+            rigidity: others.2,
+        };
+        let at = |h: f64| {
+            let mut ply = ply.clone();
+            if let Section::Line { mass, flexural_rigidity } = &mut ply.material.section {
+                *mass *= 1.0 + h * direction.weight;
+                *flexural_rigidity *= 1.0 + h * direction.rigidity;
+            }
+            let moved: Vec<_> = positions.iter().zip(&direction.grippers)
+                .map(|(p, v)| [0, 1, 2].map(|k| p[k] + h * v[k])).collect();
+            let mut solver = Solver::new(&ply, &settings);
+            let outcome = solver.solve(&moved, &laid);
+            (solver, outcome)
+        };
+        let h = 1e-5;
+        let ((mut middle, outcome), (low, _), (high, _)) = (at(0.0), at(-h), at(h));
+        prop_assume!(outcome.status == Status::Converged);
+        // the state is differentiable here: the same spans, shear and active bounds on both sides
+        let bound = settings.max_tilt.tan();
+        let kind = |s: &Solver| (
+            s.net().shearing.iter().map(|s| s.map(|(_, f)| f)).collect::<Vec<_>>(),
+            s.slopes().iter().map(|s| s.abs() >= bound).collect::<Vec<_>>(),
+            s.net().elements.iter().map(|e| e.state).collect::<Vec<_>>(),
+        );
+        prop_assume!(kind(&low) == kind(&middle) && kind(&high) == kind(&middle));
+        let tangent = middle.tangent(&positions, &laid, &direction);
+        for (j, slope) in tangent.slopes.iter().enumerate() {
+            let difference = (high.slopes()[j] - low.slopes()[j]) / (2.0 * h);
+            prop_assert!((slope - difference).abs() < 1e-4 * (1.0 + difference.abs()), "slope {j}: {slope} {difference}");
+        }
+        for n in 0..middle.net().elements.len() {
+            let Some(force) = middle.force(n) else { continue };
+            let difference = (high.force(n).unwrap_or(0.0) - low.force(n).unwrap_or(0.0)) / (2.0 * h);
+            let scale = force.abs() + difference.abs();
+            prop_assert!((tangent.force[n] - difference).abs() < 1e-4 * scale,
+                "force {n}: {} {difference}", tangent.force[n]);
+            for end in 0..2 {
+                let difference = (high.end_slopes(n)[end] - low.end_slopes(n)[end]) / (2.0 * h);
+                prop_assert!((tangent.end_slopes[n][end] - difference).abs() < 1e-4 * (1.0 + difference.abs()));
+            }
+        }
+    }
+}
