@@ -263,3 +263,29 @@ impl Sums {
         (first, second)
     }
 }
+
+impl Profile {
+    /// Arc length from the first end to the horizontal distance `x` (m) from it (m).
+    #[must_use]
+    pub fn length_to(&self, x: f64) -> f64 {
+        let Profile { span, theta, rho, amplitude, .. } = *self;
+        let end = (x / span.run).clamp(0.0, 1.0);
+        let mut sum = 0.0;
+        for stretch in stretches(self).iter() {
+            let width = (stretch.end - stretch.start) / stretch.panels as f64;
+            for panel in 0..stretch.panels {
+                let start = stretch.start + panel as f64 * width;
+                let width = width.min(end - start);
+                if width <= 0.0 {
+                    return span.run * sum;
+                }
+                for p in 0..POINTS {
+                    let [u, v, g] = self.form.slope(start + width * ABSCISSAS[p]).value;
+                    let slope = theta + rho * g + amplitude[0] * u + amplitude[1] * v;
+                    sum += width * WEIGHTS[p] * slope.hypot(1.0);
+                }
+            }
+        }
+        span.run * sum
+    }
+}

@@ -153,6 +153,12 @@ impl Solver {
         self.held[element]
     }
 
+    /// Which ends of an element have a prescribed slope.
+    #[must_use]
+    pub fn holds(&self, element: usize) -> [bool; 2] {
+        self.net.elements[element].ends.map(|end| !matches!(end, End::Free))
+    }
+
     /// The span of an element, as solved.
     #[must_use]
     pub fn span(&self, element: usize) -> crate::catenary::Span {

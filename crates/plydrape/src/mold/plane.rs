@@ -10,3 +10,24 @@ pub struct Plane {
     /// Unit normal, out of the mold towards the ply.
     pub normal: [f64; 3],
 }
+
+impl Plane {
+    /// Distance of `p` (m) from the mold (m), negative below it.
+    #[must_use]
+    pub fn signed_distance(&self, p: [f64; 3]) -> f64 {
+        (0..3).map(|n| self.normal[n] * (p[n] - self.point[n])).sum()
+    }
+
+    /// The point of the mold closest to `p` (m).
+    #[must_use]
+    pub fn closest_point(&self, p: [f64; 3]) -> [f64; 3] {
+        let d = self.signed_distance(p);
+        [0, 1, 2].map(|n| p[n] - d * self.normal[n])
+    }
+
+    /// Slope of the mold along the horizontal unit vector `heading`.
+    #[must_use]
+    pub fn slope(&self, heading: [f64; 2]) -> f64 {
+        -(self.normal[0] * heading[0] + self.normal[1] * heading[1]) / self.normal[2]
+    }
+}

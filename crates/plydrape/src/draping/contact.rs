@@ -1,0 +1,217 @@
+//! Where the ply touches the mold, and how what touches is laid, section 2.4 of Krogh et al. 2018.
+//!
+//! Infinite friction: what touches stays. Fabric is laid, not snapped: the deepest point goes to its
+//! closest point of the mold, the rest of the run along the mold in the vertical plane of its span,
+//! over the same arc length, so that no fabric is made or lost. A run that reaches a gripper starts
+//! from it, since there the ply is held.
+//!
+//! A segment grows where the span dips below the mold at its end, up to where the ply is farther than
+//! the tolerance. A span that leaves the mold upwards does not grow its segment, though it is within
+//! the tolerance for a while: otherwise every step would lay a bit more of a ply that does not move, and
+//! the result would depend on the number of steps.
+
+use super::spans::{FreeSpan, Point};
+use crate::mold::Mold;
+use crate::ply::Laid;
+use crate::scene::Contact;
+
+/// Stations at which a span is looked at; minima between them are refined.
+const STATIONS: usize = 48;
+
+/// A run of touching points of a span, as fractions of its run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Run {
+    from: f64,
+    to: f64,
+    deepest: f64,
+    depth: f64,
+}
+
+/// A touch away from the contact segment: the ply bridges what is between.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bridge {
+    /// Place of the largest gap between segment and touch (m).
+    pub place: Point,
+    /// That gap (m).
+    pub gap: f64,
+}
+
+/// What a look at one catenary found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Look {
+    /// The contact as it is from now on, if it has changed.
+    pub laid: Option<Laid>,
+    /// A touch that the model does not follow.
+    pub bridge: Option<Bridge>,
+}
+
+/// Runs of points closer to the mold than `tolerance` (m), ascending.
+fn runs(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Vec<Run> {
+    if mold.clearance(span.ends[0], span.ends[1], span.length) > tolerance {
+        return Vec::new();
+    }
+    let distance = |t: f64| mold.signed_distance(span.point(t));
+    let at = |n: usize| n as f64 / STATIONS as f64;
+    let mut samples: Vec<(f64, f64)> = (0..=STATIONS).map(|n| (at(n), distance(at(n)))).collect();
+    // a touch may hide between two stations: add every local minimum
+    let minima: Vec<(f64, f64)> = (1..STATIONS)
+        .filter(|&n| samples[n].1 <= samples[n - 1].1 && samples[n].1 <= samples[n + 1].1)
+        .map(|n| minimum(&distance, samples[n - 1].0, samples[n + 1].0))
+        .collect();
+    samples.extend(minima);
+    samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+
+    let mut out: Vec<Run> = Vec::new();
+    let mut open: Option<Run> = None;
+    for n in 0..samples.len() {
+        let (t, d) = samples[n];
+        if d < tolerance {
+            let from = if n == 0 { 0.0 } else { crossing(&distance, samples[n - 1].0, t, tolerance) };
+            let run = open.get_or_insert(Run { from, to: t, deepest: t, depth: d });
+            run.to = t;
+            if d < run.depth {
+                (run.deepest, run.depth) = (t, d);
+            }
+        } else if let Some(mut run) = open.take() {
+            run.to = crossing(&distance, t, samples[n - 1].0, tolerance);
+            out.push(run);
+        }
+    }
+    out.extend(open);
+    out
+}
+
+/// Smallest distance between `a` and `b` by golden sections: (t, distance).
+fn minimum(distance: &impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> (f64, f64) {
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    for _ in 0..30 {
+        let (c, d) = (b - golden * (b - a), a + golden * (b - a));
+        if distance(c) < distance(d) { b = d } else { a = c }
+    }
+    let t = 0.5 * (a + b);
+    (t, distance(t))
+}
+
+/// Where the distance falls through `level` between `outside` and `inside`.
+fn crossing(distance: &impl Fn(f64) -> f64, outside: f64, inside: f64, level: f64) -> f64 {
+    let (mut outside, mut inside) = (outside, inside);
+    for _ in 0..50 {
+        let middle = 0.5 * (outside + inside);
+        if distance(middle) < level { inside = middle } else { outside = middle }
+    }
+    inside
+}
+
+/// Largest gap between two fractions of a span.
+fn largest_gap(span: &FreeSpan, mold: &Mold, from: f64, to: f64) -> Bridge {
+    let mut worst = Bridge { place: span.point(from), gap: 0.0 };
+    for n in 0..=STATIONS {
+        let place = span.point(from + (to - from) * n as f64 / STATIONS as f64);
+        let gap = mold.signed_distance(place);
+        if gap > worst.gap {
+            worst = Bridge { place, gap };
+        }
+    }
+    worst
+}
+
+/// Depth of the lowest point of a span below the mold (m), negative if it hangs clear.
+pub fn depth(span: &FreeSpan, mold: &Mold) -> f64 {
+    if mold.clearance(span.ends[0], span.ends[1], span.length) > 0.0 {
+        return f64::NEG_INFINITY;
+    }
+    let distance = |t: f64| mold.signed_distance(span.point(t));
+    let at = |n: usize| n as f64 / STATIONS as f64;
+    let lowest = (0..=STATIONS).fold(0, |a, b| if distance(at(b)) < distance(at(a)) { b } else { a });
+    let (a, b) = (at(lowest.saturating_sub(1)), at((lowest + 1).min(STATIONS)));
+    -minimum(&distance, a, b).1.min(distance(at(lowest)))
+}
+
+/// Looks at a catenary that nothing has caught yet.
+pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
+    let runs = runs(span, mold, contact.tolerance);
+    let Some(run) = runs.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)) else {
+        return Look::default();
+    };
+    let heading = span.heading();
+    let (from, to) = (span.arc(run.from), span.arc(run.to));
+    let (held_first, held_last) = (run.from <= 0.0, run.to >= 1.0);
+    let [a, b] = span.ends.map(|end| mold.closest_point(end));
+    let point = match (held_first, held_last) {
+        (true, true) => [a, b],
+        (true, false) => [a, mold.lay(a, heading, to)],
+        (false, true) => [mold.lay(b, heading, from - span.length), b],
+        (false, false) => {
+            let place = mold.closest_point(span.point(run.deepest));
+            let deepest = span.arc(run.deepest);
+            [from, to].map(|arc| mold.lay(place, heading, arc - deepest))
+        }
+    };
+    // the gap to any other run: whatever lies between the two
+    let bridge = runs
+        .iter()
+        .filter(|other| *other != run)
+        .map(|other| {
+            let (a, b) = if other.to < run.from { (other.to, run.from) } else { (run.to, other.from) };
+            largest_gap(span, mold, a, b)
+        })
+        .max_by(|a, b| a.gap.total_cmp(&b.gap));
+    let laid = Laid {
+        length: span.length,
+        arc: [from, to],
+        point,
+        normal: point.map(|p| mold.normal(p)),
+        lying: [held_first && held_last; 2],
+    };
+    Look { laid: Some(laid), bridge }
+}
+
+/// Looks at a rest of a catenary that the mold has caught before.
+pub fn next_touch(span: &FreeSpan, laid: &Laid, mold: &Mold, contact: &Contact) -> Look {
+    let runs = runs(span, mold, contact.tolerance);
+    let rest = span.rest;
+    // the contact end: the second end of the first rest, the first end of the second
+    let at_contact = |run: &&Run| if rest == 0 { run.to >= 1.0 } else { run.from <= 0.0 };
+    let Some(run) = runs.iter().find(at_contact) else { return Look::default() };
+    let mut look = Look {
+        laid: None,
+        bridge: runs
+            .iter()
+            .filter(|other| *other != run)
+            .map(|other| {
+                let (a, b) = if rest == 0 { (other.to, run.from) } else { (run.to, other.from) };
+                largest_gap(span, mold, a, b)
+            })
+            .max_by(|a, b| a.gap.total_cmp(&b.gap)),
+    };
+    let mut laid = laid.clone();
+    if run.from <= 0.0 && run.to >= 1.0 {
+        laid.lying[rest] = true;
+        look.laid = Some(laid);
+        return look;
+    }
+    if !dips(span, laid.normal[rest]) {
+        return look;
+    }
+    let heading = span.heading();
+    if rest == 0 {
+        let length = span.length - span.arc(run.from);
+        laid.arc[0] -= length;
+        laid.point[0] = mold.lay(laid.point[0], heading, -length);
+    } else {
+        let length = span.arc(run.to);
+        laid.arc[1] += length;
+        laid.point[1] = mold.lay(laid.point[1], heading, length);
+    }
+    laid.normal[rest] = mold.normal(laid.point[rest]);
+    look.laid = Some(laid);
+    look
+}
+
+/// Whether a rest leaves the mold downwards at its contact end.
+fn dips(span: &FreeSpan, normal: [f64; 3]) -> bool {
+    let [ex, ey] = span.heading();
+    let along = normal[0] * ex + normal[1] * ey + normal[2] * span.slope(if span.rest == 0 { 1.0 } else { 0.0 });
+    // walking away from the contact end: forwards on the second rest, backwards on the first
+    if span.rest == 0 { -along <= 0.0 } else { along <= 0.0 }
+}

@@ -1,0 +1,167 @@
+//! The free spans of a solved ply as curves in space.
+
+use crate::catenary::{Profile, SpanState};
+use crate::equilibrium::{Equilibrium, Solver};
+use crate::mold::distance;
+use crate::ply::{Kind, Laid, Ply};
+
+/// A point in space (m).
+pub type Point = [f64; 3];
+
+/// One free span as it hangs, or a line that a stretched diagonal draws.
+#[derive(Debug, Clone)]
+pub struct FreeSpan {
+    /// Index of its catenary.
+    pub catenary: usize,
+    /// 0 for a whole catenary or the rest before the contact segment, 1 for the rest after it.
+    pub rest: usize,
+    /// Its ends (m).
+    pub ends: [Point; 2],
+    /// Fabric length (m).
+    pub length: f64,
+    /// Fabric arc length of its first end from the first gripper (m).
+    pub start: f64,
+    /// Its closed form; none for a straight line.
+    pub profile: Option<Profile>,
+    /// How it holds its length.
+    pub state: SpanState,
+    /// Whether it belongs to a stretched diagonal.
+    pub shearing: bool,
+    /// Horizontal force (N), where the model gives one.
+    pub force: Option<f64>,
+    /// Slopes at its ends.
+    pub slopes: [f64; 2],
+    /// Which slopes were prescribed.
+    pub prescribed: [bool; 2],
+}
+
+impl FreeSpan {
+    /// Horizontal distance of its ends (m).
+    #[must_use]
+    pub fn run(&self) -> f64 {
+        let [a, b] = self.ends;
+        (b[0] - a[0]).hypot(b[1] - a[1])
+    }
+
+    /// Straight distance of its ends (m).
+    #[must_use]
+    pub fn chord(&self) -> f64 {
+        distance(self.ends[0], self.ends[1])
+    }
+
+    /// Horizontal unit vector from its first end to its second; zero if they lie above each other.
+    #[must_use]
+    pub fn heading(&self) -> [f64; 2] {
+        let ([a, b], run) = (self.ends, self.run());
+        if run > 0.0 { [(b[0] - a[0]) / run, (b[1] - a[1]) / run] } else { [0.0; 2] }
+    }
+
+    /// Its point at a fraction `t` of its run (m).
+    #[must_use]
+    pub fn point(&self, t: f64) -> Point {
+        let [a, b] = self.ends;
+        let line = [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n]));
+        match &self.profile {
+            Some(profile) => [line[0], line[1], a[2] + profile.station(t * self.run()).z],
+            None => line,
+        }
+    }
+
+    /// Slope at a fraction `t` of its run.
+    #[must_use]
+    pub fn slope(&self, t: f64) -> f64 {
+        match &self.profile {
+            Some(profile) => profile.station(t * self.run()).slope,
+            None if self.run() > 0.0 => (self.ends[1][2] - self.ends[0][2]) / self.run(),
+            None => 0.0,
+        }
+    }
+
+    /// Fabric arc length from its first end to a fraction `t` of its run (m). It grows to exactly
+    /// [`FreeSpan::length`]: the elastic stretch is spread evenly.
+    #[must_use]
+    pub fn arc(&self, t: f64) -> f64 {
+        if t >= 1.0 {
+            return self.length;
+        }
+        let share = match &self.profile {
+            Some(profile) => profile.length_to(t * self.run()) / profile.length_to(self.run()),
+            None => t,
+        };
+        share.clamp(0.0, 1.0) * self.length
+    }
+}
+
+/// All free spans of a solved ply, catenary by catenary.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// Free spans, in the order of catenaries and rests.
+    pub spans: Vec<FreeSpan>,
+    /// How the equilibrium was found.
+    pub equilibrium: Equilibrium,
+}
+
+/// Reads the shape of the ply off its solver.
+pub fn shape(
+    ply: &Ply,
+    solver: &Solver,
+    equilibrium: Equilibrium,
+    positions: &[Point],
+    laid: &[Option<Laid>],
+) -> Shape {
+    let grid = ply.grid;
+    let net = solver.net();
+    let mut elements = net.elements.iter().enumerate().peekable();
+    let mut spans = Vec::with_capacity(2 * grid.catenaries());
+    for catenary in 0..grid.catenaries() {
+        let c = grid.catenary(catenary);
+        let grippers = [c.from, c.to].map(|g| positions[grid.index(g)]);
+        let stretched = (catenary >= grid.edges())
+            .then(|| net.shearing[(catenary - grid.edges()) / 2])
+            .flatten()
+            .filter(|(_, falling)| *falling == (c.kind == Kind::Falling));
+        let rests = laid[catenary].as_ref().map_or(1, |_| 2);
+        for rest in 0..rests {
+            let ends = match &laid[catenary] {
+                None => grippers,
+                Some(laid) if !laid.hangs(rest) => {
+                    debug_assert!(laid.rest(rest) >= -1e-12);
+                    continue;
+                }
+                Some(laid) if rest == 0 => [grippers[0], laid.point[0]],
+                Some(laid) => [laid.point[1], grippers[1]],
+            };
+            let start = laid[catenary].as_ref().map_or(0.0, |l| if rest == 0 { 0.0 } else { l.arc[1] });
+            let mut span = FreeSpan {
+                catenary,
+                rest,
+                ends,
+                length: 0.0,
+                start,
+                profile: None,
+                state: SpanState::Straight,
+                shearing: stretched.is_some(),
+                force: None,
+                slopes: [0.0; 2],
+                prescribed: [false; 2],
+            };
+            span.slopes = [span.slope(0.0); 2];
+            if let Some((path, _)) = stretched {
+                span.length = laid[catenary].as_ref().map_or(path, |l| l.rest(rest));
+            } else if let Some((n, element)) =
+                elements.next_if(|(_, e)| e.catenary == catenary && e.rest == rest)
+            {
+                span.length = element.length;
+                span.state = element.state;
+                span.force = solver.force(n);
+                if let Some(force) = span.force {
+                    span.profile = Some(Profile::new(&solver.span(n), force));
+                    span.slopes = solver.end_slopes(n);
+                    span.prescribed = solver.holds(n);
+                }
+            }
+            spans.push(span);
+        }
+    }
+    Shape { spans, equilibrium }
+}
