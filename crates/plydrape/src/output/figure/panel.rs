@@ -1,0 +1,265 @@
+//! One step in 3D: ply, catenaries, grippers, contact, mold; nearer shapes are drawn over farther ones.
+
+use super::FigureError;
+use super::axes::Frame;
+use super::canvas::{Canvas, Ink, Px};
+use super::colour::{BLACK, MOLD, RED, RIM, TARGET, WEAVE, viridis};
+use super::projection::{Point, View, turned};
+use super::surface;
+use crate::output::result::{Gripper, ResultFile, Step};
+
+/// Radius of a gripper as a share of the shorter side of a cell.
+const GRIPPER: f64 = 0.12;
+/// Largest radius of a contact mark (picture points).
+pub(super) const MOST_MARK: f64 = 3.6;
+/// Distance of contact marks as a share of the cell.
+const MARKS_APART: f64 = 0.125;
+
+/// How finely a step is drawn: all lines and cells together stay within what a page can hold.
+#[derive(Debug, Clone, Copy)]
+struct Detail {
+    /// Squares of a cell along each side.
+    squares: usize,
+    /// Squares between two fabric lines on the surface.
+    weave: usize,
+    /// Pieces of a catenary.
+    pieces: usize,
+    /// Corners of a gripper's disc.
+    corners: usize,
+    /// Diagonals of very large arrays are left out.
+    diagonals: bool,
+}
+
+impl Detail {
+    fn of(result: &ResultFile) -> Self {
+        let cells = result.scene.grid.cells().max(1) as f64;
+        let squares = (1500.0 / cells).sqrt().clamp(1.0, 14.0) as usize;
+        Detail {
+            squares: if squares > 1 { squares / 2 * 2 } else { 1 },
+            weave: if cells < 60.0 { 2 } else { usize::MAX },
+            pieces: (400.0 / cells).clamp(1.0, 24.0) as usize,
+            corners: (2000.0 / cells).clamp(8.0, 32.0) as usize,
+            diagonals: cells < 1500.0,
+        }
+    }
+}
+
+/// A flat shape on the sheet and how near it is.
+struct Piece {
+    depth: f64,
+    points: Vec<Px>,
+    ink: Ink,
+    form: Form,
+}
+
+/// What a piece is.
+#[derive(Clone, Copy)]
+enum Form {
+    /// A filled polygon.
+    Area,
+    /// A line of a width (picture points).
+    Line(f64),
+    /// An open circle of a radius (picture points) around its only point.
+    Ring(f64),
+}
+
+/// What all panels share.
+pub(super) struct Stage<'a> {
+    pub result: &'a ResultFile,
+    pub frame: Frame,
+    /// Heights of the colour scale's ends (m).
+    pub scale: [f64; 2],
+    /// Corners of the patch of mold that is shown.
+    pub mold: Option<[Point; 4]>,
+}
+
+/// Radius of a gripper's disc (m).
+pub(super) fn gripper_radius(result: &ResultFile) -> f64 {
+    let [a, b] = result.scene.cell;
+    GRIPPER
+        * if result.scene.grid.nv > 1 {
+            a.min(b)
+        } else {
+            a
+        }
+}
+
+impl Stage<'_> {
+    /// Draws a step where `view` puts it.
+    pub(super) fn draw(
+        &self,
+        canvas: &mut Canvas,
+        view: &View,
+        step: &Step,
+    ) -> Result<(), FigureError> {
+        self.frame.back(canvas, view)?;
+        self.mold(canvas, view)?;
+        let mut pieces = Vec::new();
+        let detail = Detail::of(self.result);
+        self.ply(&mut pieces, view, step, detail);
+        for gripper in &step.grippers {
+            self.gripper(&mut pieces, view, gripper, detail.corners);
+        }
+        self.contact(&mut pieces, view, step);
+        pieces.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+        for piece in &pieces {
+            match piece.form {
+                Form::Area => canvas.polygon(&piece.points, piece.ink)?,
+                Form::Line(width) => canvas.line(&piece.points, piece.ink, width)?,
+                Form::Ring(radius) => canvas.circle(piece.points[0], radius, piece.ink, 1.3)?,
+            }
+        }
+        self.frame.front(canvas, view)
+    }
+
+    /// The patch of mold, and on it the outline of where the ply should end.
+    fn mold(&self, canvas: &mut Canvas, view: &View) -> Result<(), FigureError> {
+        let Some(patch) = self.mold else {
+            return Ok(());
+        };
+        canvas.polygon(&patch.map(|p| view.at(p)), MOLD)?;
+        if let Some(target) = &self.result.scene.target_grippers {
+            let grid = self.result.scene.grid;
+            let (nu, nv) = (grid.nu - 1, grid.nv - 1);
+            let corners = [[0, 0], [nu, 0], [nu, nv], [0, nv], [0, 0]];
+            let path: Vec<Px> = corners
+                .iter()
+                .filter_map(|id| target.get(grid.index(*id)))
+                .map(|p| view.at(*p))
+                .collect();
+            canvas.line(&path, TARGET, 1.2)?;
+        }
+        Ok(())
+    }
+
+    /// Surface and catenaries.
+    fn ply(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step, detail: Detail) {
+        let grid = self.result.scene.grid;
+        let n = detail.squares;
+        // A line lies on the surface: it counts as nearer than the squares that it borders.
+        let [a, b] = self.result.scene.cell;
+        let lift = 1.5 * a.max(b) / n as f64;
+
+        let edges = surface::lines(grid, step, n);
+        for k in 0..grid.cells() {
+            let id = [k % (grid.nu - 1), k / (grid.nu - 1)];
+            let points = surface::cell(grid, &edges, id, n);
+            for row in 0..n {
+                for column in 0..n {
+                    let at = row * (n + 1) + column;
+                    let square = [at, at + 1, at + n + 2, at + n + 1].map(|i| points[i]);
+                    pieces.push(self.square(view, square));
+                }
+            }
+            // Fabric lines: they show shear and wrinkles where colour hardly changes.
+            for m in (1..n).filter(|m| m % detail.weave == 0) {
+                let along: Vec<Point> = (0..=n).map(|k| points[m * (n + 1) + k]).collect();
+                let across: Vec<Point> = (0..=n).map(|k| points[k * (n + 1) + m]).collect();
+                for line in [along, across] {
+                    thread(pieces, view, &line, lift / 2.0, WEAVE, 0.7);
+                }
+            }
+        }
+
+        let lines = surface::lines(grid, step, detail.pieces);
+        let count = match detail.diagonals {
+            true => lines.len(),
+            false => grid.edges(),
+        };
+        for (k, line) in lines.iter().take(count).enumerate() {
+            let width = if k < grid.edges() { 1.7 } else { 1.1 };
+            thread(pieces, view, line, lift, RED, width);
+        }
+    }
+
+    /// A piece of surface in the colour of its mean height, grown by a hair so that no seam shows.
+    fn square(&self, view: &View, corners: [Point; 4]) -> Piece {
+        let mean = |of: &dyn Fn(Point) -> f64| corners.iter().map(|p| of(*p)).sum::<f64>() / 4.0;
+        let [low, high] = self.scale;
+        let flat = corners.map(|p| view.at(p));
+        let center = [0, 1].map(|c| flat.iter().map(|p| p[c]).sum::<f64>() / 4.0);
+        let grown = flat.map(|[x, y]| {
+            let (dx, dy) = (x - center[0], y - center[1]);
+            let hair = 0.7 / dx.hypot(dy).max(0.7);
+            [x + hair * dx, y + hair * dy]
+        });
+        Piece {
+            depth: mean(&|p| view.depth(p)),
+            points: grown.to_vec(),
+            ink: viridis((mean(&|p| p[2]) - low) / (high - low)),
+            form: Form::Area,
+        }
+    }
+
+    /// A disc tilted with the ply, with a thin light rim.
+    fn gripper(&self, pieces: &mut Vec<Piece>, view: &View, gripper: &Gripper, corners: usize) {
+        let radius = gripper_radius(self.result);
+        let edge = |k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / corners as f64;
+            let arm = turned(
+                gripper.quaternion,
+                [radius * angle.cos(), radius * angle.sin(), 0.0],
+            );
+            view.at([0, 1, 2].map(|c| gripper.position[c] + arm[c]))
+        };
+        let points: Vec<Px> = (0..corners).map(edge).collect();
+        let depth = view.depth(gripper.position) + 2.0 * radius;
+        let mut rim = points.clone();
+        rim.push(points[0]);
+        for (points, ink, form) in [(points, BLACK, Form::Area), (rim, RIM, Form::Line(0.9))] {
+            pieces.push(Piece {
+                depth,
+                points,
+                ink,
+                form,
+            });
+        }
+    }
+
+    /// Contact: a stronger line along each segment, and open circles from end to end.
+    fn contact(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step) {
+        // Below the grippers, above all of the ply near by.
+        let lift = 1.6 * gripper_radius(self.result);
+        let [a, b] = self.result.scene.cell;
+        let apart = MARKS_APART * a.max(b);
+        let radius = (0.3 * apart * view.scale()).min(MOST_MARK);
+        for contact in step.catenaries.iter().filter_map(|c| c.contact.as_ref()) {
+            let [Some(first), Some(last)] = [contact.points.first(), contact.points.last()] else {
+                continue;
+            };
+            let square: f64 = (0..3).map(|c| (last[c] - first[c]).powi(2)).sum();
+            let marks = (square.sqrt() / apart).floor().min(50.0) as usize;
+            let spots = match marks {
+                0 => vec![contact.points[contact.points.len() / 2]],
+                _ => surface::stations(&contact.points, marks),
+            };
+            thread(pieces, view, &contact.points, lift, RED, 2.4);
+            pieces.extend(spots.into_iter().map(|spot| Piece {
+                depth: view.depth(spot) + lift,
+                points: vec![view.at(spot)],
+                ink: RED,
+                form: Form::Ring(radius),
+            }));
+        }
+    }
+}
+
+/// A line in pieces, each with its own depth, brought nearer by `lift` (m).
+fn thread(pieces: &mut Vec<Piece>, view: &View, line: &[Point], lift: f64, ink: Ink, width: f64) {
+    pieces.extend(line.windows(2).map(|pair| Piece {
+        depth: lift + (view.depth(pair[0]) + view.depth(pair[1])) / 2.0,
+        points: overlapped(view.at(pair[0]), view.at(pair[1])),
+        ink,
+        form: Form::Line(width),
+    }));
+}
+
+/// A piece of line, a little longer at both ends, so that pieces join.
+fn overlapped(a: Px, b: Px) -> Vec<Px> {
+    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+    let hair = 0.3 / dx.hypot(dy).max(0.3);
+    vec![
+        [a[0] - hair * dx, a[1] - hair * dy],
+        [b[0] + hair * dx, b[1] + hair * dy],
+    ]
+}
