@@ -114,45 +114,63 @@ impl Frame {
     pub(super) fn front(&self, canvas: &mut Canvas, view: &View) -> Result<(), FigureError> {
         let ([x0, y0, z0], [x1, y1, z1]) = (self.low, self.high);
         let [xs, ys, zs] = self.ticks(view);
-        let beside = |p: Point, dx: f64, dy: f64| {
-            let [x, y] = view.at(p);
+        let upright = |z: f64, dx: f64, dy: f64| {
+            let [x, y] = view.at([x0, y0, z]);
             [x + dx, y + dy]
         };
+        let corner = [x1, y0, z0];
+        let along_x = Edge::of(view, [x0, y0, z0], corner);
+        let along_y = Edge::of(view, corner, [x1, y1, z0]);
         for x in xs {
-            canvas.text(
-                &label(x),
-                beside([x * 1e-3, y0, z0], -3.0, 13.0),
-                plain(TICK, 0),
-            )?;
+            along_x.text(canvas, &label(x), view.at([x * 1e-3, y0, z0]), 0)?;
         }
         for y in ys {
-            canvas.text(
-                &label(y),
-                beside([x1, y * 1e-3, z0], 8.0, 6.0),
-                plain(TICK, -1),
-            )?;
+            along_y.text(canvas, &label(y), view.at([x1, y * 1e-3, z0]), 0)?;
         }
         for z in zs {
-            canvas.text(
-                &label(z),
-                beside([x0, y0, z * 1e-3], -8.0, 0.0),
-                plain(TICK, 1),
-            )?;
+            canvas.text(&label(z), upright(z * 1e-3, -8.0, 0.0), plain(TICK, 1))?;
         }
         let (xm, ym) = ((x0 + x1) / 2.0, (y0 + y1) / 2.0);
-        canvas.text("x (mm)", beside([xm, y0, z0], -8.0, 35.0), plain(LABEL, 0))?;
-        canvas.text("y (mm)", beside([x1, ym, z0], 34.0, 16.0), plain(LABEL, -1))?;
-        let height = if self.stretch == 1.0 {
-            "z (mm)".to_owned()
-        } else {
-            format!("z (mm), {} × exaggerated", label(self.stretch))
+        along_x.text(canvas, "x (mm)", view.at([xm, y0, z0]), 1)?;
+        along_y.text(canvas, "y (mm)", view.at([x1, ym, z0]), 1)?;
+        // The panel's title says by how much z is exaggerated.
+        canvas.text("z (mm)", upright(z1, 0.0, -16.0), plain(LABEL, 1))
+    }
+}
+
+/// A front edge of the floor on the sheet, and the direction that leads away from the box.
+struct Edge {
+    away: Px,
+}
+
+impl Edge {
+    fn of(view: &View, from: Point, to: Point) -> Self {
+        let ([ax, ay], [bx, by]) = (view.at(from), view.at(to));
+        let length = (bx - ax).hypot(by - ay).max(1e-9);
+        // Front edges bound the picture from below.
+        let down = if bx >= ax { 1.0 } else { -1.0 };
+        Edge {
+            away: [down * (ay - by) / length, down * (bx - ax) / length],
+        }
+    }
+
+    /// Writes beside the edge: a tick's text in row 0, the axis label in row 1.
+    fn text(&self, canvas: &mut Canvas, text: &str, at: Px, row: u8) -> Result<(), FigureError> {
+        let [x, y] = self.away;
+        let side = match x {
+            ..-0.4 => 1,
+            0.4.. => -1,
+            _ => 0,
         };
-        let side = if self.stretch == 1.0 { 0 } else { -1 };
-        let shift = if side == 0 { -12.0 } else { -34.0 };
+        let near = if side == 0 { 13.0 } else { 9.0 };
+        let (reach, size) = match row {
+            0 => (near, TICK),
+            _ => (near + 25.0, LABEL),
+        };
         canvas.text(
-            &height,
-            beside([x0, y0, z1], shift, -15.0),
-            plain(LABEL, side),
+            text,
+            [at[0] + reach * x, at[1] + reach * y],
+            plain(size, side),
         )
     }
 }

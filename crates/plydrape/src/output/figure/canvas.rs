@@ -124,7 +124,9 @@ pub(super) fn at_size(text: &str, size: Px) -> String {
     let [w, h] = size.map(|s| (s * FINE).round() as u32);
     let drawn = format!("width=\"{w}\" height=\"{h}\"");
     let shown = format!("width=\"{}\" height=\"{}\" role=\"img\"", size[0], size[1]);
+    // Full cover is what an SVG has by itself; texts cannot hold this, their quotes are escaped.
     text.replacen(&drawn, &shown, 1)
+        .replace(" opacity=\"1\"", "")
 }
 
 fn fine(p: Px) -> (i32, i32) {

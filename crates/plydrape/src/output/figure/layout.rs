@@ -40,7 +40,11 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
     let free = PANELS - ROOM[0] - ROOM[2] - wide * scale;
     for (k, step) in steps.iter().enumerate() {
         let top = HEAD + panel * k as f64;
-        canvas.text(&caption(result, step), [28.0, top + 12.0], heading(14.0))?;
+        canvas.text(
+            &caption(result, step, stretch),
+            [28.0, top + 12.0],
+            heading(14.0),
+        )?;
         let corner = [ROOM[0] + free / 2.0, top + TITLE + ROOM[1]];
         let origin = [corner[0] - scale * from[0], corner[1] - scale * from[1]];
         stage.draw(&mut canvas, &unit.placed(scale, origin), step)?;
@@ -77,7 +81,7 @@ fn title(result: &ResultFile) -> String {
 }
 
 /// `iteration 26 — first contact`.
-fn caption(result: &ResultFile, step: &Step) -> String {
+fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
     let number = step.step;
     let what = if result.summary.first_contact_step == Some(number) {
         " — first contact"
@@ -88,7 +92,11 @@ fn caption(result: &ResultFile, step: &Step) -> String {
     } else {
         ""
     };
-    format!("iteration {number}{what}")
+    let note = match stretch {
+        1.0 => String::new(),
+        more => format!("  (z exaggerated {} ×)", axes::label(more)),
+    };
+    format!("iteration {number}{what}{note}")
 }
 
 /// Box, colour scale and mold patch that hold all shown steps.
@@ -126,6 +134,7 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
     Stage {
         result,
         frame: Frame { low, high, stretch },
+        panels: steps.len(),
         scale,
         mold,
     }

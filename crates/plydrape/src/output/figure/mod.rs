@@ -156,10 +156,12 @@ mod tests {
             sample::draped(8, 5, 10),
             sample::hanging(2, 1),
             sample::hanging(30, 30),
+            sample::draped(60, 60, 2),
             steep,
         ];
         for result in &results {
             let text = svg(result, &default_steps(result)).unwrap();
+            assert!(text.len() < 8_000_000, "{} bytes", text.len());
             assert!(text.starts_with("<svg ") && text.trim_end().ends_with("</svg>"));
             assert!(text.contains("z (mm)") && !text.contains("NaN") && !text.contains("inf"));
             assert_eq!(text, svg(result, &default_steps(result)).unwrap());

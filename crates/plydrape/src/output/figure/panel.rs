@@ -20,8 +20,8 @@ const MARKS_APART: f64 = 0.125;
 struct Detail {
     /// Squares of a cell along each side.
     squares: usize,
-    /// Squares between two fabric lines on the surface.
-    weave: usize,
+    /// Squares between the fabric lines on the surface, if there are any.
+    weave: Option<usize>,
     /// Pieces of a catenary.
     pieces: usize,
     /// Corners of a gripper's disc.
@@ -31,13 +31,15 @@ struct Detail {
 }
 
 impl Detail {
-    fn of(result: &ResultFile) -> Self {
+    /// For one of so many panels, with cells of so many picture points.
+    fn of(result: &ResultFile, panels: usize, cell: f64) -> Self {
         let cells = result.scene.grid.cells().max(1) as f64;
-        let squares = (1500.0 / cells).sqrt().clamp(1.0, 14.0) as usize;
+        let most = (6000.0 / cells / panels as f64).sqrt();
+        let squares = (cell / 9.0).max(4.0).min(most).clamp(1.0, 28.0) as usize;
         Detail {
             squares: if squares > 1 { squares / 2 * 2 } else { 1 },
-            weave: if cells < 60.0 { 2 } else { usize::MAX },
-            pieces: (400.0 / cells).clamp(1.0, 24.0) as usize,
+            weave: (squares >= 8).then_some(if squares < 20 { 2 } else { 4 }),
+            pieces: (3000.0 / cells).min(cell / 7.0).clamp(1.0, 24.0) as usize,
             corners: (2000.0 / cells).clamp(8.0, 32.0) as usize,
             diagonals: cells < 1500.0,
         }
@@ -67,6 +69,8 @@ enum Form {
 pub(super) struct Stage<'a> {
     pub result: &'a ResultFile,
     pub frame: Frame,
+    /// Panels on the sheet.
+    pub panels: usize,
     /// Heights of the colour scale's ends (m).
     pub scale: [f64; 2],
     /// Corners of the patch of mold that is shown.
@@ -95,18 +99,21 @@ impl Stage<'_> {
         self.frame.back(canvas, view)?;
         self.mold(canvas, view)?;
         let mut pieces = Vec::new();
-        let detail = Detail::of(self.result);
+        let detail = Detail::of(self.result, self.panels, self.cell_length() * view.scale());
         self.ply(&mut pieces, view, step, detail);
         for gripper in &step.grippers {
-            self.gripper(&mut pieces, view, gripper, detail.corners);
+            self.gripper(&mut pieces, view, gripper, detail);
         }
-        self.contact(&mut pieces, view, step);
+        self.contact(&mut pieces, view, step, detail);
         pieces.sort_by(|a, b| a.depth.total_cmp(&b.depth));
         for piece in &pieces {
             match piece.form {
                 Form::Area => canvas.polygon(&piece.points, piece.ink)?,
                 Form::Line(width) => canvas.line(&piece.points, piece.ink, width)?,
-                Form::Ring(radius) => canvas.circle(piece.points[0], radius, piece.ink, 1.3)?,
+                Form::Ring(radius) => {
+                    let width = (0.45 * radius).min(1.3);
+                    canvas.circle(piece.points[0], radius, piece.ink, width)?;
+                }
             }
         }
         self.frame.front(canvas, view)
@@ -132,14 +139,36 @@ impl Stage<'_> {
         Ok(())
     }
 
+    /// How much nearer than its place a line on the surface counts (m), so that the squares that it
+    /// borders do not cover it.
+    fn lift(&self, detail: Detail) -> f64 {
+        1.5 * self.cell_length() / detail.squares as f64
+    }
+
+    /// The longer side of a cell (m); of a strip, its length.
+    fn cell_length(&self) -> f64 {
+        let [a, b] = self.result.scene.cell;
+        if self.result.scene.grid.nv > 1 {
+            a.max(b)
+        } else {
+            a
+        }
+    }
+
+    /// How many catenaries are drawn; edges come first.
+    fn drawn(&self, detail: Detail) -> usize {
+        let grid = self.result.scene.grid;
+        match detail.diagonals {
+            true => grid.catenaries(),
+            false => grid.edges(),
+        }
+    }
+
     /// Surface and catenaries.
     fn ply(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step, detail: Detail) {
         let grid = self.result.scene.grid;
         let n = detail.squares;
-        // A line lies on the surface: it counts as nearer than the squares that it borders.
-        let [a, b] = self.result.scene.cell;
-        let lift = 1.5 * a.max(b) / n as f64;
-
+        let lift = self.lift(detail);
         let edges = surface::lines(grid, step, n);
         for k in 0..grid.cells() {
             let id = [k % (grid.nu - 1), k / (grid.nu - 1)];
@@ -152,9 +181,11 @@ impl Stage<'_> {
                 }
             }
             // Fabric lines: they show shear and wrinkles where colour hardly changes.
-            for m in (1..n).filter(|m| m % detail.weave == 0) {
-                let along: Vec<Point> = (0..=n).map(|k| points[m * (n + 1) + k]).collect();
-                let across: Vec<Point> = (0..=n).map(|k| points[k * (n + 1) + m]).collect();
+            let weave = detail.weave.map(|apart| (apart..n).step_by(apart));
+            for m in weave.into_iter().flatten() {
+                let each = (0..=n).step_by(2);
+                let along: Vec<Point> = each.clone().map(|k| points[m * (n + 1) + k]).collect();
+                let across: Vec<Point> = each.map(|k| points[k * (n + 1) + m]).collect();
                 for line in [along, across] {
                     thread(pieces, view, &line, lift / 2.0, WEAVE, 0.7);
                 }
@@ -162,10 +193,7 @@ impl Stage<'_> {
         }
 
         let lines = surface::lines(grid, step, detail.pieces);
-        let count = match detail.diagonals {
-            true => lines.len(),
-            false => grid.edges(),
-        };
+        let count = self.drawn(detail);
         for (k, line) in lines.iter().take(count).enumerate() {
             let width = if k < grid.edges() { 1.7 } else { 1.1 };
             thread(pieces, view, line, lift, RED, width);
@@ -192,8 +220,10 @@ impl Stage<'_> {
     }
 
     /// A disc tilted with the ply, with a thin light rim.
-    fn gripper(&self, pieces: &mut Vec<Piece>, view: &View, gripper: &Gripper, corners: usize) {
+    fn gripper(&self, pieces: &mut Vec<Piece>, view: &View, gripper: &Gripper, detail: Detail) {
         let radius = gripper_radius(self.result);
+        let corners = detail.corners;
+        let rim_width = (0.1 * radius * view.scale()).min(0.9);
         let edge = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / corners as f64;
             let arm = turned(
@@ -203,10 +233,13 @@ impl Stage<'_> {
             view.at([0, 1, 2].map(|c| gripper.position[c] + arm[c]))
         };
         let points: Vec<Px> = (0..corners).map(edge).collect();
-        let depth = view.depth(gripper.position) + 2.0 * radius;
+        let depth = view.depth(gripper.position) + self.lift(detail) + 2.0 * radius;
         let mut rim = points.clone();
         rim.push(points[0]);
-        for (points, ink, form) in [(points, BLACK, Form::Area), (rim, RIM, Form::Line(0.9))] {
+        for (points, ink, form) in [
+            (points, BLACK, Form::Area),
+            (rim, RIM, Form::Line(rim_width)),
+        ] {
             pieces.push(Piece {
                 depth,
                 points,
@@ -217,13 +250,15 @@ impl Stage<'_> {
     }
 
     /// Contact: a stronger line along each segment, and open circles from end to end.
-    fn contact(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step) {
+    fn contact(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step, detail: Detail) {
         // Below the grippers, above all of the ply near by.
-        let lift = 1.6 * gripper_radius(self.result);
-        let [a, b] = self.result.scene.cell;
-        let apart = MARKS_APART * a.max(b);
-        let radius = (0.3 * apart * view.scale()).min(MOST_MARK);
-        for contact in step.catenaries.iter().filter_map(|c| c.contact.as_ref()) {
+        let lift = self.lift(detail) + 1.5 * gripper_radius(self.result);
+        let cell = self.cell_length();
+        let radius = (0.045 * cell * view.scale()).min(MOST_MARK);
+        let apart = (MARKS_APART * cell).max(5.0 * radius / view.scale());
+        let count = self.drawn(detail);
+        let lines = step.catenaries.iter().take(count);
+        for contact in lines.filter_map(|c| c.contact.as_ref()) {
             let [Some(first), Some(last)] = [contact.points.first(), contact.points.last()] else {
                 continue;
             };
@@ -233,13 +268,19 @@ impl Stage<'_> {
                 0 => vec![contact.points[contact.points.len() / 2]],
                 _ => surface::stations(&contact.points, marks),
             };
-            thread(pieces, view, &contact.points, lift, RED, 2.4);
-            pieces.extend(spots.into_iter().map(|spot| Piece {
-                depth: view.depth(spot) + lift,
-                points: vec![view.at(spot)],
-                ink: RED,
-                form: Form::Ring(radius),
-            }));
+            if contact.points.len() > 1 {
+                let line = surface::stations(&contact.points, detail.pieces);
+                thread(pieces, view, &line, lift, RED, 0.65 * radius);
+            }
+            // On a large array the lines alone can tell.
+            if radius > 1.0 {
+                pieces.extend(spots.into_iter().map(|spot| Piece {
+                    depth: view.depth(spot) + lift,
+                    points: vec![view.at(spot)],
+                    ink: RED,
+                    form: Form::Ring(radius),
+                }));
+            }
         }
     }
 }
