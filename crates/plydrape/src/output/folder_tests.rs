@@ -166,6 +166,9 @@ fn a_folder_that_takes_no_files_is_an_error_with_a_remedy() {
 }
 
 proptest! {
+    // Each case waits for the disk many times.
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
     /// Whatever runs and edits come in whatever order: a run that succeeds leaves exactly its files
     /// besides the user's, a run that fails changes nothing, and the user's files never change.
     #[test]

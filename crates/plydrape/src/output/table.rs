@@ -21,23 +21,17 @@ const COLUMNS: [&str; 7] = [
 /// One row a step: worst values and the share in contact.
 ///
 /// Of more than 40 steps it shows the first, the last, those where contact and shear begin, those of
-/// the worst values, and some evenly between; a row of `⋮` stands for the others.
+/// the worst values, and some evenly between.
 #[must_use]
 pub fn steps_table(result: &ResultFile) -> String {
     let shown = chosen(result);
     let mut rows = vec![header()];
-    let mut previous = None;
-    for (index, step) in result.steps.iter().enumerate() {
-        if !shown.contains(&index) {
-            continue;
-        }
-        if previous.is_some_and(|p: usize| p + 1 < index) {
-            rows.push(vec!["⋮".into(); COLUMNS.len() + 1]);
-        }
-        rows.push(row(step));
-        previous = Some(index);
+    rows.extend(shown.iter().map(|index| row(&result.steps[*index])));
+    let mut text = aligned(&rows, &[]);
+    if shown.len() < result.steps.len() {
+        let (some, all) = (shown.len(), result.steps.len());
+        let _ = writeln!(text, "{some} of {all} steps shown; steps.csv has all");
     }
-    let mut text = aligned(&rows, 0);
     text.push_str(&failed_solves(result));
     text
 }
@@ -141,7 +135,7 @@ pub fn verdict(result: &ResultFile) -> String {
                 v.at.clone(),
             ]
         }));
-        text = aligned(&rows, 1);
+        text = aligned(&rows, &[0, 3, 4, 6]);
     }
     if summary.steps < summary.steps_planned {
         let (done, planned) = (summary.steps, summary.steps_planned);
@@ -199,12 +193,13 @@ fn significant(value: f64) -> String {
     if size != 0.0 && !(1e-3..1e6).contains(&size) {
         return format!("{value:.2e}");
     }
-    let before = if size >= 1.0 {
-        size.log10().floor() as usize
+    // Digits after the point, so that four count in all.
+    let power = if size == 0.0 {
+        0.0
     } else {
-        0
+        size.log10().floor()
     };
-    let text = format!("{value:.*}", 3usize.saturating_sub(before));
+    let text = format!("{value:.*}", (3.0 - power).max(0.0) as usize);
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
@@ -212,31 +207,22 @@ fn significant(value: f64) -> String {
     }
 }
 
-/// Columns aligned, two spaces between: the first `left` and the last to the left, numbers to the right.
-fn aligned(rows: &[Vec<String>], left: usize) -> String {
+/// Columns aligned, two spaces between; numbers to the right, the columns of words to the left.
+fn aligned(rows: &[Vec<String>], words: &[usize]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
-    let width = |column: usize| {
-        rows.iter()
-            .map(|r| r[column].chars().count())
-            .max()
-            .unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let words = left > 0;
+    let cells = |column: usize| rows.iter().map(move |r| r[column].chars().count());
+    let widths: Vec<usize> = (0..columns).map(|c| cells(c).max().unwrap_or(0)).collect();
     let mut text = String::new();
     for row in rows {
-        let mut line = String::new();
-        for (column, cell) in row.iter().enumerate() {
-            let gap = if column == 0 { "" } else { "  " };
-            let pad = " ".repeat(widths[column].saturating_sub(cell.chars().count()));
-            // Names, units, marks and places read from the left.
-            if words && matches!(column, 0 | 3 | 4 | 6) {
-                line.push_str(&format!("{gap}{cell}{pad}"));
-            } else {
-                line.push_str(&format!("{gap}{pad}{cell}"));
+        let set = |(column, cell): (usize, &String)| {
+            let pad = " ".repeat(widths[column] - cell.chars().count());
+            match words.contains(&column) {
+                true => format!("{cell}{pad}"),
+                false => format!("{pad}{cell}"),
             }
-        }
-        text.push_str(&shortened(line.trim_end(), 100));
+        };
+        let line: Vec<String> = row.iter().enumerate().map(set).collect();
+        text.push_str(&shortened(line.join("  ").trim_end(), 100));
         text.push('\n');
     }
     text
@@ -321,10 +307,12 @@ mod tests {
     /// Digits that matter, none that do not.
     #[test]
     fn numbers_are_short() {
-        let shown = [0.0, 0.5, 12.0, 12.345678, 123456.0, 0.03, 1e-9, 40.0].map(significant);
+        let shown = [0.0, 0.5, 12.0, 12.345678, 123456.0, 0.0142, 1e-9, 40.0].map(significant);
         assert_eq!(
             shown,
-            ["0", "0.5", "12", "12.35", "123456", "0.03", "1.00e-9", "40"]
+            [
+                "0", "0.5", "12", "12.35", "123456", "0.0142", "1.00e-9", "40"
+            ]
         );
         assert_eq!(fixed(Some(-1e-12), 2), "0.00");
     }

@@ -236,16 +236,15 @@ impl Stage<'_> {
         let depth = view.depth(gripper.position) + self.lift(detail) + 2.0 * radius;
         let mut rim = points.clone();
         rim.push(points[0]);
-        for (points, ink, form) in [
-            (points, BLACK, Form::Area),
-            (rim, RIM, Form::Line(rim_width)),
-        ] {
-            pieces.push(Piece {
-                depth,
-                points,
-                ink,
-                form,
-            });
+        let piece = |points, ink, form| Piece {
+            depth,
+            points,
+            ink,
+            form,
+        };
+        pieces.push(piece(points, BLACK, Form::Area));
+        if rim_width > 0.2 {
+            pieces.push(piece(rim, RIM, Form::Line(rim_width)));
         }
     }
 
