@@ -10,6 +10,7 @@ mod canvas;
 mod colour;
 mod layout;
 mod panel;
+mod piece;
 mod projection;
 mod surface;
 

@@ -2,8 +2,9 @@
 
 use super::FigureError;
 use super::axes::Frame;
-use super::canvas::{Canvas, Ink, Px};
+use super::canvas::{Canvas, Px};
 use super::colour::{BLACK, MOLD, RED, RIM, TARGET, WEAVE, viridis};
+use super::piece::{self, Form, Piece, thread};
 use super::projection::{Point, View, turned};
 use super::surface;
 use crate::output::result::{Gripper, ResultFile, Step};
@@ -46,25 +47,6 @@ impl Detail {
     }
 }
 
-/// A flat shape on the sheet and how near it is.
-struct Piece {
-    depth: f64,
-    points: Vec<Px>,
-    ink: Ink,
-    form: Form,
-}
-
-/// What a piece is.
-#[derive(Clone, Copy)]
-enum Form {
-    /// A filled polygon.
-    Area,
-    /// A line of a width (picture points).
-    Line(f64),
-    /// An open circle of a radius (picture points) around its only point.
-    Ring(f64),
-}
-
 /// What all panels share.
 pub(super) struct Stage<'a> {
     pub result: &'a ResultFile,
@@ -80,12 +62,12 @@ pub(super) struct Stage<'a> {
 /// Radius of a gripper's disc (m).
 pub(super) fn gripper_radius(result: &ResultFile) -> f64 {
     let [a, b] = result.scene.cell;
-    GRIPPER
-        * if result.scene.grid.nv > 1 {
-            a.min(b)
-        } else {
-            a
-        }
+    let side = if result.scene.grid.nv > 1 {
+        a.min(b)
+    } else {
+        a
+    };
+    GRIPPER * side
 }
 
 impl Stage<'_> {
@@ -105,17 +87,7 @@ impl Stage<'_> {
             self.gripper(&mut pieces, view, gripper, detail);
         }
         self.contact(&mut pieces, view, step, detail);
-        pieces.sort_by(|a, b| a.depth.total_cmp(&b.depth));
-        for piece in &pieces {
-            match piece.form {
-                Form::Area => canvas.polygon(&piece.points, piece.ink)?,
-                Form::Line(width) => canvas.line(&piece.points, piece.ink, width)?,
-                Form::Ring(radius) => {
-                    let width = (0.45 * radius).min(1.3);
-                    canvas.circle(piece.points[0], radius, piece.ink, width)?;
-                }
-            }
-        }
+        piece::paint(canvas, pieces)?;
         self.frame.front(canvas, view)
     }
 
@@ -282,24 +254,4 @@ impl Stage<'_> {
             }
         }
     }
-}
-
-/// A line in pieces, each with its own depth, brought nearer by `lift` (m).
-fn thread(pieces: &mut Vec<Piece>, view: &View, line: &[Point], lift: f64, ink: Ink, width: f64) {
-    pieces.extend(line.windows(2).map(|pair| Piece {
-        depth: lift + (view.depth(pair[0]) + view.depth(pair[1])) / 2.0,
-        points: overlapped(view.at(pair[0]), view.at(pair[1])),
-        ink,
-        form: Form::Line(width),
-    }));
-}
-
-/// A piece of line, a little longer at both ends, so that pieces join.
-fn overlapped(a: Px, b: Px) -> Vec<Px> {
-    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-    let hair = 0.3 / dx.hypot(dy).max(0.3);
-    vec![
-        [a[0] - hair * dx, a[1] - hair * dy],
-        [b[0] + hair * dx, b[1] + hair * dy],
-    ]
 }

@@ -42,6 +42,9 @@ pub(super) fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
 
 /// Points of a polyline at equal shares of its horizontal way (of its length, if it is upright).
 pub(super) fn stations(line: &[Point], count: usize) -> Vec<Point> {
+    if line.len() < 2 {
+        return line.to_vec();
+    }
     let way = |axes: usize| -> Vec<f64> {
         let mut sum = 0.0;
         let step = |pair: &[Point]| {
