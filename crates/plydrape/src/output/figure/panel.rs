@@ -166,9 +166,11 @@ impl Stage<'_> {
 
         let lines = surface::lines(grid, step, detail.pieces);
         let count = self.drawn(detail);
+        // Finer lines leave colour to be seen in small cells.
+        let finer = (self.cell_length() * view.scale() / 70.0).clamp(0.4, 1.0);
         for (k, line) in lines.iter().take(count).enumerate() {
             let width = if k < grid.edges() { 1.7 } else { 1.1 };
-            thread(pieces, view, line, lift, RED, width);
+            thread(pieces, view, line, lift, RED, width * finer);
         }
     }
 
