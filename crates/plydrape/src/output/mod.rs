@@ -1,3 +1,85 @@
 //! What a drape leaves behind: the result file, tables and the figure.
+//!
+//! [`result::ResultFile`] holds everything; the rest of this module makes text from it and computes no
+//! physics. [`write_all`] puts the four files into a folder:
+//!
+//! - `result.json`, complete: every other file can be made from it ([`json`]);
+//! - `steps.csv` and `trajectory.csv`, with units in their headers ([`csv`]);
+//! - `figure.svg`, three chosen steps in 3D ([`figure`]).
+//!
+//! [`table`] prints steps and verdict for people, [`folder`] writes files whole or not at all.
 
+pub mod csv;
+mod error;
+pub mod figure;
+mod finite;
+pub mod folder;
+pub mod json;
+mod manifest;
 pub mod result;
+pub mod table;
+
+#[cfg(test)]
+mod sample;
+
+pub use error::OutputError;
+
+use result::ResultFile;
+use std::path::{Path, PathBuf};
+
+/// Writes `result.json`, `steps.csv`, `trajectory.csv` and `figure.svg` into a folder, all or none.
+///
+/// The figure shows [`figure::default_steps`]. Returns the four paths. Same result, same bytes.
+///
+/// # Errors
+/// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
+/// the folder is then as it was.
+pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
+    // First of all: it proves every number finite.
+    let json = json::text(result)?;
+    let steps = csv::steps(result)?;
+    let trajectory = csv::trajectory(result)?;
+    let figure = figure::svg(result, &figure::default_steps(result))?;
+    folder::write(
+        dir,
+        &[
+            ("result.json", json.as_bytes()),
+            ("steps.csv", steps.as_bytes()),
+            ("trajectory.csv", trajectory.as_bytes()),
+            ("figure.svg", figure.as_bytes()),
+        ],
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four files, and the same bytes again from the same result.
+    #[test]
+    fn write_all_is_complete_and_repeats_itself() {
+        let dir = tempfile::tempdir().unwrap();
+        let result = sample::draped(4, 2, 30);
+        let paths = write_all(&result, dir.path()).unwrap();
+        let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
+        assert_eq!(
+            names,
+            ["result.json", "steps.csv", "trajectory.csv", "figure.svg"]
+        );
+        let read = || -> Vec<Vec<u8>> { paths.iter().map(|p| std::fs::read(p).unwrap()).collect() };
+        let first = read();
+        write_all(&result, dir.path()).unwrap();
+        assert_eq!(read(), first);
+    }
+
+    /// A result that cannot be written leaves no folder behind.
+    #[test]
+    fn a_number_that_is_not_finite_writes_nothing() {
+        let home = tempfile::tempdir().unwrap();
+        let mut result = sample::draped(2, 2, 2);
+        result.steps[0].time = f64::NAN;
+        let fault = write_all(&result, &home.path().join("out")).unwrap_err();
+        assert!(fault.to_string().contains("steps[0].time"), "{fault}");
+        assert!(!home.path().join("out").exists());
+    }
+}

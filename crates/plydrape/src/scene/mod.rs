@@ -58,6 +58,7 @@ pub struct Settings {
     /// How shared slopes are found.
     pub slopes: SlopeRule,
     /// Axial stiffness EA (N); infinite for an inextensible ply (written as null).
+    #[serde(serialize_with = "infinite_as_null")]
     pub axial_stiffness: f64,
     /// Acceleration of gravity g (m/s²).
     pub gravity: f64,
@@ -65,6 +66,12 @@ pub struct Settings {
     pub max_tilt: f64,
     /// How contact is found.
     pub contact: Contact,
+}
+
+/// An infinite value on purpose becomes null; any other number stays.
+fn infinite_as_null<S: serde::Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
+    let finite = (*value != f64::INFINITY).then_some(*value);
+    finite.serialize(to)
 }
 
 /// How shared slopes are found, eqs. (9) and (10) of `docs/theory.md`.

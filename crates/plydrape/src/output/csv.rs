@@ -1,0 +1,175 @@
+//! The tables `steps.csv` and `trajectory.csv`, units in their headers.
+//!
+//! Numbers are in the shortest form that reads back to the same double. A measure without a meaning in
+//! a step leaves its cells empty.
+
+use super::result::{Measures, ResultFile, Step, Worst};
+use ::csv::{Error, Writer};
+
+/// Column of a measure, and how to find it.
+type Column = (&'static str, &'static str, fn(&Measures) -> Option<&Worst>);
+
+/// Every measure with a place: header of the value, header of the place, the field.
+const MEASURES: [Column; 11] = [
+    ("slack (mm)", "slack at", |m| m.slack_mm.as_ref()),
+    ("slack ratio (1)", "slack ratio at", |m| {
+        m.slack_ratio.as_ref()
+    }),
+    ("wrinkle amplitude (mm)", "wrinkle amplitude at", |m| {
+        m.wrinkle_mm.as_ref()
+    }),
+    ("overstretch (1)", "overstretch at", |m| {
+        m.overstretch.as_ref()
+    }),
+    ("overstretch (mm)", "overstretch length at", |m| {
+        m.overstretch_mm.as_ref()
+    }),
+    ("bridging (mm)", "bridging at", |m| m.bridging_mm.as_ref()),
+    ("shear (deg)", "shear at", |m| m.shear_deg.as_ref()),
+    ("tilt (deg)", "tilt at", |m| m.tilt_deg.as_ref()),
+    ("horizontal force (N)", "horizontal force at", |m| {
+        m.force_n.as_ref()
+    }),
+    ("landing error (mm)", "landing error at", |m| {
+        m.landing_error_mm.as_ref()
+    }),
+    ("gap (mm)", "gap at", |m| m.gap_mm.as_ref()),
+];
+
+/// One row a step: time (s), every measure and where it is, share in contact, how the solver ended.
+///
+/// # Errors
+/// If the table cannot be formed; memory apart there is no known case.
+pub fn steps(result: &ResultFile) -> Result<String, Error> {
+    let mut table = Writer::from_writer(Vec::new());
+    let mut header = vec!["step", "t (s)"];
+    header.extend(MEASURES.iter().flat_map(|(value, at, _)| [*value, *at]));
+    header.extend([
+        "contact share (1)",
+        "solver status",
+        "iterations",
+        "residual",
+        "equilibria",
+    ]);
+    table.write_record(&header)?;
+    for step in &result.steps {
+        table.write_record(step_row(step))?;
+    }
+    text(table)
+}
+
+fn step_row(step: &Step) -> Vec<String> {
+    let mut row = vec![step.step.to_string(), number(step.time)];
+    for (_, _, find) in &MEASURES {
+        let worst = find(&step.measures);
+        row.push(worst.map(|w| number(w.value)).unwrap_or_default());
+        row.push(worst.map(|w| w.at.clone()).unwrap_or_default());
+    }
+    row.push(step.measures.contact_share.map(number).unwrap_or_default());
+    row.push(step.solver.status.to_owned());
+    row.push(step.solver.iterations.to_string());
+    row.push(number(step.solver.residual));
+    row.push(step.solver.equilibria.to_string());
+    row
+}
+
+/// One row a gripper and step: time (s), gripper `i-j`, position (m), orientation (x, y, z, w).
+///
+/// # Errors
+/// If the table cannot be formed; memory apart there is no known case.
+pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
+    let mut table = Writer::from_writer(Vec::new());
+    table.write_record([
+        "t (s)", "gripper", "x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw",
+    ])?;
+    for step in &result.steps {
+        for gripper in &step.grippers {
+            let [i, j] = gripper.id;
+            let mut row = vec![number(step.time), format!("{i}-{j}")];
+            row.extend(gripper.position.map(number));
+            row.extend(gripper.quaternion.map(number));
+            table.write_record(&row)?;
+        }
+    }
+    text(table)
+}
+
+/// The shortest decimal that reads back to the same double.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+fn text(table: Writer<Vec<u8>>) -> Result<String, Error> {
+    let bytes = table.into_inner().map_err(|e| e.into_error())?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::sample;
+
+    fn rows(text: &str) -> Vec<Vec<String>> {
+        let mut reader = ::csv::Reader::from_reader(text.as_bytes());
+        reader
+            .records()
+            .map(|r| r.unwrap().iter().map(str::to_owned).collect())
+            .collect()
+    }
+
+    /// The header is what robot programs are told to expect.
+    #[test]
+    fn trajectory_has_exactly_the_promised_columns() {
+        let text = trajectory(&sample::draped(4, 2, 3)).unwrap();
+        assert_eq!(
+            text.lines().next(),
+            Some("t (s),gripper,x (m),y (m),z (m),qx,qy,qz,qw")
+        );
+    }
+
+    /// Time, position and orientation read back to the same bits, step by step, gripper by gripper.
+    #[test]
+    fn trajectory_reads_back_to_the_same_numbers() {
+        let mut result = sample::draped(4, 2, 3);
+        result.steps[1].grippers[0].position = [1.0 / 3.0, 1e-300, -0.0];
+        let rows = rows(&trajectory(&result).unwrap());
+        let mut rows = rows.iter();
+        for step in &result.steps {
+            for gripper in &step.grippers {
+                let row = rows.next().unwrap();
+                assert_eq!(row[1], format!("{}-{}", gripper.id[0], gripper.id[1]));
+                let written: Vec<f64> = [0, 2, 3, 4, 5, 6, 7, 8]
+                    .map(|k| row[k].parse().unwrap())
+                    .to_vec();
+                let mut expected = vec![step.time];
+                expected.extend(gripper.position);
+                expected.extend(gripper.quaternion);
+                let bits = |list: &[f64]| list.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(&written), bits(&expected));
+            }
+        }
+        assert!(rows.next().is_none());
+    }
+
+    /// A place is words and may hold commas; an unknown measure is an empty cell.
+    #[test]
+    fn steps_hold_places_with_commas_and_empty_cells() {
+        let mut result = sample::draped(4, 2, 3);
+        let at = "edge [0, 0]–[1, 0], second span";
+        result.steps[0].measures.slack_mm = Some(Worst {
+            value: 1.25,
+            at: at.into(),
+            place: [0.0; 3],
+        });
+        result.steps[0].measures.bridging_mm = None;
+        let text = steps(&result).unwrap();
+        let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+        let column = |name| header.iter().position(|h| *h == name).unwrap();
+        let rows = rows(&text);
+        assert_eq!(rows.len(), 3);
+        assert_eq!(rows[0][column("slack (mm)")], "1.25");
+        assert_eq!(rows[0][column("slack at")], at);
+        assert_eq!(rows[0][column("bridging (mm)")], "");
+        assert_eq!(rows[2][column("solver status")], "converged");
+    }
+}

@@ -1,0 +1,206 @@
+use super::*;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+
+/// Everything in a folder: name and content, `None` for a folder.
+fn contents(dir: &Path) -> BTreeMap<String, Option<Vec<u8>>> {
+    fs::read_dir(dir)
+        .unwrap()
+        .map(|entry| {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            (name, fs::read(path).ok())
+        })
+        .collect()
+}
+
+fn names(dir: &Path) -> Vec<String> {
+    contents(dir).into_keys().collect()
+}
+
+/// A rerun, longer or shorter, replaces what the run before wrote and leaves nothing else behind.
+#[test]
+fn a_rerun_replaces_its_own_files() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path().join("deep/out");
+    write(&dir, &[("result.json", b"one"), ("old.svg", b"stale")]).unwrap();
+    let paths = write(&dir, &[("result.json", b"two"), ("steps.csv", b"s")]).unwrap();
+    assert_eq!(paths, [dir.join("result.json"), dir.join("steps.csv")]);
+    assert_eq!(names(&dir), [".plydrape", "result.json", "steps.csv"]);
+    assert_eq!(fs::read(dir.join("result.json")).unwrap(), b"two");
+    write(&dir, &[("result.json", b"two")]).unwrap();
+    assert_eq!(names(&dir), [".plydrape", "result.json"]);
+}
+
+/// The user's own `result.json` was there first.
+#[test]
+fn a_file_of_the_users_is_never_overwritten() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("result.json"), "mine").unwrap();
+    let before = contents(dir.path());
+    let fault = write(dir.path(), &[("steps.csv", b"s"), ("result.json", b"r")]).unwrap_err();
+    assert!(matches!(&fault, OutputError::Foreign { path } if path.ends_with("result.json")));
+    assert!(fault.to_string().contains("-o"), "{fault}");
+    assert_eq!(contents(dir.path()), before);
+}
+
+/// A file that plydrape wrote and the user then edited is the user's; a stale one stays too.
+#[test]
+fn an_edited_file_is_the_users() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), &[("a", b"1"), ("b", b"2")]).unwrap();
+    fs::write(dir.path().join("b"), "9").unwrap();
+    let before = contents(dir.path());
+    assert!(write(dir.path(), &[("a", b"3"), ("b", b"4")]).is_err());
+    assert_eq!(contents(dir.path()), before);
+    write(dir.path(), &[("a", b"3")]).unwrap();
+    assert_eq!(fs::read(dir.path().join("b")).unwrap(), b"9");
+}
+
+/// A folder where a file should go stops the run before the first file.
+#[test]
+fn a_folder_in_the_way_leaves_everything_as_it_was() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), &[("a", b"1")]).unwrap();
+    fs::create_dir(dir.path().join("c")).unwrap();
+    let before = contents(dir.path());
+    assert!(write(dir.path(), &[("a", b"2"), ("b", b"2"), ("c", b"2")]).is_err());
+    assert_eq!(contents(dir.path()), before);
+}
+
+/// The disk refuses in the middle of the moves: the moves done so far are taken back.
+#[test]
+fn a_move_that_fails_in_the_middle_is_undone() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), &[("a", b"1"), ("gone", b"1")]).unwrap();
+    let before = contents(dir.path());
+    let stage = tempfile::Builder::new()
+        .prefix(".plydrape-")
+        .tempdir_in(dir.path())
+        .unwrap();
+    for name in ["a", "b"] {
+        stage_file(&stage, dir.path(), name, b"2").unwrap();
+    }
+    let mut moves = Moves::new(dir.path(), stage);
+    moves.put("a", "a").unwrap();
+    moves.put("b", "b").unwrap();
+    moves.take("gone").unwrap();
+    // Never staged, so the rename fails as it would on a broken disk.
+    let fault = moves.put("c", "c").unwrap_err();
+    assert!(matches!(moves.undo(fault), OutputError::Io { .. }));
+    assert_eq!(contents(dir.path()), before);
+}
+
+/// Between the two lists a power cut may fall: both the old and the new files are known then.
+#[test]
+fn a_cut_between_list_and_files_leaves_a_folder_that_a_rerun_knows() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), &[("a", b"1"), ("b", b"1")]).unwrap();
+    let old = Manifest::read(dir.path()).unwrap();
+    let both = old.with(&Manifest::of(&[("a", b"2"), ("b", b"2")]));
+    fs::write(dir.path().join(MANIFEST), both.text().unwrap()).unwrap();
+    fs::write(dir.path().join("a"), "2").unwrap();
+    write(dir.path(), &[("a", b"3"), ("b", b"3")]).unwrap();
+    assert_eq!(fs::read(dir.path().join("b")).unwrap(), b"3");
+}
+
+/// A list that names files elsewhere must not make plydrape remove them.
+#[test]
+fn a_list_that_reaches_out_of_its_folder_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path().join("out");
+    fs::create_dir(&dir).unwrap();
+    fs::write(home.path().join("victim"), "v").unwrap();
+    let list = format!(
+        r#"{{"../victim":[{{"crc32":{},"length":1}}]}}"#,
+        crc32fast::hash(b"v")
+    );
+    fs::write(dir.join(MANIFEST), list).unwrap();
+    assert!(write(&dir, &[("a", b"1")]).is_err());
+    assert!(home.path().join("victim").exists());
+    fs::write(dir.join(MANIFEST), "my own notes").unwrap();
+    assert!(matches!(
+        write(&dir, &[("a", b"1")]),
+        Err(OutputError::Foreign { .. })
+    ));
+    for name in ["", "..", "../a", "a/b", "/a", ".plydrape"] {
+        assert!(write(home.path(), &[(name, b"1")]).is_err(), "{name:?}");
+    }
+}
+
+/// A link to a file elsewhere is not ours, whatever stands behind it.
+#[cfg(unix)]
+#[test]
+fn a_link_is_not_followed() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path().join("out");
+    write(&dir, &[("a", b"1")]).unwrap();
+    fs::rename(dir.join("a"), home.path().join("a")).unwrap();
+    std::os::unix::fs::symlink(home.path().join("a"), dir.join("a")).unwrap();
+    assert!(matches!(
+        write(&dir, &[("a", b"2")]),
+        Err(OutputError::Foreign { .. })
+    ));
+}
+
+/// A path that is a file, or runs through one, says so.
+#[test]
+fn a_path_that_is_a_file_is_refused_by_name() {
+    let home = tempfile::tempdir().unwrap();
+    let file = home.path().join("file");
+    fs::write(&file, "f").unwrap();
+    for path in [file.clone(), file.join("below")] {
+        let fault = write(&path, &[("a", b"1")]).unwrap_err();
+        assert!(matches!(fault, OutputError::NotAFolder { .. }), "{fault}");
+    }
+    assert_eq!(fs::read(&file).unwrap(), b"f");
+}
+
+/// Linux's `/proc` refuses new files to everyone, also to root, for whom a read-only folder is not one.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_takes_no_files_is_an_error_with_a_remedy() {
+    let fault = write(Path::new("/proc/self"), &[("a", b"1")]).unwrap_err();
+    assert!(fault.to_string().contains("/proc/self"), "{fault}");
+    assert!(fault.to_string().contains("-o"), "{fault}");
+}
+
+proptest! {
+    // Each case waits for the disk many times.
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    /// Whatever runs and edits come in whatever order: a run that succeeds leaves exactly its files
+    /// besides the user's, a run that fails changes nothing, and the user's files never change.
+    #[test]
+    fn runs_and_edits_in_any_order_lose_nothing(
+        acts in proptest::collection::vec((any::<bool>(), 1u8..16, 0u8..3), 1..12)
+    ) {
+        let dir = tempfile::tempdir().unwrap();
+        let all = ["a", "b", "c", "d"];
+        let mut users: BTreeMap<String, Vec<u8>> = BTreeMap::new();
+        for (k, (run, mask, content)) in acts.into_iter().enumerate() {
+            let chosen: Vec<&str> = (0..4).filter(|i| mask >> i & 1 == 1).map(|i| all[i]).collect();
+            if run {
+                let bytes = [content];
+                let files: Vec<(&str, &[u8])> = chosen.iter().map(|n| (*n, &bytes[..])).collect();
+                let before = contents(dir.path());
+                match write(dir.path(), &files) {
+                    Ok(_) => {
+                        let mut expected = users.clone();
+                        expected.extend(chosen.iter().map(|n| ((*n).to_owned(), bytes.to_vec())));
+                        let mut found = contents(dir.path());
+                        found.remove(MANIFEST);
+                        let found: BTreeMap<_, _> =
+                            found.into_iter().map(|(n, c)| (n, c.unwrap())).collect();
+                        prop_assert_eq!(found, expected);
+                    }
+                    Err(_) => prop_assert_eq!(contents(dir.path()), before),
+                }
+            } else {
+                let mine = format!("mine {k}").into_bytes();
+                fs::write(dir.path().join(chosen[0]), &mine).unwrap();
+                users.insert(chosen[0].to_owned(), mine);
+            }
+        }
+    }
+}
