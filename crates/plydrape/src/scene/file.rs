@@ -244,6 +244,7 @@ pub(super) struct ContactTable {
 /// When contact is evaluated.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
+#[schemars(rename = "Stepping")]
 pub(super) enum SteppingKey {
     /// Once per step, as in Krogh et al. 2018.
     Once,
@@ -254,6 +255,7 @@ pub(super) enum SteppingKey {
 /// Slope of a span where it leaves the mold.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
+#[schemars(rename = "End")]
 pub(super) enum EndKey {
     /// Free, as in Krogh et al. 2018.
     Free,

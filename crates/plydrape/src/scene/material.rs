@@ -225,11 +225,12 @@ fn shear_curve(
                 coefficients.push(coefficient.si(document)?);
             }
             let curve = ShearCurve::Polynomial { coefficients };
-            match (1..=60).find(|degree| !(curve.force(f64::from(*degree).to_radians()).0 >= 0.0)) {
+            let force = |degree: i32| curve.force(f64::from(degree).to_radians()).0;
+            match (1..=60).find(|degree| force(*degree) < 0.0 || !force(*degree).is_finite()) {
                 None => Ok(curve),
                 Some(degree) => Err(document.error(
                     polynomial.span.clone(),
-                    format!("the shear force is negative at {degree} deg"),
+                    format!("the shear force is negative or infinite at {degree} deg"),
                     "give coefficients of γ, γ², … in N/m, γ in rad, with a force of zero or more up to 60 deg",
                 )),
             }

@@ -17,12 +17,14 @@ mod motion;
 mod places;
 mod quantity;
 mod read;
+mod schema;
 mod start;
 mod target;
 mod units;
 
 pub use error::SceneError;
 pub use material::shipped_materials;
+pub use schema::schema;
 
 use crate::mold::Mold;
 use crate::ply::Ply;
@@ -59,13 +61,6 @@ fn scene(document: &error::Document, base: &Path) -> Result<Scene, SceneError> {
         ));
     }
     check::scene(&read::keys(document)?, document, base)
-}
-
-/// The JSON Schema (draft 2020-12) of scene files, for editors that complete and check TOML.
-#[must_use]
-pub fn schema() -> String {
-    let schema = schemars::schema_for!(file::SceneFile);
-    format!("{:#}\n", schema.as_value())
 }
 
 /// A checked scene.
