@@ -156,10 +156,8 @@ impl SourceCode for Refused {
         let line_end = text[end..]
             .find('\n')
             .map_or(text.len(), |length| end + length);
-        let from = text
-            .floor_char_boundary(start.saturating_sub(SURROUNDINGS))
-            .max(line_start);
-        let to = text.floor_char_boundary(end + SURROUNDINGS).min(line_end);
+        let from = boundary(text, start.saturating_sub(SURROUNDINGS)).max(line_start);
+        let to = boundary(text, end + SURROUNDINGS).min(line_end);
         let line = text[..start].matches('\n').count();
         Ok(Box::new(MietteSpanContents::new_named(
             self.0.file.clone(),
@@ -170,4 +168,13 @@ impl SourceCode for Refused {
             1,
         )))
     }
+}
+
+/// The last boundary between characters at or before a byte.
+fn boundary(text: &str, byte: usize) -> usize {
+    let mut at = byte.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
 }

@@ -191,7 +191,7 @@ fn settings(file: &SceneFile, ply: &Ply, document: &Document) -> Result<Settings
             if value > 0.1 * cell {
                 return Err(document.error(
                     tolerance.span.clone(),
-                    format!("`{}` is more than a tenth of a cell", document.excerpt(&tolerance.span)),
+                    format!("{} is more than a tenth of a cell", document.quoted(&tolerance.span)),
                     format!("the contact tolerance is a small distance, e.g. \"0.2 mm\"; a cell is {:.2} mm here", cell * 1e3),
                 ));
             }
@@ -274,7 +274,7 @@ fn share(
     }
     Err(document.error(
         ratio.span.clone(),
-        format!("`{}` is more than the whole", document.excerpt(&ratio.span)),
+        format!("{} is more than the whole", document.quoted(&ratio.span)),
         format!("a share from 0 to 1 is wanted; {value} of a hundred is \"{value} %\""),
     ))
 }

@@ -114,7 +114,7 @@ impl Row<'_> {
             Ok(value) if value.is_finite() => Ok(value * self.csv.columns[column].1),
             _ => Err(self.fault(
                 column,
-                format!("`{}` is no finite number", self.csv.document.excerpt(&self.place(column))),
+                format!("{} is no finite number", self.csv.document.quoted(&self.place(column))),
                 "write numbers as 0.098 or 9.8e-2; the unit belongs into the header, as in `x (mm)`",
             )),
         }
@@ -127,8 +127,8 @@ impl Row<'_> {
             self.fault(
                 column,
                 format!(
-                    "`{}` is no whole number",
-                    self.csv.document.excerpt(&self.place(column))
+                    "{} is no whole number",
+                    self.csv.document.quoted(&self.place(column))
                 ),
                 "gripper indices are whole numbers from 0",
             )

@@ -88,7 +88,16 @@ impl Document {
         }
     }
 
-    /// The text at a span as it stands in the file, shortened for a message.
+    /// A value as it stands in the file, for a message: a text in its quotes, others in ticks.
+    pub fn quoted(&self, span: &Range<usize>) -> String {
+        let value = self.excerpt(span);
+        if value.starts_with(['"', '\'']) {
+            return value;
+        }
+        format!("`{value}`")
+    }
+
+    /// The text at a span, shortened for a message.
     pub fn excerpt(&self, span: &Range<usize>) -> String {
         let text = self.text.get(span.clone()).unwrap_or_default();
         let line = text.lines().next().unwrap_or_default();

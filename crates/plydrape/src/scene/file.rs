@@ -18,7 +18,7 @@ use std::fmt;
 /// A scene of plydrape: a ply, the grippers that hold it, the mold, and where all of it goes.
 /// Plain numbers are in SI units; a string carries a unit, as in "98 mm".
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(title = "plydrape scene", rename = "Scene")]
 pub(super) struct SceneFile {
     /// Name for reports; the file's name unless given.
@@ -46,7 +46,7 @@ pub(super) struct SceneFile {
 
 /// What hangs between the grippers.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Ply")]
 pub(super) struct PlyTable {
     /// Number of grippers along u and along v; [n, 1] is a strip.
@@ -80,7 +80,7 @@ impl From<Warp> for Direction {
 
 /// A woven ply, by line as in Krogh et al. 2018 or by area.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Material")]
 pub(super) struct MaterialTable {
     /// Name for reports.
@@ -105,7 +105,7 @@ pub(super) struct MaterialTable {
 
 /// Measured points (`angle` and `force`), or a `polynomial`.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "ShearCurve")]
 pub(super) struct ShearCurveTable {
     /// Shear angles, ascending from 0 (rad).
@@ -118,7 +118,7 @@ pub(super) struct ShearCurveTable {
 
 /// The surface that the ply is laid on.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Mold")]
 pub(super) struct MoldTable {
     /// Shape of the mold.
@@ -144,7 +144,7 @@ pub(super) enum MoldKind {
 
 /// Where the grippers start: a rectangle by `spacing` and `height`, or `positions`.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Grippers")]
 pub(super) struct GrippersTable {
     /// Distance of neighbours along u and along v (m).
@@ -165,7 +165,7 @@ pub(super) struct GrippersTable {
 
 /// Where the ply shall end: a sheared parallelogram on the mold, or `positions`.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Target")]
 pub(super) struct TargetTable {
     /// Shear angle of the drape (rad): v stands at 90° minus this angle from u.
@@ -180,7 +180,7 @@ pub(super) struct TargetTable {
 
 /// How the grippers move.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Motion")]
 pub(super) struct MotionTable {
     /// Straight to the target, held still, or from a file.
@@ -207,7 +207,7 @@ pub(super) enum MotionKind {
 
 /// Rules of the model.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Model")]
 pub(super) struct ModelTable {
     /// How shared slopes are found, "moment-balance" unless given.
@@ -230,7 +230,7 @@ pub(super) enum Slopes {
 
 /// How contact between ply and mold is found.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Contact")]
 pub(super) struct ContactTable {
     /// Distance that counts as touching (m), 0.2 mm unless given.
@@ -265,7 +265,7 @@ pub(super) enum EndKey {
 
 /// What an accepted drape keeps to.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Limits")]
 pub(super) struct LimitsTable {
     /// Slack of a span as a share of its free length, 0.0005 unless given.

@@ -54,7 +54,7 @@ fn named(
             span.clone(),
             format!("there is no material \"{name}\""),
             format!(
-                "the shipped materials are {}; a file of your own is named with its ending, e.g. \"mine.toml\"",
+                "shipped are {}; a file of your own is named with its ending, e.g. \"mine.toml\"",
                 shipped.join(", ")
             ),
         ));
@@ -83,7 +83,9 @@ fn named(
 fn from_file(document: &Document, name: &str) -> Result<Material, SceneError> {
     let table: MaterialTable = read::keys(document)?;
     if table.source.is_none() {
-        return Err(document.error_anywhere(
+        let first_line = document.text.find('\n').unwrap_or(document.text.len());
+        return Err(document.error(
+            0..first_line,
             format!("the material file `{}` has no `source`", document.file),
             "say where the numbers come from: source = \"measured by …, 2026\"",
         ));
@@ -142,7 +144,7 @@ fn section(
     let mismatch = |rigidity: &str| {
         document.error(
             table.mass.span.clone(),
-            format!("`{}` does not go with `{rigidity}`", document.excerpt(&table.mass.span)),
+            format!("{} does not go with `{rigidity}`", document.quoted(&table.mass.span)),
             "a mass per length (kg/m) goes with `flexural_rigidity` (N m^2), a mass per area (kg/m^2) with `bending_rigidity_warp` and `_weft` (N m)",
         )
     };
@@ -277,10 +279,17 @@ fn rising_forces<M: Measure>(
     let mut values: Vec<f64> = Vec::with_capacity(forces.len());
     for force in forces {
         let value = force.not_negative(document)?;
-        if values.last().is_some_and(|last| value < *last) || value > RIGIDITY {
+        if value > RIGIDITY {
             return Err(document.error(
                 force.span.clone(),
-                "the force of the shear curve falls here, or is above 1e6 N/m",
+                format!("{} is too large for a ply", document.quoted(&force.span)),
+                "a shear force per length up to 1e6 N/m is wanted",
+            ));
+        }
+        if values.last().is_some_and(|last| value < *last) {
+            return Err(document.error(
+                force.span.clone(),
+                "the force of the shear curve falls here",
                 "give forces that never fall: where a test shows less force, the cloth slipped or wrinkled, and the curve ends before",
             ));
         }

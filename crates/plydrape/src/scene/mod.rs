@@ -39,7 +39,14 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 /// # Errors
 /// The first fault found, with its place and a remedy.
 pub fn read(path: &Path) -> Result<Scene, SceneError> {
-    let document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML)?;
+    let document =
+        read::text(path, &path.to_string_lossy(), read::LARGEST_TOML).map_err(|error| {
+            let help = format!(
+                "{}; `plydrape new NAME` writes a scene to start from",
+                error.help
+            );
+            SceneError { help, ..error }
+        })?;
     let base = path.parent().unwrap_or(Path::new(""));
     scene(&document, base)
 }

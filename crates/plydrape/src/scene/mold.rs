@@ -97,10 +97,7 @@ pub(super) fn heading(angle: &Quantity<Angle>, document: &Document) -> Result<f6
     }
     Err(document.error(
         angle.span.clone(),
-        format!(
-            "`{}` is more than a whole turn",
-            document.excerpt(&angle.span)
-        ),
+        format!("{} is more than a whole turn", document.quoted(&angle.span)),
         "plain numbers are radians; write degrees as \"90 deg\"",
     ))
 }

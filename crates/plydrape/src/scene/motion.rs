@@ -137,6 +137,7 @@ fn check_runs(motion: &Motion, start: &Places, ply: &Ply) -> Result<(), SceneErr
             points: positions.clone(),
             document: start.document.clone(),
             spans: start.spans.clone(),
+            height: None,
         };
         places.check_run(ply, &format!("in step {}", step + 1))?;
     }
@@ -182,48 +183,51 @@ pub(super) fn motion_file(
         ));
     }
     let document = csv_file(&name.value, &name.span, scene, base)?;
-    let mut steps = Steps::new(&document, ply.grid);
+    let mut steps = Steps::new(&document, ply);
     let csv = Csv::new(&document, &COLUMNS)?;
     for row in csv.rows() {
         steps.add(&row)?;
     }
     steps.finish(csv.header.clone())?;
-    let (motion, spans) = (steps.motion, steps.spans);
+    let (motion, spans) = (steps.motion, steps.first_spans);
     let start = Places {
-        points: motion.positions[0].clone(),
-        document: document.clone(),
+        points: motion.positions.first().cloned().unwrap_or_default(),
+        document,
         spans,
+        height: None,
     };
-    check_runs(&motion, &start, ply)?;
     Ok((motion, start))
 }
 
 /// The steps of a motion file, as its rows come.
 struct Steps<'a> {
     document: &'a Document,
-    grid: Grid,
+    ply: &'a Ply,
     motion: Motion,
     /// Time written in the file at the first step (s).
     first_time: f64,
     /// Which grippers the last step has so far.
     seen: Vec<bool>,
-    /// The row of each gripper in the first step.
+    /// The row of each gripper in the last step, and in the first.
     spans: Vec<Range<usize>>,
+    first_spans: Vec<Range<usize>>,
     last_row: Range<usize>,
 }
 
 impl<'a> Steps<'a> {
-    fn new(document: &'a Document, grid: Grid) -> Self {
+    fn new(document: &'a Document, ply: &'a Ply) -> Self {
+        let grippers = ply.grid.grippers();
         Steps {
             document,
-            grid,
+            ply,
             motion: Motion {
                 times: Vec::new(),
                 positions: Vec::new(),
             },
             first_time: 0.0,
-            seen: vec![false; grid.grippers()],
-            spans: vec![0..0; grid.grippers()],
+            seen: vec![false; grippers],
+            spans: vec![0..0; grippers],
+            first_spans: Vec::new(),
             last_row: 0..0,
         }
     }
@@ -249,7 +253,7 @@ impl<'a> Steps<'a> {
 
         // One gripper of the step.
         let gripper = gripper_id(row)?;
-        let index = in_grid(gripper, self.grid).map_err(|(m, h)| row.fault(1, m, h))?;
+        let index = in_grid(gripper, self.ply.grid).map_err(|(m, h)| row.fault(1, m, h))?;
         if std::mem::replace(&mut self.seen[index], true) {
             return Err(row.fault(
                 1,
@@ -260,16 +264,14 @@ impl<'a> Steps<'a> {
         if let Some(positions) = self.motion.positions.last_mut() {
             positions[index] = point(row, [2, 3, 4])?;
         }
-        if self.motion.times.len() == 1 {
-            self.spans[index] = row.span.clone();
-        }
+        self.spans[index] = row.span.clone();
         self.last_row = row.span.clone();
         Ok(())
     }
 
     fn begin(&mut self, time: f64, row: &Row) -> Result<(), SceneError> {
         self.complete()?;
-        let most = MOST_STEPS.min(MOST_POSITIONS / self.grid.grippers());
+        let most = MOST_STEPS.min(MOST_POSITIONS / self.ply.grid.grippers());
         if self.motion.times.len() == most || time > DURATIONS[1] {
             return Err(row.fault(
                 0,
@@ -281,33 +283,44 @@ impl<'a> Steps<'a> {
         self.motion.times.push(time);
         self.motion
             .positions
-            .push(vec![[0.0; 3]; self.grid.grippers()]);
+            .push(vec![[0.0; 3]; self.ply.grid.grippers()]);
         Ok(())
     }
 
-    /// Refuses a step in which a gripper is missing.
-    fn complete(&self) -> Result<(), SceneError> {
-        let (Some(time), Some(missing)) = (
-            self.motion.times.last(),
-            self.seen.iter().position(|seen| !seen),
-        ) else {
+    /// Refuses a step in which a gripper is missing or stands straight above another.
+    fn complete(&mut self) -> Result<(), SceneError> {
+        let (Some(time), Some(points)) = (self.motion.times.last(), self.motion.positions.last())
+        else {
             return Ok(());
+        };
+        let Some(missing) = self.seen.iter().position(|seen| !seen) else {
+            if self.first_spans.is_empty() {
+                self.first_spans.clone_from(&self.spans);
+            }
+            let places = Places {
+                points: points.clone(),
+                document: self.document.clone(),
+                spans: self.spans.clone(),
+                height: None,
+            };
+            let time = time + self.first_time;
+            return places.check_run(self.ply, &format!("at t = {time} s"));
         };
         Err(self.document.error(
             self.last_row.clone(),
             format!(
                 "gripper {:?} has no row at t = {} s",
-                self.grid.id(missing),
+                self.ply.grid.id(missing),
                 time + self.first_time
             ),
             format!(
                 "give every one of the {} grippers one row at every time",
-                self.grid.grippers()
+                self.ply.grid.grippers()
             ),
         ))
     }
 
-    fn finish(&self, header: Range<usize>) -> Result<(), SceneError> {
+    fn finish(&mut self, header: Range<usize>) -> Result<(), SceneError> {
         if self.motion.times.is_empty() {
             return Err(self.document.error(
                 header,

@@ -3,7 +3,7 @@
 use super::csv::{Column, Csv, Row};
 use super::error::{Document, SceneError};
 use super::file::{Positions, PositionsRow};
-use super::quantity::Located;
+use super::quantity::{Located, rounded};
 use super::read;
 use super::units::Dimension;
 use crate::ply::{Grid, GripperId, Kind, Ply};
@@ -27,6 +27,8 @@ pub(super) struct Places {
     pub document: Document,
     /// One span per gripper, or one for all.
     pub spans: Vec<Range<usize>>,
+    /// The span of the height, where it stands apart.
+    pub height: Option<Range<usize>>,
 }
 
 /// The columns of a table of positions.
@@ -179,6 +181,7 @@ fn from_table(
         points: Vec::with_capacity(grid.grippers()),
         document: scene.clone(),
         spans: Vec::with_capacity(grid.grippers()),
+        height: None,
     };
     for row in rows {
         if row.value.len() != grid.nu {
@@ -229,6 +232,7 @@ fn from_csv(document: Document, grid: Grid) -> Result<Places, SceneError> {
         points: points.into_iter().flatten().collect(),
         document,
         spans,
+        height: None,
     })
 }
 
@@ -257,7 +261,10 @@ pub(super) fn point(row: &Row, columns: [usize; 3]) -> Result<[f64; 3], SceneErr
         if coordinate.abs() > FARTHEST {
             return Err(row.fault(
                 column,
-                format!("this is {coordinate:e} m, out of all scale for a ply"),
+                format!(
+                    "this is {} m, out of all scale for a ply",
+                    rounded(*coordinate)
+                ),
                 "a column without a unit is in metres: did you mean a header such as `x (mm)`?",
             ));
         }

@@ -113,7 +113,7 @@ impl<M: Measure> Quantity<M> {
         }
         Err(document.error(
             self.span.clone(),
-            format!("`{}` is no finite number", document.excerpt(&self.span)),
+            format!("{} is no finite number", document.quoted(&self.span)),
             format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE),
         ))
     }
@@ -175,7 +175,7 @@ impl<M: Measure> Quantity<M> {
         let zero = if value == 0.0 { "zero" } else { "negative" };
         Err(document.error(
             self.span.clone(),
-            format!("`{}` is {zero}", document.excerpt(&self.span)),
+            format!("{} is {zero}", document.quoted(&self.span)),
             format!("{} above zero is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE),
         ))
     }
@@ -189,7 +189,7 @@ impl<M: Measure> Quantity<M> {
         let side = if value < low { "small" } else { "large" };
         Err(document.error(
             self.span.clone(),
-            format!("`{}` is too {side} for a ply", document.excerpt(&self.span)),
+            format!("{} is too {side} for a ply", document.quoted(&self.span)),
             format!("{} from {low:e} to {high:e} {} is wanted", M::NAME, M::UNIT),
         ))
     }
@@ -202,7 +202,7 @@ impl<M: Measure> Quantity<M> {
         }
         Err(document.error(
             self.span.clone(),
-            format!("`{}` is negative", document.excerpt(&self.span)),
+            format!("{} is negative", document.quoted(&self.span)),
             format!("{} of zero or more is wanted", M::NAME),
         ))
     }
@@ -240,12 +240,19 @@ impl Quantity<Length> {
         document.error(
             self.span.clone(),
             format!(
-                "`{}` is {value:e} m, out of all scale for a ply",
-                document.excerpt(&self.span)
+                "{} is {} m, out of all scale for a ply",
+                document.quoted(&self.span),
+                rounded(value)
             ),
             remedy,
         )
     }
+}
+
+/// Three digits, by powers of ten.
+pub(super) fn rounded(value: f64) -> String {
+    let short: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    format!("{short:e}")
 }
 
 impl Quantity<Angle> {
@@ -263,11 +270,7 @@ impl Quantity<Angle> {
         };
         Err(document.error(
             self.span.clone(),
-            format!(
-                "`{}` is {:.1} deg, a right angle or more",
-                document.excerpt(&self.span),
-                value.to_degrees()
-            ),
+            format!("{} is a right angle or more", document.quoted(&self.span)),
             remedy,
         ))
     }
@@ -365,23 +368,22 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Fixed<T, N> 
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Values<T, const N: usize>(PhantomData<T>);
         impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Values<T, N> {
-            type Value = Vec<T>;
+            type Value = [T; N];
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "an array of {N} values")
+                write!(f, "an array of {N} values in square brackets")
             }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Vec<T>, A::Error> {
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<[T; N], A::Error> {
                 let mut values = Vec::with_capacity(N);
                 while let Some(value) = seq.next_element()? {
                     values.push(value);
                 }
-                Ok(values)
+                let length = values.len();
+                <[T; N]>::try_from(values).map_err(|_| A::Error::invalid_length(length, &self))
             }
         }
-        let values: Vec<T> = deserializer.deserialize_any(Values::<T, N>(PhantomData))?;
-        let wanted = format!("an array of {N} values");
-        <[T; N]>::try_from(values)
+        deserializer
+            .deserialize_any(Values::<T, N>(PhantomData))
             .map(Fixed)
-            .map_err(|values| D::Error::invalid_length(values.len(), &wanted.as_str()))
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, Sc
     if let Err(error) = read {
         return Err(nothing.error_anywhere(
             format!("`{name}` cannot be read: {}", reason(&error)),
-            format!("looked for {}", shown(path)),
+            format!("looked for {}", path.display()),
         ));
     }
     if bytes.len() as u64 > largest {
@@ -48,14 +48,6 @@ pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, Sc
                 "save the file with the encoding UTF-8",
             ))
         }
-    }
-}
-
-/// Where a path was looked for, from the root.
-fn shown(path: &Path) -> String {
-    match std::path::absolute(path) {
-        Ok(absolute) => absolute.display().to_string(),
-        Err(_) => path.display().to_string(),
     }
 }
 
@@ -100,21 +92,23 @@ fn plain(document: &Document, error: &toml::de::Error) -> SceneError {
         let suggestion = suggestion(quoted, &known);
         (
             format!("\"{quoted}\" is no choice here"),
-            format!("{suggestion}the choices are {}", listed(&known, '"')),
+            match known.as_slice() {
+                [only] => format!("the only choice is \"{only}\""),
+                _ => format!("{suggestion}the choices are {}", listed(&known, '"')),
+            },
         )
     } else if let Some(found) = head.strip_prefix("invalid length ") {
         (
-            format!("{found} values stand here"),
-            format!("{expected} is wanted"),
+            match found {
+                "1" => "one value stands here".into(),
+                _ => format!("{found} values stand here"),
+            },
+            wanted(expected),
         )
     } else if head.starts_with("invalid type") || head.starts_with("invalid value") {
         (
-            format!(
-                "`{}` is {}",
-                document.excerpt(&span),
-                kind_of(document, &span)
-            ),
-            format!("{expected} is wanted"),
+            format!("{} is {}", document.quoted(&span), kind_of(document, &span)),
+            wanted(expected),
         )
     } else if text.starts_with("duplicate key") {
         (
@@ -122,10 +116,18 @@ fn plain(document: &Document, error: &toml::de::Error) -> SceneError {
             "keep one of the two".into(),
         )
     } else {
+        let fault = document.text.get(span.start..).unwrap_or_default();
+        let before = document.text.get(..span.start).unwrap_or_default();
+        let is_decimal_comma =
+            fault.starts_with(',') && before.ends_with(|c: char| c.is_ascii_digit());
+        let remedy = if is_decimal_comma {
+            "write a decimal point, as in 0.098"
+        } else {
+            "write `key = value` under a `[table]`, text in double quotes, arrays in square brackets"
+        };
         (
             format!("this is not TOML: {}", text.replace('\n', ", ")),
-            "write `key = value` under a `[table]`, text in double quotes, arrays in square brackets"
-                .into(),
+            remedy.into(),
         )
     };
     document.error(span, message, help)
@@ -141,11 +143,16 @@ fn kind_of(document: &Document, span: &Range<usize>) -> &'static str {
         Some('[') if starts_a_line(document, span.start) => "a table",
         Some('[') => "an array",
         Some('{') => "a table",
-        Some('t' | 'f') => "true or false",
-        Some(c) if c.is_ascii_digit() && text.contains([':', 'T']) => "a date or time",
+        Some('t' | 'f') => "a switch, true or false",
+        Some(c) if c.is_ascii_digit() && is_date(text) => "a date or a time",
+        Some('0'..='9') if text.contains('.') => "a number with a fraction",
         Some('+' | '-' | '0'..='9' | 'i' | 'n') => "a number",
         _ => "of another kind",
     }
+}
+
+fn is_date(text: &str) -> bool {
+    text.contains(':') || text.matches('-').count() == 2
 }
 
 fn starts_a_line(document: &Document, at: usize) -> bool {
@@ -154,6 +161,14 @@ fn starts_a_line(document: &Document, at: usize) -> bool {
         .rsplit('\n')
         .next()
         .is_none_or(|line| line.trim().is_empty())
+}
+
+/// `a length is wanted, e.g. "98 mm"` from `a length, e.g. "98 mm"`.
+fn wanted(expected: &str) -> String {
+    match expected.split_once(", e.g. ") {
+        Some((what, example)) => format!("{what} is wanted, e.g. {example}"),
+        None => format!("{expected} is wanted"),
+    }
 }
 
 /// The header of the table at a span: its first line.

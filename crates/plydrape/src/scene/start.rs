@@ -101,6 +101,7 @@ fn rectangle(
         points,
         document: document.clone(),
         spans: vec![place],
+        height: Some(height.span.clone()),
     })
 }
 
@@ -121,7 +122,7 @@ pub(super) fn check(
             .map(|k| (point[k] - plane.point[k]) * plane.normal[k])
             .sum();
         if height < -tolerance {
-            return Err(places.error(
+            let mut error = places.error(
                 index,
                 format!(
                     "gripper {:?} starts {:.2} mm below the mold",
@@ -129,7 +130,9 @@ pub(super) fn check(
                     -height * 1e3
                 ),
                 "start above the mold: raise the grippers or lower the mold",
-            ));
+            );
+            error.span = places.height.clone().or(error.span);
+            return Err(error);
         }
     }
     Ok(())

@@ -73,8 +73,8 @@ fn shear_angle(shear: &Quantity<Angle>, document: &Document) -> Result<f64, Scen
     Err(document.error(
         shear.span.clone(),
         format!(
-            "`{}` shears the ply by a right angle or more",
-            document.excerpt(&shear.span)
+            "{} shears the ply by a right angle or more",
+            document.quoted(&shear.span)
         ),
         "an angle between -90 deg and 90 deg is wanted; write degrees as \"20 deg\"",
     ))
