@@ -54,7 +54,7 @@ fn named(
             span.clone(),
             format!("there is no material \"{name}\""),
             format!(
-                "shipped are {}; a file of your own is named with its ending, e.g. \"mine.toml\"",
+                "plydrape comes with {}; a file of your own is named with its ending, e.g. \"mine.toml\"",
                 shipped.join(", ")
             ),
         ));

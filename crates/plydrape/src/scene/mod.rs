@@ -39,14 +39,13 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 /// # Errors
 /// The first fault found, with its place and a remedy.
 pub fn read(path: &Path) -> Result<Scene, SceneError> {
-    let document =
-        read::text(path, &path.to_string_lossy(), read::LARGEST_TOML).map_err(|error| {
-            let help = format!(
-                "{}; `plydrape new NAME` writes a scene to start from",
-                error.help
-            );
-            SceneError { help, ..error }
-        })?;
+    let mut document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML);
+    if let Err(error) = &mut document
+        && !path.exists()
+    {
+        error.help += "; `plydrape new NAME` writes a scene to start from";
+    }
+    let document = document?;
     let base = path.parent().unwrap_or(Path::new(""));
     scene(&document, base)
 }

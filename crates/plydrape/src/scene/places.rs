@@ -170,11 +170,15 @@ fn from_table(
     scene: &Document,
 ) -> Result<Places, SceneError> {
     let help = format!(
-        "the ply has {} grippers along u and {} along v: give {} rows of {} positions [x, y, z]",
-        grid.nu, grid.nv, grid.nv, grid.nu
+        "give a row for every gripper along v ({}), each with a position [x, y, z] for every gripper along u ({})",
+        grid.nv, grid.nu
     );
     if rows.len() != grid.nv {
-        let message = format!("the table of positions has {} rows", rows.len());
+        let message = format!(
+            "the number of rows in this table is {}, not {}",
+            rows.len(),
+            grid.nv
+        );
         return Err(scene.error(span.clone(), message, help));
     }
     let mut places = Places {
@@ -185,7 +189,11 @@ fn from_table(
     };
     for row in rows {
         if row.value.len() != grid.nu {
-            let message = format!("this row has {} positions", row.value.len());
+            let message = format!(
+                "the number of positions in this row is {}, not {}",
+                row.value.len(),
+                grid.nu
+            );
             return Err(scene.error(row.span.clone(), message, help));
         }
         for position in &row.value {

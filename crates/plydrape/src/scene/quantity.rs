@@ -262,17 +262,21 @@ impl Quantity<Angle> {
         if value < std::f64::consts::FRAC_PI_2 * (1.0 - 1e-9) {
             return Ok(value);
         }
-        let remedy = match self.value.raw {
-            Raw::Number(number) => {
-                format!("plain numbers are radians: did you mean \"{number} deg\"?")
-            }
-            Raw::Text(_) => "an angle from 0 to below 90 deg is wanted".into(),
+        let shown = document.quoted(&self.span);
+        let (message, help) = match self.value.raw {
+            Raw::Number(number) => (
+                format!(
+                    "{shown} is {:.1} deg, a right angle or more",
+                    value.to_degrees()
+                ),
+                format!("plain numbers are radians: did you mean \"{number} deg\"?"),
+            ),
+            Raw::Text(_) => (
+                format!("{shown} is a right angle or more"),
+                "an angle from 0 to below 90 deg is wanted".into(),
+            ),
         };
-        Err(document.error(
-            self.span.clone(),
-            format!("{} is a right angle or more", document.quoted(&self.span)),
-            remedy,
-        ))
+        Err(document.error(self.span.clone(), message, help))
     }
 }
 
