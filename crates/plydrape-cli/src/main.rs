@@ -1,1 +1,52 @@
-fn main() {}
+//! The command `plydrape`: one file per subcommand, this one only sends to them.
+
+mod check;
+mod complete;
+mod diagnostic;
+mod new;
+mod schema;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// How an array of grippers must move to lay a carbon-fibre ply on a mold without wrinkles.
+#[derive(Debug, Parser)]
+#[command(name = "plydrape", version, after_help = EXIT_CODES, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+
+    /// Print nothing but what was asked for, and errors.
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+/// What every exit code means.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done, and accepted
+  1    done, but a limit of the scene is exceeded
+  2    bad input: the message names the file, the line and the remedy
+  3    no solution was found
+  130  interrupted";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Check(check::Arguments),
+    New(new::Arguments),
+    Schema(schema::Arguments),
+    Completions(complete::Completions),
+    Man(complete::Man),
+}
+
+fn main() -> ExitCode {
+    let Cli { command, quiet } = Cli::parse();
+    let done = match command {
+        Command::Check(arguments) => check::run(&arguments, quiet),
+        Command::New(arguments) => new::run(&arguments, quiet),
+        Command::Schema(arguments) => schema::run(&arguments),
+        Command::Completions(arguments) => complete::completions(&arguments),
+        Command::Man(arguments) => complete::man(&arguments),
+    };
+    done.unwrap_or_else(|failure| failure.report())
+}

@@ -1,1 +1,223 @@
-//! draping
+//! The drape: gripper positions step by step, the equilibrium at each, and what the mold catches.
+//!
+//! One loop, the paper's section 4: move the grippers ([`crate::scene::Motion`]), solve the equilibrium
+//! ([`crate::equilibrium`]), look for contact ([`contact`]), measure ([`measures`]) and record
+//! ([`record`]).
+
+mod attitude;
+pub mod contact;
+mod crossing;
+mod measures;
+pub mod record;
+mod report;
+pub mod spans;
+
+use crate::equilibrium::{Equilibrium, Solver};
+use crate::ply::{Laid, shear};
+use crate::scene::{Scene, Stepping};
+use contact::Bridge;
+use record::ResultFile;
+use spans::{Point, Shape, shape};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// Smallest part of a step that cutting leaves.
+const SMALLEST_CUT: f64 = 1.0 / 256.0;
+
+/// Rounds of contact at one place of the grippers before the rest is left to the next step.
+const MAX_ROUNDS: usize = 50;
+
+/// The ply in one step, with everything that is known of it.
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    /// Counts from 1, the start.
+    pub step: usize,
+    /// Time (s).
+    pub time: f64,
+    /// Gripper positions (m).
+    pub positions: Vec<Point>,
+    /// Free spans and the equilibrium that holds them.
+    pub shape: Shape,
+    /// What the mold has caught of each catenary.
+    pub laid: Vec<Option<Laid>>,
+    /// Touches that the model does not follow, by catenary.
+    pub bridges: Vec<Option<Bridge>>,
+    /// Shear of each cell that shears.
+    pub shear: Vec<Option<CellShear>>,
+    /// Equilibria solved in this step.
+    pub equilibria: usize,
+}
+
+/// Shear of a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellShear {
+    /// Shear angle γ (rad).
+    pub angle: f64,
+    /// Taut path of the stretched diagonal (m).
+    pub path: f64,
+    /// Whether the falling diagonal is the stretched one.
+    pub falling: bool,
+}
+
+/// A finished drape.
+#[derive(Debug, Clone)]
+pub struct Drape {
+    /// Everything that is written.
+    pub result: ResultFile,
+    /// Time spent in equilibria; no part of the result, which is the same on every machine.
+    pub solving: Duration,
+}
+
+/// Drapes the ply of a scene along its motion.
+///
+/// `progress` is told after each step how many are done; when it breaks, the drape ends there, complete
+/// for the steps done.
+pub fn simulate(scene: &Scene, mut progress: impl FnMut(usize) -> ControlFlow<()>) -> Drape {
+    let mut draping = Draping::new(scene);
+    let mut report = report::Report::new(scene);
+    for step in 0..scene.motion.positions.len() {
+        let snapshot = draping.advance(step);
+        report.add(&snapshot, &draping.solver);
+        if progress(step + 1).is_break() {
+            break;
+        }
+    }
+    Drape { result: report.finish(), solving: draping.solving }
+}
+
+/// A drape under way.
+struct Draping<'a> {
+    scene: &'a Scene,
+    solver: Solver,
+    positions: Vec<Point>,
+    laid: Vec<Option<Laid>>,
+    bridges: Vec<Option<Bridge>>,
+    equilibria: usize,
+    solving: Duration,
+}
+
+impl<'a> Draping<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let count = scene.ply.grid.catenaries();
+        Draping {
+            scene,
+            solver: Solver::new(&scene.ply, &scene.settings),
+            positions: scene.motion.positions[0].clone(),
+            laid: vec![None; count],
+            bridges: vec![None; count],
+            equilibria: 0,
+            solving: Duration::ZERO,
+        }
+    }
+
+    /// Solves the equilibrium at gripper positions.
+    fn solve(&mut self, positions: &[Point]) -> Shape {
+        let start = Instant::now();
+        let equilibrium: Equilibrium = self.solver.solve(positions, &self.laid);
+        self.solving += start.elapsed();
+        self.equilibria += 1;
+        shape(&self.scene.ply, &self.solver, equilibrium, positions, &self.laid)
+    }
+
+    /// Moves the grippers to the positions of a step, counted from 0.
+    fn advance(&mut self, step: usize) -> Snapshot {
+        let before = self.equilibria;
+        let goal = &self.scene.motion.positions[step];
+        let shape = match self.scene.settings.contact.stepping {
+            Stepping::Once => self.arrive(goal),
+            Stepping::Cut => self.cut_to(goal),
+        };
+        self.positions.clone_from(goal);
+        Snapshot {
+            step: step + 1,
+            time: self.scene.motion.times[step],
+            positions: goal.clone(),
+            shape,
+            laid: self.laid.clone(),
+            bridges: self.bridges.clone(),
+            shear: self.shear(),
+            equilibria: self.equilibria - before,
+        }
+    }
+
+    fn shear(&self) -> Vec<Option<CellShear>> {
+        let cell = self.scene.ply.cell;
+        let shear = |(path, falling)| CellShear { angle: shear::angle(cell, path), path, falling };
+        self.solver.net().shearing.iter().map(|cell| cell.map(shear)).collect()
+    }
+
+    /// As in the paper: one equilibrium, one look at the contact; solved anew where it has changed.
+    fn arrive(&mut self, goal: &[Point]) -> Shape {
+        let shape = self.solve(goal);
+        if self.touch(&shape) { self.solve(goal) } else { shape }
+    }
+
+    /// Cuts the way where the ply would dip deeper than the tolerance, and follows the contact at each
+    /// place until it rests.
+    fn cut_to(&mut self, goal: &[Point]) -> Shape {
+        let start = self.positions.clone();
+        let at = |fraction: f64| -> Vec<Point> {
+            start
+                .iter()
+                .zip(goal)
+                .map(|(a, b)| [0, 1, 2].map(|n| a[n] + fraction * (b[n] - a[n])))
+                .collect()
+        };
+        let (mut done, mut part) = (0.0, 1.0);
+        loop {
+            let next = f64::min(done + part, 1.0);
+            let place = if next >= 1.0 { goal.to_vec() } else { at(next) };
+            let mut shape = self.solve(&place);
+            if part > SMALLEST_CUT && self.is_deep(&shape) && start != *goal {
+                part *= 0.5;
+                continue;
+            }
+            for _ in 0..MAX_ROUNDS {
+                if !self.touch(&shape) {
+                    break;
+                }
+                shape = self.solve(&place);
+            }
+            if next >= 1.0 {
+                return shape;
+            }
+            (done, part) = (next, f64::min(2.0 * part, 1.0 - next));
+        }
+    }
+
+    /// Whether a span dips deeper below the mold than the tolerance.
+    fn is_deep(&self, shape: &Shape) -> bool {
+        let Some(mold) = &self.scene.mold else { return false };
+        let tolerance = self.scene.settings.contact.tolerance;
+        shape.spans.iter().any(|span| contact::depth(span, mold) > tolerance)
+    }
+
+    /// Looks at every span once; true if the contact has changed.
+    fn touch(&mut self, shape: &Shape) -> bool {
+        let Some(mold) = &self.scene.mold else { return false };
+        let rule = &self.scene.settings.contact;
+        let mut changed = false;
+        for bridge in &mut self.bridges {
+            *bridge = None;
+        }
+        for span in &shape.spans {
+            let slot = &mut self.laid[span.catenary];
+            let look = match slot {
+                None => contact::first_touch(span, mold, rule),
+                Some(laid) => contact::next_touch(span, laid, mold, rule),
+            };
+            if let Some(laid) = look.laid {
+                *slot = Some(laid);
+                changed = true;
+            }
+            let deeper = |old: &Bridge, new: &Bridge| new.gap > old.gap;
+            let bridge = &mut self.bridges[span.catenary];
+            if let Some(new) = look.bridge
+                && bridge.as_ref().is_none_or(|old| deeper(old, &new))
+            {
+                *bridge = Some(new);
+            }
+        }
+        changed
+    }
+}

@@ -3,7 +3,7 @@
 //! Numbers are in the shortest form that reads back to the same double. A measure without a meaning in
 //! a step leaves its cells empty.
 
-use super::result::{Measures, ResultFile, Step, Worst};
+use crate::draping::record::{Measures, ResultFile, Step, Worst};
 use ::csv::{Error, Writer};
 
 /// Column of a measure, and how to find it.

@@ -5,7 +5,7 @@
 //! meaning, such as the axial stiffness of an inextensible ply, is turned into `null` by its own type.
 
 use super::finite;
-use super::result::ResultFile;
+use crate::draping::record::ResultFile;
 use serde::Serialize;
 
 /// Why a value has no JSON text.

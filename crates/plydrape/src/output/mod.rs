@@ -1,6 +1,6 @@
 //! What a drape leaves behind: the result file, tables and the figure.
 //!
-//! [`result::ResultFile`] holds everything; the rest of this module makes text from it and computes no
+//! [`ResultFile`] holds everything; the rest of this module makes text from it and computes no
 //! physics. [`write_all`] puts the four files into a folder:
 //!
 //! - `result.json`, complete: every other file can be made from it ([`json`]);
@@ -16,7 +16,6 @@ mod finite;
 pub mod folder;
 pub mod json;
 mod manifest;
-pub mod result;
 pub mod table;
 
 #[cfg(test)]
@@ -24,7 +23,7 @@ mod sample;
 
 pub use error::OutputError;
 
-use result::ResultFile;
+use crate::draping::record::ResultFile;
 use std::path::{Path, PathBuf};
 
 /// Writes `result.json`, `steps.csv`, `trajectory.csv` and `figure.svg` into a folder, all or none.

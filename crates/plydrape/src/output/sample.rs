@@ -1,7 +1,7 @@
 //! Made-up results for the tests of this folder: parabolas between grippers that move to a sheared
 //! target, cut off where they meet the mold. They look like a drape and solve nothing.
 
-use super::result::*;
+use crate::draping::record::*;
 use crate::material::{Material, Section};
 use crate::mold::{Mold, Plane};
 use crate::ply::{Catenary, Direction, Grid, Kind};

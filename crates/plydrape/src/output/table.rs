@@ -1,6 +1,6 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
-use super::result::{ResultFile, Step, Verdict, Worst};
+use crate::draping::record::{ResultFile, Step, Verdict, Worst};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 

@@ -1,8 +1,73 @@
 //! A scene: everything one drape needs, read from a TOML file and checked.
+//!
+//! A file becomes a scene in three stages, each refusing what it cannot pass on with the place in
+//! the file, what is wrong there and what would be right ([`SceneError`]):
+//!
+//! 1. `read`: bytes become a text, a text the keys of `file`;
+//! 2. `quantity`, `units`: values with a unit become SI numbers of the wanted dimension;
+//! 3. `check` with `material`, `mold`, `start`, `target`, `motion`: numbers become a [`Scene`].
+
+mod check;
+mod csv;
+mod error;
+mod file;
+mod material;
+mod mold;
+mod motion;
+mod places;
+mod quantity;
+mod read;
+mod schema;
+mod start;
+mod target;
+mod units;
+
+pub use error::SceneError;
+pub use material::shipped_materials;
+pub use schema::schema;
 
 use crate::mold::Mold;
 use crate::ply::Ply;
 use serde::Serialize;
+use std::path::Path;
+
+/// A commented scene to start from.
+pub const TEMPLATE: &str = include_str!("template.toml");
+
+/// Reads and checks a scene file; files it names are relative to its folder.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy.
+pub fn read(path: &Path) -> Result<Scene, SceneError> {
+    let mut document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML);
+    if let Err(error) = &mut document
+        && !path.exists()
+    {
+        error.help += "; `plydrape new NAME` writes a scene to start from";
+    }
+    let document = document?;
+    let base = path.parent().unwrap_or(Path::new(""));
+    scene(&document, base)
+}
+
+/// Reads and checks the text of a scene; files it names are relative to `base`, and `name` stands
+/// for the scene in messages.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy.
+pub fn parse(text: &str, base: &Path, name: &str) -> Result<Scene, SceneError> {
+    scene(&error::Document::new(name, text), base)
+}
+
+fn scene(document: &error::Document, base: &Path) -> Result<Scene, SceneError> {
+    if document.text.trim().is_empty() {
+        return Err(document.error_anywhere(
+            format!("`{}` is empty", document.file),
+            "`plydrape new NAME` writes a commented scene to start from",
+        ));
+    }
+    check::scene(&read::keys(document)?, document, base)
+}
 
 /// A checked scene.
 #[derive(Debug, Clone)]

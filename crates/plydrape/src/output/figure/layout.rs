@@ -7,7 +7,7 @@ use super::panel::{MOST_MARK, Stage, gripper_radius};
 use super::projection::{Point, View};
 use super::{FigureError, points};
 use crate::mold::Mold;
-use crate::output::result::{ResultFile, Step};
+use crate::draping::record::{ResultFile, Step};
 
 /// Width of the sheet (picture points).
 const WIDTH: f64 = 900.0;

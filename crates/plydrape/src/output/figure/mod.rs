@@ -14,7 +14,7 @@ mod piece;
 mod projection;
 mod surface;
 
-use super::result::{ResultFile, Step};
+use crate::draping::record::{ResultFile, Step};
 
 /// The most steps that one figure shows.
 pub const MOST_PANELS: usize = 3;

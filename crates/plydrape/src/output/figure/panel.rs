@@ -7,7 +7,7 @@ use super::colour::{BLACK, MOLD, RED, RIM, TARGET, WEAVE, viridis};
 use super::piece::{self, Form, Piece, thread};
 use super::projection::{Point, View, turned};
 use super::surface;
-use crate::output::result::{Gripper, ResultFile, Step};
+use crate::draping::record::{Gripper, ResultFile, Step};
 
 /// Radius of a gripper as a share of the shorter side of a cell.
 const GRIPPER: f64 = 0.12;

@@ -17,7 +17,7 @@
 //! If the diagonals miss each other, e₀ is the lower of both, so that the surface holds the higher.
 
 use super::projection::Point;
-use crate::output::result::{CatenaryState, Step};
+use crate::draping::record::{CatenaryState, Step};
 use crate::ply::Grid;
 
 fn mix(a: Point, b: Point, t: f64) -> Point {

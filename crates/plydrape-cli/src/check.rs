@@ -1,0 +1,235 @@
+//! `plydrape check`: reads a scene and says what was understood.
+
+use crate::diagnostic::Done;
+use plydrape::material::{Material, Section, ShearCurve};
+use plydrape::mold::Mold;
+use plydrape::ply::Direction;
+use plydrape::scene::{ContactEnd, Scene, SlopeRule, Stepping};
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Read a scene, and say what was understood or what is wrong.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The scene file.
+    scene: PathBuf,
+}
+
+/// Reads the scene; prints a summary unless `quiet`.
+pub fn run(arguments: &Arguments, quiet: bool) -> Done {
+    let scene = plydrape::scene::read(&arguments.scene)?;
+    if !quiet {
+        let mut out = io::stdout().lock();
+        writeln!(out, "{}", scene.title)?;
+        for (noun, text) in summary(&scene) {
+            writeln!(out, "  {noun:<9} {text}")?;
+        }
+        out.flush()?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The nouns of a scene, each in a line.
+fn summary(scene: &Scene) -> Vec<(&'static str, String)> {
+    let ply = &scene.ply;
+    let mut lines = vec![
+        (
+            "ply",
+            format!(
+                "{} × {} grippers, cells of {} × {} mm, warp along {}",
+                ply.grid.nu,
+                ply.grid.nv,
+                millimetres(ply.cell[0]),
+                millimetres(ply.cell[1]),
+                match ply.warp {
+                    Direction::U => "u",
+                    Direction::V => "v",
+                }
+            ),
+        ),
+        ("material", material(&ply.material)),
+        ("", ply.material.source.clone()),
+        ("mold", mold(scene.mold.as_ref())),
+        ("motion", motion(scene)),
+        ("target", target(scene)),
+    ];
+    lines.extend(rules(scene));
+    lines
+}
+
+fn material(material: &Material) -> String {
+    let section = match material.section {
+        Section::Line {
+            mass,
+            flexural_rigidity,
+        } => format!("{} kg/m, EI {} N·m²", short(mass), short(flexural_rigidity)),
+        Section::Areal {
+            mass,
+            warp_rigidity,
+            weft_rigidity,
+        } => format!(
+            "{} kg/m², bending rigidity {} N·m in warp, {} N·m in weft",
+            short(mass),
+            short(warp_rigidity),
+            short(weft_rigidity)
+        ),
+    };
+    let shear = match &material.shear_curve {
+        Some(ShearCurve::Table { angle, .. }) => format!("shear curve of {} points", angle.len()),
+        Some(ShearCurve::Polynomial { .. }) => "shear curve as a polynomial".into(),
+        None => "no shear curve: shear forces stay unknown".into(),
+    };
+    let locking = match material.locking_angle {
+        Some(angle) => format!(", locks at {} deg", degrees(angle)),
+        None => String::new(),
+    };
+    format!("{}: {section}; {shear}{locking}", material.name)
+}
+
+fn mold(mold: Option<&Mold>) -> String {
+    let Some(Mold::Plane(plane)) = mold else {
+        return "none: the ply just hangs".into();
+    };
+    let [x, y, z] = plane.point.map(millimetres);
+    let [nx, ny, nz] = plane.normal;
+    let tilt = nx.hypot(ny).atan2(nz);
+    let climb = if tilt > 0.0 {
+        let heading = (-ny).atan2(-nx);
+        format!(
+            "climbing {} deg towards {} deg",
+            degrees(tilt),
+            degrees(heading)
+        )
+    } else {
+        "level".into()
+    };
+    format!("plane through ({x}, {y}, {z}) mm, {climb}")
+}
+
+fn motion(scene: &Scene) -> String {
+    let heights = |step: Option<&Vec<[f64; 3]>>| {
+        let z = || step.into_iter().flatten().map(|point| point[2]);
+        let (low, high) = (
+            z().fold(f64::INFINITY, f64::min),
+            z().fold(f64::NEG_INFINITY, f64::max),
+        );
+        if millimetres(low) == millimetres(high) {
+            format!("z = {} mm", millimetres(low))
+        } else {
+            format!("z = {} to {} mm", millimetres(low), millimetres(high))
+        }
+    };
+    let positions = &scene.motion.positions;
+    match scene.motion.times.as_slice() {
+        [] | [_] => format!("held still at {}", heights(positions.first())),
+        [.., last] => format!(
+            "{} steps in {} s, from {} to {}",
+            positions.len(),
+            short(*last),
+            heights(positions.first()),
+            heights(positions.last())
+        ),
+    }
+}
+
+fn target(scene: &Scene) -> String {
+    let Some(target) = &scene.target else {
+        return "none".into();
+    };
+    let Some(drape) = &target.drape else {
+        return "gripper positions as given".into();
+    };
+    let sin: f64 = (0..3).map(|k| drape.along_u[k] * drape.along_v[k]).sum();
+    let heading = drape.along_u[1].atan2(drape.along_u[0]);
+    let [x, y, z] = drape.origin.map(millimetres);
+    format!(
+        "on the mold from ({x}, {y}, {z}) mm, sheared by {} deg, u heading {} deg",
+        degrees(sin.asin()),
+        degrees(heading)
+    )
+}
+
+/// Rules of the model, contact and limits.
+fn rules(scene: &Scene) -> [(&'static str, String); 4] {
+    let settings = &scene.settings;
+    let limits = &scene.limits;
+    let slopes = match settings.slopes {
+        SlopeRule::MinForce => "min-force",
+        SlopeRule::MomentBalance => "moment-balance",
+    };
+    let stepping = match settings.contact.stepping {
+        Stepping::Once => "looked for once per step",
+        Stepping::Cut => "steps cut where they dip deeper",
+    };
+    let end = match settings.contact.end {
+        ContactEnd::Free => "free slope at its ends",
+        ContactEnd::Tangent => "mold's slope at its ends",
+    };
+    let angle = |limit: Option<f64>| limit.map_or("any".into(), |a| format!("{} deg", degrees(a)));
+    let force = limits
+        .force
+        .map_or("any".into(), |f| format!("{} N", short(f)));
+    [
+        (
+            "model",
+            format!(
+                "{slopes} slopes, EA {} N, g {} m/s², gripper tilt up to {} deg",
+                short(settings.axial_stiffness),
+                short(settings.gravity),
+                degrees(settings.max_tilt)
+            ),
+        ),
+        (
+            "contact",
+            format!(
+                "within {} mm, {stepping}, {end}",
+                millimetres(settings.contact.tolerance)
+            ),
+        ),
+        (
+            "limits",
+            format!(
+                "slack {} %, bridging {} mm, overstretch {} %, shear {}, tilt {} deg, force {force}",
+                short(limits.slack_ratio * 100.0),
+                millimetres(limits.bridging),
+                short(limits.overstretch * 100.0),
+                angle(limits.shear),
+                degrees(limits.tilt),
+            ),
+        ),
+        (
+            "",
+            format!(
+                "landing within {} mm (contact), {} mm (grippers), {} % in contact",
+                millimetres(limits.landing_contact),
+                millimetres(limits.landing_gripper),
+                short(limits.contact_share * 100.0)
+            ),
+        ),
+    ]
+}
+
+fn millimetres(metres: f64) -> String {
+    short(without_noise(metres * 1e3))
+}
+
+fn degrees(radians: f64) -> String {
+    short(without_noise(radians.to_degrees()))
+}
+
+/// Six digits at most, without trailing zeros; very large and small values by powers of ten.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    let plain = (1e-3..1e7).contains(&rounded.abs()) || rounded == 0.0 || rounded.is_infinite();
+    if plain {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// Nine decimals; a zero without a sign.
+fn without_noise(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9 + 0.0
+}

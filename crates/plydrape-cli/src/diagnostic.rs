@@ -1,0 +1,180 @@
+//! Why a command could not do its work, and how that is shown.
+
+use miette::{
+    Diagnostic, LabeledSpan, MietteError, MietteHandlerOpts, MietteSpanContents, ReportHandler,
+    SourceCode, SourceSpan, SpanContents,
+};
+use plydrape::scene::SceneError;
+use std::fmt;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// What a subcommand returns: an exit code, or why it could not go on.
+pub type Done = Result<ExitCode, Failure>;
+
+/// Why a command could not do its work.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The scene, or a file it names, was refused.
+    #[error("{}", .0.0.message)]
+    Scene(Box<Refused>),
+    /// A file could not be written.
+    #[error("`{file}` cannot be written: {reason}")]
+    Output {
+        /// The file.
+        file: String,
+        /// What the system says.
+        reason: String,
+        /// What to do.
+        help: String,
+    },
+    /// Standard output could not be written.
+    #[error("the output cannot be written: {0}")]
+    Stdout(#[from] io::Error),
+}
+
+impl Failure {
+    /// A file that could not be written.
+    pub fn output(file: &Path, error: &io::Error) -> Self {
+        let (reason, help) = match error.kind() {
+            io::ErrorKind::AlreadyExists => (
+                "it exists".into(),
+                "choose another name, or move it away first",
+            ),
+            io::ErrorKind::PermissionDenied => (
+                "permission denied".into(),
+                "choose a folder that you may write to",
+            ),
+            _ => (error.to_string(), "choose another place"),
+        };
+        Failure::Output {
+            file: file.display().to_string(),
+            reason,
+            help: help.into(),
+        }
+    }
+
+    /// Shows the failure on standard error and gives its exit code.
+    pub fn report(&self) -> ExitCode {
+        // A reader that has seen enough, such as `head`, is no failure.
+        if let Failure::Stdout(error) = self
+            && error.kind() == io::ErrorKind::BrokenPipe
+        {
+            return ExitCode::SUCCESS;
+        }
+        eprint!("{}", Rendered(self));
+        ExitCode::from(2)
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Failure::Scene(Box::new(Refused(error)))
+    }
+}
+
+impl Diagnostic for Failure {
+    fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
+        match self {
+            Failure::Scene(refused) => Some(Box::new(&refused.0.help)),
+            Failure::Output { help, .. } => Some(Box::new(help)),
+            Failure::Stdout(_) => None,
+        }
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        match self {
+            Failure::Scene(refused) if refused.0.span.is_some() => Some(refused.as_ref()),
+            _ => None,
+        }
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let Failure::Scene(refused) = self else {
+            return None;
+        };
+        let span = refused.first_line()?;
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(
+            None, span,
+        ))))
+    }
+}
+
+/// A failure drawn by miette, with colours only on a terminal that wants them.
+struct Rendered<'a>(&'a Failure);
+
+impl fmt::Display for Rendered<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let handler = MietteHandlerOpts::new().terminal_links(false).build();
+        handler.debug(self.0, f)
+    }
+}
+
+/// A refused scene as a source for miette.
+#[derive(Debug)]
+pub struct Refused(SceneError);
+
+/// Longest line shown whole (bytes); of a longer one only the surroundings of the fault.
+const LONGEST_LINE: usize = 200;
+/// Bytes shown before and after a fault in such a line.
+const SURROUNDINGS: usize = 40;
+
+impl Refused {
+    /// The first line of the fault's span, a character at least where there is one.
+    fn first_line(&self) -> Option<SourceSpan> {
+        let span = self.0.span.clone()?;
+        let text = self.0.text.get(span.clone())?;
+        let length = text.find(['\n', '\r']).unwrap_or(text.len());
+        Some((span.start, length.min(LONGEST_LINE)).into())
+    }
+}
+
+impl SourceCode for Refused {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        before: usize,
+        after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let text: &str = &self.0.text;
+        let contents = text.read_span(span, before, after)?;
+        let lines = contents.data().split(|byte| *byte == b'\n');
+        if lines.clone().all(|line| line.len() <= LONGEST_LINE) {
+            return Ok(Box::new(MietteSpanContents::new_named(
+                self.0.file.clone(),
+                contents.data(),
+                *contents.span(),
+                contents.line(),
+                contents.column(),
+                contents.line_count(),
+            )));
+        }
+        // A window of its line around the fault, cut between characters.
+        let (start, end) = (span.offset(), span.offset() + span.len());
+        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        let line_end = text[end..]
+            .find('\n')
+            .map_or(text.len(), |length| end + length);
+        let from = boundary(text, start.saturating_sub(SURROUNDINGS)).max(line_start);
+        let to = boundary(text, end + SURROUNDINGS).min(line_end);
+        let line = text[..start].matches('\n').count();
+        Ok(Box::new(MietteSpanContents::new_named(
+            self.0.file.clone(),
+            &text.as_bytes()[from..to],
+            (from, to - from).into(),
+            line,
+            start - line_start,
+            1,
+        )))
+    }
+}
+
+/// The last boundary between characters at or before a byte.
+fn boundary(text: &str, byte: usize) -> usize {
+    let mut at = byte.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}

@@ -1,0 +1,15 @@
+//! `plydrape schema`: the JSON Schema of scene files.
+
+use crate::diagnostic::Done;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Print the JSON Schema of scene files, for editors that complete and check TOML.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {}
+
+/// Prints the schema.
+pub fn run(_: &Arguments) -> Done {
+    io::stdout().write_all(plydrape::scene::schema().as_bytes())?;
+    Ok(ExitCode::SUCCESS)
+}

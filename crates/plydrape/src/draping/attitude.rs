@@ -1,0 +1,132 @@
+//! How a gripper is tilted: its ball joint follows the ply.
+
+use super::spans::Point;
+use crate::equilibrium::{Side, Solver};
+use crate::ply::Grid;
+
+/// Slopes of the ply at a gripper and the orientation that follows from them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Attitude {
+    /// Slope along u and along v; none where the ply has no edge in that direction.
+    pub slope: [Option<f64>; 2],
+    /// Angle between the ply's normal and the vertical (rad).
+    pub tilt: f64,
+    /// Orientation (x, y, z, w): z axis along the ply's normal, x axis along u.
+    pub quaternion: [f64; 4],
+}
+
+/// Slope of the ply at a gripper along a direction (0: u, 1: v).
+///
+/// A shearing diagonal's, or the shared one; at the rim that of the one edge; where two edges keep
+/// slopes of their own (a limp ply, or one side on the mold) their mean.
+fn slope(solver: &Solver, gripper: usize, direction: usize) -> Option<f64> {
+    let net = solver.net();
+    if let Some(slope) = net.governed[gripper][direction] {
+        return Some(slope);
+    }
+    let (mut sum, mut count) = (0.0, 0.0);
+    for side in net.sides[gripper][direction] {
+        let slope = match side {
+            Side::None => continue,
+            Side::Hanging(element, end) => solver.end_slopes(element)[end],
+            Side::Fixed(slope) => slope,
+        };
+        sum += slope;
+        count += 1.0;
+    }
+    (count > 0.0).then(|| sum / count)
+}
+
+/// Horizontal unit vector of the line through a gripper along a direction.
+fn heading(grid: Grid, positions: &[Point], gripper: usize, direction: usize) -> Option<[f64; 2]> {
+    let [i, j] = grid.id(gripper);
+    let (index, count) = if direction == 0 { (i, grid.nu) } else { (j, grid.nv) };
+    let at = |k: usize| positions[grid.index(if direction == 0 { [k, j] } else { [i, k] })];
+    let (a, b) = (at(index.saturating_sub(1)), at((index + 1).min(count - 1)));
+    let delta = [b[0] - a[0], b[1] - a[1]];
+    let length = delta[0].hypot(delta[1]);
+    (length > 0.0).then(|| delta.map(|d| d / length))
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn unit(a: Point) -> Option<Point> {
+    let length = a.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (length > 1e-12).then(|| a.map(|x| x / length))
+}
+
+/// The attitude of a gripper; the quaternion's sign continues `before`.
+pub fn attitude(
+    solver: &Solver,
+    grid: Grid,
+    positions: &[Point],
+    gripper: usize,
+    before: Option<[f64; 4]>,
+) -> Attitude {
+    let slope = [0, 1].map(|d| slope(solver, gripper, d));
+    let u = heading(grid, positions, gripper, 0).unwrap_or([1.0, 0.0]);
+    // a strip has no v: across it the gripper is level
+    let v = heading(grid, positions, gripper, 1).unwrap_or([-u[1], u[0]]);
+    let tangent = |h: [f64; 2], s: Option<f64>| [h[0], h[1], s.unwrap_or(0.0)];
+    let (along_u, along_v) = (tangent(u, slope[0]), tangent(v, slope[1]));
+    let up = [0.0, 0.0, 1.0];
+    let normal = unit(cross(along_u, along_v)).map_or(up, |n| if n[2] < 0.0 { n.map(|x| -x) } else { n });
+    let x = unit(along_u).unwrap_or([1.0, 0.0, 0.0]);
+    let y = cross(normal, x);
+    let mut quaternion = quaternion([x, y, normal]);
+    if let Some(before) = before
+        && quaternion.iter().zip(before).map(|(a, b)| a * b).sum::<f64>() < 0.0
+    {
+        quaternion = quaternion.map(|c| -c);
+    }
+    Attitude { slope, tilt: normal[2].clamp(-1.0, 1.0).acos(), quaternion }
+}
+
+/// Unit quaternion (x, y, z, w) of the rotation whose columns are the given axes.
+fn quaternion([x, y, z]: [Point; 3]) -> [f64; 4] {
+    let trace = x[0] + y[1] + z[2];
+    let q = if trace > 0.0 {
+        [y[2] - z[1], z[0] - x[2], x[1] - y[0], 1.0 + trace]
+    } else if x[0] >= y[1] && x[0] >= z[2] {
+        [1.0 + x[0] - y[1] - z[2], y[0] + x[1], z[0] + x[2], y[2] - z[1]]
+    } else if y[1] >= z[2] {
+        [y[0] + x[1], 1.0 + y[1] - x[0] - z[2], z[1] + y[2], z[0] - x[2]]
+    } else {
+        [z[0] + x[2], z[1] + y[2], 1.0 + z[2] - x[0] - y[1], x[1] - y[0]]
+    };
+    let length = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+    q.map(|c| c / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A quaternion turns the unit vectors into the axes it was made of, from any of its four branches.
+    #[test]
+    fn a_quaternion_turns_the_unit_vectors_into_the_axes() {
+        let (s, c) = 0.6_f64.sin_cos();
+        let flip = |a: Point| [a[0], -a[1], -a[2]];
+        let axes = [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]];
+        let cases = [
+            axes,
+            [axes[1], axes[2], axes[0]],
+            axes.map(flip),
+            [[-c, -s, 0.0], [s, -c, 0.0], [0.0, 0.0, 1.0]],
+            [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]],
+        ];
+        for axes in cases {
+            let [x, y, z, w] = quaternion(axes);
+            let turned = [
+                [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
+                [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
+                [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
+            ];
+            for (a, b) in turned.iter().flatten().zip(axes.iter().flatten()) {
+                assert!((a - b).abs() < 1e-15, "{axes:?} {turned:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! What is wrong with a drape, how much and where: slack, overstretch, bridging, shear, tilt, force,
+//! landing errors.
+
+use super::Snapshot;
+use super::attitude::Attitude;
+use super::record::{Measures, Worst};
+use super::spans::{FreeSpan, Point};
+use crate::mold::{Mold, distance};
+use crate::ply::{Kind, Laid};
+use crate::scene::Scene;
+
+/// Rests shorter than this share of their catenary have no slack worth a name.
+const CRUMB: f64 = 1e-6;
+
+/// Fit of one free or lying rest between what holds it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// Fabric length (m).
+    pub length: f64,
+    /// Path between its ends, straight or along the mold (m).
+    pub path: f64,
+    /// Middle of its ends (m).
+    pub place: Point,
+}
+
+impl Fit {
+    /// Fabric beyond the path (m), not negative.
+    #[must_use]
+    pub fn slack(&self) -> f64 {
+        // what rounding leaves of a taut line is none
+        let slack = self.length - self.path;
+        if slack > 1e-12 * self.length { slack } else { 0.0 }
+    }
+
+    /// Slack as a share of the fabric length.
+    #[must_use]
+    pub fn slack_ratio(&self) -> f64 {
+        if self.length > 0.0 { self.slack() / self.length } else { 0.0 }
+    }
+
+    /// Amplitude of the wrinkle that the slack makes (m): (2/π)√(path·slack), a shallow sine.
+    #[must_use]
+    pub fn wrinkle(&self) -> f64 {
+        std::f64::consts::FRAC_2_PI * (self.path * self.slack()).sqrt()
+    }
+
+    /// Path beyond the fabric (m), not negative.
+    #[must_use]
+    pub fn overstretch(&self) -> f64 {
+        let excess = self.path - self.length;
+        if excess > 1e-12 * self.path { excess } else { 0.0 }
+    }
+}
+
+fn middle(a: Point, b: Point) -> Point {
+    [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]))
+}
+
+/// How a free span fits between its ends.
+pub fn fit(span: &FreeSpan) -> Fit {
+    let [a, b] = span.ends;
+    Fit { length: span.length, path: span.chord(), place: middle(a, b) }
+}
+
+/// How the rests of a catenary that do not hang fit: those that lie, and those of no length whose
+/// gripper has moved on.
+pub fn fits_laid(laid: &Laid, grippers: [Point; 2], mold: &Mold) -> Vec<Fit> {
+    if laid.lying == [true, true] && laid.arc == [0.0, laid.length] {
+        let [a, b] = grippers;
+        let path = mold.path(mold.closest_point(a), mold.closest_point(b));
+        return vec![Fit { length: laid.length, path, place: middle(a, b) }];
+    }
+    (0..2)
+        .filter(|&rest| !laid.hangs(rest))
+        .map(|rest| {
+            let (gripper, point) = (grippers[rest], laid.point[rest]);
+            let path = if laid.lying[rest] {
+                mold.path(mold.closest_point(gripper), point)
+            } else {
+                distance(gripper, point)
+            };
+            Fit { length: laid.rest(rest), path, place: middle(gripper, point) }
+        })
+        .collect()
+}
+
+/// Fabric length of a catenary that lies on the mold (m).
+pub fn lying_length(laid: &Laid) -> f64 {
+    let rests: f64 = (0..2).filter(|&r| laid.lying[r]).map(|r| laid.rest(r)).sum();
+    laid.arc[1] - laid.arc[0] + rests
+}
+
+/// Fabric coordinates (u, v) (m) of a catenary at an arc length from its first gripper.
+fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
+    let c = scene.ply.grid.catenary(catenary);
+    let [a, b] = scene.ply.cell;
+    let at = |from: usize, to: usize, side: f64| side * (from as f64 + share * (to as f64 - from as f64));
+    [at(c.from[0], c.to[0], a), at(c.from[1], c.to[1], b)]
+}
+
+/// Distances (m) of a contact segment's ends from their place in the ideal drape.
+pub fn landing_errors(scene: &Scene, catenary: usize, laid: &Laid) -> Option<[f64; 2]> {
+    let drape = scene.target.as_ref()?.drape.as_ref()?;
+    Some([0, 1].map(|end| {
+        let uv = fabric(scene, catenary, laid.arc[end] / laid.length);
+        distance(laid.point[end], drape.place(uv))
+    }))
+}
+
+/// A catenary in words.
+pub fn name(scene: &Scene, catenary: usize) -> String {
+    let c = scene.ply.grid.catenary(catenary);
+    let kind = if c.kind.is_edge() { "edge" } else { "diagonal" };
+    format!("{kind} [{},{}]–[{},{}]", c.from[0], c.from[1], c.to[0], c.to[1])
+}
+
+/// Collects the worst of a measure; words are made only for what is worst.
+struct Most<K> {
+    value: f64,
+    key: Option<(K, Point)>,
+}
+
+impl<K> Default for Most<K> {
+    fn default() -> Self {
+        Most { value: 0.0, key: None }
+    }
+}
+
+impl<K> Most<K> {
+    fn meet(&mut self, value: f64, key: K, place: Point) {
+        if self.key.is_none() || value > self.value {
+            self.value = value;
+            self.key = Some((key, place));
+        }
+    }
+
+    fn worst(self, unit: f64, words: impl Fn(K) -> String) -> Option<Worst> {
+        let Most { value, key } = self;
+        key.map(|(key, place)| Worst { value: value / unit, at: words(key), place })
+    }
+}
+
+/// What landed where it should not.
+#[derive(Clone, Copy)]
+enum Landed {
+    Catenary(usize),
+    Gripper(usize),
+}
+
+/// The measures of one step. `points` are the stations of each free span (m).
+pub fn measures(
+    scene: &Scene,
+    snapshot: &Snapshot,
+    attitudes: &[Attitude],
+    points: &[Vec<Point>],
+) -> Measures {
+    const MM: f64 = 1e-3;
+    let grid = scene.ply.grid;
+    let (mut slack, mut ratio, mut wrinkle) = (Most::default(), Most::default(), Most::default());
+    let (mut stretch, mut stretch_share) = (Most::default(), Most::default());
+    let mut judge = |catenary: usize, whole: f64, fit: &Fit| {
+        if fit.length > CRUMB * whole {
+            slack.meet(fit.slack(), catenary, fit.place);
+            ratio.meet(fit.slack_ratio(), catenary, fit.place);
+            wrinkle.meet(fit.wrinkle(), catenary, fit.place);
+        }
+        if catenary < grid.edges() {
+            stretch.meet(fit.overstretch(), catenary, fit.place);
+            stretch_share.meet(fit.overstretch() / whole, catenary, fit.place);
+        }
+    };
+    for span in &snapshot.shape.spans {
+        let whole = snapshot.laid[span.catenary].as_ref().map_or(span.length, |laid| laid.length);
+        judge(span.catenary, whole, &fit(span));
+    }
+    let (mut lying, mut total) = (0.0, 0.0);
+    let mut landing = Most::default();
+    let mut bridging = Most::default();
+    for (catenary, laid) in snapshot.laid.iter().enumerate() {
+        let edge = catenary < grid.edges();
+        let c = grid.catenary(catenary);
+        if edge {
+            total += scene.ply.flat_length(c.kind);
+        }
+        if let Some(bridge) = &snapshot.bridges[catenary] {
+            bridging.meet(bridge.gap, catenary, bridge.place);
+        }
+        let (Some(laid), Some(mold)) = (laid, &scene.mold) else { continue };
+        let grippers = [c.from, c.to].map(|g| snapshot.positions[grid.index(g)]);
+        for fit in fits_laid(laid, grippers, mold) {
+            judge(catenary, laid.length, &fit);
+        }
+        if edge {
+            lying += lying_length(laid);
+        }
+        if let Some(errors) = landing_errors(scene, catenary, laid) {
+            for end in 0..2 {
+                landing.meet(errors[end], Landed::Catenary(catenary), laid.point[end]);
+            }
+        }
+    }
+
+    let (mut tilt, mut force, mut gap) = (Most::default(), Most::default(), Most::default());
+    for (gripper, attitude) in attitudes.iter().enumerate() {
+        let place = snapshot.positions[gripper];
+        tilt.meet(attitude.tilt.to_degrees(), gripper, place);
+        let landed = scene.mold.as_ref().is_some_and(|mold| {
+            mold.signed_distance(place) <= scene.settings.contact.tolerance
+        });
+        if let (true, Some(target)) = (landed, &scene.target) {
+            let error = distance(place, target.grippers[gripper]);
+            landing.meet(error, Landed::Gripper(gripper), place);
+        }
+    }
+    for (span, points) in snapshot.shape.spans.iter().zip(points) {
+        if let Some(value) = span.force {
+            force.meet(value, span.catenary, points[points.len() / 2]);
+        }
+        if let Some(mold) = &scene.mold {
+            for point in points {
+                gap.meet(mold.signed_distance(*point).max(0.0), span.catenary, *point);
+            }
+        }
+    }
+    let shear = shear(scene, snapshot);
+
+    let catenary = |n: usize| name(scene, n);
+    let gripper = |n: usize| {
+        let [i, j] = grid.id(n);
+        format!("gripper [{i},{j}]")
+    };
+    let has_mold = scene.mold.is_some();
+    let nothing = |at: &str| Worst { value: 0.0, at: at.into(), place: [0.0; 3] };
+    Measures {
+        slack_mm: slack.worst(MM, catenary),
+        slack_ratio: ratio.worst(1.0, catenary),
+        wrinkle_mm: wrinkle.worst(MM, catenary),
+        overstretch: stretch_share.worst(1.0, catenary),
+        overstretch_mm: stretch.worst(MM, catenary),
+        bridging_mm: bridging.worst(MM, catenary).or(has_mold.then(|| nothing("nowhere"))),
+        shear_deg: shear.worst(1.0, |n: usize| {
+            format!("cell [{},{}]", n % (grid.nu - 1), n / (grid.nu - 1))
+        }),
+        tilt_deg: tilt.worst(1.0, gripper),
+        force_n: force.worst(1.0, catenary),
+        landing_error_mm: landing.worst(MM, |landed| match landed {
+            Landed::Catenary(n) => catenary(n),
+            Landed::Gripper(n) => gripper(n),
+        }),
+        gap_mm: gap.worst(MM, catenary).or(has_mold.then(|| nothing("nowhere"))),
+        contact_share: has_mold.then_some(lying / total),
+    }
+}
+
+fn shear(scene: &Scene, snapshot: &Snapshot) -> Most<usize> {
+    let grid = scene.ply.grid;
+    let mut most = Most { value: 0.0, key: None };
+    for (cell, angle) in snapshot.shear.iter().enumerate() {
+        let [i, j] = [cell % (grid.nu - 1), cell / (grid.nu - 1)];
+        let corner = |di: usize, dj: usize| snapshot.positions[grid.index([i + di, j + dj])];
+        let place = middle(corner(0, 0), corner(1, 1));
+        most.meet(angle.map_or(0.0, |shear| shear.angle.to_degrees()), cell, place);
+    }
+    most
+}
+
+/// The kind of a catenary in words: (kind, direction).
+pub fn words(kind: Kind) -> (&'static str, &'static str) {
+    match kind {
+        Kind::EdgeU => ("edge", "u"),
+        Kind::EdgeV => ("edge", "v"),
+        Kind::Rising => ("diagonal", "rising"),
+        Kind::Falling => ("diagonal", "falling"),
+    }
+}

@@ -1,0 +1,355 @@
+//! From snapshots to the record: what every step looked like, and the verdict at the end.
+
+use super::Snapshot;
+use super::attitude::{Attitude, attitude};
+use super::crossing::{hanging, lowered};
+use super::measures::{self, fit, landing_errors, name, words};
+use super::record::{
+    Bridging, CatenaryId, CatenaryState, Cell, ContactState, FORMAT, Gripper, Measures, Numbers,
+    ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step, Summary, VERSION, Verdict, Worst,
+};
+use super::spans::{FreeSpan, Point};
+use crate::catenary;
+use crate::equilibrium::Solver;
+use crate::mold::distance;
+use crate::ply::shear;
+use crate::scene::Scene;
+
+/// Collects the steps of a drape.
+pub struct Report<'a> {
+    scene: &'a Scene,
+    steps: Vec<Step>,
+    quaternions: Vec<Option<[f64; 4]>>,
+}
+
+impl<'a> Report<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
+        Report {
+            scene,
+            steps: Vec::with_capacity(scene.motion.positions.len()),
+            quaternions: vec![None; scene.ply.grid.grippers()],
+        }
+    }
+
+    /// Records a step.
+    pub fn add(&mut self, snapshot: &Snapshot, solver: &Solver) {
+        let (scene, grid) = (self.scene, self.scene.ply.grid);
+        let spans = &snapshot.shape.spans;
+        let mut points: Vec<Vec<Point>> = spans.iter().map(hanging).collect();
+        let attitudes: Vec<Attitude> = (0..grid.grippers())
+            .map(|n| attitude(solver, grid, &snapshot.positions, n, self.quaternions[n]))
+            .collect();
+        let measures = measures::measures(scene, snapshot, &attitudes, &points);
+        for (span, through) in lowered(scene, spans, &snapshot.laid) {
+            points[span] = through;
+        }
+        let mut grippers = Vec::with_capacity(grid.grippers());
+        for (n, attitude) in attitudes.iter().enumerate() {
+            self.quaternions[n] = Some(attitude.quaternion);
+            let position = snapshot.positions[n];
+            let target = scene.target.as_ref().map(|t| distance(position, t.grippers[n]) * 1e3);
+            grippers.push(Gripper {
+                id: grid.id(n),
+                position,
+                slope_u: attitude.slope[0],
+                slope_v: attitude.slope[1],
+                tilt_deg: attitude.tilt.to_degrees(),
+                quaternion: attitude.quaternion,
+                target_distance_mm: target,
+            });
+        }
+        let equilibrium = snapshot.shape.equilibrium;
+        self.steps.push(Step {
+            step: snapshot.step,
+            time: snapshot.time,
+            grippers,
+            solver: SolverRecord {
+                status: equilibrium.status.name(),
+                iterations: equilibrium.iterations,
+                residual: equilibrium.residual,
+                equilibria: snapshot.equilibria,
+            },
+            catenaries: self.catenaries(snapshot, points),
+            cells: self.cells(snapshot),
+            measures,
+        });
+    }
+
+    fn catenaries(&self, snapshot: &Snapshot, points: Vec<Vec<Point>>) -> Vec<CatenaryState> {
+        let (scene, grid) = (self.scene, self.scene.ply.grid);
+        let mut spans = snapshot.shape.spans.iter().zip(points).peekable();
+        let mut out = Vec::with_capacity(grid.catenaries());
+        for n in 0..grid.catenaries() {
+            let c = grid.catenary(n);
+            let (kind, direction) = words(c.kind);
+            let laid = snapshot.laid[n].as_ref();
+            let shear = (n >= grid.edges())
+                .then(|| snapshot.shear[(n - grid.edges()) / 2])
+                .flatten()
+                .filter(|shear| shear.falling == (direction == "falling"));
+            let mut state = CatenaryState {
+                kind,
+                direction,
+                from: c.from,
+                to: c.to,
+                length: laid.map_or_else(|| scene.ply.flat_length(c.kind), |laid| laid.length),
+                shearing: shear.is_some(),
+                shear_force_n: shear.and_then(|shear| self.shear_force(shear.path)),
+                spans: Vec::with_capacity(2),
+                contact: None,
+                bridging: snapshot.bridges[n].map(|b| Bridging { place: b.place, gap: b.gap }),
+            };
+            while let Some((span, points)) = spans.next_if(|(span, _)| span.catenary == n) {
+                if laid.is_none() {
+                    state.length = span.length;
+                }
+                state.spans.push(span_state(span, points, state.length));
+            }
+            if let (Some(laid), Some(mold)) = (laid, &scene.mold) {
+                let grippers = [c.from, c.to].map(|g| snapshot.positions[grid.index(g)]);
+                let ends = [
+                    if laid.lying[0] { mold.closest_point(grippers[0]) } else { laid.point[0] },
+                    if laid.lying[1] { mold.closest_point(grippers[1]) } else { laid.point[1] },
+                ];
+                let arc = [
+                    if laid.lying[0] { 0.0 } else { laid.arc[0] },
+                    if laid.lying[1] { laid.length } else { laid.arc[1] },
+                ];
+                let mut line = vec![ends[0]];
+                line.extend(laid.point.into_iter().filter(|p| !ends.contains(p)));
+                line.push(ends[1]);
+                let errors = landing_errors(scene, n, laid).map(|e| e.map(|error| error * 1e3));
+                state.contact = Some(ContactState { arc, points: line, landing_error_mm: errors });
+                for fit in measures::fits_laid(laid, grippers, mold) {
+                    if fit.length > 0.0 || fit.overstretch() > 0.0 {
+                        state.spans.push(lying_state(&fit, laid.length, grippers));
+                    }
+                }
+            }
+            out.push(state);
+        }
+        out
+    }
+
+    /// Force of a stretched diagonal (N), where the material has a shear curve.
+    fn shear_force(&self, path: f64) -> Option<f64> {
+        let ply = &self.scene.ply;
+        let curve = ply.material.shear_curve.as_ref()?;
+        let force = shear::force(ply.cell, path, curve.force(shear::angle(ply.cell, path)).0);
+        force.is_finite().then_some(force)
+    }
+
+    fn cells(&self, snapshot: &Snapshot) -> Vec<Cell> {
+        let across = self.scene.ply.grid.nu - 1;
+        let cell = |(n, shear): (usize, &Option<super::CellShear>)| Cell {
+            cell: [n % across, n / across],
+            shear_deg: shear.map_or(0.0, |shear| shear.angle.to_degrees()),
+            shearing: shear.map(|shear| if shear.falling { "falling" } else { "rising" }),
+        };
+        snapshot.shear.iter().enumerate().map(cell).collect()
+    }
+
+    /// The whole record, judged.
+    pub fn finish(self) -> ResultFile {
+        let scene = self.scene;
+        let echo = SceneEcho {
+            title: scene.title.clone(),
+            grid: scene.ply.grid,
+            cell: scene.ply.cell,
+            material: scene.ply.material.clone(),
+            warp: scene.ply.warp,
+            mold: scene.mold,
+            target_grippers: scene.target.as_ref().map(|target| target.grippers.clone()),
+            ideal_drape: scene.target.as_ref().and_then(|target| target.drape),
+            settings: scene.settings,
+            limits: scene.limits,
+        };
+        let summary = self.summary();
+        ResultFile {
+            format: FORMAT,
+            version: VERSION,
+            program: concat!("plydrape ", env!("CARGO_PKG_VERSION")).into(),
+            scene: echo,
+            steps: self.steps,
+            summary,
+        }
+    }
+
+    fn summary(&self) -> Summary {
+        let touched = |step: &&Step| step.catenaries.iter().any(|c| c.contact.is_some());
+        let first = self.steps.iter().find(touched);
+        let first_contact = first.map_or_else(Vec::new, |step| {
+            let caught = step.catenaries.iter().filter(|c| c.contact.is_some());
+            caught.map(|c| CatenaryId { kind: c.kind, from: c.from, to: c.to }).collect()
+        });
+        let shears = |cell: &Cell| cell.shearing.is_some();
+        let first_shear = self.steps.iter().find(|step| step.cells.iter().any(shears));
+        let all_shear =
+            self.steps.iter().find(|s| !s.cells.is_empty() && s.cells.iter().all(shears));
+        let limits = self.verdicts();
+        let last = self.steps.last();
+        Summary {
+            accepted: limits.iter().all(|verdict| verdict.ok)
+                && self.steps.len() == self.scene.motion.positions.len(),
+            steps: self.steps.len(),
+            steps_planned: self.scene.motion.positions.len(),
+            first_contact_step: first.map(|step| step.step),
+            first_contact,
+            first_shear_step: first_shear.map(|step| step.step),
+            all_shear_step: all_shear.map(|step| step.step),
+            worst: numbers(|pick| self.worst(pick).map(|(_, worst)| worst.value)),
+            last: numbers(|pick| last.and_then(|s| pick(&s.measures).as_ref()).map(|w| w.value)),
+            contact_share: last.and_then(|step| step.measures.contact_share),
+            limits,
+            equilibria: self.steps.iter().map(|step| step.solver.equilibria).sum(),
+        }
+    }
+
+    /// The worst of a measure over all steps, the first one where several are equal.
+    fn worst(&self, pick: impl Fn(&Measures) -> &Option<Worst>) -> Option<(usize, &Worst)> {
+        let mut out: Option<(usize, &Worst)> = None;
+        for step in &self.steps {
+            if let Some(worst) = pick(&step.measures)
+                && out.is_none_or(|(_, before)| worst.value > before.value)
+            {
+                out = Some((step.step, worst));
+            }
+        }
+        out
+    }
+
+    /// Every limit that applies to the scene, see [`crate::scene::Limits`].
+    fn verdicts(&self) -> Vec<Verdict> {
+        let (limits, settings) = (&self.scene.limits, &self.scene.settings);
+        let mut out = Vec::new();
+        let mut judge = |name, unit, scale: f64, limit: f64, found: Option<(usize, &Worst)>| {
+            let Some((step, worst)) = found else { return };
+            let value = worst.value * scale;
+            // a bound that holds a slope exactly at its limit is no breach
+            let ok = value <= limit * (1.0 + 1e-9);
+            out.push(Verdict { name, value, limit, unit, ok, step, at: worst.at.clone() });
+        };
+        let last = self.steps.last();
+        let at_end = |pick: fn(&Measures) -> &Option<Worst>| {
+            last.and_then(|step| pick(&step.measures).as_ref().map(|worst| (step.step, worst)))
+        };
+        let everywhere = |pick: fn(&Measures) -> &Option<Worst>| self.worst(pick);
+        judge("overstretch", "%", 1e2, limits.overstretch * 1e2, everywhere(|m| &m.overstretch));
+        judge("tilt", "°", 1.0, limits.tilt.to_degrees(), everywhere(|m| &m.tilt_deg));
+        if let Some(shear) = limits.shear {
+            judge("shear", "°", 1.0, shear.to_degrees(), everywhere(|m| &m.shear_deg));
+        }
+        if let Some(force) = limits.force {
+            judge("force", "N", 1.0, force, everywhere(|m| &m.force_n));
+        }
+        if let (Some(target), Some(step)) = (&self.scene.target, last) {
+            if self.scene.mold.is_some() {
+                judge("slack_ratio", "%", 1e2, limits.slack_ratio * 1e2, at_end(|m| &m.slack_ratio));
+                judge("bridging", "mm", 1.0, limits.bridging * 1e3, at_end(|m| &m.bridging_mm));
+            }
+            let contact = step.catenaries.iter().enumerate().filter_map(|(n, c)| {
+                let contact = c.contact.as_ref()?;
+                let errors = contact.landing_error_mm?;
+                let worse = usize::from(errors[1] > errors[0]);
+                Some(Worst {
+                    value: errors[worse],
+                    at: name(self.scene, n),
+                    place: contact.points[worse * (contact.points.len() - 1)],
+                })
+            });
+            let contact = contact.max_by(|a, b| a.value.total_cmp(&b.value));
+            let found = contact.as_ref().map(|worst| (step.step, worst));
+            judge("landing_contact", "mm", 1.0, limits.landing_contact * 1e3, found);
+            let gripper = step.grippers.iter().zip(&target.grippers).map(|(gripper, place)| Worst {
+                value: distance(gripper.position, *place) * 1e3,
+                at: format!("gripper [{},{}]", gripper.id[0], gripper.id[1]),
+                place: gripper.position,
+            });
+            let gripper = gripper.max_by(|a, b| a.value.total_cmp(&b.value));
+            let found = gripper.as_ref().map(|worst| (step.step, worst));
+            judge("landing_gripper", "mm", 1.0, limits.landing_gripper * 1e3, found);
+            if let Some(share) = step.measures.contact_share {
+                out.push(Verdict {
+                    name: "contact_share",
+                    value: share * 1e2,
+                    limit: limits.contact_share * 1e2,
+                    unit: "%",
+                    ok: share >= limits.contact_share,
+                    step: step.step,
+                    at: "all edges".into(),
+                });
+            }
+        }
+        if let Some(step) = self.steps.iter().find(|step| step.solver.status != "converged") {
+            out.push(Verdict {
+                name: "equilibrium",
+                value: step.solver.residual,
+                limit: 1e-6,
+                unit: "slope",
+                ok: false,
+                step: step.step,
+                at: format!("solver {} with max_tilt {:.1}°", step.solver.status, settings.max_tilt.to_degrees()),
+            });
+        }
+        out
+    }
+}
+
+fn numbers(pick: impl Fn(fn(&Measures) -> &Option<Worst>) -> Option<f64>) -> Numbers {
+    Numbers {
+        slack_mm: pick(|m| &m.slack_mm),
+        slack_ratio: pick(|m| &m.slack_ratio),
+        overstretch: pick(|m| &m.overstretch),
+        bridging_mm: pick(|m| &m.bridging_mm),
+        shear_deg: pick(|m| &m.shear_deg),
+        tilt_deg: pick(|m| &m.tilt_deg),
+        landing_error_mm: pick(|m| &m.landing_error_mm),
+    }
+}
+
+fn span_state(span: &FreeSpan, points: Vec<Point>, whole: f64) -> SpanState {
+    let fit = fit(span);
+    SpanState {
+        arc: [span.start, span.start + span.length],
+        length: span.length,
+        run: span.run(),
+        rise: span.ends[1][2] - span.ends[0][2],
+        state: match span.state {
+            _ if span.shearing => "straight",
+            catenary::SpanState::Hanging => "hanging",
+            catenary::SpanState::Overstretched => "overstretched",
+            catenary::SpanState::Straight => "straight",
+        },
+        force: span.force,
+        slopes: span.slopes,
+        prescribed: span.prescribed,
+        points,
+        slack_mm: fit.slack() * 1e3,
+        slack_ratio: fit.slack_ratio(),
+        wrinkle_mm: fit.wrinkle() * 1e3,
+        overstretch_mm: fit.overstretch() * 1e3,
+        overstretch: fit.overstretch() / whole,
+    }
+}
+
+/// A rest that lies on the mold, or one of no length.
+fn lying_state(fit: &measures::Fit, whole: f64, grippers: [Point; 2]) -> SpanState {
+    let first = distance(fit.place, grippers[0]) <= distance(fit.place, grippers[1]);
+    let arc = if first { [0.0, fit.length] } else { [whole - fit.length, whole] };
+    SpanState {
+        arc,
+        length: fit.length,
+        run: fit.path,
+        rise: 0.0,
+        state: "lying",
+        force: None,
+        slopes: [0.0; 2],
+        prescribed: [false; 2],
+        points: Vec::new(),
+        slack_mm: fit.slack() * 1e3,
+        slack_ratio: fit.slack_ratio(),
+        wrinkle_mm: fit.wrinkle() * 1e3,
+        overstretch_mm: fit.overstretch() * 1e3,
+        overstretch: fit.overstretch() / whole,
+    }
+}

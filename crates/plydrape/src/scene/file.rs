@@ -1,0 +1,371 @@
+//! The keys of a scene file and of a material file, as they may be written.
+//!
+//! These types say what is a key and what is not; [`super::check`] says what makes sense. Their
+//! comments are the descriptions of the JSON Schema.
+
+use super::quantity::{
+    Acceleration, Angle, BendingRigidity, Count, Fixed, FlexuralRigidity, Force, ForcePerLength,
+    Length, Located, Mass, Quantity, Ratio, Time,
+};
+use crate::ply::Direction;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+use std::borrow::Cow;
+use std::fmt;
+
+/// A scene of plydrape: a ply, the grippers that hold it, the mold, and where all of it goes.
+/// Plain numbers are in SI units; a string carries a unit, as in "98 mm".
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(title = "plydrape scene", rename = "Scene")]
+pub(super) struct SceneFile {
+    /// Name for reports; the file's name unless given.
+    pub title: Option<String>,
+    /// What hangs between the grippers.
+    pub ply: PlyTable,
+    /// What the ply is laid on. Without it the ply just hangs.
+    pub mold: Option<Located<MoldTable>>,
+    /// Where the grippers start.
+    pub grippers: Option<Located<GrippersTable>>,
+    /// Where the ply shall end.
+    pub target: Option<Located<TargetTable>>,
+    /// How the grippers move.
+    pub motion: Option<Located<MotionTable>>,
+    /// Rules of the model.
+    #[serde(default)]
+    pub model: ModelTable,
+    /// How contact between ply and mold is found.
+    #[serde(default)]
+    pub contact: ContactTable,
+    /// What an accepted drape keeps to.
+    #[serde(default)]
+    pub limits: LimitsTable,
+}
+
+/// What hangs between the grippers.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Ply")]
+pub(super) struct PlyTable {
+    /// Number of grippers along u and along v; [n, 1] is a strip.
+    pub grippers: Located<Fixed<Located<Count>, 2>>,
+    /// Fabric length between neighbouring grippers along u and along v (m).
+    pub cell: Fixed<Quantity<Length>, 2>,
+    /// A shipped material by name, a .toml file relative to the scene, or a table.
+    pub material: Located<MaterialChoice>,
+    /// The grid direction along which the warp runs, "u" unless given.
+    pub warp: Option<Warp>,
+}
+
+/// Grid direction of the warp.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Warp {
+    /// Along the first gripper index.
+    U,
+    /// Along the second gripper index.
+    V,
+}
+
+impl From<Warp> for Direction {
+    fn from(warp: Warp) -> Self {
+        match warp {
+            Warp::U => Direction::U,
+            Warp::V => Direction::V,
+        }
+    }
+}
+
+/// A woven ply, by line as in Krogh et al. 2018 or by area.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Material")]
+pub(super) struct MaterialTable {
+    /// Name for reports.
+    pub name: Option<String>,
+    /// Where the numbers come from; wanted in a material file.
+    pub source: Option<String>,
+    /// Mass per length (kg/m) or per area (kg/m²).
+    pub mass: Quantity<Mass>,
+    /// Flexural rigidity EI of a line of ply (N·m²); goes with a mass per length.
+    pub flexural_rigidity: Option<Quantity<FlexuralRigidity>>,
+    /// Bending rigidity per width along the warp (N·m); goes with a mass per area.
+    pub bending_rigidity_warp: Option<Quantity<BendingRigidity>>,
+    /// Bending rigidity per width along the weft (N·m); goes with a mass per area.
+    pub bending_rigidity_weft: Option<Quantity<BendingRigidity>>,
+    /// Picture-frame shear force per length over the shear angle.
+    pub shear_curve: Option<Located<ShearCurveTable>>,
+    /// Shear angle at which the weave locks (rad).
+    pub locking_angle: Option<Quantity<Angle>>,
+    /// The test that found the locking angle.
+    pub locking_test: Option<String>,
+}
+
+/// Measured points (`angle` and `force`), or a `polynomial`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "ShearCurve")]
+pub(super) struct ShearCurveTable {
+    /// Shear angles, ascending from 0 (rad).
+    pub angle: Option<Located<Vec<Quantity<Angle>>>>,
+    /// Shear force per length at each angle, never falling (N/m).
+    pub force: Option<Located<Vec<Quantity<ForcePerLength>>>>,
+    /// Coefficients of γ, γ², … (N/m, γ in rad).
+    pub polynomial: Option<Located<Vec<Quantity<Ratio>>>>,
+}
+
+/// The surface that the ply is laid on.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Mold")]
+pub(super) struct MoldTable {
+    /// Shape of the mold.
+    #[allow(dead_code, reason = "one shape so far: reading the key is the check")]
+    pub kind: MoldKind,
+    /// A point of the plane (m); the origin unless given.
+    pub point: Option<Fixed<Quantity<Length>, 3>>,
+    /// Direction out of the mold towards the ply, of any length, upwards; or give `tilt`.
+    pub normal: Option<Located<Fixed<Quantity<Ratio>, 3>>>,
+    /// Angle between the plane and the horizontal (rad).
+    pub tilt: Option<Quantity<Angle>>,
+    /// Heading in which the plane climbs (rad), from x towards y.
+    pub tilt_direction: Option<Quantity<Angle>>,
+}
+
+/// Shape of the mold.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum MoldKind {
+    /// Flat, of any position and tilt.
+    Plane,
+}
+
+/// Where the grippers start: a rectangle by `spacing` and `height`, or `positions`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Grippers")]
+pub(super) struct GrippersTable {
+    /// Distance of neighbours along u and along v (m).
+    pub spacing: Option<Fixed<Quantity<Length>, 2>>,
+    /// Height z of all grippers; above the mold, with `parallel_to_mold` (m).
+    pub height: Option<Quantity<Length>>,
+    /// Place x, y of gripper [0, 0] (m); with `parallel_to_mold`, of the mold point below it.
+    pub origin: Option<Fixed<Quantity<Length>, 2>>,
+    /// Heading of u (rad), from x towards y.
+    pub direction: Option<Quantity<Angle>>,
+    /// True turns the rectangle parallel to the mold, `height` along its normal.
+    pub parallel_to_mold: Option<Located<bool>>,
+    /// Every position: a table of rows along v of [x, y, z] along u, or a CSV file (i, j, x, y, z).
+    pub positions: Option<Located<Positions>>,
+    /// Limit of the ball joints: largest gripper tilt (rad), 40 deg unless given.
+    pub max_tilt: Option<Quantity<Angle>>,
+}
+
+/// Where the ply shall end: a sheared parallelogram on the mold, or `positions`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Target")]
+pub(super) struct TargetTable {
+    /// Shear angle of the drape (rad): v stands at 90° minus this angle from u.
+    pub shear: Option<Quantity<Angle>>,
+    /// Place x, y of gripper [0, 0] (m); it is put on the mold.
+    pub origin: Option<Fixed<Quantity<Length>, 2>>,
+    /// Heading of u (rad), from x towards y.
+    pub direction: Option<Quantity<Angle>>,
+    /// Every position: a table of rows along v of [x, y, z] along u, or a CSV file (i, j, x, y, z).
+    pub positions: Option<Located<Positions>>,
+}
+
+/// How the grippers move.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Motion")]
+pub(super) struct MotionTable {
+    /// Straight to the target, held still, or from a file.
+    pub kind: MotionKind,
+    /// Number of steps of a straight motion, 30 unless given; step 1 is the start.
+    pub steps: Option<Located<Count>>,
+    /// Time from the first to the last step (s), a second a step unless given.
+    pub duration: Option<Quantity<Time>>,
+    /// CSV file with columns t, gripper ("i-j"), x, y, z, relative to the scene.
+    pub file: Option<Located<String>>,
+}
+
+/// How the grippers move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum MotionKind {
+    /// From the start in straight lines to the target.
+    Straight,
+    /// One step, at the start.
+    Hold,
+    /// As the file says.
+    File,
+}
+
+/// Rules of the model.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Model")]
+pub(super) struct ModelTable {
+    /// How shared slopes are found, "moment-balance" unless given.
+    pub slopes: Option<Slopes>,
+    /// Axial stiffness EA of a line of ply (N), 100 kN unless given; inf for an inextensible ply.
+    pub axial_stiffness: Option<Quantity<Force>>,
+    /// Acceleration of gravity (m/s²), 9.81 unless given.
+    pub gravity: Option<Quantity<Acceleration>>,
+}
+
+/// How shared slopes are found.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Slopes {
+    /// A ball joint passes no moment.
+    MomentBalance,
+    /// Smallest norm of the horizontal forces, as in Krogh et al. 2018.
+    MinForce,
+}
+
+/// How contact between ply and mold is found.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Contact")]
+pub(super) struct ContactTable {
+    /// Distance that counts as touching (m), 0.2 mm unless given.
+    pub tolerance: Option<Quantity<Length>>,
+    /// Once per step, or with steps cut so that none dips deeper than the tolerance ("cut", the default).
+    pub stepping: Option<SteppingKey>,
+    /// Slope of a span where it leaves the mold, "free" unless given.
+    pub end: Option<EndKey>,
+}
+
+/// When contact is evaluated.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "Stepping")]
+pub(super) enum SteppingKey {
+    /// Once per step, as in Krogh et al. 2018.
+    Once,
+    /// A step that would carry a point deeper than the tolerance is halved until it does not.
+    Cut,
+}
+
+/// Slope of a span where it leaves the mold.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "End")]
+pub(super) enum EndKey {
+    /// Free, as in Krogh et al. 2018.
+    Free,
+    /// The slope of the mold.
+    Tangent,
+}
+
+/// What an accepted drape keeps to.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Limits")]
+pub(super) struct LimitsTable {
+    /// Slack of a span as a share of its free length, 0.0005 unless given.
+    pub slack_ratio: Option<Quantity<Ratio>>,
+    /// Bridging gap (m), 1 mm unless given.
+    pub bridging: Option<Quantity<Length>>,
+    /// Chord beyond the free length as a share of the edge, 0.001 unless given.
+    pub overstretch: Option<Quantity<Ratio>>,
+    /// Distance of a contact point from its ideal place (m), 2 mm unless given.
+    pub landing_contact: Option<Quantity<Length>>,
+    /// Distance of a gripper from its ideal place (m), 0.5 mm unless given.
+    pub landing_gripper: Option<Quantity<Length>>,
+    /// Shear angle (rad); the material's locking angle unless given.
+    pub shear: Option<Quantity<Angle>>,
+    /// Gripper tilt (rad); the grippers' `max_tilt` unless given.
+    pub tilt: Option<Quantity<Angle>>,
+    /// Horizontal force of a span (N); none unless given.
+    pub force: Option<Quantity<Force>>,
+    /// Share of the ply's edges on the mold at the end, 0.95 unless given.
+    pub contact_share: Option<Quantity<Ratio>>,
+}
+
+/// A material by name or file, or in place.
+#[derive(Debug)]
+pub(super) enum MaterialChoice {
+    Named(String),
+    Table(Box<MaterialTable>),
+}
+
+impl<'de> Deserialize<'de> for MaterialChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Choice;
+        impl<'de> Visitor<'de> for Choice {
+            type Value = MaterialChoice;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("the name of a material, e.g. \"krogh2018\", a .toml file, or a table")
+            }
+            fn visit_str<E>(self, name: &str) -> Result<Self::Value, E> {
+                Ok(MaterialChoice::Named(name.to_string()))
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+                let table = MaterialTable::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(MaterialChoice::Table(Box::new(table)))
+            }
+        }
+        deserializer.deserialize_any(Choice)
+    }
+}
+
+impl JsonSchema for MaterialChoice {
+    fn schema_name() -> Cow<'static, str> {
+        "MaterialChoice".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let table = generator.subschema_for::<MaterialTable>();
+        json_schema!({ "anyOf": [
+            { "type": "string", "description": "a shipped name or a .toml file", "examples": ["krogh2018"] },
+            table
+        ]})
+    }
+}
+
+/// One row of gripper positions along u, each `[x, y, z]` (m).
+pub(super) type PositionsRow = Located<Vec<Located<Fixed<Quantity<Length>, 3>>>>;
+
+/// Gripper positions: a CSV file or a table of rows along v.
+#[derive(Debug)]
+pub(super) enum Positions {
+    File(String),
+    Table(Vec<PositionsRow>),
+}
+
+impl<'de> Deserialize<'de> for Positions {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Choice;
+        impl<'de> Visitor<'de> for Choice {
+            type Value = Positions;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a CSV file, e.g. \"start.csv\", or a table [[[x, y, z], …], …]")
+            }
+            fn visit_str<E>(self, file: &str) -> Result<Self::Value, E> {
+                Ok(Positions::File(file.to_string()))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(seq)).map(Positions::Table)
+            }
+        }
+        deserializer.deserialize_any(Choice)
+    }
+}
+
+impl JsonSchema for Positions {
+    fn schema_name() -> Cow<'static, str> {
+        "Positions".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let rows = generator.subschema_for::<Vec<PositionsRow>>();
+        json_schema!({ "anyOf": [
+            { "type": "string", "description": "a CSV file", "examples": ["start.csv"] },
+            rows
+        ]})
+    }
+}

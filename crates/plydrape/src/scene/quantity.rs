@@ -1,0 +1,405 @@
+//! Values of a scene file that know their place and the dimension wanted of them.
+
+use super::error::{Document, SceneError};
+use super::units::{self, Dimension};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use std::borrow::Cow;
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Range;
+
+/// A value and the bytes of the file it came from.
+#[derive(Debug, Clone)]
+pub(super) struct Located<T> {
+    pub value: T,
+    pub span: Range<usize>,
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let spanned = toml::Spanned::deserialize(deserializer)?;
+        Ok(Located {
+            span: spanned.span(),
+            value: spanned.into_inner(),
+        })
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Located<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
+
+/// What a key of the scene measures.
+pub(super) trait Measure {
+    /// The dimensions that fit.
+    const DIMENSIONS: &'static [Dimension];
+    /// Name with its article.
+    const NAME: &'static str;
+    /// Unit of a plain number, empty for a ratio.
+    const UNIT: &'static str;
+    /// A value with a unit, as a user would write it.
+    const EXAMPLE: &'static str;
+}
+
+macro_rules! measures {
+    ($($(#[$doc:meta])* $name:ident: [$($dimension:ident),+], $label:literal, $unit:literal, $example:literal;)+) => {$(
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy)]
+        pub(super) struct $name;
+        impl Measure for $name {
+            const DIMENSIONS: &'static [Dimension] = &[$(Dimension::$dimension),+];
+            const NAME: &'static str = $label;
+            const UNIT: &'static str = $unit;
+            const EXAMPLE: &'static str = $example;
+        }
+    )+};
+}
+
+measures! {
+    /// Length (m).
+    Length: [LENGTH], "a length", "m", "98 mm";
+    /// Angle (rad).
+    Angle: [ANGLE], "an angle", "rad", "20 deg";
+    /// Time (s).
+    Time: [TIME], "a time", "s", "29 s";
+    /// Force (N).
+    Force: [FORCE], "a force", "N", "100 kN";
+    /// Acceleration (m/s²).
+    Acceleration: [ACCELERATION], "an acceleration", "m/s^2", "9.81 m/s^2";
+    /// Share of a whole, without a unit.
+    Ratio: [NONE], "a ratio", "", "0.05 %";
+    /// Mass per length (kg/m) or per area (kg/m²).
+    Mass: [LINE_MASS, AREAL_MASS], "a mass per length or per area", "kg/m or kg/m^2", "314 g/m^2";
+    /// Flexural rigidity EI of a line of ply (N·m²).
+    FlexuralRigidity: [FLEXURAL_RIGIDITY], "a flexural rigidity", "N m^2", "9e-6 N m^2";
+    /// Bending rigidity per width (N·m).
+    BendingRigidity: [MOMENT], "a bending rigidity per width", "N m", "2e-4 N m";
+    /// Shear force per length (N/m).
+    ForcePerLength: [FORCE_PER_LENGTH], "a force per length", "N/m", "50 N/m";
+}
+
+/// A number in SI units, or a text with a unit, not yet held against its dimension.
+#[derive(Debug, Clone)]
+pub(super) enum Raw {
+    Number(f64),
+    Text(String),
+}
+
+/// A measured value as it stands in the file.
+#[derive(Debug, Clone)]
+pub(super) struct Unchecked<M> {
+    raw: Raw,
+    measure: PhantomData<M>,
+}
+
+/// A measured value with its place.
+pub(super) type Quantity<M> = Located<Unchecked<M>>;
+
+impl<M: Measure> Quantity<M> {
+    /// The finite value in SI units.
+    pub fn si(&self, document: &Document) -> Result<f64, SceneError> {
+        let value = self.si_or_infinite(document)?;
+        if value.is_finite() {
+            return Ok(value);
+        }
+        Err(document.error(
+            self.span.clone(),
+            format!("{} is no finite number", document.quoted(&self.span)),
+            format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE),
+        ))
+    }
+
+    /// The value in SI units; infinity passes, a value that is not a number does not.
+    pub fn si_or_infinite(&self, document: &Document) -> Result<f64, SceneError> {
+        let (value, _) = self.with_dimension(document)?;
+        if !value.is_nan() {
+            return Ok(value);
+        }
+        Err(document.error(
+            self.span.clone(),
+            "`nan` is not a number",
+            format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE),
+        ))
+    }
+
+    /// The value in SI units and its dimension, `None` where a plain number leaves it open.
+    pub fn with_dimension(
+        &self,
+        document: &Document,
+    ) -> Result<(f64, Option<Dimension>), SceneError> {
+        let error =
+            |message: String, help: String| document.error(self.span.clone(), message, help);
+        let wanted = format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE);
+        let text = match &self.value.raw {
+            Raw::Number(number) => return Ok((*number, None)),
+            Raw::Text(text) => text,
+        };
+        let shown = document.excerpt(&self.span);
+        let (value, dimension) = units::quantity(text).map_err(|fault| {
+            error(
+                format!("{shown} cannot be read: {fault}"),
+                format!("{wanted}; {}", fault.help()),
+            )
+        })?;
+        match dimension {
+            Some(found) if M::DIMENSIONS.contains(&found) => Ok((value, Some(found))),
+            Some(found) => Err(error(format!("{shown} is {found}"), wanted)),
+            None if M::DIMENSIONS.contains(&Dimension::NONE) || value.is_infinite() => {
+                Ok((value, None))
+            }
+            None => Err(error(
+                format!("{shown} has no unit"),
+                format!(
+                    "{wanted}; a plain number, without quotes, is in {}",
+                    M::UNIT
+                ),
+            )),
+        }
+    }
+
+    /// A value above zero.
+    pub fn positive(&self, document: &Document) -> Result<f64, SceneError> {
+        let value = self.si(document)?;
+        if value > 0.0 {
+            return Ok(value);
+        }
+        let zero = if value == 0.0 { "zero" } else { "negative" };
+        Err(document.error(
+            self.span.clone(),
+            format!("{} is {zero}", document.quoted(&self.span)),
+            format!("{} above zero is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE),
+        ))
+    }
+
+    /// A value above zero and within bounds, both in SI units.
+    pub fn within(&self, document: &Document, [low, high]: [f64; 2]) -> Result<f64, SceneError> {
+        let value = self.positive(document)?;
+        if (low..=high).contains(&value) {
+            return Ok(value);
+        }
+        let side = if value < low { "small" } else { "large" };
+        Err(document.error(
+            self.span.clone(),
+            format!("{} is too {side} for a ply", document.quoted(&self.span)),
+            format!("{} from {low:e} to {high:e} {} is wanted", M::NAME, M::UNIT),
+        ))
+    }
+
+    /// A value of zero or more.
+    pub fn not_negative(&self, document: &Document) -> Result<f64, SceneError> {
+        let value = self.si(document)?;
+        if value >= 0.0 {
+            return Ok(value);
+        }
+        Err(document.error(
+            self.span.clone(),
+            format!("{} is negative", document.quoted(&self.span)),
+            format!("{} of zero or more is wanted", M::NAME),
+        ))
+    }
+}
+
+/// Smallest and largest size of anything in a scene (m).
+const SIZES: [f64; 2] = [1e-6, 1e4];
+
+impl Quantity<Length> {
+    /// A size between 1 µm and 10 km (m).
+    pub fn size(&self, document: &Document) -> Result<f64, SceneError> {
+        let value = self.positive(document)?;
+        if (SIZES[0]..=SIZES[1]).contains(&value) {
+            return Ok(value);
+        }
+        Err(self.out_of_scale(document, value))
+    }
+
+    /// A coordinate of at most 10 km to either side (m).
+    pub fn coordinate(&self, document: &Document) -> Result<f64, SceneError> {
+        let value = self.si(document)?;
+        if value.abs() <= SIZES[1] {
+            return Ok(value);
+        }
+        Err(self.out_of_scale(document, value))
+    }
+
+    fn out_of_scale(&self, document: &Document, value: f64) -> SceneError {
+        let remedy = match &self.value.raw {
+            Raw::Number(number) => format!(
+                "plain numbers are metres: did you mean \"{number} mm\"? sizes go from 1 um to 10 km"
+            ),
+            Raw::Text(_) => "sizes go from 1 um to 10 km: is the unit right?".into(),
+        };
+        document.error(
+            self.span.clone(),
+            format!(
+                "{} is {} m, out of all scale for a ply",
+                document.quoted(&self.span),
+                rounded(value)
+            ),
+            remedy,
+        )
+    }
+}
+
+/// Three digits, by powers of ten.
+pub(super) fn rounded(value: f64) -> String {
+    let short: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    format!("{short:e}")
+}
+
+impl Quantity<Angle> {
+    /// An angle from zero to below a right angle (rad).
+    pub fn below_right_angle(&self, document: &Document) -> Result<f64, SceneError> {
+        let value = self.not_negative(document)?;
+        if value < std::f64::consts::FRAC_PI_2 * (1.0 - 1e-9) {
+            return Ok(value);
+        }
+        let shown = document.quoted(&self.span);
+        let (message, help) = match self.value.raw {
+            Raw::Number(number) => (
+                format!(
+                    "{shown} is {:.1} deg, a right angle or more",
+                    value.to_degrees()
+                ),
+                format!("plain numbers are radians: did you mean \"{number} deg\"?"),
+            ),
+            Raw::Text(_) => (
+                format!("{shown} is a right angle or more"),
+                "an angle from 0 to below 90 deg is wanted".into(),
+            ),
+        };
+        Err(document.error(self.span.clone(), message, help))
+    }
+}
+
+impl<'de, M: Measure> Deserialize<'de> for Unchecked<M> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Value<M>(PhantomData<M>);
+        impl<M: Measure> Visitor<'_> for Value<M> {
+            type Value = Raw;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "{}, e.g. \"{}\"", M::NAME, M::EXAMPLE)
+            }
+            fn visit_i64<E>(self, value: i64) -> Result<Raw, E> {
+                Ok(Raw::Number(value as f64))
+            }
+            fn visit_u64<E>(self, value: u64) -> Result<Raw, E> {
+                Ok(Raw::Number(value as f64))
+            }
+            fn visit_f64<E>(self, value: f64) -> Result<Raw, E> {
+                Ok(Raw::Number(value))
+            }
+            fn visit_str<E>(self, value: &str) -> Result<Raw, E> {
+                Ok(Raw::Text(value.to_string()))
+            }
+        }
+        Ok(Unchecked {
+            raw: deserializer.deserialize_any(Value::<M>(PhantomData))?,
+            measure: PhantomData,
+        })
+    }
+}
+
+impl<M: Measure> JsonSchema for Unchecked<M> {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        M::NAME.into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let number = match M::UNIT {
+            "" => M::NAME.to_string(),
+            unit => format!("{} in {unit}", M::NAME),
+        };
+        json_schema!({
+            "anyOf": [
+                { "type": "number", "description": number },
+                { "type": "string", "description": format!("{} with its unit", M::NAME), "examples": [M::EXAMPLE] }
+            ]
+        })
+    }
+}
+
+/// A whole number.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Count(pub i64);
+
+impl<'de> Deserialize<'de> for Count {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Whole;
+        impl Visitor<'_> for Whole {
+            type Value = Count;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a whole number, e.g. 4")
+            }
+            fn visit_i64<E>(self, value: i64) -> Result<Count, E> {
+                Ok(Count(value))
+            }
+            fn visit_u64<E>(self, value: u64) -> Result<Count, E> {
+                Ok(Count(i64::try_from(value).unwrap_or(i64::MAX)))
+            }
+        }
+        deserializer.deserialize_any(Whole)
+    }
+}
+
+impl JsonSchema for Count {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "count".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "integer", "minimum": 1 })
+    }
+}
+
+/// An array of exactly `N` values.
+#[derive(Debug, Clone)]
+pub(super) struct Fixed<T, const N: usize>(pub [T; N]);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Fixed<T, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Values<T, const N: usize>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Values<T, N> {
+            type Value = [T; N];
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "an array of {N} values in square brackets")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<[T; N], A::Error> {
+                let mut values = Vec::with_capacity(N);
+                while let Some(value) = seq.next_element()? {
+                    values.push(value);
+                }
+                let length = values.len();
+                <[T; N]>::try_from(values).map_err(|_| A::Error::invalid_length(length, &self))
+            }
+        }
+        deserializer
+            .deserialize_any(Values::<T, N>(PhantomData))
+            .map(Fixed)
+    }
+}
+
+impl<T: JsonSchema, const N: usize> JsonSchema for Fixed<T, N> {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        format!("{N} of {}", T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let items = generator.subschema_for::<T>();
+        json_schema!({ "type": "array", "items": items, "minItems": N, "maxItems": N })
+    }
+}

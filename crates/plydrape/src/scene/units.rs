@@ -1,0 +1,337 @@
+//! Numbers with a unit: `"98 mm"`, `"314 g/m^2"`, `"9e-6 N·m²"`.
+//!
+//! A unit is a product and quotient of symbols with whole powers, read from left to right; a slash
+//! divides by the next symbol only, so that `N/m/s` is N/(m·s). Values come out in SI base units.
+//! An angle counts as a dimension of its own: a length in degrees is a mistake worth catching.
+
+use std::fmt;
+
+/// Powers of metre, kilogram, second and radian.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Dimension(pub [i32; 4]);
+
+impl Dimension {
+    pub const NONE: Self = Dimension([0, 0, 0, 0]);
+    pub const LENGTH: Self = Dimension([1, 0, 0, 0]);
+    pub const MASS: Self = Dimension([0, 1, 0, 0]);
+    pub const TIME: Self = Dimension([0, 0, 1, 0]);
+    pub const ANGLE: Self = Dimension([0, 0, 0, 1]);
+    pub const FORCE: Self = Dimension([1, 1, -2, 0]);
+    pub const PRESSURE: Self = Dimension([-1, 1, -2, 0]);
+    pub const ACCELERATION: Self = Dimension([1, 0, -2, 0]);
+    pub const LINE_MASS: Self = Dimension([-1, 1, 0, 0]);
+    pub const AREAL_MASS: Self = Dimension([-2, 1, 0, 0]);
+    pub const FLEXURAL_RIGIDITY: Self = Dimension([3, 1, -2, 0]);
+    pub const MOMENT: Self = Dimension([2, 1, -2, 0]);
+    pub const FORCE_PER_LENGTH: Self = Dimension([0, 1, -2, 0]);
+
+    /// Multiplies by another dimension's power.
+    fn times(self, other: Dimension, power: i32) -> Self {
+        let mut sum = self.0;
+        for (s, o) in sum.iter_mut().zip(other.0) {
+            *s = s.saturating_add(o.saturating_mul(power));
+        }
+        Dimension(sum)
+    }
+}
+
+/// The dimensions with a name of their own.
+const NAMES: [(Dimension, &str); 16] = [
+    (Dimension::NONE, "a number without a unit"),
+    (Dimension::LENGTH, "a length"),
+    (Dimension::MASS, "a mass"),
+    (Dimension::TIME, "a time"),
+    (Dimension::ANGLE, "an angle"),
+    (Dimension::FORCE, "a force"),
+    (Dimension::PRESSURE, "a pressure"),
+    (Dimension::ACCELERATION, "an acceleration"),
+    (Dimension::LINE_MASS, "a mass per length"),
+    (Dimension::AREAL_MASS, "a mass per area"),
+    (Dimension::FLEXURAL_RIGIDITY, "a flexural rigidity"),
+    (Dimension::MOMENT, "a moment"),
+    (Dimension::FORCE_PER_LENGTH, "a force per length"),
+    (Dimension([2, 0, 0, 0]), "an area"),
+    (Dimension([1, 0, -1, 0]), "a speed"),
+    (Dimension([-3, 1, 0, 0]), "a density"),
+];
+
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((_, name)) = NAMES.iter().find(|(dimension, _)| dimension == self) {
+            return f.write_str(name);
+        }
+        f.write_str("a quantity in")?;
+        for (symbol, power) in ["m", "kg", "s", "rad"].into_iter().zip(self.0) {
+            match power {
+                0 => {}
+                1 => write!(f, " {symbol}")?,
+                _ => write!(f, " {symbol}^{power}")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Symbols of units, their size in SI base units and their dimension.
+const UNITS: [(&str, f64, Dimension); 24] = [
+    ("m", 1.0, Dimension::LENGTH),
+    ("cm", 1e-2, Dimension::LENGTH),
+    ("mm", 1e-3, Dimension::LENGTH),
+    ("um", 1e-6, Dimension::LENGTH),
+    ("µm", 1e-6, Dimension::LENGTH),
+    ("μm", 1e-6, Dimension::LENGTH),
+    ("in", 0.0254, Dimension::LENGTH),
+    ("rad", 1.0, Dimension::ANGLE),
+    ("deg", std::f64::consts::PI / 180.0, Dimension::ANGLE),
+    ("°", std::f64::consts::PI / 180.0, Dimension::ANGLE),
+    ("kg", 1.0, Dimension::MASS),
+    ("g", 1e-3, Dimension::MASS),
+    ("mg", 1e-6, Dimension::MASS),
+    ("s", 1.0, Dimension::TIME),
+    ("ms", 1e-3, Dimension::TIME),
+    ("min", 60.0, Dimension::TIME),
+    ("N", 1.0, Dimension::FORCE),
+    ("mN", 1e-3, Dimension::FORCE),
+    ("kN", 1e3, Dimension::FORCE),
+    ("Pa", 1.0, Dimension::PRESSURE),
+    ("kPa", 1e3, Dimension::PRESSURE),
+    ("MPa", 1e6, Dimension::PRESSURE),
+    ("GPa", 1e9, Dimension::PRESSURE),
+    ("%", 1e-2, Dimension::NONE),
+];
+
+/// Why a text is no number with a unit.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub(super) enum UnitError {
+    #[error("it does not start with a number")]
+    NoNumber,
+    #[error("its number has a decimal comma")]
+    DecimalComma,
+    #[error("`{0}` is no unit known here")]
+    Unknown(String),
+    #[error("`{0}` is no whole power from -9 to 9")]
+    Power(String),
+    #[error("a unit is missing after `{0}`")]
+    Dangling(char),
+}
+
+impl UnitError {
+    /// What would be right.
+    pub fn help(&self) -> String {
+        match self {
+            UnitError::NoNumber => "write a number and a unit, as in \"98 mm\"".into(),
+            UnitError::DecimalComma => "write a decimal point, as in \"98.5 mm\"".into(),
+            UnitError::Unknown(symbol) => match nearest_unit(symbol) {
+                Some(unit) => format!("did you mean `{unit}`? {}", known_units()),
+                None => known_units(),
+            },
+            UnitError::Power(_) => "write powers as in m^2, m², or s^-2".into(),
+            UnitError::Dangling(_) => {
+                "write units as products and quotients, as in \"N m^2\" or \"kg/m\"".into()
+            }
+        }
+    }
+}
+
+fn known_units() -> String {
+    let symbols: Vec<&str> = UNITS.iter().map(|(symbol, ..)| *symbol).collect();
+    format!("the units known here are {}", symbols.join(" "))
+}
+
+/// The unit that differs from a symbol in its letters' case only, or by a usual long name.
+fn nearest_unit(symbol: &str) -> Option<&'static str> {
+    let long = match symbol.to_lowercase().as_str() {
+        "millimeter" | "millimetre" | "millimeters" | "millimetres" => "mm",
+        "meter" | "metre" | "meters" | "metres" => "m",
+        "inch" | "inches" | "\"" => "in",
+        "degree" | "degrees" | "grad" => "deg",
+        "radian" | "radians" => "rad",
+        "sec" | "second" | "seconds" => "s",
+        "newton" | "newtons" => "N",
+        "gram" | "grams" => "g",
+        "percent" => "%",
+        _ => "",
+    };
+    let same = |unit: &str| unit == long || unit.to_lowercase() == symbol.to_lowercase();
+    UNITS.iter().map(|(unit, ..)| *unit).find(|u| same(u))
+}
+
+/// Reads a number with or without a unit: its value in SI base units, and its dimension.
+///
+/// `None` as the dimension means that no unit was written.
+pub(super) fn quantity(text: &str) -> Result<(f64, Option<Dimension>), UnitError> {
+    let text = text.trim();
+    let (number, rest) = text.split_at(number_length(text));
+    let value: f64 = number.parse().map_err(|_| UnitError::NoNumber)?;
+    if rest.starts_with(',') {
+        return Err(UnitError::DecimalComma);
+    }
+    if rest.trim().is_empty() {
+        return Ok((value, None));
+    }
+    let (size, dimension) = unit(rest)?;
+    Ok((value * size, Some(dimension)))
+}
+
+/// Reads a unit alone: its size in SI base units, and its dimension.
+pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
+    let mut total = (1.0, Dimension::NONE);
+    let mut rest = text.trim();
+    let mut sign = 1;
+    let mut operator = None;
+    while !rest.is_empty() {
+        // One symbol, up to an operator, a power or a space.
+        let end = rest.find(|c: char| is_separator(c) || is_power(c));
+        let (symbol, tail) = rest.split_at(end.unwrap_or(rest.len()));
+        if symbol.is_empty() {
+            let stray = rest.chars().next().unwrap_or(' ');
+            return Err(match operator {
+                Some(operator) => UnitError::Dangling(operator),
+                None => UnitError::Unknown(stray.to_string()),
+            });
+        }
+        let (_, size, dimension) = UNITS
+            .iter()
+            .find(|(known, ..)| *known == symbol)
+            .ok_or_else(|| UnitError::Unknown(symbol.to_string()))?;
+        let (power, tail) = power(tail)?;
+
+        // Into the product, or under the slash before it.
+        total.0 *= size.powi(sign * power);
+        total.1 = total.1.times(*dimension, sign * power);
+        rest = tail.trim_start();
+        (sign, operator) = (1, None);
+        if let Some(c) = rest.chars().next().filter(|c| "*·⋅/".contains(*c)) {
+            sign = if c == '/' { -1 } else { 1 };
+            operator = Some(c);
+            rest = rest[c.len_utf8()..].trim_start();
+        }
+    }
+    match operator {
+        Some(operator) => Err(UnitError::Dangling(operator)),
+        None => Ok(total),
+    }
+}
+
+fn is_separator(c: char) -> bool {
+    c.is_whitespace() || "*·⋅/".contains(c)
+}
+
+fn is_power(c: char) -> bool {
+    c == '^' || "²³⁴".contains(c) || c.is_ascii_digit() || c == '-'
+}
+
+/// The power at the head of a text, 1 if there is none, and what follows it.
+fn power(text: &str) -> Result<(i32, &str), UnitError> {
+    for (sign, value) in [('²', 2), ('³', 3), ('⁴', 4)] {
+        if let Some(tail) = text.strip_prefix(sign) {
+            return Ok((value, tail));
+        }
+    }
+    let end = text.find(is_separator).unwrap_or(text.len());
+    let (written, tail) = text.split_at(end);
+    if written.is_empty() {
+        return Ok((1, tail));
+    }
+    let digits = written.strip_prefix('^').unwrap_or(written);
+    match digits.parse::<i32>() {
+        Ok(value) if value.abs() <= 9 => Ok((value, tail)),
+        _ => Err(UnitError::Power(written.to_string())),
+    }
+}
+
+/// Bytes of the number at the head of a text; an `e` counts only with digits behind it.
+fn number_length(text: &str) -> usize {
+    let unsigned = text.trim_start_matches(['+', '-']);
+    for word in ["inf", "nan"] {
+        let found = unsigned.strip_prefix(word);
+        if found.is_some_and(|tail| !tail.starts_with(char::is_alphanumeric)) {
+            return text.len() - unsigned.len() + word.len();
+        }
+    }
+    let bytes = text.as_bytes();
+    let digits = |from: usize| {
+        let tail = bytes.get(from..).unwrap_or_default();
+        from + tail.iter().take_while(|b| b.is_ascii_digit()).count()
+    };
+    let sign_at = |at: usize| usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
+
+    let mut end = digits(sign_at(0));
+    if bytes.get(end) == Some(&b'.') {
+        end = digits(end + 1);
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let exponent = end + 1 + sign_at(end + 1);
+        if digits(exponent) > exponent {
+            end = digits(exponent);
+        }
+    }
+    end
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The dimensions are worked out by hand from N = kg·m/s².
+    #[test]
+    fn products_quotients_and_powers_are_read_from_left_to_right() {
+        let cases = [
+            ("9e-6 N·m²", 9e-6, Dimension::FLEXURAL_RIGIDITY),
+            ("9e-6 N m^2", 9e-6, Dimension::FLEXURAL_RIGIDITY),
+            ("314 g/m^2", 0.314, Dimension::AREAL_MASS),
+            ("9.81 m/s/s", 9.81, Dimension::ACCELERATION),
+            ("9.81 m s^-2", 9.81, Dimension::ACCELERATION),
+            ("1in", 0.0254, Dimension::LENGTH),
+            ("-2.5e1 mm", -0.025, Dimension::LENGTH),
+            ("5 mN*m", 5e-3, Dimension::MOMENT),
+            ("180°", std::f64::consts::PI, Dimension::ANGLE),
+            ("0.05 %", 0.0005, Dimension::NONE),
+        ];
+        for (text, value, dimension) in cases {
+            let (v, d) = quantity(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+            assert!((v - value).abs() <= 1e-15 * value.abs(), "{text}: {v}");
+            assert_eq!(d, Some(dimension), "{text}");
+        }
+        assert_eq!(quantity("98"), Ok((98.0, None)));
+        assert_eq!(quantity("inf"), Ok((f64::INFINITY, None)));
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_refused_by_its_fault() {
+        assert_eq!(quantity("mm"), Err(UnitError::NoNumber));
+        assert_eq!(quantity("98,5 mm"), Err(UnitError::DecimalComma));
+        assert_eq!(quantity("9 MM"), Err(UnitError::Unknown("MM".into())));
+        assert_eq!(quantity("9 kg/"), Err(UnitError::Dangling('/')));
+        assert_eq!(quantity("9 kg//m"), Err(UnitError::Dangling('/')));
+        assert_eq!(quantity("9 m^x"), Err(UnitError::Power("^x".into())));
+        assert!(
+            UnitError::Unknown("MM".into())
+                .help()
+                .contains("did you mean `mm`?")
+        );
+    }
+
+    proptest! {
+        /// Written with a unit and read back, a value differs by rounding only.
+        #[test]
+        fn a_value_with_its_unit_reads_back(
+            value in -1e6..1e6f64, k in 0..UNITS.len(), power in 1..4i32,
+        ) {
+            let (symbol, size, dimension) = UNITS[k];
+            let (read, found) = quantity(&format!("{value:e} {symbol}^{power}")).unwrap();
+            let expected = value * size.powi(power);
+            prop_assert!((read - expected).abs() <= 1e-14 * expected.abs());
+            prop_assert_eq!(found, Some(Dimension::NONE.times(dimension, power)));
+        }
+
+        /// No text makes the reader panic, be it random or nearly right.
+        #[test]
+        fn any_text_is_read_or_refused(text in "\\PC*", near in "[0-9.e+\\-]{0,6} ?[a-zµ°%]{0,4}[\\^/²·* ]?[\\-0-9a-z]{0,3}") {
+            let _ = quantity(&text);
+            let _ = quantity(&near);
+            let _ = unit(&text);
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Scenes that pass: the template, the examples, and the same positions written in other ways.
+
+use plydrape::scene::{self, Scene, SceneError};
+use proptest::prelude::*;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn parse(text: &str) -> Result<Scene, SceneError> {
+    scene::parse(text, Path::new(env!("CARGO_MANIFEST_DIR")), "scene.toml")
+}
+
+#[test]
+fn the_template_passes_its_own_check() {
+    let scene = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(scene.ply.grid.grippers(), 12);
+    assert_eq!(scene.motion.positions.len(), 30);
+    assert_eq!(scene.limits.shear, Some(45f64.to_radians()));
+}
+
+#[test]
+fn every_example_passes_the_check() {
+    let mut passed = 0;
+    for folder in std::fs::read_dir(root().join("examples")).unwrap() {
+        let file = folder.unwrap().path().join("scene.toml");
+        scene::read(&file).unwrap_or_else(|e| panic!("{e}"));
+        passed += 1;
+    }
+    assert!(passed >= 3, "{passed}");
+}
+
+/// Numbers of the paper's Table 1 and section 4.
+#[test]
+fn the_first_example_is_the_papers() {
+    let scene = scene::read(&root().join("examples/01_flat_sheared_mold/scene.toml")).unwrap();
+    let line = scene.ply.line(plydrape::ply::Kind::EdgeU);
+    assert_eq!((line.mass, scene.settings.gravity), (0.3143, 9.8));
+    // E·I of the table.
+    assert!((line.flexural_rigidity - 1.0e8 * 9.0e-14).abs() < 1e-20);
+    assert_eq!(scene.motion.times.len(), 30);
+    let start = &scene.motion.positions[0];
+    assert!((start[7][0] - 0.294).abs() < 1e-15 && (start[7][1] - 0.098).abs() < 1e-15);
+    // Sides of 100 mm, v leaning 20 degrees towards u.
+    let end = scene.motion.positions.last().unwrap();
+    let (sin, cos) = 20f64.to_radians().sin_cos();
+    let corner = [0.3 + 0.1 * sin, 0.1 * cos, 0.0];
+    for (found, expected) in end[7].iter().zip(corner) {
+        assert!((found - expected).abs() < 1e-15, "{found} {expected}");
+    }
+    assert_eq!(*end, scene.target.unwrap().grippers);
+}
+
+/// The rectangle of [`START`] as spacing, as a table and in a CSV file.
+#[test]
+fn positions_are_the_same_however_they_are_written() {
+    let with = |grippers: &str| {
+        let text = format!(
+            "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.1]\nmaterial = \"krogh2018\"\n[grippers]\n{grippers}\n"
+        );
+        parse(&text)
+            .unwrap_or_else(|e| panic!("{e}"))
+            .motion
+            .positions
+    };
+    let spacing = with("spacing = [0.098, 0.098]\nheight = 0.05\norigin = [0.01, 0]");
+    let table = with(
+        "positions = [[[0.01, 0, \"50 mm\"], [\"108 mm\", 0, 0.05]], [[0.01, 0.098, 0.05], [0.108, 0.098, 0.05]]]",
+    );
+    let file = with("positions = \"tests/start.csv\"");
+    for (a, b) in spacing[0]
+        .iter()
+        .zip(&table[0])
+        .chain(spacing[0].iter().zip(&file[0]))
+    {
+        for k in 0..3 {
+            assert!((a[k] - b[k]).abs() < 1e-15, "{a:?} {b:?}");
+        }
+    }
+}
+
+/// Times count from the first row; columns that are not asked for are ignored.
+#[test]
+fn a_motion_file_defines_start_and_steps() {
+    let text = "[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[motion]\nkind = \"file\"\nfile = \"tests/trajectory.csv\"\n";
+    let motion = parse(text).unwrap_or_else(|e| panic!("{e}")).motion;
+    assert_eq!(motion.times, [0.0, 0.5, 2.0]);
+    assert_eq!(motion.positions[0], [[0.0, 0.0, 0.05], [0.098, 0.0, 0.05]]);
+    assert_eq!(motion.positions[2][1], [0.099, 0.0, 0.02]);
+}
+
+/// A chord equal to its fabric is taut, not too long: 98 mm written two ways differ in the last bit.
+#[test]
+fn a_taut_start_is_allowed() {
+    let text = "[ply]\ngrippers = [4, 1]\ncell = [0.098, 0.1]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = 0\n";
+    assert!(parse(text).is_ok());
+}
+
+#[test]
+fn an_inextensible_ply_is_written_as_infinity() {
+    for stiffness in ["inf", "\"inf\"", "\"inf N\""] {
+        let text = scene::TEMPLATE.replace("\"100 kN\"", stiffness);
+        let scene = parse(&text).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(scene.settings.axial_stiffness, f64::INFINITY);
+    }
+}
+
+/// `docs/scene.schema.json` is what the program prints; `UPDATE_SCHEMA=1` writes it anew.
+#[test]
+fn the_committed_schema_is_current() {
+    let file = root().join("docs/scene.schema.json");
+    if std::env::var_os("UPDATE_SCHEMA").is_some() {
+        std::fs::write(&file, scene::schema()).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), scene::schema());
+}
+
+/// Positions, times and settings of a scene that passed are finite.
+fn assert_finite(scene: &Scene) {
+    assert!(scene.motion.times.iter().all(|t| t.is_finite()));
+    assert!(scene.motion.times.windows(2).all(|pair| pair[0] < pair[1]));
+    assert!(
+        scene
+            .motion
+            .positions
+            .iter()
+            .flatten()
+            .flatten()
+            .all(|x| x.is_finite())
+    );
+    assert!(scene.ply.cell.iter().all(|x| x.is_finite() && *x > 0.0));
+    assert!(!scene.settings.axial_stiffness.is_nan() && scene.settings.gravity > 0.0);
+}
+
+/// Values a careless or hostile hand might put in the place of another.
+const VALUES: [&str; 20] = [
+    "nan",
+    "inf",
+    "-inf",
+    "0",
+    "-1",
+    "1e308",
+    "1e-308",
+    "\"98 kg\"",
+    "\"\"",
+    "[]",
+    "{}",
+    "true",
+    "1979-05-27",
+    "\"-5 deg\"",
+    "[[[1, 2, 3]]]",
+    "9223372036854775807",
+    "\"1e999 m\"",
+    "\"98 mm\"",
+    "[\"98 mm\", 0]",
+    "\"µ\"",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    /// Flipped bytes and lost lines are read or refused with a place inside the text.
+    #[test]
+    fn a_damaged_scene_is_read_or_refused(
+        flips in prop::collection::vec((0..scene::TEMPLATE.len(), any::<u8>()), 0..6),
+        lost in prop::collection::vec(0..70usize, 0..4),
+    ) {
+        let mut bytes = scene::TEMPLATE.as_bytes().to_vec();
+        for (at, byte) in flips {
+            bytes[at] = byte;
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        let kept: Vec<&str> = text.lines().enumerate().filter(|(k, _)| !lost.contains(k)).map(|(_, l)| l).collect();
+        let text = kept.join("\n");
+        match parse(&text) {
+            Ok(scene) => assert_finite(&scene),
+            Err(error) => {
+                prop_assert!(!error.message.is_empty() && !error.help.is_empty());
+                if let Some(span) = error.span.clone() {
+                    prop_assert!(error.text.get(span).is_some());
+                }
+            }
+        }
+    }
+
+    /// A value in the place of another is read or refused.
+    #[test]
+    fn a_strange_value_is_read_or_refused(line in 0..90usize, value in 0..VALUES.len(), twice in 0..90usize) {
+        let text: Vec<String> = scene::TEMPLATE.lines().enumerate().map(|(k, l)| {
+            let l = l.trim_start_matches("# ");
+            match l.split_once(" = ") {
+                Some((key, _)) if k == line || k == twice => format!("{key} = {}", VALUES[value]),
+                _ => scene::TEMPLATE.lines().nth(k).unwrap_or_default().to_string(),
+            }
+        }).collect();
+        if let Ok(scene) = parse(&text.join("\n")) {
+            assert_finite(&scene);
+        }
+    }
+}
