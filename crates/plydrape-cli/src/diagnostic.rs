@@ -124,9 +124,12 @@ impl Refused {
     /// The first line of the fault's span, a character at least where there is one.
     fn first_line(&self) -> Option<SourceSpan> {
         let span = self.0.span.clone()?;
-        let text = self.0.text.get(span.clone())?;
-        let length = text.find(['\n', '\r']).unwrap_or(text.len());
-        Some((span.start, length.min(LONGEST_LINE)).into())
+        let text: &str = &self.0.text;
+        // A fault at the very end is shown at the last character.
+        let start = boundary(text, span.start.min(text.len().saturating_sub(1)));
+        let fault = text.get(start..span.end.max(start))?;
+        let length = fault.find(['\n', '\r']).unwrap_or(fault.len());
+        Some((start, length.min(LONGEST_LINE)).into())
     }
 }
 

@@ -15,6 +15,8 @@ fn check(scene: &Path) -> Output {
         .arg(scene)
         .current_dir(folder())
         .env("NO_COLOR", "1")
+        .env_remove("FORCE_COLOR")
+        .env_remove("NO_GRAPHICS")
         .env("LC_ALL", "C.UTF-8")
         .stdin(Stdio::null())
         .output()

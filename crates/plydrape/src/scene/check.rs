@@ -4,8 +4,10 @@ use super::error::{Document, SceneError};
 use super::file::{
     EndKey, GrippersTable, LimitsTable, MotionKind, PlyTable, SceneFile, Slopes, SteppingKey,
 };
-use super::motion::{MOST_POSITIONS, motion, motion_file};
-use super::quantity::{Angle, Count, Located, Quantity, Ratio};
+use super::located::{Count, Located};
+use super::motion::motion;
+use super::quantity::{Angle, Quantity, Ratio};
+use super::trajectory::trajectory;
 use super::{Contact, ContactEnd, Limits, Motion, Scene, Settings, SlopeRule, Stepping, Target};
 use super::{material, mold, start, target};
 use crate::mold::Mold;
@@ -143,7 +145,7 @@ impl Surroundings<'_> {
                     ),
                 ));
             }
-            let (motion, start) = motion_file(table, ply, document, base)?;
+            let (motion, start) = trajectory(table, ply, document, base)?;
             start::check(&start, ply, mold, tolerance)?;
             return Ok(motion);
         }
@@ -278,6 +280,3 @@ fn share(
         format!("a share from 0 to 1 is wanted; {value} of a hundred is \"{value} %\""),
     ))
 }
-
-// A motion file of one step per gripper position must fit for the largest grid as well.
-const _: () = assert!(MOST_POSITIONS >= (MOST_GRIPPERS * MOST_GRIPPERS) as usize);

@@ -199,6 +199,7 @@ fn fields(text: &str, line: &Range<usize>) -> Vec<Range<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     const COLUMNS: [Column; 2] = [
         Column {
@@ -219,6 +220,22 @@ mod tests {
         assert_eq!(rows.len(), 1);
         assert_eq!(rows[0].number(0), Ok(0.5));
         assert!((rows[0].number(1).unwrap() - 0.098).abs() < 1e-15);
+    }
+
+    proptest! {
+        /// No text makes the reader panic, be it random or nearly a table.
+        #[test]
+        fn any_text_is_read_or_refused(text in "\\PC*", near in "t ?\\(?[ms]{0,2}\\)?,x\\n([0-9.,e\" #°\\-]{0,9}\\r?\\n?){0,4}") {
+            for text in [text, near] {
+                let document = Document::new("a.csv", &text);
+                if let Ok(csv) = Csv::new(&document, &COLUMNS) {
+                    for row in csv.rows() {
+                        prop_assert!(row.number(0).is_ok_and(f64::is_finite) || row.number(0).is_err());
+                        prop_assert!(row.whole(1).is_ok() || row.whole(1).is_err());
+                    }
+                }
+            }
+        }
     }
 
     #[test]

@@ -3,17 +3,15 @@
 //! These types say what is a key and what is not; [`super::check`] says what makes sense. Their
 //! comments are the descriptions of the JSON Schema.
 
+use super::choice::{MaterialChoice, Positions};
+use super::located::{Count, Fixed, Located};
 use super::quantity::{
-    Acceleration, Angle, BendingRigidity, Count, Fixed, FlexuralRigidity, Force, ForcePerLength,
-    Length, Located, Mass, Quantity, Ratio, Time,
+    Acceleration, Angle, BendingRigidity, FlexuralRigidity, Force, ForcePerLength, Length, Mass,
+    Quantity, Ratio, Time,
 };
 use crate::ply::Direction;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
-use std::borrow::Cow;
-use std::fmt;
 
 /// A scene of plydrape: a ply, the grippers that hold it, the mold, and where all of it goes.
 /// Plain numbers are in SI units; a string carries a unit, as in "98 mm".
@@ -286,86 +284,4 @@ pub(super) struct LimitsTable {
     pub force: Option<Quantity<Force>>,
     /// Share of the ply's edges on the mold at the end, 0.95 unless given.
     pub contact_share: Option<Quantity<Ratio>>,
-}
-
-/// A material by name or file, or in place.
-#[derive(Debug)]
-pub(super) enum MaterialChoice {
-    Named(String),
-    Table(Box<MaterialTable>),
-}
-
-impl<'de> Deserialize<'de> for MaterialChoice {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Choice;
-        impl<'de> Visitor<'de> for Choice {
-            type Value = MaterialChoice;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("the name of a material, e.g. \"krogh2018\", a .toml file, or a table")
-            }
-            fn visit_str<E>(self, name: &str) -> Result<Self::Value, E> {
-                Ok(MaterialChoice::Named(name.to_string()))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
-                let table = MaterialTable::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(MaterialChoice::Table(Box::new(table)))
-            }
-        }
-        deserializer.deserialize_any(Choice)
-    }
-}
-
-impl JsonSchema for MaterialChoice {
-    fn schema_name() -> Cow<'static, str> {
-        "MaterialChoice".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let table = generator.subschema_for::<MaterialTable>();
-        json_schema!({ "anyOf": [
-            { "type": "string", "description": "a shipped name or a .toml file", "examples": ["krogh2018"] },
-            table
-        ]})
-    }
-}
-
-/// One row of gripper positions along u, each `[x, y, z]` (m).
-pub(super) type PositionsRow = Located<Vec<Located<Fixed<Quantity<Length>, 3>>>>;
-
-/// Gripper positions: a CSV file or a table of rows along v.
-#[derive(Debug)]
-pub(super) enum Positions {
-    File(String),
-    Table(Vec<PositionsRow>),
-}
-
-impl<'de> Deserialize<'de> for Positions {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Choice;
-        impl<'de> Visitor<'de> for Choice {
-            type Value = Positions;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a CSV file, e.g. \"start.csv\", or a table [[[x, y, z], …], …]")
-            }
-            fn visit_str<E>(self, file: &str) -> Result<Self::Value, E> {
-                Ok(Positions::File(file.to_string()))
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
-                Vec::deserialize(SeqAccessDeserializer::new(seq)).map(Positions::Table)
-            }
-        }
-        deserializer.deserialize_any(Choice)
-    }
-}
-
-impl JsonSchema for Positions {
-    fn schema_name() -> Cow<'static, str> {
-        "Positions".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let rows = generator.subschema_for::<Vec<PositionsRow>>();
-        json_schema!({ "anyOf": [
-            { "type": "string", "description": "a CSV file", "examples": ["start.csv"] },
-            rows
-        ]})
-    }
 }

@@ -1,8 +1,10 @@
 //! A material by name, by file or in place.
 
+use super::choice::MaterialChoice;
 use super::error::{Document, SceneError};
-use super::file::{MaterialChoice, MaterialTable, ShearCurveTable};
-use super::quantity::{Located, Measure, Quantity};
+use super::file::{MaterialTable, ShearCurveTable};
+use super::located::Located;
+use super::quantity::{Measure, Quantity};
 use super::read;
 use super::units::Dimension;
 use crate::material::{Material, Section, ShearCurve};
@@ -25,7 +27,7 @@ pub fn shipped_materials() -> impl Iterator<Item = &'static str> {
     SHIPPED.iter().map(|(name, _)| *name)
 }
 
-/// The material that a scene chose; `scene` is the path of the scene, files are relative to `base`.
+/// The material that a scene chose; files are relative to `base`.
 pub(super) fn material(
     choice: &Located<MaterialChoice>,
     document: &Document,

@@ -3,14 +3,18 @@
 //! A file becomes a scene in three stages, each refusing what it cannot pass on with the place in
 //! the file, what is wrong there and what would be right ([`SceneError`]):
 //!
-//! 1. `read`: bytes become a text, a text the keys of `file`;
+//! 1. `read`, `complaint`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the wanted dimension;
-//! 3. `check` with `material`, `mold`, `start`, `target`, `motion`: numbers become a [`Scene`].
+//! 3. `check` with `material`, `mold`, `start`, `target`, `motion`, `trajectory`: numbers become a
+//!    [`Scene`].
 
 mod check;
+mod choice;
+mod complaint;
 mod csv;
 mod error;
 mod file;
+mod located;
 mod material;
 mod mold;
 mod motion;
@@ -20,6 +24,7 @@ mod read;
 mod schema;
 mod start;
 mod target;
+mod trajectory;
 mod units;
 
 pub use error::SceneError;

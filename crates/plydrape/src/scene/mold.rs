@@ -2,7 +2,8 @@
 
 use super::error::{Document, SceneError};
 use super::file::MoldTable;
-use super::quantity::{Angle, Fixed, Length, Quantity, Ratio};
+use super::located::Fixed;
+use super::quantity::{Angle, Length, Quantity, Ratio};
 use crate::mold::{Mold, Plane};
 
 /// Least upward part of a unit normal: a mold this steep or steeper is a wall (89.9°).

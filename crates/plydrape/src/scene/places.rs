@@ -1,9 +1,10 @@
 //! Gripper positions as written: by spacing, as a table, or in a CSV file.
 
+use super::choice::{Positions, PositionsRow};
 use super::csv::{Column, Csv, Row};
 use super::error::{Document, SceneError};
-use super::file::{Positions, PositionsRow};
-use super::quantity::{Located, rounded};
+use super::located::Located;
+use super::quantity::rounded;
 use super::read;
 use super::units::Dimension;
 use crate::ply::{Grid, GripperId, Kind, Ply};

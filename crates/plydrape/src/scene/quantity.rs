@@ -1,42 +1,13 @@
-//! Values of a scene file that know their place and the dimension wanted of them.
+//! Measured values of a scene file, held against the dimension and the range wanted of them.
 
 use super::error::{Document, SceneError};
+use super::located::Located;
 use super::units::{self, Dimension};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Visitor};
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
-use std::ops::Range;
-
-/// A value and the bytes of the file it came from.
-#[derive(Debug, Clone)]
-pub(super) struct Located<T> {
-    pub value: T,
-    pub span: Range<usize>,
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let spanned = toml::Spanned::deserialize(deserializer)?;
-        Ok(Located {
-            span: spanned.span(),
-            value: spanned.into_inner(),
-        })
-    }
-}
-
-impl<T: JsonSchema> JsonSchema for Located<T> {
-    fn inline_schema() -> bool {
-        T::inline_schema()
-    }
-    fn schema_name() -> Cow<'static, str> {
-        T::schema_name()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        T::json_schema(generator)
-    }
-}
 
 /// What a key of the scene measures.
 pub(super) trait Measure {
@@ -326,80 +297,5 @@ impl<M: Measure> JsonSchema for Unchecked<M> {
                 { "type": "string", "description": format!("{} with its unit", M::NAME), "examples": [M::EXAMPLE] }
             ]
         })
-    }
-}
-
-/// A whole number.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Count(pub i64);
-
-impl<'de> Deserialize<'de> for Count {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Whole;
-        impl Visitor<'_> for Whole {
-            type Value = Count;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a whole number, e.g. 4")
-            }
-            fn visit_i64<E>(self, value: i64) -> Result<Count, E> {
-                Ok(Count(value))
-            }
-            fn visit_u64<E>(self, value: u64) -> Result<Count, E> {
-                Ok(Count(i64::try_from(value).unwrap_or(i64::MAX)))
-            }
-        }
-        deserializer.deserialize_any(Whole)
-    }
-}
-
-impl JsonSchema for Count {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> Cow<'static, str> {
-        "count".into()
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "integer", "minimum": 1 })
-    }
-}
-
-/// An array of exactly `N` values.
-#[derive(Debug, Clone)]
-pub(super) struct Fixed<T, const N: usize>(pub [T; N]);
-
-impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Fixed<T, N> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Values<T, const N: usize>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Values<T, N> {
-            type Value = [T; N];
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "an array of {N} values in square brackets")
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<[T; N], A::Error> {
-                let mut values = Vec::with_capacity(N);
-                while let Some(value) = seq.next_element()? {
-                    values.push(value);
-                }
-                let length = values.len();
-                <[T; N]>::try_from(values).map_err(|_| A::Error::invalid_length(length, &self))
-            }
-        }
-        deserializer
-            .deserialize_any(Values::<T, N>(PhantomData))
-            .map(Fixed)
-    }
-}
-
-impl<T: JsonSchema, const N: usize> JsonSchema for Fixed<T, N> {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> Cow<'static, str> {
-        format!("{N} of {}", T::schema_name()).into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let items = generator.subschema_for::<T>();
-        json_schema!({ "type": "array", "items": items, "minItems": N, "maxItems": N })
     }
 }

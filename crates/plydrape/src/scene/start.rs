@@ -3,9 +3,10 @@
 use super::FlatDrape;
 use super::error::{Document, SceneError};
 use super::file::GrippersTable;
+use super::located::{Fixed, Located};
 use super::mold::{coordinates, heading};
 use super::places::Places;
-use super::quantity::{Fixed, Length, Located, Quantity};
+use super::quantity::{Length, Quantity};
 use crate::mold::{Mold, Plane};
 use crate::ply::Ply;
 use std::path::Path;

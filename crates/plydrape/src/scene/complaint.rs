@@ -1,0 +1,208 @@
+//! What the TOML reader and serde complain about, in plain words and with a remedy.
+
+use super::error::{Document, SceneError};
+use std::ops::Range;
+
+/// A complaint of the TOML reader or of serde as a [`SceneError`].
+pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> SceneError {
+    let mut span = error.span().unwrap_or(0..0);
+    let text = error.message().trim();
+    let (head, expected) = match text.split_once(", expected ") {
+        Some((head, expected)) => (head, expected),
+        None => (text, ""),
+    };
+    let quoted = between_ticks(head);
+    let (message, help) = if head.starts_with("unknown field") {
+        unknown_key(quoted, &every_tick(expected))
+    } else if head.starts_with("missing field") {
+        span = header(document, span);
+        let table = document.excerpt(&span);
+        let place = if table.starts_with('[') {
+            format!(" in {table}")
+        } else {
+            String::new()
+        };
+        (
+            format!("the key `{quoted}` is missing{place}"),
+            hint(quoted),
+        )
+    } else if head.starts_with("unknown variant") {
+        let known = every_tick(expected);
+        let suggestion = suggestion(quoted, &known);
+        (
+            format!("\"{quoted}\" is no choice here"),
+            match known.as_slice() {
+                [only] => format!("the only choice is \"{only}\""),
+                _ => format!("{suggestion}the choices are {}", listed(&known, '"')),
+            },
+        )
+    } else if let Some(found) = head.strip_prefix("invalid length ") {
+        (
+            match found {
+                "1" => "one value stands here".into(),
+                _ => format!("{found} values stand here"),
+            },
+            wanted(expected),
+        )
+    } else if head.starts_with("invalid type") || head.starts_with("invalid value") {
+        (
+            format!("{} is {}", document.quoted(&span), kind_of(document, &span)),
+            wanted(expected),
+        )
+    } else if text.starts_with("duplicate key") {
+        (
+            format!("the key `{}` stands here twice", document.excerpt(&span)),
+            "keep one of the two".into(),
+        )
+    } else {
+        let fault = document.text.get(span.start..).unwrap_or_default();
+        let before = document.text.get(..span.start).unwrap_or_default();
+        let is_decimal_comma =
+            fault.starts_with(',') && before.ends_with(|c: char| c.is_ascii_digit());
+        let remedy = if is_decimal_comma {
+            "write a decimal point, as in 0.098"
+        } else {
+            "write `key = value` under a `[table]`, text in double quotes, arrays in square brackets"
+        };
+        (
+            format!("this is not TOML: {}", text.replace('\n', ", ")),
+            remedy.into(),
+        )
+    };
+    document.error(span, message, help)
+}
+
+/// What a value is, in TOML's words, from its first character.
+fn kind_of(document: &Document, span: &Range<usize>) -> &'static str {
+    let text = document.text.get(span.clone()).unwrap_or_default();
+    match text.trim_start().chars().next() {
+        Some('"' | '\'') => "a text",
+        Some('[') if text.starts_with("[[") => "an array of arrays or tables",
+        // A header `[name]` and an array look alike up to what stands before them.
+        Some('[') if starts_a_line(document, span.start) => "a table",
+        Some('[') => "an array",
+        Some('{') => "a table",
+        Some('t' | 'f') => "a switch, true or false",
+        Some(c) if c.is_ascii_digit() && is_date(text) => "a date or a time",
+        Some('0'..='9') if text.contains('.') => "a number with a fraction",
+        Some('+' | '-' | '0'..='9' | 'i' | 'n') => "a number",
+        _ => "of another kind",
+    }
+}
+
+fn is_date(text: &str) -> bool {
+    text.contains(':') || text.matches('-').count() == 2
+}
+
+fn starts_a_line(document: &Document, at: usize) -> bool {
+    let before = document.text.get(..at).unwrap_or_default();
+    before
+        .rsplit('\n')
+        .next()
+        .is_none_or(|line| line.trim().is_empty())
+}
+
+/// `a length is wanted, e.g. "98 mm"` from `a length, e.g. "98 mm"`.
+fn wanted(expected: &str) -> String {
+    match expected.split_once(", e.g. ") {
+        Some((what, example)) => format!("{what} is wanted, e.g. {example}"),
+        None => format!("{expected} is wanted"),
+    }
+}
+
+/// The header of the table at a span: its first line.
+fn header(document: &Document, span: Range<usize>) -> Range<usize> {
+    let text = document.text.get(span.clone()).unwrap_or_default();
+    let length = text.find('\n').unwrap_or(text.len());
+    span.start..span.start + length
+}
+
+fn unknown_key(key: &str, known: &[&str]) -> (String, String) {
+    let message = format!("`{key}` is no key here");
+    if key == "material" && known.contains(&"flexural_rigidity") {
+        let help = "a material file cannot name another material: give its mass and rigidity";
+        return (message, help.into());
+    }
+    let suggestion = suggestion(key, known);
+    let help = format!("{suggestion}the keys here are {}", listed(known, '`'));
+    (message, help)
+}
+
+/// What to write for a key that is missing.
+fn hint(key: &str) -> String {
+    match key {
+        "ply" => "add a table [ply] with grippers, cell and material".into(),
+        "grippers" => "say how many grippers there are along u and v: grippers = [4, 2]".into(),
+        "cell" => {
+            "give the fabric length between grippers along u and v: cell = [\"100 mm\", \"100 mm\"]"
+                .into()
+        }
+        "material" => {
+            "name a shipped material, a .toml file, or give a table: material = \"krogh2018\""
+                .into()
+        }
+        "mass" => "give the mass per length or per area: mass = \"314 g/m^2\"".into(),
+        "kind" => "say which: kind = \"plane\" for a mold; kind = \"straight\", \"hold\" or \"file\" for a motion".into(),
+        _ => format!("add `{key} = …`"),
+    }
+}
+
+/// `did you mean …? ` for the known word within a third of its letters, else nothing.
+fn suggestion(word: &str, known: &[&str]) -> String {
+    let nearest = known
+        .iter()
+        .map(|candidate| (edits(word, candidate), *candidate))
+        .min();
+    match nearest {
+        Some((distance, candidate)) if distance <= 1 + word.chars().count() / 3 => {
+            format!("did you mean `{candidate}`? ")
+        }
+        _ => String::new(),
+    }
+}
+
+/// Edits (insert, delete, replace) between two words, capitals apart.
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.to_lowercase().chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.to_lowercase().chars().take(64).enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, y) in b.iter().enumerate() {
+            let replace = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = replace.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+fn listed(words: &[&str], quote: char) -> String {
+    let quoted: Vec<String> = words.iter().map(|w| format!("{quote}{w}{quote}")).collect();
+    quoted.join(", ")
+}
+
+fn between_ticks(text: &str) -> &str {
+    text.split('`').nth(1).unwrap_or_default()
+}
+
+fn every_tick(text: &str) -> Vec<&str> {
+    text.split('`').skip(1).step_by(2).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Counted by hand.
+    #[test]
+    fn the_nearest_word_is_the_one_with_the_fewest_edits() {
+        assert_eq!(edits("gripers", "grippers"), 1);
+        assert_eq!(edits("Cell", "cell"), 0);
+        assert_eq!(edits("kitten", "sitting"), 3);
+        assert_eq!(
+            suggestion("sped", &["spacing", "speed"]),
+            "did you mean `speed`? "
+        );
+        assert_eq!(suggestion("colour", &["spacing", "speed"]), "");
+    }
+}
