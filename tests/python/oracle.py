@@ -444,7 +444,7 @@ def least_force(model: Model, s: Real) -> Solution:
             "fun": lambda p: scaled.constraints(p)[0],
             "jac": lambda p: scaled.constraints(p)[1],
         },
-        options={"ftol": 1e-13, "maxiter": 100},
+        options={"ftol": 1e-10, "maxiter": 100},
     )
     y = np.asarray(answer.x, float)
     slope = np.arange(n, model.variables)
