@@ -6,19 +6,20 @@ forces H and shared slopes s:
     minimise 1/2 |H|^2   subject to   L_i(H_i, slopes) = L_set,i (1 + H_i sec(theta_i) / EA),
                                       |s_j| <= tan(max_tilt)
 
-with free slopes on the ply's free boundary, one slope for colinear edges on both sides of a gripper,
-the slopes of diagonals from the plane through their cell's edges, shear kinematics and governed
-slopes. Nothing is eliminated: the engine may reduce the problem, this does not.
+with free slopes on the ply's free boundary, one slope for colinear edges on both sides of a
+gripper, the slopes of diagonals from the plane through their cell's edges, shear kinematics and
+governed slopes. Nothing is eliminated: the engine may reduce the problem, this does not.
 
-Solver: SciPy's SLSQP with exact first derivatives (complex steps through the span), from the feasible
-point that hangs every span at the slopes of its chords. Forces are scaled by that point's, lengths by
-their derivatives there. SLSQP stops when its merit function no longer moves, which leaves errors up
-to 1e-6 in flat directions; so the point is polished by Newton's method on the KKT system of the
-active set SLSQP found, second derivatives by central differences of the exact gradients. Differences
-only steer Newton: the residual it drives to zero is exact. Slopes that would leave their bounds join
-the active set, bounds with a multiplier of the wrong sign leave it. Ipopt was the other choice; it
-would want the two forms of the span rewritten in its symbols, and its answer would have to be
-polished as well, as its interior point stays off the active bounds.
+Solver: SciPy's SLSQP with exact first derivatives (complex steps through the span), from the
+feasible point that hangs every span at the slopes of its chords. Forces are scaled by that point's,
+lengths by their derivatives there. SLSQP stops when its merit function no longer moves, which
+leaves errors up to 1e-6 in flat directions (asked for more it runs in place); so the point is
+polished by Newton's method on the KKT system of the active set SLSQP found, second derivatives by
+central differences of the exact gradients. Differences only steer Newton: the residual it drives to
+zero is exact. Slopes that would leave their bounds join the active set, bounds with a multiplier of
+the wrong sign leave it. Ipopt was the other choice; it would want the two forms of the span
+rewritten in its symbols, and its answer would have to be polished as well, as its interior point
+stays off the active bounds.
 
 The moment-balance rule is a square system: lengths of the edges, and EI z'' equal on both sides of
 each shared slope that is not at its limit; Newton with exact derivatives, then the diagonals.
@@ -33,7 +34,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from oracle_span import Mask, Real, Response, Spans, excess, force_for, response
+from oracle_span import Mask, Real, Spans, excess, force_for, response
 from scipy.optimize import minimize
 
 Index = NDArray[np.intp]
@@ -46,8 +47,8 @@ EDGE_U, EDGE_V, RISING, FALLING = "u", "v", "rising", "falling"
 class Problem:
     """A hanging ply between nu x nv held grippers.
 
-    ``positions``: (nv, nu, 3) (m). ``cell``: fabric lengths a along u, b along v (m). ``mass`` (kg/m),
-    ``rigidity`` EI (N m^2), ``axial_stiffness`` EA (N, may be infinite), ``gravity`` (m/s^2),
+    ``positions``: (nv, nu, 3) (m). ``cell``: fabric lengths a along u, b along v (m). ``mass``
+    (kg/m), ``rigidity`` EI (N m^2), ``axial_stiffness`` EA (N, may be infinite), ``gravity`` (m/s^2),
     ``max_tilt`` (rad), ``rule``: "min-force" or "moment-balance".
     """
 
@@ -172,7 +173,7 @@ def build(problem: Problem) -> Net:
 class State:
     """Lengths, slopes and moments of the whole ply at one point (H, s), and their derivatives.
 
-    Variables: the forces of the hanging catenaries in their order, then the shared slopes; m in all.
+    Variables: the forces of the hanging catenaries in order, then the shared slopes; m in all.
     ``gap``: (hanging,) arc length less the length to reach (m); ``gap_by``: (hanging, m).
     ``slopes``: (n, 2) end slopes of every catenary. ``jump``: (shared,) moment before less moment
     behind each shared slope (N m); ``jump_by``: (shared, m).
@@ -189,6 +190,7 @@ class Model:
     """Evaluates a problem's constraints at a point (H, s)."""
 
     def __init__(self, problem: Problem) -> None:
+        """Builds the net and its spans."""
         self.problem = problem
         self.net = build(problem)
         net = self.net
@@ -330,13 +332,14 @@ class Model:
 
     def chord_slopes(self) -> Real:
         """Mean chord slope of the edges around each shared slope, kept inside its bounds."""
-        out = []
+        out: list[float] = []
         for (i, j), name in self.net.shared:
             di, dj = (1, 0) if name == EDGE_U else (0, 1)
             pair = [((i - di, j - dj), (i, j)), ((i, j), (i + di, j + dj))]
             rows = [self.net.edge_of[ends] for ends in pair]
             out.append(float(np.mean(self.net.rise[rows] / self.net.run[rows])))
-        return np.clip(np.array(out), -0.95 * self.bound, 0.95 * self.bound)
+        inside: Real = np.clip(np.array(out), -0.95 * self.bound, 0.95 * self.bound)
+        return inside
 
 
 @dataclass(frozen=True)
@@ -384,7 +387,7 @@ def finish(
 
 @dataclass
 class Scaled:
-    """The program in scaled variables y = x / unit, with constraints about as steep as the forces."""
+    """The program in scaled variables y = x / unit; constraints about as steep as the forces."""
 
     model: Model
     unit: Real
@@ -468,7 +471,9 @@ def least_force(model: Model, s: Real) -> Solution:
     null = rows[by.shape[0] :].T
     curvature = float(np.min(np.linalg.eigvalsh(null.T @ hessian @ null), initial=np.inf))
     gradient = scaled.kkt(y, multipliers)[slope]
-    return finish(model, y * scaled.unit, active, residual, curvature, np.where(active, gradient, 0.0))
+    return finish(
+        model, y * scaled.unit, active, residual, curvature, np.where(active, gradient, 0.0)
+    )
 
 
 def polish(scaled: Scaled, y: Real, free: Index) -> tuple[Real, Real, Real, float]:
@@ -476,9 +481,10 @@ def polish(scaled: Scaled, y: Real, free: Index) -> tuple[Real, Real, Real, floa
 
     Returns the point, the multipliers, the Lagrangian's Hessian over ``free`` and the residual.
     """
-    c, by = scaled.constraints(y)
+    by = scaled.constraints(y)[1]
     rows = by.shape[0]
-    multipliers = np.linalg.lstsq(by[:, free].T, -scaled.gradient(y)[free], rcond=None)[0]
+    fit = np.linalg.lstsq(by[:, free].T, -scaled.gradient(y)[free], rcond=None)[0]
+    multipliers = np.asarray(fit, np.float64)
     pick = np.concatenate([free, y.size + np.arange(rows)])
     hessian = np.zeros((free.size, free.size))
     best, history = np.inf, (y, multipliers)
@@ -496,7 +502,7 @@ def polish(scaled: Scaled, y: Real, free: Index) -> tuple[Real, Real, Real, floa
             ahead, behind = scaled.kkt(y + step, multipliers), scaled.kkt(y - step, multipliers)
             hessian[:, column] = (ahead - behind)[free] / 2e-5
         matrix = np.block([[hessian, by[:, free].T], [by[:, free], np.zeros((rows, rows))]])
-        update = np.linalg.solve(matrix, -residual)
+        update: Real = np.linalg.solve(matrix, -residual)
         y = y.copy()
         y[free] += update[: free.size]
         multipliers = multipliers + update[free.size :]
@@ -508,7 +514,7 @@ def polish(scaled: Scaled, y: Real, free: Index) -> tuple[Real, Real, Real, floa
 
 
 def balance(model: Model, s: Real) -> Solution:
-    """moment-balance: lengths of the edges and continuous moments, by Newton; then the diagonals."""
+    """moment-balance: lengths and continuous moments of the edges, by Newton; then diagonals."""
     n, bound = model.forces, model.bound
     edges = int(np.sum(model.rows < model.net.edges))
     x = np.concatenate([model.hang(s), s])

@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -46,7 +47,7 @@ STEP = 1e-40
 class Spans:
     """n spans and what holds their ends.
 
-    ``run``, ``rise`` (m), ``load`` = m g sec(theta) (N/m of run), ``rigidity`` EI (N m^2): shape (n,).
+    ``run``, ``rise`` (m), ``load`` = m g sec(theta) (N/m of run), ``rigidity`` EI (N m^2): (n,).
     ``prescribed``: shape (n, 2), true where the slope of that end is prescribed.
     """
 
@@ -152,7 +153,11 @@ def basis() -> Basis:
 def buckling_number(first_held: bool, second_held: bool) -> float:
     """H run^2 / EI of the first buckling load (negative) of these end conditions."""
     b = basis()
-    free = [index for index in range(FUNCTIONS) if (not first_held, not second_held, True)[min(index, 2)]]
+    free = [
+        index
+        for index in range(FUNCTIONS)
+        if (not first_held, not second_held, True)[min(index, 2)]
+    ]
     bending, tension = b.bending[np.ix_(free, free)], b.tension[np.ix_(free, free)]
     # Largest eigenvalue of (tension, bending): the well-conditioned way round.
     largest = eigh(tension, bending, eigvals_only=True)[-1]
@@ -164,10 +169,9 @@ def galerkin(s: Spans, force: Array, slopes: Array) -> Array:
     b = basis()
     half = s.run / 2.0
     kappa = force * s.run**2 / s.rigidity
-    matrix = b.bending + (kappa / 4.0)[:, None, None] * b.tension
+    matrix: NDArray[Any] = b.bending + (kappa / 4.0)[:, None, None] * b.tension
     right = -(s.load / s.rigidity * half**4)[:, None] * b.integral
     held = (slopes - (s.rise / s.run)[:, None]) * half[:, None]
-    matrix = matrix.copy()
     right = right.astype(np.result_type(matrix, held))
     for end in (0, 1):
         rows = np.flatnonzero(s.prescribed[:, end])
@@ -379,7 +383,9 @@ def force_for(s: Spans, slopes: Real, length: float, axial_stiffness: float = np
     slack = length - float(s.chord[0])
     soft = length * float(s.secant[0]) / axial_stiffness
     if axial_stiffness == np.inf and slack <= 0.0:
-        raise ValueError(f"chord {float(s.chord[0])} m, fabric {length} m: straight, without a force")
+        raise ValueError(
+            f"chord {float(s.chord[0])} m, fabric {length} m: straight, without a force"
+        )
     lowest = 0.0
     if s.rigidity[0] > 0.0:
         ends = bool(s.prescribed[0, 0]), bool(s.prescribed[0, 1])
