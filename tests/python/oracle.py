@@ -34,7 +34,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from oracle_span import Mask, Real, Spans, excess, force_for, response
+from oracle_span import Mask, Real, Spans, buckling_number, excess, force_for, response
 from scipy.optimize import minimize
 
 Index = NDArray[np.intp]
@@ -48,8 +48,8 @@ class Problem:
     """A hanging ply between nu x nv held grippers.
 
     ``positions``: (nv, nu, 3) (m). ``cell``: fabric lengths a along u, b along v (m). ``mass``
-    (kg/m), ``rigidity`` EI (N m^2), ``axial_stiffness`` EA (N, may be infinite), ``gravity`` (m/s^2),
-    ``max_tilt`` (rad), ``rule``: "min-force" or "moment-balance".
+    (kg/m), ``rigidity`` EI (N m^2), ``axial_stiffness`` EA (N, may be infinite), ``gravity``
+    (m/s^2), ``max_tilt`` (rad), ``rule``: "min-force" or "moment-balance".
     """
 
     positions: Real
@@ -218,6 +218,9 @@ class Model:
             np.full(n, problem.rigidity),
             prescribed,
         )
+        # The hanging branch of each span ends at the first buckling load of its end conditions.
+        euler = [buckling_number(bool(first), bool(second)) for first, second in prescribed]
+        self.lowest = np.array(euler) * problem.rigidity / net.run**2
         # Length to reach: L (1 + H sec / EA).
         self.softness = self.length * self.spans.secant / problem.axial_stiffness
 
@@ -350,6 +353,7 @@ class Solution:
     unknown slopes, ``active``: (k,) which are at their limit. ``residual``: scaled KKT or balance
     residual. ``curvature``: smallest eigenvalue of the objective's second derivative along the
     constraints (positive: a strict minimum); NaN for moment-balance and without free slopes.
+    ``above_buckling``: (n,) H less the first buckling load (N), positive on the hanging branch.
     """
 
     net: Net
@@ -360,15 +364,34 @@ class Solution:
     residual: float
     curvature: float
     multipliers: Real
+    above_buckling: Real
+
+    @property
+    def sound(self) -> bool:
+        """A strict minimum (or a balance) to rounding, on the hanging branch of every span."""
+        on_branch = np.all(self.above_buckling[~np.isnan(self.forces)] > 0.0)
+        return bool(on_branch and self.residual < 1e-9 and not self.curvature <= 0.0)
 
 
 def solve(problem: Problem, start: Real | None = None) -> Solution:
-    """The equilibrium of a problem by its own slope rule, from shared slopes ``start`` if given."""
+    """The equilibrium of a problem by its own slope rule, from shared slopes ``start`` if given.
+
+    A start that leads nowhere is replaced by random slopes, the same in every run: with stiff plies
+    in compression SLSQP may run into the end of a hanging branch, where lengths are singular.
+    """
     model = Model(problem)
+    rng = np.random.default_rng(0)
     s = model.chord_slopes() if start is None else start
-    if problem.rule == "moment-balance":
-        return balance(model, s)
-    return least_force(model, s)
+    for _ in range(20):
+        rule = balance if problem.rule == "moment-balance" else least_force
+        try:
+            found = rule(model, s)
+        except (RuntimeError, np.linalg.LinAlgError):
+            found = None
+        if found is not None and found.sound:
+            return found
+        s = rng.uniform(-0.6, 0.6, s.size) * model.bound
+    raise RuntimeError("no start led to an equilibrium")
 
 
 def finish(
@@ -379,7 +402,8 @@ def finish(
     forces[model.rows] = x[: model.forces]
     slopes = model.evaluate(x).slopes
     s = x[model.forces :]
-    return Solution(model.net, forces, slopes, s, active, residual, curvature, multipliers)
+    above = forces - model.lowest
+    return Solution(model.net, forces, slopes, s, active, residual, curvature, multipliers, above)
 
 
 # --- min-force ---------------------------------------------------------------------------------
@@ -441,7 +465,8 @@ def least_force(model: Model, s: Real) -> Solution:
         y,
         jac=scaled.gradient,
         method="SLSQP",
-        bounds=[(-np.inf, np.inf)] * n + [(-bound, bound)] * (model.variables - n),
+        bounds=[(low, np.inf) for low in model.lowest[model.rows] / scaled.unit[:n]]
+        + [(-bound, bound)] * (model.variables - n),
         constraints={
             "type": "eq",
             "fun": lambda p: scaled.constraints(p)[0],
@@ -449,7 +474,21 @@ def least_force(model: Model, s: Real) -> Solution:
         },
         options={"ftol": 1e-10, "maxiter": 100},
     )
-    y = np.asarray(answer.x, float)
+    return settle(scaled, np.asarray(answer.x, float))
+
+
+def refine(problem: Problem, forces: Real, shared: Real) -> Solution:
+    """The min-force equilibrium next to a given point: forces (hanging,), shared slopes (k,)."""
+    model = Model(problem)
+    x = np.concatenate([forces, shared])
+    scaled = Scaled.around(model, x)
+    return settle(scaled, x / scaled.unit)
+
+
+def settle(scaled: Scaled, y: Real) -> Solution:
+    """Polishes a point near the answer, with the active set it shows, corrected as needed."""
+    model = scaled.model
+    n, bound = model.forces, model.bound
     slope = np.arange(n, model.variables)
     active = np.abs(np.abs(y[slope]) - bound) < 1e-9
 

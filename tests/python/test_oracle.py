@@ -211,6 +211,7 @@ def test_oracle_satisfies_its_own_optimality_conditions(case: Configuration) -> 
     """KKT (or balance) residual at rounding, a strict minimum, every bound with its right sign."""
     found = solved(case)
     assert found.residual < 1e-9
+    assert np.all(found.above_buckling[~np.isnan(found.forces)] > 0.0), "off the hanging branch"
     limit = np.tan(case.problem.max_tilt)
     assert np.all(np.abs(found.shared) <= limit * (1 + 1e-12))
     # At a limit the objective (or the energy) falls outward: derivative and slope differ in sign.
