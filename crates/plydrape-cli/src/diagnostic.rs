@@ -29,6 +29,9 @@ pub enum Failure {
         /// What to do.
         help: String,
     },
+    /// The results could not be written.
+    #[error(transparent)]
+    Results(#[from] plydrape::output::OutputError),
     /// Standard output could not be written.
     #[error("the output cannot be written: {0}")]
     Stdout(#[from] io::Error),
@@ -79,7 +82,7 @@ impl Diagnostic for Failure {
         match self {
             Failure::Scene(refused) => Some(Box::new(&refused.0.help)),
             Failure::Output { help, .. } => Some(Box::new(help)),
-            Failure::Stdout(_) => None,
+            Failure::Results(_) | Failure::Stdout(_) => None,
         }
     }
 

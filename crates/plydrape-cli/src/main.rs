@@ -5,6 +5,7 @@ mod complete;
 mod diagnostic;
 mod new;
 mod schema;
+mod simulate;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -32,6 +33,7 @@ Exit codes:
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Simulate(simulate::Arguments),
     Check(check::Arguments),
     New(new::Arguments),
     Schema(schema::Arguments),
@@ -42,6 +44,7 @@ enum Command {
 fn main() -> ExitCode {
     let Cli { command, quiet } = Cli::parse();
     let done = match command {
+        Command::Simulate(arguments) => simulate::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::New(arguments) => new::run(&arguments, quiet),
         Command::Schema(arguments) => schema::run(&arguments),
