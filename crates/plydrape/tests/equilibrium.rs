@@ -200,7 +200,7 @@ fn norm_at(solver: &Solver, slopes: &[f64]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..Default::default() })]
 
     /// Every length is met, and no slope within the bounds does better (min-force) or leaves a moment
     /// (moment-balance).
@@ -239,9 +239,13 @@ proptest! {
                 };
                 let (before, after) = (moment(0), moment(1));
                 let scale = before.abs().max(after.abs()).max(1e-6);
-                let jump = (before - after) / scale;
+                let jump = before - after;
                 let carried = (*slope >= bound && jump < 0.0) || (*slope <= -bound && jump > 0.0);
-                prop_assert!(jump.abs() < 1e-5 || carried, "joint {}: {} {}", joint, before, after);
+                // a slope off by 1e-7 leaves a moment of 1e-7 √(EI H)
+                let span = solver.span(solver.net().joints[joint].elements[0]);
+                let stiffness = (span.flexural_rigidity * solver.force(solver.net().joints[joint].elements[0]).expect("hangs").abs()).sqrt();
+                let small = (before - after).abs() < 1e-7 * stiffness + 1e-9 * scale;
+                prop_assert!(small || carried, "joint {}: {} {}", joint, before, after);
             }
         }
     }
@@ -252,9 +256,10 @@ proptest! {
         let laid = vec![None; ply.grid.catenaries()];
         let mut warm = Solver::new(&ply, &settings);
         warm.solve(&level(ply.grid, 0.097), &laid);
-        warm.solve(&positions, &laid);
+        let first = warm.solve(&positions, &laid);
         let mut cold = Solver::new(&ply, &settings);
-        cold.solve(&positions, &laid);
+        let second = cold.solve(&positions, &laid);
+        prop_assert_eq!((first.status, second.status), (Status::Converged, Status::Converged), "{:?} {:?}", first, second);
         for (a, b) in warm.slopes().iter().zip(cold.slopes()) {
             prop_assert!((a - b).abs() < 1e-7, "{a} {b}");
         }

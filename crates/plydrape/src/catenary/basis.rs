@@ -159,20 +159,34 @@ impl Form {
         out
     }
 
-    /// e^(−kt) at the points of a panel that spans [0, 1]: they are symmetric, and
-    /// e^(−k(1−t)) = e^(−k)/e^(−kt), so half the exponentials do.
+    /// e^(−kt) and e^(−k(1−t)) at the points `start + width·s` of a panel.
+    ///
+    /// The abscissas s are symmetric, so half the exponentials give the rest by division.
     #[inline]
-    pub fn near_layer(&self, t: &[f64; POINTS]) -> [f64; POINTS] {
-        let mut near = [0.0; POINTS];
-        if let Form::Taut { k, far, .. } = *self {
+    pub fn panel_layers(&self, s: &[f64; POINTS], start: f64, width: f64) -> [[f64; POINTS]; 2] {
+        let Form::Taut { k, .. } = *self else { return [[0.0; POINTS]; 2] };
+        // from the panel's own first end; the second layer is the mirror image of the first
+        let decay = |from: f64| {
+            let mut out = [0.0; POINTS];
+            let (first, last) = (k * from, k * (2.0 * from + width));
+            if first > NEGLIGIBLE {
+                return out;
+            }
+            let both = (-last).exp();
             for p in 0..POINTS / 2 {
-                near[p] = (-k * t[p]).exp();
+                out[p] = (-first - k * width * s[p]).exp();
             }
             for p in 0..POINTS / 2 {
-                near[POINTS - 1 - p] = far / near[p];
+                // a layer that ends within the panel: what underflows is nothing
+                out[POINTS - 1 - p] = if both > 0.0 { both / out[p] } else { 0.0 };
             }
-        }
-        near
+            out
+        };
+        let near = decay(start);
+        let whole = start == 0.0 && width == 1.0;
+        let mut far = if whole { near } else { decay(1.0 - start - width) };
+        far.reverse();
+        [near, far]
     }
 
     /// U, V, G at t.
@@ -271,8 +285,11 @@ impl Form {
     }
 }
 
+/// Exponents of boundary layers beyond this no longer count: e^(−45) = 3e-20.
+const NEGLIGIBLE: f64 = 45.0;
+
 /// e^(−x), 0 where it no longer counts.
 #[inline]
 fn layer(x: f64) -> f64 {
-    if x > 45.0 { 0.0 } else { (-x).exp() }
+    if x > NEGLIGIBLE { 0.0 } else { (-x).exp() }
 }

@@ -136,6 +136,11 @@ impl<const N: usize> Chain<N> {
         self.first[parameter][Variable::Force as usize]
     }
 
+    /// Second derivative of an inner parameter to H.
+    pub fn second_to_force(&self, parameter: usize) -> f64 {
+        self.second[parameter][Variable::Force as usize][Variable::Force as usize]
+    }
+
     /// χ and ρ to H alone, which is all that the solver's iteration needs.
     fn force_only(profile: &Profile) -> (Jet<N>, Jet<N>, Jet<N>) {
         let (span, h) = (&profile.span, profile.force);

@@ -29,6 +29,8 @@ pub struct Settled<const M: usize> {
     pub slope: [Jet<M>; 2],
     /// Curvatures z'' at both ends (1/m).
     pub curvature: [Jet<M>; 2],
+    /// Relative step of H over which the derivatives were carried: their error is its square.
+    pub carried: f64,
 }
 
 impl<const M: usize> Default for Settled<M> {
@@ -37,6 +39,7 @@ impl<const M: usize> Default for Settled<M> {
             force: Jet::default(),
             slope: [Jet::default(); 2],
             curvature: [Jet::default(); 2],
+            carried: 0.0,
         }
     }
 }
@@ -62,7 +65,32 @@ impl<T: Number> Element<T> {
 
 /// The constraint C with derivatives to H, s₁, s₂ (`N` = 3) or to all eight variables (`N` = 8).
 fn constraint<const N: usize>(profile: &Profile, span: &Span) -> (Jet<N>, Excess) {
-    let (mut c, excess) = profile.length_and_excess::<N>();
+    let mut c = Jet::<N>::default();
+    if N == 3 {
+        let (length, excess) = profile.length_to_unknowns();
+        let secant = span.chord() / span.run;
+        c.value = length.value - span.length * (1.0 + profile.force() * secant / span.axial_stiffness);
+        for i in 0..N {
+            c.gradient[i] = length.gradient[i];
+            c.hessian[i][..N].copy_from_slice(&length.hessian[i][..N]);
+        }
+        c.gradient[0] -= span.length * secant / span.axial_stiffness;
+        return (c, excess);
+    }
+    let (length, excess) = profile.length_and_excess::<N>();
+    let goal = stretched_length::<N>(profile, span);
+    c.value = length.value - goal.value;
+    for i in 0..N {
+        c.gradient[i] = length.gradient[i] - goal.gradient[i];
+        for j in 0..N {
+            c.hessian[i][j] = length.hessian[i][j] - goal.hessian[i][j];
+        }
+    }
+    (c, excess)
+}
+
+/// L_set(1 + H sec θ/EA) with all its derivatives.
+fn stretched_length<const N: usize>(profile: &Profile, span: &Span) -> Jet<N> {
     let force: Jet<N> = variable(profile.force(), Variable::Force);
     let length: Jet<N> = variable(span.length, Variable::Length);
     let run: Jet<N> = variable(span.run, Variable::Run);
@@ -78,15 +106,7 @@ fn constraint<const N: usize>(profile: &Profile, span: &Span) -> (Jet<N>, Excess
         }
     }
     stretch.value = 1.0 + stretch.value / span.axial_stiffness;
-    let goal = product(&length, &stretch);
-    c.value -= goal.value;
-    for i in 0..N {
-        c.gradient[i] -= goal.gradient[i];
-        for j in 0..N {
-            c.hessian[i][j] -= goal.hessian[i][j];
-        }
-    }
-    (c, excess)
+    product(&length, &stretch)
 }
 
 /// The force as a function of the other variables, from the constraint.
@@ -139,11 +159,11 @@ fn moved<const N: usize>(q: Jet<N>, step: f64) -> Jet<N> {
     out
 }
 
-/// Relative step of H below which the quadratic error of the next one is lost.
-const SETTLED: f64 = 1e-6;
+/// Relative step of H over which derivatives may be carried by their own derivatives.
+const NEAR: f64 = 0.01;
 
-/// Newton steps on H with all derivatives, before the safeguarded search takes over.
-const WARM_STEPS: usize = 2;
+/// Relative step of H below which the quadratic error of the next one is lost.
+const SETTLED: f64 = 3e-7;
 
 /// Finds the force of a span near `force` (N) (`None`: from scratch) with its derivatives.
 pub fn settle<const N: usize, const M: usize>(
@@ -151,44 +171,64 @@ pub fn settle<const N: usize, const M: usize>(
     force: Option<f64>,
     wanted: Wanted,
 ) -> Settled<M> {
-    let pole = span.buckling_force();
-    let goal = span.goal();
-    let search = |guess| span.solve(guess).force.unwrap_or(0.0);
-    let mut h = force
-        .filter(|h| *h > pole && h.is_finite())
-        .unwrap_or_else(|| search(None));
-    let mut step = 0;
-    loop {
+    let (pole, goal) = (span.buckling_force(), span.goal());
+    let sound = |h: f64| h > pole && h.is_finite();
+    let relative = |step: f64, h: f64| step.abs() / (h - pole).max(f64::MIN_POSITIVE);
+    let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| approach(span, span.first_guess()));
+    let mut searched = false;
+    let (profile, c, mut next) = loop {
         let profile = Profile::new(span, h);
         let (c, excess) = constraint::<N>(&profile, span);
         let next = span.advance(goal, h, excess);
-        let error = (next - h).abs() / (h - pole).max(f64::MIN_POSITIVE);
-        let good = error <= SETTLED && next > pole;
-        if good || step > WARM_STEPS {
-            let last = if good { next - h } else { 0.0 };
-            let force = implicit::<N, M>(&moved(c, last), h + last);
-            let mut out = Settled {
-                force,
-                ..Settled::default()
-            };
-            for end in 0..2 {
-                if wanted.slope[end] {
-                    out.slope[end] = follow(&moved(profile.end_slope_jet::<N>(end), last), &force);
-                }
-                if wanted.curvature[end] {
-                    let curvature = moved(profile.end_curvature_jet::<N>(end), last);
-                    out.curvature[end] = follow(&curvature, &force);
-                }
-            }
-            return out;
+        let near = sound(next) && excess.to_force < 0.0 && relative(next - h, h) <= NEAR;
+        if near || searched {
+            break (profile, c, if near { next } else { h });
         }
-        step += 1;
-        let trusted = step < WARM_STEPS && excess.to_force < 0.0 && next > pole && error < 0.1;
-        if trusted {
-            h = next;
-        } else {
-            h = search(Some(h));
-            step = WARM_STEPS + 1;
+        h = approach(span, h);
+        searched = true;
+    };
+    // what the derivatives need is near enough; the force itself is taken to the last digits
+    let mut step = next - h;
+    for _ in 0..4 {
+        if relative(step, h) <= SETTLED {
+            break;
+        }
+        let better = span.advance(goal, next, Profile::new(span, next).excess());
+        if !sound(better) {
+            break;
+        }
+        step = better - next;
+        next = better;
+    }
+    let last = next - h;
+    let force = implicit::<N, M>(&moved(c, last), next);
+    let mut out = Settled { force, carried: relative(last, h), ..Settled::default() };
+    for end in 0..2 {
+        if wanted.slope[end] {
+            out.slope[end] = follow(&moved(profile.end_slope_jet::<N>(end), last), &force);
+        }
+        if wanted.curvature[end] {
+            let curvature = moved(profile.end_curvature_jet::<N>(end), last);
+            out.curvature[end] = follow(&curvature, &force);
         }
     }
+    out
+}
+
+/// A force close enough to start from, by a few cheap steps from a guess.
+fn approach(span: &Span, guess: f64) -> f64 {
+    let (pole, goal) = (span.buckling_force(), span.goal());
+    let mut h = guess;
+    for _ in 0..3 {
+        if !(h > pole && h.is_finite()) {
+            break;
+        }
+        let next = span.advance(goal, h, Profile::new(span, h).excess());
+        let step = (next - h).abs() / (h - pole);
+        h = next;
+        if step <= 0.03 {
+            return h;
+        }
+    }
+    span.solve(Some(h)).force.unwrap_or(guess)
 }

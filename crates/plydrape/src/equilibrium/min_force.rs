@@ -9,7 +9,7 @@
 
 use super::Number;
 use super::net::{End, Net, SlopeSource};
-use super::solver::{Equilibrium, LAST_STEP, MAX_ITERATIONS, Solver, Status};
+use super::solver::{Equilibrium, MAX_ITERATIONS, Solver, Status, error_after};
 
 /// An element's force and end slopes with their derivatives to its own end slopes.
 #[derive(Debug, Clone, Copy)]
@@ -126,11 +126,10 @@ fn assemble(solver: &mut Solver) {
     }
 }
 
-/// Hessian times `x`, rows and columns of active bounds left out.
+/// Hessian times `x`.
 fn multiply(
     blocks: &[[[f64; 2]; 2]],
     rows: &[[[(usize, f64); 2]; 2]],
-    active: &[bool],
     x: &[f64],
     out: &mut [f64],
 ) {
@@ -150,15 +149,10 @@ fn multiply(
             }
         }
     }
-    for (out, active) in out.iter_mut().zip(active) {
-        if *active {
-            *out = 0.0;
-        }
-    }
 }
 
-/// Conjugate gradients for the step: B p = right, preconditioned by the diagonal, stopped where the
-/// curvature turns negative. The right side must vanish on active bounds.
+/// Conjugate gradients for the step: B p = right, preconditioned by the diagonal; where the curvature
+/// turns negative they end with a long step that way. The right side must vanish on active bounds.
 fn solve_linear(solver: &mut Solver, right: &[f64], tolerance: f64, out: &mut [f64]) {
     let work = &mut solver.work;
     let count = right.len();
@@ -183,15 +177,22 @@ fn solve_linear(solver: &mut Solver, right: &[f64], tolerance: f64, out: &mut [f
         rz += r[n] * z[n];
     }
     let goal = rz * tolerance * tolerance;
-    for iteration in 0..=2 * count.min(500) {
+    for _ in 0..=2 * count.min(500) {
         if rz <= goal || rz == 0.0 {
             break;
         }
-        multiply(&work.blocks, &work.rows, &work.active, d, q);
+        multiply(&work.blocks, &work.rows, d, q);
+        for (q, active) in q.iter_mut().zip(&work.active) {
+            if *active {
+                *q = 0.0;
+            }
+        }
         let curvature: f64 = d.iter().zip(&*q).map(|(a, b)| a * b).sum();
         if curvature <= 0.0 {
-            if iteration == 0 {
-                out.copy_from_slice(d);
+            // downhill without end: go far, the search along the step will bring it back
+            let size = d.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+            for n in 0..count {
+                out[n] += FAR_STEP / size * d[n];
             }
             break;
         }
@@ -208,6 +209,68 @@ fn solve_linear(solver: &mut Solver, right: &[f64], tolerance: f64, out: &mut [f
             d[n] = z[n] + rz / before * d[n];
         }
     }
+}
+
+/// The step p that minimizes ½pᵀBp + gᵀp within the bounds of the slopes, by a primal-dual active set:
+/// a joint is at its bound if its step would leave it, and stays while its multiplier pushes outwards.
+fn bounded_step(solver: &mut Solver, tolerance: f64, step: &mut [f64]) {
+    let bound = solver.bound();
+    let count = step.len();
+    let mut right = std::mem::take(&mut solver.work.right);
+    let mut product = std::mem::take(&mut solver.work.product);
+    product.resize(count, 0.0);
+    let mut free = std::mem::take(&mut solver.work.free);
+    free.resize(count, 0.0);
+    step.fill(0.0);
+    for _ in 0..MAX_ACTIVE_SETS {
+        let work = &mut solver.work;
+        // joints at a bound go there; what that does to the others is known
+        for n in 0..count {
+            step[n] = if work.active[n] { side(step[n], solver.slopes[n]) * bound - solver.slopes[n] } else { 0.0 };
+        }
+        multiply(&work.blocks, &work.rows, step, &mut product);
+        right.clear();
+        for n in 0..count {
+            right.push(if work.active[n] { 0.0 } else { -work.gradient[n] - product[n] });
+        }
+        solve_linear(solver, &right, tolerance, &mut free);
+        let work = &mut solver.work;
+        for n in 0..count {
+            if !work.active[n] {
+                step[n] = free[n];
+            }
+        }
+        multiply(&work.blocks, &work.rows, step, &mut product);
+        let mut changed = false;
+        for n in 0..count {
+            let reached = solver.slopes[n] + step[n];
+            let multiplier = work.gradient[n] + product[n];
+            let active = if work.active[n] {
+                multiplier * side(step[n], solver.slopes[n]) <= 0.0
+            } else {
+                reached.abs() > bound
+            };
+            changed |= active != work.active[n];
+            work.active[n] = active;
+        }
+        if !changed {
+            break;
+        }
+    }
+    solver.work.right = right;
+    solver.work.product = product;
+    solver.work.free = free;
+}
+
+/// Slope change that is tried along a direction of negative curvature.
+const FAR_STEP: f64 = 0.2;
+
+/// Active sets tried for one step.
+const MAX_ACTIVE_SETS: usize = 12;
+
+/// Which bound a joint with this slope is held by, or driven to by this step.
+fn side(step: f64, slope: f64) -> f64 {
+    if slope + step >= 0.0 { 1.0 } else { -1.0 }
 }
 
 /// Derivative of the slopes for a change of the gradient: −B⁻¹ `change`, active bounds held.
@@ -245,17 +308,6 @@ impl Solver {
             .map(|s| s.force.value * s.force.value)
             .sum::<f64>()
     }
-
-    /// Bounds that hold a slope against the descent of the objective.
-    fn mark_active(&mut self) {
-        let bound = self.bound();
-        self.work.active.clear();
-        for (s, g) in self.slopes.iter().zip(&self.work.gradient) {
-            self.work
-                .active
-                .push((*s >= bound && *g < 0.0) || (*s <= -bound && *g > 0.0));
-        }
-    }
 }
 
 /// Minimizes ½‖H‖² over the shared slopes.
@@ -280,18 +332,14 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         let mut step = std::mem::take(&mut solver.work.step);
         let mut trial = std::mem::take(&mut solver.work.trial);
         step.resize(count, 0.0);
-        trial.clear();
-        trial.extend_from_slice(&solver.work.gradient);
-        for (g, active) in trial.iter_mut().zip(&solver.work.active) {
-            *g = if *active { 0.0 } else { -*g };
-        }
+        trial.resize(count, 0.0);
         // looser far away: a Newton step is worth no more digits than it will have
         let tolerance = if count <= 64 {
             1e-13
         } else {
             (0.01 * before).clamp(1e-12, 1e-4)
         };
-        solve_linear(solver, &trial, tolerance, &mut step);
+        bounded_step(solver, tolerance, &mut step);
         let start = std::mem::take(&mut solver.slopes);
         let projected =
             |fraction: f64, n: usize| (start[n] + fraction * step[n]).clamp(-bound, bound);
@@ -299,7 +347,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             .map(|n| (projected(1.0, n) - start[n]).abs())
             .fold(0.0, f64::max);
         let mut accepted = false;
-        if size <= LAST_STEP && tolerance * size <= 1e-12 {
+        if tolerance * size <= 1e-12 && solver.may_finish(size, before) {
             solver.slopes.extend((0..count).map(|n| projected(1.0, n)));
             solver.finish(0..solver.net.elements.len());
             residual = if before.is_finite() {
@@ -311,7 +359,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             status = Status::Converged;
             accepted = true;
         } else {
-            let mut fraction = 1.0;
+        let mut fraction = 1.0;
             while fraction > 1e-9 {
                 solver.slopes.clear();
                 solver
@@ -322,7 +370,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
                     .sum();
                 trial.copy_from_slice(&solver.work.gradient);
                 let next = solver.evaluate();
-                if next <= objective + 1e-4 * descent + 1e-13 * objective {
+                    if next <= objective + 1e-4 * descent + 1e-13 * objective {
                     objective = next;
                     accepted = true;
                     break;

@@ -6,7 +6,7 @@
 
 use super::Number;
 use super::net::{End, Net};
-use super::solver::{Equilibrium, LAST_STEP, MAX_ITERATIONS, Solver, Status};
+use super::solver::{Equilibrium, MAX_ITERATIONS, Solver, Status, error_after};
 
 /// Jump of moment across a joint (N·m): EI z'' before the gripper minus EI z'' after it. It grows
 /// with the joint's slope.
@@ -73,22 +73,18 @@ impl Solver {
     /// carries.
     fn evaluate_jumps(&mut self) -> f64 {
         self.settle(0..self.net.edge_elements);
-        let (count, bound) = (self.slopes.len(), self.bound());
+        let count = self.slopes.len();
         self.work.gradient.resize(count, 0.0);
-        self.work.active.resize(count, false);
-        let mut merit: f64 = 0.0;
         for joint in 0..count {
             let settled = &self.settled;
             let jump = jump(&self.net, joint, |e, end| settled[e].curvature[end].value);
-            let slope = self.slopes[joint];
-            let active = (slope >= bound && jump < 0.0) || (slope <= -bound && jump > 0.0);
             self.work.gradient[joint] = jump;
-            self.work.active[joint] = active;
-            if !active {
-                merit = merit.max((jump / row(self, joint)[1]).abs());
-            }
         }
-        merit
+        self.mark_active();
+        (0..count)
+            .filter(|&joint| !self.work.active[joint])
+            .map(|joint| (self.work.gradient[joint] / row(self, joint)[1]).abs())
+            .fold(0.0, f64::max)
     }
 }
 
@@ -107,6 +103,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         status = Status::Converged;
         residual = 0.0;
     }
+    let mut before = f64::INFINITY;
     while count > 0 && iterations < MAX_ITERATIONS {
         iterations += 1;
         let mut step = std::mem::take(&mut solver.work.step);
@@ -129,12 +126,12 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             .fold(0.0, f64::max);
         let mut fraction = 1.0;
         let mut accepted = false;
-        if size <= LAST_STEP {
+        if solver.may_finish(size, before) {
             for n in 0..count {
                 solver.slopes[n] = projected(1.0, n);
             }
             solver.finish(0..solver.net.edge_elements);
-            residual = size * size;
+            residual = error_after(size, before).min(size);
             status = Status::Converged;
         } else {
             while fraction > 1e-9 {
@@ -166,6 +163,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         if status != Status::IterationLimit {
             break;
         }
+        before = size;
     }
     // diagonals are no tows: they follow
     let (edges, all) = (solver.net.edge_elements, solver.net.elements.len());

@@ -48,8 +48,20 @@ pub struct Equilibrium {
 /// Iterations after which a solve gives up.
 pub(super) const MAX_ITERATIONS: usize = 100;
 
-/// Newton step of the slopes below which the last one is taken by series: its error is the square.
-pub(super) const LAST_STEP: f64 = 1e-5;
+/// Newton step of the slopes beyond which none may be the last.
+const LAST_STEP: f64 = 1e-4;
+
+/// Error of the slopes that a solve aims at.
+const AIM: f64 = 1e-9;
+
+/// Relative step of H over which derivatives may have been carried at the last step.
+const SHARP: f64 = 1e-4;
+
+/// Error of the slopes to expect after a Newton step of `size` that came after one of `before`: the
+/// convergence is quadratic.
+pub(super) fn error_after(size: f64, before: f64) -> f64 {
+    if before.is_finite() && size > 0.0 { size * (size / before).powi(2) } else { size }
+}
 
 /// Finds equilibria, one after the other.
 #[derive(Debug, Clone)]
@@ -66,7 +78,8 @@ pub struct Solver {
     /// What is needed of each element's ends.
     pub(super) wanted: Vec<Wanted>,
     pub(super) work: Work,
-    forces: Vec<[Option<f64>; 2]>,
+    /// Height of each span's force above buckling, as a multiple of the parabola's.
+    ratios: Vec<[Option<f64>; 2]>,
     memory: Vec<[f64; 2]>,
 }
 
@@ -79,6 +92,9 @@ pub(super) struct Work {
     pub active: Vec<bool>,
     pub diagonal: Vec<f64>,
     pub vectors: [Vec<f64>; 4],
+    pub right: Vec<f64>,
+    pub product: Vec<f64>,
+    pub free: Vec<f64>,
     pub blocks: Vec<[[f64; 2]; 2]>,
     pub adjoint: Vec<[f64; 2]>,
     pub rows: Vec<[[(usize, f64); 2]; 2]>,
@@ -97,14 +113,14 @@ impl Solver {
             settled: Vec::new(),
             wanted: Vec::new(),
             work: Work::default(),
-            forces: vec![[None; 2]; ply.grid.catenaries()],
+            ratios: vec![[None; 2]; ply.grid.catenaries()],
             memory: vec![[0.0; 2]; ply.grid.grippers()],
         }
     }
 
     /// Forgets earlier solutions: the next solve starts cold.
     pub fn forget(&mut self) {
-        self.forces.fill([None; 2]);
+        self.ratios.fill([None; 2]);
         self.memory.fill([0.0; 2]);
     }
 
@@ -170,6 +186,17 @@ impl Solver {
         self.settings.max_tilt.tan()
     }
 
+    /// Marks the bounds that hold a slope: where the gradient of the objective, or the jump of moment,
+    /// would push it farther.
+    pub(super) fn mark_active(&mut self) {
+        let bound = self.bound();
+        let Work { active, gradient, .. } = &mut self.work;
+        active.clear();
+        for (s, g) in self.slopes.iter().zip(gradient) {
+            active.push((*s >= bound && *g < 0.0) || (*s <= -bound && *g > 0.0));
+        }
+    }
+
     /// Starts from what was found last time at the same places.
     fn recall(&mut self) {
         let (count, bound) = (self.net.elements.len(), self.bound());
@@ -195,16 +222,21 @@ impl Solver {
             }
         }
         for (n, element) in self.net.elements.iter().enumerate() {
-            // a remembered force that the search will refuse: the span is new here
-            let force = self.forces[element.catenary][element.rest];
-            self.settled[n].force.value = force.unwrap_or(f64::NAN);
+            // the force follows the parabola's from step to step; NaN where the span is new
+            let ratio = self.ratios[element.catenary][element.rest].unwrap_or(f64::NAN);
+            let span = element.span(self.settings.axial_stiffness, &[]);
+            let pole = span.buckling_force();
+            self.settled[n].force.value = pole + ratio * (span.first_guess() - pole);
         }
     }
 
     fn remember(&mut self) {
         for (n, element) in self.net.elements.iter().enumerate() {
-            self.forces[element.catenary][element.rest] =
-                (element.state != SpanState::Straight).then_some(self.settled[n].force.value);
+            let span = element.span(self.settings.axial_stiffness, &[]);
+            let pole = span.buckling_force();
+            let ratio = (self.settled[n].force.value - pole) / (span.first_guess() - pole);
+            self.ratios[element.catenary][element.rest] =
+                (element.state != SpanState::Straight && ratio.is_finite()).then_some(ratio);
         }
         for (joint, slope) in self.net.joints.iter().zip(&self.slopes) {
             self.memory[joint.gripper][joint.direction] = *slope;
@@ -231,7 +263,7 @@ impl Solver {
             }
             let slopes = [0, 1].map(|end| self.slope_at(&element, end));
             // nothing that holds it has moved: keep what is known
-            if slopes == self.held[n] {
+            if slopes == self.held[n] && self.settled[n].carried <= SHARP {
                 continue;
             }
             let guess = self.predict(n, slopes);
@@ -271,6 +303,17 @@ impl Solver {
             return Some(jet.value);
         }
         Some(series(jet, [slopes[0] - held[0], slopes[1] - held[1]]))
+    }
+
+    /// Whether a Newton step of `size` after one of `before` may be the last, taken by series.
+    ///
+    /// The derivatives must not have been carried a long way.
+    pub(super) fn may_finish(&self, size: f64, before: f64) -> bool {
+        size <= LAST_STEP && error_after(size, before) <= AIM && self.is_sharp()
+    }
+
+    fn is_sharp(&self) -> bool {
+        self.settled.iter().all(|settled| settled.carried <= SHARP)
     }
 
     /// Takes a last small step of the shared slopes by series, without settling anew.

@@ -9,7 +9,7 @@ use super::element::{Settled, Wanted, settle};
 use super::min_force::{self, Response};
 use super::moment_balance;
 use super::net::{Build, End, Net, SlopeSource};
-use super::solver::Solver;
+use super::solver::{Solver, Work};
 use crate::catenary::{Jet, SpanState};
 use crate::ply::Laid;
 use crate::scene::SlopeRule;
@@ -115,7 +115,7 @@ impl Solver {
         };
         // what the slopes answer, and with it everything else
         let mut slopes = vec![0.0; joints];
-        self.refresh(&jets, &net);
+        self.refresh(&jets);
         match self.settings.slopes {
             SlopeRule::MinForce => min_force::respond(self, &change, &mut slopes),
             SlopeRule::MomentBalance => moment_balance::respond(self, &change, &mut slopes),
@@ -143,7 +143,7 @@ impl Solver {
     }
 
     /// Puts exact derivatives at the solution where the last step was taken by series.
-    fn refresh(&mut self, jets: &[Settled<7>], net: &Net<Dual64>) {
+    fn refresh(&mut self, jets: &[Settled<7>]) {
         let small = |jet: &Jet<7>| Jet {
             value: jet.value,
             gradient: [jet.gradient[0], jet.gradient[1]],
@@ -162,17 +162,21 @@ impl Solver {
             force: (settled[n].force.value, settled[n].force.gradient),
             slope: settled[n].slope.map(|s| (s.value, s.gradient)),
         };
-        debug_assert_eq!(net.elements.len(), self.net.elements.len());
         self.work.gradient.resize(self.slopes.len(), 0.0);
         self.work.adjoint.resize(self.net.elements.len(), [0.0; 2]);
-        if self.settings.slopes == SlopeRule::MinForce {
-            min_force::gradient(
-                &self.net,
-                response,
-                &mut self.work.gradient,
-                &mut self.work.adjoint,
-            );
+        match self.settings.slopes {
+            SlopeRule::MinForce => {
+                let Work { gradient, adjoint, .. } = &mut self.work;
+                min_force::gradient(&self.net, response, gradient, adjoint);
+            }
+            SlopeRule::MomentBalance => {
+                for (n, out) in self.work.gradient.iter_mut().enumerate() {
+                    let curvature = |e: usize, end: usize| settled[e].curvature[end].value;
+                    *out = moment_balance::jump(&self.net, n, curvature);
+                }
+            }
         }
+        self.mark_active();
     }
 
     fn pass(&self, net: &Net<Dual64>, jets: &[Settled<7>], slopes: &[f64]) -> Pass {

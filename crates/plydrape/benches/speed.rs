@@ -1,0 +1,133 @@
+//! How long a user waits: one span, one equilibrium cold and warm, large arrays, the whole example.
+//!
+//! `benches/run` prints these beside a SciPy solver of the same problem; `benches/README.md` is its
+//! table.
+
+use divan::{Bencher, black_box};
+use plydrape::catenary::{EndCondition, Profile, Span};
+use plydrape::draping::simulate;
+use plydrape::equilibrium::Solver;
+use plydrape::scene::{Scene, SlopeRule};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+fn main() {
+    divan::main();
+}
+
+/// The paper's example.
+fn example() -> Scene {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/01_flat_sheared_mold/scene.toml");
+    plydrape::scene::read(Path::new(path)).expect("the example is shipped with the project")
+}
+
+/// The example's ply over a larger array, level, 98 mm apart.
+fn array(side: usize, rule: SlopeRule) -> (Solver, Vec<[f64; 3]>, usize) {
+    let mut scene = example();
+    scene.ply.grid.nu = side;
+    scene.ply.grid.nv = side;
+    scene.settings.slopes = rule;
+    let grid = scene.ply.grid;
+    let at = |n: usize| grid.id(n).map(|k| 0.098 * k as f64);
+    let positions = (0..grid.grippers()).map(|n| [at(n)[0], at(n)[1], 0.0]).collect();
+    (Solver::new(&scene.ply, &scene.settings), positions, grid.catenaries())
+}
+
+/// One span's length with all first and second derivatives to H and both slopes.
+#[divan::bench]
+fn span_length_with_derivatives(bencher: Bencher) {
+    let span = Span {
+        run: 0.098,
+        rise: 0.0,
+        length: 0.1,
+        ends: [EndCondition::Free, EndCondition::Slope(-0.02)],
+        weight: 0.3143 * 9.8,
+        flexural_rigidity: 9e-6,
+        axial_stiffness: 1e5,
+    };
+    bencher.bench(|| Profile::new(black_box(&span), black_box(0.4)).length_jet::<3>());
+}
+
+/// One span's length with its derivative to H.
+#[divan::bench]
+fn span_length_with_slope(bencher: Bencher) {
+    let span = Span {
+        run: 0.098,
+        rise: 0.0,
+        length: 0.1,
+        ends: [EndCondition::Free, EndCondition::Slope(-0.02)],
+        weight: 0.3143 * 9.8,
+        flexural_rigidity: 9e-6,
+        axial_stiffness: 1e5,
+    };
+    bencher.bench(|| Profile::new(black_box(&span), black_box(0.4)).excess());
+}
+
+/// 4 × 2 grippers from nothing, all four shared slopes unknown.
+#[divan::bench]
+fn equilibrium_4x2_cold(bencher: Bencher) {
+    let scene = example();
+    let laid = vec![None; scene.ply.grid.catenaries()];
+    let mut solver = Solver::new(&scene.ply, &scene.settings);
+    bencher.bench_local(|| {
+        solver.forget();
+        solver.solve(black_box(&scene.motion.positions[0]), &laid)
+    });
+}
+
+/// 4 × 2 grippers from the step before; both steps have all four shared slopes unknown.
+#[divan::bench]
+fn equilibrium_4x2_warm(bencher: Bencher) {
+    let scene = example();
+    let laid = vec![None; scene.ply.grid.catenaries()];
+    let mut solver = Solver::new(&scene.ply, &scene.settings);
+    solver.solve(&scene.motion.positions[0], &laid);
+    let mut step = 0;
+    bencher.bench_local(|| {
+        step = 1 - step;
+        solver.solve(black_box(&scene.motion.positions[step]), &laid)
+    });
+}
+
+/// 4 × 2 grippers from the step before, every cell sheared: the slopes are governed.
+#[divan::bench]
+fn equilibrium_4x2_warm_sheared(bencher: Bencher) {
+    let scene = example();
+    let laid = vec![None; scene.ply.grid.catenaries()];
+    let mut solver = Solver::new(&scene.ply, &scene.settings);
+    solver.solve(&scene.motion.positions[9], &laid);
+    let mut step = 0;
+    bencher.bench_local(|| {
+        step = 1 - step;
+        solver.solve(black_box(&scene.motion.positions[9 + step]), &laid)
+    });
+}
+
+/// Square arrays from nothing: time against the number of cells.
+#[divan::bench(args = [25, 50, 100, 200], sample_count = 5, sample_size = 1)]
+fn array_min_force_cold(bencher: Bencher, side: usize) {
+    let (mut solver, positions, catenaries) = array(side, SlopeRule::MinForce);
+    let laid = vec![None; catenaries];
+    bencher.bench_local(|| {
+        solver.forget();
+        solver.solve(black_box(&positions), &laid)
+    });
+}
+
+/// The same with the moments balanced.
+#[divan::bench(args = [25, 50, 100, 200], sample_count = 5, sample_size = 1)]
+fn array_moment_balance_cold(bencher: Bencher, side: usize) {
+    let (mut solver, positions, catenaries) = array(side, SlopeRule::MomentBalance);
+    let laid = vec![None; catenaries];
+    bencher.bench_local(|| {
+        solver.forget();
+        solver.solve(black_box(&positions), &laid)
+    });
+}
+
+/// The paper's example, 30 steps with contact and all measures, without writing files.
+#[divan::bench]
+fn example_30_steps(bencher: Bencher) {
+    let scene = example();
+    bencher.bench(|| simulate(black_box(&scene), |_| ControlFlow::Continue(())));
+}
