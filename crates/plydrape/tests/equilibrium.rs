@@ -7,6 +7,7 @@ use plydrape::material::{Material, Section};
 use plydrape::ply::{Direction as Along, Grid, Kind, Ply};
 use plydrape::scene::{Contact, ContactEnd, Settings, SlopeRule, Stepping};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 /// The ply of Krogh et al. 2018, Table 1, in cells of 100 mm.
 fn paper_ply(nu: usize, nv: usize) -> Ply {
@@ -200,7 +201,12 @@ fn norm_at(solver: &Solver, slopes: &[f64]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 300,
+        rng_seed: RngSeed::Fixed(2018),
+        failure_persistence: None,
+        ..Default::default()
+    })]
 
     /// Every length is met, and no slope within the bounds does better (min-force) or leaves a moment
     /// (moment-balance).

@@ -164,7 +164,9 @@ impl Form {
     /// The abscissas s are symmetric, so half the exponentials give the rest by division.
     #[inline]
     pub fn panel_layers(&self, s: &[f64; POINTS], start: f64, width: f64) -> [[f64; POINTS]; 2] {
-        let Form::Taut { k, .. } = *self else { return [[0.0; POINTS]; 2] };
+        let Form::Taut { k, .. } = *self else {
+            return [[0.0; POINTS]; 2];
+        };
         // from the panel's own first end; the second layer is the mirror image of the first
         let decay = |from: f64| {
             let mut out = [0.0; POINTS];
@@ -184,7 +186,11 @@ impl Form {
         };
         let near = decay(start);
         let whole = start == 0.0 && width == 1.0;
-        let mut far = if whole { near } else { decay(1.0 - start - width) };
+        let mut far = if whole {
+            near
+        } else {
+            decay(1.0 - start - width)
+        };
         far.reverse();
         [near, far]
     }

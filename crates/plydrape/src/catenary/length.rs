@@ -83,7 +83,8 @@ impl Profile {
         let (chi_hh, rho_hh) = (chain.second_to_force(0), chain.second_to_force(1));
         let ([alpha, beta], rho, theta) = (self.amplitude, self.rho, self.theta);
         let sigma = theta.hypot(1.0);
-        let mix = |x: f64, a: [f64; 2], y: f64, b: [f64; 2]| [x * a[0] + y * b[0], x * a[1] + y * b[1]];
+        let mix =
+            |x: f64, a: [f64; 2], y: f64, b: [f64; 2]| [x * a[0] + y * b[0], x * a[1] + y * b[1]];
         // ∂z'/∂H = χ_H D + ρ_H G + a₁ U + b₁ V with D = ρ G_χ + α U_χ + β V_χ
         let [a1, b1] = mix(chi_h, r.first[0], rho_h, r.first[1]);
         // the part of ∂²z'/∂H² that multiplies U and V
@@ -95,7 +96,11 @@ impl Profile {
 
         let (mut excess, mut mean, mut gram) = (0.0, [0.0; 6], [0.0; 6]);
         self.for_each_panel(|scale, panel| {
-            let Panel { value: [u, v, g], first: [ux, vx, gx], second: [uxx, vxx, gxx] } = panel;
+            let Panel {
+                value: [u, v, g],
+                first: [ux, vx, gx],
+                second: [uxx, vxx, gxx],
+            } = panel;
             let mut sums = [[0.0; LANES]; 13];
             for chunk in (0..POINTS).step_by(LANES) {
                 for lane in 0..LANES {
@@ -148,7 +153,10 @@ impl Profile {
         let [to_h, mu, mv, to_hh, mux, mvx] = mean;
         let [hh, hu, hv, uu, uv, vv] = gram;
         let run = self.span.run;
-        let mut out = Jet { value: run * (excess + sigma), ..Jet::default() };
+        let mut out = Jet {
+            value: run * (excess + sigma),
+            ..Jet::default()
+        };
         out.gradient[0] = run * to_h;
         out.hessian[0][0] = run * (hh + to_hh);
         for i in 0..2 {
@@ -164,7 +172,13 @@ impl Profile {
                 out.hessian[1 + i][1 + j] = run * (a * c * uu + (a * d + b * c) * uv + b * d * vv);
             }
         }
-        (out, Excess { value: excess, to_force: to_h })
+        (
+            out,
+            Excess {
+                value: excess,
+                to_force: to_h,
+            },
+        )
     }
 
     /// Arc length L (m) with derivatives to the first `N` variables.
@@ -351,7 +365,13 @@ impl Profile {
     /// Arc length from the first end to the horizontal distance `x` (m) from it (m).
     #[must_use]
     pub fn length_to(&self, x: f64) -> f64 {
-        let Profile { span, theta, rho, amplitude, .. } = *self;
+        let Profile {
+            span,
+            theta,
+            rho,
+            amplitude,
+            ..
+        } = *self;
         let end = (x / span.run).clamp(0.0, 1.0);
         let mut sum = 0.0;
         for stretch in stretches(self).iter() {
@@ -382,7 +402,13 @@ mod tests {
     #[test]
     fn both_kernels_agree() {
         let ends = [EndCondition::Free, EndCondition::Slope(0.3)];
-        for (rigidity, force) in [(0.0, 0.4), (9e-6, 0.4), (9e-6, 300.0), (1e-2, -3.0), (1e-3, 0.0)] {
+        for (rigidity, force) in [
+            (0.0, 0.4),
+            (9e-6, 0.4),
+            (9e-6, 300.0),
+            (1e-2, -3.0),
+            (1e-3, 0.0),
+        ] {
             for (first, second) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let span = Span {
                     run: 0.098,
@@ -399,9 +425,15 @@ mod tests {
                 let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * (a.abs() + b.abs()) + 1e-15;
                 assert!(close(fast.value, general.value) && close(excess.value, same.value));
                 for i in 0..3 {
-                    assert!(close(fast.gradient[i], general.gradient[i]), "{i} {fast:?} {general:?}");
+                    assert!(
+                        close(fast.gradient[i], general.gradient[i]),
+                        "{i} {fast:?} {general:?}"
+                    );
                     for j in 0..3 {
-                        assert!(close(fast.hessian[i][j], general.hessian[i][j]), "{fast:?} {general:?}");
+                        assert!(
+                            close(fast.hessian[i][j], general.hessian[i][j]),
+                            "{fast:?} {general:?}"
+                        );
                     }
                 }
             }

@@ -18,6 +18,9 @@ use crate::scene::Contact;
 /// Stations at which a span is looked at; minima between them are refined.
 const STATIONS: usize = 48;
 
+/// Depth from which a span dips, as a share of the tolerance.
+const DIP: f64 = 1e-3;
+
 /// A run of touching points of a span, as fractions of its run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Run {
@@ -66,8 +69,17 @@ fn runs(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Vec<Run> {
     for n in 0..samples.len() {
         let (t, d) = samples[n];
         if d < tolerance {
-            let from = if n == 0 { 0.0 } else { crossing(&distance, samples[n - 1].0, t, tolerance) };
-            let run = open.get_or_insert(Run { from, to: t, deepest: t, depth: d });
+            let from = if n == 0 {
+                0.0
+            } else {
+                crossing(&distance, samples[n - 1].0, t, tolerance)
+            };
+            let run = open.get_or_insert(Run {
+                from,
+                to: t,
+                deepest: t,
+                depth: d,
+            });
             run.to = t;
             if d < run.depth {
                 (run.deepest, run.depth) = (t, d);
@@ -86,7 +98,11 @@ fn minimum(distance: &impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> (f64, f64)
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
     for _ in 0..30 {
         let (c, d) = (b - golden * (b - a), a + golden * (b - a));
-        if distance(c) < distance(d) { b = d } else { a = c }
+        if distance(c) < distance(d) {
+            b = d
+        } else {
+            a = c
+        }
     }
     let t = 0.5 * (a + b);
     (t, distance(t))
@@ -97,14 +113,21 @@ fn crossing(distance: &impl Fn(f64) -> f64, outside: f64, inside: f64, level: f6
     let (mut outside, mut inside) = (outside, inside);
     for _ in 0..50 {
         let middle = 0.5 * (outside + inside);
-        if distance(middle) < level { inside = middle } else { outside = middle }
+        if distance(middle) < level {
+            inside = middle
+        } else {
+            outside = middle
+        }
     }
     inside
 }
 
 /// Largest gap between two fractions of a span.
 fn largest_gap(span: &FreeSpan, mold: &Mold, from: f64, to: f64) -> Bridge {
-    let mut worst = Bridge { place: span.point(from), gap: 0.0 };
+    let mut worst = Bridge {
+        place: span.point(from),
+        gap: 0.0,
+    };
     for n in 0..=STATIONS {
         let place = span.point(from + (to - from) * n as f64 / STATIONS as f64);
         let gap = mold.signed_distance(place);
@@ -122,7 +145,13 @@ pub fn depth(span: &FreeSpan, mold: &Mold) -> f64 {
     }
     let distance = |t: f64| mold.signed_distance(span.point(t));
     let at = |n: usize| n as f64 / STATIONS as f64;
-    let lowest = (0..=STATIONS).fold(0, |a, b| if distance(at(b)) < distance(at(a)) { b } else { a });
+    let lowest = (0..=STATIONS).fold(0, |a, b| {
+        if distance(at(b)) < distance(at(a)) {
+            b
+        } else {
+            a
+        }
+    });
     let (a, b) = (at(lowest.saturating_sub(1)), at((lowest + 1).min(STATIONS)));
     -minimum(&distance, a, b).1.min(distance(at(lowest)))
 }
@@ -152,7 +181,11 @@ pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
         .iter()
         .filter(|other| *other != run)
         .map(|other| {
-            let (a, b) = if other.to < run.from { (other.to, run.from) } else { (run.to, other.from) };
+            let (a, b) = if other.to < run.from {
+                (other.to, run.from)
+            } else {
+                (run.to, other.from)
+            };
             largest_gap(span, mold, a, b)
         })
         .max_by(|a, b| a.gap.total_cmp(&b.gap));
@@ -163,7 +196,10 @@ pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
         normal: point.map(|p| mold.normal(p)),
         lying: [held_first && held_last; 2],
     };
-    Look { laid: Some(laid), bridge }
+    Look {
+        laid: Some(laid),
+        bridge,
+    }
 }
 
 /// Looks at a rest of a catenary that the mold has caught before.
@@ -171,15 +207,27 @@ pub fn next_touch(span: &FreeSpan, laid: &Laid, mold: &Mold, contact: &Contact) 
     let runs = runs(span, mold, contact.tolerance);
     let rest = span.rest;
     // the contact end: the second end of the first rest, the first end of the second
-    let at_contact = |run: &&Run| if rest == 0 { run.to >= 1.0 } else { run.from <= 0.0 };
-    let Some(run) = runs.iter().find(at_contact) else { return Look::default() };
+    let at_contact = |run: &&Run| {
+        if rest == 0 {
+            run.to >= 1.0
+        } else {
+            run.from <= 0.0
+        }
+    };
+    let Some(run) = runs.iter().find(at_contact) else {
+        return Look::default();
+    };
     let mut look = Look {
         laid: None,
         bridge: runs
             .iter()
             .filter(|other| *other != run)
             .map(|other| {
-                let (a, b) = if rest == 0 { (other.to, run.from) } else { (run.to, other.from) };
+                let (a, b) = if rest == 0 {
+                    (other.to, run.from)
+                } else {
+                    (run.to, other.from)
+                };
                 largest_gap(span, mold, a, b)
             })
             .max_by(|a, b| a.gap.total_cmp(&b.gap)),
@@ -190,7 +238,8 @@ pub fn next_touch(span: &FreeSpan, laid: &Laid, mold: &Mold, contact: &Contact) 
         look.laid = Some(laid);
         return look;
     }
-    if !dips(span, laid.normal[rest]) {
+    // at a point of the mold the distance is zero but for rounding: what dips goes clearly below
+    if run.depth > -DIP * contact.tolerance || span.run() == 0.0 {
         return look;
     }
     let heading = span.heading();
@@ -206,12 +255,4 @@ pub fn next_touch(span: &FreeSpan, laid: &Laid, mold: &Mold, contact: &Contact) 
     laid.normal[rest] = mold.normal(laid.point[rest]);
     look.laid = Some(laid);
     look
-}
-
-/// Whether a rest leaves the mold downwards at its contact end.
-fn dips(span: &FreeSpan, normal: [f64; 3]) -> bool {
-    let [ex, ey] = span.heading();
-    let along = normal[0] * ex + normal[1] * ey + normal[2] * span.slope(if span.rest == 0 { 1.0 } else { 0.0 });
-    // walking away from the contact end: forwards on the second rest, backwards on the first
-    if span.rest == 0 { -along <= 0.0 } else { along <= 0.0 }
 }

@@ -9,8 +9,8 @@ use crate::mold::{Mold, distance};
 use crate::ply::{Kind, Laid};
 use crate::scene::Scene;
 
-/// Rests shorter than this share of their catenary have no slack worth a name.
-const CRUMB: f64 = 1e-6;
+/// Rests shorter than this share of their catenary have slack, but no slack ratio worth a name.
+const CRUMB: f64 = 1e-2;
 
 /// Fit of one free or lying rest between what holds it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,13 +29,21 @@ impl Fit {
     pub fn slack(&self) -> f64 {
         // what rounding leaves of a taut line is none
         let slack = self.length - self.path;
-        if slack > 1e-12 * self.length { slack } else { 0.0 }
+        if slack > 1e-12 * self.length {
+            slack
+        } else {
+            0.0
+        }
     }
 
     /// Slack as a share of the fabric length.
     #[must_use]
     pub fn slack_ratio(&self) -> f64 {
-        if self.length > 0.0 { self.slack() / self.length } else { 0.0 }
+        if self.length > 0.0 {
+            self.slack() / self.length
+        } else {
+            0.0
+        }
     }
 
     /// Amplitude of the wrinkle that the slack makes (m): (2/π)√(path·slack), a shallow sine.
@@ -48,7 +56,11 @@ impl Fit {
     #[must_use]
     pub fn overstretch(&self) -> f64 {
         let excess = self.path - self.length;
-        if excess > 1e-12 * self.path { excess } else { 0.0 }
+        if excess > 1e-12 * self.path {
+            excess
+        } else {
+            0.0
+        }
     }
 }
 
@@ -59,34 +71,76 @@ fn middle(a: Point, b: Point) -> Point {
 /// How a free span fits between its ends.
 pub fn fit(span: &FreeSpan) -> Fit {
     let [a, b] = span.ends;
-    Fit { length: span.length, path: span.chord(), place: middle(a, b) }
+    Fit {
+        length: span.length,
+        path: span.chord(),
+        place: middle(a, b),
+    }
 }
 
 /// How the rests of a catenary that do not hang fit: those that lie, and those of no length whose
 /// gripper has moved on.
-pub fn fits_laid(laid: &Laid, grippers: [Point; 2], mold: &Mold) -> Vec<Fit> {
-    if laid.lying == [true, true] && laid.arc == [0.0, laid.length] {
+///
+/// A gripper within `tolerance` (m) of the mold counts as standing on it; one that has lifted off pulls
+/// straight. With each fit comes the rest it is of, `None` for a catenary that lies whole.
+pub fn fits_laid(
+    laid: &Laid,
+    grippers: [Point; 2],
+    mold: &Mold,
+    tolerance: f64,
+) -> Vec<(Option<usize>, Fit)> {
+    let stands = |gripper| mold.signed_distance(gripper) <= tolerance;
+    let along = |gripper: Point, point: Point| {
+        if stands(gripper) {
+            mold.path(mold.closest_point(gripper), point)
+        } else {
+            distance(gripper, point)
+        }
+    };
+    if laid.is_whole() {
         let [a, b] = grippers;
-        let path = mold.path(mold.closest_point(a), mold.closest_point(b));
-        return vec![Fit { length: laid.length, path, place: middle(a, b) }];
+        let both = stands(a) && stands(b);
+        let path = if both {
+            along(a, mold.closest_point(b))
+        } else {
+            distance(a, b)
+        };
+        return vec![(
+            None,
+            Fit {
+                length: laid.length,
+                path,
+                place: middle(a, b),
+            },
+        )];
     }
     (0..2)
         .filter(|&rest| !laid.hangs(rest))
         .map(|rest| {
             let (gripper, point) = (grippers[rest], laid.point[rest]);
             let path = if laid.lying[rest] {
-                mold.path(mold.closest_point(gripper), point)
+                along(gripper, point)
             } else {
                 distance(gripper, point)
             };
-            Fit { length: laid.rest(rest), path, place: middle(gripper, point) }
+            (
+                Some(rest),
+                Fit {
+                    length: laid.rest(rest),
+                    path,
+                    place: middle(gripper, point),
+                },
+            )
         })
         .collect()
 }
 
 /// Fabric length of a catenary that lies on the mold (m).
 pub fn lying_length(laid: &Laid) -> f64 {
-    let rests: f64 = (0..2).filter(|&r| laid.lying[r]).map(|r| laid.rest(r)).sum();
+    let rests: f64 = (0..2)
+        .filter(|&r| laid.lying[r])
+        .map(|r| laid.rest(r))
+        .sum();
     laid.arc[1] - laid.arc[0] + rests
 }
 
@@ -94,7 +148,9 @@ pub fn lying_length(laid: &Laid) -> f64 {
 fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
     let c = scene.ply.grid.catenary(catenary);
     let [a, b] = scene.ply.cell;
-    let at = |from: usize, to: usize, side: f64| side * (from as f64 + share * (to as f64 - from as f64));
+    let at = |from: usize, to: usize, side: f64| {
+        side * (from as f64 + share * (to as f64 - from as f64))
+    };
     [at(c.from[0], c.to[0], a), at(c.from[1], c.to[1], b)]
 }
 
@@ -111,7 +167,10 @@ pub fn landing_errors(scene: &Scene, catenary: usize, laid: &Laid) -> Option<[f6
 pub fn name(scene: &Scene, catenary: usize) -> String {
     let c = scene.ply.grid.catenary(catenary);
     let kind = if c.kind.is_edge() { "edge" } else { "diagonal" };
-    format!("{kind} [{},{}]–[{},{}]", c.from[0], c.from[1], c.to[0], c.to[1])
+    format!(
+        "{kind} [{},{}]–[{},{}]",
+        c.from[0], c.from[1], c.to[0], c.to[1]
+    )
 }
 
 /// Collects the worst of a measure; words are made only for what is worst.
@@ -122,7 +181,10 @@ struct Most<K> {
 
 impl<K> Default for Most<K> {
     fn default() -> Self {
-        Most { value: 0.0, key: None }
+        Most {
+            value: 0.0,
+            key: None,
+        }
     }
 }
 
@@ -136,7 +198,11 @@ impl<K> Most<K> {
 
     fn worst(self, unit: f64, words: impl Fn(K) -> String) -> Option<Worst> {
         let Most { value, key } = self;
-        key.map(|(key, place)| Worst { value: value / unit, at: words(key), place })
+        key.map(|(key, place)| Worst {
+            value: value / unit,
+            at: words(key),
+            place,
+        })
     }
 }
 
@@ -159,10 +225,10 @@ pub fn measures(
     let (mut slack, mut ratio, mut wrinkle) = (Most::default(), Most::default(), Most::default());
     let (mut stretch, mut stretch_share) = (Most::default(), Most::default());
     let mut judge = |catenary: usize, whole: f64, fit: &Fit| {
+        slack.meet(fit.slack(), catenary, fit.place);
+        wrinkle.meet(fit.wrinkle(), catenary, fit.place);
         if fit.length > CRUMB * whole {
-            slack.meet(fit.slack(), catenary, fit.place);
             ratio.meet(fit.slack_ratio(), catenary, fit.place);
-            wrinkle.meet(fit.wrinkle(), catenary, fit.place);
         }
         if catenary < grid.edges() {
             stretch.meet(fit.overstretch(), catenary, fit.place);
@@ -170,7 +236,9 @@ pub fn measures(
         }
     };
     for span in &snapshot.shape.spans {
-        let whole = snapshot.laid[span.catenary].as_ref().map_or(span.length, |laid| laid.length);
+        let whole = snapshot.laid[span.catenary]
+            .as_ref()
+            .map_or(span.length, |laid| laid.length);
         judge(span.catenary, whole, &fit(span));
     }
     let (mut lying, mut total) = (0.0, 0.0);
@@ -185,9 +253,11 @@ pub fn measures(
         if let Some(bridge) = &snapshot.bridges[catenary] {
             bridging.meet(bridge.gap, catenary, bridge.place);
         }
-        let (Some(laid), Some(mold)) = (laid, &scene.mold) else { continue };
+        let (Some(laid), Some(mold)) = (laid, &scene.mold) else {
+            continue;
+        };
         let grippers = [c.from, c.to].map(|g| snapshot.positions[grid.index(g)]);
-        for fit in fits_laid(laid, grippers, mold) {
+        for (_, fit) in fits_laid(laid, grippers, mold, scene.settings.contact.tolerance) {
             judge(catenary, laid.length, &fit);
         }
         if edge {
@@ -204,9 +274,10 @@ pub fn measures(
     for (gripper, attitude) in attitudes.iter().enumerate() {
         let place = snapshot.positions[gripper];
         tilt.meet(attitude.tilt.to_degrees(), gripper, place);
-        let landed = scene.mold.as_ref().is_some_and(|mold| {
-            mold.signed_distance(place) <= scene.settings.contact.tolerance
-        });
+        let landed = scene
+            .mold
+            .as_ref()
+            .is_some_and(|mold| mold.signed_distance(place) <= scene.settings.contact.tolerance);
         if let (true, Some(target)) = (landed, &scene.target) {
             let error = distance(place, target.grippers[gripper]);
             landing.meet(error, Landed::Gripper(gripper), place);
@@ -214,7 +285,7 @@ pub fn measures(
     }
     for (span, points) in snapshot.shape.spans.iter().zip(points) {
         if let Some(value) = span.force {
-            force.meet(value, span.catenary, points[points.len() / 2]);
+            force.meet(value.abs(), span.catenary, points[points.len() / 2]);
         }
         if let Some(mold) = &scene.mold {
             for point in points {
@@ -230,14 +301,20 @@ pub fn measures(
         format!("gripper [{i},{j}]")
     };
     let has_mold = scene.mold.is_some();
-    let nothing = |at: &str| Worst { value: 0.0, at: at.into(), place: [0.0; 3] };
+    let nothing = |at: &str| Worst {
+        value: 0.0,
+        at: at.into(),
+        place: [0.0; 3],
+    };
     Measures {
         slack_mm: slack.worst(MM, catenary),
         slack_ratio: ratio.worst(1.0, catenary),
         wrinkle_mm: wrinkle.worst(MM, catenary),
         overstretch: stretch_share.worst(1.0, catenary),
         overstretch_mm: stretch.worst(MM, catenary),
-        bridging_mm: bridging.worst(MM, catenary).or(has_mold.then(|| nothing("nowhere"))),
+        bridging_mm: bridging
+            .worst(MM, catenary)
+            .or(has_mold.then(|| nothing("nowhere"))),
         shear_deg: shear.worst(1.0, |n: usize| {
             format!("cell [{},{}]", n % (grid.nu - 1), n / (grid.nu - 1))
         }),
@@ -247,19 +324,28 @@ pub fn measures(
             Landed::Catenary(n) => catenary(n),
             Landed::Gripper(n) => gripper(n),
         }),
-        gap_mm: gap.worst(MM, catenary).or(has_mold.then(|| nothing("nowhere"))),
+        gap_mm: gap
+            .worst(MM, catenary)
+            .or(has_mold.then(|| nothing("nowhere"))),
         contact_share: has_mold.then_some(lying / total),
     }
 }
 
 fn shear(scene: &Scene, snapshot: &Snapshot) -> Most<usize> {
     let grid = scene.ply.grid;
-    let mut most = Most { value: 0.0, key: None };
+    let mut most = Most {
+        value: 0.0,
+        key: None,
+    };
     for (cell, angle) in snapshot.shear.iter().enumerate() {
         let [i, j] = [cell % (grid.nu - 1), cell / (grid.nu - 1)];
         let corner = |di: usize, dj: usize| snapshot.positions[grid.index([i + di, j + dj])];
         let place = middle(corner(0, 0), corner(1, 1));
-        most.meet(angle.map_or(0.0, |shear| shear.angle.to_degrees()), cell, place);
+        most.meet(
+            angle.map_or(0.0, |shear| shear.angle.to_degrees()),
+            cell,
+            place,
+        );
     }
     most
 }

@@ -124,7 +124,7 @@ pub struct CatenaryState {
     pub shearing: bool,
     /// Force of a shearing diagonal (N), where the material has a shear curve.
     pub shear_force_n: Option<f64>,
-    /// Free rests, in order.
+    /// Rests, in order: those that hang, and those that lie on the mold with what slack they keep.
     pub spans: Vec<SpanState>,
     /// What the mold has caught.
     pub contact: Option<ContactState>,
@@ -152,7 +152,7 @@ pub struct SpanState {
     pub slopes: [f64; 2],
     /// Which of these slopes were prescribed; the others are free.
     pub prescribed: [bool; 2],
-    /// Its shape at equally spaced stations (m).
+    /// Its shape at equally spaced stations (m); slack of a lying rest is drawn as a wrinkle.
     pub points: Vec<[f64; 3]>,
     /// Free length minus the path between its ends (mm), not negative.
     pub slack_mm: f64,
@@ -166,7 +166,7 @@ pub struct SpanState {
     pub overstretch: f64,
 }
 
-/// The part of a catenary that lies on the mold.
+/// The segment of a catenary that the mold has caught; rests beside it may lie there too.
 #[derive(Debug, Clone, Serialize)]
 pub struct ContactState {
     /// Fabric arc length of its ends from the first gripper (m).

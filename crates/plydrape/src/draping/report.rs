@@ -2,17 +2,18 @@
 
 use super::Snapshot;
 use super::attitude::{Attitude, attitude};
-use super::crossing::{hanging, lowered};
+use super::crossing::{STATIONS, hanging, lowered};
 use super::measures::{self, fit, landing_errors, name, words};
 use super::record::{
     Bridging, CatenaryId, CatenaryState, Cell, ContactState, FORMAT, Gripper, Measures, Numbers,
-    ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step, Summary, VERSION, Verdict, Worst,
+    ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step, Summary, VERSION, Verdict,
+    Worst,
 };
 use super::spans::{FreeSpan, Point};
 use crate::catenary;
 use crate::equilibrium::Solver;
-use crate::mold::distance;
-use crate::ply::shear;
+use crate::mold::{Mold, distance};
+use crate::ply::{Laid, shear};
 use crate::scene::Scene;
 
 /// Collects the steps of a drape.
@@ -47,7 +48,10 @@ impl<'a> Report<'a> {
         for (n, attitude) in attitudes.iter().enumerate() {
             self.quaternions[n] = Some(attitude.quaternion);
             let position = snapshot.positions[n];
-            let target = scene.target.as_ref().map(|t| distance(position, t.grippers[n]) * 1e3);
+            let target = scene
+                .target
+                .as_ref()
+                .map(|t| distance(position, t.grippers[n]) * 1e3);
             grippers.push(Gripper {
                 id: grid.id(n),
                 position,
@@ -97,7 +101,10 @@ impl<'a> Report<'a> {
                 shear_force_n: shear.and_then(|shear| self.shear_force(shear.path)),
                 spans: Vec::with_capacity(2),
                 contact: None,
-                bridging: snapshot.bridges[n].map(|b| Bridging { place: b.place, gap: b.gap }),
+                bridging: snapshot.bridges[n].map(|b| Bridging {
+                    place: b.place,
+                    gap: b.gap,
+                }),
             };
             while let Some((span, points)) = spans.next_if(|(span, _)| span.catenary == n) {
                 if laid.is_none() {
@@ -107,24 +114,19 @@ impl<'a> Report<'a> {
             }
             if let (Some(laid), Some(mold)) = (laid, &scene.mold) {
                 let grippers = [c.from, c.to].map(|g| snapshot.positions[grid.index(g)]);
-                let ends = [
-                    if laid.lying[0] { mold.closest_point(grippers[0]) } else { laid.point[0] },
-                    if laid.lying[1] { mold.closest_point(grippers[1]) } else { laid.point[1] },
-                ];
-                let arc = [
-                    if laid.lying[0] { 0.0 } else { laid.arc[0] },
-                    if laid.lying[1] { laid.length } else { laid.arc[1] },
-                ];
-                let mut line = vec![ends[0]];
-                line.extend(laid.point.into_iter().filter(|p| !ends.contains(p)));
-                line.push(ends[1]);
                 let errors = landing_errors(scene, n, laid).map(|e| e.map(|error| error * 1e3));
-                state.contact = Some(ContactState { arc, points: line, landing_error_mm: errors });
-                for fit in measures::fits_laid(laid, grippers, mold) {
-                    if fit.length > 0.0 || fit.overstretch() > 0.0 {
-                        state.spans.push(lying_state(&fit, laid.length, grippers));
-                    }
+                state.contact = Some(ContactState {
+                    arc: laid.arc,
+                    points: laid.point.to_vec(),
+                    landing_error_mm: errors,
+                });
+                let tolerance = scene.settings.contact.tolerance;
+                for (rest, fit) in measures::fits_laid(laid, grippers, mold, tolerance) {
+                    state
+                        .spans
+                        .push(lying_state(laid, rest, &fit, grippers, mold));
                 }
+                state.spans.sort_by(|a, b| a.arc[0].total_cmp(&b.arc[0]));
             }
             out.push(state);
         }
@@ -180,12 +182,20 @@ impl<'a> Report<'a> {
         let first = self.steps.iter().find(touched);
         let first_contact = first.map_or_else(Vec::new, |step| {
             let caught = step.catenaries.iter().filter(|c| c.contact.is_some());
-            caught.map(|c| CatenaryId { kind: c.kind, from: c.from, to: c.to }).collect()
+            caught
+                .map(|c| CatenaryId {
+                    kind: c.kind,
+                    from: c.from,
+                    to: c.to,
+                })
+                .collect()
         });
         let shears = |cell: &Cell| cell.shearing.is_some();
         let first_shear = self.steps.iter().find(|step| step.cells.iter().any(shears));
-        let all_shear =
-            self.steps.iter().find(|s| !s.cells.is_empty() && s.cells.iter().all(shears));
+        let all_shear = self
+            .steps
+            .iter()
+            .find(|s| !s.cells.is_empty() && s.cells.iter().all(shears));
         let limits = self.verdicts();
         let last = self.steps.last();
         Summary {
@@ -198,7 +208,10 @@ impl<'a> Report<'a> {
             first_shear_step: first_shear.map(|step| step.step),
             all_shear_step: all_shear.map(|step| step.step),
             worst: numbers(|pick| self.worst(pick).map(|(_, worst)| worst.value)),
-            last: numbers(|pick| last.and_then(|s| pick(&s.measures).as_ref()).map(|w| w.value)),
+            last: numbers(|pick| {
+                last.and_then(|s| pick(&s.measures).as_ref())
+                    .map(|w| w.value)
+            }),
             contact_share: last.and_then(|step| step.measures.contact_share),
             limits,
             equilibria: self.steps.iter().map(|step| step.solver.equilibria).sum(),
@@ -227,25 +240,67 @@ impl<'a> Report<'a> {
             let value = worst.value * scale;
             // a bound that holds a slope exactly at its limit is no breach
             let ok = value <= limit * (1.0 + 1e-9);
-            out.push(Verdict { name, value, limit, unit, ok, step, at: worst.at.clone() });
+            out.push(Verdict {
+                name,
+                value,
+                limit,
+                unit,
+                ok,
+                step,
+                at: worst.at.clone(),
+            });
         };
         let last = self.steps.last();
         let at_end = |pick: fn(&Measures) -> &Option<Worst>| {
-            last.and_then(|step| pick(&step.measures).as_ref().map(|worst| (step.step, worst)))
+            last.and_then(|step| {
+                pick(&step.measures)
+                    .as_ref()
+                    .map(|worst| (step.step, worst))
+            })
         };
         let everywhere = |pick: fn(&Measures) -> &Option<Worst>| self.worst(pick);
-        judge("overstretch", "%", 1e2, limits.overstretch * 1e2, everywhere(|m| &m.overstretch));
-        judge("tilt", "°", 1.0, limits.tilt.to_degrees(), everywhere(|m| &m.tilt_deg));
+        judge(
+            "overstretch",
+            "%",
+            1e2,
+            limits.overstretch * 1e2,
+            everywhere(|m| &m.overstretch),
+        );
+        judge(
+            "tilt",
+            "°",
+            1.0,
+            limits.tilt.to_degrees(),
+            everywhere(|m| &m.tilt_deg),
+        );
         if let Some(shear) = limits.shear {
-            judge("shear", "°", 1.0, shear.to_degrees(), everywhere(|m| &m.shear_deg));
+            judge(
+                "shear",
+                "°",
+                1.0,
+                shear.to_degrees(),
+                everywhere(|m| &m.shear_deg),
+            );
         }
         if let Some(force) = limits.force {
             judge("force", "N", 1.0, force, everywhere(|m| &m.force_n));
         }
         if let (Some(target), Some(step)) = (&self.scene.target, last) {
             if self.scene.mold.is_some() {
-                judge("slack_ratio", "%", 1e2, limits.slack_ratio * 1e2, at_end(|m| &m.slack_ratio));
-                judge("bridging", "mm", 1.0, limits.bridging * 1e3, at_end(|m| &m.bridging_mm));
+                judge(
+                    "slack_ratio",
+                    "%",
+                    1e2,
+                    limits.slack_ratio * 1e2,
+                    at_end(|m| &m.slack_ratio),
+                );
+                judge(
+                    "bridging",
+                    "mm",
+                    1.0,
+                    limits.bridging * 1e3,
+                    at_end(|m| &m.bridging_mm),
+                );
             }
             let contact = step.catenaries.iter().enumerate().filter_map(|(n, c)| {
                 let contact = c.contact.as_ref()?;
@@ -259,15 +314,31 @@ impl<'a> Report<'a> {
             });
             let contact = contact.max_by(|a, b| a.value.total_cmp(&b.value));
             let found = contact.as_ref().map(|worst| (step.step, worst));
-            judge("landing_contact", "mm", 1.0, limits.landing_contact * 1e3, found);
-            let gripper = step.grippers.iter().zip(&target.grippers).map(|(gripper, place)| Worst {
-                value: distance(gripper.position, *place) * 1e3,
-                at: format!("gripper [{},{}]", gripper.id[0], gripper.id[1]),
-                place: gripper.position,
-            });
+            judge(
+                "landing_contact",
+                "mm",
+                1.0,
+                limits.landing_contact * 1e3,
+                found,
+            );
+            let gripper = step
+                .grippers
+                .iter()
+                .zip(&target.grippers)
+                .map(|(gripper, place)| Worst {
+                    value: distance(gripper.position, *place) * 1e3,
+                    at: format!("gripper [{},{}]", gripper.id[0], gripper.id[1]),
+                    place: gripper.position,
+                });
             let gripper = gripper.max_by(|a, b| a.value.total_cmp(&b.value));
             let found = gripper.as_ref().map(|worst| (step.step, worst));
-            judge("landing_gripper", "mm", 1.0, limits.landing_gripper * 1e3, found);
+            judge(
+                "landing_gripper",
+                "mm",
+                1.0,
+                limits.landing_gripper * 1e3,
+                found,
+            );
             if let Some(share) = step.measures.contact_share {
                 out.push(Verdict {
                     name: "contact_share",
@@ -280,7 +351,11 @@ impl<'a> Report<'a> {
                 });
             }
         }
-        if let Some(step) = self.steps.iter().find(|step| step.solver.status != "converged") {
+        if let Some(step) = self
+            .steps
+            .iter()
+            .find(|step| step.solver.status != "converged")
+        {
             out.push(Verdict {
                 name: "equilibrium",
                 value: step.solver.residual,
@@ -288,7 +363,11 @@ impl<'a> Report<'a> {
                 unit: "slope",
                 ok: false,
                 step: step.step,
-                at: format!("solver {} with max_tilt {:.1}°", step.solver.status, settings.max_tilt.to_degrees()),
+                at: format!(
+                    "solver {} with max_tilt {:.1}°",
+                    step.solver.status,
+                    settings.max_tilt.to_degrees()
+                ),
             });
         }
         out
@@ -332,24 +411,49 @@ fn span_state(span: &FreeSpan, points: Vec<Point>, whole: f64) -> SpanState {
     }
 }
 
-/// A rest that lies on the mold, or one of no length.
-fn lying_state(fit: &measures::Fit, whole: f64, grippers: [Point; 2]) -> SpanState {
-    let first = distance(fit.place, grippers[0]) <= distance(fit.place, grippers[1]);
-    let arc = if first { [0.0, fit.length] } else { [whole - fit.length, whole] };
+/// A rest that lies on the mold, or one of no length; `None` for a catenary that lies whole.
+fn lying_state(
+    laid: &Laid,
+    rest: Option<usize>,
+    fit: &measures::Fit,
+    grippers: [Point; 2],
+    mold: &Mold,
+) -> SpanState {
+    let (arc, ends) = match rest {
+        None => ([0.0, laid.length], grippers),
+        Some(0) => ([0.0, laid.arc[0]], [grippers[0], laid.point[0]]),
+        Some(_) => ([laid.arc[1], laid.length], [laid.point[1], grippers[1]]),
+    };
+    let [a, b] = ends;
+    let run = (b[0] - a[0]).hypot(b[1] - a[1]);
+    let slope = if run > 0.0 { (b[2] - a[2]) / run } else { 0.0 };
+    // its slack stands up as a wrinkle, half a sine; a catenary that lies whole is drawn by its contact
+    let points = match rest {
+        Some(_) if fit.length > 0.0 => (0..STATIONS)
+            .map(|n| {
+                let t = n as f64 / (STATIONS - 1) as f64;
+                let foot = [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
+                let height = fit.wrinkle() * (std::f64::consts::PI * t).sin();
+                let normal = mold.normal(mold.closest_point(foot));
+                [0, 1, 2].map(|c| foot[c] + height * normal[c])
+            })
+            .collect(),
+        _ => Vec::new(),
+    };
     SpanState {
         arc,
         length: fit.length,
-        run: fit.path,
-        rise: 0.0,
+        run,
+        rise: b[2] - a[2],
         state: "lying",
         force: None,
-        slopes: [0.0; 2],
+        slopes: [slope; 2],
         prescribed: [false; 2],
-        points: Vec::new(),
+        points,
         slack_mm: fit.slack() * 1e3,
         slack_ratio: fit.slack_ratio(),
         wrinkle_mm: fit.wrinkle() * 1e3,
         overstretch_mm: fit.overstretch() * 1e3,
-        overstretch: fit.overstretch() / whole,
+        overstretch: fit.overstretch() / laid.length,
     }
 }

@@ -31,6 +31,8 @@ pub struct Settled<const M: usize> {
     pub curvature: [Jet<M>; 2],
     /// Relative step of H over which the derivatives were carried: their error is its square.
     pub carried: f64,
+    /// Relative error of the length that is left.
+    pub unmet: f64,
 }
 
 impl<const M: usize> Default for Settled<M> {
@@ -40,6 +42,7 @@ impl<const M: usize> Default for Settled<M> {
             slope: [Jet::default(); 2],
             curvature: [Jet::default(); 2],
             carried: 0.0,
+            unmet: 0.0,
         }
     }
 }
@@ -69,7 +72,8 @@ fn constraint<const N: usize>(profile: &Profile, span: &Span) -> (Jet<N>, Excess
     if N == 3 {
         let (length, excess) = profile.length_to_unknowns();
         let secant = span.chord() / span.run;
-        c.value = length.value - span.length * (1.0 + profile.force() * secant / span.axial_stiffness);
+        c.value =
+            length.value - span.length * (1.0 + profile.force() * secant / span.axial_stiffness);
         for i in 0..N {
             c.gradient[i] = length.gradient[i];
             c.hessian[i][..N].copy_from_slice(&length.hessian[i][..N]);
@@ -174,7 +178,9 @@ pub fn settle<const N: usize, const M: usize>(
     let (pole, goal) = (span.buckling_force(), span.goal());
     let sound = |h: f64| h > pole && h.is_finite();
     let relative = |step: f64, h: f64| step.abs() / (h - pole).max(f64::MIN_POSITIVE);
-    let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| approach(span, span.first_guess()));
+    let mut h = force
+        .filter(|h| sound(*h))
+        .unwrap_or_else(|| approach(span, span.first_guess()));
     let mut searched = false;
     let (profile, c, mut next) = loop {
         let profile = Profile::new(span, h);
@@ -201,8 +207,21 @@ pub fn settle<const N: usize, const M: usize>(
         next = better;
     }
     let last = next - h;
-    let force = implicit::<N, M>(&moved(c, last), next);
-    let mut out = Settled { force, carried: relative(last, h), ..Settled::default() };
+    let c = moved(c, last);
+    // beyond a short step the series of C says little; then the last cheap look does
+    let unmet = if relative(step, next) <= SETTLED {
+        0.0
+    } else {
+        c.value.abs() / span.length
+    };
+    let force = implicit::<N, M>(&c, next);
+    let carried = relative(last, h);
+    let mut out = Settled {
+        force,
+        carried,
+        unmet,
+        ..Settled::default()
+    };
     for end in 0..2 {
         if wanted.slope[end] {
             out.slope[end] = follow(&moved(profile.end_slope_jet::<N>(end), last), &force);

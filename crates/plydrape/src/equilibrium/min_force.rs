@@ -127,12 +127,7 @@ fn assemble(solver: &mut Solver) {
 }
 
 /// Hessian times `x`.
-fn multiply(
-    blocks: &[[[f64; 2]; 2]],
-    rows: &[[[(usize, f64); 2]; 2]],
-    x: &[f64],
-    out: &mut [f64],
-) {
+fn multiply(blocks: &[[[f64; 2]; 2]], rows: &[[[(usize, f64); 2]; 2]], x: &[f64], out: &mut [f64]) {
     out.fill(0.0);
     for (block, row) in blocks.iter().zip(rows) {
         let y = row.map(|end| {
@@ -226,12 +221,20 @@ fn bounded_step(solver: &mut Solver, tolerance: f64, step: &mut [f64]) {
         let work = &mut solver.work;
         // joints at a bound go there; what that does to the others is known
         for n in 0..count {
-            step[n] = if work.active[n] { side(step[n], solver.slopes[n]) * bound - solver.slopes[n] } else { 0.0 };
+            step[n] = if work.active[n] {
+                side(step[n], solver.slopes[n]) * bound - solver.slopes[n]
+            } else {
+                0.0
+            };
         }
         multiply(&work.blocks, &work.rows, step, &mut product);
         right.clear();
         for n in 0..count {
-            right.push(if work.active[n] { 0.0 } else { -work.gradient[n] - product[n] });
+            right.push(if work.active[n] {
+                0.0
+            } else {
+                -work.gradient[n] - product[n]
+            });
         }
         solve_linear(solver, &right, tolerance, &mut free);
         let work = &mut solver.work;
@@ -350,16 +353,11 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         if tolerance * size <= 1e-12 && solver.may_finish(size, before) {
             solver.slopes.extend((0..count).map(|n| projected(1.0, n)));
             solver.finish(0..solver.net.elements.len());
-            residual = if before.is_finite() {
-                size * size / (before * before) * size
-            } else {
-                size
-            };
-            residual = residual.min(size);
+            residual = error_after(size, before).min(size);
             status = Status::Converged;
             accepted = true;
         } else {
-        let mut fraction = 1.0;
+            let mut fraction = 1.0;
             while fraction > 1e-9 {
                 solver.slopes.clear();
                 solver
@@ -370,7 +368,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
                     .sum();
                 trial.copy_from_slice(&solver.work.gradient);
                 let next = solver.evaluate();
-                    if next <= objective + 1e-4 * descent + 1e-13 * objective {
+                if next <= objective + 1e-4 * descent + 1e-13 * objective {
                     objective = next;
                     accepted = true;
                     break;

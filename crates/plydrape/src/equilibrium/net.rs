@@ -189,6 +189,16 @@ impl<T: Number> Build<'_, T> {
         [c.from, c.to].map(|g| self.positions[self.grid().index(g)])
     }
 
+    /// Whether the lines of edges along a direction have bending stiffness.
+    fn is_rigid(&self, direction: usize) -> bool {
+        let kind = if direction == 0 {
+            Kind::EdgeU
+        } else {
+            Kind::EdgeV
+        };
+        self.ply.line(kind).flexural_rigidity > 0.0
+    }
+
     /// The rest that holds on to an end of a catenary: the line from its first to its second end.
     fn rest_line(&self, catenary: usize, end: usize) -> Line<T> {
         let ends = self.ends(&self.grid().catenary(catenary));
@@ -209,7 +219,9 @@ impl<T: Number> Build<'_, T> {
             None => line(ends[0], ends[1]).chord,
             Some(laid) => {
                 let [a, b] = laid.point.map(constant);
-                line(ends[0], a).chord + line(b, ends[1]).chord + (laid.arc[1] - laid.arc[0])
+                line(ends[0], a).chord
+                    + line(b, ends[1]).chord
+                    + self.factors[0] * (laid.arc[1] - laid.arc[0])
             }
         }
     }
@@ -275,9 +287,6 @@ impl<T: Number> Net<T> {
         let grid = build.grid();
         self.governed.clear();
         self.governed.resize(grid.grippers(), [None; 2]);
-        if build.ply.line(Kind::EdgeU).flexural_rigidity == 0.0 {
-            return; // a limp ply has no slope to govern
-        }
         let mut counts = vec![[0.0; 2]; grid.grippers()];
         for (cell, shearing) in self.shearing.iter().enumerate() {
             let Some((_, falling)) = shearing else {
@@ -303,8 +312,10 @@ impl<T: Number> Net<T> {
             }
         }
         for (governed, counts) in self.governed.iter_mut().zip(counts) {
-            for (slope, count) in governed.iter_mut().zip(counts) {
-                *slope = slope.map(|sum| sum / count);
+            for d in 0..2 {
+                // a limp line has no slope to govern
+                let sum = governed[d].filter(|_| build.is_rigid(d));
+                governed[d] = sum.map(|sum| sum / counts[d]);
             }
         }
     }
@@ -359,7 +370,7 @@ impl<T: Number> Net<T> {
                     None => {
                         let mut element = self.element(build, catenary, end, &line, length);
                         if let Some(laid) = &build.laid[catenary] {
-                            element.ends[1 - end] = contact_end(build, laid, end, &line);
+                            element.ends[1 - end] = contact_end(build, c.kind, laid, end, &line);
                         } else {
                             element.rest = 0;
                         }
@@ -382,7 +393,6 @@ impl<T: Number> Net<T> {
     /// Joins the edges on both sides of a gripper, and holds those that a shearing diagonal governs.
     fn join(&mut self, build: &Build<T>) {
         let grid = build.grid();
-        let rigid = build.ply.line(Kind::EdgeU).flexural_rigidity > 0.0;
         let lines = (0..grid.nv)
             .map(|j| (0, j))
             .chain((0..grid.nu).map(|i| (1, i)));
@@ -403,7 +413,7 @@ impl<T: Number> Net<T> {
                         }
                     }
                 } else if let ([Side::Hanging(a, end_a), Side::Hanging(b, end_b)], true) =
-                    (sides, rigid)
+                    (sides, build.is_rigid(direction))
                 {
                     let joint = self.joints.len();
                     self.joints.push(Joint {
@@ -450,7 +460,7 @@ impl<T: Number> Net<T> {
                     let length = T::from(laid.rest(rest)) * build.factors[0];
                     let mut element = self.element(build, catenary, rest, &line, length);
                     element.ends[rest] = ends[rest];
-                    element.ends[1 - rest] = contact_end(build, laid, rest, &line);
+                    element.ends[1 - rest] = contact_end(build, c.kind, laid, rest, &line);
                     self.elements.push(element);
                 }
                 Some(_) => {}
@@ -514,13 +524,18 @@ impl<T: Number> Net<T> {
 }
 
 /// What holds a rest where it leaves the mold.
-fn contact_end<T: Number>(build: &Build<T>, laid: &Laid, rest: usize, line: &Line<T>) -> End<T> {
+fn contact_end<T: Number>(
+    build: &Build<T>,
+    kind: Kind,
+    laid: &Laid,
+    rest: usize,
+    line: &Line<T>,
+) -> End<T> {
     match build.settings.contact.end {
         ContactEnd::Free => End::Free,
         ContactEnd::Tangent => {
-            let section = build.ply.line(Kind::EdgeU);
             let ([nx, ny, nz], unit) = (laid.normal[rest], line.unit());
-            if section.flexural_rigidity == 0.0 || nz <= 0.0 {
+            if build.ply.line(kind).flexural_rigidity == 0.0 || nz <= 0.0 {
                 return End::Free;
             }
             End::Given((unit[0] * -nx + unit[1] * -ny) / nz)

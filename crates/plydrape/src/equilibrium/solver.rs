@@ -54,13 +54,20 @@ const LAST_STEP: f64 = 1e-4;
 /// Error of the slopes that a solve aims at.
 const AIM: f64 = 1e-9;
 
+/// Relative error of a length that spoils an equilibrium.
+const LENGTH: f64 = 1e-8;
+
 /// Relative step of H over which derivatives may have been carried at the last step.
 const SHARP: f64 = 1e-4;
 
 /// Error of the slopes to expect after a Newton step of `size` that came after one of `before`: the
 /// convergence is quadratic.
 pub(super) fn error_after(size: f64, before: f64) -> f64 {
-    if before.is_finite() && size > 0.0 { size * (size / before).powi(2) } else { size }
+    if before.is_finite() && size > 0.0 {
+        size * (size / before).powi(2)
+    } else {
+        size
+    }
 }
 
 /// Finds equilibria, one after the other.
@@ -141,6 +148,23 @@ impl Solver {
             SlopeRule::MomentBalance => moment_balance::solve(self),
         };
         self.remember();
+        // a span that could not meet its length spoils the whole
+        let unmet = self
+            .settled
+            .iter()
+            .map(|settled| settled.unmet)
+            .fold(0.0, f64::max);
+        let lost = self
+            .settled
+            .iter()
+            .any(|settled| !settled.force.value.is_finite());
+        if lost || unmet > LENGTH {
+            return Equilibrium {
+                status: Status::Stalled,
+                residual: outcome.residual.max(unmet),
+                ..outcome
+            };
+        }
         outcome
     }
 
@@ -172,7 +196,9 @@ impl Solver {
     /// Which ends of an element have a prescribed slope.
     #[must_use]
     pub fn holds(&self, element: usize) -> [bool; 2] {
-        self.net.elements[element].ends.map(|end| !matches!(end, End::Free))
+        self.net.elements[element]
+            .ends
+            .map(|end| !matches!(end, End::Free))
     }
 
     /// The span of an element, as solved.
@@ -190,7 +216,9 @@ impl Solver {
     /// would push it farther.
     pub(super) fn mark_active(&mut self) {
         let bound = self.bound();
-        let Work { active, gradient, .. } = &mut self.work;
+        let Work {
+            active, gradient, ..
+        } = &mut self.work;
         active.clear();
         for (s, g) in self.slopes.iter().zip(gradient) {
             active.push((*s >= bound && *g < 0.0) || (*s <= -bound && *g > 0.0));

@@ -166,7 +166,9 @@ impl Solver {
         self.work.adjoint.resize(self.net.elements.len(), [0.0; 2]);
         match self.settings.slopes {
             SlopeRule::MinForce => {
-                let Work { gradient, adjoint, .. } = &mut self.work;
+                let Work {
+                    gradient, adjoint, ..
+                } = &mut self.work;
                 min_force::gradient(&self.net, response, gradient, adjoint);
             }
             SlopeRule::MomentBalance => {

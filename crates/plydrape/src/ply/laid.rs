@@ -32,6 +32,12 @@ impl Laid {
         }
     }
 
+    /// Whether the catenary lies from gripper to gripper, without a segment of its own.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.lying == [true, true] && self.arc == [0.0, self.length]
+    }
+
     /// Whether a rest hangs: it has a length and has not lain down.
     #[must_use]
     pub fn hangs(&self, which: usize) -> bool {

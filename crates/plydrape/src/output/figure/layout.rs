@@ -6,8 +6,8 @@ use super::colour::{BLACK, DARK, FRAME, RED, TARGET, viridis};
 use super::panel::{MOST_MARK, Stage, gripper_radius};
 use super::projection::{Point, View};
 use super::{FigureError, points};
-use crate::mold::Mold;
 use crate::draping::record::{ResultFile, Step};
+use crate::mold::Mold;
 
 /// Width of the sheet (picture points).
 const WIDTH: f64 = 900.0;

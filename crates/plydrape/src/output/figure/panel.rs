@@ -7,12 +7,14 @@ use super::colour::{BLACK, MOLD, RED, RIM, TARGET, WEAVE, viridis};
 use super::piece::{self, Form, Piece, thread};
 use super::projection::{Point, View, turned};
 use super::surface;
-use crate::draping::record::{Gripper, ResultFile, Step};
+use crate::draping::record::{Gripper, ResultFile, SpanState, Step};
 
 /// Radius of a gripper as a share of the shorter side of a cell.
 const GRIPPER: f64 = 0.12;
 /// Largest radius of a contact mark (picture points).
 pub(super) const MOST_MARK: f64 = 3.6;
+/// Slack ratio below which a lying rest is drawn as contact, not as a wrinkle.
+const FLAT: f64 = 5e-4;
 /// Distance of contact marks as a share of the cell.
 const MARKS_APART: f64 = 0.125;
 
@@ -231,19 +233,25 @@ impl Stage<'_> {
         let apart = (MARKS_APART * cell).max(5.0 * radius / view.scale());
         let count = self.drawn(detail);
         let lines = step.catenaries.iter().take(count);
-        for contact in lines.filter_map(|c| c.contact.as_ref()) {
-            let [Some(first), Some(last)] = [contact.points.first(), contact.points.last()] else {
+        // a rest that lies flat touches as its segment does; one with slack is a wrinkle
+        let flat = |span: &&SpanState| span.state == "lying" && span.slack_ratio < FLAT;
+        let touching = lines.flat_map(|c| {
+            let segment = c.contact.iter().map(|contact| &contact.points);
+            segment.chain(c.spans.iter().filter(flat).map(|span| &span.points))
+        });
+        for line in touching {
+            let [Some(first), Some(last)] = [line.first(), line.last()] else {
                 continue;
             };
             let square: f64 = (0..3).map(|c| (last[c] - first[c]).powi(2)).sum();
             let marks = (square.sqrt() / apart).floor().min(50.0) as usize;
             let spots = match marks {
-                0 => vec![contact.points[contact.points.len() / 2]],
-                _ => surface::stations(&contact.points, marks),
+                0 => vec![line[line.len() / 2]],
+                _ => surface::stations(line, marks),
             };
-            if contact.points.len() > 1 {
-                let line = surface::stations(&contact.points, detail.pieces);
-                thread(pieces, view, &line, lift, RED, 0.65 * radius);
+            if line.len() > 1 {
+                let thick = surface::stations(line, detail.pieces);
+                thread(pieces, view, &thick, lift, RED, 0.65 * radius);
             }
             // On a large array the lines alone can tell.
             if radius > 1.0 {
