@@ -94,8 +94,7 @@ pub fn run(arguments: &Arguments) -> Done {
     let mut out = io::stdout().lock();
     if arguments.json {
         let text = json::of(&solved.printed()).map_err(plydrape::output::OutputError::from)?;
-        out.write_all(text.trim_end().as_bytes())?;
-        writeln!(out)?;
+        out.write_all(text.as_bytes())?;
     } else {
         out.write_all(text::of(&solved).as_bytes())?;
     }
@@ -116,13 +115,7 @@ impl Arguments {
             [-steepest, steepest],
             "small-sag theory is for ends side by side: a rise of at most 1000 runs is wanted",
         )?;
-        let length = value(
-            "--length",
-            &self.length,
-            Measured::Length,
-            LENGTHS,
-            length,
-        )?;
+        let length = value("--length", &self.length, Measured::Length, LENGTHS, length)?;
         let weight = value(
             "--weight",
             &self.weight,
@@ -140,7 +133,12 @@ impl Arguments {
             rigidity,
         )?;
         if flexural_rigidity > 0.0 && flexural_rigidity < RIGIDITIES[0] {
-            return Err(refused("--rigidity", &self.rigidity, "is too small", rigidity));
+            return Err(refused(
+                "--rigidity",
+                &self.rigidity,
+                "is too small",
+                rigidity,
+            ));
         }
         let axial_stiffness = value(
             "--axial-stiffness",
@@ -171,15 +169,16 @@ fn end(option: &str, text: &str, flexural_rigidity: f64) -> Result<EndCondition,
         return Ok(EndCondition::Free);
     }
     let help = "write free, or a slope as rise over run from -1000 to 1000, such as 0.5";
-    let slope = value(option, text, Measured::Ratio, [-STEEPEST, STEEPEST], help).map_err(
-        |failure| match failure {
-            Failure::Argument { message, .. } => Failure::Argument {
-                message,
-                help: help.into(),
-            },
-            other => other,
-        },
-    )?;
+    let slope =
+        value(option, text, Measured::Ratio, [-STEEPEST, STEEPEST], help).map_err(|failure| {
+            match failure {
+                Failure::Argument { message, .. } => Failure::Argument {
+                    message,
+                    help: help.into(),
+                },
+                other => other,
+            }
+        })?;
     if flexural_rigidity == 0.0 {
         let fault = "holds the slope of a ply that does not resist bending (--rigidity 0)";
         let help = format!("leave it free, as in {option} free, or give a rigidity above zero");

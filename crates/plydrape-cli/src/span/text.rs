@@ -55,7 +55,12 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
         EndCondition::Free => "free",
         EndCondition::Slope(_) => "held",
     };
-    let ends = [0.0, span.run].map(|x| short(solved.station(x).moment * 1e3));
+    // zero by definition at a free end, up to rounding by the closed form
+    let moment = |end: usize| match span.ends[end] {
+        EndCondition::Free => 0.0,
+        EndCondition::Slope(_) => solved.station(end as f64 * span.run).moment,
+    };
+    let ends = [0, 1].map(|end| short(moment(end) * 1e3));
     let mut lines = vec![
         ("horizontal force", force),
         ("sag", sag),
@@ -88,30 +93,47 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
     }
     if solved.profile.is_none() {
         if span.ends != [EndCondition::Free; 2] {
-            lines.push(("", "a straight span cannot take the slopes asked for".into()));
+            lines.push((
+                "",
+                "a straight span cannot take the slopes asked for".into(),
+            ));
         }
         lines.push(("", "a finite --axial-stiffness would give its force".into()));
     }
     lines
 }
 
-/// Places along the span; the numbers to the right.
+/// Places along the span; six digits of the largest number in each column, to the right.
 fn table(solved: &Solved) -> String {
     let head = ["x mm", "z mm", "slope", "moment N·mm", "vertical force N"];
+    let values: Vec<[f64; 5]> = solved
+        .stations()
+        .map(|s| {
+            [
+                s.x * 1e3,
+                s.z * 1e3,
+                s.slope,
+                s.moment * 1e3,
+                s.vertical_force,
+            ]
+        })
+        .collect();
+    let decimals = [0, 1, 2, 3, 4].map(|column| {
+        let largest = values
+            .iter()
+            .fold(0.0, |m, row| f64::max(m, row[column].abs()));
+        if largest > 0.0 {
+            (5.0 - largest.log10().floor()).clamp(0.0, 12.0) as usize
+        } else {
+            0
+        }
+    });
     let mut rows = vec![head.map(str::to_string)];
-    rows.extend(solved.stations().map(|s| {
-        let vertical = match solved.profile {
-            Some(_) => format!("{:.5}", s.vertical_force + 0.0),
-            None => "–".into(),
-        };
-        [
-            format!("{:.3}", s.x * 1e3),
-            format!("{:.4}", s.z * 1e3 + 0.0),
-            format!("{:.5}", s.slope + 0.0),
-            format!("{:.5}", s.moment * 1e3 + 0.0),
-            vertical,
-        ]
-        .map(without_sign_of_zero)
+    rows.extend(values.iter().map(|row| {
+        [0, 1, 2, 3, 4].map(|column| match solved.profile {
+            None if column == 4 => "–".to_string(),
+            _ => without_sign_of_zero(format!("{:.*}", decimals[column], row[column])),
+        })
     }));
     let mut widths = [0; 5];
     for row in &rows {
