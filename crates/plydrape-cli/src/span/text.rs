@@ -12,7 +12,7 @@ const POINTS: usize = 400;
 pub fn of(solved: &Solved) -> String {
     let span = &solved.span;
     let rise = match span.rise {
-        rise if rise == 0.0 => "level".to_string(),
+        0.0 => "level".to_string(),
         rise if rise > 0.0 => format!("{} mm up", millimetres(rise)),
         rise => format!("{} mm down", millimetres(-rise)),
     };
