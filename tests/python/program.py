@@ -56,7 +56,7 @@ def scene(problem: Problem) -> str:
             "[ply]",
             f"grippers = [{nu}, {nv}]",
             f"cell = [{number(problem.cell[0])}, {number(problem.cell[1])}]",
-            "[material]",
+            "[ply.material]",
             'name = "of the test"',
             'source = "Krogh et al. 2018, Table 1, unless the test changes it"',
             f'mass = "{number(problem.mass)} kg/m"',

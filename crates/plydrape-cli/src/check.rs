@@ -1,6 +1,7 @@
 //! `plydrape check`: reads a scene and says what was understood.
 
 use crate::diagnostic::Done;
+use crate::numbers::{degrees, millimetres, short};
 use plydrape::material::{Material, Section, ShearCurve};
 use plydrape::mold::Mold;
 use plydrape::ply::Direction;
@@ -208,28 +209,4 @@ fn rules(scene: &Scene) -> [(&'static str, String); 4] {
             ),
         ),
     ]
-}
-
-fn millimetres(metres: f64) -> String {
-    short(without_noise(metres * 1e3))
-}
-
-fn degrees(radians: f64) -> String {
-    short(without_noise(radians.to_degrees()))
-}
-
-/// Six digits at most, without trailing zeros; very large and small values by powers of ten.
-fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    let plain = (1e-3..1e7).contains(&rounded.abs()) || rounded == 0.0 || rounded.is_infinite();
-    if plain {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
-}
-
-/// Nine decimals; a zero without a sign.
-fn without_noise(value: f64) -> f64 {
-    (value * 1e9).round() / 1e9 + 0.0
 }

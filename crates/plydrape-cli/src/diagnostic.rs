@@ -19,6 +19,22 @@ pub enum Failure {
     /// The scene, or a file it names, was refused.
     #[error("{}", .0.0.message)]
     Scene(Box<Refused>),
+    /// The value of an option was refused.
+    #[error("{message}")]
+    Argument {
+        /// The option, its value, and what is wrong with it.
+        message: String,
+        /// What would be right.
+        help: String,
+    },
+    /// The input is sound, but has no solution.
+    #[error("{message}")]
+    NoSolution {
+        /// What was looked for.
+        message: String,
+        /// What may be the reason.
+        help: String,
+    },
     /// A file could not be written.
     #[error("`{file}` cannot be written: {reason}")]
     Output {
@@ -67,7 +83,10 @@ impl Failure {
             return ExitCode::SUCCESS;
         }
         eprint!("{}", Rendered(self));
-        ExitCode::from(2)
+        ExitCode::from(match self {
+            Failure::NoSolution { .. } => 3,
+            _ => 2,
+        })
     }
 }
 
@@ -81,7 +100,9 @@ impl Diagnostic for Failure {
     fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
         match self {
             Failure::Scene(refused) => Some(Box::new(&refused.0.help)),
-            Failure::Output { help, .. } => Some(Box::new(help)),
+            Failure::Argument { help, .. }
+            | Failure::NoSolution { help, .. }
+            | Failure::Output { help, .. } => Some(Box::new(help)),
             Failure::Results(_) | Failure::Stdout(_) => None,
         }
     }

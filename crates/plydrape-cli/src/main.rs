@@ -4,8 +4,10 @@ mod check;
 mod complete;
 mod diagnostic;
 mod new;
+mod numbers;
 mod schema;
 mod simulate;
+mod span;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -35,6 +37,7 @@ Exit codes:
 enum Command {
     Simulate(simulate::Arguments),
     Check(check::Arguments),
+    Span(span::Arguments),
     New(new::Arguments),
     Schema(schema::Arguments),
     Completions(complete::Completions),
@@ -46,6 +49,7 @@ fn main() -> ExitCode {
     let done = match command {
         Command::Simulate(arguments) => simulate::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),
+        Command::Span(arguments) => span::run(&arguments),
         Command::New(arguments) => new::run(&arguments, quiet),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Completions(arguments) => complete::completions(&arguments),

@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
             summary,
             mean_equilibrium_us,
         };
-        writeln!(
+        write!(
             out,
             "{}",
             json::of(&printed).map_err(plydrape::output::OutputError::from)?

@@ -1,7 +1,7 @@
 //! The drape: gripper positions step by step, the equilibrium at each, and what the mold catches.
 //!
 //! One loop, the paper's section 4: move the grippers ([`crate::scene::Motion`]), solve the equilibrium
-//! ([`crate::equilibrium`]), look for contact ([`contact`]), measure ([`measures`]) and record
+//! ([`crate::equilibrium`]), look for contact ([`contact`]), measure (`measures`) and record
 //! ([`record`]).
 
 mod attitude;

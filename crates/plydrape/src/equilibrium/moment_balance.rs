@@ -40,7 +40,17 @@ fn row(solver: &Solver, joint: usize) -> [f64; 3] {
 /// Solves the tridiagonal system J x = right with the rows of active bounds replaced by x = 0.
 ///
 /// Every line of edges is a block of its own: the couplings between lines are zero.
-fn solve_linear(solver: &Solver, right: &[f64], ratio: &mut [f64], out: &mut [f64]) {
+///
+/// `shift` is added to the diagonal; returns false if a pivot is not positive, as on the way to a state
+/// that is no stable one.
+fn solve_linear(
+    solver: &Solver,
+    right: &[f64],
+    shift: f64,
+    ratio: &mut [f64],
+    out: &mut [f64],
+) -> bool {
+    let mut stable = true;
     for joint in 0..right.len() {
         let ([below, on, above], value) = if solver.work.active[joint] {
             ([0.0, 1.0, 0.0], 0.0)
@@ -52,26 +62,27 @@ fn solve_linear(solver: &Solver, right: &[f64], ratio: &mut [f64], out: &mut [f6
         } else {
             (0.0, 0.0)
         };
-        let pivot = on - below * last;
+        let pivot = on + shift - below * last;
+        stable &= pivot > 0.0;
         ratio[joint] = above / pivot;
         out[joint] = (value - below * before) / pivot;
     }
     for joint in (0..right.len().saturating_sub(1)).rev() {
         out[joint] -= ratio[joint] * out[joint + 1];
     }
+    stable
 }
 
 /// Derivative of the slopes for a change of the jumps: −J⁻¹ `change`, active bounds held.
 pub(super) fn respond(solver: &mut Solver, change: &[f64], out: &mut [f64]) {
     let right: Vec<f64> = change.iter().map(|c| -c).collect();
     let mut ratio = vec![0.0; right.len()];
-    solve_linear(solver, &right, &mut ratio, out);
+    solve_linear(solver, &right, 0.0, &mut ratio, out);
 }
 
 impl Solver {
-    /// Settles the edges and evaluates all jumps; returns the largest Newton-scaled one that no bound
-    /// carries.
-    fn evaluate_jumps(&mut self) -> f64 {
+    /// Settles the edges and evaluates all jumps.
+    fn evaluate_jumps(&mut self) {
         self.settle(0..self.net.edge_elements);
         let count = self.slopes.len();
         self.work.gradient.resize(count, 0.0);
@@ -81,12 +92,51 @@ impl Solver {
             self.work.gradient[joint] = jump;
         }
         self.mark_active();
-        (0..count)
-            .filter(|&joint| !self.work.active[joint])
-            .map(|joint| (self.work.gradient[joint] / row(self, joint)[1]).abs())
-            .fold(0.0, f64::max)
+    }
+
+    /// The Newton step of the slopes into `work.step`; where the state is no stable one, the diagonal
+    /// is raised until the step goes down the potential energy, whose gradient the jumps are.
+    fn moment_step(&mut self) {
+        let count = self.slopes.len();
+        let mut step = std::mem::take(&mut self.work.step);
+        let mut ratio = std::mem::take(&mut self.work.diagonal);
+        let mut right = std::mem::take(&mut self.work.right);
+        step.resize(count, 0.0);
+        ratio.resize(count, 0.0);
+        right.clear();
+        right.extend(self.work.gradient.iter().map(|jump| -jump));
+        let mut shift = 0.0;
+        let largest = (0..count)
+            .map(|n| row(self, n)[1].abs())
+            .fold(0.0, f64::max);
+        while !solve_linear(self, &right, shift, &mut ratio, &mut step) && shift <= 64.0 * largest {
+            shift = if shift == 0.0 {
+                largest / 64.0
+            } else {
+                4.0 * shift
+            };
+        }
+        // far from the solution no step is worth more than a fraction of a right angle
+        let size = step.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+        if size > FAR_STEP {
+            step.iter_mut().for_each(|x| *x *= FAR_STEP / size);
+        }
+        self.work.step = step;
+        self.work.diagonal = ratio;
+        self.work.right = right;
+    }
+
+    /// Work of the jumps along the way from `start` to the present slopes: how the energy changes there.
+    fn work_along(&self, start: &[f64]) -> f64 {
+        let way = self.slopes.iter().zip(start).map(|(s, start)| s - start);
+        way.zip(&self.work.gradient)
+            .map(|(way, jump)| way * jump)
+            .sum()
     }
 }
+
+/// Largest slope change of one step.
+const FAR_STEP: f64 = 0.3;
 
 /// Balances the moments at every joint, then lets the diagonals follow.
 pub fn solve(solver: &mut Solver) -> Equilibrium {
@@ -97,73 +147,52 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             solver.wanted[element].curvature[end] = true;
         }
     }
-    let mut merit = solver.evaluate_jumps();
-    let (mut status, mut residual, mut iterations) = (Status::IterationLimit, merit, 1);
-    if count == 0 {
-        status = Status::Converged;
-        residual = 0.0;
-    }
+    solver.evaluate_jumps();
+    let (mut status, mut residual, mut iterations) = (Status::Converged, 0.0, 1);
     let mut before = f64::INFINITY;
-    while count > 0 && iterations < MAX_ITERATIONS {
-        iterations += 1;
-        let mut step = std::mem::take(&mut solver.work.step);
+    while count > 0 {
+        solver.moment_step();
         let mut start = std::mem::take(&mut solver.work.trial);
-        let mut ratio = std::mem::take(&mut solver.work.diagonal);
-        step.resize(count, 0.0);
-        ratio.resize(count, 0.0);
-        let right = &mut solver.work.vectors[0];
-        right.clear();
-        right.extend(solver.work.gradient.iter().map(|jump| -jump));
-        let right = std::mem::take(&mut solver.work.vectors[0]);
-        solve_linear(solver, &right, &mut ratio, &mut step);
-        solver.work.vectors[0] = right;
         start.clear();
         start.extend_from_slice(&solver.slopes);
-        let projected =
-            |fraction: f64, n: usize| (start[n] + fraction * step[n]).clamp(-bound, bound);
-        let size = (0..count)
-            .map(|n| (projected(1.0, n) - start[n]).abs())
-            .fold(0.0, f64::max);
-        let mut fraction = 1.0;
-        let mut accepted = false;
-        if solver.may_finish(size, before) {
+        let move_by = |solver: &mut Solver, fraction: f64| {
             for n in 0..count {
-                solver.slopes[n] = projected(1.0, n);
+                let slope = start[n] + fraction * solver.work.step[n];
+                solver.slopes[n] = slope.clamp(-bound, bound);
             }
+        };
+        move_by(solver, 1.0);
+        let way = solver
+            .slopes
+            .iter()
+            .zip(&start)
+            .map(|(s, start)| (s - start).abs());
+        let size = way.fold(0.0, f64::max);
+        residual = error_after(size, before).min(size);
+        if solver.may_finish(size, before) {
             solver.finish(0..solver.net.edge_elements);
-            residual = error_after(size, before).min(size);
-            status = Status::Converged;
-        } else {
-            while fraction > 1e-9 {
-                for n in 0..count {
-                    solver.slopes[n] = projected(fraction, n);
-                }
-                let next = solver.evaluate_jumps();
-                if next < merit || next <= 1e-13 {
-                    merit = next;
-                    accepted = true;
-                    break;
-                }
-                fraction *= 0.5;
-            }
-            residual = merit;
-            if !accepted {
-                solver.slopes.copy_from_slice(&start);
-                solver.evaluate_jumps();
-                status = if merit <= 1e-9 {
-                    Status::Converged
-                } else {
-                    Status::Stalled
-                };
-            }
-        }
-        solver.work.step = step;
-        solver.work.trial = start;
-        solver.work.diagonal = ratio;
-        if status != Status::IterationLimit {
+            solver.work.trial = start;
             break;
         }
+        iterations += 1;
+        // a step is good if the energy still falls at its end, or nearly stands still
+        let down = solver.work_along(&start);
+        let mut fraction = 1.0;
+        loop {
+            solver.evaluate_jumps();
+            let uphill = solver.work_along(&start) / fraction;
+            if uphill <= 0.5 * down.abs() || fraction < 1e-6 {
+                break;
+            }
+            fraction *= 0.5;
+            move_by(solver, fraction);
+        }
+        solver.work.trial = start;
         before = size;
+        if iterations >= MAX_ITERATIONS {
+            (status, residual) = (Status::IterationLimit, size);
+            break;
+        }
     }
     // diagonals are no tows: they follow
     let (edges, all) = (solver.net.edge_elements, solver.net.elements.len());

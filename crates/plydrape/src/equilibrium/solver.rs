@@ -54,6 +54,12 @@ const LAST_STEP: f64 = 1e-4;
 /// Error of the slopes that a solve aims at.
 const AIM: f64 = 1e-9;
 
+/// Share of the flexural rigidity from which a difficult ply is stiffened.
+const LIMP: f64 = 1e-4;
+
+/// Growth of the rigidity below which stiffening is given up.
+const SMALLEST_GROWTH: f64 = 1.05;
+
 /// Relative error of a length that spoils an equilibrium.
 const LENGTH: f64 = 1e-8;
 
@@ -133,13 +139,55 @@ impl Solver {
 
     /// Solves the equilibrium at gripper positions (m), in the order of [`crate::ply::Grid::index`],
     /// with what the mold has caught of each catenary.
+    ///
+    /// Where the direct way fails, as it may for stiff plies in compression, the ply is made limp and
+    /// stiffened by and by: that follows the hanging state to its like.
     pub fn solve(&mut self, positions: &[[f64; 3]], laid: &[Option<Laid>]) -> Equilibrium {
+        let direct = self.attempt(positions, laid, 1.0);
+        if direct.status == Status::Converged {
+            return direct;
+        }
+        let mut iterations = direct.iterations;
+        self.forget();
+        let (mut done, mut growth) = (LIMP, 4.0);
+        self.attempt(positions, laid, done);
+        while growth > SMALLEST_GROWTH {
+            let memory = (self.ratios.clone(), self.memory.clone());
+            let next = f64::min(growth * done, 1.0);
+            let outcome = self.attempt(positions, laid, next);
+            iterations += outcome.iterations;
+            if outcome.status != Status::Converged {
+                (self.ratios, self.memory) = memory;
+                growth = growth.sqrt();
+            } else if next >= 1.0 {
+                return Equilibrium {
+                    iterations,
+                    ..outcome
+                };
+            } else {
+                done = next;
+            }
+        }
+        self.forget();
+        Equilibrium {
+            iterations,
+            ..self.attempt(positions, laid, 1.0)
+        }
+    }
+
+    /// Solves with the flexural rigidity multiplied by `stiffness`.
+    fn attempt(
+        &mut self,
+        positions: &[[f64; 3]],
+        laid: &[Option<Laid>],
+        stiffness: f64,
+    ) -> Equilibrium {
         let build = Build {
             ply: &self.ply,
             settings: &self.settings,
             positions,
             laid,
-            factors: [1.0; 3],
+            factors: [1.0, 1.0, stiffness],
         };
         self.net.rebuild(&build);
         self.recall();
@@ -159,9 +207,10 @@ impl Solver {
             .iter()
             .any(|settled| !settled.force.value.is_finite());
         if lost || unmet > LENGTH {
+            let residual = outcome.residual.max(unmet);
             return Equilibrium {
                 status: Status::Stalled,
-                residual: outcome.residual.max(unmet),
+                residual,
                 ..outcome
             };
         }

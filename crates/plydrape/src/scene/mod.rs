@@ -7,7 +7,10 @@
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the wanted dimension;
 //! 3. `check` with `material`, `mold`, `start`, `target`, `motion`, `trajectory`: numbers become a
 //!    [`Scene`].
+//!
+//! `argument` lends the reader of stage 2 to values on the command line.
 
+mod argument;
 mod check;
 mod choice;
 mod complaint;
@@ -27,6 +30,7 @@ mod target;
 mod trajectory;
 mod units;
 
+pub use argument::{Measured, quantity};
 pub use error::SceneError;
 pub use material::shipped_materials;
 pub use schema::schema;

@@ -72,6 +72,20 @@ pub(super) struct Unchecked<M> {
     measure: PhantomData<M>,
 }
 
+impl<M> Unchecked<M> {
+    /// A value given outside a file, where no quotes tell a number from a text.
+    pub fn given(text: &str) -> Self {
+        let raw = match units::quantity(text) {
+            Ok((number, None)) => Raw::Number(number),
+            _ => Raw::Text(text.to_string()),
+        };
+        Unchecked {
+            raw,
+            measure: PhantomData,
+        }
+    }
+}
+
 /// A measured value with its place.
 pub(super) type Quantity<M> = Located<Unchecked<M>>;
 

@@ -1,0 +1,27 @@
+//! Numbers as a user reads them.
+
+/// Millimetres, of metres.
+pub fn millimetres(metres: f64) -> String {
+    short(without_noise(metres * 1e3))
+}
+
+/// Degrees, of radians.
+pub fn degrees(radians: f64) -> String {
+    short(without_noise(radians.to_degrees()))
+}
+
+/// Six digits at most, without trailing zeros; very large and small values by powers of ten.
+pub fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    let plain = (1e-3..1e7).contains(&rounded.abs()) || rounded == 0.0 || rounded.is_infinite();
+    if plain {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// Nine decimals; a zero without a sign.
+fn without_noise(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9 + 0.0
+}
