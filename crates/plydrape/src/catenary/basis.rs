@@ -11,7 +11,7 @@
 
 use super::Span;
 use super::entire::{curvature, entire, entire_at, slope, terms};
-use super::quadrature::POINTS;
+use super::quadrature::Rule;
 
 /// κ from which the exponential form is used.
 const TAUT_KAPPA: f64 = 25.0;
@@ -52,25 +52,81 @@ pub struct Values {
     pub second: [f64; 3],
 }
 
-/// [`Values`] at several points: `[U, V, G][point]`.
-#[derive(Debug, Clone, Copy)]
-pub struct Panel<const P: usize> {
-    /// U, V, G.
-    pub value: [[f64; P]; 3],
-    /// ∂/∂χ of U, V, G.
-    pub first: [[f64; P]; 3],
-    /// ∂²/∂χ² of U, V, G.
-    pub second: [[f64; P]; 3],
+/// U, V, G at the points of a panel, one form's way.
+pub trait Panel {
+    /// Values at a point of the panel.
+    fn at(&self, point: usize) -> Values;
 }
 
-impl<const P: usize> Default for Panel<P> {
-    fn default() -> Self {
-        Panel {
-            value: [[0.0; P]; 3],
-            first: [[0.0; P]; 3],
-            second: [[0.0; P]; 3],
+/// Points of the taut form: t, e^(−kt) and e^(−k(1−t)).
+pub struct TautPanel<const P: usize> {
+    t: [f64; P],
+    layers: [[f64; P]; 2],
+    mean: [f64; 3],
+}
+
+/// Points of the stiff form: t and c₀ … c₈ at κt².
+pub struct StiffPanel<const P: usize> {
+    t: [f64; P],
+    c: [[f64; P]; 9],
+    mean: [f64; 9],
+}
+
+/// Points of the limp form: t.
+pub struct LimpPanel<const P: usize> {
+    t: [f64; P],
+}
+
+impl<const P: usize> Panel for TautPanel<P> {
+    #[inline(always)]
+    fn at(&self, p: usize) -> Values {
+        let (t, s, m) = (self.t[p], 1.0 - self.t[p], self.mean);
+        let (near, far) = (self.layers[0][p], self.layers[1][p]);
+        Values {
+            value: [near - m[0], far - m[0], t - 0.5],
+            first: [-t * near - m[1], -s * far - m[1], 0.0],
+            second: [t * t * near - m[2], s * s * far - m[2], 0.0],
         }
     }
+}
+
+impl<const P: usize> Panel for StiffPanel<P> {
+    #[inline(always)]
+    fn at(&self, p: usize) -> Values {
+        // tⁿ c_n(κt²) − c_{n+1}(κ); each κ-derivative brings t²
+        let (c, mean, t) = (self.c.map(|c| c[p]), &self.mean, self.t[p]);
+        let (t2, t3) = (t * t, t * t * t);
+        let (t4, t5) = (t2 * t2, t2 * t3);
+        Values {
+            value: [t * c[1] - mean[2], t2 * c[2] - mean[3], mean[4] - t3 * c[3]],
+            first: [
+                t3 * slope(&c, 1) - slope(mean, 2),
+                t4 * slope(&c, 2) - slope(mean, 3),
+                slope(mean, 4) - t5 * slope(&c, 3),
+            ],
+            second: [
+                t5 * curvature(&c, 1) - curvature(mean, 2),
+                t3 * t3 * curvature(&c, 2) - curvature(mean, 3),
+                curvature(mean, 4) - t4 * t3 * curvature(&c, 3),
+            ],
+        }
+    }
+}
+
+impl<const P: usize> Panel for LimpPanel<P> {
+    #[inline(always)]
+    fn at(&self, p: usize) -> Values {
+        Values {
+            value: [0.0, 0.0, self.t[p] - 0.5],
+            ..Values::default()
+        }
+    }
+}
+
+/// What is summed over the panels of a span.
+pub trait Sum {
+    /// Adds a panel; the weights of its points are `scale` times `weights`.
+    fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel);
 }
 
 impl Form {
@@ -109,78 +165,55 @@ impl Form {
         }
     }
 
-    /// U, V, G at several t, given e^(−kt) and e^(−k(1−t)) there (which only the taut form reads).
+    /// Adds the panel from `start` to `start + width` to a sum.
     #[inline]
-    pub fn at<const P: usize>(&self, t: &[f64; P], near: &[f64; P], far: &[f64; P]) -> Panel<P> {
-        let mut out = Panel::default();
-        let Panel {
-            value: [u, v, g],
-            first: [ux, vx, gx],
-            second: [uxx, vxx, gxx],
-        } = &mut out;
+    pub fn add_panel<const P: usize>(
+        &self,
+        rule: &Rule<P>,
+        start: f64,
+        width: f64,
+        sum: &mut impl Sum,
+    ) {
+        let t = rule.t.map(|s| start + width * s);
         match *self {
+            Form::Taut { mean, .. } => {
+                let layers = self.panel_layers(&rule.t, start, width);
+                sum.add(width, &rule.weight, &TautPanel { t, layers, mean });
+            }
             Form::Stiff {
                 kappa,
                 terms,
                 c: mean,
             } => {
-                // tⁿ c_n(κt²) − c_{n+1}(κ); each κ-derivative brings t²
                 let c = entire_at(&t.map(|t| kappa * t * t), terms);
-                for p in 0..P {
-                    let c = c.map(|c| c[p]);
-                    let t = t[p];
-                    let (t2, t3) = (t * t, t * t * t);
-                    let (t4, t5) = (t2 * t2, t2 * t3);
-                    u[p] = t * c[1] - mean[2];
-                    v[p] = t2 * c[2] - mean[3];
-                    g[p] = mean[4] - t3 * c[3];
-                    ux[p] = t3 * slope(&c, 1) - slope(&mean, 2);
-                    vx[p] = t4 * slope(&c, 2) - slope(&mean, 3);
-                    gx[p] = slope(&mean, 4) - t5 * slope(&c, 3);
-                    uxx[p] = t5 * curvature(&c, 1) - curvature(&mean, 2);
-                    vxx[p] = t3 * t3 * curvature(&c, 2) - curvature(&mean, 3);
-                    gxx[p] = curvature(&mean, 4) - t4 * t3 * curvature(&c, 3);
-                }
+                sum.add(width, &rule.weight, &StiffPanel { t, c, mean });
             }
-            Form::Taut { mean, .. } => {
-                for p in 0..P {
-                    let (t, s) = (t[p], 1.0 - t[p]);
-                    u[p] = near[p] - mean[0];
-                    v[p] = far[p] - mean[0];
-                    g[p] = t - 0.5;
-                    ux[p] = -t * near[p] - mean[1];
-                    vx[p] = -s * far[p] - mean[1];
-                    uxx[p] = t * t * near[p] - mean[2];
-                    vxx[p] = s * s * far[p] - mean[2];
-                }
-            }
-            Form::Limp => *g = t.map(|t| t - 0.5),
+            Form::Limp => sum.add(width, &rule.weight, &LimpPanel { t }),
         }
-        out
     }
 
     /// e^(−kt) and e^(−k(1−t)) at the points `start + width·s` of a panel.
     ///
     /// The abscissas s are symmetric, so half the exponentials give the rest by division.
     #[inline]
-    pub fn panel_layers(&self, s: &[f64; POINTS], start: f64, width: f64) -> [[f64; POINTS]; 2] {
+    fn panel_layers<const P: usize>(&self, s: &[f64; P], start: f64, width: f64) -> [[f64; P]; 2] {
         let Form::Taut { k, .. } = *self else {
-            return [[0.0; POINTS]; 2];
+            return [[0.0; P]; 2];
         };
         // from the panel's own first end; the second layer is the mirror image of the first
         let decay = |from: f64| {
-            let mut out = [0.0; POINTS];
+            let mut out = [0.0; P];
             let (first, last) = (k * from, k * (2.0 * from + width));
             if first > NEGLIGIBLE {
                 return out;
             }
             let both = (-last).exp();
-            for p in 0..POINTS / 2 {
+            for p in 0..P / 2 {
                 out[p] = (-first - k * width * s[p]).exp();
             }
-            for p in 0..POINTS / 2 {
+            for p in 0..P / 2 {
                 // a layer that ends within the panel: what underflows is nothing
-                out[POINTS - 1 - p] = if both > 0.0 { both / out[p] } else { 0.0 };
+                out[P - 1 - p] = if both > 0.0 { both / out[p] } else { 0.0 };
             }
             out
         };
@@ -197,13 +230,27 @@ impl Form {
 
     /// U, V, G at t.
     pub fn slope(&self, t: f64) -> Values {
-        let [near, far] = self.layers(t);
-        let values = self.at(&[t], &[near], &[far]);
-        let pick = |f: &[[f64; 1]; 3]| [f[0][0], f[1][0], f[2][0]];
-        Values {
-            value: pick(&values.value),
-            first: pick(&values.first),
-            second: pick(&values.second),
+        match *self {
+            Form::Taut { mean, .. } => {
+                let layers = self.layers(t).map(|layer| [layer]);
+                TautPanel {
+                    t: [t],
+                    layers,
+                    mean,
+                }
+                .at(0)
+            }
+            Form::Stiff {
+                kappa,
+                terms,
+                c: mean,
+            } => StiffPanel {
+                t: [t],
+                c: entire_at(&[kappa * t * t], terms),
+                mean,
+            }
+            .at(0),
+            Form::Limp => LimpPanel { t: [t] }.at(0),
         }
     }
 

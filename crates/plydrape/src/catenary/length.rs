@@ -4,10 +4,10 @@
 //! `√(1+z'²) − σ − θw/σ = w² / (σ(σ√(1+z'²) + 1 + θz'))`, and w has zero mean: every term is positive
 //! and nothing cancels, however taut the span.
 
-use super::basis::Panel;
+use super::basis::{Panel, Sum, Values};
 use super::jet::{Chain, Jet};
 use super::profile::{INNER, Profile, Response};
-use super::quadrature::{ABSCISSAS, POINTS, WEIGHTS, stretches};
+use super::quadrature::{LONG, SHORT, stretches};
 
 /// Excess of a span's arc length over its chord, per run, with its derivative to H.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,16 +19,18 @@ pub struct Excess {
 }
 
 impl Profile {
-    /// Calls `visit(scale, panel)` for every panel; the weights of its points are `scale·WEIGHTS`.
+    /// Adds every panel of the span to a sum.
     #[inline]
-    fn for_each_panel(&self, mut visit: impl FnMut(f64, &Panel<POINTS>)) {
+    fn integrate(&self, sum: &mut impl Sum) {
         for stretch in stretches(self).iter() {
             let width = (stretch.end - stretch.start) / stretch.panels as f64;
             for panel in 0..stretch.panels {
                 let start = stretch.start + panel as f64 * width;
-                let t = ABSCISSAS.map(|s| start + width * s);
-                let [near, far] = self.form.panel_layers(&ABSCISSAS, start, width);
-                visit(width, &self.form.at(&t, &near, &far));
+                if stretch.short {
+                    self.form.add_panel(&SHORT, start, width, sum);
+                } else {
+                    self.form.add_panel(&LONG, start, width, sum);
+                }
             }
         }
     }
@@ -36,41 +38,17 @@ impl Profile {
     /// Excess of the arc length over the chord, with its derivative to H alone.
     #[must_use]
     pub fn excess(&self) -> Excess {
-        let chain = Chain::<3>::new(self);
-        let response = self.response();
-        let [chi_h, rho_h] = [chain.to_force(0), chain.to_force(1)];
-        let ([alpha, beta], rho, theta) = (self.amplitude, self.rho, self.theta);
-        let sigma = theta.hypot(1.0);
-        // ∂z'/∂H = χ_H (ρ G_χ + α U_χ + β V_χ + α_χ U + β_χ V) + ρ_H (G + α_ρ U + β_ρ V)
-        let [a1, b1] = [0, 1].map(|n| chi_h * response.first[0][n] + rho_h * response.first[1][n]);
-        let [a0, b0, r0] = [alpha, beta, rho].map(|x| x * chi_h);
-        let (mut value, mut to_force) = (0.0, 0.0);
-        self.for_each_panel(|scale, panel| {
-            let Panel {
-                value: [u, v, g],
-                first: [ux, vx, gx],
-                ..
-            } = panel;
-            let mut sums = [[0.0; LANES]; 2];
-            for chunk in (0..POINTS).step_by(LANES) {
-                for lane in 0..LANES {
-                    let p = chunk + lane;
-                    let w = rho * g[p] + alpha * u[p] + beta * v[p];
-                    let w_h =
-                        r0 * gx[p] + a0 * ux[p] + b0 * vx[p] + rho_h * g[p] + a1 * u[p] + b1 * v[p];
-                    let slope = theta + w;
-                    let r = (1.0 + slope * slope).sqrt();
-                    // one division for both terms
-                    let d = sigma * (sigma * r + 1.0 + theta * slope);
-                    let both = WEIGHTS[p] / (d * r);
-                    sums[0][lane] += both * w * w * r;
-                    sums[1][lane] += both * d * slope * w_h;
-                }
-            }
-            value += scale * total(sums[0]);
-            to_force += scale * total(sums[1]);
-        });
-        Excess { value, to_force }
+        let r = self.response();
+        let mut sum = ExcessSum {
+            to_force: ToForce::new(self, &r),
+            value: 0.0,
+            slope: 0.0,
+        };
+        self.integrate(&mut sum);
+        Excess {
+            value: sum.value,
+            to_force: sum.slope,
+        }
     }
 
     /// Arc length L (m) with derivatives to H and both slopes, and its excess: the solver's inner loop.
@@ -78,83 +56,27 @@ impl Profile {
     /// The same numbers as [`Profile::length_and_excess`] with `N` = 3, at half its cost.
     pub(crate) fn length_to_unknowns(&self) -> (Jet<3>, Excess) {
         let r = self.response();
-        let chain = Chain::<3>::new(self);
-        let (chi_h, rho_h) = (chain.to_force(0), chain.to_force(1));
-        let (chi_hh, rho_hh) = (chain.second_to_force(0), chain.second_to_force(1));
-        let ([alpha, beta], rho, theta) = (self.amplitude, self.rho, self.theta);
-        let sigma = theta.hypot(1.0);
-        let mix =
-            |x: f64, a: [f64; 2], y: f64, b: [f64; 2]| [x * a[0] + y * b[0], x * a[1] + y * b[1]];
-        // ∂z'/∂H = χ_H D + ρ_H G + a₁ U + b₁ V with D = ρ G_χ + α U_χ + β V_χ
-        let [a1, b1] = mix(chi_h, r.first[0], rho_h, r.first[1]);
-        // the part of ∂²z'/∂H² that multiplies U and V
-        let second = mix(chi_h * chi_h, r.second[0], 2.0 * chi_h * rho_h, r.second[1]);
-        let direct = mix(chi_hh, r.first[0], rho_hh, r.first[1]);
-        let [a2, b2] = [second[0] + direct[0], second[1] + direct[1]];
-        let [da, db] = [2.0 * chi_h * a1, 2.0 * chi_h * b1];
-        let (dg, dd) = (2.0 * chi_h * rho_h, chi_h * chi_h);
-
-        let (mut excess, mut mean, mut gram) = (0.0, [0.0; 6], [0.0; 6]);
-        self.for_each_panel(|scale, panel| {
-            let Panel {
-                value: [u, v, g],
-                first: [ux, vx, gx],
-                second: [uxx, vxx, gxx],
-            } = panel;
-            let mut sums = [[0.0; LANES]; 13];
-            for chunk in (0..POINTS).step_by(LANES) {
-                for lane in 0..LANES {
-                    let p = chunk + lane;
-                    let w = rho * g[p] + alpha * u[p] + beta * v[p];
-                    let drift = rho * gx[p] + alpha * ux[p] + beta * vx[p];
-                    let drift_chi = rho * gxx[p] + alpha * uxx[p] + beta * vxx[p];
-                    let w_h = chi_h * drift + rho_h * g[p] + a1 * u[p] + b1 * v[p];
-                    let w_hh = dd * drift_chi
-                        + chi_hh * drift
-                        + da * ux[p]
-                        + db * vx[p]
-                        + dg * gx[p]
-                        + rho_hh * g[p]
-                        + a2 * u[p]
-                        + b2 * v[p];
-                    let slope = theta + w;
-                    let square = 1.0 + slope * slope;
-                    let r = square.sqrt();
-                    let d = sigma * (sigma * r + 1.0 + theta * slope);
-                    let both = WEIGHTS[p] / (d * r * square);
-                    let stretch = both * d;
-                    let tilt = stretch * square * slope;
-                    let terms = [
-                        both * w * w * r * square,
-                        tilt * w_h,
-                        tilt * u[p],
-                        tilt * v[p],
-                        tilt * w_hh,
-                        tilt * ux[p],
-                        tilt * vx[p],
-                        stretch * w_h * w_h,
-                        stretch * w_h * u[p],
-                        stretch * w_h * v[p],
-                        stretch * u[p] * u[p],
-                        stretch * u[p] * v[p],
-                        stretch * v[p] * v[p],
-                    ];
-                    for n in 0..13 {
-                        sums[n][lane] += terms[n];
-                    }
-                }
-            }
-            excess += scale * total(sums[0]);
-            for n in 0..6 {
-                mean[n] += scale * total(sums[1 + n]);
-                gram[n] += scale * total(sums[7 + n]);
-            }
-        });
-        let [to_h, mu, mv, to_hh, mux, mvx] = mean;
-        let [hh, hu, hv, uu, uv, vv] = gram;
+        let mut sum = UnknownsSum::new(self, &r);
+        self.integrate(&mut sum);
+        let chi_h = sum.to_force.chi_h;
+        let [
+            excess,
+            to_h,
+            mu,
+            mv,
+            to_hh,
+            mux,
+            mvx,
+            hh,
+            hu,
+            hv,
+            uu,
+            uv,
+            vv,
+        ] = sum.total;
         let run = self.span.run;
         let mut out = Jet {
-            value: run * (excess + sigma),
+            value: run * (excess + sum.to_force.sigma),
             ..Jet::default()
         };
         out.gradient[0] = run * to_h;
@@ -225,64 +147,14 @@ impl Profile {
     }
 
     fn sums(&self) -> Sums {
-        let mut sums = Sums::default();
-        let ([alpha, beta], rho, theta) = (self.amplitude, self.rho, self.theta);
-        let sigma = theta.hypot(1.0);
-        self.for_each_panel(|scale, panel| {
-            let Panel {
-                value: [u, v, g],
-                first: [ux, vx, gx],
-                second: [uxx, vxx, gxx],
-            } = panel;
-            let mut excess = [0.0; LANES];
-            let mut mean = [[0.0; LANES]; 9];
-            let mut gram = [[0.0; LANES]; 15];
-            for chunk in (0..POINTS).step_by(LANES) {
-                for lane in 0..LANES {
-                    let p = chunk + lane;
-                    let w = rho * g[p] + alpha * u[p] + beta * v[p];
-                    let drift = rho * gx[p] + alpha * ux[p] + beta * vx[p];
-                    let drift_chi = rho * gxx[p] + alpha * uxx[p] + beta * vxx[p];
-                    let slope = theta + w;
-                    let square = 1.0 + slope * slope;
-                    let r = square.sqrt();
-                    let d = sigma * (sigma * r + 1.0 + theta * slope);
-                    let both = WEIGHTS[p] / (d * r * square);
-                    excess[lane] += both * w * w * r * square;
-                    let stretch = both * d;
-                    let tilt = stretch * square * slope;
-                    let f = [1.0, u[p], v[p], g[p], drift];
-                    let others = [ux[p], vx[p], gx[p], drift_chi];
-                    for n in 0..5 {
-                        mean[n][lane] += tilt * f[n];
-                    }
-                    for n in 0..4 {
-                        mean[5 + n][lane] += tilt * others[n];
-                    }
-                    let mut n = 0;
-                    for i in 0..5 {
-                        for j in 0..=i {
-                            gram[n][lane] += stretch * f[i] * f[j];
-                            n += 1;
-                        }
-                    }
-                }
-            }
-            sums.excess += scale * total(excess);
-            for n in 0..5 {
-                sums.mean[n] += scale * total(mean[n]);
-            }
-            for n in 0..4 {
-                sums.mean_chi[n] += scale * total(mean[5 + n]);
-            }
-            let mut n = 0;
-            for i in 0..5 {
-                for j in 0..=i {
-                    sums.gram[i][j] += scale * total(gram[n]);
-                    n += 1;
-                }
-            }
-        });
+        let mut sums = Sums {
+            profile: *self,
+            excess: 0.0,
+            mean: [0.0; 5],
+            mean_chi: [0.0; 4],
+            gram: [[0.0; 5]; 5],
+        };
+        self.integrate(&mut sums);
         sums
     }
 }
@@ -294,9 +166,176 @@ fn total(lanes: [f64; LANES]) -> f64 {
     (lanes[0] + lanes[2]) + (lanes[1] + lanes[3])
 }
 
+/// ∂z'/∂H = χ_H D + ρ_H G + a U + b V with D = ρ G_χ + α U_χ + β V_χ, and what else a point needs.
+struct ToForce {
+    amplitude: [f64; 2],
+    rho: f64,
+    theta: f64,
+    sigma: f64,
+    chi_h: f64,
+    rho_h: f64,
+    mix: [f64; 2],
+}
+
+impl ToForce {
+    fn new(profile: &Profile, r: &Response) -> Self {
+        let chain = Chain::<3>::new(profile);
+        let (chi_h, rho_h) = (chain.to_force(0), chain.to_force(1));
+        let mix = [0, 1].map(|n| chi_h * r.first[0][n] + rho_h * r.first[1][n]);
+        let Profile {
+            amplitude,
+            rho,
+            theta,
+            ..
+        } = *profile;
+        ToForce {
+            amplitude,
+            rho,
+            theta,
+            sigma: theta.hypot(1.0),
+            chi_h,
+            rho_h,
+            mix,
+        }
+    }
+
+    /// ρ, α, β times G, U, V or their derivatives.
+    #[inline(always)]
+    fn combine(&self, [u, v, g]: [f64; 3]) -> f64 {
+        self.rho * g + self.amplitude[0] * u + self.amplitude[1] * v
+    }
+
+    /// ∂z'/∂H.
+    #[inline(always)]
+    fn slope(&self, at: &Values, drift: f64) -> f64 {
+        let [u, v, g] = at.value;
+        self.chi_h * drift + self.rho_h * g + self.mix[0] * u + self.mix[1] * v
+    }
+}
+
+/// ∫√(1+z'²) − σ and its derivative to H.
+struct ExcessSum {
+    to_force: ToForce,
+    value: f64,
+    slope: f64,
+}
+
+impl Sum for ExcessSum {
+    #[inline]
+    fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel) {
+        let c = &self.to_force;
+        let mut sums = [[0.0; LANES]; 2];
+        for chunk in (0..P).step_by(LANES) {
+            for lane in 0..LANES {
+                let at = panel.at(chunk + lane);
+                let w = c.combine(at.value);
+                let w_h = c.slope(&at, c.combine(at.first));
+                let slope = c.theta + w;
+                let r = (1.0 + slope * slope).sqrt();
+                // one division for both terms
+                let d = c.sigma * (c.sigma * r + 1.0 + c.theta * slope);
+                let both = weights[chunk + lane] / (d * r);
+                sums[0][lane] += both * w * w * r;
+                sums[1][lane] += both * d * slope * w_h;
+            }
+        }
+        self.value += scale * total(sums[0]);
+        self.slope += scale * total(sums[1]);
+    }
+}
+
+/// Integrals of the inner loop, in this order: the excess; z'/√(1+z'²) times z'_H, U, V, z'_HH, U_χ, V_χ;
+/// (1+z'²)^(−3/2) times the products of z'_H, U, V.
+struct UnknownsSum {
+    to_force: ToForce,
+    /// Factors of D_χ, D, U_χ, V_χ, G_χ, G, U, V in z'_HH.
+    second: [f64; 8],
+    total: [f64; 13],
+}
+
+impl UnknownsSum {
+    fn new(profile: &Profile, r: &Response) -> Self {
+        let chain = Chain::<3>::new(profile);
+        let to_force = ToForce::new(profile, r);
+        let (chi, rho) = (to_force.chi_h, to_force.rho_h);
+        let (chi2, rho2) = (chain.second_to_force(0), chain.second_to_force(1));
+        let direct = |n: usize| {
+            chi * chi * r.second[0][n]
+                + 2.0 * chi * rho * r.second[1][n]
+                + chi2 * r.first[0][n]
+                + rho2 * r.first[1][n]
+        };
+        let [a, b] = to_force.mix;
+        let second = [
+            chi * chi,
+            chi2,
+            2.0 * chi * a,
+            2.0 * chi * b,
+            2.0 * chi * rho,
+            rho2,
+            direct(0),
+            direct(1),
+        ];
+        UnknownsSum {
+            to_force,
+            second,
+            total: [0.0; 13],
+        }
+    }
+}
+
+impl Sum for UnknownsSum {
+    #[inline]
+    fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel) {
+        let (c, k) = (&self.to_force, &self.second);
+        let mut sums = [[0.0; LANES]; 13];
+        for chunk in (0..P).step_by(LANES) {
+            for lane in 0..LANES {
+                let at = panel.at(chunk + lane);
+                let ([u, v, g], [ux, vx, gx]) = (at.value, at.first);
+                let w = c.combine(at.value);
+                let drift = c.combine(at.first);
+                let w_h = c.slope(&at, drift);
+                let w_hh = k[0] * c.combine(at.second)
+                    + k[1] * drift
+                    + k[2] * ux
+                    + k[3] * vx
+                    + k[4] * gx
+                    + k[5] * g
+                    + k[6] * u
+                    + k[7] * v;
+                let slope = c.theta + w;
+                let square = 1.0 + slope * slope;
+                let r = square.sqrt();
+                let d = c.sigma * (c.sigma * r + 1.0 + c.theta * slope);
+                let both = weights[chunk + lane] / (d * r * square);
+                let stretch = both * d;
+                let tilt = stretch * square * slope;
+                let (h, su, sv) = (stretch * w_h, stretch * u, stretch * v);
+                sums[0][lane] += both * w * w * r * square;
+                sums[1][lane] += tilt * w_h;
+                sums[2][lane] += tilt * u;
+                sums[3][lane] += tilt * v;
+                sums[4][lane] += tilt * w_hh;
+                sums[5][lane] += tilt * ux;
+                sums[6][lane] += tilt * vx;
+                sums[7][lane] += h * w_h;
+                sums[8][lane] += h * u;
+                sums[9][lane] += h * v;
+                sums[10][lane] += su * u;
+                sums[11][lane] += su * v;
+                sums[12][lane] += sv * v;
+            }
+        }
+        for n in 0..13 {
+            self.total[n] += scale * total(sums[n]);
+        }
+    }
+}
+
 /// Integrals over a span from which all derivatives of its length follow.
-#[derive(Default)]
 struct Sums {
+    profile: Profile,
     /// ∫√(1+z'²) − σ.
     excess: f64,
     /// ∫ z'/√(1+z'²) f for f = 1, U, V, G and D = ρG_χ + αU_χ + βV_χ.
@@ -305,6 +344,42 @@ struct Sums {
     mean_chi: [f64; 4],
     /// ∫ f g /(1+z'²)^(3/2) for the five functions, lower half.
     gram: [[f64; 5]; 5],
+}
+
+impl Sum for Sums {
+    fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel) {
+        let Profile {
+            amplitude: [alpha, beta],
+            rho,
+            theta,
+            ..
+        } = self.profile;
+        let sigma = theta.hypot(1.0);
+        let combine = |[u, v, g]: [f64; 3]| rho * g + alpha * u + beta * v;
+        for p in 0..P {
+            let at = panel.at(p);
+            let ([u, v, g], [ux, vx, gx]) = (at.value, at.first);
+            let w = combine(at.value);
+            let slope = theta + w;
+            let r = slope.hypot(1.0);
+            let weight = scale * weights[p];
+            self.excess += weight * w * w / (sigma * (sigma * r + 1.0 + theta * slope));
+            let (tilt, stretch) = (weight * slope / r, weight / (r * r * r));
+            let f = [1.0, u, v, g, combine(at.first)];
+            let others = [ux, vx, gx, combine(at.second)];
+            for (mean, f) in self.mean.iter_mut().zip(f) {
+                *mean += tilt * f;
+            }
+            for (mean, f) in self.mean_chi.iter_mut().zip(others) {
+                *mean += tilt * f;
+            }
+            for i in 0..5 {
+                for j in 0..=i {
+                    self.gram[i][j] += stretch * f[i] * f[j];
+                }
+            }
+        }
+    }
 }
 
 impl Sums {
@@ -382,10 +457,10 @@ impl Profile {
                 if width <= 0.0 {
                     return span.run * sum;
                 }
-                for p in 0..POINTS {
-                    let [u, v, g] = self.form.slope(start + width * ABSCISSAS[p]).value;
+                for (t, weight) in LONG.t.iter().zip(&LONG.weight) {
+                    let [u, v, g] = self.form.slope(start + width * t).value;
                     let slope = theta + rho * g + amplitude[0] * u + amplitude[1] * v;
-                    sum += width * WEIGHTS[p] * slope.hypot(1.0);
+                    sum += width * weight * slope.hypot(1.0);
                 }
             }
         }

@@ -7,80 +7,141 @@
 use super::basis::Form;
 use super::profile::Profile;
 
-/// Points of a panel.
-pub const POINTS: usize = 32;
+/// A Gauss–Legendre rule on [0, 1], its points ascending and symmetric.
+pub struct Rule<const P: usize> {
+    /// Abscissas.
+    pub t: [f64; P],
+    /// Weights, adding up to 1.
+    pub weight: [f64; P],
+}
 
-/// Abscissas on [0, 1], ascending and symmetric: roots of P₃₂(2t−1).
-pub const ABSCISSAS: [f64; POINTS] = [
-    0.0013680690752592183,
-    0.007194244227365833,
-    0.017618872206246784,
-    0.03254696203113015,
-    0.05183942211697394,
-    0.07531619313371501,
-    0.1027581020160288,
-    0.13390894062985517,
-    0.1684778665348924,
-    0.20614212137961885,
-    0.2465500455338853,
-    0.2893243619346823,
-    0.33406569885893617,
-    0.38035631887393145,
-    0.42776401920860174,
-    0.4758461671561308,
-    0.5241538328438692,
-    0.5722359807913983,
-    0.6196436811260685,
-    0.6659343011410638,
-    0.7106756380653176,
-    0.7534499544661147,
-    0.7938578786203812,
-    0.8315221334651076,
-    0.8660910593701449,
-    0.8972418979839712,
-    0.9246838068662849,
-    0.9481605778830261,
-    0.9674530379688698,
-    0.9823811277937532,
-    0.9928057557726342,
-    0.9986319309247408,
-];
+/// The rule of most spans.
+pub static SHORT: Rule<24> = Rule {
+    t: [
+        0.00240639000148932,
+        0.012635722014345251,
+        0.030862723998633622,
+        0.056792236497799485,
+        0.08999900701304854,
+        0.12993790421072282,
+        0.17595317403151223,
+        0.22728926430558022,
+        0.2831032461869774,
+        0.3424786601519183,
+        0.40444056626319186,
+        0.4679715535686972,
+        0.5320284464313028,
+        0.5955594337368082,
+        0.6575213398480817,
+        0.7168967538130225,
+        0.7727107356944197,
+        0.8240468259684878,
+        0.8700620957892772,
+        0.9100009929869515,
+        0.9432077635022005,
+        0.9691372760013663,
+        0.9873642779856547,
+        0.9975936099985107,
+    ],
+    weight: [
+        0.0061706148999936,
+        0.014265694314466832,
+        0.022138719408709904,
+        0.02964929245771839,
+        0.03667324070554015,
+        0.04309508076597664,
+        0.04880932605205694,
+        0.05372213505798282,
+        0.0577528340268628,
+        0.060835236463901696,
+        0.06291872817341415,
+        0.06396909767337608,
+        0.06396909767337608,
+        0.06291872817341415,
+        0.060835236463901696,
+        0.0577528340268628,
+        0.05372213505798282,
+        0.04880932605205694,
+        0.04309508076597664,
+        0.03667324070554015,
+        0.02964929245771839,
+        0.022138719408709904,
+        0.014265694314466832,
+        0.0061706148999936,
+    ],
+};
 
-/// Weights, adding up to 1.
-pub const WEIGHTS: [f64; POINTS] = [
-    0.003509305004735048,
-    0.008137197365452835,
-    0.01269603265463103,
-    0.017136931456510716,
-    0.02141794901111334,
-    0.025499029631188087,
-    0.029342046739267772,
-    0.032911111388180925,
-    0.03617289705442425,
-    0.039096947893535156,
-    0.041655962113473374,
-    0.043826046502201906,
-    0.045586939347881945,
-    0.04692219954040228,
-    0.04781936003963743,
-    0.0482700442573639,
-    0.0482700442573639,
-    0.04781936003963743,
-    0.04692219954040228,
-    0.045586939347881945,
-    0.043826046502201906,
-    0.041655962113473374,
-    0.039096947893535156,
-    0.03617289705442425,
-    0.032911111388180925,
-    0.029342046739267772,
-    0.025499029631188087,
-    0.02141794901111334,
-    0.017136931456510716,
-    0.01269603265463103,
-    0.008137197365452835,
-    0.003509305004735048,
-];
+/// The rule of spans with thin boundary layers.
+pub static LONG: Rule<32> = Rule {
+    t: [
+        0.0013680690752592183,
+        0.007194244227365833,
+        0.017618872206246784,
+        0.03254696203113015,
+        0.05183942211697394,
+        0.07531619313371501,
+        0.1027581020160288,
+        0.13390894062985517,
+        0.1684778665348924,
+        0.20614212137961885,
+        0.2465500455338853,
+        0.2893243619346823,
+        0.33406569885893617,
+        0.38035631887393145,
+        0.42776401920860174,
+        0.4758461671561308,
+        0.5241538328438692,
+        0.5722359807913983,
+        0.6196436811260685,
+        0.6659343011410638,
+        0.7106756380653176,
+        0.7534499544661147,
+        0.7938578786203812,
+        0.8315221334651076,
+        0.8660910593701449,
+        0.8972418979839712,
+        0.9246838068662849,
+        0.9481605778830261,
+        0.9674530379688698,
+        0.9823811277937532,
+        0.9928057557726342,
+        0.9986319309247408,
+    ],
+    weight: [
+        0.003509305004735048,
+        0.008137197365452835,
+        0.01269603265463103,
+        0.017136931456510716,
+        0.02141794901111334,
+        0.025499029631188087,
+        0.029342046739267772,
+        0.032911111388180925,
+        0.03617289705442425,
+        0.039096947893535156,
+        0.041655962113473374,
+        0.043826046502201906,
+        0.045586939347881945,
+        0.04692219954040228,
+        0.04781936003963743,
+        0.0482700442573639,
+        0.0482700442573639,
+        0.04781936003963743,
+        0.04692219954040228,
+        0.045586939347881945,
+        0.043826046502201906,
+        0.041655962113473374,
+        0.039096947893535156,
+        0.03617289705442425,
+        0.032911111388180925,
+        0.029342046739267772,
+        0.025499029631188087,
+        0.02141794901111334,
+        0.017136931456510716,
+        0.01269603265463103,
+        0.008137197365452835,
+        0.003509305004735048,
+    ],
+};
 
 /// Slope range that one panel takes to the last digits.
 const SWEEP: f64 = 3.0;
@@ -91,8 +152,14 @@ const LAYER: f64 = 24.0;
 /// Where the layer's panel is cut if its amplitude is large, in units of 1/k.
 const GRADES: [f64; 3] = [3.0, 9.0, LAYER];
 
-/// k(0.6 + amplitude) up to which one panel takes both layers of a span to about 1e-11.
+/// k(0.6 + amplitude) up to which one panel of the long rule takes both layers of a span to about 1e-11.
 const SINGLE_PANEL: f64 = 55.0;
+
+/// The same of the short rule, with a slope that sweeps less than [`SHORT_SWEEP`].
+const SHORT_PANEL: f64 = 28.0;
+
+/// Slope range that the short rule takes to the last digits.
+const SHORT_SWEEP: f64 = 2.0;
 
 /// Amplitude up to which one panel takes a whole layer to about 1e-11.
 const WEAK_LAYER: f64 = 1.0;
@@ -109,6 +176,8 @@ pub struct Stretch {
     pub end: f64,
     /// Equal panels.
     pub panels: usize,
+    /// Whether the short rule does.
+    pub short: bool,
 }
 
 /// The stretches of a span, few enough to live on the stack.
@@ -125,7 +194,12 @@ impl Stretches {
         }
         // a slope of thousands is a fold that no quadrature needs to resolve
         let panels = (sweep / SWEEP).ceil().clamp(1.0, 256.0) as usize;
-        self.list[self.count] = Stretch { start, end, panels };
+        self.list[self.count] = Stretch {
+            start,
+            end,
+            panels,
+            short: false,
+        };
         self.count += 1;
     }
 
@@ -151,6 +225,8 @@ pub fn stretches(profile: &Profile) -> Stretches {
     let amplitude = alpha.max(beta);
     if k * (0.6 + amplitude) <= SINGLE_PANEL {
         out.push(0.0, 1.0, rho + amplitude);
+        let easy = k * (0.6 + amplitude) <= SHORT_PANEL && rho + amplitude <= SHORT_SWEEP;
+        out.list[0].short = easy;
         return out;
     }
     // a layer from each end, graded if it is strong, and what is between
@@ -179,12 +255,14 @@ pub fn stretches(profile: &Profile) -> Stretches {
 
 /// How far the slope would sweep over the whole span at its fastest, from nine samples.
 fn fastest_sweep(profile: &Profile) -> f64 {
-    let t = std::array::from_fn::<f64, 9, _>(|n| n as f64 / 8.0);
-    let [u, v, g] = profile.form.at(&t, &[0.0; 9], &[0.0; 9]).value;
     let [alpha, beta] = profile.amplitude;
-    let slope = |n: usize| profile.rho * g[n] + alpha * u[n] + beta * v[n];
+    let slope = |n: usize| {
+        let [u, v, g] = profile.form.slope(n as f64 / 8.0).value;
+        profile.rho * g + alpha * u + beta * v
+    };
+    let slopes: [f64; 9] = std::array::from_fn(slope);
     8.0 * (1..9)
-        .map(|n| (slope(n) - slope(n - 1)).abs())
+        .map(|n| (slopes[n] - slopes[n - 1]).abs())
         .fold(0.0, f64::max)
 }
 
@@ -192,13 +270,18 @@ fn fastest_sweep(profile: &Profile) -> f64 {
 mod tests {
     use super::*;
 
-    /// A Gauss rule of n points integrates tᵐ exactly up to m = 2n − 1.
-    #[test]
-    fn the_rule_is_exact_up_to_degree_63() {
-        for m in 0..2 * POINTS as i32 {
-            let sum: f64 = (0..POINTS).map(|n| WEIGHTS[n] * ABSCISSAS[n].powi(m)).sum();
+    fn check<const P: usize>(rule: &Rule<P>) {
+        for m in 0..2 * P as i32 {
+            let sum: f64 = (0..P).map(|n| rule.weight[n] * rule.t[n].powi(m)).sum();
             let exact = 1.0 / f64::from(m + 1);
             assert!((sum - exact).abs() < 4e-16, "degree {m}: {sum} for {exact}");
         }
+    }
+
+    /// A Gauss rule of n points integrates tᵐ exactly up to m = 2n − 1.
+    #[test]
+    fn the_rules_are_exact_up_to_degree_47_and_63() {
+        check(&SHORT);
+        check(&LONG);
     }
 }

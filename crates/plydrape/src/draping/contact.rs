@@ -56,10 +56,15 @@ fn runs(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Vec<Run> {
     let distance = |t: f64| mold.signed_distance(span.point(t));
     let at = |n: usize| n as f64 / STATIONS as f64;
     let mut samples: Vec<(f64, f64)> = (0..=STATIONS).map(|n| (at(n), distance(at(n)))).collect();
-    // a touch may hide between two stations: add every local minimum
+    // a touch may hide between two stations: add every local minimum that might be one
     let minima: Vec<(f64, f64)> = (1..STATIONS)
-        .filter(|&n| samples[n].1 <= samples[n - 1].1 && samples[n].1 <= samples[n + 1].1)
-        .map(|n| minimum(&distance, samples[n - 1].0, samples[n + 1].0))
+        .filter(|&n| {
+            let [before, here, after] = [samples[n - 1].1, samples[n].1, samples[n + 1].1];
+            // between stations a curve dips by no more than its neighbours rise
+            let reach = here - (before - here).max(after - here);
+            here <= before && here <= after && reach < tolerance
+        })
+        .map(|n| minimum(&distance, samples[n - 1], samples[n], samples[n + 1]))
         .collect();
     samples.extend(minima);
     samples.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -93,33 +98,67 @@ fn runs(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Vec<Run> {
     out
 }
 
-/// Smallest distance between `a` and `b` by golden sections: (t, distance).
-fn minimum(distance: &impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> (f64, f64) {
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    for _ in 0..30 {
-        let (c, d) = (b - golden * (b - a), a + golden * (b - a));
-        if distance(c) < distance(d) {
-            b = d
+/// Smallest distance between two stations around a third that is lower, by parabolas through the last
+/// three points: (t, distance).
+fn minimum(
+    distance: &impl Fn(f64) -> f64,
+    (mut a, mut fa): (f64, f64),
+    (mut m, mut fm): (f64, f64),
+    (mut b, mut fb): (f64, f64),
+) -> (f64, f64) {
+    for _ in 0..20 {
+        let (p, q) = ((m - a) * (fm - fb), (m - b) * (fm - fa));
+        let vertex = m - 0.5 * ((m - a) * p - (m - b) * q) / (p - q);
+        // a parabola that degenerates: the wider half is cut instead
+        let inside = vertex > a && vertex < b;
+        let wider = if b - m > m - a {
+            0.5 * (m + b)
         } else {
-            a = c
+            0.5 * (a + m)
+        };
+        let next = if inside { vertex } else { wider };
+        if (next - m).abs() < 1e-9 {
+            break;
+        }
+        let value = distance(next);
+        if value < fm {
+            if next > m {
+                (a, fa) = (m, fm)
+            } else {
+                (b, fb) = (m, fm)
+            }
+            (m, fm) = (next, value);
+        } else if next > m {
+            (b, fb) = (next, value);
+        } else {
+            (a, fa) = (next, value);
         }
     }
-    let t = 0.5 * (a + b);
-    (t, distance(t))
+    (m, fm)
 }
 
-/// Where the distance falls through `level` between `outside` and `inside`.
+/// Where the distance falls through `level` between `outside` and `inside`, by false position (Illinois).
 fn crossing(distance: &impl Fn(f64) -> f64, outside: f64, inside: f64, level: f64) -> f64 {
-    let (mut outside, mut inside) = (outside, inside);
-    for _ in 0..50 {
-        let middle = 0.5 * (outside + inside);
-        if distance(middle) < level {
-            inside = middle
+    let (mut out, mut into) = (outside, inside);
+    let (mut f_out, mut f_in) = (distance(out) - level, distance(into) - level);
+    if f_out < 0.0 {
+        return outside;
+    }
+    for _ in 0..60 {
+        if (out - into).abs() < 1e-12 || f_in == 0.0 {
+            break;
+        }
+        let middle = out + (into - out) * f_out / (f_out - f_in);
+        let value = distance(middle) - level;
+        if value < 0.0 {
+            (into, f_in) = (middle, value);
+            f_out *= 0.5;
         } else {
-            outside = middle
+            (out, f_out) = (middle, value);
+            f_in *= 0.5;
         }
     }
-    inside
+    into
 }
 
 /// Largest gap between two fractions of a span.
@@ -145,15 +184,13 @@ pub fn depth(span: &FreeSpan, mold: &Mold) -> f64 {
     }
     let distance = |t: f64| mold.signed_distance(span.point(t));
     let at = |n: usize| n as f64 / STATIONS as f64;
-    let lowest = (0..=STATIONS).fold(0, |a, b| {
-        if distance(at(b)) < distance(at(a)) {
-            b
-        } else {
-            a
-        }
-    });
-    let (a, b) = (at(lowest.saturating_sub(1)), at((lowest + 1).min(STATIONS)));
-    -minimum(&distance, a, b).1.min(distance(at(lowest)))
+    let samples: [f64; STATIONS + 1] = std::array::from_fn(|n| distance(at(n)));
+    let lowest = (0..=STATIONS).fold(0, |a, b| if samples[b] < samples[a] { b } else { a });
+    if lowest == 0 || lowest == STATIONS {
+        return -distance(at(lowest));
+    }
+    let [a, m, b] = [lowest - 1, lowest, lowest + 1].map(|n| (at(n), distance(at(n))));
+    -minimum(&distance, a, m, b).1
 }
 
 /// Looks at a catenary that nothing has caught yet.

@@ -167,7 +167,7 @@ fn moved<const N: usize>(q: Jet<N>, step: f64) -> Jet<N> {
 const NEAR: f64 = 0.01;
 
 /// Relative step of H below which the quadratic error of the next one is lost.
-const SETTLED: f64 = 3e-7;
+const SETTLED: f64 = 3e-6;
 
 /// Finds the force of a span near `force` (N) (`None`: from scratch) with its derivatives.
 pub fn settle<const N: usize, const M: usize>(

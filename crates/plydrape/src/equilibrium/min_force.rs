@@ -368,7 +368,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
                     .sum();
                 trial.copy_from_slice(&solver.work.gradient);
                 let next = solver.evaluate();
-                if next <= objective + 1e-4 * descent + 1e-13 * objective {
+                if next <= objective + 1e-4 * descent + 1e-11 * objective {
                     objective = next;
                     accepted = true;
                     break;

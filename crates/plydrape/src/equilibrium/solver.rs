@@ -49,10 +49,10 @@ pub struct Equilibrium {
 pub(super) const MAX_ITERATIONS: usize = 100;
 
 /// Newton step of the slopes beyond which none may be the last.
-const LAST_STEP: f64 = 1e-4;
+const LAST_STEP: f64 = 3e-4;
 
 /// Error of the slopes that a solve aims at.
-const AIM: f64 = 1e-9;
+const AIM: f64 = 1e-8;
 
 /// Share of the flexural rigidity from which a difficult ply is stiffened.
 const LIMP: f64 = 1e-4;
@@ -63,8 +63,11 @@ const SMALLEST_GROWTH: f64 = 1.05;
 /// Relative error of a length that spoils an equilibrium.
 const LENGTH: f64 = 1e-8;
 
+/// Turn of an element's ends that its series takes: the force to its cube, the derivatives to its square.
+const SMALL_TURN: f64 = 1e-4;
+
 /// Relative step of H over which derivatives may have been carried at the last step.
-const SHARP: f64 = 1e-4;
+const SHARP: f64 = 2e-4;
 
 /// Error of the slopes to expect after a Newton step of `size` that came after one of `before`: the
 /// convergence is quadratic.
@@ -343,6 +346,11 @@ impl Solver {
             if slopes == self.held[n] && self.settled[n].carried <= SHARP {
                 continue;
             }
+            let step = [slopes[0] - self.held[n][0], slopes[1] - self.held[n][1]];
+            if step[0].abs().max(step[1].abs()) <= SMALL_TURN && self.settled[n].carried <= SHARP {
+                self.turn(n, slopes);
+                continue;
+            }
             let guess = self.predict(n, slopes);
             let span = element.span(self.settings.axial_stiffness, &slopes);
             self.settled[n] = settle::<3, 2>(&span, guess, self.wanted[n]);
@@ -401,14 +409,28 @@ impl Solver {
                 continue;
             }
             let slopes = [0, 1].map(|end| self.slope_at(&element, end));
-            let step = [slopes[0] - self.held[n][0], slopes[1] - self.held[n][1]];
-            let settled = &mut self.settled[n];
-            settled.force.value = series(&settled.force, step);
-            for end in 0..2 {
-                settled.slope[end].value = series(&settled.slope[end], step);
-            }
-            self.held[n] = slopes;
+            self.turn(n, slopes);
         }
+    }
+
+    /// Carries an element to slightly other end slopes by its second-order series.
+    fn turn(&mut self, n: usize, slopes: [f64; 2]) {
+        let step = [slopes[0] - self.held[n][0], slopes[1] - self.held[n][1]];
+        let Settled {
+            force,
+            slope,
+            curvature,
+            carried,
+            ..
+        } = &mut self.settled[n];
+        for jet in [force].into_iter().chain(slope).chain(curvature) {
+            jet.value = series(jet, step);
+            for i in 0..2 {
+                jet.gradient[i] += jet.hessian[i][0] * step[0] + jet.hessian[i][1] * step[1];
+            }
+        }
+        *carried += step[0].abs().max(step[1].abs());
+        self.held[n] = slopes;
     }
 
     /// Writes the outcome of free ends where their slope is reported.
