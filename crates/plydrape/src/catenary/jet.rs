@@ -46,6 +46,20 @@ impl<const N: usize> Default for Jet<N> {
     }
 }
 
+impl<const N: usize> Jet<N> {
+    /// The same value as a function of the first `M` ≤ `N` variables.
+    pub(crate) fn first<const M: usize>(&self) -> Jet<M> {
+        let mut out = Jet { value: self.value, ..Jet::default() };
+        for i in 0..M.min(N) {
+            out.gradient[i] = self.gradient[i];
+            for j in 0..M.min(N) {
+                out.hessian[i][j] = self.hessian[i][j];
+            }
+        }
+        out
+    }
+}
+
 /// How the inner parameters χ, ρ, θ depend on the physical variables: first and second derivatives.
 ///
 /// The slopes s₁, s₂ are the same inside and outside.

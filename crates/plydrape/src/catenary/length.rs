@@ -38,9 +38,8 @@ impl Profile {
     /// Excess of the arc length over the chord, with its derivative to H alone.
     #[must_use]
     pub fn excess(&self) -> Excess {
-        let r = self.response();
         let mut sum = ExcessSum {
-            to_force: ToForce::new(self, &r),
+            to_force: ToForce::new(self, self.response_to_force()),
             value: 0.0,
             slope: 0.0,
         };
@@ -53,8 +52,8 @@ impl Profile {
 
     /// Arc length L (m) with derivatives to H and both slopes, and its excess: the solver's inner loop.
     ///
-    /// The same numbers as [`Profile::length_and_excess`] with `N` = 3, at half its cost.
-    pub(crate) fn length_to_unknowns(&self) -> (Jet<3>, Excess) {
+    /// The same numbers as the general kernel with `N` = 3, at half its cost.
+    fn length_to_unknowns(&self) -> (Jet<3>, Excess) {
         let r = self.response();
         let mut sum = UnknownsSum::new(self, &r);
         self.integrate(&mut sum);
@@ -112,6 +111,15 @@ impl Profile {
     /// Arc length L (m) with derivatives, and its excess over the chord per run.
     #[must_use]
     pub fn length_and_excess<const N: usize>(&self) -> (Jet<N>, Excess) {
+        if N == 3 {
+            let (jet, excess) = self.length_to_unknowns();
+            return (jet.first(), excess);
+        }
+        self.general_length()
+    }
+
+    /// Any number of variables.
+    fn general_length<const N: usize>(&self) -> (Jet<N>, Excess) {
         let response = self.response();
         let sums = self.sums();
         let chain = Chain::<N>::new(self);
@@ -178,10 +186,10 @@ struct ToForce {
 }
 
 impl ToForce {
-    fn new(profile: &Profile, r: &Response) -> Self {
+    fn new(profile: &Profile, [to_chi, to_rho]: [[f64; 2]; 2]) -> Self {
         let chain = Chain::<3>::new(profile);
         let (chi_h, rho_h) = (chain.to_force(0), chain.to_force(1));
-        let mix = [0, 1].map(|n| chi_h * r.first[0][n] + rho_h * r.first[1][n]);
+        let mix = [0, 1].map(|n| chi_h * to_chi[n] + rho_h * to_rho[n]);
         let Profile {
             amplitude,
             rho,
@@ -256,7 +264,7 @@ struct UnknownsSum {
 impl UnknownsSum {
     fn new(profile: &Profile, r: &Response) -> Self {
         let chain = Chain::<3>::new(profile);
-        let to_force = ToForce::new(profile, r);
+        let to_force = ToForce::new(profile, [r.first[0], r.first[1]]);
         let (chi, rho) = (to_force.chi_h, to_force.rho_h);
         let (chi2, rho2) = (chain.second_to_force(0), chain.second_to_force(1));
         let direct = |n: usize| {
@@ -496,7 +504,7 @@ mod tests {
                 };
                 let profile = Profile::new(&span, force);
                 let (fast, excess) = profile.length_to_unknowns();
-                let (general, same) = profile.length_and_excess::<3>();
+                let (general, same) = profile.general_length::<3>();
                 let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * (a.abs() + b.abs()) + 1e-15;
                 assert!(close(fast.value, general.value) && close(excess.value, same.value));
                 for i in 0..3 {

@@ -122,6 +122,20 @@ impl Profile {
         matches!(self.span.ends[end], EndCondition::Slope(_))
     }
 
+    /// Derivatives of the amplitudes to χ and ρ alone, through which H acts.
+    pub(super) fn response_to_force(&self) -> [[f64; 2]; 2] {
+        if matches!(self.form, Form::Limp) {
+            return [[0.0; 2]; 2];
+        }
+        let (rows, [a, b]) = (&self.rows, self.amplitude);
+        let chi = [0, 1].map(|e| {
+            let [u, v, g] = rows[e].first;
+            -self.rho * g - u * a - v * b
+        });
+        let rho = [-rows[0].value[2], -rows[1].value[2]];
+        [apply(&self.inverse, chi), apply(&self.inverse, rho)]
+    }
+
     /// Derivatives of the amplitudes.
     pub(super) fn response(&self) -> Response {
         let (rows, x) = (&self.rows, self.amplitude);

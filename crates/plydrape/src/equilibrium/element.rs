@@ -17,6 +17,8 @@ pub struct Wanted {
     pub slope: [bool; 2],
     /// Curvatures at its ends.
     pub curvature: [bool; 2],
+    /// Derivatives: an unknown slope moves it.
+    pub derivatives: bool,
 }
 
 /// Force, end slopes and end curvatures as functions of the prescribed slopes s₁, s₂ and, if `M` is 7,
@@ -68,20 +70,15 @@ impl<T: Number> Element<T> {
 
 /// The constraint C with derivatives to H, s₁, s₂ (`N` = 3) or to all eight variables (`N` = 8).
 fn constraint<const N: usize>(profile: &Profile, span: &Span) -> (Jet<N>, Excess) {
-    let mut c = Jet::<N>::default();
+    let (length, excess) = profile.length_and_excess::<N>();
+    let mut c = length;
     if N == 3 {
-        let (length, excess) = profile.length_to_unknowns();
-        let secant = span.chord() / span.run;
-        c.value =
-            length.value - span.length * (1.0 + profile.force() * secant / span.axial_stiffness);
-        for i in 0..N {
-            c.gradient[i] = length.gradient[i];
-            c.hessian[i][..N].copy_from_slice(&length.hessian[i][..N]);
-        }
-        c.gradient[0] -= span.length * secant / span.axial_stiffness;
+        // of L_set(1 + H sec θ/EA) only H is a variable here
+        let compliance = span.length * span.chord() / (span.run * span.axial_stiffness);
+        c.value -= span.length + compliance * profile.force();
+        c.gradient[0] -= compliance;
         return (c, excess);
     }
-    let (length, excess) = profile.length_and_excess::<N>();
     let goal = stretched_length::<N>(profile, span);
     c.value = length.value - goal.value;
     for i in 0..N {
@@ -229,6 +226,42 @@ pub fn settle<const N: usize, const M: usize>(
         if wanted.curvature[end] {
             let curvature = moved(profile.end_curvature_jet::<N>(end), last);
             out.curvature[end] = follow(&curvature, &force);
+        }
+    }
+    out
+}
+
+/// Finds the force of a span that no unknown slope moves: no derivatives.
+pub fn settle_still(span: &Span, force: Option<f64>, wanted: Wanted) -> Settled<2> {
+    let (pole, goal) = (span.buckling_force(), span.goal());
+    let sound = |h: f64| h > pole && h.is_finite();
+    let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| span.first_guess());
+    let mut settled = false;
+    for _ in 0..4 {
+        if !sound(h) {
+            break;
+        }
+        let excess = Profile::new(span, h).excess();
+        let next = span.advance(goal, h, excess);
+        settled = sound(next)
+            && excess.to_force < 0.0
+            && (next - h).abs() <= SETTLED * (h - pole).max(f64::MIN_POSITIVE);
+        h = next;
+        if settled {
+            break;
+        }
+    }
+    let mut out = Settled::default();
+    if !settled {
+        let root = span.solve(Some(h));
+        h = root.force.unwrap_or(h);
+        out.unmet = root.residual;
+    }
+    out.force.value = h;
+    if wanted.slope != [false; 2] {
+        let profile = Profile::new(span, h);
+        for end in 0..2 {
+            out.slope[end].value = profile.end_slope(end);
         }
     }
     out

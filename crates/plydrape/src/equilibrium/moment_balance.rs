@@ -147,6 +147,10 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             solver.wanted[element].curvature[end] = true;
         }
     }
+    let diagonals = solver.net.edge_elements..solver.net.elements.len();
+    for wanted in &mut solver.wanted[diagonals] {
+        wanted.derivatives = false;
+    }
     solver.evaluate_jumps();
     let (mut status, mut residual, mut iterations) = (Status::Converged, 0.0, 1);
     let mut before = f64::INFINITY;

@@ -4,7 +4,7 @@
 //! the two rules, read off the forces. Between calls it remembers forces and slopes by place, so a net
 //! that has gained or lost a span still starts warm. The iteration allocates nothing.
 
-use super::element::{Settled, Wanted, settle};
+use super::element::{Settled, Wanted, settle, settle_still};
 use super::net::{Build, Element, End, Net, PlaneSlope, SlopeSource};
 use super::{min_force, moment_balance};
 use crate::catenary::SpanState;
@@ -96,6 +96,8 @@ pub struct Solver {
     pub(super) work: Work,
     /// Height of each span's force above buckling, as a multiple of the parabola's.
     ratios: Vec<[Option<f64>; 2]>,
+    /// Buckling force of each element with free ends, and the height of the parabola's force above it.
+    heights: Vec<[f64; 2]>,
     memory: Vec<[f64; 2]>,
 }
 
@@ -130,6 +132,7 @@ impl Solver {
             wanted: Vec::new(),
             work: Work::default(),
             ratios: vec![[None; 2]; ply.grid.catenaries()],
+            heights: Vec::new(),
             memory: vec![[0.0; 2]; ply.grid.grippers()],
         }
     }
@@ -291,30 +294,45 @@ impl Solver {
         self.settled.resize(count, Settled::default());
         self.wanted.clear();
         self.wanted.resize(count, Wanted::default());
-        for element in &self.net.elements[self.net.edge_elements..] {
-            for end in element.ends {
-                let End::Plane(plane) = end else { continue };
-                for source in plane.source {
-                    if let SlopeSource::Outcome(edge, end) = source {
-                        self.wanted[edge].slope[end] = true;
-                    }
+        for n in 0..count {
+            for end in self.net.elements[n].ends {
+                match end {
+                    End::Joint(_) => self.wanted[n].derivatives = true,
+                    End::Plane(plane) => self.watch(n, &plane),
+                    End::Free | End::Given(_) => {}
                 }
             }
         }
+        self.heights.clear();
         for (n, element) in self.net.elements.iter().enumerate() {
             // the force follows the parabola's from step to step; NaN where the span is new
             let ratio = self.ratios[element.catenary][element.rest].unwrap_or(f64::NAN);
             let span = element.span(self.settings.axial_stiffness, &[]);
             let pole = span.buckling_force();
-            self.settled[n].force.value = pole + ratio * (span.first_guess() - pole);
+            let height = span.first_guess() - pole;
+            self.heights.push([pole, height]);
+            self.settled[n].force.value = pole + ratio * height;
+        }
+    }
+
+    /// Notes what a diagonal's end needs of the edges that it follows.
+    fn watch(&mut self, diagonal: usize, plane: &PlaneSlope<f64>) {
+        for source in plane.source {
+            match source {
+                SlopeSource::Given(_) => {}
+                SlopeSource::Joint(_) => self.wanted[diagonal].derivatives = true,
+                SlopeSource::Outcome(edge, end) => {
+                    self.wanted[edge].slope[end] = true;
+                    self.wanted[diagonal].derivatives |= self.wanted[edge].derivatives;
+                }
+            }
         }
     }
 
     fn remember(&mut self) {
         for (n, element) in self.net.elements.iter().enumerate() {
-            let span = element.span(self.settings.axial_stiffness, &[]);
-            let pole = span.buckling_force();
-            let ratio = (self.settled[n].force.value - pole) / (span.first_guess() - pole);
+            let [pole, height] = self.heights[n];
+            let ratio = (self.settled[n].force.value - pole) / height;
             self.ratios[element.catenary][element.rest] =
                 (element.state != SpanState::Straight && ratio.is_finite()).then_some(ratio);
         }
@@ -353,7 +371,12 @@ impl Solver {
             }
             let guess = self.predict(n, slopes);
             let span = element.span(self.settings.axial_stiffness, &slopes);
-            self.settled[n] = settle::<3, 2>(&span, guess, self.wanted[n]);
+            let wanted = self.wanted[n];
+            self.settled[n] = if wanted.derivatives {
+                settle::<3, 2>(&span, guess, wanted)
+            } else {
+                settle_still(&span, guess, wanted)
+            };
             self.held[n] = slopes;
         }
     }

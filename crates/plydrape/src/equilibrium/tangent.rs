@@ -135,10 +135,7 @@ impl Solver {
             return Settled::default();
         }
         let span = element.span(self.settings.axial_stiffness, &self.held[n]);
-        let wanted = Wanted {
-            slope: [true; 2],
-            curvature: [true; 2],
-        };
+        let wanted = Wanted { slope: [true; 2], curvature: [true; 2], derivatives: true };
         settle::<8, 7>(&span, Some(self.settled[n].force.value), wanted)
     }
 
