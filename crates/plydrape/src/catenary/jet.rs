@@ -49,7 +49,10 @@ impl<const N: usize> Default for Jet<N> {
 impl<const N: usize> Jet<N> {
     /// The same value as a function of the first `M` ≤ `N` variables.
     pub(crate) fn first<const M: usize>(&self) -> Jet<M> {
-        let mut out = Jet { value: self.value, ..Jet::default() };
+        let mut out = Jet {
+            value: self.value,
+            ..Jet::default()
+        };
         for i in 0..M.min(N) {
             out.gradient[i] = self.gradient[i];
             for j in 0..M.min(N) {

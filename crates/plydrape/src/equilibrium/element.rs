@@ -235,7 +235,9 @@ pub fn settle<const N: usize, const M: usize>(
 pub fn settle_still(span: &Span, force: Option<f64>, wanted: Wanted) -> Settled<2> {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let sound = |h: f64| h > pole && h.is_finite();
-    let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| span.first_guess());
+    let mut h = force
+        .filter(|h| sound(*h))
+        .unwrap_or_else(|| span.first_guess());
     let mut settled = false;
     for _ in 0..4 {
         if !sound(h) {

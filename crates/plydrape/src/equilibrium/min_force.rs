@@ -343,7 +343,9 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             (0.01 * before).clamp(1e-12, 1e-4)
         };
         bounded_step(solver, tolerance, &mut step);
-        let start = std::mem::take(&mut solver.slopes);
+        let mut start = std::mem::take(&mut solver.work.start);
+        start.clear();
+        start.extend_from_slice(&solver.slopes);
         let projected =
             |fraction: f64, n: usize| (start[n] + fraction * step[n]).clamp(-bound, bound);
         let size = (0..count)
@@ -351,6 +353,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             .fold(0.0, f64::max);
         let mut accepted = false;
         if tolerance * size <= 1e-12 && solver.may_finish(size, before) {
+            solver.slopes.clear();
             solver.slopes.extend((0..count).map(|n| projected(1.0, n)));
             solver.finish(0..solver.net.elements.len());
             residual = error_after(size, before).min(size);
@@ -384,6 +387,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             solver.evaluate();
         }
         solver.work.step = step;
+        solver.work.start = start;
         solver.work.trial = trial;
         if status == Status::Converged {
             break;

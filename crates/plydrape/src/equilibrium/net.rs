@@ -103,6 +103,7 @@ pub struct Net<T> {
     pub sides: Vec<[[Side<T>; 2]; 2]>,
     joint_at: Vec<[Option<usize>; 2]>,
     directions: Vec<[[T; 2]; 2]>,
+    counts: Vec<[f64; 2]>,
 }
 
 /// Horizontal parts of a straight line.
@@ -238,6 +239,7 @@ impl<T> Default for Net<T> {
             sides: Vec::new(),
             joint_at: Vec::new(),
             directions: Vec::new(),
+            counts: Vec::new(),
         }
     }
 }
@@ -287,7 +289,9 @@ impl<T: Number> Net<T> {
         let grid = build.grid();
         self.governed.clear();
         self.governed.resize(grid.grippers(), [None; 2]);
-        let mut counts = vec![[0.0; 2]; grid.grippers()];
+        let mut counts = std::mem::take(&mut self.counts);
+        counts.clear();
+        counts.resize(grid.grippers(), [0.0; 2]);
         for (cell, shearing) in self.shearing.iter().enumerate() {
             let Some((_, falling)) = shearing else {
                 continue;
@@ -311,13 +315,14 @@ impl<T: Number> Net<T> {
                 }
             }
         }
-        for (governed, counts) in self.governed.iter_mut().zip(counts) {
+        for (governed, counts) in self.governed.iter_mut().zip(&counts) {
             for d in 0..2 {
                 // a limp line has no slope to govern
                 let sum = governed[d].filter(|_| build.is_rigid(d));
                 governed[d] = sum.map(|sum| sum / counts[d]);
             }
         }
+        self.counts = counts;
     }
 
     fn element(

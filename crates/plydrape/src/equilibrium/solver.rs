@@ -110,6 +110,7 @@ pub(super) struct Work {
     pub active: Vec<bool>,
     pub diagonal: Vec<f64>,
     pub vectors: [Vec<f64>; 4],
+    pub start: Vec<f64>,
     pub right: Vec<f64>,
     pub product: Vec<f64>,
     pub free: Vec<f64>,

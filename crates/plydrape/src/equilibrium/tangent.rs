@@ -135,7 +135,11 @@ impl Solver {
             return Settled::default();
         }
         let span = element.span(self.settings.axial_stiffness, &self.held[n]);
-        let wanted = Wanted { slope: [true; 2], curvature: [true; 2], derivatives: true };
+        let wanted = Wanted {
+            slope: [true; 2],
+            curvature: [true; 2],
+            derivatives: true,
+        };
         settle::<8, 7>(&span, Some(self.settled[n].force.value), wanted)
     }
 
