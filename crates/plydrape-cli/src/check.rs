@@ -61,15 +61,10 @@ fn summary(scene: &Scene) -> Vec<(&'static str, String)> {
 
 fn material(material: &Material) -> String {
     let section = match material.section {
-        Section::Line {
-            mass,
-            flexural_rigidity,
-        } => format!("{} kg/m, EI {} N·m²", short(mass), short(flexural_rigidity)),
-        Section::Areal {
-            mass,
-            warp_rigidity,
-            weft_rigidity,
-        } => format!(
+        Section::Line { mass, flexural_rigidity } => {
+            format!("{} kg/m, EI {} N·m²", short(mass), short(flexural_rigidity))
+        }
+        Section::Areal { mass, warp_rigidity, weft_rigidity } => format!(
             "{} kg/m², bending rigidity {} N·m in warp, {} N·m in weft",
             short(mass),
             short(warp_rigidity),
@@ -97,11 +92,7 @@ fn mold(mold: Option<&Mold>) -> String {
     let tilt = nx.hypot(ny).atan2(nz);
     let climb = if tilt > 0.0 {
         let heading = (-ny).atan2(-nx);
-        format!(
-            "climbing {} deg towards {} deg",
-            degrees(tilt),
-            degrees(heading)
-        )
+        format!("climbing {} deg towards {} deg", degrees(tilt), degrees(heading))
     } else {
         "level".into()
     };
@@ -111,10 +102,8 @@ fn mold(mold: Option<&Mold>) -> String {
 fn motion(scene: &Scene) -> String {
     let heights = |step: Option<&Vec<[f64; 3]>>| {
         let z = || step.into_iter().flatten().map(|point| point[2]);
-        let (low, high) = (
-            z().fold(f64::INFINITY, f64::min),
-            z().fold(f64::NEG_INFINITY, f64::max),
-        );
+        let (low, high) =
+            (z().fold(f64::INFINITY, f64::min), z().fold(f64::NEG_INFINITY, f64::max));
         if millimetres(low) == millimetres(high) {
             format!("z = {} mm", millimetres(low))
         } else {
@@ -168,9 +157,7 @@ fn rules(scene: &Scene) -> [(&'static str, String); 4] {
         ContactEnd::Tangent => "mold's slope at its ends",
     };
     let angle = |limit: Option<f64>| limit.map_or("any".into(), |a| format!("{} deg", degrees(a)));
-    let force = limits
-        .force
-        .map_or("any".into(), |f| format!("{} N", short(f)));
+    let force = limits.force.map_or("any".into(), |f| format!("{} N", short(f)));
     [
         (
             "model",
@@ -183,10 +170,7 @@ fn rules(scene: &Scene) -> [(&'static str, String); 4] {
         ),
         (
             "contact",
-            format!(
-                "within {} mm, {stepping}, {end}",
-                millimetres(settings.contact.tolerance)
-            ),
+            format!("within {} mm, {stepping}, {end}", millimetres(settings.contact.tolerance)),
         ),
         (
             "limits",

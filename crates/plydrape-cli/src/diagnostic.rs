@@ -57,21 +57,15 @@ impl Failure {
     /// A file that could not be written.
     pub fn output(file: &Path, error: &io::Error) -> Self {
         let (reason, help) = match error.kind() {
-            io::ErrorKind::AlreadyExists => (
-                "it exists".into(),
-                "choose another name, or move it away first",
-            ),
-            io::ErrorKind::PermissionDenied => (
-                "permission denied".into(),
-                "choose a folder that you may write to",
-            ),
+            io::ErrorKind::AlreadyExists => {
+                ("it exists".into(), "choose another name, or move it away first")
+            }
+            io::ErrorKind::PermissionDenied => {
+                ("permission denied".into(), "choose a folder that you may write to")
+            }
             _ => (error.to_string(), "choose another place"),
         };
-        Failure::Output {
-            file: file.display().to_string(),
-            reason,
-            help: help.into(),
-        }
+        Failure::Output { file: file.display().to_string(), reason, help: help.into() }
     }
 
     /// Shows the failure on standard error and gives its exit code.
@@ -119,9 +113,7 @@ impl Diagnostic for Failure {
             return None;
         };
         let span = refused.first_line()?;
-        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(
-            None, span,
-        ))))
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(None, span))))
     }
 }
 
@@ -180,9 +172,7 @@ impl SourceCode for Refused {
         // A window of its line around the fault, cut between characters.
         let (start, end) = (span.offset(), span.offset() + span.len());
         let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
-        let line_end = text[end..]
-            .find('\n')
-            .map_or(text.len(), |length| end + length);
+        let line_end = text[end..].find('\n').map_or(text.len(), |length| end + length);
         let from = boundary(text, start.saturating_sub(SURROUNDINGS)).max(line_start);
         let to = boundary(text, end + SURROUNDINGS).min(line_end);
         let line = text[..start].matches('\n').count();

@@ -30,10 +30,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         .map_err(|error| Failure::output(&file, &error))?;
     if !quiet {
         let shown = file.display();
-        writeln!(
-            io::stdout(),
-            "{shown} is written; next: plydrape check {shown}"
-        )?;
+        writeln!(io::stdout(), "{shown} is written; next: plydrape check {shown}")?;
     }
     Ok(ExitCode::SUCCESS)
 }

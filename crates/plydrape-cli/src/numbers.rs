@@ -14,11 +14,7 @@ pub fn degrees(radians: f64) -> String {
 pub fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     let plain = (1e-3..1e7).contains(&rounded.abs()) || rounded == 0.0 || rounded.is_infinite();
-    if plain {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
+    if plain { rounded.to_string() } else { format!("{rounded:e}") }
 }
 
 /// Nine decimals; a zero without a sign.

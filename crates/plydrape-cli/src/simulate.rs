@@ -60,55 +60,31 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     bar.finish_and_clear();
 
     let result = &drape.result;
-    let folder = arguments
-        .output
-        .clone()
-        .unwrap_or_else(|| beside(&arguments.scene));
+    let folder = arguments.output.clone().unwrap_or_else(|| beside(&arguments.scene));
     let files = plydrape::output::write_all(result, &folder)?;
     let summary = &result.summary;
     let mut out = io::stdout().lock();
     if arguments.json {
         let mean_equilibrium_us =
             drape.solving.as_secs_f64() * 1e6 / summary.equilibria.max(1) as f64;
-        let printed = Printed {
-            summary,
-            mean_equilibrium_us,
-        };
-        write!(
-            out,
-            "{}",
-            json::of(&printed).map_err(plydrape::output::OutputError::from)?
-        )?;
+        let printed = Printed { summary, mean_equilibrium_us };
+        write!(out, "{}", json::of(&printed).map_err(plydrape::output::OutputError::from)?)?;
     } else if !quiet {
         writeln!(out, "{}\n", result.scene.title)?;
-        write!(
-            out,
-            "{}\n{}",
-            table::steps_table(result),
-            table::verdict(result)
-        )?;
+        write!(out, "{}\n{}", table::steps_table(result), table::verdict(result))?;
         writeln!(out)?;
         for file in files {
             writeln!(out, "wrote {}", file.display())?;
         }
     }
     out.flush()?;
-    let unsolved = result
-        .steps
-        .iter()
-        .any(|step| step.solver.status != "converged");
-    Ok(
-        match (
-            summary.steps < summary.steps_planned,
-            unsolved,
-            summary.accepted,
-        ) {
-            (true, _, _) => ExitCode::from(130),
-            (_, true, _) => ExitCode::from(3),
-            (_, _, true) => ExitCode::SUCCESS,
-            (_, _, false) => ExitCode::from(1),
-        },
-    )
+    let unsolved = result.steps.iter().any(|step| step.solver.status != "converged");
+    Ok(match (summary.steps < summary.steps_planned, unsolved, summary.accepted) {
+        (true, _, _) => ExitCode::from(130),
+        (_, true, _) => ExitCode::from(3),
+        (_, _, true) => ExitCode::SUCCESS,
+        (_, _, false) => ExitCode::from(1),
+    })
 }
 
 /// The folder of a scene's results unless another is asked for.

@@ -22,12 +22,7 @@ pub struct Arguments {
     run: String,
 
     /// Height of the end above the start.
-    #[arg(
-        long,
-        value_name = "LENGTH",
-        default_value = "0",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "LENGTH", default_value = "0", allow_hyphen_values = true)]
     rise: String,
 
     /// Length of fabric between the ends.
@@ -43,30 +38,15 @@ pub struct Arguments {
     rigidity: String,
 
     /// Slope held at the start, or `free`.
-    #[arg(
-        long,
-        value_name = "SLOPE",
-        default_value = "free",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "SLOPE", default_value = "free", allow_hyphen_values = true)]
     slope_start: String,
 
     /// Slope held at the end, or `free`.
-    #[arg(
-        long,
-        value_name = "SLOPE",
-        default_value = "free",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "SLOPE", default_value = "free", allow_hyphen_values = true)]
     slope_end: String,
 
     /// Axial stiffness EA (N), or `inf`.
-    #[arg(
-        long,
-        value_name = "EA",
-        default_value = "inf",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "EA", default_value = "inf", allow_hyphen_values = true)]
     axial_stiffness: String,
 
     /// Print one JSON object on standard output instead of text.
@@ -133,12 +113,7 @@ impl Arguments {
             rigidity,
         )?;
         if flexural_rigidity > 0.0 && flexural_rigidity < RIGIDITIES[0] {
-            return Err(refused(
-                "--rigidity",
-                &self.rigidity,
-                "is too small",
-                rigidity,
-            ));
+            return Err(refused("--rigidity", &self.rigidity, "is too small", rigidity));
         }
         let axial_stiffness = value(
             "--axial-stiffness",
@@ -152,10 +127,7 @@ impl Arguments {
             run,
             rise,
             length,
-            ends: [
-                end("--slope-start", &self.slope_start)?,
-                end("--slope-end", &self.slope_end)?,
-            ],
+            ends: [end("--slope-start", &self.slope_start)?, end("--slope-end", &self.slope_end)?],
             weight,
             flexural_rigidity,
             axial_stiffness,
@@ -172,10 +144,9 @@ fn end(option: &str, text: &str, flexural_rigidity: f64) -> Result<EndCondition,
     let slope =
         value(option, text, Measured::Ratio, [-STEEPEST, STEEPEST], help).map_err(|failure| {
             match failure {
-                Failure::Argument { message, .. } => Failure::Argument {
-                    message,
-                    help: help.into(),
-                },
+                Failure::Argument { message, .. } => {
+                    Failure::Argument { message, help: help.into() }
+                }
                 other => other,
             }
         })?;
@@ -214,10 +185,7 @@ fn value(
 }
 
 fn refused(option: &str, text: &str, fault: &str, help: &str) -> Failure {
-    Failure::Argument {
-        message: format!("{option} \"{text}\" {fault}"),
-        help: help.into(),
-    }
+    Failure::Argument { message: format!("{option} \"{text}\" {fault}"), help: help.into() }
 }
 
 /// A span and the force that gives it its length.
@@ -246,11 +214,7 @@ impl Solved {
     fn new(span: Span) -> Result<Solved, Failure> {
         let root = span.solve(None);
         let profile = root.force.map(|force| Profile::new(&span, force));
-        let solved = Solved {
-            span,
-            root,
-            profile,
-        };
+        let solved = Solved { span, root, profile };
         let is_finite = |s: Station| s.z.is_finite() && s.moment.is_finite();
         if root.residual <= LARGEST_RESIDUAL && solved.stations().all(is_finite) {
             return Ok(solved);
@@ -279,13 +243,7 @@ impl Solved {
     /// The span at a distance from its start (m); without a profile on the straight chord.
     fn station(&self, x: f64) -> Station {
         let slope = self.span.rise / self.span.run;
-        let straight = Station {
-            x,
-            z: slope * x,
-            slope,
-            moment: 0.0,
-            vertical_force: 0.0,
-        };
+        let straight = Station { x, z: slope * x, slope, moment: 0.0, vertical_force: 0.0 };
         self.profile.map_or(straight, |profile| profile.station(x))
     }
 

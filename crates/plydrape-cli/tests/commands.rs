@@ -36,36 +36,21 @@ impl Drop for Folder {
 #[test]
 fn a_new_scene_passes_the_check_and_is_never_overwritten() {
     let folder = Folder::new("new");
-    for (name, file) in [
-        ("first", "first/scene.toml"),
-        ("second.toml", "second.toml"),
-    ] {
+    for (name, file) in [("first", "first/scene.toml"), ("second.toml", "second.toml")] {
         let (name, file) = (folder.file(name), folder.file(file));
         let new = plydrape(&["new", &name]);
         assert_eq!(new.status.code(), Some(0));
-        assert!(
-            String::from_utf8(new.stdout)
-                .unwrap()
-                .contains("plydrape check")
-        );
+        assert!(String::from_utf8(new.stdout).unwrap().contains("plydrape check"));
 
         let check = plydrape(&["check", &file]);
         assert_eq!(check.status.code(), Some(0));
-        assert!(
-            String::from_utf8(check.stdout)
-                .unwrap()
-                .contains("4 × 3 grippers")
-        );
+        assert!(String::from_utf8(check.stdout).unwrap().contains("4 × 3 grippers"));
         assert!(plydrape(&["check", "--quiet", &file]).stdout.is_empty());
 
         std::fs::write(&file, "mine").unwrap();
         let again = plydrape(&["new", &name]);
         assert_eq!(again.status.code(), Some(2));
-        assert!(
-            String::from_utf8(again.stderr)
-                .unwrap()
-                .contains("it exists")
-        );
+        assert!(String::from_utf8(again.stderr).unwrap().contains("it exists"));
         assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
     }
 }
@@ -76,10 +61,7 @@ fn schema_completions_and_manual_go_to_standard_output() {
     assert_eq!(schema, include_bytes!("../../../docs/scene.schema.json"));
     for shell in ["bash", "zsh", "fish"] {
         let text = plydrape(&["completions", shell]).stdout;
-        assert!(
-            String::from_utf8(text).unwrap().contains("check"),
-            "{shell}"
-        );
+        assert!(String::from_utf8(text).unwrap().contains("check"), "{shell}");
     }
     let manual = String::from_utf8(plydrape(&["man"]).stdout).unwrap();
     assert!(manual.contains("a limit of the scene is exceeded"));

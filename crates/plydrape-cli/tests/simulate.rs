@@ -62,19 +62,13 @@ fn files(folder: &Path) -> Vec<String> {
 #[test]
 fn exit_code_is_the_verdict() {
     let folder = tempfile::tempdir().unwrap();
-    for (name, code) in [
-        ("01_flat_sheared_mold", 1),
-        ("02_hanging_strip", 0),
-        ("03_tilted_plane", 0),
-    ] {
+    for (name, code) in
+        [("01_flat_sheared_mold", 1), ("02_hanging_strip", 0), ("03_tilted_plane", 0)]
+    {
         let output = simulate(&example(name), &folder.path().join(name), &[]);
         assert_eq!(output.status.code(), Some(code), "{name}");
         let shown = text(&output.stdout);
-        let verdict = if code == 0 {
-            "\naccepted\n"
-        } else {
-            "\nnot accepted: "
-        };
+        let verdict = if code == 0 { "\naccepted\n" } else { "\nnot accepted: " };
         assert!(shown.contains(verdict), "{shown}");
         assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
     }
@@ -135,11 +129,7 @@ fn the_paper_s_example_has_its_printed_contacts_and_shear() {
     assert_eq!(printed["first_contact_step"], 26);
     let diagonal = |from: [usize; 2], to: [usize; 2]| serde_json::json!({"kind": "diagonal", "from": from, "to": to});
     let contacts = printed["first_contact"].as_array().unwrap();
-    let expected = [
-        diagonal([1, 0], [0, 1]),
-        diagonal([2, 0], [1, 1]),
-        diagonal([3, 0], [2, 1]),
-    ];
+    let expected = [diagonal([1, 0], [0, 1]), diagonal([2, 0], [1, 1]), diagonal([3, 0], [2, 1])];
     assert_eq!(contacts.as_slice(), expected);
     assert_eq!(printed["first_shear_step"], 5);
     assert_eq!(printed["all_shear_step"], 5);
@@ -225,10 +215,7 @@ fn a_broken_scene_exits_with_two_and_writes_nothing() {
         let shown = text(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{to}\n{shown}");
         assert!(output.stdout.is_empty(), "{to}");
-        assert!(
-            shown.contains("scene.toml:") && shown.contains("help:"),
-            "{shown}"
-        );
+        assert!(shown.contains("scene.toml:") && shown.contains("help:"), "{shown}");
         assert!(!out.exists(), "{to}");
     }
 }
@@ -260,19 +247,12 @@ fn a_closed_pipe_is_no_failure() {
     ] {
         let mut command = command();
         command.args(&arguments);
-        let mut child = command
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         drop(child.stdout.take());
         let output = child.wait_with_output().unwrap();
         assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
         let code = output.status.code();
-        assert!(
-            code == Some(0) || code == Some(1),
-            "{arguments:?}: {code:?}"
-        );
+        assert!(code == Some(0) || code == Some(1), "{arguments:?}: {code:?}");
     }
     assert_eq!(files(Path::new(out)), FILES);
 }
@@ -290,17 +270,10 @@ fn an_interrupt_leaves_complete_files_of_the_steps_done() {
     std::fs::write(&scene, large).unwrap();
     let mut command = command();
     command.arg("simulate").arg(&scene).arg("--json");
-    let child = command
-        .arg("-o")
-        .arg(&out)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let child =
+        command.arg("-o").arg(&out).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_millis(700));
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(kill.unwrap().success());
     let output = child.wait_with_output().unwrap();
     let code = output.status.code();

@@ -3,12 +3,8 @@
 use std::process::{Command, Output, Stdio};
 
 /// The strip of the model's description: 100 mm of the paper's ply over 98 mm.
-const STRIP: [(&str, &str); 4] = [
-    ("--run", "98 mm"),
-    ("--length", "100 mm"),
-    ("--weight", "3.08014"),
-    ("--rigidity", "9e-6"),
-];
+const STRIP: [(&str, &str); 4] =
+    [("--run", "98 mm"), ("--length", "100 mm"), ("--weight", "3.08014"), ("--rigidity", "9e-6")];
 
 /// `plydrape span` with the strip's options, some of them replaced or added, and flags.
 fn span(changes: &[(&str, &str)], flags: &[&str]) -> Output {
@@ -40,9 +36,7 @@ fn json(changes: &[(&str, &str)]) -> serde_json::Value {
 }
 
 fn number(value: &serde_json::Value, key: &str) -> f64 {
-    value[key]
-        .as_f64()
-        .unwrap_or_else(|| panic!("{key} in {value}"))
+    value[key].as_f64().unwrap_or_else(|| panic!("{key} in {value}"))
 }
 
 fn numbers(value: &serde_json::Value, key: &str) -> Vec<f64> {
@@ -88,25 +82,10 @@ fn limp_span_is_the_parabola() {
 /// The documented command, units and all; its slope stands to the last digit.
 #[test]
 fn json_has_the_documented_keys_and_eleven_stations() {
-    let got = json(&[
-        ("--rise", "0"),
-        ("--slope-start", "free"),
-        ("--slope-end", "0.5"),
-    ]);
+    let got = json(&[("--rise", "0"), ("--slope-start", "free"), ("--slope-end", "0.5")]);
     let mut keys: Vec<&String> = got.as_object().unwrap().keys().collect();
     keys.sort();
-    assert_eq!(
-        keys,
-        [
-            "H_N",
-            "sag_mm",
-            "slope_end",
-            "slope_start",
-            "state",
-            "x_mm",
-            "z_mm"
-        ]
-    );
+    assert_eq!(keys, ["H_N", "sag_mm", "slope_end", "slope_start", "state", "x_mm", "z_mm"]);
     assert!((number(&got, "slope_end") - 0.5).abs() < 1e-14);
     let (x, z) = (numbers(&got, "x_mm"), numbers(&got, "z_mm"));
     assert_eq!((x.len(), z.len()), (11, 11));
@@ -136,10 +115,7 @@ fn plain_numbers_are_si_and_units_convert() {
         ("--rigidity", "9 mN mm m"),
         ("--axial-stiffness", "inf"),
     ];
-    assert_eq!(
-        number(&json(&plain), "H_N").to_bits(),
-        number(&json(&[]), "H_N").to_bits()
-    );
+    assert_eq!(number(&json(&plain), "H_N").to_bits(), number(&json(&[]), "H_N").to_bits());
 }
 
 #[test]
@@ -190,15 +166,7 @@ fn text_shows_force_sag_slopes_moments_a_table_and_the_shape() {
     let output = span(&[("--slope-end", "0.5")], &[]);
     assert_eq!(output.status.code(), Some(0));
     let shown = text(&output.stdout);
-    for words in [
-        "horizontal force",
-        "sag",
-        "slopes",
-        "moments",
-        "z mm",
-        "(held)",
-        "(free)",
-    ] {
+    for words in ["horizontal force", "sag", "slopes", "moments", "z mm", "(held)", "(free)"] {
         assert!(shown.contains(words), "{words} in\n{shown}");
     }
     let stations = shown.lines().filter(|l| l.split_whitespace().count() == 5);
@@ -225,19 +193,9 @@ fn bad_values_are_refused_with_option_value_and_remedy() {
         ("--length", "-1", "is negative", "a length from"),
         ("--weight", "0", "is zero", "a weight per length"),
         ("--weight", "-3", "is negative", "a weight per length"),
-        (
-            "--weight",
-            "314 g/m",
-            "is a mass per length",
-            "a force per length",
-        ),
+        ("--weight", "314 g/m", "is a mass per length", "a force per length"),
         ("--rigidity", "-9e-6", "is negative", "a flexural rigidity"),
-        (
-            "--rigidity",
-            "9e-6 N m",
-            "is a moment",
-            "a flexural rigidity",
-        ),
+        ("--rigidity", "9e-6 N m", "is a moment", "a flexural rigidity"),
         ("--rigidity", "1e-30", "is too small", "or 0"),
         ("--rise", "1e9", "is too large", "1000 runs"),
         ("--rise", "-inf", "is too small", "1000 runs"),

@@ -17,10 +17,8 @@ fn main() {
 
 /// The paper's example.
 fn example() -> Scene {
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../examples/01_flat_sheared_mold/scene.toml"
-    );
+    let path =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/01_flat_sheared_mold/scene.toml");
     plydrape::scene::read(Path::new(path)).expect("the example is shipped with the project")
 }
 
@@ -32,14 +30,8 @@ fn array(side: usize, rule: SlopeRule) -> (Solver, Vec<[f64; 3]>, usize) {
     scene.settings.slopes = rule;
     let grid = scene.ply.grid;
     let at = |n: usize| grid.id(n).map(|k| 0.098 * k as f64);
-    let positions = (0..grid.grippers())
-        .map(|n| [at(n)[0], at(n)[1], 0.0])
-        .collect();
-    (
-        Solver::new(&scene.ply, &scene.settings),
-        positions,
-        grid.catenaries(),
-    )
+    let positions = (0..grid.grippers()).map(|n| [at(n)[0], at(n)[1], 0.0]).collect();
+    (Solver::new(&scene.ply, &scene.settings), positions, grid.catenaries())
 }
 
 /// One span's length with all first and second derivatives to H and both slopes.

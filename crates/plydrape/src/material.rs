@@ -102,23 +102,15 @@ fn monotone_cubic(x: &[f64], y: &[f64], at: f64) -> (f64, f64) {
     }
 
     // The interval that holds `at`, and the cubic of Hermite there.
-    let k = x[..points]
-        .partition_point(|knot| *knot <= at)
-        .clamp(1, last)
-        - 1;
-    let (s0, s1) = (
-        knot_slope(&x[..points], &y[..points], k),
-        knot_slope(&x[..points], &y[..points], k + 1),
-    );
+    let k = x[..points].partition_point(|knot| *knot <= at).clamp(1, last) - 1;
+    let (s0, s1) =
+        (knot_slope(&x[..points], &y[..points], k), knot_slope(&x[..points], &y[..points], k + 1));
     let h = x[k + 1] - x[k];
     let secant = (y[k + 1] - y[k]) / h;
     let t = (at - x[k]) / h;
     let c = 3.0 * secant - 2.0 * s0 - s1;
     let d = s0 + s1 - 2.0 * secant;
-    (
-        y[k] + h * t * (s0 + t * (c + t * d)),
-        s0 + t * (2.0 * c + 3.0 * t * d),
-    )
+    (y[k] + h * t * (s0 + t * (c + t * d)), s0 + t * (2.0 * c + 3.0 * t * d))
 }
 
 /// Slope of the monotone cubic at knot `k`: a weighted harmonic mean of the secants on both sides.
@@ -177,20 +169,14 @@ mod tests {
     fn a_table_is_joined_as_scipys_pchip_does() {
         for (gamma, tau) in PCHIP {
             let (found, _) = table().force(gamma);
-            assert!(
-                (found - tau).abs() < 1e-12 * (1.0 + tau),
-                "{gamma}: {found} {tau}"
-            );
+            assert!((found - tau).abs() < 1e-12 * (1.0 + tau), "{gamma}: {found} {tau}");
         }
     }
 
     /// A straight line is its own interpolant, inside and beyond the table.
     #[test]
     fn a_straight_table_stays_straight() {
-        let line = ShearCurve::Table {
-            angle: vec![0.0, 0.2, 0.3],
-            force: vec![0.0, 4.0, 6.0],
-        };
+        let line = ShearCurve::Table { angle: vec![0.0, 0.2, 0.3], force: vec![0.0, 4.0, 6.0] };
         for gamma in [0.0, 0.13, 0.29, 0.3, 1.2] {
             let (tau, slope) = line.force(gamma);
             assert!((tau - 20.0 * gamma).abs() < 1e-12 && (slope - 20.0).abs() < 1e-12);
@@ -200,9 +186,7 @@ mod tests {
     /// By hand: 2γ + 3γ² at γ = 0.5 is 1.75, its slope 2 + 6γ is 5.
     #[test]
     fn a_polynomial_has_no_constant_term() {
-        let curve = ShearCurve::Polynomial {
-            coefficients: vec![2.0, 3.0],
-        };
+        let curve = ShearCurve::Polynomial { coefficients: vec![2.0, 3.0] };
         assert_eq!(curve.force(0.5), (1.75, 5.0));
         assert_eq!(curve.force(-0.5), curve.force(0.5));
         assert_eq!(curve.force(0.0), (0.0, 2.0));

@@ -12,10 +12,8 @@ static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 /// Two steps of the example, several iterations each, both rules, warm and cold: not one allocation.
 #[test]
 fn a_second_solve_allocates_nothing() {
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../examples/01_flat_sheared_mold/scene.toml"
-    );
+    let path =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/01_flat_sheared_mold/scene.toml");
     let scene = plydrape::scene::read(Path::new(path)).expect("a shipped scene");
     let laid = vec![None; scene.ply.grid.catenaries()];
     for rule in [SlopeRule::MinForce, SlopeRule::MomentBalance] {
@@ -34,10 +32,6 @@ fn a_second_solve_allocates_nothing() {
         iterations += solver.solve(&scene.motion.positions[0], &laid).iterations;
         let change = region.change();
         assert!(iterations > 10, "{rule:?}: {iterations}");
-        assert_eq!(
-            (change.allocations, change.reallocations),
-            (0, 0),
-            "{rule:?}"
-        );
+        assert_eq!((change.allocations, change.reallocations), (0, 0), "{rule:?}");
     }
 }

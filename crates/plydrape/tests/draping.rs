@@ -21,10 +21,7 @@ fn drape(scene: &Scene) -> ResultFile {
 /// The example with its straight motion in another number of steps.
 fn in_steps(scene: &Scene, steps: usize) -> Scene {
     let mut scene = scene.clone();
-    let (first, last) = (
-        scene.motion.positions[0].clone(),
-        scene.motion.positions[29].clone(),
-    );
+    let (first, last) = (scene.motion.positions[0].clone(), scene.motion.positions[29].clone());
     scene.motion = Motion {
         times: (0..steps).map(|n| n as f64).collect(),
         positions: (0..steps)
@@ -49,26 +46,13 @@ fn the_paper_example_touches_first_in_iteration_26_on_its_short_diagonals() {
     let summary = &result.summary;
     assert_eq!(summary.steps, 30);
     assert_eq!(summary.first_contact_step, Some(26));
-    let touched: Vec<_> = summary
-        .first_contact
-        .iter()
-        .map(|c| (c.kind, c.from, c.to))
-        .collect();
+    let touched: Vec<_> = summary.first_contact.iter().map(|c| (c.kind, c.from, c.to)).collect();
     let short = [([1, 0], [0, 1]), ([2, 0], [1, 1]), ([3, 0], [2, 1])];
     assert_eq!(touched, short.map(|(a, b)| ("diagonal", a, b)));
     assert_eq!(summary.first_shear_step, Some(5));
     for step in &result.steps {
-        let sheared = step
-            .cells
-            .iter()
-            .filter(|cell| cell.shearing == Some("rising"))
-            .count();
-        assert_eq!(
-            sheared,
-            if step.step < 5 { 0 } else { 3 },
-            "step {}",
-            step.step
-        );
+        let sheared = step.cells.iter().filter(|cell| cell.shearing == Some("rising")).count();
+        assert_eq!(sheared, if step.step < 5 { 0 } else { 3 }, "step {}", step.step);
     }
     // 100 mm sides sheared by 20°
     let last = result.steps.last().expect("30 steps");
@@ -77,15 +61,9 @@ fn the_paper_example_touches_first_in_iteration_26_on_its_short_diagonals() {
     }
     assert!(!summary.accepted);
     let slack = last.measures.slack_mm.as_ref().expect("spans with slack");
-    assert!(
-        slack.value > 0.5 && slack.at.starts_with("diagonal"),
-        "{slack:?}"
-    );
+    assert!(slack.value > 0.5 && slack.at.starts_with("diagonal"), "{slack:?}");
     let stretched = last.measures.overstretch.as_ref().expect("edges");
-    assert!(
-        stretched.value > 0.001 && stretched.value < 0.05,
-        "{stretched:?}"
-    );
+    assert!(stretched.value > 0.001 && stretched.value < 0.05, "{stretched:?}");
 }
 
 /// Any start height from 70 to 78 mm gives the printed first contact.
@@ -107,10 +85,7 @@ fn the_first_contact_does_not_hang_on_the_start_height() {
 /// Fabric of a catenary that is free, in contact or lying (m).
 fn accounted(c: &CatenaryState) -> f64 {
     let spans: f64 = c.spans.iter().map(|span| span.length).sum();
-    let whole = c
-        .spans
-        .iter()
-        .any(|span| span.state == "lying" && span.length == c.length);
+    let whole = c.spans.iter().any(|span| span.state == "lying" && span.length == c.length);
     spans
         + c.contact
             .as_ref()
@@ -131,11 +106,7 @@ fn check_record(result: &ResultFile) {
                 c.length
             );
             if c.kind == "edge" {
-                assert_eq!(
-                    c.length,
-                    result.scene.cell[usize::from(c.direction == "v")],
-                    "{place}"
-                );
+                assert_eq!(c.length, result.scene.cell[usize::from(c.direction == "v")], "{place}");
             }
             if let (Some(contact), Some(mold)) = (&c.contact, &result.scene.mold) {
                 for p in &contact.points {
@@ -145,10 +116,7 @@ fn check_record(result: &ResultFile) {
                 let [a, b] = [contact.points[0], contact.points[1]];
                 let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
                 let arc = contact.arc[1] - contact.arc[0];
-                let whole = c
-                    .spans
-                    .iter()
-                    .any(|s| s.state == "lying" && s.arc == [0.0, c.length]);
+                let whole = c.spans.iter().any(|s| s.state == "lying" && s.arc == [0.0, c.length]);
                 // both ends of a run may have grown in planes of their own
                 assert!(whole || length <= arc + 1e-9, "{place}: {length} {arc}");
             }
@@ -159,10 +127,7 @@ fn check_record(result: &ResultFile) {
                     then.arc[0] <= now.arc[0] && then.arc[1] >= now.arc[1],
                     "{place}: it stays"
                 );
-                assert_eq!(
-                    c.length, next.length,
-                    "{place}: fixed from the first touch on"
-                );
+                assert_eq!(c.length, next.length, "{place}: fixed from the first touch on");
             }
         }
     }
@@ -173,11 +138,7 @@ fn contact_and_free_lengths_always_add_up() {
     for stepping in [Stepping::Once, Stepping::Cut] {
         for end in [ContactEnd::Free, ContactEnd::Tangent] {
             let mut scene = example("01_flat_sheared_mold");
-            scene.settings.contact = Contact {
-                tolerance: 5e-4,
-                stepping,
-                end,
-            };
+            scene.settings.contact = Contact { tolerance: 5e-4, stepping, end };
             check_record(&drape(&scene));
         }
     }
@@ -221,32 +182,18 @@ fn contact_converges_in_steps_and_tolerance() {
     let strip = |steps: usize, tolerance: f64, stepping: Stepping| {
         let mut scene = example("02_hanging_strip");
         scene.mold = example("01_flat_sheared_mold").mold;
-        scene.settings.contact = Contact {
-            tolerance,
-            stepping,
-            end: ContactEnd::Free,
-        };
-        let at = |t: f64| {
-            vec![
-                [0.0, 0.0, 0.012 - 0.008 * t],
-                [0.098, 0.0, 0.012 - 0.006 * t],
-            ]
-        };
+        scene.settings.contact = Contact { tolerance, stepping, end: ContactEnd::Free };
+        let at = |t: f64| vec![[0.0, 0.0, 0.012 - 0.008 * t], [0.098, 0.0, 0.012 - 0.006 * t]];
         scene.motion = Motion {
             times: (0..steps).map(|n| n as f64).collect(),
-            positions: (0..steps)
-                .map(|n| at(n as f64 / (steps - 1) as f64))
-                .collect(),
+            positions: (0..steps).map(|n| at(n as f64 / (steps - 1) as f64)).collect(),
         };
         let result = drape(&scene);
         let last = result.steps.last().expect("steps").catenaries[0].clone();
         last.contact.expect("the strip touches").arc
     };
     let close = |a: [f64; 2], b: [f64; 2], tolerance: f64| {
-        assert!(
-            (a[0] - b[0]).abs() < tolerance && (a[1] - b[1]).abs() < tolerance,
-            "{a:?} {b:?}"
-        );
+        assert!((a[0] - b[0]).abs() < tolerance && (a[1] - b[1]).abs() < tolerance, "{a:?} {b:?}");
     };
     let fine = strip(400, 1e-5, Stepping::Cut);
     close(strip(400, 1e-5, Stepping::Once), fine, 2e-3);
@@ -256,24 +203,12 @@ fn contact_converges_in_steps_and_tolerance() {
 
     let mut scene = example("02_hanging_strip");
     scene.mold = example("01_flat_sheared_mold").mold;
-    scene.settings.contact = Contact {
-        tolerance: 1e-3,
-        stepping: Stepping::Once,
-        end: ContactEnd::Free,
-    };
+    scene.settings.contact =
+        Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free };
     let still = vec![[0.0, 0.0, 0.006], [0.098, 0.0, 0.006]];
-    scene.motion = Motion {
-        times: (0..60).map(f64::from).collect(),
-        positions: vec![still; 60],
-    };
+    scene.motion = Motion { times: (0..60).map(f64::from).collect(), positions: vec![still; 60] };
     let result = drape(&scene);
-    let arc = |n: usize| {
-        result.steps[n].catenaries[0]
-            .contact
-            .as_ref()
-            .expect("it touches")
-            .arc
-    };
+    let arc = |n: usize| result.steps[n].catenaries[0].contact.as_ref().expect("it touches").arc;
     close(arc(59), arc(5), 1e-6);
 }
 
@@ -288,16 +223,10 @@ fn a_ply_set_down_in_its_target_shape_lies_without_fault() {
             point: [0.0; 3],
             normal: [-s, 0.0, c],
         }));
-        let plane = plydrape::mold::Plane {
-            point: [0.0; 3],
-            normal: [-s, 0.0, c],
-        };
+        let plane = plydrape::mold::Plane { point: [0.0; 3], normal: [-s, 0.0, c] };
         let ideal = plydrape::scene::FlatDrape::on(&plane, [0.0; 2], 0.0, 20_f64.to_radians());
         let goal = ideal.grippers(scene.ply.grid, [0.1; 2]);
-        scene.target = Some(Target {
-            grippers: goal.clone(),
-            drape: Some(ideal),
-        });
+        scene.target = Some(Target { grippers: goal.clone(), drape: Some(ideal) });
         scene.settings.contact.tolerance = 2e-4;
         scene.settings.contact.stepping = Stepping::Cut;
         scene.motion = Motion {
@@ -305,9 +234,7 @@ fn a_ply_set_down_in_its_target_shape_lies_without_fault() {
             positions: (0..40)
                 .map(|n| {
                     let lift = 0.03 * f64::from(39 - n) / 39.0;
-                    goal.iter()
-                        .map(|p| [p[0] - lift * s, p[1], p[2] + lift * c])
-                        .collect()
+                    goal.iter().map(|p| [p[0] - lift * s, p[1], p[2] + lift * c]).collect()
                 })
                 .collect(),
         };

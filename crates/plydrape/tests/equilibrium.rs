@@ -17,10 +17,7 @@ fn paper_ply(nu: usize, nv: usize) -> Ply {
         material: Material {
             name: "krogh2018".into(),
             source: "Krogh et al. 2018, Table 1".into(),
-            section: Section::Line {
-                mass: 0.3143,
-                flexural_rigidity: 9e-6,
-            },
+            section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
             shear_curve: None,
             locking_angle: None,
         },
@@ -34,11 +31,7 @@ fn settings(slopes: SlopeRule, axial_stiffness: f64, max_tilt_deg: f64) -> Setti
         axial_stiffness,
         gravity: 9.8,
         max_tilt: max_tilt_deg.to_radians(),
-        contact: Contact {
-            tolerance: 1e-3,
-            stepping: Stepping::Once,
-            end: ContactEnd::Free,
-        },
+        contact: Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free },
     }
 }
 
@@ -79,28 +72,13 @@ fn min_force_meets_the_reference_solution() {
     let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce, f64::INFINITY, 40.0));
     let outcome = solver.solve(&level(ply.grid, 0.098), &vec![None; 16]);
     assert_eq!(outcome.status, Status::Converged);
-    close(
-        &forces(&solver, Kind::EdgeU),
-        &[0.372456, 0.332103, 0.372456].repeat(2),
-        6e-7,
-    );
+    close(&forces(&solver, Kind::EdgeU), &[0.372456, 0.332103, 0.372456].repeat(2), 6e-7);
     close(&forces(&solver, Kind::EdgeV), &[0.417284; 4], 6e-7);
     for kind in [Kind::Rising, Kind::Falling] {
-        close(
-            &forces(&solver, kind),
-            &[0.605601, 0.574293, 0.605601],
-            6e-7,
-        );
+        close(&forces(&solver, kind), &[0.605601, 0.574293, 0.605601], 6e-7);
     }
-    close(
-        solver.slopes(),
-        &[-0.022395, 0.022395, -0.022395, 0.022395],
-        6e-7,
-    );
-    let all = (0..16)
-        .map(|n| solver.force(n).expect("hangs").powi(2))
-        .sum::<f64>()
-        .sqrt();
+    close(solver.slopes(), &[-0.022395, 0.022395, -0.022395, 0.022395], 6e-7);
+    let all = (0..16).map(|n| solver.force(n).expect("hangs").powi(2)).sum::<f64>().sqrt();
     close(&[all], &[1.897002], 6e-7);
 }
 
@@ -108,34 +86,16 @@ fn min_force_meets_the_reference_solution() {
 #[test]
 fn moment_balance_meets_the_reference_solution() {
     let ply = paper_ply(4, 2);
-    let mut solver = Solver::new(
-        &ply,
-        &settings(SlopeRule::MomentBalance, f64::INFINITY, 40.0),
-    );
+    let mut solver = Solver::new(&ply, &settings(SlopeRule::MomentBalance, f64::INFINITY, 40.0));
     let outcome = solver.solve(&level(ply.grid, 0.098), &vec![None; 16]);
     assert_eq!(outcome.status, Status::Converged);
-    close(
-        &forces(&solver, Kind::EdgeU),
-        &[0.37426, 0.32819, 0.37426].repeat(2),
-        6e-6,
-    );
-    close(
-        solver.slopes(),
-        &[-0.00130, 0.00130, -0.00130, 0.00130],
-        6e-6,
-    );
+    close(&forces(&solver, Kind::EdgeU), &[0.37426, 0.32819, 0.37426].repeat(2), 6e-6);
+    close(solver.slopes(), &[-0.00130, 0.00130, -0.00130, 0.00130], 6e-6);
 }
 
 /// Gripper arrays of several sizes, spacings from slack to stretched, uneven heights, some sheared.
 fn any_array() -> impl Strategy<Value = (Ply, Vec<[f64; 3]>)> {
-    (
-        2usize..6,
-        1usize..5,
-        0.9..1.0,
-        -0.4..0.4,
-        0.0..0.02,
-        prop::collection::vec(-1.0..1.0, 3 * 30),
-    )
+    (2usize..6, 1usize..5, 0.9..1.0, -0.4..0.4, 0.0..0.02, prop::collection::vec(-1.0..1.0, 3 * 30))
         .prop_map(|(nu, nv, spacing, shear, noise, random)| {
             let ply = paper_ply(nu, nv);
             let positions = (0..ply.grid.grippers())
@@ -143,11 +103,7 @@ fn any_array() -> impl Strategy<Value = (Ply, Vec<[f64; 3]>)> {
                     let [i, j] = ply.grid.id(n).map(|k| 0.1 * spacing * k as f64);
                     let r = |k: usize| noise * random[3 * n + k];
                     let (sin, cos) = f64::sin_cos(shear);
-                    [
-                        i + j * sin + 0.2 * r(0),
-                        j * cos + 0.2 * r(1),
-                        0.05 + 3.0 * r(2),
-                    ]
+                    [i + j * sin + 0.2 * r(0), j * cos + 0.2 * r(1), 0.05 + 3.0 * r(2)]
                 })
                 .collect();
             (ply, positions)
@@ -156,11 +112,7 @@ fn any_array() -> impl Strategy<Value = (Ply, Vec<[f64; 3]>)> {
 
 fn any_rule() -> impl Strategy<Value = Settings> {
     (any::<bool>(), prop::sample::select(vec![3.0, 15.0, 40.0])).prop_map(|(min_force, tilt)| {
-        let rule = if min_force {
-            SlopeRule::MinForce
-        } else {
-            SlopeRule::MomentBalance
-        };
+        let rule = if min_force { SlopeRule::MinForce } else { SlopeRule::MomentBalance };
         settings(rule, 1e5, tilt)
     })
 }

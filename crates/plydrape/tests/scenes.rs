@@ -59,21 +59,14 @@ fn positions_are_the_same_however_they_are_written() {
         let text = format!(
             "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.1]\nmaterial = \"krogh2018\"\n[grippers]\n{grippers}\n"
         );
-        parse(&text)
-            .unwrap_or_else(|e| panic!("{e}"))
-            .motion
-            .positions
+        parse(&text).unwrap_or_else(|e| panic!("{e}")).motion.positions
     };
     let spacing = with("spacing = [0.098, 0.098]\nheight = 0.05\norigin = [0.01, 0]");
     let table = with(
         "positions = [[[0.01, 0, \"50 mm\"], [\"108 mm\", 0, 0.05]], [[0.01, 0.098, 0.05], [0.108, 0.098, 0.05]]]",
     );
     let file = with("positions = \"tests/start.csv\"");
-    for (a, b) in spacing[0]
-        .iter()
-        .zip(&table[0])
-        .chain(spacing[0].iter().zip(&file[0]))
-    {
+    for (a, b) in spacing[0].iter().zip(&table[0]).chain(spacing[0].iter().zip(&file[0])) {
         for k in 0..3 {
             assert!((a[k] - b[k]).abs() < 1e-15, "{a:?} {b:?}");
         }
@@ -120,15 +113,7 @@ fn the_committed_schema_is_current() {
 fn assert_finite(scene: &Scene) {
     assert!(scene.motion.times.iter().all(|t| t.is_finite()));
     assert!(scene.motion.times.windows(2).all(|pair| pair[0] < pair[1]));
-    assert!(
-        scene
-            .motion
-            .positions
-            .iter()
-            .flatten()
-            .flatten()
-            .all(|x| x.is_finite())
-    );
+    assert!(scene.motion.positions.iter().flatten().flatten().all(|x| x.is_finite()));
     assert!(scene.ply.cell.iter().all(|x| x.is_finite() && *x > 0.0));
     assert!(!scene.settings.axial_stiffness.is_nan() && scene.settings.gravity > 0.0);
 }

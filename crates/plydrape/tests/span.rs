@@ -54,16 +54,8 @@ fn the_paper_ply_hangs_with_the_known_force_and_sag() {
         (0.090, [FREE, FREE], 0.15086, 19.4616),
     ] {
         let profile = solved(&paper_span(run, ends));
-        assert!(
-            (profile.force() - force).abs() < 6e-6,
-            "H {} for {force}",
-            profile.force()
-        );
-        assert!(
-            (profile.sag().0 * 1e3 - sag_mm).abs() < 6e-5,
-            "{:?} for {sag_mm}",
-            profile.sag()
-        );
+        assert!((profile.force() - force).abs() < 6e-6, "H {} for {force}", profile.force());
+        assert!((profile.sag().0 * 1e3 - sag_mm).abs() < 6e-5, "{:?} for {sag_mm}", profile.sag());
     }
 }
 
@@ -77,10 +69,7 @@ fn a_limp_span_hangs_as_a_parabola() {
         let profile = solved(&span);
         let u = span.load() * span.run / (2.0 * profile.force());
         let length = 0.5 * span.run * (u.hypot(1.0) + u.asinh() / u);
-        assert!(
-            (length / span.length - 1.0).abs() < 1e-9,
-            "EI = {rigidity}: {length}"
-        );
+        assert!((length / span.length - 1.0).abs() < 1e-9, "EI = {rigidity}: {length}");
         let sag = span.load() * span.run.powi(2) / (8.0 * profile.force());
         assert!((profile.sag().0 / sag - 1.0).abs() < 1e-9);
     }
@@ -95,15 +84,9 @@ fn a_span_without_horizontal_force_is_a_beam() {
         let sag = Profile::new(&span, force).sag().0;
         let beam = 5.0 * span.load() * span.run.powi(4) / (384.0 * span.flexural_rigidity);
         assert!((sag / beam - 1.0).abs() < 1e-6, "{sag} {beam}");
-        let held = Span {
-            ends: [slope(0.0), slope(0.0)],
-            ..span
-        };
+        let held = Span { ends: [slope(0.0), slope(0.0)], ..span };
         let sag = Profile::new(&held, force).sag().0;
-        assert!(
-            (sag / (beam / 5.0) - 1.0).abs() < 1e-6,
-            "held ends: a fifth of it"
-        );
+        assert!((sag / (beam / 5.0) - 1.0).abs() < 1e-6, "held ends: a fifth of it");
     }
 }
 
@@ -119,15 +102,9 @@ fn a_stiff_span_with_slack_is_in_compression() {
         span.flexural_rigidity = 10.0;
         let force = solved(&span).force();
         let buckling = -number * span.flexural_rigidity / span.run.powi(2);
-        assert!(
-            force > buckling && force < 0.999 * buckling,
-            "{force} {buckling}"
-        );
+        assert!(force > buckling && force < 0.999 * buckling, "{force} {buckling}");
         let length = length_by_simpson(&Profile::new(&span, force), span.run, 4000);
-        assert!(
-            (length / span.length - 1.0).abs() < 1e-9,
-            "{ends:?}: {length}"
-        );
+        assert!((length / span.length - 1.0).abs() < 1e-9, "{ends:?}: {length}");
     }
 }
 
@@ -162,10 +139,7 @@ fn a_taut_span_has_a_finite_force() {
 /// Small-sag solutions of every case of the reference file, made with SciPy's `solve_bvp`.
 #[test]
 fn the_reference_strips_agree_to_1e_6() {
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../../shared/data/strip_cases.json"
-    );
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/strip_cases.json");
     let Ok(text) = std::fs::read_to_string(path) else {
         eprintln!("SKIPPED: {path} is not there; the reference strips were not compared");
         return;
@@ -191,23 +165,10 @@ fn the_reference_strips_agree_to_1e_6() {
         };
         let profile = solved(&span);
         let id = &case["id"];
-        assert!(
-            (profile.force() / force - 1.0).abs() < 1e-6,
-            "{id}: H {}",
-            profile.force()
-        );
+        assert!((profile.force() / force - 1.0).abs() < 1e-6, "{id}: H {}", profile.force());
         let sag = small["sag_vertical_mm"].as_f64().expect("a sag") * 1e-3;
-        assert!(
-            (profile.sag().0 / sag - 1.0).abs() < 1e-6,
-            "{id}: sag {:?}",
-            profile.sag()
-        );
-        for (n, z) in small["z_stations_mm"]
-            .as_array()
-            .expect("stations")
-            .iter()
-            .enumerate()
-        {
+        assert!((profile.sag().0 / sag - 1.0).abs() < 1e-6, "{id}: sag {:?}", profile.sag());
+        for (n, z) in small["z_stations_mm"].as_array().expect("stations").iter().enumerate() {
             let z = z.as_f64().expect("a number") * 1e-3;
             let ours = profile.station(span.run * n as f64 / 10.0).z;
             assert!((ours - z).abs() < 1e-6 * sag, "{id}: z[{n}] {ours} for {z}");

@@ -34,10 +34,7 @@ pub fn curve(points: &[[f64; 2]]) -> String {
         let across = ((x - left) * scale).round() as usize;
         let up = (z - bottom) * scale * stretch;
         let down = (top - up).round().max(0.0) as usize;
-        if let Some(cell) = cells
-            .get_mut(down / 4)
-            .and_then(|row| row.get_mut(across / 2))
-        {
+        if let Some(cell) = cells.get_mut(down / 4).and_then(|row| row.get_mut(across / 2)) {
             *cell |= dot(across % 2, down % 4);
         }
     };
@@ -53,10 +50,8 @@ pub fn curve(points: &[[f64; 2]]) -> String {
 
     let mut text = String::new();
     for row in cells {
-        let line: String = row
-            .into_iter()
-            .filter_map(|cell| char::from_u32(0x2800 + cell))
-            .collect();
+        let line: String =
+            row.into_iter().filter_map(|cell| char::from_u32(0x2800 + cell)).collect();
         text.push_str("  ");
         text.push_str(line.trim_end_matches('\u{2800}'));
         text.push('\n');

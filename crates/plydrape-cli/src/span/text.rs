@@ -74,10 +74,7 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
                 held(1)
             ),
         ),
-        (
-            "moments",
-            format!("{} N·mm at the start, {} N·mm at the end", ends[0], ends[1]),
-        ),
+        ("moments", format!("{} N·mm at the start, {} N·mm at the end", ends[0], ends[1])),
     ];
     let beyond = span.chord() - span.length;
     if solved.state() == "overstretched" {
@@ -93,10 +90,7 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
     }
     if solved.profile.is_none() {
         if span.ends != [EndCondition::Free; 2] {
-            lines.push((
-                "",
-                "a straight span cannot take the slopes asked for".into(),
-            ));
+            lines.push(("", "a straight span cannot take the slopes asked for".into()));
         }
         lines.push(("", "a finite --axial-stiffness would give its force".into()));
     }
@@ -108,25 +102,11 @@ fn table(solved: &Solved) -> String {
     let head = ["x mm", "z mm", "slope", "moment N·mm", "vertical force N"];
     let values: Vec<[f64; 5]> = solved
         .stations()
-        .map(|s| {
-            [
-                s.x * 1e3,
-                s.z * 1e3,
-                s.slope,
-                s.moment * 1e3,
-                s.vertical_force,
-            ]
-        })
+        .map(|s| [s.x * 1e3, s.z * 1e3, s.slope, s.moment * 1e3, s.vertical_force])
         .collect();
     let decimals = [0, 1, 2, 3, 4].map(|column| {
-        let largest = values
-            .iter()
-            .fold(0.0, |m, row| f64::max(m, row[column].abs()));
-        if largest > 0.0 {
-            (5.0 - largest.log10().floor()).clamp(0.0, 12.0) as usize
-        } else {
-            0
-        }
+        let largest = values.iter().fold(0.0, |m, row| f64::max(m, row[column].abs()));
+        if largest > 0.0 { (5.0 - largest.log10().floor()).clamp(0.0, 12.0) as usize } else { 0 }
     });
     let mut rows = vec![head.map(str::to_string)];
     rows.extend(values.iter().map(|row| {

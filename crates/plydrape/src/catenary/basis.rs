@@ -116,10 +116,7 @@ impl<const P: usize> Panel for StiffPanel<P> {
 impl<const P: usize> Panel for LimpPanel<P> {
     #[inline(always)]
     fn at(&self, p: usize) -> Values {
-        Values {
-            value: [0.0, 0.0, self.t[p] - 0.5],
-            ..Values::default()
-        }
+        Values { value: [0.0, 0.0, self.t[p] - 0.5], ..Values::default() }
     }
 }
 
@@ -138,22 +135,14 @@ impl Form {
         let kappa = force * span.run * span.run / span.flexural_rigidity;
         if kappa < TAUT_KAPPA {
             let terms = terms(kappa.abs());
-            return Form::Stiff {
-                kappa,
-                terms,
-                c: entire(kappa, terms),
-            };
+            return Form::Stiff { kappa, terms, c: entire(kappa, terms) };
         }
         let k = kappa.sqrt();
         let far = (-k).exp();
         let mean = (1.0 - far) / k;
         let first = (far - mean) / k;
         let second = (-far - 2.0 * first) / k;
-        Form::Taut {
-            k,
-            far,
-            mean: [mean, first, second],
-        }
+        Form::Taut { k, far, mean: [mean, first, second] }
     }
 
     /// e^(−kt) and e^(−k(1−t)) of the taut form; 0 where they no longer count.
@@ -180,11 +169,7 @@ impl Form {
                 let layers = self.panel_layers(&rule.t, start, width);
                 sum.add(width, &rule.weight, &TautPanel { t, layers, mean });
             }
-            Form::Stiff {
-                kappa,
-                terms,
-                c: mean,
-            } => {
+            Form::Stiff { kappa, terms, c: mean } => {
                 let c = entire_at(&t.map(|t| kappa * t * t), terms);
                 sum.add(width, &rule.weight, &StiffPanel { t, c, mean });
             }
@@ -219,11 +204,7 @@ impl Form {
         };
         let near = decay(start);
         let whole = start == 0.0 && width == 1.0;
-        let mut far = if whole {
-            near
-        } else {
-            decay(1.0 - start - width)
-        };
+        let mut far = if whole { near } else { decay(1.0 - start - width) };
         far.reverse();
         [near, far]
     }
@@ -233,23 +214,11 @@ impl Form {
         match *self {
             Form::Taut { mean, .. } => {
                 let layers = self.layers(t).map(|layer| [layer]);
-                TautPanel {
-                    t: [t],
-                    layers,
-                    mean,
-                }
-                .at(0)
+                TautPanel { t: [t], layers, mean }.at(0)
             }
-            Form::Stiff {
-                kappa,
-                terms,
-                c: mean,
-            } => StiffPanel {
-                t: [t],
-                c: entire_at(&[kappa * t * t], terms),
-                mean,
+            Form::Stiff { kappa, terms, c: mean } => {
+                StiffPanel { t: [t], c: entire_at(&[kappa * t * t], terms), mean }.at(0)
             }
-            .at(0),
             Form::Limp => LimpPanel { t: [t] }.at(0),
         }
     }
@@ -259,10 +228,7 @@ impl Form {
         match *self {
             Form::Stiff { c, .. } => {
                 if end == 0 {
-                    return Values {
-                        value: [1.0, 0.0, 0.0],
-                        ..Values::default()
-                    };
+                    return Values { value: [1.0, 0.0, 0.0], ..Values::default() };
                 }
                 Values {
                     value: [c[0], c[1], -c[2]],
@@ -274,11 +240,7 @@ impl Form {
                 // −k e^(−kt) and k e^(−k(1−t)): `near` belongs to the layer of this end
                 let (near, away) = ([k, 1.0, 0.0], [k * far, (1.0 - k) * far, (k - 2.0) * far]);
                 let pick = |d: usize| {
-                    if end == 0 {
-                        [-near[d], away[d]]
-                    } else {
-                        [-away[d], near[d]]
-                    }
+                    if end == 0 { [-near[d], away[d]] } else { [-away[d], near[d]] }
                 };
                 Values {
                     value: [pick(0)[0], pick(0)[1], 1.0],
@@ -286,29 +248,18 @@ impl Form {
                     second: [pick(2)[0], pick(2)[1], 0.0],
                 }
             }
-            Form::Limp => Values {
-                value: [0.0, 0.0, 1.0],
-                ..Values::default()
-            },
+            Form::Limp => Values { value: [0.0, 0.0, 1.0], ..Values::default() },
         }
     }
 
     /// ∫₀ᵗ, value, ∂/∂t and ∂²/∂t² of U, V, G at t.
     pub fn station(&self, t: f64) -> [[f64; 3]; 4] {
         match *self {
-            Form::Stiff {
-                kappa,
-                terms,
-                c: mean,
-            } => {
+            Form::Stiff { kappa, terms, c: mean } => {
                 let (t2, c) = (t * t, entire(kappa * t * t, terms));
                 let (t3, t4) = (t2 * t, t2 * t2);
                 [
-                    [
-                        t2 * c[2] - t * mean[2],
-                        t3 * c[3] - t * mean[3],
-                        t * mean[4] - t4 * c[4],
-                    ],
+                    [t2 * c[2] - t * mean[2], t3 * c[3] - t * mean[3], t * mean[4] - t4 * c[4]],
                     [t * c[1] - mean[2], t2 * c[2] - mean[3], mean[4] - t3 * c[3]],
                     [c[0], t * c[1], -t2 * c[2]],
                     [kappa * t * c[1], c[0], -t * c[1]],
@@ -318,22 +269,15 @@ impl Form {
                 let [near, far] = self.layers(t);
                 let m = mean[0];
                 [
-                    [
-                        (1.0 - near) / k - m * t,
-                        (far - e) / k - m * t,
-                        0.5 * (t * t - t),
-                    ],
+                    [(1.0 - near) / k - m * t, (far - e) / k - m * t, 0.5 * (t * t - t)],
                     [near - m, far - m, t - 0.5],
                     [-k * near, k * far, 1.0],
                     [k * k * near, k * k * far, 0.0],
                 ]
             }
-            Form::Limp => [
-                [0.0, 0.0, 0.5 * (t * t - t)],
-                [0.0, 0.0, t - 0.5],
-                [0.0, 0.0, 1.0],
-                [0.0; 3],
-            ],
+            Form::Limp => {
+                [[0.0, 0.0, 0.5 * (t * t - t)], [0.0, 0.0, t - 0.5], [0.0, 0.0, 1.0], [0.0; 3]]
+            }
         }
     }
 }

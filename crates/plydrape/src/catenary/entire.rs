@@ -4,15 +4,8 @@
 //! without a case for the sign of H. `c_n = 1/n! + y c_{n+2}`, so two series give all nine.
 
 /// 1/n! for n = 0 … 6.
-const INVERSE_FACTORIAL: [f64; 7] = [
-    1.0,
-    1.0,
-    0.5,
-    1.0 / 6.0,
-    1.0 / 24.0,
-    1.0 / 120.0,
-    1.0 / 720.0,
-];
+const INVERSE_FACTORIAL: [f64; 7] =
+    [1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0];
 
 /// Terms of the two series, enough for |y| ≤ 50 to the last digit of c₀.
 const TERMS: usize = 20;
@@ -92,9 +85,7 @@ mod tests {
     /// c₀ = cosh √y = cos √−y, c₁ = sinh √y/√y = sin √−y/√−y.
     #[test]
     fn entire_functions_are_hyperbolic_and_trigonometric() {
-        for y in [
-            -48.0_f64, -39.5, -20.0, -3.0, -1e-3, 0.0, 1e-6, 0.7, 4.0, 11.0, 24.9,
-        ] {
+        for y in [-48.0_f64, -39.5, -20.0, -3.0, -1e-3, 0.0, 1e-6, 0.7, 4.0, 11.0, 24.9] {
             let c = entire(y, terms(y.abs()));
             let r = y.abs().sqrt();
             let (c0, c1) = if y > 0.0 {
@@ -105,16 +96,8 @@ mod tests {
                 (1.0, 1.0)
             };
             // absolute, since they stand in sums with 1; the recurrence multiplies rounding by y⁴/8!
-            assert!(
-                (c[0] - c0).abs() < 1e-13 * c0.abs().max(1.0),
-                "c0({y}) {} {c0}",
-                c[0]
-            );
-            assert!(
-                (c[1] - c1).abs() < 1e-13 * c1.abs().max(1.0),
-                "c1({y}) {} {c1}",
-                c[1]
-            );
+            assert!((c[0] - c0).abs() < 1e-13 * c0.abs().max(1.0), "c0({y}) {} {c0}", c[0]);
+            assert!((c[1] - c1).abs() < 1e-13 * c1.abs().max(1.0), "c1({y}) {} {c1}", c[1]);
         }
     }
 
@@ -130,10 +113,7 @@ mod tests {
                 let second = (slope(&high, n) - slope(&low, n)) / (2.0 * h);
                 let scale = mid[n].abs().max(1e-3);
                 assert!((slope(&mid, n) - first).abs() < 1e-8 * scale, "c{n}'({y})");
-                assert!(
-                    (curvature(&mid, n) - second).abs() < 1e-8 * scale,
-                    "c{n}''({y})"
-                );
+                assert!((curvature(&mid, n) - second).abs() < 1e-8 * scale, "c{n}''({y})");
             }
         }
     }

@@ -38,21 +38,14 @@ pub struct Jet<const N: usize> {
 
 impl<const N: usize> Default for Jet<N> {
     fn default() -> Self {
-        Jet {
-            value: 0.0,
-            gradient: [0.0; N],
-            hessian: [[0.0; N]; N],
-        }
+        Jet { value: 0.0, gradient: [0.0; N], hessian: [[0.0; N]; N] }
     }
 }
 
 impl<const N: usize> Jet<N> {
     /// The same value as a function of the first `M` ≤ `N` variables.
     pub(crate) fn first<const M: usize>(&self) -> Jet<M> {
-        let mut out = Jet {
-            value: self.value,
-            ..Jet::default()
-        };
+        let mut out = Jet { value: self.value, ..Jet::default() };
         for i in 0..M.min(N) {
             out.gradient[i] = self.gradient[i];
             for j in 0..M.min(N) {
@@ -73,10 +66,7 @@ pub struct Chain<const N: usize> {
 
 /// f·g.
 pub(crate) fn product<const N: usize>(f: &Jet<N>, g: &Jet<N>) -> Jet<N> {
-    let mut out = Jet {
-        value: f.value * g.value,
-        ..Jet::default()
-    };
+    let mut out = Jet { value: f.value * g.value, ..Jet::default() };
     for i in 0..N {
         out.gradient[i] = f.gradient[i] * g.value + f.value * g.gradient[i];
         for j in 0..N {
@@ -91,10 +81,7 @@ pub(crate) fn product<const N: usize>(f: &Jet<N>, g: &Jet<N>) -> Jet<N> {
 
 /// f(x) of one variable, from f and its first two derivatives there.
 pub(crate) fn compose<const N: usize>(x: &Jet<N>, f: f64, d1: f64, d2: f64) -> Jet<N> {
-    let mut out = Jet {
-        value: f,
-        ..Jet::default()
-    };
+    let mut out = Jet { value: f, ..Jet::default() };
     for i in 0..N {
         out.gradient[i] = d1 * x.gradient[i];
         for j in 0..N {
@@ -107,20 +94,12 @@ pub(crate) fn compose<const N: usize>(x: &Jet<N>, f: f64, d1: f64, d2: f64) -> J
 /// xᵖ.
 pub(crate) fn power<const N: usize>(x: &Jet<N>, p: f64) -> Jet<N> {
     let v = x.value;
-    compose(
-        x,
-        v.powf(p),
-        p * v.powf(p - 1.0),
-        p * (p - 1.0) * v.powf(p - 2.0),
-    )
+    compose(x, v.powf(p), p * v.powf(p - 1.0), p * (p - 1.0) * v.powf(p - 2.0))
 }
 
 /// A variable itself; one beyond the first N is a constant.
 pub(crate) fn variable<const N: usize>(value: f64, which: Variable) -> Jet<N> {
-    let mut out = Jet {
-        value,
-        ..Jet::default()
-    };
+    let mut out = Jet { value, ..Jet::default() };
     if let Some(slot) = out.gradient.get_mut(which as usize) {
         *slot = 1.0;
     }
@@ -130,11 +109,7 @@ pub(crate) fn variable<const N: usize>(value: f64, which: Variable) -> Jet<N> {
 impl<const N: usize> Chain<N> {
     /// The chain rule at a profile.
     pub fn new(profile: &Profile) -> Chain<N> {
-        let (chi, rho, theta) = if N <= 3 {
-            Self::force_only(profile)
-        } else {
-            Self::all(profile)
-        };
+        let (chi, rho, theta) = if N <= 3 { Self::force_only(profile) } else { Self::all(profile) };
         let mut first = [[0.0; N]; INNER];
         first[0] = chi.gradient;
         first[1] = rho.gradient;
@@ -142,10 +117,7 @@ impl<const N: usize> Chain<N> {
         for (row, which) in [(3, Variable::FirstSlope), (4, Variable::SecondSlope)] {
             first[row][which as usize] = 1.0;
         }
-        Chain {
-            first,
-            second: [chi.hessian, rho.hessian, theta.hessian],
-        }
+        Chain { first, second: [chi.hessian, rho.hessian, theta.hessian] }
     }
 
     /// Derivative of an inner parameter to H.
@@ -188,10 +160,7 @@ impl<const N: usize> Chain<N> {
         let theta = product(&rise, &power(&run, -1.0));
         // q = w √(1+θ²)
         let (t, secant) = (theta.value, theta.value.hypot(1.0));
-        let load = product(
-            &weight,
-            &compose(&theta, secant, t / secant, secant.powi(-3)),
-        );
+        let load = product(&weight, &compose(&theta, secant, t / secant, secant.powi(-3)));
         match profile.form {
             Form::Stiff { .. } => {
                 let compliance = power(&rigidity, -1.0);
@@ -201,17 +170,11 @@ impl<const N: usize> Chain<N> {
             }
             Form::Taut { .. } => {
                 let chi = product(&run, &power(&product(&force, &power(&rigidity, -1.0)), 0.5));
-                (
-                    chi,
-                    product(&product(&load, &run), &power(&force, -1.0)),
-                    theta,
-                )
+                (chi, product(&product(&load, &run), &power(&force, -1.0)), theta)
             }
-            Form::Limp => (
-                Jet::default(),
-                product(&product(&load, &run), &power(&force, -1.0)),
-                theta,
-            ),
+            Form::Limp => {
+                (Jet::default(), product(&product(&load, &run), &power(&force, -1.0)), theta)
+            }
         }
     }
 
@@ -222,10 +185,7 @@ impl<const N: usize> Chain<N> {
         first: &[f64; INNER],
         second: &[[f64; INNER]; INNER],
     ) -> Jet<N> {
-        let mut out = Jet {
-            value,
-            ..Jet::default()
-        };
+        let mut out = Jet { value, ..Jet::default() };
         // columns of the inner Hessian times the chain, then the chain from the other side
         let mut half = [[0.0; N]; INNER];
         for a in 0..INNER {
@@ -275,9 +235,6 @@ impl Profile {
     #[must_use]
     pub fn end_curvature_jet<const N: usize>(&self, end: usize) -> Jet<N> {
         let scaled = Chain::new(self).local(&self.end_curvature_local(&self.response(), end));
-        product(
-            &scaled,
-            &power(&variable(self.span.run, Variable::Run), -1.0),
-        )
+        product(&scaled, &power(&variable(self.span.run, Variable::Run), -1.0))
     }
 }

@@ -4,10 +4,11 @@
 //! `√(1+z'²) − σ − θw/σ = w² / (σ(σ√(1+z'²) + 1 + θz'))`, and w has zero mean: every term is positive
 //! and nothing cancels, however taut the span.
 
-use super::basis::{Panel, Sum, Values};
+use super::basis::Sum;
 use super::jet::{Chain, Jet};
-use super::profile::{INNER, Profile, Response};
+use super::profile::Profile;
 use super::quadrature::{LONG, SHORT, stretches};
+use super::sums::{AllSum, ExcessSum, ToForce, UnknownsSum};
 
 /// Excess of a span's arc length over its chord, per run, with its derivative to H.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,10 +45,7 @@ impl Profile {
             slope: 0.0,
         };
         self.integrate(&mut sum);
-        Excess {
-            value: sum.value,
-            to_force: sum.slope,
-        }
+        Excess { value: sum.value, to_force: sum.slope }
     }
 
     /// Arc length L (m) with derivatives to H and both slopes, and its excess: the solver's inner loop.
@@ -58,26 +56,9 @@ impl Profile {
         let mut sum = UnknownsSum::new(self, &r);
         self.integrate(&mut sum);
         let chi_h = sum.to_force.chi_h;
-        let [
-            excess,
-            to_h,
-            mu,
-            mv,
-            to_hh,
-            mux,
-            mvx,
-            hh,
-            hu,
-            hv,
-            uu,
-            uv,
-            vv,
-        ] = sum.total;
+        let [excess, to_h, mu, mv, to_hh, mux, mvx, hh, hu, hv, uu, uv, vv] = sum.total;
         let run = self.span.run;
-        let mut out = Jet {
-            value: run * (excess + sum.to_force.sigma),
-            ..Jet::default()
-        };
+        let mut out = Jet { value: run * (excess + sum.to_force.sigma), ..Jet::default() };
         out.gradient[0] = run * to_h;
         out.hessian[0][0] = run * (hh + to_hh);
         for i in 0..2 {
@@ -93,13 +74,7 @@ impl Profile {
                 out.hessian[1 + i][1 + j] = run * (a * c * uu + (a * d + b * c) * uv + b * d * vv);
             }
         }
-        (
-            out,
-            Excess {
-                value: excess,
-                to_force: to_h,
-            },
-        )
+        (out, Excess { value: excess, to_force: to_h })
     }
 
     /// Arc length L (m) with derivatives to the first `N` variables.
@@ -127,10 +102,7 @@ impl Profile {
         let relative = chain.outer(sums.excess + self.theta.hypot(1.0), &first, &second);
         // L = ℓ Λ
         let run = self.span.run;
-        let mut out = Jet {
-            value: run * relative.value,
-            ..Jet::default()
-        };
+        let mut out = Jet { value: run * relative.value, ..Jet::default() };
         for i in 0..N {
             out.gradient[i] = run * relative.gradient[i];
             for j in 0..N {
@@ -145,17 +117,11 @@ impl Profile {
                 out.hessian[i][run_slot] += relative.gradient[i];
             }
         }
-        (
-            out,
-            Excess {
-                value: sums.excess,
-                to_force: relative.gradient[0],
-            },
-        )
+        (out, Excess { value: sums.excess, to_force: relative.gradient[0] })
     }
 
-    fn sums(&self) -> Sums {
-        let mut sums = Sums {
+    fn sums(&self) -> AllSum {
+        let mut sums = AllSum {
             profile: *self,
             excess: 0.0,
             mean: [0.0; 5],
@@ -167,294 +133,11 @@ impl Profile {
     }
 }
 
-/// Points that are summed side by side.
-const LANES: usize = 4;
-
-fn total(lanes: [f64; LANES]) -> f64 {
-    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3])
-}
-
-/// ∂z'/∂H = χ_H D + ρ_H G + a U + b V with D = ρ G_χ + α U_χ + β V_χ, and what else a point needs.
-struct ToForce {
-    amplitude: [f64; 2],
-    rho: f64,
-    theta: f64,
-    sigma: f64,
-    chi_h: f64,
-    rho_h: f64,
-    mix: [f64; 2],
-}
-
-impl ToForce {
-    fn new(profile: &Profile, [to_chi, to_rho]: [[f64; 2]; 2]) -> Self {
-        let chain = Chain::<3>::new(profile);
-        let (chi_h, rho_h) = (chain.to_force(0), chain.to_force(1));
-        let mix = [0, 1].map(|n| chi_h * to_chi[n] + rho_h * to_rho[n]);
-        let Profile {
-            amplitude,
-            rho,
-            theta,
-            ..
-        } = *profile;
-        ToForce {
-            amplitude,
-            rho,
-            theta,
-            sigma: theta.hypot(1.0),
-            chi_h,
-            rho_h,
-            mix,
-        }
-    }
-
-    /// ρ, α, β times G, U, V or their derivatives.
-    #[inline(always)]
-    fn combine(&self, [u, v, g]: [f64; 3]) -> f64 {
-        self.rho * g + self.amplitude[0] * u + self.amplitude[1] * v
-    }
-
-    /// ∂z'/∂H.
-    #[inline(always)]
-    fn slope(&self, at: &Values, drift: f64) -> f64 {
-        let [u, v, g] = at.value;
-        self.chi_h * drift + self.rho_h * g + self.mix[0] * u + self.mix[1] * v
-    }
-}
-
-/// ∫√(1+z'²) − σ and its derivative to H.
-struct ExcessSum {
-    to_force: ToForce,
-    value: f64,
-    slope: f64,
-}
-
-impl Sum for ExcessSum {
-    #[inline]
-    fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel) {
-        let c = &self.to_force;
-        let mut sums = [[0.0; LANES]; 2];
-        for chunk in (0..P).step_by(LANES) {
-            for lane in 0..LANES {
-                let at = panel.at(chunk + lane);
-                let w = c.combine(at.value);
-                let w_h = c.slope(&at, c.combine(at.first));
-                let slope = c.theta + w;
-                let r = (1.0 + slope * slope).sqrt();
-                // one division for both terms
-                let d = c.sigma * (c.sigma * r + 1.0 + c.theta * slope);
-                let both = weights[chunk + lane] / (d * r);
-                sums[0][lane] += both * w * w * r;
-                sums[1][lane] += both * d * slope * w_h;
-            }
-        }
-        self.value += scale * total(sums[0]);
-        self.slope += scale * total(sums[1]);
-    }
-}
-
-/// Integrals of the inner loop, in this order: the excess; z'/√(1+z'²) times z'_H, U, V, z'_HH, U_χ, V_χ;
-/// (1+z'²)^(−3/2) times the products of z'_H, U, V.
-struct UnknownsSum {
-    to_force: ToForce,
-    /// Factors of D_χ, D, U_χ, V_χ, G_χ, G, U, V in z'_HH.
-    second: [f64; 8],
-    total: [f64; 13],
-}
-
-impl UnknownsSum {
-    fn new(profile: &Profile, r: &Response) -> Self {
-        let chain = Chain::<3>::new(profile);
-        let to_force = ToForce::new(profile, [r.first[0], r.first[1]]);
-        let (chi, rho) = (to_force.chi_h, to_force.rho_h);
-        let (chi2, rho2) = (chain.second_to_force(0), chain.second_to_force(1));
-        let direct = |n: usize| {
-            chi * chi * r.second[0][n]
-                + 2.0 * chi * rho * r.second[1][n]
-                + chi2 * r.first[0][n]
-                + rho2 * r.first[1][n]
-        };
-        let [a, b] = to_force.mix;
-        let second = [
-            chi * chi,
-            chi2,
-            2.0 * chi * a,
-            2.0 * chi * b,
-            2.0 * chi * rho,
-            rho2,
-            direct(0),
-            direct(1),
-        ];
-        UnknownsSum {
-            to_force,
-            second,
-            total: [0.0; 13],
-        }
-    }
-}
-
-impl Sum for UnknownsSum {
-    #[inline]
-    fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel) {
-        let (c, k) = (&self.to_force, &self.second);
-        let mut sums = [[0.0; LANES]; 13];
-        for chunk in (0..P).step_by(LANES) {
-            for lane in 0..LANES {
-                let at = panel.at(chunk + lane);
-                let ([u, v, g], [ux, vx, gx]) = (at.value, at.first);
-                let w = c.combine(at.value);
-                let drift = c.combine(at.first);
-                let w_h = c.slope(&at, drift);
-                let w_hh = k[0] * c.combine(at.second)
-                    + k[1] * drift
-                    + k[2] * ux
-                    + k[3] * vx
-                    + k[4] * gx
-                    + k[5] * g
-                    + k[6] * u
-                    + k[7] * v;
-                let slope = c.theta + w;
-                let square = 1.0 + slope * slope;
-                let r = square.sqrt();
-                let d = c.sigma * (c.sigma * r + 1.0 + c.theta * slope);
-                let both = weights[chunk + lane] / (d * r * square);
-                let stretch = both * d;
-                let tilt = stretch * square * slope;
-                let (h, su, sv) = (stretch * w_h, stretch * u, stretch * v);
-                sums[0][lane] += both * w * w * r * square;
-                sums[1][lane] += tilt * w_h;
-                sums[2][lane] += tilt * u;
-                sums[3][lane] += tilt * v;
-                sums[4][lane] += tilt * w_hh;
-                sums[5][lane] += tilt * ux;
-                sums[6][lane] += tilt * vx;
-                sums[7][lane] += h * w_h;
-                sums[8][lane] += h * u;
-                sums[9][lane] += h * v;
-                sums[10][lane] += su * u;
-                sums[11][lane] += su * v;
-                sums[12][lane] += sv * v;
-            }
-        }
-        for n in 0..13 {
-            self.total[n] += scale * total(sums[n]);
-        }
-    }
-}
-
-/// Integrals over a span from which all derivatives of its length follow.
-struct Sums {
-    profile: Profile,
-    /// ∫√(1+z'²) − σ.
-    excess: f64,
-    /// ∫ z'/√(1+z'²) f for f = 1, U, V, G and D = ρG_χ + αU_χ + βV_χ.
-    mean: [f64; 5],
-    /// The same for U_χ, V_χ, G_χ and D_χ at fixed ρ, α, β.
-    mean_chi: [f64; 4],
-    /// ∫ f g /(1+z'²)^(3/2) for the five functions, lower half.
-    gram: [[f64; 5]; 5],
-}
-
-impl Sum for Sums {
-    fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel) {
-        let Profile {
-            amplitude: [alpha, beta],
-            rho,
-            theta,
-            ..
-        } = self.profile;
-        let sigma = theta.hypot(1.0);
-        let combine = |[u, v, g]: [f64; 3]| rho * g + alpha * u + beta * v;
-        for p in 0..P {
-            let at = panel.at(p);
-            let ([u, v, g], [ux, vx, gx]) = (at.value, at.first);
-            let w = combine(at.value);
-            let slope = theta + w;
-            let r = slope.hypot(1.0);
-            let weight = scale * weights[p];
-            self.excess += weight * w * w / (sigma * (sigma * r + 1.0 + theta * slope));
-            let (tilt, stretch) = (weight * slope / r, weight / (r * r * r));
-            let f = [1.0, u, v, g, combine(at.first)];
-            let others = [ux, vx, gx, combine(at.second)];
-            for (mean, f) in self.mean.iter_mut().zip(f) {
-                *mean += tilt * f;
-            }
-            for (mean, f) in self.mean_chi.iter_mut().zip(others) {
-                *mean += tilt * f;
-            }
-            for i in 0..5 {
-                for j in 0..=i {
-                    self.gram[i][j] += stretch * f[i] * f[j];
-                }
-            }
-        }
-    }
-}
-
-impl Sums {
-    /// First and second derivatives of Λ to the inner parameters.
-    fn derivatives(&self, r: &Response) -> ([f64; INNER], [[f64; INNER]; INNER]) {
-        // z'_y as a combination of 1, U, V, G, D
-        let mut weights = [[0.0; 5]; INNER];
-        for y in 0..INNER {
-            weights[y][1] = r.first[y][0];
-            weights[y][2] = r.first[y][1];
-        }
-        weights[0][4] = 1.0;
-        weights[1][3] = 1.0;
-        weights[2][0] = 1.0;
-        let mut first = [0.0; INNER];
-        for y in 0..INNER {
-            first[y] = (0..5).map(|n| weights[y][n] * self.mean[n]).sum();
-        }
-        let gram = |i: usize, j: usize| {
-            if i >= j {
-                self.gram[i][j]
-            } else {
-                self.gram[j][i]
-            }
-        };
-        let mut second = [[0.0; INNER]; INNER];
-        for x in 0..INNER {
-            let row: [f64; 5] =
-                std::array::from_fn(|n| (0..5).map(|m| weights[x][m] * gram(m, n)).sum());
-            for y in 0..=x {
-                let sum: f64 = (0..5).map(|n| row[n] * weights[y][n]).sum();
-                second[x][y] = sum;
-                second[y][x] = sum;
-            }
-        }
-        // z' z'_{χy}/√(1+z'²)
-        let [ux, vx, gx, dx] = self.mean_chi;
-        for y in 0..INNER {
-            let mut sum = r.second[y][0] * self.mean[1]
-                + r.second[y][1] * self.mean[2]
-                + r.first[y][0] * ux
-                + r.first[y][1] * vx;
-            match y {
-                0 => sum += r.first[0][0] * ux + r.first[0][1] * vx + dx,
-                1 => sum += gx,
-                _ => {}
-            }
-            second[0][y] += sum;
-            if y > 0 {
-                second[y][0] += sum;
-            }
-        }
-        (first, second)
-    }
-}
-
 impl Profile {
     /// Arc length from the first end to the horizontal distance `x` (m) from it (m).
     #[must_use]
     pub fn length_to(&self, x: f64) -> f64 {
-        let Profile {
-            span,
-            theta,
-            rho,
-            amplitude,
-            ..
-        } = *self;
+        let Profile { span, theta, rho, amplitude, .. } = *self;
         let end = (x / span.run).clamp(0.0, 1.0);
         let mut sum = 0.0;
         for stretch in stretches(self).iter() {
@@ -485,13 +168,8 @@ mod tests {
     #[test]
     fn both_kernels_agree() {
         let ends = [EndCondition::Free, EndCondition::Slope(0.3)];
-        for (rigidity, force) in [
-            (0.0, 0.4),
-            (9e-6, 0.4),
-            (9e-6, 300.0),
-            (1e-2, -3.0),
-            (1e-3, 0.0),
-        ] {
+        for (rigidity, force) in [(0.0, 0.4), (9e-6, 0.4), (9e-6, 300.0), (1e-2, -3.0), (1e-3, 0.0)]
+        {
             for (first, second) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let span = Span {
                     run: 0.098,

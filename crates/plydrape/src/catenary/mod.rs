@@ -13,6 +13,7 @@ mod profile;
 mod quadrature;
 mod shape;
 mod solve;
+mod sums;
 
 pub use jet::{Jet, Variable};
 pub(crate) use jet::{compose, power, product, variable};

@@ -49,10 +49,7 @@ pub struct Local {
 }
 
 fn apply(m: &[[f64; 2]; 2], v: [f64; 2]) -> [f64; 2] {
-    [
-        m[0][0] * v[0] + m[0][1] * v[1],
-        m[1][0] * v[0] + m[1][1] * v[1],
-    ]
+    [m[0][0] * v[0] + m[0][1] * v[1], m[1][0] * v[0] + m[1][1] * v[1]]
 }
 
 impl Profile {
@@ -70,16 +67,7 @@ impl Profile {
         if matches!(form, Form::Limp) {
             let rows = [Values::default(); 2];
             let (inverse, amplitude) = ([[0.0; 2]; 2], [0.0; 2]);
-            return Profile {
-                span: *span,
-                force,
-                form,
-                rho,
-                theta,
-                amplitude,
-                inverse,
-                rows,
-            };
+            return Profile { span: *span, force, form, rho, theta, amplitude, inverse, rows };
         }
         // a free end: z'' = 0; a held one: z' = s
         let mut rows = [Values::default(); 2];
@@ -96,26 +84,12 @@ impl Profile {
                 }
             }
         }
-        let ([a, b], [c, d]) = (
-            [rows[0].value[0], rows[0].value[1]],
-            [rows[1].value[0], rows[1].value[1]],
-        );
+        let ([a, b], [c, d]) =
+            ([rows[0].value[0], rows[0].value[1]], [rows[1].value[0], rows[1].value[1]]);
         let determinant = a * d - b * c;
-        let inverse = [
-            [d / determinant, -b / determinant],
-            [-c / determinant, a / determinant],
-        ];
+        let inverse = [[d / determinant, -b / determinant], [-c / determinant, a / determinant]];
         let amplitude = apply(&inverse, right);
-        Profile {
-            span: *span,
-            force,
-            form,
-            rho,
-            theta,
-            amplitude,
-            inverse,
-            rows,
-        }
+        Profile { span: *span, force, form, rho, theta, amplitude, inverse, rows }
     }
 
     fn is_held(&self, end: usize) -> bool {
@@ -188,11 +162,7 @@ impl Profile {
         for n in 2..INNER {
             second[n] += drift(r.first[n]);
         }
-        Local {
-            value: unit * self.theta + combine(&basis.value),
-            first,
-            second,
-        }
+        Local { value: unit * self.theta + combine(&basis.value), first, second }
     }
 
     /// Slope z' at an end, with derivatives.

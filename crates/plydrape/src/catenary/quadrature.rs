@@ -194,12 +194,7 @@ impl Stretches {
         }
         // a slope of thousands is a fold that no quadrature needs to resolve
         let panels = (sweep / SWEEP).ceil().clamp(1.0, 256.0) as usize;
-        self.list[self.count] = Stretch {
-            start,
-            end,
-            panels,
-            short: false,
-        };
+        self.list[self.count] = Stretch { start, end, panels, short: false };
         self.count += 1;
     }
 
@@ -234,11 +229,7 @@ pub fn stretches(profile: &Profile) -> Stretches {
     for (cut, width) in cuts[1..].iter_mut().zip(GRADES) {
         *cut = (width / k).min(0.5);
     }
-    let first = if amplitude <= WEAK_LAYER {
-        GRADES.len() - 1
-    } else {
-        0
-    };
+    let first = if amplitude <= WEAK_LAYER { GRADES.len() - 1 } else { 0 };
     cuts[first] = 0.0;
     let layer = &cuts[first..];
     let sweep = |a: f64, b: f64| amplitude * (-k * a).exp() + rho * (b - a);
@@ -261,9 +252,7 @@ fn fastest_sweep(profile: &Profile) -> f64 {
         profile.rho * g + alpha * u + beta * v
     };
     let slopes: [f64; 9] = std::array::from_fn(slope);
-    8.0 * (1..9)
-        .map(|n| (slopes[n] - slopes[n - 1]).abs())
-        .fold(0.0, f64::max)
+    8.0 * (1..9).map(|n| (slopes[n] - slopes[n - 1]).abs()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -21,11 +21,7 @@ impl Profile {
     /// The span at a horizontal distance `x` (m) from its first end, within [0, ℓ].
     #[must_use]
     pub fn station(&self, x: f64) -> Station {
-        let Span {
-            run,
-            flexural_rigidity,
-            ..
-        } = self.span;
+        let Span { run, flexural_rigidity, .. } = self.span;
         let [integral, slope, curvature, third] = self.form.station(x / run);
         let combine =
             |f: [f64; 3]| self.amplitude[0] * f[0] + self.amplitude[1] * f[1] + self.rho * f[2];
@@ -50,13 +46,8 @@ impl Profile {
         // the best of a grid, then golden sections around it
         const GRID: usize = 64;
         let at = |n: usize| run * n as f64 / GRID as f64;
-        let best = (0..=GRID).fold(0, |best, n| {
-            if depth(at(n)) > depth(at(best)) {
-                n
-            } else {
-                best
-            }
-        });
+        let best =
+            (0..=GRID).fold(0, |best, n| if depth(at(n)) > depth(at(best)) { n } else { best });
         let (mut a, mut b) = (at(best.saturating_sub(1)), at((best + 1).min(GRID)));
         let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
         while b - a > 1e-9 * run {
@@ -64,10 +55,6 @@ impl Profile {
             if depth(c) > depth(d) { b = d } else { a = c }
         }
         let x = 0.5 * (a + b);
-        if depth(x) > 0.0 {
-            (depth(x), x)
-        } else {
-            (0.0, 0.0)
-        }
+        if depth(x) > 0.0 { (depth(x), x) } else { (0.0, 0.0) }
     }
 }

@@ -61,10 +61,7 @@ impl Span {
     pub fn state(&self) -> SpanState {
         // a chord that equals the length but for rounding is taut, not hanging
         let slack = self.length - self.chord();
-        match (
-            slack > 1e-13 * self.length,
-            self.axial_stiffness.is_infinite(),
-        ) {
+        match (slack > 1e-13 * self.length, self.axial_stiffness.is_infinite()) {
             (true, _) => SpanState::Hanging,
             (false, true) => SpanState::Straight,
             (false, false) if slack < 0.0 => SpanState::Overstretched,
@@ -102,18 +99,11 @@ impl Span {
     pub fn solve(&self, guess: Option<f64>) -> Root {
         let state = self.state();
         if state == SpanState::Straight {
-            return Root {
-                force: None,
-                state,
-                evaluations: 0,
-                residual: 0.0,
-            };
+            return Root { force: None, state, evaluations: 0, residual: 0.0 };
         }
         let goal = self.goal();
         let (mut low, mut high) = (self.lowest_force(goal), f64::INFINITY);
-        let mut force = guess
-            .filter(|h| *h > low)
-            .unwrap_or_else(|| self.first_guess());
+        let mut force = guess.filter(|h| *h > low).unwrap_or_else(|| self.first_guess());
         if !(force > low && force.is_finite()) {
             force = step_up(low, low);
         }
@@ -132,45 +122,21 @@ impl Span {
             let falls = excess.to_force < 0.0 && next.is_finite();
             if !(falls && next > low && next < high) {
                 if falls && (next - force).abs() <= SMALL_STEP * (force - self.buckling_force()) {
-                    return Root {
-                        force: Some(force),
-                        state,
-                        evaluations,
-                        residual,
-                    };
+                    return Root { force: Some(force), state, evaluations, residual };
                 }
-                next = if high.is_infinite() {
-                    step_up(force, low)
-                } else {
-                    0.5 * (low + high)
-                };
+                next = if high.is_infinite() { step_up(force, low) } else { 0.5 * (low + high) };
                 if next <= low || next >= high {
                     // the bracket has closed to neighbouring numbers
-                    return Root {
-                        force: Some(force),
-                        state,
-                        evaluations,
-                        residual,
-                    };
+                    return Root { force: Some(force), state, evaluations, residual };
                 }
             } else if (next - force).abs() <= SMALL_STEP * (next - self.buckling_force()) {
                 // quadratic convergence: the error of `next` is the square of this step
                 let error = residual * SMALL_STEP;
-                return Root {
-                    force: Some(next),
-                    state,
-                    evaluations,
-                    residual: error,
-                };
+                return Root { force: Some(next), state, evaluations, residual: error };
             }
             force = next;
         }
-        Root {
-            force: Some(force),
-            state,
-            evaluations: MAX_EVALUATIONS,
-            residual,
-        }
+        Root { force: Some(force), state, evaluations: MAX_EVALUATIONS, residual }
     }
 }
 

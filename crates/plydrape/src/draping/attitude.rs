@@ -40,11 +40,7 @@ fn slope(solver: &Solver, gripper: usize, direction: usize) -> Option<f64> {
 /// Horizontal unit vector of the line through a gripper along a direction.
 fn heading(grid: Grid, positions: &[Point], gripper: usize, direction: usize) -> Option<[f64; 2]> {
     let [i, j] = grid.id(gripper);
-    let (index, count) = if direction == 0 {
-        (i, grid.nu)
-    } else {
-        (j, grid.nv)
-    };
+    let (index, count) = if direction == 0 { (i, grid.nu) } else { (j, grid.nv) };
     let at = |k: usize| positions[grid.index(if direction == 0 { [k, j] } else { [i, k] })];
     let (a, b) = (at(index.saturating_sub(1)), at((index + 1).min(count - 1)));
     let delta = [b[0] - a[0], b[1] - a[1]];
@@ -53,11 +49,7 @@ fn heading(grid: Grid, positions: &[Point], gripper: usize, direction: usize) ->
 }
 
 fn cross(a: Point, b: Point) -> Point {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn unit(a: Point) -> Option<Point> {
@@ -86,20 +78,11 @@ pub fn attitude(
     let y = cross(normal, x);
     let mut quaternion = quaternion([x, y, normal]);
     if let Some(before) = before
-        && quaternion
-            .iter()
-            .zip(before)
-            .map(|(a, b)| a * b)
-            .sum::<f64>()
-            < 0.0
+        && quaternion.iter().zip(before).map(|(a, b)| a * b).sum::<f64>() < 0.0
     {
         quaternion = quaternion.map(|c| -c);
     }
-    Attitude {
-        slope,
-        tilt: normal[2].clamp(-1.0, 1.0).acos(),
-        quaternion,
-    }
+    Attitude { slope, tilt: normal[2].clamp(-1.0, 1.0).acos(), quaternion }
 }
 
 /// Unit quaternion (x, y, z, w) of the rotation whose columns are the given axes.
@@ -108,26 +91,11 @@ fn quaternion([x, y, z]: [Point; 3]) -> [f64; 4] {
     let q = if trace > 0.0 {
         [y[2] - z[1], z[0] - x[2], x[1] - y[0], 1.0 + trace]
     } else if x[0] >= y[1] && x[0] >= z[2] {
-        [
-            1.0 + x[0] - y[1] - z[2],
-            y[0] + x[1],
-            z[0] + x[2],
-            y[2] - z[1],
-        ]
+        [1.0 + x[0] - y[1] - z[2], y[0] + x[1], z[0] + x[2], y[2] - z[1]]
     } else if y[1] >= z[2] {
-        [
-            y[0] + x[1],
-            1.0 + y[1] - x[0] - z[2],
-            z[1] + y[2],
-            z[0] - x[2],
-        ]
+        [y[0] + x[1], 1.0 + y[1] - x[0] - z[2], z[1] + y[2], z[0] - x[2]]
     } else {
-        [
-            z[0] + x[2],
-            z[1] + y[2],
-            1.0 + z[2] - x[0] - y[1],
-            x[1] - y[0],
-        ]
+        [z[0] + x[2], z[1] + y[2], 1.0 + z[2] - x[0] - y[1], x[1] - y[0]]
     };
     let length = q.iter().map(|c| c * c).sum::<f64>().sqrt();
     q.map(|c| c / length)
@@ -153,21 +121,9 @@ mod tests {
         for axes in cases {
             let [x, y, z, w] = quaternion(axes);
             let turned = [
-                [
-                    1.0 - 2.0 * (y * y + z * z),
-                    2.0 * (x * y + z * w),
-                    2.0 * (x * z - y * w),
-                ],
-                [
-                    2.0 * (x * y - z * w),
-                    1.0 - 2.0 * (x * x + z * z),
-                    2.0 * (y * z + x * w),
-                ],
-                [
-                    2.0 * (x * z + y * w),
-                    2.0 * (y * z - x * w),
-                    1.0 - 2.0 * (x * x + y * y),
-                ],
+                [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
+                [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
+                [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
             ];
             for (a, b) in turned.iter().flatten().zip(axes.iter().flatten()) {
                 assert!((a - b).abs() < 1e-15, "{axes:?} {turned:?}");

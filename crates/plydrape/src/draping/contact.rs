@@ -74,17 +74,9 @@ fn runs(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Vec<Run> {
     for n in 0..samples.len() {
         let (t, d) = samples[n];
         if d < tolerance {
-            let from = if n == 0 {
-                0.0
-            } else {
-                crossing(&distance, samples[n - 1].0, t, tolerance)
-            };
-            let run = open.get_or_insert(Run {
-                from,
-                to: t,
-                deepest: t,
-                depth: d,
-            });
+            let from =
+                if n == 0 { 0.0 } else { crossing(&distance, samples[n - 1].0, t, tolerance) };
+            let run = open.get_or_insert(Run { from, to: t, deepest: t, depth: d });
             run.to = t;
             if d < run.depth {
                 (run.deepest, run.depth) = (t, d);
@@ -111,11 +103,7 @@ fn minimum(
         let vertex = m - 0.5 * ((m - a) * p - (m - b) * q) / (p - q);
         // a parabola that degenerates: the wider half is cut instead
         let inside = vertex > a && vertex < b;
-        let wider = if b - m > m - a {
-            0.5 * (m + b)
-        } else {
-            0.5 * (a + m)
-        };
+        let wider = if b - m > m - a { 0.5 * (m + b) } else { 0.5 * (a + m) };
         let next = if inside { vertex } else { wider };
         if (next - m).abs() < 1e-9 {
             break;
@@ -163,10 +151,7 @@ fn crossing(distance: &impl Fn(f64) -> f64, outside: f64, inside: f64, level: f6
 
 /// Largest gap between two fractions of a span.
 fn largest_gap(span: &FreeSpan, mold: &Mold, from: f64, to: f64) -> Bridge {
-    let mut worst = Bridge {
-        place: span.point(from),
-        gap: 0.0,
-    };
+    let mut worst = Bridge { place: span.point(from), gap: 0.0 };
     for n in 0..=STATIONS {
         let place = span.point(from + (to - from) * n as f64 / STATIONS as f64);
         let gap = mold.signed_distance(place);
@@ -218,11 +203,8 @@ pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
         .iter()
         .filter(|other| *other != run)
         .map(|other| {
-            let (a, b) = if other.to < run.from {
-                (other.to, run.from)
-            } else {
-                (run.to, other.from)
-            };
+            let (a, b) =
+                if other.to < run.from { (other.to, run.from) } else { (run.to, other.from) };
             largest_gap(span, mold, a, b)
         })
         .max_by(|a, b| a.gap.total_cmp(&b.gap));
@@ -233,10 +215,7 @@ pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
         normal: point.map(|p| mold.normal(p)),
         lying: [held_first && held_last; 2],
     };
-    Look {
-        laid: Some(laid),
-        bridge,
-    }
+    Look { laid: Some(laid), bridge }
 }
 
 /// Looks at a rest of a catenary that the mold has caught before.
@@ -245,11 +224,7 @@ pub fn next_touch(span: &FreeSpan, laid: &Laid, mold: &Mold, contact: &Contact) 
     let rest = span.rest;
     // the contact end: the second end of the first rest, the first end of the second
     let at_contact = |run: &&Run| {
-        if rest == 0 {
-            run.to >= 1.0
-        } else {
-            run.from <= 0.0
-        }
+        if rest == 0 { run.to >= 1.0 } else { run.from <= 0.0 }
     };
     let Some(run) = runs.iter().find(at_contact) else {
         return Look::default();
@@ -260,11 +235,7 @@ pub fn next_touch(span: &FreeSpan, laid: &Laid, mold: &Mold, contact: &Contact) 
             .iter()
             .filter(|other| *other != run)
             .map(|other| {
-                let (a, b) = if rest == 0 {
-                    (other.to, run.from)
-                } else {
-                    (run.to, other.from)
-                };
+                let (a, b) = if rest == 0 { (other.to, run.from) } else { (run.to, other.from) };
                 largest_gap(span, mold, a, b)
             })
             .max_by(|a, b| a.gap.total_cmp(&b.gap)),

@@ -13,9 +13,7 @@ pub const STATIONS: usize = 11;
 
 /// The points of a span as it hangs (m).
 pub fn hanging(span: &FreeSpan) -> Vec<Point> {
-    (0..STATIONS)
-        .map(|n| span.point(n as f64 / (STATIONS - 1) as f64))
-        .collect()
+    (0..STATIONS).map(|n| span.point(n as f64 / (STATIONS - 1) as f64)).collect()
 }
 
 /// For each cell whose diagonals hang whole and miss each other: the lower one's index among `spans`
@@ -49,10 +47,7 @@ pub fn lowered(
 /// Where two spans cross in plan, as fractions of their runs; none if they do not.
 fn crossing(a: &FreeSpan, b: &FreeSpan) -> Option<[f64; 2]> {
     let [p, q] = [a, b].map(|s| s.ends);
-    let (u, v) = (
-        [p[1][0] - p[0][0], p[1][1] - p[0][1]],
-        [q[1][0] - q[0][0], q[1][1] - q[0][1]],
-    );
+    let (u, v) = ([p[1][0] - p[0][0], p[1][1] - p[0][1]], [q[1][0] - q[0][0], q[1][1] - q[0][1]]);
     let w = [q[0][0] - p[0][0], q[0][1] - p[0][1]];
     let determinant = u[1] * v[0] - u[0] * v[1];
     if determinant.abs() <= 1e-9 * u[0].hypot(u[1]) * v[0].hypot(v[1]) {
@@ -69,17 +64,8 @@ fn through(scene: &Scene, span: &FreeSpan, at: f64, meet: Point) -> Vec<Point> {
     let lengths = [span.arc(at), span.length - span.arc(at)];
     let section = scene.ply.line(scene.ply.grid.catenary(span.catenary).kind);
     let halves = [0, 1].map(|n| {
-        let ends = if n == 0 {
-            [span.ends[0], meet]
-        } else {
-            [meet, span.ends[1]]
-        };
-        let mut half = FreeSpan {
-            ends,
-            length: lengths[n],
-            profile: None,
-            ..span.clone()
-        };
+        let ends = if n == 0 { [span.ends[0], meet] } else { [meet, span.ends[1]] };
+        let mut half = FreeSpan { ends, length: lengths[n], profile: None, ..span.clone() };
         let mut hold = [EndCondition::Free; 2];
         if span.prescribed[n] {
             hold[n] = EndCondition::Slope(span.slopes[n]);
@@ -94,21 +80,14 @@ fn through(scene: &Scene, span: &FreeSpan, at: f64, meet: Point) -> Vec<Point> {
             axial_stiffness: scene.settings.axial_stiffness,
         };
         if span.profile.is_some() {
-            half.profile = problem
-                .solve(None)
-                .force
-                .map(|force| Profile::new(&problem, force));
+            half.profile = problem.solve(None).force.map(|force| Profile::new(&problem, force));
         }
         half
     });
     (0..STATIONS)
         .map(|n| {
             let t = n as f64 / (STATIONS - 1) as f64;
-            if t <= at {
-                halves[0].point(t / at)
-            } else {
-                halves[1].point((t - at) / (1.0 - at))
-            }
+            if t <= at { halves[0].point(t / at) } else { halves[1].point((t - at) / (1.0 - at)) }
         })
         .collect()
 }

@@ -29,21 +29,13 @@ impl Fit {
     pub fn slack(&self) -> f64 {
         // what rounding leaves of a taut line is none
         let slack = self.length - self.path;
-        if slack > 1e-12 * self.length {
-            slack
-        } else {
-            0.0
-        }
+        if slack > 1e-12 * self.length { slack } else { 0.0 }
     }
 
     /// Slack as a share of the fabric length.
     #[must_use]
     pub fn slack_ratio(&self) -> f64 {
-        if self.length > 0.0 {
-            self.slack() / self.length
-        } else {
-            0.0
-        }
+        if self.length > 0.0 { self.slack() / self.length } else { 0.0 }
     }
 
     /// Amplitude of the wrinkle that the slack makes (m): (2/π)√(path·slack), a shallow sine.
@@ -56,11 +48,7 @@ impl Fit {
     #[must_use]
     pub fn overstretch(&self) -> f64 {
         let excess = self.path - self.length;
-        if excess > 1e-12 * self.path {
-            excess
-        } else {
-            0.0
-        }
+        if excess > 1e-12 * self.path { excess } else { 0.0 }
     }
 }
 
@@ -71,11 +59,7 @@ fn middle(a: Point, b: Point) -> Point {
 /// How a free span fits between its ends.
 pub fn fit(span: &FreeSpan) -> Fit {
     let [a, b] = span.ends;
-    Fit {
-        length: span.length,
-        path: span.chord(),
-        place: middle(a, b),
-    }
+    Fit { length: span.length, path: span.chord(), place: middle(a, b) }
 }
 
 /// How the rests of a catenary that do not hang fit: those that lie, and those of no length whose
@@ -100,47 +84,23 @@ pub fn fits_laid(
     if laid.is_whole() {
         let [a, b] = grippers;
         let both = stands(a) && stands(b);
-        let path = if both {
-            along(a, mold.closest_point(b))
-        } else {
-            distance(a, b)
-        };
-        return vec![(
-            None,
-            Fit {
-                length: laid.length,
-                path,
-                place: middle(a, b),
-            },
-        )];
+        let path = if both { along(a, mold.closest_point(b)) } else { distance(a, b) };
+        return vec![(None, Fit { length: laid.length, path, place: middle(a, b) })];
     }
     (0..2)
         .filter(|&rest| !laid.hangs(rest))
         .map(|rest| {
             let (gripper, point) = (grippers[rest], laid.point[rest]);
-            let path = if laid.lying[rest] {
-                along(gripper, point)
-            } else {
-                distance(gripper, point)
-            };
-            (
-                Some(rest),
-                Fit {
-                    length: laid.rest(rest),
-                    path,
-                    place: middle(gripper, point),
-                },
-            )
+            let path =
+                if laid.lying[rest] { along(gripper, point) } else { distance(gripper, point) };
+            (Some(rest), Fit { length: laid.rest(rest), path, place: middle(gripper, point) })
         })
         .collect()
 }
 
 /// Fabric length of a catenary that lies on the mold (m).
 pub fn lying_length(laid: &Laid) -> f64 {
-    let rests: f64 = (0..2)
-        .filter(|&r| laid.lying[r])
-        .map(|r| laid.rest(r))
-        .sum();
+    let rests: f64 = (0..2).filter(|&r| laid.lying[r]).map(|r| laid.rest(r)).sum();
     laid.arc[1] - laid.arc[0] + rests
 }
 
@@ -167,10 +127,7 @@ pub fn landing_errors(scene: &Scene, catenary: usize, laid: &Laid) -> Option<[f6
 pub fn name(scene: &Scene, catenary: usize) -> String {
     let c = scene.ply.grid.catenary(catenary);
     let kind = if c.kind.is_edge() { "edge" } else { "diagonal" };
-    format!(
-        "{kind} [{},{}]–[{},{}]",
-        c.from[0], c.from[1], c.to[0], c.to[1]
-    )
+    format!("{kind} [{},{}]–[{},{}]", c.from[0], c.from[1], c.to[0], c.to[1])
 }
 
 /// Collects the worst of a measure; words are made only for what is worst.
@@ -181,10 +138,7 @@ struct Most<K> {
 
 impl<K> Default for Most<K> {
     fn default() -> Self {
-        Most {
-            value: 0.0,
-            key: None,
-        }
+        Most { value: 0.0, key: None }
     }
 }
 
@@ -198,11 +152,7 @@ impl<K> Most<K> {
 
     fn worst(self, unit: f64, words: impl Fn(K) -> String) -> Option<Worst> {
         let Most { value, key } = self;
-        key.map(|(key, place)| Worst {
-            value: value / unit,
-            at: words(key),
-            place,
-        })
+        key.map(|(key, place)| Worst { value: value / unit, at: words(key), place })
     }
 }
 
@@ -236,9 +186,7 @@ pub fn measures(
         }
     };
     for span in &snapshot.shape.spans {
-        let whole = snapshot.laid[span.catenary]
-            .as_ref()
-            .map_or(span.length, |laid| laid.length);
+        let whole = snapshot.laid[span.catenary].as_ref().map_or(span.length, |laid| laid.length);
         judge(span.catenary, whole, &fit(span));
     }
     let (mut lying, mut total) = (0.0, 0.0);
@@ -301,51 +249,35 @@ pub fn measures(
         format!("gripper [{i},{j}]")
     };
     let has_mold = scene.mold.is_some();
-    let nothing = |at: &str| Worst {
-        value: 0.0,
-        at: at.into(),
-        place: [0.0; 3],
-    };
+    let nothing = |at: &str| Worst { value: 0.0, at: at.into(), place: [0.0; 3] };
     Measures {
         slack_mm: slack.worst(MM, catenary),
         slack_ratio: ratio.worst(1.0, catenary),
         wrinkle_mm: wrinkle.worst(MM, catenary),
         overstretch: stretch_share.worst(1.0, catenary),
         overstretch_mm: stretch.worst(MM, catenary),
-        bridging_mm: bridging
-            .worst(MM, catenary)
-            .or(has_mold.then(|| nothing("nowhere"))),
-        shear_deg: shear.worst(1.0, |n: usize| {
-            format!("cell [{},{}]", n % (grid.nu - 1), n / (grid.nu - 1))
-        }),
+        bridging_mm: bridging.worst(MM, catenary).or(has_mold.then(|| nothing("nowhere"))),
+        shear_deg: shear
+            .worst(1.0, |n: usize| format!("cell [{},{}]", n % (grid.nu - 1), n / (grid.nu - 1))),
         tilt_deg: tilt.worst(1.0, gripper),
         force_n: force.worst(1.0, catenary),
         landing_error_mm: landing.worst(MM, |landed| match landed {
             Landed::Catenary(n) => catenary(n),
             Landed::Gripper(n) => gripper(n),
         }),
-        gap_mm: gap
-            .worst(MM, catenary)
-            .or(has_mold.then(|| nothing("nowhere"))),
+        gap_mm: gap.worst(MM, catenary).or(has_mold.then(|| nothing("nowhere"))),
         contact_share: has_mold.then_some(lying / total),
     }
 }
 
 fn shear(scene: &Scene, snapshot: &Snapshot) -> Most<usize> {
     let grid = scene.ply.grid;
-    let mut most = Most {
-        value: 0.0,
-        key: None,
-    };
+    let mut most = Most { value: 0.0, key: None };
     for (cell, angle) in snapshot.shear.iter().enumerate() {
         let [i, j] = [cell % (grid.nu - 1), cell / (grid.nu - 1)];
         let corner = |di: usize, dj: usize| snapshot.positions[grid.index([i + di, j + dj])];
         let place = middle(corner(0, 0), corner(1, 1));
-        most.meet(
-            angle.map_or(0.0, |shear| shear.angle.to_degrees()),
-            cell,
-            place,
-        );
+        most.meet(angle.map_or(0.0, |shear| shear.angle.to_degrees()), cell, place);
     }
     most
 }

@@ -82,10 +82,7 @@ pub fn simulate(scene: &Scene, mut progress: impl FnMut(usize) -> ControlFlow<()
             break;
         }
     }
-    Drape {
-        result: report.finish(),
-        solving: draping.solving,
-    }
+    Drape { result: report.finish(), solving: draping.solving }
 }
 
 /// A drape under way.
@@ -119,13 +116,7 @@ impl<'a> Draping<'a> {
         let equilibrium: Equilibrium = self.solver.solve(positions, &self.laid);
         self.solving += start.elapsed();
         self.equilibria += 1;
-        shape(
-            &self.scene.ply,
-            &self.solver,
-            equilibrium,
-            positions,
-            &self.laid,
-        )
+        shape(&self.scene.ply, &self.solver, equilibrium, positions, &self.laid)
     }
 
     /// Moves the grippers to the positions of a step, counted from 0.
@@ -151,27 +142,14 @@ impl<'a> Draping<'a> {
 
     fn shear(&self) -> Vec<Option<CellShear>> {
         let cell = self.scene.ply.cell;
-        let shear = |(path, falling)| CellShear {
-            angle: shear::angle(cell, path),
-            path,
-            falling,
-        };
-        self.solver
-            .net()
-            .shearing
-            .iter()
-            .map(|cell| cell.map(shear))
-            .collect()
+        let shear = |(path, falling)| CellShear { angle: shear::angle(cell, path), path, falling };
+        self.solver.net().shearing.iter().map(|cell| cell.map(shear)).collect()
     }
 
     /// As in the paper: one equilibrium, one look at the contact; solved anew where it has changed.
     fn arrive(&mut self, goal: &[Point]) -> Shape {
         let shape = self.solve(goal);
-        if self.touch(&shape) {
-            self.solve(goal)
-        } else {
-            shape
-        }
+        if self.touch(&shape) { self.solve(goal) } else { shape }
     }
 
     /// Cuts the way where the ply would dip deeper than the tolerance, and follows the contact at each
@@ -213,10 +191,7 @@ impl<'a> Draping<'a> {
             return false;
         };
         let tolerance = self.scene.settings.contact.tolerance;
-        shape
-            .spans
-            .iter()
-            .any(|span| contact::depth(span, mold) > tolerance)
+        shape.spans.iter().any(|span| contact::depth(span, mold) > tolerance)
     }
 
     /// Looks at every span once; true if the contact has changed.

@@ -48,10 +48,7 @@ impl<'a> Report<'a> {
         for (n, attitude) in attitudes.iter().enumerate() {
             self.quaternions[n] = Some(attitude.quaternion);
             let position = snapshot.positions[n];
-            let target = scene
-                .target
-                .as_ref()
-                .map(|t| distance(position, t.grippers[n]) * 1e3);
+            let target = scene.target.as_ref().map(|t| distance(position, t.grippers[n]) * 1e3);
             grippers.push(Gripper {
                 id: grid.id(n),
                 position,
@@ -101,10 +98,7 @@ impl<'a> Report<'a> {
                 shear_force_n: shear.and_then(|shear| self.shear_force(shear.path)),
                 spans: Vec::with_capacity(2),
                 contact: None,
-                bridging: snapshot.bridges[n].map(|b| Bridging {
-                    place: b.place,
-                    gap: b.gap,
-                }),
+                bridging: snapshot.bridges[n].map(|b| Bridging { place: b.place, gap: b.gap }),
             };
             while let Some((span, points)) = spans.next_if(|(span, _)| span.catenary == n) {
                 if laid.is_none() {
@@ -122,9 +116,7 @@ impl<'a> Report<'a> {
                 });
                 let tolerance = scene.settings.contact.tolerance;
                 for (rest, fit) in measures::fits_laid(laid, grippers, mold, tolerance) {
-                    state
-                        .spans
-                        .push(lying_state(laid, rest, &fit, grippers, mold));
+                    state.spans.push(lying_state(laid, rest, &fit, grippers, mold));
                 }
                 state.spans.sort_by(|a, b| a.arc[0].total_cmp(&b.arc[0]));
             }
@@ -182,20 +174,12 @@ impl<'a> Report<'a> {
         let first = self.steps.iter().find(touched);
         let first_contact = first.map_or_else(Vec::new, |step| {
             let caught = step.catenaries.iter().filter(|c| c.contact.is_some());
-            caught
-                .map(|c| CatenaryId {
-                    kind: c.kind,
-                    from: c.from,
-                    to: c.to,
-                })
-                .collect()
+            caught.map(|c| CatenaryId { kind: c.kind, from: c.from, to: c.to }).collect()
         });
         let shears = |cell: &Cell| cell.shearing.is_some();
         let first_shear = self.steps.iter().find(|step| step.cells.iter().any(shears));
-        let all_shear = self
-            .steps
-            .iter()
-            .find(|s| !s.cells.is_empty() && s.cells.iter().all(shears));
+        let all_shear =
+            self.steps.iter().find(|s| !s.cells.is_empty() && s.cells.iter().all(shears));
         let limits = self.verdicts();
         let last = self.steps.last();
         Summary {
@@ -208,10 +192,7 @@ impl<'a> Report<'a> {
             first_shear_step: first_shear.map(|step| step.step),
             all_shear_step: all_shear.map(|step| step.step),
             worst: numbers(|pick| self.worst(pick).map(|(_, worst)| worst.value)),
-            last: numbers(|pick| {
-                last.and_then(|s| pick(&s.measures).as_ref())
-                    .map(|w| w.value)
-            }),
+            last: numbers(|pick| last.and_then(|s| pick(&s.measures).as_ref()).map(|w| w.value)),
             contact_share: last.and_then(|step| step.measures.contact_share),
             limits,
             equilibria: self.steps.iter().map(|step| step.solver.equilibria).sum(),
@@ -240,47 +221,17 @@ impl<'a> Report<'a> {
             let value = worst.value * scale;
             // a bound that holds a slope exactly at its limit is no breach
             let ok = value <= limit * (1.0 + 1e-9);
-            out.push(Verdict {
-                name,
-                value,
-                limit,
-                unit,
-                ok,
-                step,
-                at: worst.at.clone(),
-            });
+            out.push(Verdict { name, value, limit, unit, ok, step, at: worst.at.clone() });
         };
         let last = self.steps.last();
         let at_end = |pick: fn(&Measures) -> &Option<Worst>| {
-            last.and_then(|step| {
-                pick(&step.measures)
-                    .as_ref()
-                    .map(|worst| (step.step, worst))
-            })
+            last.and_then(|step| pick(&step.measures).as_ref().map(|worst| (step.step, worst)))
         };
         let everywhere = |pick: fn(&Measures) -> &Option<Worst>| self.worst(pick);
-        judge(
-            "overstretch",
-            "%",
-            1e2,
-            limits.overstretch * 1e2,
-            everywhere(|m| &m.overstretch),
-        );
-        judge(
-            "tilt",
-            "°",
-            1.0,
-            limits.tilt.to_degrees(),
-            everywhere(|m| &m.tilt_deg),
-        );
+        judge("overstretch", "%", 1e2, limits.overstretch * 1e2, everywhere(|m| &m.overstretch));
+        judge("tilt", "°", 1.0, limits.tilt.to_degrees(), everywhere(|m| &m.tilt_deg));
         if let Some(shear) = limits.shear {
-            judge(
-                "shear",
-                "°",
-                1.0,
-                shear.to_degrees(),
-                everywhere(|m| &m.shear_deg),
-            );
+            judge("shear", "°", 1.0, shear.to_degrees(), everywhere(|m| &m.shear_deg));
         }
         if let Some(force) = limits.force {
             judge("force", "N", 1.0, force, everywhere(|m| &m.force_n));
@@ -294,13 +245,7 @@ impl<'a> Report<'a> {
                     limits.slack_ratio * 1e2,
                     at_end(|m| &m.slack_ratio),
                 );
-                judge(
-                    "bridging",
-                    "mm",
-                    1.0,
-                    limits.bridging * 1e3,
-                    at_end(|m| &m.bridging_mm),
-                );
+                judge("bridging", "mm", 1.0, limits.bridging * 1e3, at_end(|m| &m.bridging_mm));
             }
             let contact = step.catenaries.iter().enumerate().filter_map(|(n, c)| {
                 let contact = c.contact.as_ref()?;
@@ -314,31 +259,16 @@ impl<'a> Report<'a> {
             });
             let contact = contact.max_by(|a, b| a.value.total_cmp(&b.value));
             let found = contact.as_ref().map(|worst| (step.step, worst));
-            judge(
-                "landing_contact",
-                "mm",
-                1.0,
-                limits.landing_contact * 1e3,
-                found,
-            );
-            let gripper = step
-                .grippers
-                .iter()
-                .zip(&target.grippers)
-                .map(|(gripper, place)| Worst {
+            judge("landing_contact", "mm", 1.0, limits.landing_contact * 1e3, found);
+            let gripper =
+                step.grippers.iter().zip(&target.grippers).map(|(gripper, place)| Worst {
                     value: distance(gripper.position, *place) * 1e3,
                     at: format!("gripper [{},{}]", gripper.id[0], gripper.id[1]),
                     place: gripper.position,
                 });
             let gripper = gripper.max_by(|a, b| a.value.total_cmp(&b.value));
             let found = gripper.as_ref().map(|worst| (step.step, worst));
-            judge(
-                "landing_gripper",
-                "mm",
-                1.0,
-                limits.landing_gripper * 1e3,
-                found,
-            );
+            judge("landing_gripper", "mm", 1.0, limits.landing_gripper * 1e3, found);
             if let Some(share) = step.measures.contact_share {
                 out.push(Verdict {
                     name: "contact_share",
@@ -351,11 +281,7 @@ impl<'a> Report<'a> {
                 });
             }
         }
-        if let Some(step) = self
-            .steps
-            .iter()
-            .find(|step| step.solver.status != "converged")
-        {
+        if let Some(step) = self.steps.iter().find(|step| step.solver.status != "converged") {
             out.push(Verdict {
                 name: "equilibrium",
                 value: step.solver.residual,

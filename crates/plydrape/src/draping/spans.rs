@@ -53,11 +53,7 @@ impl FreeSpan {
     #[must_use]
     pub fn heading(&self) -> [f64; 2] {
         let ([a, b], run) = (self.ends, self.run());
-        if run > 0.0 {
-            [(b[0] - a[0]) / run, (b[1] - a[1]) / run]
-        } else {
-            [0.0; 2]
-        }
+        if run > 0.0 { [(b[0] - a[0]) / run, (b[1] - a[1]) / run] } else { [0.0; 2] }
     }
 
     /// Its point at a fraction `t` of its run (m).
@@ -135,9 +131,8 @@ pub fn shape(
                 Some(laid) if rest == 0 => [grippers[0], laid.point[0]],
                 Some(laid) => [laid.point[1], grippers[1]],
             };
-            let start = laid[catenary]
-                .as_ref()
-                .map_or(0.0, |l| if rest == 0 { 0.0 } else { l.arc[1] });
+            let start =
+                laid[catenary].as_ref().map_or(0.0, |l| if rest == 0 { 0.0 } else { l.arc[1] });
             let mut span = FreeSpan {
                 catenary,
                 rest,

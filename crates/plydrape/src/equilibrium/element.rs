@@ -112,10 +112,7 @@ fn stretched_length<const N: usize>(profile: &Profile, span: &Span) -> Jet<N> {
 
 /// The force as a function of the other variables, from the constraint.
 fn implicit<const N: usize, const M: usize>(c: &Jet<N>, force: f64) -> Jet<M> {
-    let mut h = Jet {
-        value: force,
-        ..Jet::default()
-    };
+    let mut h = Jet { value: force, ..Jet::default() };
     for i in 0..M {
         h.gradient[i] = -c.gradient[i + 1] / c.gradient[0];
     }
@@ -133,10 +130,7 @@ fn implicit<const N: usize, const M: usize>(c: &Jet<N>, force: f64) -> Jet<M> {
 
 /// A quantity of the profile as a function of the other variables, the force following.
 fn follow<const N: usize, const M: usize>(q: &Jet<N>, h: &Jet<M>) -> Jet<M> {
-    let mut out = Jet {
-        value: q.value,
-        ..Jet::default()
-    };
+    let mut out = Jet { value: q.value, ..Jet::default() };
     for i in 0..M {
         out.gradient[i] = q.gradient[i + 1] + q.gradient[0] * h.gradient[i];
         for j in 0..M {
@@ -175,9 +169,7 @@ pub fn settle<const N: usize, const M: usize>(
     let (pole, goal) = (span.buckling_force(), span.goal());
     let sound = |h: f64| h > pole && h.is_finite();
     let relative = |step: f64, h: f64| step.abs() / (h - pole).max(f64::MIN_POSITIVE);
-    let mut h = force
-        .filter(|h| sound(*h))
-        .unwrap_or_else(|| approach(span, span.first_guess()));
+    let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| approach(span, span.first_guess()));
     let mut searched = false;
     let (profile, c, mut next) = loop {
         let profile = Profile::new(span, h);
@@ -206,19 +198,10 @@ pub fn settle<const N: usize, const M: usize>(
     let last = next - h;
     let c = moved(c, last);
     // beyond a short step the series of C says little; then the last cheap look does
-    let unmet = if relative(step, next) <= SETTLED {
-        0.0
-    } else {
-        c.value.abs() / span.length
-    };
+    let unmet = if relative(step, next) <= SETTLED { 0.0 } else { c.value.abs() / span.length };
     let force = implicit::<N, M>(&c, next);
     let carried = relative(last, h);
-    let mut out = Settled {
-        force,
-        carried,
-        unmet,
-        ..Settled::default()
-    };
+    let mut out = Settled { force, carried, unmet, ..Settled::default() };
     for end in 0..2 {
         if wanted.slope[end] {
             out.slope[end] = follow(&moved(profile.end_slope_jet::<N>(end), last), &force);
@@ -235,9 +218,7 @@ pub fn settle<const N: usize, const M: usize>(
 pub fn settle_still(span: &Span, force: Option<f64>, wanted: Wanted) -> Settled<2> {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let sound = |h: f64| h > pole && h.is_finite();
-    let mut h = force
-        .filter(|h| sound(*h))
-        .unwrap_or_else(|| span.first_guess());
+    let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| span.first_guess());
     let mut settled = false;
     for _ in 0..4 {
         if !sound(h) {

@@ -6,6 +6,7 @@
 //! `docs/theory.md`, and `tangent` is the exact derivative of the solved state.
 
 mod element;
+mod hessian;
 mod min_force;
 mod moment_balance;
 mod net;

@@ -57,11 +57,8 @@ fn solve_linear(
         } else {
             (row(solver, joint), right[joint])
         };
-        let (last, before) = if joint > 0 {
-            (ratio[joint - 1], out[joint - 1])
-        } else {
-            (0.0, 0.0)
-        };
+        let (last, before) =
+            if joint > 0 { (ratio[joint - 1], out[joint - 1]) } else { (0.0, 0.0) };
         let pivot = on + shift - below * last;
         stable &= pivot > 0.0;
         ratio[joint] = above / pivot;
@@ -106,15 +103,9 @@ impl Solver {
         right.clear();
         right.extend(self.work.gradient.iter().map(|jump| -jump));
         let mut shift = 0.0;
-        let largest = (0..count)
-            .map(|n| row(self, n)[1].abs())
-            .fold(0.0, f64::max);
+        let largest = (0..count).map(|n| row(self, n)[1].abs()).fold(0.0, f64::max);
         while !solve_linear(self, &right, shift, &mut ratio, &mut step) && shift <= 64.0 * largest {
-            shift = if shift == 0.0 {
-                largest / 64.0
-            } else {
-                4.0 * shift
-            };
+            shift = if shift == 0.0 { largest / 64.0 } else { 4.0 * shift };
         }
         // far from the solution no step is worth more than a fraction of a right angle
         let size = step.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
@@ -129,9 +120,7 @@ impl Solver {
     /// Work of the jumps along the way from `start` to the present slopes: how the energy changes there.
     fn work_along(&self, start: &[f64]) -> f64 {
         let way = self.slopes.iter().zip(start).map(|(s, start)| s - start);
-        way.zip(&self.work.gradient)
-            .map(|(way, jump)| way * jump)
-            .sum()
+        way.zip(&self.work.gradient).map(|(way, jump)| way * jump).sum()
     }
 }
 
@@ -152,9 +141,23 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         wanted.derivatives = false;
     }
     solver.evaluate_jumps();
-    let (mut status, mut residual, mut iterations) = (Status::Converged, 0.0, 1);
+    let outcome = if count == 0 {
+        Equilibrium { status: Status::Converged, iterations: 1, residual: 0.0 }
+    } else {
+        balance(solver, bound)
+    };
+    // diagonals are no tows: they follow
+    let (edges, all) = (solver.net.edge_elements, solver.net.elements.len());
+    solver.settle(edges..all);
+    solver.read_free_ends();
+    outcome
+}
+
+/// Newton's method down the energy, from the jumps at the present slopes.
+fn balance(solver: &mut Solver, bound: f64) -> Equilibrium {
+    let count = solver.slopes.len();
     let mut before = f64::INFINITY;
-    while count > 0 {
+    for iterations in 1..=MAX_ITERATIONS {
         solver.moment_step();
         let mut start = std::mem::take(&mut solver.work.trial);
         start.clear();
@@ -166,19 +169,14 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             }
         };
         move_by(solver, 1.0);
-        let way = solver
-            .slopes
-            .iter()
-            .zip(&start)
-            .map(|(s, start)| (s - start).abs());
+        let way = solver.slopes.iter().zip(&start).map(|(s, start)| (s - start).abs());
         let size = way.fold(0.0, f64::max);
-        residual = error_after(size, before).min(size);
         if solver.may_finish(size, before) {
             solver.finish(0..solver.net.edge_elements);
             solver.work.trial = start;
-            break;
+            let residual = error_after(size, before).min(size);
+            return Equilibrium { status: Status::Converged, iterations, residual };
         }
-        iterations += 1;
         // a step is good if the energy still falls at its end, or nearly stands still
         let down = solver.work_along(&start);
         let mut fraction = 1.0;
@@ -193,18 +191,6 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         }
         solver.work.trial = start;
         before = size;
-        if iterations >= MAX_ITERATIONS {
-            (status, residual) = (Status::IterationLimit, size);
-            break;
-        }
     }
-    // diagonals are no tows: they follow
-    let (edges, all) = (solver.net.edge_elements, solver.net.elements.len());
-    solver.settle(edges..all);
-    solver.read_free_ends();
-    Equilibrium {
-        status,
-        iterations,
-        residual,
-    }
+    Equilibrium { status: Status::IterationLimit, iterations: MAX_ITERATIONS, residual: before }
 }

@@ -124,23 +124,14 @@ fn constant<T: Number>(p: [f64; 3]) -> [T; 3] {
 
 /// √(x²), which at 0 has the derivative 0.
 fn root<T: Number>(square: T) -> T {
-    if square.re() > 0.0 {
-        square.sqrt()
-    } else {
-        T::from(0.0)
-    }
+    if square.re() > 0.0 { square.sqrt() } else { T::from(0.0) }
 }
 
 fn line<T: Number>(from: [T; 3], to: [T; 3]) -> Line<T> {
     let delta = [to[0] - from[0], to[1] - from[1]];
     let rise = to[2] - from[2];
     let square = delta[0] * delta[0] + delta[1] * delta[1];
-    Line {
-        delta,
-        run: root(square),
-        rise,
-        chord: root(square + rise * rise),
-    }
+    Line { delta, run: root(square), rise, chord: root(square + rise * rise) }
 }
 
 impl<T: Number> Line<T> {
@@ -150,19 +141,11 @@ impl<T: Number> Line<T> {
 
     /// Slope from the first end to the second; 0 if they coincide.
     fn slope(&self) -> T {
-        if self.run.re() > 0.0 {
-            self.rise / self.run
-        } else {
-            T::from(0.0)
-        }
+        if self.run.re() > 0.0 { self.rise / self.run } else { T::from(0.0) }
     }
 
     fn unit(&self) -> [T; 2] {
-        if self.run.re() > 0.0 {
-            self.delta.map(|d| d / self.run)
-        } else {
-            [T::from(0.0); 2]
-        }
+        if self.run.re() > 0.0 { self.delta.map(|d| d / self.run) } else { [T::from(0.0); 2] }
     }
 }
 
@@ -192,11 +175,7 @@ impl<T: Number> Build<'_, T> {
 
     /// Whether the lines of edges along a direction have bending stiffness.
     fn is_rigid(&self, direction: usize) -> bool {
-        let kind = if direction == 0 {
-            Kind::EdgeU
-        } else {
-            Kind::EdgeV
-        };
+        let kind = if direction == 0 { Kind::EdgeU } else { Kind::EdgeV };
         self.ply.line(kind).flexural_rigidity > 0.0
     }
 
@@ -273,11 +252,7 @@ impl<T: Number> Net<T> {
         self.shearing.clear();
         for cell in 0..grid.cells() {
             let [rising, falling] = [0, 1].map(|n| build.taut_path(grid.edges() + 2 * cell + n));
-            let longer = if falling.re() > rising.re() {
-                (falling, true)
-            } else {
-                (rising, false)
-            };
+            let longer = if falling.re() > rising.re() { (falling, true) } else { (rising, false) };
             let shears = shear::is_shearing(build.ply.cell, longer.0.re());
             self.shearing.push(shears.then_some(longer));
         }
@@ -398,17 +373,11 @@ impl<T: Number> Net<T> {
     /// Joins the edges on both sides of a gripper, and holds those that a shearing diagonal governs.
     fn join(&mut self, build: &Build<T>) {
         let grid = build.grid();
-        let lines = (0..grid.nv)
-            .map(|j| (0, j))
-            .chain((0..grid.nu).map(|i| (1, i)));
+        let lines = (0..grid.nv).map(|j| (0, j)).chain((0..grid.nu).map(|i| (1, i)));
         for (direction, fixed) in lines {
             let count = if direction == 0 { grid.nu } else { grid.nv };
             for moving in 0..count {
-                let id = if direction == 0 {
-                    [moving, fixed]
-                } else {
-                    [fixed, moving]
-                };
+                let id = if direction == 0 { [moving, fixed] } else { [fixed, moving] };
                 let gripper = grid.index(id);
                 let sides = self.sides[gripper][direction];
                 if let Some(slope) = self.governed[gripper][direction] {
@@ -421,11 +390,7 @@ impl<T: Number> Net<T> {
                     (sides, build.is_rigid(direction))
                 {
                     let joint = self.joints.len();
-                    self.joints.push(Joint {
-                        gripper,
-                        direction,
-                        elements: [a, b],
-                    });
+                    self.joints.push(Joint { gripper, direction, elements: [a, b] });
                     self.joint_at[gripper][direction] = Some(joint);
                     self.elements[a].ends[end_a] = End::Joint(joint);
                     self.elements[b].ends[end_b] = End::Joint(joint);

@@ -72,11 +72,7 @@ const SHARP: f64 = 2e-4;
 /// Error of the slopes to expect after a Newton step of `size` that came after one of `before`: the
 /// convergence is quadratic.
 pub(super) fn error_after(size: f64, before: f64) -> f64 {
-    if before.is_finite() && size > 0.0 {
-        size * (size / before).powi(2)
-    } else {
-        size
-    }
+    if before.is_finite() && size > 0.0 { size * (size / before).powi(2) } else { size }
 }
 
 /// Finds equilibria, one after the other.
@@ -167,19 +163,13 @@ impl Solver {
                 (self.ratios, self.memory) = memory;
                 growth = growth.sqrt();
             } else if next >= 1.0 {
-                return Equilibrium {
-                    iterations,
-                    ..outcome
-                };
+                return Equilibrium { iterations, ..outcome };
             } else {
                 done = next;
             }
         }
         self.forget();
-        Equilibrium {
-            iterations,
-            ..self.attempt(positions, laid, 1.0)
-        }
+        Equilibrium { iterations, ..self.attempt(positions, laid, 1.0) }
     }
 
     /// Solves with the flexural rigidity multiplied by `stiffness`.
@@ -204,22 +194,11 @@ impl Solver {
         };
         self.remember();
         // a span that could not meet its length spoils the whole
-        let unmet = self
-            .settled
-            .iter()
-            .map(|settled| settled.unmet)
-            .fold(0.0, f64::max);
-        let lost = self
-            .settled
-            .iter()
-            .any(|settled| !settled.force.value.is_finite());
+        let unmet = self.settled.iter().map(|settled| settled.unmet).fold(0.0, f64::max);
+        let lost = self.settled.iter().any(|settled| !settled.force.value.is_finite());
         if lost || unmet > LENGTH {
             let residual = outcome.residual.max(unmet);
-            return Equilibrium {
-                status: Status::Stalled,
-                residual,
-                ..outcome
-            };
+            return Equilibrium { status: Status::Stalled, residual, ..outcome };
         }
         outcome
     }
@@ -252,9 +231,7 @@ impl Solver {
     /// Which ends of an element have a prescribed slope.
     #[must_use]
     pub fn holds(&self, element: usize) -> [bool; 2] {
-        self.net.elements[element]
-            .ends
-            .map(|end| !matches!(end, End::Free))
+        self.net.elements[element].ends.map(|end| !matches!(end, End::Free))
     }
 
     /// The span of an element, as solved.
@@ -272,9 +249,7 @@ impl Solver {
     /// would push it farther.
     pub(super) fn mark_active(&mut self) {
         let bound = self.bound();
-        let Work {
-            active, gradient, ..
-        } = &mut self.work;
+        let Work { active, gradient, .. } = &mut self.work;
         active.clear();
         for (s, g) in self.slopes.iter().zip(gradient) {
             active.push((*s >= bound && *g < 0.0) || (*s <= -bound && *g > 0.0));
@@ -347,17 +322,10 @@ impl Solver {
         for n in elements {
             let element = self.net.elements[n];
             if element.state == SpanState::Straight {
-                let slope = if element.run > 0.0 {
-                    element.rise / element.run
-                } else {
-                    0.0
-                };
+                let slope = if element.run > 0.0 { element.rise / element.run } else { 0.0 };
                 self.held[n] = [slope; 2];
                 self.settled[n] = Settled::default();
-                self.settled[n]
-                    .slope
-                    .iter_mut()
-                    .for_each(|s| s.value = slope);
+                self.settled[n].slope.iter_mut().for_each(|s| s.value = slope);
                 continue;
             }
             let slopes = [0, 1].map(|end| self.slope_at(&element, end));
@@ -440,13 +408,7 @@ impl Solver {
     /// Carries an element to slightly other end slopes by its second-order series.
     fn turn(&mut self, n: usize, slopes: [f64; 2]) {
         let step = [slopes[0] - self.held[n][0], slopes[1] - self.held[n][1]];
-        let Settled {
-            force,
-            slope,
-            curvature,
-            carried,
-            ..
-        } = &mut self.settled[n];
+        let Settled { force, slope, curvature, carried, .. } = &mut self.settled[n];
         for jet in [force].into_iter().chain(slope).chain(curvature) {
             jet.value = series(jet, step);
             for i in 0..2 {

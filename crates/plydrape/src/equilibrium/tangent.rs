@@ -32,12 +32,7 @@ impl Direction {
     /// No change, for `grippers` grippers.
     #[must_use]
     pub fn none(grippers: usize) -> Direction {
-        Direction {
-            grippers: vec![[0.0; 3]; grippers],
-            length: 0.0,
-            weight: 0.0,
-            rigidity: 0.0,
-        }
+        Direction { grippers: vec![[0.0; 3]; grippers], length: 0.0, weight: 0.0, rigidity: 0.0 }
     }
 }
 
@@ -135,11 +130,7 @@ impl Solver {
             return Settled::default();
         }
         let span = element.span(self.settings.axial_stiffness, &self.held[n]);
-        let wanted = Wanted {
-            slope: [true; 2],
-            curvature: [true; 2],
-            derivatives: true,
-        };
+        let wanted = Wanted { slope: [true; 2], curvature: [true; 2], derivatives: true };
         settle::<8, 7>(&span, Some(self.settled[n].force.value), wanted)
     }
 
@@ -167,9 +158,7 @@ impl Solver {
         self.work.adjoint.resize(self.net.elements.len(), [0.0; 2]);
         match self.settings.slopes {
             SlopeRule::MinForce => {
-                let Work {
-                    gradient, adjoint, ..
-                } = &mut self.work;
+                let Work { gradient, adjoint, .. } = &mut self.work;
                 min_force::gradient(&self.net, response, gradient, adjoint);
             }
             SlopeRule::MomentBalance => {
@@ -193,15 +182,9 @@ impl Solver {
         let joint = |j: usize| Dual64::new(self.slopes[j], slopes[j]);
         for (n, element) in net.elements.iter().enumerate() {
             if element.state == SpanState::Straight {
-                let slope = if element.run.re > 0.0 {
-                    element.rise / element.run
-                } else {
-                    zero
-                };
-                pass.responses.push(Response {
-                    force: (zero, [zero; 2]),
-                    slope: [(slope, [zero; 2]); 2],
-                });
+                let slope = if element.run.re > 0.0 { element.rise / element.run } else { zero };
+                pass.responses
+                    .push(Response { force: (zero, [zero; 2]), slope: [(slope, [zero; 2]); 2] });
                 pass.curvatures.push([zero; 2]);
                 pass.held.push([slope; 2]);
                 continue;
@@ -234,14 +217,9 @@ impl Solver {
             ];
             let jets = &jets[n];
             let slope = [0, 1].map(|end| along(&jets.slope[end], &x));
-            pass.responses.push(Response {
-                force: along(&jets.force, &x),
-                slope,
-            });
-            pass.curvatures
-                .push([0, 1].map(|end| along(&jets.curvature[end], &x).0));
-            pass.held
-                .push([0, 1].map(|end| held[end].unwrap_or(slope[end].0)));
+            pass.responses.push(Response { force: along(&jets.force, &x), slope });
+            pass.curvatures.push([0, 1].map(|end| along(&jets.curvature[end], &x).0));
+            pass.held.push([0, 1].map(|end| held[end].unwrap_or(slope[end].0)));
         }
         pass
     }

@@ -51,11 +51,7 @@ impl Mold {
             Mold::Plane(plane) => {
                 let slope = plane.slope(heading);
                 let run = length / slope.hypot(1.0);
-                [
-                    from[0] + run * heading[0],
-                    from[1] + run * heading[1],
-                    from[2] + run * slope,
-                ]
+                [from[0] + run * heading[0], from[1] + run * heading[1], from[2] + run * slope]
             }
         }
     }

@@ -15,9 +15,7 @@ impl Plane {
     /// Distance of `p` (m) from the mold (m), negative below it.
     #[must_use]
     pub fn signed_distance(&self, p: [f64; 3]) -> f64 {
-        (0..3)
-            .map(|n| self.normal[n] * (p[n] - self.point[n]))
-            .sum()
+        (0..3).map(|n| self.normal[n] * (p[n] - self.point[n])).sum()
     }
 
     /// The point of the mold closest to `p` (m).

@@ -12,27 +12,15 @@ type Column = (&'static str, &'static str, fn(&Measures) -> Option<&Worst>);
 /// Every measure with a place: header of the value, header of the place, the field.
 const MEASURES: [Column; 11] = [
     ("slack (mm)", "slack at", |m| m.slack_mm.as_ref()),
-    ("slack ratio (1)", "slack ratio at", |m| {
-        m.slack_ratio.as_ref()
-    }),
-    ("wrinkle amplitude (mm)", "wrinkle amplitude at", |m| {
-        m.wrinkle_mm.as_ref()
-    }),
-    ("overstretch (1)", "overstretch at", |m| {
-        m.overstretch.as_ref()
-    }),
-    ("overstretch (mm)", "overstretch length at", |m| {
-        m.overstretch_mm.as_ref()
-    }),
+    ("slack ratio (1)", "slack ratio at", |m| m.slack_ratio.as_ref()),
+    ("wrinkle amplitude (mm)", "wrinkle amplitude at", |m| m.wrinkle_mm.as_ref()),
+    ("overstretch (1)", "overstretch at", |m| m.overstretch.as_ref()),
+    ("overstretch (mm)", "overstretch length at", |m| m.overstretch_mm.as_ref()),
     ("bridging (mm)", "bridging at", |m| m.bridging_mm.as_ref()),
     ("shear (deg)", "shear at", |m| m.shear_deg.as_ref()),
     ("tilt (deg)", "tilt at", |m| m.tilt_deg.as_ref()),
-    ("horizontal force (N)", "horizontal force at", |m| {
-        m.force_n.as_ref()
-    }),
-    ("landing error (mm)", "landing error at", |m| {
-        m.landing_error_mm.as_ref()
-    }),
+    ("horizontal force (N)", "horizontal force at", |m| m.force_n.as_ref()),
+    ("landing error (mm)", "landing error at", |m| m.landing_error_mm.as_ref()),
     ("gap (mm)", "gap at", |m| m.gap_mm.as_ref()),
 ];
 
@@ -44,13 +32,7 @@ pub fn steps(result: &ResultFile) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
     let mut header = vec!["step", "t (s)"];
     header.extend(MEASURES.iter().flat_map(|(value, at, _)| [*value, *at]));
-    header.extend([
-        "contact share (1)",
-        "solver status",
-        "iterations",
-        "residual",
-        "equilibria",
-    ]);
+    header.extend(["contact share (1)", "solver status", "iterations", "residual", "equilibria"]);
     table.write_record(&header)?;
     for step in &result.steps {
         table.write_record(step_row(step))?;
@@ -79,9 +61,7 @@ fn step_row(step: &Step) -> Vec<String> {
 /// If the table cannot be formed; memory apart there is no known case.
 pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
-    table.write_record([
-        "t (s)", "gripper", "x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw",
-    ])?;
+    table.write_record(["t (s)", "gripper", "x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"])?;
     for step in &result.steps {
         for gripper in &step.grippers {
             let [i, j] = gripper.id;
@@ -111,20 +91,14 @@ mod tests {
 
     fn rows(text: &str) -> Vec<Vec<String>> {
         let mut reader = ::csv::Reader::from_reader(text.as_bytes());
-        reader
-            .records()
-            .map(|r| r.unwrap().iter().map(str::to_owned).collect())
-            .collect()
+        reader.records().map(|r| r.unwrap().iter().map(str::to_owned).collect()).collect()
     }
 
     /// The header is what robot programs are told to expect.
     #[test]
     fn trajectory_has_exactly_the_promised_columns() {
         let text = trajectory(&sample::draped(4, 2, 3)).unwrap();
-        assert_eq!(
-            text.lines().next(),
-            Some("t (s),gripper,x (m),y (m),z (m),qx,qy,qz,qw")
-        );
+        assert_eq!(text.lines().next(), Some("t (s),gripper,x (m),y (m),z (m),qx,qy,qz,qw"));
     }
 
     /// Time, position and orientation read back to the same bits, step by step, gripper by gripper.
@@ -138,9 +112,8 @@ mod tests {
             for gripper in &step.grippers {
                 let row = rows.next().unwrap();
                 assert_eq!(row[1], format!("{}-{}", gripper.id[0], gripper.id[1]));
-                let written: Vec<f64> = [0, 2, 3, 4, 5, 6, 7, 8]
-                    .map(|k| row[k].parse().unwrap())
-                    .to_vec();
+                let written: Vec<f64> =
+                    [0, 2, 3, 4, 5, 6, 7, 8].map(|k| row[k].parse().unwrap()).to_vec();
                 let mut expected = vec![step.time];
                 expected.extend(gripper.position);
                 expected.extend(gripper.quaternion);
@@ -156,11 +129,8 @@ mod tests {
     fn steps_hold_places_with_commas_and_empty_cells() {
         let mut result = sample::draped(4, 2, 3);
         let at = "edge [0, 0]–[1, 0], second span";
-        result.steps[0].measures.slack_mm = Some(Worst {
-            value: 1.25,
-            at: at.into(),
-            place: [0.0; 3],
-        });
+        result.steps[0].measures.slack_mm =
+            Some(Worst { value: 1.25, at: at.into(), place: [0.0; 3] });
         result.steps[0].measures.bridging_mm = None;
         let text = steps(&result).unwrap();
         let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();

@@ -69,11 +69,6 @@ impl OutputError {
             ErrorKind::InvalidFilename => "choose a shorter path with -o",
             _ => "choose a folder that you may write to with -o",
         };
-        OutputError::Io {
-            what,
-            path: path.into(),
-            remedy,
-            source,
-        }
+        OutputError::Io { what, path: path.into(), remedy, source }
     }
 }

@@ -11,10 +11,7 @@ use std::fmt::{self, Display};
 pub(super) fn check<T: Serialize + ?Sized>(value: &T) -> Result<(), JsonError> {
     let mut walk = Walk::default();
     value.serialize(&mut walk).map_err(|fault| match fault {
-        Fault::Number(value) => JsonError::NotFinite {
-            key: walk.key(),
-            value,
-        },
+        Fault::Number(value) => JsonError::NotFinite { key: walk.key(), value },
         Fault::Other(what) => JsonError::Serde(ser::Error::custom(what)),
     })
 }
@@ -47,11 +44,7 @@ impl Walk {
     }
 
     fn number(&self, value: f64) -> Result<(), Fault> {
-        if value.is_finite() {
-            Ok(())
-        } else {
-            Err(Fault::Number(value))
-        }
+        if value.is_finite() { Ok(()) } else { Err(Fault::Number(value)) }
     }
 
     fn at<T: Serialize + ?Sized>(&mut self, part: Part, value: &T) -> Result<(), Fault> {
@@ -149,10 +142,7 @@ impl<'a> Serializer for &'a mut Walk {
         self.at(Part::Key(variant), value)
     }
     fn serialize_seq(self, _: Option<usize>) -> Result<Items<'a>, Fault> {
-        Ok(Items {
-            walk: self,
-            next: 0,
-        })
+        Ok(Items { walk: self, next: 0 })
     }
     fn serialize_tuple(self, length: usize) -> Result<Items<'a>, Fault> {
         self.serialize_seq(Some(length))

@@ -38,12 +38,7 @@ fn make(dir: &Path) -> Result<bool, OutputError> {
         Ok(_) => Err(OutputError::NotAFolder { path: dir.into() }),
         Err(_) => match fs::create_dir_all(dir) {
             Ok(()) => Ok(true),
-            Err(e)
-                if matches!(
-                    e.kind(),
-                    ErrorKind::NotADirectory | ErrorKind::AlreadyExists
-                ) =>
-            {
+            Err(e) if matches!(e.kind(), ErrorKind::NotADirectory | ErrorKind::AlreadyExists) => {
                 Err(OutputError::NotAFolder { path: dir.into() })
             }
             Err(e) => Err(OutputError::io("make the folder", dir, e)),
@@ -118,11 +113,7 @@ struct Moves<'a> {
 
 impl<'a> Moves<'a> {
     fn new(dir: &'a Path, stage: TempDir) -> Self {
-        Moves {
-            dir,
-            stage,
-            done: Vec::new(),
-        }
+        Moves { dir, stage, done: Vec::new() }
     }
 
     /// Renames a staged file to its place; the earlier file, if any, stays kept in the stage.
@@ -147,10 +138,7 @@ impl<'a> Moves<'a> {
 
     /// Keeps a file under a second name, by link or, where the disk has no links, by copy.
     fn keep(&self, name: &str) -> io::Result<bool> {
-        let (place, old) = (
-            self.dir.join(name),
-            self.stage.path().join(format!("old-{name}")),
-        );
+        let (place, old) = (self.dir.join(name), self.stage.path().join(format!("old-{name}")));
         if !place.is_file() || old.exists() {
             return Ok(false);
         }

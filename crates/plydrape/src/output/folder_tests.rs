@@ -74,10 +74,7 @@ fn a_move_that_fails_in_the_middle_is_undone() {
     let dir = tempfile::tempdir().unwrap();
     write(dir.path(), &[("a", b"1"), ("gone", b"1")]).unwrap();
     let before = contents(dir.path());
-    let stage = tempfile::Builder::new()
-        .prefix(".plydrape-")
-        .tempdir_in(dir.path())
-        .unwrap();
+    let stage = tempfile::Builder::new().prefix(".plydrape-").tempdir_in(dir.path()).unwrap();
     for name in ["a", "b"] {
         stage_file(&stage, dir.path(), name, b"2").unwrap();
     }
@@ -111,18 +108,12 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
     let dir = home.path().join("out");
     fs::create_dir(&dir).unwrap();
     fs::write(home.path().join("victim"), "v").unwrap();
-    let list = format!(
-        r#"{{"../victim":[{{"crc32":{},"length":1}}]}}"#,
-        crc32fast::hash(b"v")
-    );
+    let list = format!(r#"{{"../victim":[{{"crc32":{},"length":1}}]}}"#, crc32fast::hash(b"v"));
     fs::write(dir.join(MANIFEST), list).unwrap();
     assert!(write(&dir, &[("a", b"1")]).is_err());
     assert!(home.path().join("victim").exists());
     fs::write(dir.join(MANIFEST), "my own notes").unwrap();
-    assert!(matches!(
-        write(&dir, &[("a", b"1")]),
-        Err(OutputError::Foreign { .. })
-    ));
+    assert!(matches!(write(&dir, &[("a", b"1")]), Err(OutputError::Foreign { .. })));
     for name in ["", "..", "../a", "a/b", "/a", ".plydrape"] {
         assert!(write(home.path(), &[(name, b"1")]).is_err(), "{name:?}");
     }
@@ -137,10 +128,7 @@ fn a_link_is_not_followed() {
     write(&dir, &[("a", b"1")]).unwrap();
     fs::rename(dir.join("a"), home.path().join("a")).unwrap();
     std::os::unix::fs::symlink(home.path().join("a"), dir.join("a")).unwrap();
-    assert!(matches!(
-        write(&dir, &[("a", b"2")]),
-        Err(OutputError::Foreign { .. })
-    ));
+    assert!(matches!(write(&dir, &[("a", b"2")]), Err(OutputError::Foreign { .. })));
 }
 
 /// A path that is a file, or runs through one, says so.

@@ -68,16 +68,10 @@ mod tests {
         );
         let mut result = sample::draped(4, 2, 3);
         result.steps[1].catenaries[0].spans[0].force = Some(f64::INFINITY);
-        assert_eq!(
-            refused_key(&result).as_deref(),
-            Some("steps[1].catenaries[0].spans[0].H_N")
-        );
+        assert_eq!(refused_key(&result).as_deref(), Some("steps[1].catenaries[0].spans[0].H_N"));
         let mut result = sample::draped(4, 2, 3);
         result.scene.settings.axial_stiffness = f64::NAN;
-        assert_eq!(
-            refused_key(&result).as_deref(),
-            Some("scene.settings.axial_stiffness")
-        );
+        assert_eq!(refused_key(&result).as_deref(), Some("scene.settings.axial_stiffness"));
     }
 
     /// An inextensible ply has EA = ∞, which the file says as null.

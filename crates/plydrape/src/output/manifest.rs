@@ -26,10 +26,7 @@ pub(super) struct Manifest {
 
 impl Stamp {
     fn of(content: &[u8]) -> Self {
-        Stamp {
-            crc32: crc32fast::hash(content),
-            length: content.len() as u64,
-        }
+        Stamp { crc32: crc32fast::hash(content), length: content.len() as u64 }
     }
 }
 
@@ -45,21 +42,14 @@ impl Manifest {
         let list: Manifest = serde_json::from_slice(&text)
             .map_err(|_| OutputError::Foreign { path: path.clone() })?;
         // A name with a path in it could reach out of the folder.
-        if list.names().all(Self::is_plain) {
-            Ok(list)
-        } else {
-            Err(OutputError::Foreign { path })
-        }
+        if list.names().all(Self::is_plain) { Ok(list) } else { Err(OutputError::Foreign { path }) }
     }
 
     /// The list of a set of files.
     pub(super) fn of(files: &[(&str, &[u8])]) -> Self {
-        let stamps = files
-            .iter()
-            .map(|(name, content)| ((*name).to_owned(), vec![Stamp::of(content)]));
-        Manifest {
-            files: stamps.collect(),
-        }
+        let stamps =
+            files.iter().map(|(name, content)| ((*name).to_owned(), vec![Stamp::of(content)]));
+        Manifest { files: stamps.collect() }
     }
 
     /// Both lists together.

@@ -61,10 +61,7 @@ mod tests {
         let result = sample::draped(4, 2, 30);
         let paths = write_all(&result, dir.path()).unwrap();
         let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
-        assert_eq!(
-            names,
-            ["result.json", "steps.csv", "trajectory.csv", "figure.svg"]
-        );
+        assert_eq!(names, ["result.json", "steps.csv", "trajectory.csv", "figure.svg"]);
         let read = || -> Vec<Vec<u8>> { paths.iter().map(|p| std::fs::read(p).unwrap()).collect() };
         let first = read();
         write_all(&result, dir.path()).unwrap();

@@ -19,10 +19,7 @@ pub(super) fn draped(nu: usize, nv: usize, steps: usize) -> ResultFile {
     let target = positions(grid, CELL, SHEAR.to_radians(), 0.0);
     let start = positions(grid, SPACING, 0.0, HEIGHT);
     let mut result = frame(grid);
-    result.scene.mold = Some(Mold::Plane(Plane {
-        point: [0.0; 3],
-        normal: [0.0, 0.0, 1.0],
-    }));
+    result.scene.mold = Some(Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }));
     result.scene.ideal_drape = Some(FlatDrape {
         origin: [0.0; 3],
         along_u: [1.0, 0.0, 0.0],
@@ -32,9 +29,7 @@ pub(super) fn draped(nu: usize, nv: usize, steps: usize) -> ResultFile {
         let t = k as f64 / (steps.max(2) - 1) as f64;
         let mix = |a: &[f64; 3], b: &[f64; 3]| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
         let grippers: Vec<_> = start.iter().zip(&target).map(|(a, b)| mix(a, b)).collect();
-        result
-            .steps
-            .push(step(grid, k + 1, t, &grippers, Some(0.0)));
+        result.steps.push(step(grid, k + 1, t, &grippers, Some(0.0)));
     }
     result.scene.target_grippers = Some(target);
     summarize(&mut result);
@@ -73,23 +68,12 @@ fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) 
         .map(|k| catenary(grid.catenary(k), lengths[k], &shapes[k], mold))
         .collect();
     let grippers = (0..at.len()).map(|k| gripper(grid, k, at)).collect();
-    let worst = |value| {
-        Some(Worst {
-            value,
-            at: "edge [0, 0]–[1, 0]".into(),
-            place: at[0],
-        })
-    };
+    let worst = |value| Some(Worst { value, at: "edge [0, 0]–[1, 0]".into(), place: at[0] });
     Step {
         step,
         time,
         grippers,
-        solver: Solver {
-            status: "converged",
-            iterations: 3,
-            residual: 1e-12,
-            equilibria: 1,
-        },
+        solver: Solver { status: "converged", iterations: 3, residual: 1e-12, equilibria: 1 },
         catenaries,
         cells: Vec::new(),
         measures: Measures {
@@ -119,11 +103,7 @@ fn length(grid: Grid, line: Catenary, at: &[[f64; 3]]) -> f64 {
         Kind::EdgeU | Kind::EdgeV => CELL,
         Kind::Rising | Kind::Falling => {
             let other = distance(p([k, j]), p([i, l]));
-            if other > flat {
-                (4.0 * square(CELL) - square(other)).max(0.0).sqrt()
-            } else {
-                flat
-            }
+            if other > flat { (4.0 * square(CELL) - square(other)).max(0.0).sqrt() } else { flat }
         }
     }
 }
@@ -184,10 +164,7 @@ fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) 
             let rests = [(0, a), (b, STATIONS - 1)];
             let segment = ContactState {
                 arc: [arc(a), arc(b)],
-                points: shape[a..=b]
-                    .iter()
-                    .map(|p| [p[0], p[1], mold.unwrap_or(p[2])])
-                    .collect(),
+                points: shape[a..=b].iter().map(|p| [p[0], p[1], mold.unwrap_or(p[2])]).collect(),
                 landing_error_mm: None,
             };
             let free = rests.into_iter().filter(|(a, b)| b > a);
@@ -239,19 +216,11 @@ fn gripper(grid: Grid, k: usize, at: &[[f64; 3]]) -> Gripper {
 
 fn summarize(result: &mut ResultFile) {
     let touching = |c: &&CatenaryState| c.contact.is_some();
-    let first = result
-        .steps
-        .iter()
-        .find(|s| s.catenaries.iter().any(|c| c.contact.is_some()));
-    let id = |c: &CatenaryState| CatenaryId {
-        kind: c.kind,
-        from: c.from,
-        to: c.to,
-    };
+    let first = result.steps.iter().find(|s| s.catenaries.iter().any(|c| c.contact.is_some()));
+    let id = |c: &CatenaryState| CatenaryId { kind: c.kind, from: c.from, to: c.to };
     result.summary.first_contact_step = first.map(|s| s.step);
-    result.summary.first_contact = first
-        .map(|s| s.catenaries.iter().filter(touching).map(id).collect())
-        .unwrap_or_default();
+    result.summary.first_contact =
+        first.map(|s| s.catenaries.iter().filter(touching).map(id).collect()).unwrap_or_default();
     result.summary.steps = result.steps.len();
     result.summary.steps_planned = result.steps.len();
 }
@@ -268,10 +237,7 @@ fn frame(grid: Grid) -> ResultFile {
             material: Material {
                 name: "fabric".into(),
                 source: "made up".into(),
-                section: Section::Line {
-                    mass: 0.3143,
-                    flexural_rigidity: 9e-6,
-                },
+                section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
                 shear_curve: None,
                 locking_angle: None,
             },
@@ -340,12 +306,7 @@ pub(super) fn tilted(nu: usize, nv: usize) -> ResultFile {
             spans.chain(contact).for_each(lean);
         }
     }
-    result
-        .scene
-        .target_grippers
-        .iter_mut()
-        .flatten()
-        .for_each(lean);
+    result.scene.target_grippers.iter_mut().flatten().for_each(lean);
     let norm = (1.0_f64 + 0.25 * 0.25 + 0.1 * 0.1).sqrt();
     result.scene.mold = Some(Mold::Plane(Plane {
         point: [0.0; 3],

@@ -8,15 +8,8 @@ use std::fmt::Write;
 const MOST_ROWS: usize = 40;
 
 /// Columns after the step, with their units.
-const COLUMNS: [&str; 7] = [
-    "contact %",
-    "slack mm",
-    "overstr. %",
-    "shear °",
-    "tilt °",
-    "force N",
-    "landing mm",
-];
+const COLUMNS: [&str; 7] =
+    ["contact %", "slack mm", "overstr. %", "shear °", "tilt °", "force N", "landing mm"];
 
 /// One row a step: worst values and the share in contact.
 ///
@@ -84,13 +77,9 @@ fn chosen(result: &ResultFile) -> BTreeSet<usize> {
     }
     let summary = &result.summary;
     let mut numbers: BTreeSet<usize> = summary.limits.iter().map(|v| v.step).collect();
-    for first in [
-        summary.first_contact_step,
-        summary.first_shear_step,
-        summary.all_shear_step,
-    ]
-    .into_iter()
-    .flatten()
+    for first in [summary.first_contact_step, summary.first_shear_step, summary.all_shear_step]
+        .into_iter()
+        .flatten()
     {
         numbers.extend([first.saturating_sub(1), first]);
     }
@@ -101,11 +90,8 @@ fn chosen(result: &ResultFile) -> BTreeSet<usize> {
 
 /// A line for equilibria that did not converge, if any.
 fn failed_solves(result: &ResultFile) -> String {
-    let failed: Vec<&Step> = result
-        .steps
-        .iter()
-        .filter(|step| step.solver.status != "converged")
-        .collect();
+    let failed: Vec<&Step> =
+        result.steps.iter().filter(|step| step.solver.status != "converged").collect();
     let Some(first) = failed.first() else {
         return String::new();
     };
@@ -141,22 +127,15 @@ pub fn verdict(result: &ResultFile) -> String {
         let (done, planned) = (summary.steps, summary.steps_planned);
         let _ = writeln!(text, "interrupted after step {done} of {planned}");
     }
-    let worst = summary
-        .limits
-        .iter()
-        .filter(|v| !v.ok)
-        .max_by(|a, b| excess(a).total_cmp(&excess(b)));
+    let worst =
+        summary.limits.iter().filter(|v| !v.ok).max_by(|a, b| excess(a).total_cmp(&excess(b)));
     match worst {
         None if summary.accepted => text.push_str("accepted\n"),
         None => text.push_str("not accepted\n"),
         Some(v) => {
             let (name, unit) = (v.name.replace('_', " "), unit(v.unit));
             let (value, limit) = (significant(v.value), significant(v.limit));
-            let at = if v.at.is_empty() {
-                String::new()
-            } else {
-                format!(", {}", v.at)
-            };
+            let at = if v.at.is_empty() { String::new() } else { format!(", {}", v.at) };
             let line = format!(
                 "not accepted: {name} {value}{unit} against {limit}{unit} in step {}{at}",
                 v.step
@@ -172,11 +151,7 @@ pub fn verdict(result: &ResultFile) -> String {
 fn excess(v: &Verdict) -> f64 {
     let (value, limit) = (v.value.abs(), v.limit.abs());
     let (less, more) = (value.min(limit), value.max(limit));
-    if less == 0.0 {
-        f64::INFINITY
-    } else {
-        more / less
-    }
+    if less == 0.0 { f64::INFINITY } else { more / less }
 }
 
 fn unit(unit: &str) -> String {
@@ -194,11 +169,7 @@ fn significant(value: f64) -> String {
         return format!("{value:.2e}");
     }
     // Digits after the point, so that four count in all.
-    let power = if size == 0.0 {
-        0.0
-    } else {
-        size.log10().floor()
-    };
+    let power = if size == 0.0 { 0.0 } else { size.log10().floor() };
     let text = format!("{value:.*}", (3.0 - power).max(0.0) as usize);
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -265,8 +236,7 @@ mod tests {
         assert!(text.lines().count() < 60, "{text}");
         for step in [1, 300, result.summary.first_contact_step.unwrap()] {
             assert!(
-                text.lines()
-                    .any(|l| l.split_whitespace().next() == Some(&step.to_string())),
+                text.lines().any(|l| l.split_whitespace().next() == Some(&step.to_string())),
                 "step {step} in\n{text}"
             );
         }
@@ -308,12 +278,7 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         let shown = [0.0, 0.5, 12.0, 12.345678, 123456.0, 0.0142, 1e-9, 40.0].map(significant);
-        assert_eq!(
-            shown,
-            [
-                "0", "0.5", "12", "12.35", "123456", "0.0142", "1.00e-9", "40"
-            ]
-        );
+        assert_eq!(shown, ["0", "0.5", "12", "12.35", "123456", "0.0142", "1.00e-9", "40"]);
         assert_eq!(fixed(Some(-1e-12), 2), "0.00");
     }
 

@@ -114,35 +114,19 @@ impl Grid {
     pub fn catenary(self, index: usize) -> Catenary {
         if index < self.edges_u() {
             let (i, j) = (index % (self.nu - 1), index / (self.nu - 1));
-            return Catenary {
-                kind: Kind::EdgeU,
-                from: [i, j],
-                to: [i + 1, j],
-            };
+            return Catenary { kind: Kind::EdgeU, from: [i, j], to: [i + 1, j] };
         }
         if index < self.edges() {
             let k = index - self.edges_u();
             let (i, j) = (k % self.nu, k / self.nu);
-            return Catenary {
-                kind: Kind::EdgeV,
-                from: [i, j],
-                to: [i, j + 1],
-            };
+            return Catenary { kind: Kind::EdgeV, from: [i, j], to: [i, j + 1] };
         }
         let k = index - self.edges();
         let (i, j) = (k / 2 % (self.nu - 1), k / 2 / (self.nu - 1));
         if k.is_multiple_of(2) {
-            Catenary {
-                kind: Kind::Rising,
-                from: [i, j],
-                to: [i + 1, j + 1],
-            }
+            Catenary { kind: Kind::Rising, from: [i, j], to: [i + 1, j + 1] }
         } else {
-            Catenary {
-                kind: Kind::Falling,
-                from: [i + 1, j],
-                to: [i, j + 1],
-            }
+            Catenary { kind: Kind::Falling, from: [i + 1, j], to: [i, j + 1] }
         }
     }
 }

@@ -25,11 +25,7 @@ impl Laid {
     /// Free fabric length of the first (0) or second (1) rest (m).
     #[must_use]
     pub fn rest(&self, which: usize) -> f64 {
-        if which == 0 {
-            self.arc[0]
-        } else {
-            self.length - self.arc[1]
-        }
+        if which == 0 { self.arc[0] } else { self.length - self.arc[1] }
     }
 
     /// Whether the catenary lies from gripper to gripper, without a segment of its own.

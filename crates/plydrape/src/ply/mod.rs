@@ -52,18 +52,8 @@ impl Ply {
     #[must_use]
     pub fn line(&self, kind: Kind) -> Line {
         match self.material.section {
-            Section::Line {
-                mass,
-                flexural_rigidity,
-            } => Line {
-                mass,
-                flexural_rigidity,
-            },
-            Section::Areal {
-                mass,
-                warp_rigidity,
-                weft_rigidity,
-            } => {
+            Section::Line { mass, flexural_rigidity } => Line { mass, flexural_rigidity },
+            Section::Areal { mass, warp_rigidity, weft_rigidity } => {
                 let (along_u, along_v) = match self.warp {
                     Direction::U => (warp_rigidity, weft_rigidity),
                     Direction::V => (weft_rigidity, warp_rigidity),
@@ -74,10 +64,7 @@ impl Ply {
                     Kind::EdgeV => (a, along_v),
                     Kind::Rising | Kind::Falling => ((a + b) / 2.0, (along_u + along_v) / 2.0),
                 };
-                Line {
-                    mass: mass * width,
-                    flexural_rigidity: rigidity * width,
-                }
+                Line { mass: mass * width, flexural_rigidity: rigidity * width }
             }
         }
     }

@@ -27,11 +27,7 @@ pub fn angle([a, b]: [f64; 2], stretched: f64) -> f64 {
 pub fn partner_length<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T) -> T {
     let square = (a * a + b * b) * 2.0 - stretched * stretched;
     let least = 1e-6 * a.re().min(b.re());
-    if square.re() > least * least {
-        square.sqrt()
-    } else {
-        T::from(least)
-    }
+    if square.re() > least * least { square.sqrt() } else { T::from(least) }
 }
 
 /// Force (N) in the stretched diagonal: τ d₁/cos γ by virtual work, τ (N/m) the picture-frame shear

@@ -39,10 +39,8 @@ pub fn quantity(text: &str, measured: Measured) -> Result<f64, SceneError> {
 fn read<M: Measure>(text: &str) -> Result<f64, SceneError> {
     // as a scene would hold it, so that the messages are the same
     let document = Document::new("", &format!("\"{text}\""));
-    let given: Quantity<M> = Located {
-        value: Unchecked::given(text),
-        span: 0..document.text.len(),
-    };
+    let given: Quantity<M> =
+        Located { value: Unchecked::given(text), span: 0..document.text.len() };
     given.si_or_infinite(&document)
 }
 

@@ -38,10 +38,7 @@ pub(super) fn scene(
         Some(Some(tilt)) => acute(tilt, document)?,
         _ => MAX_TILT,
     };
-    let settings = Settings {
-        max_tilt,
-        ..settings(file, &ply, document)?
-    };
+    let settings = Settings { max_tilt, ..settings(file, &ply, document)? };
     let target = match &file.target {
         Some(table) => Some(target::target(table, &ply, mold.as_ref(), document, base)?),
         None => None,
@@ -77,10 +74,8 @@ fn title(document: &Document, base: &Path) -> String {
 
 fn ply(table: &PlyTable, document: &Document, base: &Path) -> Result<Ply, SceneError> {
     let [nu, nv] = &table.grippers.value.0;
-    let grid = Grid {
-        nu: gripper_count(nu, 2, "u", document)?,
-        nv: gripper_count(nv, 1, "v", document)?,
-    };
+    let grid =
+        Grid { nu: gripper_count(nu, 2, "u", document)?, nv: gripper_count(nv, 1, "v", document)? };
     let [a, b] = &table.cell.0;
     Ok(Ply {
         grid,
@@ -122,17 +117,8 @@ struct Surroundings<'a> {
 
 impl Surroundings<'_> {
     fn motion(&self, file: &SceneFile, target: Option<&Target>) -> Result<Motion, SceneError> {
-        let &Surroundings {
-            ply,
-            mold,
-            tolerance,
-            document,
-            base,
-        } = self;
-        let from_file = file
-            .motion
-            .as_ref()
-            .filter(|m| m.value.kind == MotionKind::File);
+        let &Surroundings { ply, mold, tolerance, document, base } = self;
+        let from_file = file.motion.as_ref().filter(|m| m.value.kind == MotionKind::File);
         if let Some(table) = from_file {
             if let Some(grippers) = &file.grippers
                 && let Some(key) = placing_key(&grippers.value)

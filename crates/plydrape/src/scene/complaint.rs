@@ -17,15 +17,8 @@ pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> Sc
     } else if head.starts_with("missing field") {
         span = header(document, span);
         let table = document.excerpt(&span);
-        let place = if table.starts_with('[') {
-            format!(" in {table}")
-        } else {
-            String::new()
-        };
-        (
-            format!("the key `{quoted}` is missing{place}"),
-            hint(quoted),
-        )
+        let place = if table.starts_with('[') { format!(" in {table}") } else { String::new() };
+        (format!("the key `{quoted}` is missing{place}"), hint(quoted))
     } else if head.starts_with("unknown variant") {
         let known = every_tick(expected);
         let suggestion = suggestion(quoted, &known);
@@ -45,10 +38,7 @@ pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> Sc
             wanted(expected),
         )
     } else if head.starts_with("invalid type") || head.starts_with("invalid value") {
-        (
-            format!("{} is {}", document.quoted(&span), kind_of(document, &span)),
-            wanted(expected),
-        )
+        (format!("{} is {}", document.quoted(&span), kind_of(document, &span)), wanted(expected))
     } else if text.starts_with("duplicate key") {
         (
             format!("the key `{}` stands here twice", document.excerpt(&span)),
@@ -64,10 +54,7 @@ pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> Sc
         } else {
             "write `key = value` under a `[table]`, text in double quotes, arrays in square brackets"
         };
-        (
-            format!("this is not TOML: {}", text.replace('\n', ", ")),
-            remedy.into(),
-        )
+        (format!("this is not TOML: {}", text.replace('\n', ", ")), remedy.into())
     };
     document.error(span, message, help)
 }
@@ -96,10 +83,7 @@ fn is_date(text: &str) -> bool {
 
 fn starts_a_line(document: &Document, at: usize) -> bool {
     let before = document.text.get(..at).unwrap_or_default();
-    before
-        .rsplit('\n')
-        .next()
-        .is_none_or(|line| line.trim().is_empty())
+    before.rsplit('\n').next().is_none_or(|line| line.trim().is_empty())
 }
 
 /// `a length is wanted, e.g. "98 mm"` from `a length, e.g. "98 mm"`.
@@ -149,10 +133,7 @@ fn hint(key: &str) -> String {
 
 /// `did you mean …? ` for the known word within a third of its letters, else nothing.
 fn suggestion(word: &str, known: &[&str]) -> String {
-    let nearest = known
-        .iter()
-        .map(|candidate| (edits(word, candidate), *candidate))
-        .min();
+    let nearest = known.iter().map(|candidate| (edits(word, candidate), *candidate)).min();
     match nearest {
         Some((distance, candidate)) if distance <= 1 + word.chars().count() / 3 => {
             format!("did you mean `{candidate}`? ")
@@ -199,10 +180,7 @@ mod tests {
         assert_eq!(edits("gripers", "grippers"), 1);
         assert_eq!(edits("Cell", "cell"), 0);
         assert_eq!(edits("kitten", "sitting"), 3);
-        assert_eq!(
-            suggestion("sped", &["spacing", "speed"]),
-            "did you mean `speed`? "
-        );
+        assert_eq!(suggestion("sped", &["spacing", "speed"]), "did you mean `speed`? ");
         assert_eq!(suggestion("colour", &["spacing", "speed"]), "");
     }
 }

@@ -58,17 +58,9 @@ impl<'a> Csv<'a> {
                     help,
                 ));
             };
-            columns.push((
-                index,
-                unit_size(document, fields[index].clone(), column.dimension)?,
-            ));
+            columns.push((index, unit_size(document, fields[index].clone(), column.dimension)?));
         }
-        Ok(Csv {
-            document,
-            columns,
-            wanted,
-            header,
-        })
+        Ok(Csv { document, columns, wanted, header })
     }
 
     /// The rows below the header.
@@ -95,14 +87,8 @@ impl Row<'_> {
             Some(field) if !field.is_empty() => Ok(&self.csv.document.text[field.clone()]),
             _ => Err(self.csv.document.error(
                 self.span.clone(),
-                format!(
-                    "this row has no value for the column `{}`",
-                    self.csv.wanted[column].name
-                ),
-                format!(
-                    "every row has {} fields or more, separated by commas",
-                    index + 1
-                ),
+                format!("this row has no value for the column `{}`", self.csv.wanted[column].name),
+                format!("every row has {} fields or more, separated by commas", index + 1),
             )),
         }
     }
@@ -126,10 +112,7 @@ impl Row<'_> {
         text.parse().map_err(|_| {
             self.fault(
                 column,
-                format!(
-                    "{} is no whole number",
-                    self.csv.document.quoted(&self.place(column))
-                ),
+                format!("{} is no whole number", self.csv.document.quoted(&self.place(column))),
                 "gripper indices are whole numbers from 0",
             )
         })
@@ -202,14 +185,8 @@ mod tests {
     use proptest::prelude::*;
 
     const COLUMNS: [Column; 2] = [
-        Column {
-            name: "t",
-            dimension: Dimension::TIME,
-        },
-        Column {
-            name: "x",
-            dimension: Dimension::LENGTH,
-        },
+        Column { name: "t", dimension: Dimension::TIME },
+        Column { name: "x", dimension: Dimension::LENGTH },
     ];
 
     #[test]

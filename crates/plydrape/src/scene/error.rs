@@ -54,10 +54,7 @@ pub(super) struct Document {
 
 impl Document {
     pub fn new(file: impl Into<String>, text: &str) -> Self {
-        Document {
-            file: file.into(),
-            text: text.into(),
-        }
+        Document { file: file.into(), text: text.into() }
     }
 
     /// An error at some bytes of this text.
@@ -67,10 +64,7 @@ impl Document {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> SceneError {
-        SceneError {
-            span: Some(span),
-            ..self.error_anywhere(message, help)
-        }
+        SceneError { span: Some(span), ..self.error_anywhere(message, help) }
     }
 
     /// An error of the text as a whole.

@@ -17,10 +17,7 @@ pub(super) struct Located<T> {
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let spanned = toml::Spanned::deserialize(deserializer)?;
-        Ok(Located {
-            span: spanned.span(),
-            value: spanned.into_inner(),
-        })
+        Ok(Located { span: spanned.span(), value: spanned.into_inner() })
     }
 }
 
@@ -92,9 +89,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Fixed<T, N> 
                 <[T; N]>::try_from(values).map_err(|_| A::Error::invalid_length(length, &self))
             }
         }
-        deserializer
-            .deserialize_any(Values::<T, N>(PhantomData))
-            .map(Fixed)
+        deserializer.deserialize_any(Values::<T, N>(PhantomData)).map(Fixed)
     }
 }
 

@@ -12,10 +12,8 @@ use std::ops::Range;
 use std::path::Path;
 
 /// The materials that come with the program: name and file.
-const SHIPPED: [(&str, &str); 1] = [(
-    "krogh2018",
-    include_str!("../../../../materials/krogh2018.toml"),
-)];
+const SHIPPED: [(&str, &str); 1] =
+    [("krogh2018", include_str!("../../../../materials/krogh2018.toml"))];
 
 /// Smallest and largest mass per length (kg/m) or area (kg/m²).
 const MASSES: [f64; 2] = [1e-6, 1e3];
@@ -106,10 +104,7 @@ fn from_table(
         Some(curve) => Some(shear_curve(curve, document)?),
         None => None,
     };
-    let mut source = table
-        .source
-        .clone()
-        .unwrap_or_else(|| "stated in the scene".into());
+    let mut source = table.source.clone().unwrap_or_else(|| "stated in the scene".into());
     let locking_angle = match (&table.locking_angle, &table.locking_test) {
         (Some(angle), Some(test)) => {
             source = format!("{source}; locking angle: {test}");

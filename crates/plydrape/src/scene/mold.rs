@@ -46,11 +46,7 @@ pub(super) fn mold(table: &MoldTable, document: &Document) -> Result<Mold, Scene
                 Some(direction) => heading(direction, document)?,
                 None => 0.0,
             };
-            [
-                -angle.sin() * climb.cos(),
-                -angle.sin() * climb.sin(),
-                angle.cos(),
-            ]
+            [-angle.sin() * climb.cos(), -angle.sin() * climb.sin(), angle.cos()]
         }
         (Some(_), Some(tilt)) => {
             return Err(document.error(

@@ -85,10 +85,7 @@ fn hold(
             "remove `steps` and `duration`, or write kind = \"straight\"",
         ));
     }
-    Ok(Motion {
-        times: vec![0.0],
-        positions: vec![start.points.clone()],
-    })
+    Ok(Motion { times: vec![0.0], positions: vec![start.points.clone()] })
 }
 
 fn step_count(
@@ -103,10 +100,7 @@ fn step_count(
         Ok(count) if count > most => Err(document.error(
             steps.span.clone(),
             format!("{count} steps are too many"),
-            format!(
-                "{most} steps or fewer are possible with {} grippers",
-                grid.grippers()
-            ),
+            format!("{most} steps or fewer are possible with {} grippers", grid.grippers()),
         )),
         _ => Err(document.error(
             steps.span.clone(),

@@ -34,31 +34,16 @@ pub(super) struct Places {
 
 /// The columns of a table of positions.
 const COLUMNS: [Column; 5] = [
-    Column {
-        name: "i",
-        dimension: Dimension::NONE,
-    },
-    Column {
-        name: "j",
-        dimension: Dimension::NONE,
-    },
+    Column { name: "i", dimension: Dimension::NONE },
+    Column { name: "j", dimension: Dimension::NONE },
     X,
     Y,
     Z,
 ];
 /// The columns of coordinates.
-pub(super) const X: Column = Column {
-    name: "x",
-    dimension: Dimension::LENGTH,
-};
-pub(super) const Y: Column = Column {
-    name: "y",
-    dimension: Dimension::LENGTH,
-};
-pub(super) const Z: Column = Column {
-    name: "z",
-    dimension: Dimension::LENGTH,
-};
+pub(super) const X: Column = Column { name: "x", dimension: Dimension::LENGTH };
+pub(super) const Y: Column = Column { name: "y", dimension: Dimension::LENGTH };
+pub(super) const Z: Column = Column { name: "z", dimension: Dimension::LENGTH };
 
 impl Places {
     /// Reads the key `positions`.
@@ -175,11 +160,8 @@ fn from_table(
         grid.nv, grid.nu
     );
     if rows.len() != grid.nv {
-        let message = format!(
-            "the number of rows in this table is {}, not {}",
-            rows.len(),
-            grid.nv
-        );
+        let message =
+            format!("the number of rows in this table is {}, not {}", rows.len(), grid.nv);
         return Err(scene.error(span.clone(), message, help));
     }
     let mut places = Places {
@@ -199,11 +181,7 @@ fn from_table(
         }
         for position in &row.value {
             let [x, y, z] = &position.value.0;
-            places.points.push([
-                x.coordinate(scene)?,
-                y.coordinate(scene)?,
-                z.coordinate(scene)?,
-            ]);
+            places.points.push([x.coordinate(scene)?, y.coordinate(scene)?, z.coordinate(scene)?]);
             places.spans.push(position.span.clone());
         }
     }
@@ -237,12 +215,7 @@ fn from_csv(document: Document, grid: Grid) -> Result<Places, SceneError> {
             format!("give every one of the {} grippers one row", grid.grippers()),
         ));
     }
-    Ok(Places {
-        points: points.into_iter().flatten().collect(),
-        document,
-        spans,
-        height: None,
-    })
+    Ok(Places { points: points.into_iter().flatten().collect(), document, spans, height: None })
 }
 
 /// The index of a gripper, or why there is none with such an id.
@@ -270,10 +243,7 @@ pub(super) fn point(row: &Row, columns: [usize; 3]) -> Result<[f64; 3], SceneErr
         if coordinate.abs() > FARTHEST {
             return Err(row.fault(
                 column,
-                format!(
-                    "this is {} m, out of all scale for a ply",
-                    rounded(*coordinate)
-                ),
+                format!("this is {} m, out of all scale for a ply", rounded(*coordinate)),
                 "a column without a unit is in metres: did you mean a header such as `x (mm)`?",
             ));
         }

@@ -79,10 +79,7 @@ impl<M> Unchecked<M> {
             Ok((number, None)) => Raw::Number(number),
             _ => Raw::Text(text.to_string()),
         };
-        Unchecked {
-            raw,
-            measure: PhantomData,
-        }
+        Unchecked { raw, measure: PhantomData }
     }
 }
 
@@ -130,10 +127,7 @@ impl<M: Measure> Quantity<M> {
         };
         let shown = document.excerpt(&self.span);
         let (value, dimension) = units::quantity(text).map_err(|fault| {
-            error(
-                format!("{shown} cannot be read: {fault}"),
-                format!("{wanted}; {}", fault.help()),
-            )
+            error(format!("{shown} cannot be read: {fault}"), format!("{wanted}; {}", fault.help()))
         })?;
         match dimension {
             Some(found) if M::DIMENSIONS.contains(&found) => Ok((value, Some(found))),
@@ -143,10 +137,7 @@ impl<M: Measure> Quantity<M> {
             }
             None => Err(error(
                 format!("{shown} has no unit"),
-                format!(
-                    "{wanted}; a plain number, without quotes, is in {}",
-                    M::UNIT
-                ),
+                format!("{wanted}; a plain number, without quotes, is in {}", M::UNIT),
             )),
         }
     }
@@ -250,10 +241,7 @@ impl Quantity<Angle> {
         let shown = document.quoted(&self.span);
         let (message, help) = match self.value.raw {
             Raw::Number(number) => (
-                format!(
-                    "{shown} is {:.1} deg, a right angle or more",
-                    value.to_degrees()
-                ),
+                format!("{shown} is {:.1} deg, a right angle or more", value.to_degrees()),
                 format!("plain numbers are radians: did you mean \"{number} deg\"?"),
             ),
             Raw::Text(_) => (

@@ -87,10 +87,7 @@ fn rectangle(
             ));
         }
         (Some(parallel), Some(Mold::Plane(plane))) if parallel.value => *plane,
-        _ => Plane {
-            point: [0.0; 3],
-            normal: [0.0, 0.0, 1.0],
-        },
+        _ => Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] },
     };
     let mut points = FlatDrape::on(&plane, origin, direction, 0.0).grippers(ply.grid, distances);
     for point in &mut points {
@@ -119,9 +116,7 @@ pub(super) fn check(
         return Ok(());
     };
     for (index, point) in places.points.iter().enumerate() {
-        let height: f64 = (0..3)
-            .map(|k| (point[k] - plane.point[k]) * plane.normal[k])
-            .sum();
+        let height: f64 = (0..3).map(|k| (point[k] - plane.point[k]) * plane.normal[k]).sum();
         if height < -tolerance {
             let mut error = places.error(
                 index,

@@ -31,10 +31,7 @@ pub(super) fn target(
         }
         let places = Places::read(positions, ply.grid, document, base)?;
         places.check_run(ply, "at the target")?;
-        return Ok(Target {
-            grippers: places.points,
-            drape: None,
-        });
+        return Ok(Target { grippers: places.points, drape: None });
     }
     let Some(Mold::Plane(plane)) = mold else {
         return Err(document.error(
@@ -56,10 +53,7 @@ pub(super) fn target(
         None => 0.0,
     };
     let drape = FlatDrape::on(plane, origin, direction, shear);
-    Ok(Target {
-        grippers: drape.grippers(ply.grid, ply.cell),
-        drape: Some(drape),
-    })
+    Ok(Target { grippers: drape.grippers(ply.grid, ply.cell), drape: Some(drape) })
 }
 
 /// A shear angle to either side, below a right angle (rad).
@@ -73,10 +67,7 @@ fn shear_angle(shear: &Quantity<Angle>, document: &Document) -> Result<f64, Scen
     }
     Err(document.error(
         shear.span.clone(),
-        format!(
-            "{} shears the ply by a right angle or more",
-            document.quoted(&shear.span)
-        ),
+        format!("{} shears the ply by a right angle or more", document.quoted(&shear.span)),
         "an angle between -90 deg and 90 deg is wanted; write degrees as \"20 deg\"",
     ))
 }
@@ -101,11 +92,7 @@ impl FlatDrape {
         let [x, y] = origin;
         let [px, py, pz] = plane.point;
         let z = pz - (nx * (x - px) + ny * (y - py)) / nz;
-        FlatDrape {
-            origin: [x, y, z],
-            along_u,
-            along_v,
-        }
+        FlatDrape { origin: [x, y, z], along_u, along_v }
     }
 
     /// Place (m) of the fabric point (u, v) (m).

@@ -14,14 +14,8 @@ use std::path::Path;
 
 /// The columns of a motion file; others, such as the attitude `qx` … `qw`, are ignored.
 const COLUMNS: [Column; 5] = [
-    Column {
-        name: "t",
-        dimension: Dimension::TIME,
-    },
-    Column {
-        name: "gripper",
-        dimension: Dimension::NONE,
-    },
+    Column { name: "t", dimension: Dimension::TIME },
+    Column { name: "gripper", dimension: Dimension::NONE },
     X,
     Y,
     Z,
@@ -88,10 +82,7 @@ impl<'a> Steps<'a> {
         Steps {
             document,
             ply,
-            motion: Motion {
-                times: Vec::new(),
-                positions: Vec::new(),
-            },
+            motion: Motion { times: Vec::new(), positions: Vec::new() },
             first_time: 0.0,
             seen: vec![false; grippers],
             spans: vec![0..0; grippers],
@@ -149,9 +140,7 @@ impl<'a> Steps<'a> {
         }
         self.seen.fill(false);
         self.motion.times.push(time);
-        self.motion
-            .positions
-            .push(vec![[0.0; 3]; self.ply.grid.grippers()]);
+        self.motion.positions.push(vec![[0.0; 3]; self.ply.grid.grippers()]);
         Ok(())
     }
 
@@ -207,10 +196,6 @@ fn gripper_id(row: &Row) -> Result<GripperId, SceneError> {
         .split_once('-')
         .and_then(|(i, j)| Some([i.trim().parse().ok()?, j.trim().parse().ok()?]));
     indices.ok_or_else(|| {
-        row.fault(
-            1,
-            format!("`{text}` is no gripper"),
-            "write grippers as \"i-j\", from 0-0",
-        )
+        row.fault(1, format!("`{text}` is no gripper"), "write grippers as \"i-j\", from 0-0")
     })
 }

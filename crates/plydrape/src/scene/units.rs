@@ -306,11 +306,7 @@ mod tests {
         assert_eq!(quantity("9 kg/"), Err(UnitError::Dangling('/')));
         assert_eq!(quantity("9 kg//m"), Err(UnitError::Dangling('/')));
         assert_eq!(quantity("9 m^x"), Err(UnitError::Power("^x".into())));
-        assert!(
-            UnitError::Unknown("MM".into())
-                .help()
-                .contains("did you mean `mm`?")
-        );
+        assert!(UnitError::Unknown("MM".into()).help().contains("did you mean `mm`?"));
     }
 
     proptest! {

@@ -14,12 +14,7 @@ pub(super) const ROOM: [f64; 4] = [54.0, 26.0, 74.0, 52.0];
 
 /// Plain text of a size.
 pub(super) fn plain(size: f64, side: i8) -> Type {
-    Type {
-        size,
-        bold: false,
-        ink: DARK,
-        side,
-    }
+    Type { size, bold: false, ink: DARK, side }
 }
 
 /// A box in space (m) and the exaggeration of its height.
@@ -39,17 +34,12 @@ pub(super) fn ticks(low: f64, high: f64, most: f64) -> Vec<f64> {
     }
     let ten = 10f64.powf(raw.log10().floor());
     let round = [1.0, 2.0, 5.0, 10.0].map(|m| m * ten);
-    let step = round
-        .into_iter()
-        .find(|s| *s >= raw * 0.999)
-        .unwrap_or(10.0 * ten);
+    let step = round.into_iter().find(|s| *s >= raw * 0.999).unwrap_or(10.0 * ten);
     let (first, last) = ((low / step - 1e-6).ceil(), (high / step + 1e-6).floor());
     if !(first.abs() < 1e12 && last - first < 1e3) {
         return Vec::new();
     }
-    (first as i64..=last as i64)
-        .map(|k| k as f64 * step)
-        .collect()
+    (first as i64..=last as i64).map(|k| k as f64 * step).collect()
 }
 
 /// A tick's text: no more digits than the tick needs.
@@ -59,11 +49,7 @@ pub(super) fn label(value: f64) -> String {
         (value * shift - (value * shift).round()).abs() < 1e-6 * shift.max(1.0)
     });
     let text = format!("{value:.*}", digits.unwrap_or(6) as usize);
-    if text == "-0" {
-        "0".into()
-    } else {
-        text.replace('-', "−")
-    }
+    if text == "-0" { "0".into() } else { text.replace('-', "−") }
 }
 
 impl Frame {
@@ -82,9 +68,8 @@ impl Frame {
     /// Floor and back walls with their grid lines.
     pub(super) fn back(&self, canvas: &mut Canvas, view: &View) -> Result<(), FigureError> {
         let ([x0, y0, z0], [x1, y1, z1]) = (self.low, self.high);
-        let [xs, ys, zs] = self
-            .ticks(view)
-            .map(|t| t.into_iter().map(|v| v * 1e-3).collect::<Vec<_>>());
+        let [xs, ys, zs] =
+            self.ticks(view).map(|t| t.into_iter().map(|v| v * 1e-3).collect::<Vec<_>>());
         let mut rule = |points: &[Point], ink| {
             let path: Vec<Px> = points.iter().map(|p| view.at(*p)).collect();
             canvas.line(&path, ink, 0.8)
@@ -98,16 +83,10 @@ impl Frame {
         for z in zs {
             rule(&[[x0, y0, z], [x0, y1, z], [x1, y1, z]], GRID)?;
         }
-        rule(
-            &[[x0, y0, z1], [x0, y1, z1], [x1, y1, z1], [x1, y1, z0]],
-            GRID,
-        )?;
+        rule(&[[x0, y0, z1], [x0, y1, z1], [x1, y1, z1], [x1, y1, z0]], GRID)?;
         rule(&[[x0, y1, z0], [x0, y1, z1]], GRID)?;
         rule(&[[x0, y0, z0], [x0, y1, z0], [x1, y1, z0]], GRID)?;
-        rule(
-            &[[x0, y0, z1], [x0, y0, z0], [x1, y0, z0], [x1, y1, z0]],
-            FRAME,
-        )
+        rule(&[[x0, y0, z1], [x0, y0, z0], [x1, y0, z0], [x1, y1, z0]], FRAME)
     }
 
     /// Ticks and labels along the left upright edge and the two front edges of the floor.
@@ -149,9 +128,7 @@ impl Edge {
         let length = (bx - ax).hypot(by - ay).max(1e-9);
         // Front edges bound the picture from below.
         let down = if bx >= ax { 1.0 } else { -1.0 };
-        Edge {
-            away: [down * (ay - by) / length, down * (bx - ax) / length],
-        }
+        Edge { away: [down * (ay - by) / length, down * (bx - ax) / length] }
     }
 
     /// Writes beside the edge: a tick's text in row 0, the axis label in row 1.
@@ -167,11 +144,7 @@ impl Edge {
             0 => (near, TICK),
             _ => (near + 25.0, LABEL),
         };
-        canvas.text(
-            text,
-            [at[0] + reach * x, at[1] + reach * y],
-            plain(size, side),
-        )
+        canvas.text(text, [at[0] + reach * x, at[1] + reach * y], plain(size, side))
     }
 }
 
@@ -183,14 +156,8 @@ mod tests {
     #[test]
     fn ticks_are_round() {
         assert_eq!(ticks(-0.012, 0.078, 4.0), [0.0, 50.0]);
-        assert_eq!(
-            ticks(0.0, 0.3, 6.0),
-            [0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0]
-        );
+        assert_eq!(ticks(0.0, 0.3, 6.0), [0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0]);
         assert_eq!(ticks(0.0, 0.0, 6.0), Vec::<f64>::new());
-        assert_eq!(
-            [0.0, -50.0, 0.25, 1e-3 * 30.0].map(label),
-            ["0", "−50", "0.25", "0.03"]
-        );
+        assert_eq!([0.0, -50.0, 0.25, 1e-3 * 30.0].map(label), ["0", "−50", "0.25", "0.03"]);
     }
 }

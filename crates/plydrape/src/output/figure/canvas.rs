@@ -50,14 +50,9 @@ impl<'a> Canvas<'a> {
     /// An empty sheet of a size (picture points) that writes into `text`.
     pub(super) fn new(text: &'a mut String, size: Px) -> Result<Self, FigureError> {
         let fine = size.map(|s| (s * FINE).round() as u32);
-        let mut canvas = Canvas {
-            backend: SVGBackend::with_string(text, (fine[0], fine[1])),
-        };
+        let mut canvas = Canvas { backend: SVGBackend::with_string(text, (fine[0], fine[1])) };
         let [w, h] = size;
-        canvas.polygon(
-            &[[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]],
-            Ink([255; 3], 1.0),
-        )?;
+        canvas.polygon(&[[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]], Ink([255; 3], 1.0))?;
         Ok(canvas)
     }
 
@@ -69,17 +64,13 @@ impl<'a> Canvas<'a> {
     /// A filled polygon.
     pub(super) fn polygon(&mut self, corners: &[Px], ink: Ink) -> Result<(), FigureError> {
         let path = corners.iter().map(|p| fine(*p));
-        self.backend
-            .fill_polygon(path, &style(ink, 0.0))
-            .map_err(fault)
+        self.backend.fill_polygon(path, &style(ink, 0.0)).map_err(fault)
     }
 
     /// A line of a width (picture points) through points.
     pub(super) fn line(&mut self, points: &[Px], ink: Ink, width: f64) -> Result<(), FigureError> {
         let path = points.iter().map(|p| fine(*p));
-        self.backend
-            .draw_path(path, &style(ink, width))
-            .map_err(fault)
+        self.backend.draw_path(path, &style(ink, width)).map_err(fault)
     }
 
     /// An open circle.
@@ -91,9 +82,7 @@ impl<'a> Canvas<'a> {
         width: f64,
     ) -> Result<(), FigureError> {
         let radius = (radius * FINE).round() as u32;
-        self.backend
-            .draw_circle(fine(center), radius, &style(ink, width), false)
-            .map_err(fault)
+        self.backend.draw_circle(fine(center), radius, &style(ink, width), false).map_err(fault)
     }
 
     /// One line of text, its middle at the height of its place; control characters become spaces.
@@ -103,15 +92,9 @@ impl<'a> Canvas<'a> {
             0 => HPos::Center,
             1.. => HPos::Right,
         };
-        let weight = if set.bold {
-            FontStyle::Bold
-        } else {
-            FontStyle::Normal
-        };
-        let font = ("sans-serif", set.size * FINE * FONT)
-            .into_font()
-            .style(weight)
-            .color(&set.ink.rgba());
+        let weight = if set.bold { FontStyle::Bold } else { FontStyle::Normal };
+        let font =
+            ("sans-serif", set.size * FINE * FONT).into_font().style(weight).color(&set.ink.rgba());
         let clean = text.replace(|c: char| c.is_control(), " ");
         self.backend
             .draw_text(&clean, &font.pos(Pos::new(side, VPos::Center)), fine(at))
@@ -125,8 +108,7 @@ pub(super) fn at_size(text: &str, size: Px) -> String {
     let drawn = format!("width=\"{w}\" height=\"{h}\"");
     let shown = format!("width=\"{}\" height=\"{}\" role=\"img\"", size[0], size[1]);
     // Full cover is what an SVG has by itself; texts cannot hold this, their quotes are escaped.
-    text.replacen(&drawn, &shown, 1)
-        .replace(" opacity=\"1\"", "")
+    text.replacen(&drawn, &shown, 1).replace(" opacity=\"1\"", "")
 }
 
 fn fine(p: Px) -> (i32, i32) {

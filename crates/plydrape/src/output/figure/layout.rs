@@ -40,22 +40,14 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
     let free = PANELS - ROOM[0] - ROOM[2] - wide * scale;
     for (k, step) in steps.iter().enumerate() {
         let top = HEAD + panel * k as f64;
-        canvas.text(
-            &caption(result, step, stretch),
-            [28.0, top + 12.0],
-            heading(14.0),
-        )?;
+        canvas.text(&caption(result, step, stretch), [28.0, top + 12.0], heading(14.0))?;
         let corner = [ROOM[0] + free / 2.0, top + TITLE + ROOM[1]];
         let origin = [corner[0] - scale * from[0], corner[1] - scale * from[1]];
         stage.draw(&mut canvas, &unit.placed(scale, origin), step)?;
     }
     // Lines alone carry no colour of height.
     if result.scene.grid.cells() > 0 {
-        bar(
-            &mut canvas,
-            stage.scale,
-            [HEAD + 40.0, size[1] - LEGEND - 24.0],
-        )?;
+        bar(&mut canvas, stage.scale, [HEAD + 40.0, size[1] - LEGEND - 24.0])?;
     }
     legend(&mut canvas, &stage, steps, size[1] - LEGEND / 2.0 - 4.0)?;
     canvas.finish()?;
@@ -63,12 +55,7 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
 }
 
 fn heading(size: f64) -> Type {
-    Type {
-        size,
-        bold: true,
-        ink: DARK,
-        side: -1,
-    }
+    Type { size, bold: true, ink: DARK, side: -1 }
 }
 
 /// The scene's title, cut to the width of the sheet.
@@ -131,13 +118,7 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
         high[2] = low[2] + least;
     }
     let stretch = exaggeration(high[2] - low[2], across, scale[1] - scale[0]);
-    Stage {
-        result,
-        frame: Frame { low, high, stretch },
-        panels: steps.len(),
-        scale,
-        mold,
-    }
+    Stage { result, frame: Frame { low, high, stretch }, panels: steps.len(), scale, mold }
 }
 
 /// Lowest and highest coordinates of some points.
@@ -167,12 +148,8 @@ fn mold_patch(result: &ResultFile, low: Point, high: Point, across: f64) -> Opti
     let [nx, ny, nz] = plane.normal;
     let [px, py, pz] = plane.point;
     let on = |x: f64, y: f64| [x, y, pz - (nx * (x - px) + ny * (y - py)) / nz];
-    let patch = [
-        on(low[0], low[1]),
-        on(high[0], low[1]),
-        on(high[0], high[1]),
-        on(low[0], high[1]),
-    ];
+    let patch =
+        [on(low[0], low[1]), on(high[0], low[1]), on(high[0], high[1]), on(low[0], high[1])];
     let near = |p: &Point| p[2] > low[2] - across && p[2] < high[2] + across;
     patch.iter().all(near).then_some(patch)
 }

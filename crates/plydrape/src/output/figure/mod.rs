@@ -69,10 +69,8 @@ pub enum FigureError {
 pub fn default_steps(result: &ResultFile) -> Vec<usize> {
     let first = result.steps.first().map(|s| s.step);
     let last = result.steps.last().map(|s| s.step);
-    let mut steps: Vec<usize> = [first, result.summary.first_contact_step, last]
-        .into_iter()
-        .flatten()
-        .collect();
+    let mut steps: Vec<usize> =
+        [first, result.summary.first_contact_step, last].into_iter().flatten().collect();
     steps.dedup();
     steps
 }
@@ -90,11 +88,7 @@ pub fn svg(result: &ResultFile, steps: &[usize]) -> Result<String, FigureError> 
     };
     let find = |step: &usize| {
         let found = result.steps.iter().find(|s| s.step == *step);
-        found.ok_or(FigureError::NoSuchStep {
-            step: *step,
-            first: first.step,
-            last: last.step,
-        })
+        found.ok_or(FigureError::NoSuchStep { step: *step, first: first.step, last: last.step })
     };
     let shown: Vec<&Step> = steps.iter().map(find).collect::<Result<_, _>>()?;
     let grid = result.scene.grid;
@@ -102,12 +96,7 @@ pub fn svg(result: &ResultFile, steps: &[usize]) -> Result<String, FigureError> 
         let found = step.grippers.len();
         if found != grid.grippers() || grid.nu < 2 || grid.nv < 1 {
             let (step, nu, nv) = (step.step, grid.nu, grid.nv);
-            return Err(FigureError::Grippers {
-                step,
-                found,
-                nu,
-                nv,
-            });
+            return Err(FigureError::Grippers { step, found, nu, nv });
         }
         if !points(step).all(|p| p.iter().all(|c| c.is_finite() && c.abs() < 1e6)) {
             return Err(FigureError::NotFinite { step: step.step });
@@ -185,23 +174,13 @@ mod tests {
         assert_eq!(svg(&result, &[]), Err(FigureError::NoStep));
         assert_eq!(
             svg(&result, &[1, 9]),
-            Err(FigureError::NoSuchStep {
-                step: 9,
-                first: 1,
-                last: 5
-            })
+            Err(FigureError::NoSuchStep { step: 9, first: 1, last: 5 })
         );
-        assert_eq!(
-            svg(&result, &[1, 2, 3, 4]),
-            Err(FigureError::TooManySteps { asked: 4 })
-        );
+        assert_eq!(svg(&result, &[1, 2, 3, 4]), Err(FigureError::TooManySteps { asked: 4 }));
         result.steps[1].grippers[0].position[2] = f64::NAN;
         assert_eq!(svg(&result, &[2]), Err(FigureError::NotFinite { step: 2 }));
         result.steps[2].grippers.pop();
-        assert!(matches!(
-            svg(&result, &[3]),
-            Err(FigureError::Grippers { found: 7, .. })
-        ));
+        assert!(matches!(svg(&result, &[3]), Err(FigureError::Grippers { found: 7, .. })));
     }
 
     /// Writes pictures to look at into the folder named by `PLYDRAPE_PICTURES`.

@@ -64,11 +64,7 @@ pub(super) struct Stage<'a> {
 /// Radius of a gripper's disc (m).
 pub(super) fn gripper_radius(result: &ResultFile) -> f64 {
     let [a, b] = result.scene.cell;
-    let side = if result.scene.grid.nv > 1 {
-        a.min(b)
-    } else {
-        a
-    };
+    let side = if result.scene.grid.nv > 1 { a.min(b) } else { a };
     GRIPPER * side
 }
 
@@ -122,11 +118,7 @@ impl Stage<'_> {
     /// The longer side of a cell (m); of a strip, its length.
     fn cell_length(&self) -> f64 {
         let [a, b] = self.result.scene.cell;
-        if self.result.scene.grid.nv > 1 {
-            a.max(b)
-        } else {
-            a
-        }
+        if self.result.scene.grid.nv > 1 { a.max(b) } else { a }
     }
 
     /// How many catenaries are drawn; edges come first.
@@ -202,22 +194,14 @@ impl Stage<'_> {
         let rim_width = (0.1 * radius * view.scale()).min(0.9);
         let edge = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / corners as f64;
-            let arm = turned(
-                gripper.quaternion,
-                [radius * angle.cos(), radius * angle.sin(), 0.0],
-            );
+            let arm = turned(gripper.quaternion, [radius * angle.cos(), radius * angle.sin(), 0.0]);
             view.at([0, 1, 2].map(|c| gripper.position[c] + arm[c]))
         };
         let points: Vec<Px> = (0..corners).map(edge).collect();
         let depth = view.depth(gripper.position) + self.lift(detail) + 2.0 * radius;
         let mut rim = points.clone();
         rim.push(points[0]);
-        let piece = |points, ink, form| Piece {
-            depth,
-            points,
-            ink,
-            form,
-        };
+        let piece = |points, ink, form| Piece { depth, points, ink, form };
         pieces.push(piece(points, BLACK, Form::Area));
         if rim_width > 0.2 {
             pieces.push(piece(rim, RIM, Form::Line(rim_width)));

@@ -64,8 +64,5 @@ pub(super) fn thread(
 fn overlapped(a: Px, b: Px) -> Vec<Px> {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let hair = 0.3 / dx.hypot(dy).max(0.3);
-    vec![
-        [a[0] - hair * dx, a[1] - hair * dy],
-        [b[0] + hair * dx, b[1] + hair * dy],
-    ]
+    vec![[a[0] - hair * dx, a[1] - hair * dy], [b[0] + hair * dx, b[1] + hair * dy]]
 }

@@ -49,11 +49,7 @@ impl View {
 
     /// The same view with its own scale and origin.
     pub(super) fn placed(self, scale: f64, origin: Px) -> Self {
-        View {
-            scale,
-            origin,
-            ..self
-        }
+        View { scale, origin, ..self }
     }
 
     /// Picture points per metre.
@@ -84,11 +80,7 @@ impl View {
         let mut extent = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         for corner in 0..8 {
             let pick = |axis: usize| {
-                if corner >> axis & 1 == 0 {
-                    low[axis]
-                } else {
-                    high[axis]
-                }
+                if corner >> axis & 1 == 0 { low[axis] } else { high[axis] }
             };
             let at = self.at([pick(0), pick(1), pick(2)]);
             for axis in 0..2 {
@@ -103,11 +95,7 @@ impl View {
 /// A vector turned by a unit quaternion (x, y, z, w).
 pub(super) fn turned([qx, qy, qz, qw]: [f64; 4], v: Point) -> Point {
     let cross = |a: Point, b: Point| {
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     };
     let q = [qx, qy, qz];
     let t = cross(q, v).map(|c| 2.0 * c);

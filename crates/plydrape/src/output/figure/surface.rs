@@ -33,11 +33,7 @@ pub(super) fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
     let mut points: Vec<Point> = pieces.iter().flat_map(|(_, p)| p.iter().copied()).collect();
     points.dedup();
     // A line without stations still has its two grippers.
-    if points.len() < 2 {
-        ends.to_vec()
-    } else {
-        points
-    }
+    if points.len() < 2 { ends.to_vec() } else { points }
 }
 
 /// Points of a polyline at equal shares of its horizontal way (of its length, if it is upright).
@@ -52,9 +48,7 @@ pub(super) fn stations(line: &[Point], count: usize) -> Vec<Point> {
             sum += square.sqrt();
             sum
         };
-        std::iter::once(0.0)
-            .chain(line.windows(2).map(step))
-            .collect()
+        std::iter::once(0.0).chain(line.windows(2).map(step)).collect()
     };
     let (flat, full) = (way(2), way(3));
     let ends = [flat.last(), full.last()].map(|e| e.copied().unwrap_or(0.0));
@@ -68,11 +62,7 @@ pub(super) fn stations(line: &[Point], count: usize) -> Vec<Point> {
                 k += 1;
             }
             let length = way[k + 1] - way[k];
-            let part = if length > 0.0 {
-                (goal - way[k]) / length
-            } else {
-                0.0
-            };
+            let part = if length > 0.0 { (goal - way[k]) / length } else { 0.0 };
             mix(line[k], line[k + 1], part.clamp(0.0, 1.0))
         })
         .collect()
