@@ -239,12 +239,13 @@ proptest! {
         let count = ply.grid.grippers();
         let direction = Direction {
             grippers: (0..count).map(|n| [0, 1, 2].map(|k| 0.01 * random[3 * n + k])).collect(),
-            length: 0.0,
+            length: 0.01 * others.0,
             weight: others.1,
             rigidity: others.2,
         };
         let at = |h: f64| {
             let mut ply = ply.clone();
+            ply.cell = ply.cell.map(|side| side * (1.0 + h * direction.length));
             if let Section::Line { mass, flexural_rigidity } = &mut ply.material.section {
                 *mass *= 1.0 + h * direction.weight;
                 *flexural_rigidity *= 1.0 + h * direction.rigidity;
@@ -266,6 +267,9 @@ proptest! {
             s.net().elements.iter().map(|e| e.state).collect::<Vec<_>>(),
         );
         prop_assume!(kind(&low) == kind(&middle) && kind(&high) == kind(&middle));
+        // min-force may have several minima (mirror images in a symmetric ply): all on one of them
+        let jump = low.slopes().iter().zip(high.slopes()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        prop_assume!(jump < 0.01);
         let tangent = middle.tangent(&positions, &laid, &direction);
         for (j, slope) in tangent.slopes.iter().enumerate() {
             let difference = (high.slopes()[j] - low.slopes()[j]) / (2.0 * h);

@@ -145,7 +145,11 @@ pub fn solve_linear(solver: &mut Solver, right: &[f64], tolerance: f64, out: &mu
 
 /// The step p that minimizes ½pᵀBp + gᵀp within the bounds of the slopes, by a primal-dual active set:
 /// a joint is at its bound if its step would leave it, and stays while its multiplier pushes outwards.
-pub fn bounded_step(solver: &mut Solver, tolerance: f64, step: &mut [f64]) {
+///
+/// Returns whether the bounds that hold, left in `work.active`, are those of the step before: only then
+/// do two steps tell the error of the next.
+pub fn bounded_step(solver: &mut Solver, tolerance: f64, step: &mut [f64]) -> bool {
+    let mut settled = false;
     let bound = solver.bound();
     let count = step.len();
     let mut right = std::mem::take(&mut solver.work.right);
@@ -190,12 +194,17 @@ pub fn bounded_step(solver: &mut Solver, tolerance: f64, step: &mut [f64]) {
             work.active[n] = active;
         }
         if !changed {
+            settled = true;
             break;
         }
     }
+    let work = &mut solver.work;
+    settled &= work.held == work.active;
+    work.held.clone_from(&work.active);
     solver.work.right = right;
     solver.work.product = product;
     solver.work.free = free;
+    settled
 }
 
 /// Slope change that is tried along a direction of negative curvature.

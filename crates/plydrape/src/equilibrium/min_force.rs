@@ -109,7 +109,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         trial.resize(count, 0.0);
         // looser far away: a Newton step is worth no more digits than it will have
         let tolerance = if count <= 64 { 1e-13 } else { (0.01 * before).clamp(1e-12, 1e-4) };
-        bounded_step(solver, tolerance, &mut step);
+        let settled = bounded_step(solver, tolerance, &mut step);
         let mut start = std::mem::take(&mut solver.work.start);
         start.clear();
         start.extend_from_slice(&solver.slopes);
@@ -117,7 +117,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
             |fraction: f64, n: usize| (start[n] + fraction * step[n]).clamp(-bound, bound);
         let size = (0..count).map(|n| (projected(1.0, n) - start[n]).abs()).fold(0.0, f64::max);
         let mut accepted = false;
-        if tolerance * size <= 1e-12 && solver.may_finish(size, before) {
+        if settled && tolerance * size <= 1e-12 && solver.may_finish(size, before) {
             solver.slopes.clear();
             solver.slopes.extend((0..count).map(|n| projected(1.0, n)));
             solver.finish(0..solver.net.elements.len());

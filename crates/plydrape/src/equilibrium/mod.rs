@@ -10,6 +10,7 @@ mod hessian;
 mod min_force;
 mod moment_balance;
 mod net;
+mod slopes;
 mod solver;
 mod tangent;
 

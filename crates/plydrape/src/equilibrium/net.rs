@@ -4,9 +4,10 @@
 //! depends on a position is a [`Number`], so the same code gives the net and its derivative.
 
 use super::Number;
+use super::slopes::contact_end;
 use crate::catenary::SpanState;
 use crate::ply::{Catenary, Grid, Kind, Laid, Ply, shear};
-use crate::scene::{ContactEnd, Settings};
+use crate::scene::Settings;
 
 /// One free span of the ply.
 #[derive(Debug, Clone, Copy)]
@@ -101,14 +102,14 @@ pub struct Net<T> {
     pub governed: Vec<[Option<T>; 2]>,
     /// The edges around each gripper: `[direction][before, after]`.
     pub sides: Vec<[[Side<T>; 2]; 2]>,
-    joint_at: Vec<[Option<usize>; 2]>,
-    directions: Vec<[[T; 2]; 2]>,
-    counts: Vec<[f64; 2]>,
+    pub(super) joint_at: Vec<[Option<usize>; 2]>,
+    pub(super) directions: Vec<[[T; 2]; 2]>,
+    pub(super) counts: Vec<[f64; 2]>,
 }
 
 /// Horizontal parts of a straight line.
 #[derive(Clone, Copy)]
-struct Line<T> {
+pub(super) struct Line<T> {
     delta: [T; 2],
     run: T,
     rise: T,
@@ -140,11 +141,11 @@ impl<T: Number> Line<T> {
     }
 
     /// Slope from the first end to the second; 0 if they coincide.
-    fn slope(&self) -> T {
+    pub(super) fn slope(&self) -> T {
         if self.run.re() > 0.0 { self.rise / self.run } else { T::from(0.0) }
     }
 
-    fn unit(&self) -> [T; 2] {
+    pub(super) fn unit(&self) -> [T; 2] {
         if self.run.re() > 0.0 { self.delta.map(|d| d / self.run) } else { [T::from(0.0); 2] }
     }
 }
@@ -165,7 +166,7 @@ pub struct Build<'a, T> {
 }
 
 impl<T: Number> Build<'_, T> {
-    fn grid(&self) -> Grid {
+    pub(super) fn grid(&self) -> Grid {
         self.ply.grid
     }
 
@@ -174,13 +175,13 @@ impl<T: Number> Build<'_, T> {
     }
 
     /// Whether the lines of edges along a direction have bending stiffness.
-    fn is_rigid(&self, direction: usize) -> bool {
+    pub(super) fn is_rigid(&self, direction: usize) -> bool {
         let kind = if direction == 0 { Kind::EdgeU } else { Kind::EdgeV };
         self.ply.line(kind).flexural_rigidity > 0.0
     }
 
     /// The rest that holds on to an end of a catenary: the line from its first to its second end.
-    fn rest_line(&self, catenary: usize, end: usize) -> Line<T> {
+    pub(super) fn rest_line(&self, catenary: usize, end: usize) -> Line<T> {
         let ends = self.ends(&self.grid().catenary(catenary));
         match &self.laid[catenary] {
             None => line(ends[0], ends[1]),
@@ -258,48 +259,6 @@ impl<T: Number> Net<T> {
         }
     }
 
-    /// Slopes at the grippers of shearing diagonals: their outward slope, each taken in the line's own
-    /// direction; where several meet, the mean.
-    fn govern(&mut self, build: &Build<T>) {
-        let grid = build.grid();
-        self.governed.clear();
-        self.governed.resize(grid.grippers(), [None; 2]);
-        let mut counts = std::mem::take(&mut self.counts);
-        counts.clear();
-        counts.resize(grid.grippers(), [0.0; 2]);
-        for (cell, shearing) in self.shearing.iter().enumerate() {
-            let Some((_, falling)) = shearing else {
-                continue;
-            };
-            let index = grid.edges() + 2 * cell + usize::from(*falling);
-            let catenary = grid.catenary(index);
-            for (end, gripper) in [catenary.from, catenary.to].into_iter().enumerate() {
-                // slope in the diagonal's direction from its first end; outward at its second end is minus it
-                let slope = build.rest_line(index, end).slope();
-                let outward = if end == 0 { slope } else { -slope };
-                let along_u = match (catenary.kind, end) {
-                    (Kind::Falling, 0) | (Kind::Rising, 1) => -outward,
-                    _ => outward,
-                };
-                let along_v = if end == 0 { outward } else { -outward };
-                let g = grid.index(gripper);
-                for (d, slope) in [along_u, along_v].into_iter().enumerate() {
-                    let sum = self.governed[g][d].unwrap_or(T::from(0.0));
-                    self.governed[g][d] = Some(sum + slope);
-                    counts[g][d] += 1.0;
-                }
-            }
-        }
-        for (governed, counts) in self.governed.iter_mut().zip(&counts) {
-            for d in 0..2 {
-                // a limp line has no slope to govern
-                let sum = governed[d].filter(|_| build.is_rigid(d));
-                governed[d] = sum.map(|sum| sum / counts[d]);
-            }
-        }
-        self.counts = counts;
-    }
-
     fn element(
         &self,
         build: &Build<T>,
@@ -370,35 +329,6 @@ impl<T: Number> Net<T> {
         self.directions.push(directions);
     }
 
-    /// Joins the edges on both sides of a gripper, and holds those that a shearing diagonal governs.
-    fn join(&mut self, build: &Build<T>) {
-        let grid = build.grid();
-        let lines = (0..grid.nv).map(|j| (0, j)).chain((0..grid.nu).map(|i| (1, i)));
-        for (direction, fixed) in lines {
-            let count = if direction == 0 { grid.nu } else { grid.nv };
-            for moving in 0..count {
-                let id = if direction == 0 { [moving, fixed] } else { [fixed, moving] };
-                let gripper = grid.index(id);
-                let sides = self.sides[gripper][direction];
-                if let Some(slope) = self.governed[gripper][direction] {
-                    for side in sides {
-                        if let Side::Hanging(element, end) = side {
-                            self.elements[element].ends[end] = End::Given(slope);
-                        }
-                    }
-                } else if let ([Side::Hanging(a, end_a), Side::Hanging(b, end_b)], true) =
-                    (sides, build.is_rigid(direction))
-                {
-                    let joint = self.joints.len();
-                    self.joints.push(Joint { gripper, direction, elements: [a, b] });
-                    self.joint_at[gripper][direction] = Some(joint);
-                    self.elements[a].ends[end_a] = End::Joint(joint);
-                    self.elements[b].ends[end_b] = End::Joint(joint);
-                }
-            }
-        }
-    }
-
     /// The elements of a diagonal, unless it is stretched straight.
     fn diagonal(&mut self, build: &Build<T>, catenary: usize) {
         let grid = build.grid();
@@ -438,77 +368,9 @@ impl<T: Number> Net<T> {
         }
     }
 
-    /// The end of a diagonal at a gripper: the plane through the two edge slopes of its cell there.
-    ///
-    /// Free where those edges are parallel in plan and define no plane, and in a limp ply.
-    fn plane(
-        &self,
-        build: &Build<T>,
-        cell: usize,
-        c: Catenary,
-        end: usize,
-        along: &Line<T>,
-    ) -> End<T> {
-        let grid = build.grid();
-        if build.ply.line(c.kind).flexural_rigidity == 0.0 {
-            return End::Free;
-        }
-        let gripper = if end == 0 { c.from } else { c.to };
-        let (i, j) = (cell % (grid.nu - 1), cell / (grid.nu - 1));
-        let [di, dj] = [gripper[0] - i, gripper[1] - j];
-        // the cell's edges at this gripper: it stands at their start (0) or at their end (1)
-        let edges = [grid.edge_u([i, gripper[1]]), grid.edge_v([gripper[0], j])];
-        let [u, v] = [self.directions[edges[0]][di], self.directions[edges[1]][dj]];
-        let along = along.unit();
-        let determinant = u[0] * v[1] - u[1] * v[0];
-        if determinant.re().abs() < 1e-6 {
-            return End::Free;
-        }
-        let share = [
-            (along[0] * v[1] - along[1] * v[0]) / determinant,
-            (u[0] * along[1] - u[1] * along[0]) / determinant,
-        ];
-        let g = grid.index(gripper);
-        let source = [0, 1].map(|d| {
-            if let Some(slope) = self.governed[g][d] {
-                return SlopeSource::Given(slope);
-            }
-            if let Some(joint) = self.joint_at[g][d] {
-                return SlopeSource::Joint(joint);
-            }
-            let at = if d == 0 { di } else { dj };
-            match self.sides[g][d][1 - at] {
-                Side::Hanging(element, end) => SlopeSource::Outcome(element, end),
-                Side::Fixed(slope) => SlopeSource::Given(slope),
-                Side::None => SlopeSource::Given(T::from(0.0)),
-            }
-        });
-        End::Plane(PlaneSlope { share, source })
-    }
-
     /// The unknown joint of a gripper along a direction, if it has one.
     #[must_use]
     pub fn joint(&self, gripper: usize, direction: usize) -> Option<usize> {
         self.joint_at[gripper][direction]
-    }
-}
-
-/// What holds a rest where it leaves the mold.
-fn contact_end<T: Number>(
-    build: &Build<T>,
-    kind: Kind,
-    laid: &Laid,
-    rest: usize,
-    line: &Line<T>,
-) -> End<T> {
-    match build.settings.contact.end {
-        ContactEnd::Free => End::Free,
-        ContactEnd::Tangent => {
-            let ([nx, ny, nz], unit) = (laid.normal[rest], line.unit());
-            if build.ply.line(kind).flexural_rigidity == 0.0 || nz <= 0.0 {
-                return End::Free;
-            }
-            End::Given((unit[0] * -nx + unit[1] * -ny) / nz)
-        }
     }
 }

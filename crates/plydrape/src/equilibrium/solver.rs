@@ -104,6 +104,7 @@ pub(super) struct Work {
     pub step: Vec<f64>,
     pub trial: Vec<f64>,
     pub active: Vec<bool>,
+    pub held: Vec<bool>,
     pub diagonal: Vec<f64>,
     pub vectors: [Vec<f64>; 4],
     pub start: Vec<f64>,
