@@ -42,11 +42,12 @@ struct Printed<'a> {
 
 /// Simulates, writes the files and judges.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
-    let scene = plydrape::scene::read(&arguments.scene)?;
+    // first of all, so that even a long read ends in files of what was done
     let stop = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&stop);
     // a second handler cannot be set; then Ctrl-C ends the program as it always did
     let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
+    let scene = plydrape::scene::read(&arguments.scene)?;
 
     let bar = progress_bar(&scene, quiet);
     let drape = plydrape::draping::simulate(&scene, |done| {

@@ -5,7 +5,7 @@
 //! over the same arc length, so that no fabric is made or lost. A run that reaches a gripper starts
 //! from it, since there the ply is held.
 //!
-//! A segment grows where the span dips below the mold at its end, up to where the ply is farther than
+//! A segment grows where the span next to it dips below the mold, up to where the ply is farther than
 //! the tolerance. A span that leaves the mold upwards does not grow its segment, though it is within
 //! the tolerance for a while: otherwise every step would lay a bit more of a ply that does not move, and
 //! the result would depend on the number of steps.
@@ -74,9 +74,11 @@ fn runs(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Vec<Run> {
     for n in 0..samples.len() {
         let (t, d) = samples[n];
         if d < tolerance {
-            let from =
-                if n == 0 { 0.0 } else { crossing(&distance, samples[n - 1].0, t, tolerance) };
-            let run = open.get_or_insert(Run { from, to: t, deepest: t, depth: d });
+            let run = open.get_or_insert_with(|| {
+                let outside = |n: usize| crossing(&distance, samples[n - 1].0, t, tolerance);
+                let from = if n == 0 { 0.0 } else { outside(n) };
+                Run { from, to: t, deepest: t, depth: d }
+            });
             run.to = t;
             if d < run.depth {
                 (run.deepest, run.depth) = (t, d);

@@ -146,6 +146,7 @@ mod tests {
             sample::draped(8, 5, 10),
             sample::hanging(2, 1),
             sample::hanging(30, 30),
+            sample::tilted(8, 5),
             sample::draped(60, 60, 2),
             steep,
         ];
@@ -181,29 +182,5 @@ mod tests {
         assert_eq!(svg(&result, &[2]), Err(FigureError::NotFinite { step: 2 }));
         result.steps[2].grippers.pop();
         assert!(matches!(svg(&result, &[3]), Err(FigureError::Grippers { found: 7, .. })));
-    }
-
-    /// Writes pictures to look at into the folder named by `PLYDRAPE_PICTURES`.
-    #[test]
-    #[ignore = "for eyes: PLYDRAPE_PICTURES=/tmp/pictures cargo test -p plydrape pictures -- --ignored"]
-    fn pictures() {
-        let Some(dir) = std::env::var_os("PLYDRAPE_PICTURES") else {
-            return;
-        };
-        let results = [
-            ("paper", sample::draped(4, 2, 30)),
-            ("turned", sample::draped(2, 4, 30)),
-            ("array", sample::draped(8, 5, 30)),
-            ("strip", sample::hanging(2, 1)),
-            ("row", sample::draped(4, 1, 30)),
-            ("cell", sample::hanging(2, 2)),
-            ("many", sample::hanging(20, 20)),
-            ("tilted", sample::tilted(8, 5)),
-        ];
-        for (name, result) in results {
-            let text = svg(&result, &default_steps(&result)).unwrap();
-            let path = std::path::Path::new(&dir).join(name).with_extension("svg");
-            std::fs::write(path, text).unwrap();
-        }
     }
 }
