@@ -3,9 +3,9 @@
 //!
 //! With every length met, ½‖H‖² is a function of the shared slopes alone. Its gradient and Hessian are
 //! sums over elements: an edge sees two slopes; a diagonal sees the four edge slopes of its ends, of
-//! which the free ones follow their edge. Newton's method with projection on the bounds; the linear
-//! system, diagonally dominant and sparse, is solved by conjugate gradients, so that cost grows with
-//! the number of cells.
+//! which the free ones follow their edge. Sequential quadratic programming on the slopes: `hessian`
+//! minimizes the quadratic model within the bounds by conjugate gradients, so that cost grows with the
+//! number of cells.
 
 use super::Number;
 use super::hessian::{assemble, bounded_step, solve_linear};
