@@ -11,7 +11,7 @@
 //! the result would depend on the number of steps.
 
 use super::spans::{FreeSpan, Point};
-use crate::mold::Mold;
+use crate::mold::{Mold, Strand, distance};
 use crate::ply::Laid;
 use crate::scene::Contact;
 
@@ -37,6 +37,8 @@ pub struct Bridge {
     pub place: Point,
     /// That gap (m).
     pub gap: f64,
+    /// Straight distance between the touches on both sides of it (m).
+    pub width: f64,
 }
 
 /// What a look at one catenary found.
@@ -153,12 +155,13 @@ fn crossing(distance: &impl Fn(f64) -> f64, outside: f64, inside: f64, level: f6
 
 /// Largest gap between two fractions of a span.
 fn largest_gap(span: &FreeSpan, mold: &Mold, from: f64, to: f64) -> Bridge {
-    let mut worst = Bridge { place: span.point(from), gap: 0.0 };
+    let [a, b] = [from, to].map(|t| span.point(t));
+    let mut worst = Bridge { place: a, gap: 0.0, width: distance(a, b) };
     for n in 0..=STATIONS {
         let place = span.point(from + (to - from) * n as f64 / STATIONS as f64);
         let gap = mold.signed_distance(place);
         if gap > worst.gap {
-            worst = Bridge { place, gap };
+            worst = Bridge { place, gap, ..worst };
         }
     }
     worst
@@ -180,6 +183,38 @@ pub fn depth(span: &FreeSpan, mold: &Mold) -> f64 {
     -minimum(&distance, a, m, b).1
 }
 
+/// One line from two that start at the same point, at fabric arc length `arc` (m): the first is gone
+/// back along.
+fn joined(back: Option<Strand>, arc: f64, on: Option<Strand>) -> Strand {
+    let mut line = Strand::default();
+    if let Some(back) = back {
+        let from = usize::from(on.is_some());
+        for n in (from..back.points.len()).rev() {
+            line.push(back.points[n], arc - back.arc[n]);
+        }
+    }
+    if let Some(on) = on {
+        let start = arc - on.arc[0];
+        for (point, s) in on.points.into_iter().zip(on.arc) {
+            line.push(point, start + s);
+        }
+    }
+    line
+}
+
+/// The line of a catenary that lies whole, from foot to foot of its grippers (m), over its fabric length.
+fn whole(mold: &Mold, a: [f64; 3], b: [f64; 3], length: f64) -> Strand {
+    let straight = || Strand { points: vec![a, b], arc: vec![0.0, length] };
+    let Some(mut line) = mold.path(a, b).filter(|line| line.length() > 0.0) else {
+        return straight();
+    };
+    // what the fabric is too long or too short is spread along it here, and reported as misfit
+    let (last, way) = (line.points.len() - 1, line.length());
+    line.arc = line.arc.iter().map(|s| s / way * length).collect();
+    (line.points[last], line.arc[last]) = (b, length);
+    line
+}
+
 /// Looks at a catenary that nothing has caught yet.
 pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
     let runs = runs(span, mold, contact.tolerance);
@@ -190,14 +225,18 @@ pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
     let (from, to) = (span.arc(run.from), span.arc(run.to));
     let (held_first, held_last) = (run.from <= 0.0, run.to >= 1.0);
     let [a, b] = span.ends.map(|end| mold.closest_point(end));
-    let point = match (held_first, held_last) {
-        (true, true) => [a, b],
-        (true, false) => [a, mold.lay(a, heading, to)],
-        (false, true) => [mold.lay(b, heading, from - span.length), b],
+    let line = match (held_first, held_last) {
+        (true, true) => whole(mold, a, b, span.length),
+        (true, false) => joined(None, 0.0, Some(mold.lay(a, heading, to))),
+        (false, true) => {
+            let back = mold.lay(b, heading, from - span.length);
+            joined(Some(back), span.length, None)
+        }
         (false, false) => {
             let place = mold.closest_point(span.point(run.deepest));
             let deepest = span.arc(run.deepest);
-            [from, to].map(|arc| mold.lay(place, heading, arc - deepest))
+            let [back, on] = [from, to].map(|arc| mold.lay(place, heading, arc - deepest));
+            joined(Some(back), deepest, Some(on))
         }
     };
     // the gap to any other run: whatever lies between the two
@@ -212,10 +251,10 @@ pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
         .max_by(|a, b| a.gap.total_cmp(&b.gap));
     let laid = Laid {
         length: span.length,
-        arc: [from, to],
-        point,
-        normal: point.map(|p| mold.normal(p)),
+        normal: [line.points[0], line.end()].map(|p| mold.normal(p)),
+        line,
         lying: [held_first && held_last; 2],
+        arch: [0.0; 2],
     };
     Look { laid: Some(laid), bridge }
 }
@@ -245,6 +284,8 @@ pub fn next_touch(span: &FreeSpan, laid: &Laid, mold: &Mold, contact: &Contact) 
     let mut laid = laid.clone();
     if run.from <= 0.0 && run.to >= 1.0 {
         laid.lying[rest] = true;
+        let (gripper, point) = (mold.closest_point(span.ends[rest]), span.ends[1 - rest]);
+        laid.arch[rest] = mold.path_length(gripper, point) - distance(gripper, point);
         look.laid = Some(laid);
         return look;
     }
@@ -253,16 +294,20 @@ pub fn next_touch(span: &FreeSpan, laid: &Laid, mold: &Mold, contact: &Contact) 
         return look;
     }
     let heading = span.heading();
-    if rest == 0 {
+    let (end, arc) = (laid.point()[rest], laid.arc()[rest]);
+    let line = std::mem::take(&mut laid.line);
+    laid.line = if rest == 0 {
         let length = span.length - span.arc(run.from);
-        laid.arc[0] -= length;
-        laid.point[0] = mold.lay(laid.point[0], heading, -length);
+        joined(Some(mold.lay(end, heading, -length)), arc, Some(line))
     } else {
-        let length = span.arc(run.to);
-        laid.arc[1] += length;
-        laid.point[1] = mold.lay(laid.point[1], heading, length);
-    }
-    laid.normal[rest] = mold.normal(laid.point[rest]);
+        let mut grown = line;
+        let on = mold.lay(end, heading, span.arc(run.to));
+        for (point, s) in on.points.into_iter().zip(on.arc).skip(1) {
+            grown.push(point, arc + s);
+        }
+        grown
+    };
+    laid.normal[rest] = mold.normal(laid.point()[rest]);
     look.laid = Some(laid);
     look
 }

@@ -76,7 +76,7 @@ pub fn fits_laid(
     let stands = |gripper| mold.signed_distance(gripper) <= tolerance;
     let along = |gripper: Point, point: Point| {
         if stands(gripper) {
-            mold.path(mold.closest_point(gripper), point)
+            mold.path_length(mold.closest_point(gripper), point)
         } else {
             distance(gripper, point)
         }
@@ -90,7 +90,7 @@ pub fn fits_laid(
     (0..2)
         .filter(|&rest| !laid.hangs(rest))
         .map(|rest| {
-            let (gripper, point) = (grippers[rest], laid.point[rest]);
+            let (gripper, point) = (grippers[rest], laid.point()[rest]);
             let path =
                 if laid.lying[rest] { along(gripper, point) } else { distance(gripper, point) };
             (Some(rest), Fit { length: laid.rest(rest), path, place: middle(gripper, point) })
@@ -101,7 +101,7 @@ pub fn fits_laid(
 /// Fabric length of a catenary that lies on the mold (m).
 pub fn lying_length(laid: &Laid) -> f64 {
     let rests: f64 = (0..2).filter(|&r| laid.lying[r]).map(|r| laid.rest(r)).sum();
-    laid.arc[1] - laid.arc[0] + rests
+    laid.line.length() + rests
 }
 
 /// Fabric coordinates (u, v) (m) of a catenary at an arc length from its first gripper.
@@ -118,8 +118,8 @@ fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
 pub fn landing_errors(scene: &Scene, catenary: usize, laid: &Laid) -> Option<[f64; 2]> {
     let drape = scene.target.as_ref()?.drape.as_ref()?;
     Some([0, 1].map(|end| {
-        let uv = fabric(scene, catenary, laid.arc[end] / laid.length);
-        distance(laid.point[end], drape.place(uv))
+        let uv = fabric(scene, catenary, laid.arc()[end] / laid.length);
+        distance(laid.point()[end], drape.place(uv))
     }))
 }
 
@@ -213,7 +213,7 @@ pub fn measures(
         }
         if let Some(errors) = landing_errors(scene, catenary, laid) {
             for end in 0..2 {
-                landing.meet(errors[end], Landed::Catenary(catenary), laid.point[end]);
+                landing.meet(errors[end], Landed::Catenary(catenary), laid.point()[end]);
             }
         }
     }

@@ -184,6 +184,8 @@ pub struct Bridging {
     pub place: [f64; 3],
     /// That gap (m).
     pub gap: f64,
+    /// Straight distance between the touches on both sides of it (m).
+    pub width: f64,
 }
 
 /// A cell in one step.

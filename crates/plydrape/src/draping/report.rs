@@ -98,7 +98,11 @@ impl<'a> Report<'a> {
                 shear_force_n: shear.and_then(|shear| self.shear_force(shear.path)),
                 spans: Vec::with_capacity(2),
                 contact: None,
-                bridging: snapshot.bridges[n].map(|b| Bridging { place: b.place, gap: b.gap }),
+                bridging: snapshot.bridges[n].map(|b| Bridging {
+                    place: b.place,
+                    gap: b.gap,
+                    width: b.width,
+                }),
             };
             while let Some((span, points)) = spans.next_if(|(span, _)| span.catenary == n) {
                 if laid.is_none() {
@@ -110,8 +114,8 @@ impl<'a> Report<'a> {
                 let grippers = [c.from, c.to].map(|g| snapshot.positions[grid.index(g)]);
                 let errors = landing_errors(scene, n, laid).map(|e| e.map(|error| error * 1e3));
                 state.contact = Some(ContactState {
-                    arc: laid.arc,
-                    points: laid.point.to_vec(),
+                    arc: laid.arc(),
+                    points: laid.line.points.clone(),
                     landing_error_mm: errors,
                 });
                 let tolerance = scene.settings.contact.tolerance;
@@ -152,7 +156,7 @@ impl<'a> Report<'a> {
             cell: scene.ply.cell,
             material: scene.ply.material.clone(),
             warp: scene.ply.warp,
-            mold: scene.mold,
+            mold: scene.mold.clone(),
             target_grippers: scene.target.as_ref().map(|target| target.grippers.clone()),
             ideal_drape: scene.target.as_ref().and_then(|target| target.drape),
             settings: scene.settings,
@@ -347,8 +351,8 @@ fn lying_state(
 ) -> SpanState {
     let (arc, ends) = match rest {
         None => ([0.0, laid.length], grippers),
-        Some(0) => ([0.0, laid.arc[0]], [grippers[0], laid.point[0]]),
-        Some(_) => ([laid.arc[1], laid.length], [laid.point[1], grippers[1]]),
+        Some(0) => ([0.0, laid.arc()[0]], [grippers[0], laid.point()[0]]),
+        Some(_) => ([laid.arc()[1], laid.length], [laid.point()[1], grippers[1]]),
     };
     let [a, b] = ends;
     let run = (b[0] - a[0]).hypot(b[1] - a[1]);

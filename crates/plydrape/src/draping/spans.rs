@@ -128,11 +128,11 @@ pub fn shape(
                     debug_assert!(laid.rest(rest) >= -1e-12);
                     continue;
                 }
-                Some(laid) if rest == 0 => [grippers[0], laid.point[0]],
-                Some(laid) => [laid.point[1], grippers[1]],
+                Some(laid) if rest == 0 => [grippers[0], laid.point()[0]],
+                Some(laid) => [laid.point()[1], grippers[1]],
             };
             let start =
-                laid[catenary].as_ref().map_or(0.0, |l| if rest == 0 { 0.0 } else { l.arc[1] });
+                laid[catenary].as_ref().map_or(0.0, |l| if rest == 0 { 0.0 } else { l.arc()[1] });
             let mut span = FreeSpan {
                 catenary,
                 rest,

@@ -185,24 +185,24 @@ impl<T: Number> Build<'_, T> {
         let ends = self.ends(&self.grid().catenary(catenary));
         match &self.laid[catenary] {
             None => line(ends[0], ends[1]),
-            Some(laid) if laid.rest(end) <= 0.0 && laid.arc[1] > laid.arc[0] => {
-                line(constant(laid.point[0]), constant(laid.point[1]))
+            Some(laid) if laid.rest(end) <= 0.0 && laid.line.length() > 0.0 => {
+                let [a, b] = laid.end_piece(end).map(constant);
+                line(a, b)
             }
-            Some(laid) if end == 0 => line(ends[0], constant(laid.point[0])),
-            Some(laid) => line(constant(laid.point[1]), ends[1]),
+            Some(laid) if end == 0 => line(ends[0], constant(laid.point()[0])),
+            Some(laid) => line(constant(laid.point()[1]), ends[1]),
         }
     }
 
-    /// Straight path from end to end, over the contact segment where there is one.
+    /// Taut path from end to end: straight, and along the mold where the ply lies.
     fn taut_path(&self, catenary: usize) -> T {
         let ends = self.ends(&self.grid().catenary(catenary));
         match &self.laid[catenary] {
             None => line(ends[0], ends[1]).chord,
             Some(laid) => {
-                let [a, b] = laid.point.map(constant);
-                line(ends[0], a).chord
-                    + line(b, ends[1]).chord
-                    + self.factors[0] * (laid.arc[1] - laid.arc[0])
+                let [a, b] = laid.point().map(constant);
+                let along = laid.line.length() + laid.arch[0] + laid.arch[1];
+                line(ends[0], a).chord + line(b, ends[1]).chord + self.factors[0] * along
             }
         }
     }

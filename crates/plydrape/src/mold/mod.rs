@@ -1,81 +1,301 @@
 //! The surface that the ply is laid on.
 //!
-//! What contact asks of a mold: how far a point is from it, its closest point and normal, and where a
-//! length of fabric ends that is laid along it in a vertical plane. Distances in metres, positive
-//! outside; normals are unit vectors out of the mold.
+//! What contact and the ideal drape ask of a mold: how far a point is from it, its closest point, normal
+//! and curvatures, and where a length of fabric lies that is laid along it in a vertical plane. Distances
+//! in metres, positive outside; normals are unit vectors out of the mold, towards the ply.
 
+mod graph;
+mod height;
 mod plane;
+mod pose;
+mod round;
+mod saddle;
+mod section;
+pub(crate) mod vector;
 
+pub use graph::{Graph, Surface};
+pub use height::Height;
 pub use plane::Plane;
+pub use pose::Pose;
+pub use round::{Cylinder, Face, Sphere, Torus};
+pub use saddle::Saddle;
+pub(crate) use vector::distance;
 
+use section::{Until, trace};
 use serde::Serialize;
+use vector::{along, dot};
 
 /// A mold.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Mold {
     /// Flat, of any position and tilt.
     Plane(Plane),
+    /// A cylinder, or a trough.
+    Cylinder(Cylinder),
+    /// A sphere, or a bowl.
+    Sphere(Sphere),
+    /// A torus, or a ring-shaped channel.
+    Torus(Torus),
+    /// A height over a plane, z = f(x, y).
+    Graph(Graph),
+}
+
+/// What lies closest to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
+    /// The closest point of the mold (m).
+    pub point: [f64; 3],
+    /// Smooth unit normal of the mold there, out of it.
+    pub normal: [f64; 3],
+    /// Distance (m), negative inside the mold; beyond an open border the plain distance to the border.
+    pub distance: f64,
+    /// The point is off to the side of an open border: there is no mold.
+    pub beyond: bool,
+}
+
+/// A line of fabric on a mold.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Strand {
+    /// Its points, all on the mold (m).
+    pub points: Vec<[f64; 3]>,
+    /// Arc length at each point (m), ascending.
+    pub arc: Vec<f64>,
+}
+
+impl Strand {
+    /// Appends a point (m) at an arc length (m).
+    pub fn push(&mut self, point: [f64; 3], arc: f64) {
+        self.points.push(point);
+        self.arc.push(arc);
+    }
+
+    /// From its first to its last point (m).
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        match (self.arc.first(), self.arc.last()) {
+            (Some(first), Some(last)) => last - first,
+            _ => 0.0,
+        }
+    }
+
+    /// Its last point (m).
+    ///
+    /// # Panics
+    /// Never for a line that a mold has given: it has at least one point.
+    #[must_use]
+    pub fn end(&self) -> [f64; 3] {
+        self.points[self.points.len() - 1]
+    }
+
+    /// Its point at an arc length (m), on the chord between two of its points.
+    #[must_use]
+    pub fn at(&self, arc: f64) -> [f64; 3] {
+        let last = self.points.len() - 1;
+        let n = self.arc.partition_point(|s| *s < arc).clamp(1, last.max(1)).min(last);
+        if n == 0 {
+            return self.points[0];
+        }
+        let (a, b) = (self.arc[n - 1], self.arc[n]);
+        let t = if b > a { ((arc - a) / (b - a)).clamp(0.0, 1.0) } else { 0.0 };
+        let [p, q] = [self.points[n - 1], self.points[n]];
+        [0, 1, 2].map(|c| p[c] + t * (q[c] - p[c]))
+    }
+}
+
+/// How a mold curves: positive where it curves away from its normal, as a sphere seen from outside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Curvatures {
+    /// Principal curvatures (1/m), the larger one first.
+    pub principal: [f64; 2],
+    /// Unit tangents along which they are.
+    pub directions: [[f64; 3]; 2],
+}
+
+impl Curvatures {
+    /// Curvatures (1/m) along two unit tangents at right angles, in either order.
+    #[must_use]
+    pub fn new(principal: [f64; 2], directions: [[f64; 3]; 2]) -> Self {
+        let ([a, b], [s, t]) = (principal, directions);
+        if a >= b {
+            Curvatures { principal, directions }
+        } else {
+            Curvatures { principal: [b, a], directions: [t, s] }
+        }
+    }
+
+    /// From the second fundamental form (1/m) over two unit tangents at right angles: its components
+    /// (1,1), (1,2) and (2,2).
+    #[must_use]
+    pub fn of_form([a, b, c]: [f64; 3], [s, t]: [[f64; 3]; 2]) -> Self {
+        let angle = 0.5 * (2.0 * b).atan2(a - c);
+        let (sin, cos) = angle.sin_cos();
+        let (mean, radius) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
+        let first = [0, 1, 2].map(|n| cos * s[n] + sin * t[n]);
+        let second = [0, 1, 2].map(|n| cos * t[n] - sin * s[n]);
+        Curvatures { principal: [mean + radius, mean - radius], directions: [first, second] }
+    }
+
+    /// Normal curvature along a unit tangent (1/m), after Euler.
+    #[must_use]
+    pub fn along(&self, tangent: [f64; 3]) -> f64 {
+        (0..2).map(|n| self.principal[n] * dot(self.directions[n], tangent).powi(2)).sum()
+    }
 }
 
 impl Mold {
+    /// What lies closest to `p` (m).
+    #[must_use]
+    pub fn foot(&self, p: [f64; 3]) -> Foot {
+        match self {
+            Mold::Plane(plane) => plane.foot(p),
+            Mold::Cylinder(cylinder) => cylinder.foot(p),
+            Mold::Sphere(sphere) => sphere.foot(p),
+            Mold::Torus(torus) => torus.foot(p),
+            Mold::Graph(graph) => graph.foot(p),
+        }
+    }
+
     /// Distance of `p` (m) from the mold (m), negative inside it.
     #[must_use]
     pub fn signed_distance(&self, p: [f64; 3]) -> f64 {
         match self {
             Mold::Plane(plane) => plane.signed_distance(p),
+            _ => self.foot(p).distance,
         }
     }
 
     /// The point of the mold closest to `p` (m).
     #[must_use]
     pub fn closest_point(&self, p: [f64; 3]) -> [f64; 3] {
+        self.foot(p).point
+    }
+
+    /// Smooth unit normal of the mold at its point closest to `p` (m).
+    #[must_use]
+    pub fn normal(&self, p: [f64; 3]) -> [f64; 3] {
+        self.foot(p).normal
+    }
+
+    /// Principal curvatures of the mold at its point closest to `p` (m).
+    #[must_use]
+    pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
         match self {
-            Mold::Plane(plane) => plane.closest_point(p),
+            Mold::Plane(plane) => {
+                let normal = plane.normal;
+                let axis = if normal[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+                let first = vector::unit(vector::cross(axis, normal)).unwrap_or(axis);
+                Curvatures::new([0.0; 2], [first, vector::cross(normal, first)])
+            }
+            Mold::Cylinder(cylinder) => cylinder.curvatures(p),
+            Mold::Sphere(sphere) => sphere.curvatures(p),
+            Mold::Torus(torus) => torus.curvatures(p),
+            Mold::Graph(graph) => graph.curvatures(self.foot(p).point),
         }
     }
 
-    /// Unit normal of the mold at its point `p` (m).
+    /// The line on which fabric of arc length `length` (m) comes to lie that is laid along the mold from
+    /// its point `from` (m), in the vertical plane of the horizontal unit vector `heading`; a negative
+    /// length is laid against it. It ends early at an open border.
     #[must_use]
-    pub fn normal(&self, _p: [f64; 3]) -> [f64; 3] {
-        match self {
-            Mold::Plane(plane) => plane.normal,
-        }
-    }
-
-    /// Where fabric of arc length `length` (m) ends that is laid along the mold from its point `from`
-    /// (m) in the vertical plane of the horizontal unit vector `heading`.
-    #[must_use]
-    pub fn lay(&self, from: [f64; 3], heading: [f64; 2], length: f64) -> [f64; 3] {
+    pub fn lay(&self, from: [f64; 3], heading: [f64; 2], length: f64) -> Strand {
+        let heading = if length < 0.0 { heading.map(|c| -c) } else { heading };
         match self {
             Mold::Plane(plane) => {
                 let slope = plane.slope(heading);
-                let run = length / slope.hypot(1.0);
-                [from[0] + run * heading[0], from[1] + run * heading[1], from[2] + run * slope]
+                let run = length.abs() / slope.hypot(1.0);
+                let end = along(from, run, [heading[0], heading[1], slope]);
+                Strand { points: vec![from, end], arc: vec![0.0, length.abs()] }
+            }
+            _ => trace(self, from, heading, Until::Length(length.abs())),
+        }
+    }
+
+    /// The line along the mold from one of its points to another (m) in the vertical plane of both; none
+    /// where it leads over an open border or onto another part of the mold.
+    #[must_use]
+    pub fn path(&self, a: [f64; 3], b: [f64; 3]) -> Option<Strand> {
+        let run = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let straight = || Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
+        match self {
+            Mold::Plane(_) => Some(straight()),
+            _ if distance(a, b) < 1e-12 => Some(straight()),
+            _ if run < 1e-9 => None,
+            _ => {
+                let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
+                let line = trace(self, a, heading, Until::Run(run));
+                (distance(line.end(), b) < 1e-6 * (1.0 + run)).then_some(line)
             }
         }
     }
 
-    /// Length of the path along the mold between two of its points (m).
+    /// Length of the fabric that lies taut between two points of the mold (m): along it, or straight where
+    /// no line leads along it.
     #[must_use]
-    pub fn path(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
+    pub fn path_length(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
         match self {
             Mold::Plane(_) => distance(a, b),
+            _ => self.path(a, b).map_or_else(|| distance(a, b), |line| line.length()),
         }
     }
 
-    /// A distance (m) that no point of a curve of `length` (m) between `a` and `b` falls short of.
+    /// The highest point of the mold at the place (x, y) (m), if it has one there.
+    #[must_use]
+    pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
+        let (position, reach) = match self {
+            Mold::Plane(plane) => {
+                let [nx, ny, nz] = plane.normal;
+                let [px, py, pz] = plane.point;
+                return Some([x, y, pz - (nx * (x - px) + ny * (y - py)) / nz]);
+            }
+            Mold::Graph(graph) => return graph.drop_to([x, y]),
+            Mold::Cylinder(cylinder) => (cylinder.pose.position, None),
+            Mold::Sphere(sphere) => (sphere.pose.position, Some(sphere.radius)),
+            Mold::Torus(torus) => {
+                (torus.pose.position, Some(torus.ring_radius + torus.tube_radius))
+            }
+        };
+        self.fall([x, y], position, reach)
+    }
+
+    /// Falls from above by as much as the distance to the mold allows, then by Newton's method.
+    fn fall(&self, [x, y]: [f64; 2], position: [f64; 3], reach: Option<f64>) -> Option<[f64; 3]> {
+        // an endless cylinder may be inclined: start above its axis there
+        let aside = (x - position[0]).hypot(y - position[1]);
+        let reach = reach.unwrap_or(10.0 * aside + self.signed_distance([x, y, position[2]]).abs());
+        let mut p = [x, y, position[2] + reach + 1e-3];
+        let floor = position[2] - 2.0 * reach - 1.0;
+        for _ in 0..2000 {
+            let foot = self.foot(p);
+            if foot.distance.abs() < 1e-4 * reach && !foot.beyond && foot.normal[2] > 1e-3 {
+                let step = foot.distance / foot.normal[2];
+                p[2] -= step;
+                if step.abs() < 1e-15 * (1.0 + p[2].abs()) {
+                    return Some(p);
+                }
+                continue;
+            }
+            p[2] -= foot.distance.abs().max(1e-9);
+            if p[2] < floor {
+                return None;
+            }
+        }
+        (self.signed_distance(p).abs() < 1e-12).then_some(p)
+    }
+
+    /// A distance (m) from the mold that no point of a curve of `length` (m) between `a` and `b` falls
+    /// short of.
     #[must_use]
     pub fn clearance(&self, a: [f64; 3], b: [f64; 3], length: f64) -> f64 {
-        let chord = distance(a, b);
-        let sag = 0.5 * (length * length - chord * chord).max(0.0).sqrt();
+        let [da, db] = [self.signed_distance(a), self.signed_distance(b)];
         match self {
-            Mold::Plane(plane) => plane.signed_distance(a).min(plane.signed_distance(b)) - sag,
+            Mold::Plane(_) => {
+                let chord = distance(a, b);
+                let sag = 0.5 * (length * length - chord * chord).max(0.0).sqrt();
+                da.min(db) - sag
+            }
+            // no two points are farther apart in their distances than along the curve
+            _ => 0.5 * (da + db - length),
         }
     }
-}
-
-/// Distance of two points (m).
-pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
 }

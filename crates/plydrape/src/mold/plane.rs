@@ -1,5 +1,6 @@
 //! A flat mold of any position and tilt.
 
+use super::Foot;
 use serde::Serialize;
 
 /// The plane through `point` with unit normal `normal`, whose z component is positive.
@@ -18,11 +19,12 @@ impl Plane {
         (0..3).map(|n| self.normal[n] * (p[n] - self.point[n])).sum()
     }
 
-    /// The point of the mold closest to `p` (m).
+    /// The foot of `p` (m).
     #[must_use]
-    pub fn closest_point(&self, p: [f64; 3]) -> [f64; 3] {
-        let d = self.signed_distance(p);
-        [0, 1, 2].map(|n| p[n] - d * self.normal[n])
+    pub fn foot(&self, p: [f64; 3]) -> Foot {
+        let distance = self.signed_distance(p);
+        let point = [0, 1, 2].map(|n| p[n] - distance * self.normal[n]);
+        Foot { point, normal: self.normal, distance, beyond: false }
     }
 
     /// Slope of the mold along the horizontal unit vector `heading`.

@@ -1,5 +1,7 @@
 //! What the mold has caught of a catenary.
 
+use crate::mold::Strand;
+
 /// The contact segment of a catenary: fixed in space and in fabric arc length.
 ///
 /// What is left free are two rests, each a span of its own: from the first gripper to the segment, and
@@ -8,30 +10,56 @@
 pub struct Laid {
     /// Length of the catenary (m); from the first touch on it no longer follows the shear.
     pub length: f64,
-    /// Fabric arc length of the segment's ends from the first gripper (m).
-    pub arc: [f64; 2],
-    /// Place of the segment's ends (m).
-    pub point: [[f64; 3]; 2],
-    /// Unit normal of the mold there.
+    /// The segment's line on the mold; fabric arc lengths from the first gripper (m).
+    pub line: Strand,
+    /// Unit normal of the mold at the segment's ends.
     pub normal: [[f64; 3]; 2],
     /// Whether each rest has lain down whole: it is no span any more.
     pub lying: [bool; 2],
+    /// By how much the way along the mold is longer than straight to the gripper, for each rest that has
+    /// lain down (m).
+    pub arch: [f64; 2],
 }
 
 /// Rests shorter than this share of their catenary are nothing.
 const NOTHING: f64 = 1e-9;
 
 impl Laid {
+    /// Fabric arc length of the segment's ends from the first gripper (m).
+    #[must_use]
+    pub fn arc(&self) -> [f64; 2] {
+        [self.line.arc[0], self.line.arc[self.line.arc.len() - 1]]
+    }
+
+    /// Place of the segment's ends (m).
+    #[must_use]
+    pub fn point(&self) -> [[f64; 3]; 2] {
+        [self.line.points[0], self.line.end()]
+    }
+
+    /// The piece of the segment's line at its first (0) or second (1) end, from first to last (m).
+    #[must_use]
+    pub fn end_piece(&self, end: usize) -> [[f64; 3]; 2] {
+        let points = &self.line.points;
+        let last = points.len() - 1;
+        if end == 0 {
+            [points[0], points[last.min(1)]]
+        } else {
+            [points[last.saturating_sub(1)], points[last]]
+        }
+    }
+
     /// Free fabric length of the first (0) or second (1) rest (m).
     #[must_use]
     pub fn rest(&self, which: usize) -> f64 {
-        if which == 0 { self.arc[0] } else { self.length - self.arc[1] }
+        let [from, to] = self.arc();
+        if which == 0 { from } else { self.length - to }
     }
 
     /// Whether the catenary lies from gripper to gripper, without a segment of its own.
     #[must_use]
     pub fn is_whole(&self) -> bool {
-        self.lying == [true, true] && self.arc == [0.0, self.length]
+        self.lying == [true, true] && self.arc() == [0.0, self.length]
     }
 
     /// Whether a rest hangs: it has a length and has not lain down.

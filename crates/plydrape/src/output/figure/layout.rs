@@ -142,7 +142,7 @@ fn exaggeration(height: f64, across: f64, relief: f64) -> f64 {
 
 /// The mold over the floor of the box, unless it runs far out of the picture.
 fn mold_patch(result: &ResultFile, low: Point, high: Point, across: f64) -> Option<[Point; 4]> {
-    let Some(Mold::Plane(plane)) = result.scene.mold else {
+    let Some(Mold::Plane(plane)) = &result.scene.mold else {
         return None;
     };
     let [nx, ny, nz] = plane.normal;

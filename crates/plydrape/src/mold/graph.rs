@@ -1,0 +1,187 @@
+//! Molds that are a height over a plane, z = f(x, y): closest points by Newton's method.
+
+use super::height::Height;
+use super::pose::Pose;
+use super::saddle::Saddle;
+use super::vector::{distance, dot, sub, unit};
+use super::{Curvatures, Foot};
+use serde::Serialize;
+
+/// A height over the local xy plane.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Graph {
+    /// Where it stands.
+    pub pose: Pose,
+    /// What gives the height.
+    pub surface: Surface,
+    /// Range of local x and of local y (m); beyond it there is no mold. Everywhere unless given.
+    pub domain: Option<[[f64; 2]; 2]>,
+}
+
+/// What gives the height of a [`Graph`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "surface", rename_all = "kebab-case")]
+pub enum Surface {
+    /// Curved down along one axis and up along the other.
+    Saddle(Saddle),
+}
+
+/// Newton steps for a closest point; from above a mold it takes three to six.
+const STEPS: usize = 60;
+
+impl Surface {
+    /// The height at local (x, y) (m).
+    #[must_use]
+    pub fn at(&self, x: f64, y: f64) -> Height {
+        match self {
+            Surface::Saddle(saddle) => saddle.at(x, y),
+        }
+    }
+}
+
+impl Graph {
+    /// The foot of `p` (m): the closest point that is found downhill from the one straight below.
+    #[must_use]
+    pub fn foot(&self, p: [f64; 3]) -> Foot {
+        let p = self.pose.local(p);
+        let inside = |xy: [f64; 2]| match self.domain {
+            Some(range) => [0, 1].map(|n| xy[n].clamp(range[n][0], range[n][1])),
+            None => xy,
+        };
+        let square = |xy: [f64; 2], z: f64| {
+            (xy[0] - p[0]).powi(2) + (xy[1] - p[1]).powi(2) + (z - p[2]).powi(2)
+        };
+        let mut xy = inside([p[0], p[1]]);
+        let mut height = self.surface.at(xy[0], xy[1]);
+        let mut value = square(xy, height.z);
+        for _ in 0..STEPS {
+            let Some(step) = newton(xy, &height, p, self.domain) else { break };
+            let size = step[0].hypot(step[1]);
+            let scale = 1.0 + xy[0].abs() + xy[1].abs();
+            // halved until it comes closer; a step too small to show in the distance is just taken
+            let mut part = 1.0;
+            let found = loop {
+                let next = inside([xy[0] + part * step[0], xy[1] + part * step[1]]);
+                let there = self.surface.at(next[0], next[1]);
+                let closer = square(next, there.z);
+                if closer < value || size < 1e-6 * scale {
+                    break Some((next, there, closer));
+                }
+                part *= 0.5;
+                if part < 1e-6 {
+                    break None;
+                }
+            };
+            let Some((next, there, closer)) = found else { break };
+            (xy, height, value) = (next, there, closer);
+            // quadratic convergence: what is left is below rounding
+            if size < 1e-9 * scale {
+                break;
+            }
+        }
+        let point = [xy[0], xy[1], height.z];
+        let normal = upward(&height);
+        let off = sub(p, point);
+        let above = dot(off, normal);
+        // at the border the way to the mold may lead sideways: there is no mold below
+        let on_border = self
+            .domain
+            .is_some_and(|range| (0..2).any(|n| xy[n] <= range[n][0] || xy[n] >= range[n][1]));
+        let far = distance(p, point);
+        let beyond = on_border && far - above.abs() > 1e-12 * far + 1e-18;
+        Foot {
+            point: self.pose.place(point),
+            normal: self.pose.turn(normal),
+            distance: if beyond { far } else { above },
+            beyond,
+        }
+    }
+
+    /// Where the vertical line through (x, y) (m) meets the mold, if it does.
+    #[must_use]
+    pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
+        let [down, from] =
+            [self.pose.turn_back([0.0, 0.0, 1.0]), self.pose.local([x, y, self.pose.position[2]])];
+        let mut t = -from[2] / down[2];
+        for _ in 0..STEPS {
+            let q = [0, 1, 2].map(|n| from[n] + t * down[n]);
+            let height = self.surface.at(q[0], q[1]);
+            let rate = down[2] - height.gradient[0] * down[0] - height.gradient[1] * down[1];
+            let step = (height.z - q[2]) / rate;
+            t += step;
+            if step.abs() <= 1e-15 * (1.0 + t.abs()) {
+                let q = [0, 1, 2].map(|n| from[n] + t * down[n]);
+                let held = self.domain.is_none_or(|range| {
+                    (0..2).all(|n| (range[n][0]..=range[n][1]).contains(&q[n]))
+                });
+                return held.then(|| self.pose.place(q));
+            }
+        }
+        None
+    }
+
+    /// Principal curvatures at a point of the mold (m).
+    #[must_use]
+    pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
+        let [x, y, _] = self.pose.local(p);
+        let height = self.surface.at(x, y);
+        let fx = height.gradient[0];
+        let normal = upward(&height);
+        // the second derivatives along two unit tangents at right angles
+        let across = (1.0 + fx * fx).sqrt();
+        let first = [1.0 / across, 0.0, fx / across];
+        let second = super::vector::cross(normal, first);
+        let [xx, xy, yy] = height.hessian;
+        let bend = |a: [f64; 3], b: [f64; 3]| {
+            -normal[2] * (xx * a[0] * b[0] + xy * (a[0] * b[1] + a[1] * b[0]) + yy * a[1] * b[1])
+        };
+        let form = [bend(first, first), bend(first, second), bend(second, second)];
+        let tangents = [first, second].map(|t| self.pose.turn(t));
+        Curvatures::of_form(form, tangents)
+    }
+}
+
+/// Unit normal of a height, upwards.
+fn upward(height: &Height) -> [f64; 3] {
+    let [fx, fy] = height.gradient;
+    unit([-fx, -fy, 1.0]).unwrap_or([0.0, 0.0, 1.0])
+}
+
+/// The step towards the closest point; none where nothing comes closer. Directions in which the border
+/// holds the point are left out.
+fn newton(
+    xy: [f64; 2],
+    height: &Height,
+    p: [f64; 3],
+    domain: Option<[[f64; 2]; 2]>,
+) -> Option<[f64; 2]> {
+    let (dz, [fx, fy], [xx, xy2, yy]) = (height.z - p[2], height.gradient, height.hessian);
+    let slope = [xy[0] - p[0] + dz * fx, xy[1] - p[1] + dz * fy];
+    let free = [0, 1].map(|n| {
+        domain.is_none_or(|range| {
+            !(xy[n] <= range[n][0] && slope[n] > 0.0 || xy[n] >= range[n][1] && slope[n] < 0.0)
+        })
+    });
+    let scale = 1e-16 * (1.0 + xy[0].abs() + xy[1].abs() + p[2].abs());
+    if (0..2).all(|n| !free[n] || slope[n].abs() <= scale) {
+        return None;
+    }
+    // the whole Hessian where it is positive, otherwise without the curvature
+    let whole = [1.0 + fx * fx + dz * xx, fx * fy + dz * xy2, 1.0 + fy * fy + dz * yy];
+    let flat = [1.0 + fx * fx, fx * fy, 1.0 + fy * fy];
+    match free {
+        [true, true] => {
+            let determinant = |[a, b, c]: [f64; 3]| a * c - b * b;
+            let [a, b, c] = if whole[0] > 0.0 && determinant(whole) > 1e-3 * determinant(flat) {
+                whole
+            } else {
+                flat
+            };
+            let d = determinant([a, b, c]);
+            Some([-(c * slope[0] - b * slope[1]) / d, -(a * slope[1] - b * slope[0]) / d])
+        }
+        [true, false] => Some([-slope[0] / if whole[0] > 0.0 { whole[0] } else { flat[0] }, 0.0]),
+        [false, true] => Some([0.0, -slope[1] / if whole[2] > 0.0 { whole[2] } else { flat[2] }]),
+        [false, false] => None,
+    }
+}

@@ -1,0 +1,75 @@
+//! Where a mold stands and how it is turned.
+
+use super::vector::{along, sub};
+use serde::Serialize;
+
+/// A rigid placement: local coordinates are turned by `axes`, then moved to `position`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Pose {
+    /// Place of the local origin (m).
+    pub position: [f64; 3],
+    /// Unit vectors along which the local x, y and z axes come to lie.
+    pub axes: [[f64; 3]; 3],
+}
+
+impl Pose {
+    /// Turns about the fixed axes x, then y, then z by `rotation` (rad), then moves to `position` (m).
+    #[must_use]
+    pub fn new(position: [f64; 3], rotation: [f64; 3]) -> Self {
+        let [(sx, cx), (sy, cy), (sz, cz)] = rotation.map(f64::sin_cos);
+        let turn = |[x, y, z]: [f64; 3]| {
+            let (y, z) = (cx * y - sx * z, sx * y + cx * z);
+            let (x, z) = (cy * x + sy * z, cy * z - sy * x);
+            [cz * x - sz * y, sz * x + cz * y, z]
+        };
+        Pose {
+            position,
+            axes: [turn([1.0, 0.0, 0.0]), turn([0.0, 1.0, 0.0]), turn([0.0, 0.0, 1.0])],
+        }
+    }
+
+    /// A local point in space (m).
+    #[must_use]
+    pub fn place(&self, local: [f64; 3]) -> [f64; 3] {
+        let turned = self.turn(local);
+        along(self.position, 1.0, turned)
+    }
+
+    /// A local direction in space.
+    #[must_use]
+    pub fn turn(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let [a, b, c] = self.axes;
+        [0, 1, 2].map(|n| x * a[n] + y * b[n] + z * c[n])
+    }
+
+    /// The local coordinates of a point in space (m).
+    #[must_use]
+    pub fn local(&self, p: [f64; 3]) -> [f64; 3] {
+        self.turn_back(sub(p, self.position))
+    }
+
+    /// A direction in space in local coordinates.
+    #[must_use]
+    pub fn turn_back(&self, d: [f64; 3]) -> [f64; 3] {
+        self.axes.map(|axis| super::vector::dot(axis, d))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A quarter turn about x and then about z carries y to z and x to y.
+    #[test]
+    fn turns_are_about_the_fixed_axes_in_the_order_x_y_z() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let pose = Pose::new([1.0, 2.0, 3.0], [quarter, 0.0, quarter]);
+        let near =
+            |a: [f64; 3], b: [f64; 3]| assert!(super::super::distance(a, b) < 1e-15, "{a:?}");
+        near(pose.turn([0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]);
+        near(pose.turn([1.0, 0.0, 0.0]), [0.0, 1.0, 0.0]);
+        let p = [0.3, -0.2, 0.7];
+        let pose = Pose::new([1.0, 2.0, 3.0], [0.4, -1.1, 2.2]);
+        assert!(super::super::distance(pose.local(pose.place(p)), p) < 1e-15);
+    }
+}

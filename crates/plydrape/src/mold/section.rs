@@ -1,0 +1,129 @@
+//! Section curves: the line along which a vertical plane cuts a smooth mold, traced by its arc length.
+//!
+//! The unit tangent T of the curve is across both the plane's normal m and the mold's normal n,
+//! T = m × n / |m × n|. The curve p' = T(p) is followed by the Runge–Kutta method of fourth order, in
+//! steps over which T turns by about a hundredth of a radian; after each step the point is put
+//! back on the mold within the plane. The error of an arc is then some 1e-11 of its length.
+
+use super::vector::{along, cross, dot, unit};
+use super::{Foot, Mold, Strand};
+
+/// Largest turn of the tangent in one step (rad).
+const TURN: f64 = 0.01;
+/// A step that turns more than this is tried again shorter (rad).
+const MOST_TURN: f64 = 0.012;
+/// Most points of a curve.
+const MOST_POINTS: usize = 20_000;
+/// Distance to the mold at which a point counts as lying on it (m).
+const ON_MOLD: f64 = 1e-13;
+
+/// How far a curve is followed.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Until {
+    /// Over an arc length (m).
+    Length(f64),
+    /// Over a horizontal distance (m).
+    Run(f64),
+}
+
+/// The plane of a section: vertical, along a horizontal unit vector.
+struct Section<'a> {
+    mold: &'a Mold,
+    heading: [f64; 2],
+    across: [f64; 3],
+}
+
+/// Follows the section of a mold from a point of it (m) along the horizontal unit vector `heading`.
+///
+/// The curve ends early at an open border, and where the mold stands upright across the plane.
+pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until) -> Strand {
+    let section = Section { mold, heading, across: [-heading[1], heading[0], 0.0] };
+    let mut strand = Strand { points: vec![from], arc: vec![0.0] };
+    let total = match until {
+        Until::Length(length) | Until::Run(length) => length,
+    };
+    let Some(mut tangent) = section.tangent(&mold.foot(from)) else {
+        return strand;
+    };
+    let (mut p, mut arc, mut step) = (from, 0.0, total);
+    while strand.points.len() < MOST_POINTS {
+        let left = match until {
+            Until::Length(length) => length - arc,
+            Until::Run(run) => {
+                (run - section.run(from, p)) / section.run([0.0; 3], tangent).max(1e-3)
+            }
+        };
+        if left <= 1e-15 * total {
+            break;
+        }
+        step = f64::min(step, left);
+        let Some((mut next, mut there)) = section.step(p, tangent, step) else {
+            step *= 0.5;
+            if step < 1e-9 * total { break } else { continue }
+        };
+        let turn = dot(tangent, there).clamp(-1.0, 1.0).acos();
+        if turn > MOST_TURN && step > 1e-6 * total {
+            step *= 0.5;
+            continue;
+        }
+        // the last step over a run is as long as it takes
+        if let Until::Run(run) = until
+            && section.run(from, next) >= run * (1.0 - 1e-9)
+        {
+            for _ in 0..8 {
+                let miss = run - section.run(from, next);
+                if miss.abs() <= 1e-15 * run {
+                    break;
+                }
+                step += miss / section.run([0.0; 3], there).max(1e-3);
+                let Some(found) = section.step(p, tangent, step) else { return strand };
+                (next, there) = found;
+            }
+            strand.push(next, arc + step);
+            break;
+        }
+        arc = if matches!(until, Until::Length(_)) && step >= left { total } else { arc + step };
+        strand.push(next, arc);
+        (p, tangent) = (next, there);
+        step *= (TURN / turn.max(1e-12)).clamp(0.5, 2.0);
+    }
+    strand
+}
+
+impl Section<'_> {
+    /// Horizontal distance from `a` to `b` along the plane (m).
+    fn run(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
+        (b[0] - a[0]) * self.heading[0] + (b[1] - a[1]) * self.heading[1]
+    }
+
+    fn tangent(&self, foot: &Foot) -> Option<[f64; 3]> {
+        // horizontal normals along `across`: the mold touches the plane
+        unit(cross(self.across, foot.normal)).filter(|_| !foot.beyond)
+    }
+
+    /// One step along the curve: where it ends, on the mold, and the tangent there.
+    fn step(&self, p: [f64; 3], tangent: [f64; 3], length: f64) -> Option<([f64; 3], [f64; 3])> {
+        let slope = |p| self.tangent(&self.mold.foot(p));
+        let k1 = tangent;
+        let k2 = slope(along(p, 0.5 * length, k1))?;
+        let k3 = slope(along(p, 0.5 * length, k2))?;
+        let k4 = slope(along(p, length, k3))?;
+        let mean = [0, 1, 2].map(|n| (k1[n] + 2.0 * (k2[n] + k3[n]) + k4[n]) / 6.0);
+        let mut next = along(p, length, mean);
+        // back onto the mold, within the plane
+        for _ in 0..6 {
+            let foot = self.mold.foot(next);
+            if foot.beyond {
+                return None;
+            }
+            let sideways = dot(foot.normal, self.across);
+            let within = along(foot.normal, -sideways, self.across);
+            if foot.distance.abs() <= ON_MOLD {
+                return Some((next, self.tangent(&foot)?));
+            }
+            next = along(next, -foot.distance / dot(within, within), within);
+        }
+        let foot = self.mold.foot(next);
+        Some((next, self.tangent(&foot)?))
+    }
+}

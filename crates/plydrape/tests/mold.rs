@@ -1,0 +1,173 @@
+//! Molds of closed form: distances, normals, curvatures, and lines along them, against closed forms.
+
+use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed};
+
+fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|n| a[n] - b[n])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|n| a[n] * b[n]).sum()
+}
+
+fn norm(a: [f64; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn level(position: [f64; 3]) -> Pose {
+    Pose::new(position, [0.0; 3])
+}
+
+/// One of every kind, turned and moved, as a ply would meet them.
+fn molds() -> Vec<(&'static str, Mold)> {
+    let pose = Pose::new([0.1, -0.2, 0.05], [0.15, -0.1, 0.7]);
+    let saddle = Surface::Saddle(Saddle { radii: [0.6, 0.9] });
+    let radius = 0.6;
+    vec![
+        ("plane", Mold::Plane(Plane { point: [0.0; 3], normal: [-0.28, 0.0, 0.96] })),
+        ("cylinder", Mold::Cylinder(Cylinder { pose, radius, face: Face::Outside })),
+        ("trough", Mold::Cylinder(Cylinder { pose, radius, face: Face::Inside })),
+        ("sphere", Mold::Sphere(Sphere { pose, radius, face: Face::Outside })),
+        ("bowl", Mold::Sphere(Sphere { pose, radius, face: Face::Inside })),
+        (
+            "torus",
+            Mold::Torus(Torus { pose, ring_radius: 0.8, tube_radius: 0.3, face: Face::Outside }),
+        ),
+        ("saddle", Mold::Graph(Graph { pose, surface: saddle, domain: None })),
+    ]
+}
+
+/// A place on the upper side of a mold near (x, y).
+fn place(mold: &Mold, x: f64, y: f64) -> Option<[f64; 3]> {
+    mold.drop_to([x, y])
+}
+
+proptest! {
+    #![proptest_config(Config { cases: 200, failure_persistence: None, rng_seed: RngSeed::Fixed(2018), ..Config::default() })]
+
+    /// A point lifted off a mold along its normal by less than the radii of curvature has its foot where
+    /// it came from, at the distance it was lifted, on either side.
+    #[test]
+    fn a_point_lifted_along_the_normal_falls_back(
+        x in -0.25..0.35_f64, y in -0.4..0.1_f64, lift in -0.1..0.1_f64,
+    ) {
+        for (name, mold) in molds() {
+            let Some(p) = place(&mold, x, y) else { continue };
+            let foot = mold.foot(p);
+            prop_assert!(norm(sub(foot.point, p)) < 1e-13, "{name}: {foot:?}");
+            let off = [0, 1, 2].map(|n| p[n] + lift * foot.normal[n]);
+            let back = mold.foot(off);
+            prop_assert!((back.distance - lift).abs() < 1e-12, "{name}: {} {lift}", back.distance);
+            prop_assert!(norm(sub(back.point, p)) < 1e-11, "{name}: {:?} {p:?}", back.point);
+            prop_assert!((norm(back.normal) - 1.0).abs() < 1e-13, "{name}");
+        }
+    }
+
+    /// The signed distance grows at unit rate along the normal: its gradient is the normal.
+    #[test]
+    fn the_gradient_of_the_distance_is_the_normal(
+        x in -0.25..0.35_f64, y in -0.4..0.1_f64, lift in -0.05..0.15_f64,
+    ) {
+        for (name, mold) in molds() {
+            let Some(p) = place(&mold, x, y) else { continue };
+            let p = [p[0], p[1], p[2] + lift];
+            let foot = mold.foot(p);
+            let h = 1e-5;
+            for n in 0..3 {
+                let at = |s: f64| { let mut q = p; q[n] += s; mold.signed_distance(q) };
+                let slope = (at(h) - at(-h)) / (2.0 * h);
+                prop_assert!((slope - foot.normal[n]).abs() < 1e-8, "{name}: {slope} {:?}", foot.normal);
+            }
+        }
+    }
+
+    /// How fast the normal turns along any tangent is the curvature along it (Rodrigues, Euler).
+    #[test]
+    fn curvatures_are_the_turning_of_the_normal(
+        x in -0.25..0.35_f64, y in -0.4..0.1_f64, angle in 0.0..6.2_f64,
+    ) {
+        for (name, mold) in molds() {
+            let Some(p) = place(&mold, x, y) else { continue };
+            let bend = mold.curvatures(p);
+            let [a, b] = bend.directions;
+            prop_assert!(bend.principal[0] >= bend.principal[1]);
+            prop_assert!(dot(a, b).abs() < 1e-9 && dot(a, mold.normal(p)).abs() < 1e-9, "{name}");
+            let t = [0, 1, 2].map(|n| angle.cos() * a[n] + angle.sin() * b[n]);
+            let h = 1e-5;
+            let at = |s: f64| mold.normal([0, 1, 2].map(|n| p[n] + s * t[n]));
+            let turned = dot(sub(at(h), at(-h)), t) / (2.0 * h);
+            prop_assert!((turned - bend.along(t)).abs() < 1e-7, "{name}: {turned} {bend:?}");
+        }
+    }
+
+    /// Fabric that is laid stays on the mold and in its vertical plane, is as long as it was, and the way
+    /// back between its ends is the same line.
+    #[test]
+    fn laid_fabric_stays_on_the_mold_in_its_plane_and_keeps_its_length(
+        x in -0.15..0.25_f64, y in -0.3..0.0_f64, angle in 0.0..6.2_f64, length in 0.01..0.15_f64,
+    ) {
+        let heading = [angle.cos(), angle.sin()];
+        for (name, mold) in molds() {
+            let Some(p) = place(&mold, x, y) else { continue };
+            let line = mold.lay(p, heading, length);
+            prop_assert!(line.length() == length, "{name}: {}", line.length());
+            let mut chords = 0.0;
+            for (n, q) in line.points.iter().enumerate() {
+                prop_assert!(mold.signed_distance(*q).abs() < 1e-9, "{name}");
+                let aside = -heading[1] * (q[0] - p[0]) + heading[0] * (q[1] - p[1]);
+                prop_assert!(aside.abs() < 1e-12, "{name}: {aside}");
+                if n > 0 { chords += norm(sub(*q, line.points[n - 1])) }
+            }
+            // chords over a hundredth of a radian miss 1/240000 of the arc
+            prop_assert!((chords - length).abs() < 1e-5 * length, "{name}: {chords} {length}");
+            let back = mold.path(p, line.end()).expect("the same line leads there");
+            prop_assert!((back.length() - length).abs() < 1e-9, "{name}: {} {length}", back.length());
+            let again = mold.lay(line.end(), heading, -length);
+            prop_assert!(norm(sub(again.end(), p)) < 1e-9, "{name}: there and back");
+        }
+    }
+}
+
+/// A vertical plane through the centre of a sphere, or across a cylinder, cuts a circle: the chord of an
+/// arc s is 2R sin(s/2R).
+#[test]
+fn fabric_laid_over_a_circle_spans_its_chord() {
+    let radius = 0.6;
+    let pose = level([0.0, 0.0, -radius]);
+    let sphere = Mold::Sphere(Sphere { pose, radius, face: Face::Outside });
+    let cylinder = Mold::Cylinder(Cylinder { pose, radius, face: Face::Outside });
+    let trough =
+        Mold::Cylinder(Cylinder { pose: level([0.0, 0.0, radius]), radius, face: Face::Inside });
+    for (name, mold) in [("sphere", sphere), ("cylinder", cylinder), ("trough", trough)] {
+        for s in [1e-3, 0.05, 0.3, 0.9] {
+            let end = mold.lay([0.0; 3], [0.0, 1.0], s).end();
+            let chord = 2.0 * radius * (s / (2.0 * radius)).sin();
+            assert!((norm(end) - chord).abs() < 1e-10, "{name} {s}: {} {chord}", norm(end));
+        }
+    }
+}
+
+/// Beyond the border of a trough and of a bounded saddle there is no mold: the distance is that to the
+/// border, and fabric that is laid ends there.
+#[test]
+fn beyond_an_open_border_there_is_no_mold() {
+    let trough =
+        Mold::Cylinder(Cylinder { pose: level([0.0, 0.0, 0.5]), radius: 0.5, face: Face::Inside });
+    let foot = trough.foot([0.0, 0.3, 0.6]);
+    assert!(foot.beyond && (foot.distance - 0.2_f64.hypot(0.1)).abs() < 1e-15, "{foot:?}");
+    let line = trough.lay([0.0; 3], [0.0, 1.0], 1.0);
+    assert!((line.length() - 0.25 * std::f64::consts::PI).abs() < 1e-6, "{}", line.length());
+
+    let surface = Surface::Saddle(Saddle { radii: [0.5, 0.5] });
+    let domain = Some([[-0.1, 0.1], [-0.1, 0.1]]);
+    let saddle = Mold::Graph(Graph { pose: level([0.0; 3]), surface, domain });
+    let foot = saddle.foot([0.15, 0.0, -0.2]);
+    assert!(foot.beyond && foot.distance > 0.0, "{foot:?}");
+    assert!((foot.point[0] - 0.1).abs() < 1e-15, "{foot:?}");
+    assert!(!saddle.foot([0.05, 0.05, 0.1]).beyond);
+    assert!(saddle.drop_to([0.2, 0.0]).is_none());
+    let line = saddle.lay([0.0; 3], [1.0, 0.0], 1.0);
+    assert!((line.end()[0] - 0.1).abs() < 1e-6 && line.length() < 0.103, "{:?}", line.end());
+}
