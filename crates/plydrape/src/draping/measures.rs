@@ -5,7 +5,7 @@ use super::Snapshot;
 use super::attitude::Attitude;
 use super::record::{Measures, Worst};
 use super::spans::{FreeSpan, Point};
-use crate::mold::{Mold, distance};
+use crate::mold::{Mold, Strand, distance};
 use crate::ply::{Kind, Laid};
 use crate::scene::Scene;
 
@@ -62,38 +62,54 @@ pub fn fit(span: &FreeSpan) -> Fit {
     Fit { length: span.length, path: span.chord(), place: middle(a, b) }
 }
 
-/// How the rests of a catenary that do not hang fit: those that lie, and those of no length whose
-/// gripper has moved on.
+/// A rest of a catenary that does not hang: one that lies, or one of no length whose gripper has moved on.
+pub struct LyingRest {
+    /// 0 before the contact segment, 1 after it; none for a catenary that lies whole.
+    pub which: Option<usize>,
+    /// How its fabric fits.
+    pub fit: Fit,
+    /// The taut line between its ends, from first to last.
+    pub line: Strand,
+}
+
+/// The rests of a catenary that do not hang.
 ///
 /// A gripper within `tolerance` (m) of the mold counts as standing on it; one that has lifted off pulls
-/// straight. With each fit comes the rest it is of, `None` for a catenary that lies whole.
-pub fn fits_laid(
+/// straight.
+pub fn lying_rests(
     laid: &Laid,
     grippers: [Point; 2],
     mold: &Mold,
     tolerance: f64,
-) -> Vec<(Option<usize>, Fit)> {
-    let stands = |gripper| mold.signed_distance(gripper) <= tolerance;
-    let along = |gripper: Point, point: Point| {
-        if stands(gripper) {
-            mold.path_length(mold.closest_point(gripper), point)
-        } else {
-            distance(gripper, point)
-        }
+) -> Vec<LyingRest> {
+    let straight = |a, b| Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
+    let feet = grippers.map(|gripper| {
+        let foot = mold.foot(gripper);
+        (foot.distance <= tolerance).then_some(foot.point)
+    });
+    let rest = |which, length, line: Strand| {
+        let place = middle(line.points[0], line.end());
+        LyingRest { which, fit: Fit { length, path: line.length(), place }, line }
     };
     if laid.is_whole() {
-        let [a, b] = grippers;
-        let both = stands(a) && stands(b);
-        let path = if both { along(a, mold.closest_point(b)) } else { distance(a, b) };
-        return vec![(None, Fit { length: laid.length, path, place: middle(a, b) })];
+        let line = match feet {
+            [Some(a), Some(b)] => mold.path(a, b).unwrap_or_else(|| straight(a, b)),
+            _ => straight(grippers[0], grippers[1]),
+        };
+        return vec![rest(None, laid.length, line)];
     }
     (0..2)
-        .filter(|&rest| !laid.hangs(rest))
-        .map(|rest| {
-            let (gripper, point) = (grippers[rest], laid.point()[rest]);
-            let path =
-                if laid.lying[rest] { along(gripper, point) } else { distance(gripper, point) };
-            (Some(rest), Fit { length: laid.rest(rest), path, place: middle(gripper, point) })
+        .filter(|&which| !laid.hangs(which))
+        .map(|which| {
+            let end = laid.point()[which];
+            let along = |a, b| mold.path(a, b).unwrap_or_else(|| straight(a, b));
+            let line = match (feet[which].filter(|_| laid.lying[which]), which) {
+                (Some(foot), 0) => along(foot, end),
+                (Some(foot), _) => along(end, foot),
+                (None, 0) => straight(grippers[0], end),
+                (None, _) => straight(end, grippers[1]),
+            };
+            rest(Some(which), laid.rest(which), line)
         })
         .collect()
 }
@@ -205,8 +221,8 @@ pub fn measures(
             continue;
         };
         let grippers = [c.from, c.to].map(|g| snapshot.positions[grid.index(g)]);
-        for (_, fit) in fits_laid(laid, grippers, mold, scene.settings.contact.tolerance) {
-            judge(catenary, laid.length, &fit);
+        for rest in lying_rests(laid, grippers, mold, scene.settings.contact.tolerance) {
+            judge(catenary, laid.length, &rest.fit);
         }
         if edge {
             lying += lying_length(laid);

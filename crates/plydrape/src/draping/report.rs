@@ -3,7 +3,7 @@
 use super::Snapshot;
 use super::attitude::{Attitude, attitude};
 use super::crossing::{STATIONS, hanging, lowered};
-use super::measures::{self, fit, landing_errors, name, words};
+use super::measures::{self, LyingRest, fit, landing_errors, name, words};
 use super::record::{
     Bridging, CatenaryId, CatenaryState, Cell, ContactState, FORMAT, Gripper, Measures, Numbers,
     ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step, Summary, VERSION, Verdict,
@@ -12,6 +12,7 @@ use super::record::{
 use super::spans::{FreeSpan, Point};
 use crate::catenary;
 use crate::equilibrium::Solver;
+use crate::mold::vector::along;
 use crate::mold::{Mold, distance};
 use crate::ply::{Laid, shear};
 use crate::scene::Scene;
@@ -119,8 +120,8 @@ impl<'a> Report<'a> {
                     landing_error_mm: errors,
                 });
                 let tolerance = scene.settings.contact.tolerance;
-                for (rest, fit) in measures::fits_laid(laid, grippers, mold, tolerance) {
-                    state.spans.push(lying_state(laid, rest, &fit, grippers, mold));
+                for rest in measures::lying_rests(laid, grippers, mold, tolerance) {
+                    state.spans.push(lying_state(laid, &rest, mold));
                 }
                 state.spans.sort_by(|a, b| a.arc[0].total_cmp(&b.arc[0]));
             }
@@ -342,30 +343,24 @@ fn span_state(span: &FreeSpan, points: Vec<Point>, whole: f64) -> SpanState {
 }
 
 /// A rest that lies on the mold, or one of no length; `None` for a catenary that lies whole.
-fn lying_state(
-    laid: &Laid,
-    rest: Option<usize>,
-    fit: &measures::Fit,
-    grippers: [Point; 2],
-    mold: &Mold,
-) -> SpanState {
-    let (arc, ends) = match rest {
-        None => ([0.0, laid.length], grippers),
-        Some(0) => ([0.0, laid.arc()[0]], [grippers[0], laid.point()[0]]),
-        Some(_) => ([laid.arc()[1], laid.length], [laid.point()[1], grippers[1]]),
+fn lying_state(laid: &Laid, rest: &LyingRest, mold: &Mold) -> SpanState {
+    let LyingRest { which, fit, line } = rest;
+    let arc = match which {
+        None => [0.0, laid.length],
+        Some(0) => [0.0, laid.arc()[0]],
+        Some(_) => [laid.arc()[1], laid.length],
     };
-    let [a, b] = ends;
+    let [a, b] = [line.points[0], line.end()];
     let run = (b[0] - a[0]).hypot(b[1] - a[1]);
     let slope = if run > 0.0 { (b[2] - a[2]) / run } else { 0.0 };
     // its slack stands up as a wrinkle, half a sine; a catenary that lies whole is drawn by its contact
-    let points = match rest {
+    let points = match which {
         Some(_) if fit.length > 0.0 => (0..STATIONS)
             .map(|n| {
                 let t = n as f64 / (STATIONS - 1) as f64;
-                let foot = [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
+                let place = line.at(t * line.length());
                 let height = fit.wrinkle() * (std::f64::consts::PI * t).sin();
-                let normal = mold.normal(mold.closest_point(foot));
-                [0, 1, 2].map(|c| foot[c] + height * normal[c])
+                along(place, height, mold.normal(place))
             })
             .collect(),
         _ => Vec::new(),
