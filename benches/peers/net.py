@@ -81,7 +81,7 @@ def generator_cell(known: tuple[Real, Real], guess: Real) -> tuple[Real, Real, R
         guess,
         method="SLSQP",
         constraints={"type": "eq", "fun": bars},
-        options={"ftol": 1e-12, "maxiter": 200},
+        options={"ftol": 5e-9, "maxiter": 100},
     )
     near, far = place(found.x)
     return near, far, found.x

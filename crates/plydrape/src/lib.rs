@@ -18,6 +18,7 @@ pub mod draping;
 pub mod equilibrium;
 pub mod material;
 pub mod mold;
+pub mod net;
 pub mod output;
 pub mod ply;
 pub mod scene;
