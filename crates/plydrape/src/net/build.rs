@@ -138,9 +138,8 @@ impl Build<'_> {
     fn least_shear(&mut self, seed: Node, u: [f64; 3]) {
         let Some(start) = self.at(seed) else { return };
         // the seed's cell lies ahead, or behind at the net's rim
-        let ahead = [0, 1].map(|n| {
-            if self.layup.seed[n] + 1 < self.layup.nodes[n] { 1_isize } else { -1 }
-        });
+        let ahead =
+            [0, 1].map(|n| if self.layup.seed[n] + 1 < self.layup.nodes[n] { 1_isize } else { -1 });
         let ends = [seed, [seed[0] + ahead[0], seed[1]]];
         match self.first(&start, ahead[0] as f64, u) {
             Ok(next) => self.put(ends[1], next),
@@ -203,9 +202,8 @@ impl Build<'_> {
         let (sin, cos) = (sign * self.layup.shear).sin_cos();
         let across = cross(a.normal, along_edge).map(|x| left * x);
         let straight = [0, 1, 2].map(|n| cos * across[n] + sin * along_edge[n]);
-        let mut turn = before.map_or(0.0, |t| {
-            dot(cross(straight, t), a.normal).atan2(dot(straight, t))
-        });
+        let mut turn =
+            before.map_or(0.0, |t| dot(cross(straight, t), a.normal).atan2(dot(straight, t)));
 
         let cell = |turn: f64| -> Result<([Spot; 2], f64), Spot> {
             let (sin, cos) = turn.sin_cos();

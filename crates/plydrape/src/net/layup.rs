@@ -75,10 +75,14 @@ pub enum LayupError {
         distance_mm: f64,
     },
     /// The mold is upright at the seed.
-    #[error("the mold is upright at the seed, where a heading in plan leads nowhere along it: seed it elsewhere")]
+    #[error(
+        "the mold is upright at the seed, where a heading in plan leads nowhere along it: seed it elsewhere"
+    )]
     Upright,
     /// A pre-shear that shuts the cells, or a heading that is none.
-    #[error("pre-shear {shear_deg:.2}° and heading {heading_deg:.2}°: the pre-shear must be within ±89°")]
+    #[error(
+        "pre-shear {shear_deg:.2}° and heading {heading_deg:.2}°: the pre-shear must be within ±89°"
+    )]
     Shear {
         /// Pre-shear (degrees).
         shear_deg: f64,

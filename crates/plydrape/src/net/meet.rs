@@ -47,7 +47,8 @@ impl Condition<'_> {
                 // across the line, where it arrives
                 let arriving = straightest(x, from).map(|c| -c);
                 let gradient = crate::mold::vector::cross(x.normal, arriving);
-                let side = dot(crate::mold::vector::cross(from.normal, straightest(from, x)), across);
+                let side =
+                    dot(crate::mold::vector::cross(from.normal, straightest(from, x)), across);
                 Gap { gap: -aside, gradient: gradient.map(|c| c * side.signum()), bend: 0.0 }
             }
             Condition::Plane(from, across) => {

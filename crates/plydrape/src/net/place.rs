@@ -99,8 +99,8 @@ impl Net {
 
 /// Where `size` nodes that hold a cell may begin among `nodes`, each with how far off the middle.
 fn origins(cell: usize, size: usize, nodes: usize) -> Vec<(usize, usize)> {
-    let low = (cell + 2).saturating_sub(size);
     let high = cell.min(nodes - size);
+    let low = (cell + 2).saturating_sub(size).min(high);
     // twice the distance between the middles of the nodes and of the cell
     (low..=high).map(|i| ((2 * i + size).abs_diff(2 * cell + 2), i)).collect()
 }
