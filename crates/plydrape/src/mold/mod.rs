@@ -8,6 +8,7 @@ mod formula;
 mod graph;
 mod height;
 mod height_grid;
+pub mod mesh;
 mod plane;
 mod pose;
 mod round;
