@@ -18,11 +18,11 @@ mod csv;
 mod error;
 mod file;
 mod heading;
+mod layup;
 mod located;
 mod material;
 mod mold;
 mod motion;
-mod net_setup;
 mod places;
 mod quantity;
 mod read;
@@ -38,9 +38,11 @@ pub use material::shipped_materials;
 pub use schema::schema;
 
 use crate::mold::Mold;
+use crate::net::{Layup, Net};
 use crate::ply::Ply;
 use serde::Serialize;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A commented scene to start from.
 pub const TEMPLATE: &str = include_str!("template.toml");
@@ -113,8 +115,12 @@ pub struct Motion {
 pub struct Target {
     /// Final gripper positions (m), in the order of [`crate::ply::Grid::index`].
     pub grippers: Vec<[f64; 3]>,
-    /// The ideal drape, where it is known beyond the grippers.
+    /// The ideal drape on a plane, where it is known beyond the grippers.
     pub drape: Option<FlatDrape>,
+    /// The ideal drape on a curved mold: the grippers are nodes of it.
+    pub net: Option<Arc<Net>>,
+    /// How the ideal drape is laid on the mold; none where the gripper positions were given.
+    pub layup: Option<Layup>,
 }
 
 /// The ideal drape on a plane: a parallelogram, affine in the fabric coordinates.

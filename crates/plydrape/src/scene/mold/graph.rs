@@ -6,6 +6,7 @@ use crate::mold::{Formula, FormulaError, Graph, Mold, Saddle, Surface};
 use crate::ply::Ply;
 use crate::scene::error::{Document, SceneError};
 use crate::scene::heading::coordinates;
+use crate::scene::layup::extent;
 use crate::scene::located::Located;
 use std::ops::Range;
 use std::path::Path;
@@ -26,11 +27,13 @@ pub(super) fn formula(keys: &Keys, ply: &Ply) -> Result<Mold, SceneError> {
     let text = keys.wanted(&keys.table.z, "z", "\"0.1*x^2 - y^2\"")?;
     let z = Formula::new(&text.value).map_err(|error| in_place(text, document, &error))?;
     let domain = range(keys)?;
-    let reach = (0..2).map(|n| ply.length(n)).fold(0.0, f64::hypot);
+    let reach = (0..2).map(|n| extent(ply)[n]).fold(0.0, f64::hypot);
     let looked_at = domain.unwrap_or([[-reach, reach]; 2]);
     if let Some([x, y]) = z.undefined_within(looked_at) {
         let help = match domain {
-            Some(_) => "make the range of `x` and `y` smaller, or write a formula that is smooth all over it",
+            Some(_) => {
+                "make the range of `x` and `y` smaller, or write a formula that is smooth all over it"
+            }
             None => {
                 "say where the mold reaches, as in x = [\"-0.2 m\", \"0.2 m\"] and y = [\"-0.2 m\", \"0.2 m\"], or write a formula that is smooth everywhere"
             }
