@@ -32,9 +32,12 @@ pub(super) fn scene(
     base: &Path,
 ) -> Result<Scene, SceneError> {
     let ply = ply(&file.ply, document, base)?;
-    let mold = match &file.mold {
-        Some(table) => Some(mold::mold(&table.value, &ply, document, base)?),
-        None => None,
+    let (mold, mesh) = match &file.mold {
+        Some(table) => {
+            let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
+            (Some(mold), report)
+        }
+        None => (None, None),
     };
     let max_tilt = match file.grippers.as_ref().map(|g| &g.value.max_tilt) {
         Some(Some(tilt)) => acute(tilt, document)?,
@@ -58,6 +61,7 @@ pub(super) fn scene(
         title: file.title.clone().unwrap_or_else(|| title(document, base)),
         ply,
         mold,
+        mesh,
         motion,
         target,
         settings,

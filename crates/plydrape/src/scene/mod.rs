@@ -37,7 +37,7 @@ pub use error::SceneError;
 pub use material::shipped_materials;
 pub use schema::schema;
 
-use crate::mold::Mold;
+use crate::mold::{MeshReport, Mold};
 use crate::net::{Layup, Net};
 use crate::ply::Ply;
 use serde::Serialize;
@@ -91,6 +91,8 @@ pub struct Scene {
     pub ply: Ply,
     /// What it is laid on; a ply may also just hang.
     pub mold: Option<Mold>,
+    /// What was found and repaired while the mold was read, if it is a mesh.
+    pub mesh: Option<MeshReport>,
     /// Where the grippers are in every step.
     pub motion: Motion,
     /// Where the ply should end, if it is to be draped.

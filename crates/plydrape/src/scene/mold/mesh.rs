@@ -1,7 +1,7 @@
 //! Meshes from STL, OBJ and Abaqus files.
 
 use super::Keys;
-use crate::mold::{Mesh, MeshError, Mold, Pose};
+use crate::mold::{Mesh, MeshError, MeshReport, Mold, Pose};
 use crate::scene::error::SceneError;
 use crate::scene::layup::round;
 use crate::scene::read;
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Checks the keys of a mesh, and reads its file.
-pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<Mold, SceneError> {
+pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), SceneError> {
     let document = keys.document;
     let file = keys.wanted(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
     let at_file = |error: MeshError| {
@@ -53,8 +53,8 @@ pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<Mold, SceneError> {
             ));
         }
     };
-    let (mesh, _) = parse(scale, &keys.pose()?).map_err(at_file)?;
-    Ok(Mold::Mesh(Arc::new(mesh)))
+    let (mesh, report) = parse(scale, &keys.pose()?).map_err(at_file)?;
+    Ok((Mold::Mesh(Arc::new(mesh)), report))
 }
 
 /// The text of a mesh's fault as what is wrong and what would be right.

@@ -10,7 +10,7 @@ use super::error::{Document, SceneError};
 use super::file::{MoldKind, MoldTable};
 use super::heading::{coordinates, heading};
 use super::located::Located;
-use crate::mold::{Mold, Pose};
+use crate::mold::{MeshReport, Mold, Pose};
 use crate::ply::Ply;
 use std::ops::Range;
 use std::path::Path;
@@ -24,16 +24,17 @@ struct Keys<'a> {
     document: &'a Document,
 }
 
-/// Checks the table `[mold]`; files that it names are relative to `base`.
+/// Checks the table `[mold]`; files that it names are relative to `base`. A mesh comes with what was found
+/// in it.
 pub(super) fn mold(
     table: &MoldTable,
     ply: &Ply,
     document: &Document,
     base: &Path,
-) -> Result<Mold, SceneError> {
+) -> Result<(Mold, Option<MeshReport>), SceneError> {
     let keys = Keys { table, document };
     keys.check_belonging()?;
-    match table.kind.value {
+    let mold = match table.kind.value {
         MoldKind::Plane => plane::plane(table, document),
         MoldKind::Cylinder => round::cylinder(&keys),
         MoldKind::Sphere => round::sphere(&keys),
@@ -41,8 +42,12 @@ pub(super) fn mold(
         MoldKind::Saddle => graph::saddle(&keys),
         MoldKind::Formula => graph::formula(&keys, ply),
         MoldKind::HeightGrid => graph::height_grid(&keys, base),
-        MoldKind::Mesh => mesh::mesh(&keys, base),
-    }
+        MoldKind::Mesh => {
+            let (mesh, report) = mesh::mesh(&keys, base)?;
+            return Ok((mesh, Some(report)));
+        }
+    };
+    Ok((mold?, None))
 }
 
 impl Keys<'_> {
