@@ -38,6 +38,10 @@ impl Mesh {
         pose: &Pose,
     ) -> Result<(Self, MeshReport), MeshError> {
         let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy();
+        if bytes.trim_ascii().is_empty() && !extension.is_empty() {
+            let others = ": the file is empty".to_owned();
+            return Err(MeshError::Empty { file: file.to_owned(), noun: "triangle", others });
+        }
         let soup = match extension.to_ascii_lowercase().as_str() {
             "stl" => stl::read(file, bytes)?,
             "obj" => obj::read(file, bytes)?,

@@ -17,6 +17,9 @@ const IN_PLANE: f64 = 1e-13;
 const ON_LINE: f64 = 1e-9;
 /// A line to a point gives up after this many times the chord.
 const DETOUR: f64 = 4.0;
+/// A line around a closed mesh ends after this many points for each triangle; it crosses each at most
+/// once a round.
+const ROUNDS: usize = 4;
 
 /// A vertical plane, with the side that its vertices count to.
 #[derive(Clone, Copy)]
@@ -128,7 +131,9 @@ impl Cut<'_> {
             }
             match mesh.neighbours[triangle][edge] {
                 NONE => return End::Border,
-                _ if idle > mesh.triangles.len() => return End::Border,
+                _ if idle.max(strand.points.len() / ROUNDS) > mesh.triangles.len() => {
+                    return End::Border;
+                }
                 other => triangle = other as usize,
             }
         }
