@@ -165,7 +165,7 @@ proptest! {
     /// Loose triangles of any shape, each a surface of its own.
     #[test]
     fn the_closest_point_is_that_of_a_search_over_all_triangles(
-        coordinates in prop::collection::vec(-1.0..1.0f64, 9 * 12),
+        coordinates in prop::collection::vec(-1.0..1.0f64, 9 * 60),
         p in prop::array::uniform3(-2.0..2.0f64),
     ) {
         let vertices: Vec<Point> = coordinates.as_chunks::<3>().0.to_vec();

@@ -118,18 +118,38 @@ fn obj_is_read_with_polygons_negative_indices_and_all_that_stands_beside() {
         close(&sorted(&mesh), &CORNERS, 0.0);
         assert_eq!(report.triangles, 2);
         assert!(!report.remarkable(), "{report}");
-        if text.contains('\\') {
-            continue; // tobj knows no lines that go on
-        }
-        let still = tobj::LoadOptions { triangulate: true, ..Default::default() };
-        let peer = tobj::load_obj_buf(&mut text.as_bytes(), &still, |_| {
-            Ok((Vec::new(), Default::default()))
-        });
-        let model = &peer.unwrap().0[0].mesh;
-        assert_eq!(model.indices.len(), 6);
-        let mut vertices = model.positions.as_chunks::<3>().0.to_vec();
+    }
+}
+
+/// The same wavy sheet, read by `tobj` and `stl_io`: the same vertices and as many triangles.
+#[test]
+fn the_readers_agree_with_those_of_other_programs() {
+    let at = |n: usize| {
+        let (x, y) = ((n % 6) as f64 / 7.0, (n / 6) as f64 / 9.0);
+        [x, y, 0.1 * (5.0 * x + 3.0 * y).sin()].map(|x| f64::from(x as f32))
+    };
+    let (mut obj, mut triangles) = (String::new(), Vec::new());
+    (0..36).map(at).for_each(|[x, y, z]| obj += &format!("v {x:?} {y:?} {z:?}\n"));
+    for n in (0..30).filter(|n| n % 6 < 5) {
+        obj += &format!("f {} {} {} {}\n", n + 1, n + 2, n + 8, n + 7);
+        triangles.extend([[n, n + 1, n + 7], [n, n + 7, n + 6]].map(|t| t.map(at)));
+    }
+    let ours = read("a.obj", &obj).0;
+    let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
+    let nothing = |_: &Path| Ok((Vec::new(), Default::default()));
+    let peer = tobj::load_obj_buf(&mut obj.as_bytes(), &options, nothing).unwrap().0;
+    assert_eq!(peer[0].mesh.indices.len(), 3 * ours.triangles().len());
+    let mut vertices = peer[0].mesh.positions.as_chunks::<3>().0.to_vec();
+    vertices.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    close(&sorted(&ours), &vertices, 0.0);
+
+    for bytes in [binary(&triangles), ascii(&triangles).into_bytes()] {
+        let ours = read("a.stl", &bytes).0;
+        let peer = stl_io::read_stl(&mut std::io::Cursor::new(bytes)).unwrap();
+        assert_eq!(peer.faces.len(), ours.triangles().len());
+        let mut vertices: Vec<Point> = peer.vertices.iter().map(|p| p.0.map(f64::from)).collect();
         vertices.sort_by(|a, b| a.partial_cmp(b).unwrap());
-        close(&sorted(&mesh), &vertices, 0.0);
+        close(&sorted(&ours), &vertices, 0.0);
     }
 }
 

@@ -155,7 +155,7 @@ pub enum MeshError {
     },
     /// All triangles have no area.
     #[error(
-        "{file}: none of the {triangles} triangles has an area; it spans {size:.4} m; check the coordinates"
+        "{file}: none of the {triangles} triangles has an area; the mesh spans {size:.4} m; check the coordinates"
     )]
     NoArea {
         /// The file.
