@@ -7,6 +7,7 @@
 mod attitude;
 pub mod contact;
 mod crossing;
+mod landing;
 mod measures;
 pub mod record;
 mod report;

@@ -18,6 +18,8 @@ use std::path::Path;
 const MOST_GRIPPERS: i64 = 1000;
 /// Largest gripper tilt unless given, as in Krogh et al. 2018 (rad).
 const MAX_TILT: f64 = 40.0 * std::f64::consts::PI / 180.0;
+/// Largest angle between landed edges and the fibres of the ideal drape unless given (rad).
+const FIBRE_ANGLE: f64 = 3.0 * std::f64::consts::PI / 180.0;
 /// Smallest and largest finite axial stiffness (N).
 const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
 /// Smallest and largest gravity (m/s²).
@@ -30,9 +32,12 @@ pub(super) fn scene(
     base: &Path,
 ) -> Result<Scene, SceneError> {
     let ply = ply(&file.ply, document, base)?;
-    let mold = match &file.mold {
-        Some(table) => Some(mold::mold(&table.value, document)?),
-        None => None,
+    let (mold, mesh) = match &file.mold {
+        Some(table) => {
+            let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
+            (Some(mold), report)
+        }
+        None => (None, None),
     };
     let max_tilt = match file.grippers.as_ref().map(|g| &g.value.max_tilt) {
         Some(Some(tilt)) => acute(tilt, document)?,
@@ -56,6 +61,7 @@ pub(super) fn scene(
         title: file.title.clone().unwrap_or_else(|| title(document, base)),
         ply,
         mold,
+        mesh,
         motion,
         target,
         settings,
@@ -107,17 +113,18 @@ fn gripper_count(
 }
 
 /// What gripper positions are read and checked against.
-struct Surroundings<'a> {
-    ply: &'a Ply,
-    mold: Option<&'a Mold>,
-    tolerance: f64,
-    document: &'a Document,
-    base: &'a Path,
+pub(super) struct Surroundings<'a> {
+    pub ply: &'a Ply,
+    pub mold: Option<&'a Mold>,
+    /// Depth in the mold that still counts as touching it (m).
+    pub tolerance: f64,
+    pub document: &'a Document,
+    pub base: &'a Path,
 }
 
 impl Surroundings<'_> {
     fn motion(&self, file: &SceneFile, target: Option<&Target>) -> Result<Motion, SceneError> {
-        let &Surroundings { ply, mold, tolerance, document, base } = self;
+        let &Surroundings { ply, document, base, .. } = self;
         let from_file = file.motion.as_ref().filter(|m| m.value.kind == MotionKind::File);
         if let Some(table) = from_file {
             if let Some(grippers) = &file.grippers
@@ -132,7 +139,7 @@ impl Surroundings<'_> {
                 ));
             }
             let (motion, start) = trajectory(table, ply, document, base)?;
-            start::check(&start, ply, mold, tolerance)?;
+            start::check(&start, self)?;
             return Ok(motion);
         }
         let Some(grippers) = &file.grippers else {
@@ -142,8 +149,8 @@ impl Surroundings<'_> {
                 "add [grippers] with spacing = [\"98 mm\", \"98 mm\"] and height = \"75 mm\", or with `positions`",
             ));
         };
-        let start = start::start(grippers, ply, mold, document, base)?;
-        start::check(&start, ply, mold, tolerance)?;
+        let start = start::start(grippers, self, target)?;
+        start::check(&start, self)?;
         motion(file.motion.as_ref(), &start, target, ply, document)
     }
 }
@@ -225,6 +232,10 @@ fn limits(
         overstretch: share(table.overstretch.as_ref(), 0.001, document)?,
         landing_contact: length(&table.landing_contact, 2e-3)?,
         landing_gripper: length(&table.landing_gripper, 5e-4)?,
+        fibre_angle: match &table.fibre_angle {
+            Some(angle) => acute(angle, document)?,
+            None => FIBRE_ANGLE,
+        },
         shear: match &table.shear {
             Some(shear) => Some(acute(shear, document)?),
             None => ply.material.locking_angle,
