@@ -81,6 +81,9 @@ const FUNCTIONS: [(&str, Function); 13] = [
     ("tanh", Function::Tanh),
 ];
 
+/// Units that a formula might be taken to need.
+const LENGTHS: [&str; 4] = ["mm", "cm", "m", "in"];
+
 /// Most heights on the stack.
 const MOST: usize = 64;
 /// Heights on the stack of nearly every formula.
@@ -143,7 +146,7 @@ impl FormulaFault {
                 let names: Vec<&str> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
                 let hint = match name.as_str() {
                     "log" => "write `ln` or `log10`: ",
-                    "mm" | "cm" | "m" | "in" => {
+                    unit if LENGTHS.contains(&unit) => {
                         "a formula holds no units, all of it is in metres: "
                     }
                     "deg" => "a formula holds no units, angles are in radians: ",
@@ -163,6 +166,9 @@ impl FormulaFault {
                 "write + - * / ^, round brackets and numbers, as in 0.5*(x - y)^2".into()
             }
             FormulaFault::Number(_) => "write numbers as 0.05 or 5e-2".into(),
+            FormulaFault::Operator(word) if LENGTHS.contains(&word.as_str()) => {
+                "a formula holds no units: write all of it in metres, as in 0.01*x".into()
+            }
             FormulaFault::Operator(_) => "write products with a star, as in 2*x".into(),
             FormulaFault::Bracket => "open and close as many round brackets".into(),
             FormulaFault::Argument(name) => format!("write {name}(…), as in {name}(x)"),
