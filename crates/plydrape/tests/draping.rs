@@ -161,6 +161,8 @@ fn rigid_motion_changes_nothing() {
     moved.target = scene.target.as_ref().map(|target| Target {
         grippers: target.grippers.iter().map(|p| turn(*p)).collect(),
         drape: None,
+        net: None,
+        layup: None,
     });
     let after = drape(&moved).summary;
     assert_eq!(before.first_contact, after.first_contact);
@@ -226,7 +228,8 @@ fn a_ply_set_down_in_its_target_shape_lies_without_fault() {
         let plane = plydrape::mold::Plane { point: [0.0; 3], normal: [-s, 0.0, c] };
         let ideal = plydrape::scene::FlatDrape::on(&plane, [0.0; 2], 0.0, 20_f64.to_radians());
         let goal = ideal.grippers(scene.ply.grid, [0.1; 2]);
-        scene.target = Some(Target { grippers: goal.clone(), drape: Some(ideal) });
+        scene.target =
+            Some(Target { grippers: goal.clone(), drape: Some(ideal), net: None, layup: None });
         scene.settings.contact.tolerance = 2e-4;
         scene.settings.contact.stepping = Stepping::Cut;
         scene.motion = Motion {
