@@ -93,7 +93,7 @@ fn sides_and_kinds_become_faces() {
 fn cells_are_divided_so_that_the_seed_is_a_node() {
     let layup = |mold: &str, target: &str| {
         let target = scene(mold, &format!("[target]\n{target}"), "").target.expect("a target");
-        let layup = target.layup.expect("a layup");
+        let layup = target.drape.expect("a net").layup;
         (layup.nodes, layup.seed)
     };
     assert_eq!(layup(DOME, ""), ([31, 31], [0, 0]));
@@ -109,7 +109,7 @@ fn cells_are_divided_so_that_the_seed_is_a_node() {
 fn the_target_says_how_the_net_is_laid() {
     let target = "[target]\norigin = [0.05, 0]\ndirection = \"30 deg\"\nshear = \"-5 deg\"\ngenerators = \"least-shear\"\nedges = \"chord\"\nmesh = \"50 mm\"\nseed = \"middle\"";
     let target = scene(DOME, target, "").target.expect("a target");
-    let layup = target.layup.expect("a layup");
+    let layup = target.drape.expect("a net").layup;
     assert_eq!((layup.generators, layup.edges), (Generators::LeastShear, EdgeRule::Chord));
     assert_eq!((layup.heading, layup.shear), (30f64.to_radians(), -5f64.to_radians()));
     assert!((layup.place[2] - (0.25_f64 - 0.0025).sqrt()).abs() < 1e-12);
@@ -120,7 +120,7 @@ fn the_target_says_how_the_net_is_laid() {
 #[test]
 fn grippers_end_at_nodes_of_the_net() {
     let target = scene(DOME, "[target]\nseed = \"middle\"", "").target.expect("a target");
-    let net = target.net.expect("a net");
+    let net = target.drape.expect("a net");
     for (index, place) in target.grippers.iter().enumerate() {
         assert_eq!(net.node([10 * (index % 4), 10 * (index / 4)]), Some(*place));
         assert!((place.iter().map(|c| c * c).sum::<f64>().sqrt() - 0.5).abs() < 1e-12);

@@ -6,7 +6,7 @@
 
 use super::edge::{EdgeRule, straightest};
 use super::spot::{Ground, Spot};
-use crate::mold::vector::{along, distance, dot, sub};
+use crate::mold::vector::{along, cross, dot, norm, sub};
 
 /// What is asked of a place.
 #[derive(Debug, Clone, Copy)]
@@ -19,11 +19,9 @@ pub(super) enum Condition<'a> {
     Plane(&'a Spot, [f64; 3]),
 }
 
-/// One condition at a trial.
-struct Gap {
-    /// What is missing (m).
-    gap: f64,
-    /// How it is closed: a tangent at the trial.
+/// How a condition's gap is closed at a trial.
+struct Slope {
+    /// Its gradient, a tangent of the mold.
     gradient: [f64; 3],
     /// Curvature of its level line (1/m).
     bend: f64,
@@ -35,25 +33,31 @@ const ACCEPTED: f64 = 1e-10;
 const TRIALS: usize = 60;
 
 impl Condition<'_> {
-    fn at(self, x: &Spot, rule: EdgeRule) -> Gap {
+    /// What is missing at a trial (m).
+    fn gap(self, x: &Spot, rule: EdgeRule) -> f64 {
         match self {
-            Condition::Length(from, length) => {
-                let there = rule.length(from, x);
-                Gap { gap: length - there, gradient: rule.gradient(from, x), bend: 1.0 / there }
+            Condition::Length(from, length) => length - rule.length(from, x),
+            Condition::Straight(from, across) => {
+                -EdgeRule::Along.length(from, x) * dot(straightest(from, x), across)
+            }
+            Condition::Plane(from, across) => -dot(sub(x.point, from.point), across),
+        }
+    }
+
+    fn slope(self, x: &Spot, rule: EdgeRule) -> Slope {
+        match self {
+            Condition::Length(from, _) => {
+                Slope { gradient: rule.gradient(from, x), bend: 1.0 / rule.length(from, x) }
             }
             Condition::Straight(from, across) => {
-                let there = EdgeRule::Along.length(from, x);
-                let aside = there * dot(straightest(from, x), across);
-                // across the line, where it arrives
-                let arriving = straightest(x, from).map(|c| -c);
-                let gradient = crate::mold::vector::cross(x.normal, arriving);
-                let side =
-                    dot(crate::mold::vector::cross(from.normal, straightest(from, x)), across);
-                Gap { gap: -aside, gradient: gradient.map(|c| c * side.signum()), bend: 0.0 }
+                // across the line where it arrives, to the side it was left on
+                let left = cross(x.normal, straightest(x, from).map(|c| -c));
+                let side = dot(cross(from.normal, straightest(from, x)), across).signum();
+                Slope { gradient: left.map(|c| c * side), bend: 0.0 }
             }
-            Condition::Plane(from, across) => {
+            Condition::Plane(_, across) => {
                 let gradient = along(across, -dot(across, x.normal), x.normal);
-                Gap { gap: -dot(sub(x.point, from.point), across), gradient, bend: 0.0 }
+                Slope { gradient, bend: 0.0 }
             }
         }
     }
@@ -69,68 +73,68 @@ pub(super) fn meet(
 ) -> Result<Spot, Spot> {
     let largest = guess.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let tolerance = 1e-13 * mesh + 4.0 * f64::EPSILON * largest;
+    let gaps_at = |x: &Spot| conditions.map(|c| c.gap(x, rule));
     let mut best = ground.under(guess);
-    let mut gaps = conditions.map(|c| c.at(&best, rule));
-    let mut miss = size(&gaps);
+    let mut gaps = gaps_at(&best);
     let mut part = 1.0;
-    let mut step = newton(&gaps, mesh);
+    let mut step = None;
     for _ in 0..TRIALS {
+        let miss = size(gaps);
         if miss <= tolerance {
             return Ok(best);
         }
+        if step.is_none() {
+            step = newton(gaps, conditions.map(|c| c.slope(&best, rule)), mesh);
+        }
         let Some(delta) = step else { break };
         let trial = ground.under(along(best.point, part, delta));
-        let there = conditions.map(|c| c.at(&trial, rule));
-        let missed = size(&there);
-        if missed < miss {
-            // a step that hardly helps any more: rounding, or the kink of a facet
-            let done = missed > 0.5 * miss && missed <= ACCEPTED * mesh;
-            (best, gaps, miss) = (trial, there, missed);
-            if done {
+        let there = gaps_at(&trial);
+        if size(there) < miss {
+            (best, gaps, step) = (trial, there, None);
+            part = f64::min(1.0, 2.0 * part);
+            // a step that hardly helps any more: what is left is rounding
+            if size(gaps) > 0.5 * miss && miss <= ACCEPTED * mesh {
                 break;
             }
-            part = f64::min(1.0, 2.0 * part);
-            step = newton(&gaps, mesh);
         } else {
+            part *= 0.5;
             if miss <= ACCEPTED * mesh || part < 1e-4 {
                 break;
             }
-            part *= 0.5;
         }
     }
-    if miss <= tolerance.max(ACCEPTED * mesh) { Ok(best) } else { Err(best) }
+    if size(gaps) <= tolerance.max(ACCEPTED * mesh) { Ok(best) } else { Err(best) }
 }
 
-fn size(gaps: &[Gap; 2]) -> f64 {
-    gaps[0].gap.abs().max(gaps[1].gap.abs())
+fn size(gaps: [f64; 2]) -> f64 {
+    gaps[0].abs().max(gaps[1].abs())
 }
 
 /// The step that closes both gaps, no longer than half a mesh width; none where their gradients are
 /// parallel.
-fn newton(gaps: &[Gap; 2], mesh: f64) -> Option<[f64; 3]> {
-    let [p, q] = [gaps[0].gradient, gaps[1].gradient];
+fn newton(gaps: [f64; 2], slopes: [Slope; 2], mesh: f64) -> Option<[f64; 3]> {
+    let [p, q] = [slopes[0].gradient, slopes[1].gradient];
     let (pp, pq, qq) = (dot(p, p), dot(p, q), dot(q, q));
     let det = pp * qq - pq * pq;
-    if det <= 1e-10 * pp * qq {
+    if det.is_nan() || det <= 1e-10 * pp * qq {
         return None;
     }
     let solve = |r: [f64; 2]| {
         let [a, b] = [(qq * r[0] - pq * r[1]) / det, (pp * r[1] - pq * r[0]) / det];
         [0, 1, 2].map(|n| a * p[n] + b * q[n])
     };
-    let limited = |d: [f64; 3]| {
-        let length = dot(d, d).sqrt();
-        if length > 0.5 * mesh { d.map(|x| x * 0.5 * mesh / length) } else { d }
+    let limited = |step: [f64; 3]| {
+        let part = (0.5 * mesh / norm(step)).min(1.0);
+        step.map(|x| part * x)
     };
-    let first = solve([gaps[0].gap, gaps[1].gap]);
-    if distance(first, [0.0; 3]) > 0.5 * mesh {
+    let first = solve(gaps);
+    if norm(first) > 0.5 * mesh {
         return Some(limited(first));
     }
     // what the level lines bend away over the first estimate
     let bent = [0, 1].map(|n| {
-        let Gap { gap, gradient, bend } = gaps[n];
-        let forward = dot(first, gradient);
-        gap - 0.5 * bend * (dot(first, first) - forward * forward)
+        let forward = dot(first, slopes[n].gradient);
+        gaps[n] - 0.5 * slopes[n].bend * (dot(first, first) - forward * forward)
     });
     Some(limited(solve(bent)))
 }
