@@ -142,14 +142,20 @@ impl Surroundings<'_> {
             start::check(&start, self)?;
             return Ok(motion);
         }
-        let Some(grippers) = &file.grippers else {
-            return Err(document.error(
-                file.ply.grippers.span.clone(),
-                "the scene does not say where the grippers start",
-                "add [grippers] with spacing = [\"98 mm\", \"98 mm\"] and height = \"75 mm\", or with `positions`",
-            ));
+        let start = match (&file.grippers, target.and_then(|target| target.drape.as_ref())) {
+            (None, Some(net)) => start::above(net, &file.ply.grippers.span, self),
+            (Some(table), Some(net)) if start::is_open(&table.value) => {
+                start::above(net, &table.span, self)
+            }
+            (Some(table), _) => start::start(table, self, target)?,
+            (None, None) => {
+                return Err(document.error(
+                    file.ply.grippers.span.clone(),
+                    "the scene does not say where the grippers start",
+                    "add [grippers] with spacing = [\"98 mm\", \"98 mm\"] and height = \"75 mm\", or with `positions`",
+                ));
+            }
         };
-        let start = start::start(grippers, self, target)?;
         start::check(&start, self)?;
         motion(file.motion.as_ref(), &start, target, ply, document)
     }

@@ -120,7 +120,9 @@ pub(super) struct ShearCurveTable {
     pub polynomial: Option<Located<Vec<Quantity<Ratio>>>>,
 }
 
-/// Where the grippers start: a rectangle by `spacing` and `height`, or `positions`.
+/// Where the grippers start: a rectangle by `spacing` and `height`, or `positions`. Without any of these
+/// they start level above the middle of the target, 98 % of the fabric apart, half a cell above its
+/// highest point.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Grippers")]
