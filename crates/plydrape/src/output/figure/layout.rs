@@ -3,8 +3,9 @@
 use super::axes::{self, Frame, ROOM, plain};
 use super::canvas::{self, Canvas, Px, Type};
 use super::colour::{BLACK, DARK, FRAME, RED, TARGET, viridis};
-use super::panel::{MOST_MARK, Stage, gripper_radius};
+use super::panel::{Ground, MOST_MARK, Stage, colour_value, curved, gripper_radius};
 use super::projection::{Point, View};
+use super::relief::Relief;
 use super::{FigureError, points};
 use crate::draping::record::{ResultFile, Step};
 use crate::mold::Mold;
@@ -19,6 +20,9 @@ const HEIGHT: [f64; 2] = [430.0, 285.0];
 const HEAD: f64 = 46.0;
 const TITLE: f64 = 20.0;
 const LEGEND: f64 = 42.0;
+/// How far a curved mold is drawn beyond the ply, and at most below and above it, as shares of the width.
+const MARGIN: f64 = 0.1;
+const DEEP: f64 = 0.35;
 
 /// Draws the whole sheet.
 pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, FigureError> {
@@ -47,7 +51,8 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
     }
     // Lines alone carry no colour of height.
     if result.scene.grid.cells() > 0 {
-        bar(&mut canvas, stage.scale, [HEAD + 40.0, size[1] - LEGEND - 24.0])?;
+        let name = if curved(result).is_some() { "gap (mm)" } else { "z (mm)" };
+        bar(&mut canvas, name, stage.scale, [HEAD + 40.0, size[1] - LEGEND - 24.0])?;
     }
     legend(&mut canvas, &stage, steps, size[1] - LEGEND / 2.0 - 4.0)?;
     canvas.finish()?;
@@ -83,14 +88,22 @@ fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
         1.0 => String::new(),
         more => format!("  (z exaggerated {} ×)", axes::label(more)),
     };
-    format!("iteration {number}{what}{note}")
+    let gap = match (curved(result), &step.measures.gap_mm) {
+        (Some(_), Some(gap)) => format!("  (gap to the mold up to {:.1} mm)", gap.value),
+        _ => String::new(),
+    };
+    format!("iteration {number}{what}{note}{gap}")
 }
 
 /// Box, colour scale and mold patch that hold all shown steps.
 fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
     let shown: Vec<Point> = steps.iter().flat_map(|s| points(s)).collect();
     let [bottom, top] = bounds(&shown);
-    let mut scale = [bottom[2], top[2]];
+    let mut scale = match curved(result) {
+        None => [bottom[2], top[2]],
+        // a gap scale begins where the ply lies on the mold
+        Some(_) => [0.0, shown.iter().map(|p| colour_value(result, *p)).fold(1e-4, f64::max)],
+    };
     if scale[1] - scale[0] < 1e-5 {
         scale = [scale[0] - 5e-4, scale[1] + 5e-4];
     }
@@ -100,24 +113,33 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
     let [mut low, mut high] = bounds(&all);
 
     // Discs reach beyond the grippers; the mold reaches to the walls.
-    let reach = 1.35 * gripper_radius(result);
+    let mut reach = 1.35 * gripper_radius(result);
+    if curved(result).is_some() {
+        reach = reach.max(MARGIN * (high[0] - low[0]).hypot(high[1] - low[1]));
+    }
     for c in 0..2 {
         low[c] -= reach;
         high[c] += reach;
     }
     let across = (high[0] - low[0]).hypot(high[1] - low[1]);
-    let mold = mold_patch(result, low, high, across);
-    for corner in mold.iter().flatten() {
-        low[2] = low[2].min(corner[2]);
-        high[2] = high[2].max(corner[2]);
-    }
+    let mold = ground(result, low, high, across);
+    let [floor, roof] = match &mold {
+        Some(Ground::Flat(patch)) => bounds(patch).map(|p| p[2]),
+        Some(Ground::Relief(relief)) => relief.heights(),
+        None => [low[2], high[2]],
+    };
+    low[2] = low[2].min(floor);
+    high[2] = high[2].max(roof);
     high[2] += 0.2 * reach;
     let least = 0.05 * across;
     if high[2] - low[2] < least {
         low[2] = (low[2] + high[2] - least) / 2.0;
         high[2] = low[2] + least;
     }
-    let stretch = exaggeration(high[2] - low[2], across, scale[1] - scale[0]);
+    let stretch = match curved(result) {
+        None => exaggeration(high[2] - low[2], across, scale[1] - scale[0]),
+        Some(_) => 1.0,
+    };
     Stage { result, frame: Frame { low, high, stretch }, panels: steps.len(), scale, mold }
 }
 
@@ -140,8 +162,13 @@ fn exaggeration(height: f64, across: f64, relief: f64) -> f64 {
     round.into_iter().find(|f| *f <= wanted).unwrap_or(1.0)
 }
 
-/// The mold over the floor of the box, unless it runs far out of the picture.
-fn mold_patch(result: &ResultFile, low: Point, high: Point, across: f64) -> Option<[Point; 4]> {
+/// The mold over the floor of the box, as far as it does not run far out of the picture.
+fn ground(result: &ResultFile, low: Point, high: Point, across: f64) -> Option<Ground> {
+    if let Some(mold) = curved(result) {
+        let heights = [low[2] - DEEP * across, high[2] + DEEP * across];
+        let patch = Relief::of(mold, [low[0], low[1]], [high[0], high[1]], heights);
+        return patch.map(Ground::Relief);
+    }
     let Some(Mold::Plane(plane)) = &result.scene.mold else {
         return None;
     };
@@ -151,11 +178,16 @@ fn mold_patch(result: &ResultFile, low: Point, high: Point, across: f64) -> Opti
     let patch =
         [on(low[0], low[1]), on(high[0], low[1]), on(high[0], high[1]), on(low[0], high[1])];
     let near = |p: &Point| p[2] > low[2] - across && p[2] < high[2] + across;
-    patch.iter().all(near).then_some(patch)
+    patch.iter().all(near).then_some(Ground::Flat(patch))
 }
 
-/// The colour bar between two heights on the sheet, ticks in mm.
-fn bar(canvas: &mut Canvas, [low, high]: [f64; 2], [top, bottom]: Px) -> Result<(), FigureError> {
+/// The colour bar between two heights on the sheet, with its name and ticks in mm.
+fn bar(
+    canvas: &mut Canvas,
+    name: &str,
+    [low, high]: [f64; 2],
+    [top, bottom]: Px,
+) -> Result<(), FigureError> {
     let length = (bottom - top).min(340.0);
     let top = top + (bottom - top - length) / 2.0;
     let (left, right, slices) = (PANELS + 24.0, PANELS + 40.0, 85);
@@ -171,7 +203,7 @@ fn bar(canvas: &mut Canvas, [low, high]: [f64; 2], [top, bottom]: Px) -> Result<
         canvas.line(&[[right, y], [right + 4.0, y]], FRAME, 1.0)?;
         canvas.text(&axes::label(tick), [right + 8.0, y], plain(axes::TICK, -1))?;
     }
-    canvas.text("z (mm)", [left - 4.0, top - 16.0], plain(axes::LABEL, -1))
+    canvas.text(name, [left - 4.0, top - 16.0], plain(axes::LABEL, -1))
 }
 
 /// What the marks mean, in one line.

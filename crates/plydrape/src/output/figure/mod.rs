@@ -3,7 +3,8 @@
 //! After Krogh et al. 2018, the figure of the numerical example: catenaries are red lines, a surface
 //! inside each cell is coloured by z, grippers are black discs tilted with the ply, contact is marked by
 //! red circles. Horizontal lengths have equal scale, z too unless its label says by how much it is
-//! exaggerated. Same result, same bytes.
+//! exaggerated. A curved mold is drawn as a shaded surface, never exaggerated, and the ply over it is
+//! coloured by its gap to the mold. Same result, same bytes.
 
 mod axes;
 mod canvas;
@@ -12,6 +13,7 @@ mod layout;
 mod panel;
 mod piece;
 mod projection;
+mod relief;
 mod surface;
 
 use crate::draping::record::{ResultFile, Step};

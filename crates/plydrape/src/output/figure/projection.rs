@@ -57,6 +57,16 @@ impl View {
         self.scale
     }
 
+    /// The direction from space to the eye, where z is not stretched.
+    pub(super) fn towards(&self) -> Point {
+        self.near
+    }
+
+    /// Unit vectors to the right of the sheet, up on it and out of it.
+    pub(super) fn axes(&self) -> [Point; 3] {
+        [self.right, self.up, self.near]
+    }
+
     fn stretched(&self, p: Point) -> Point {
         [p[0], p[1], p[2] * self.stretch]
     }
