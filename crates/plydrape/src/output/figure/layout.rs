@@ -1,8 +1,9 @@
 //! The sheet: title, panels one above the other, colour bar, legend.
 
 use super::axes::{self, Frame, ROOM, plain};
+use super::bar::bar;
 use super::canvas::{self, Canvas, Px, Type};
-use super::colour::{BLACK, DARK, FRAME, RED, TARGET, viridis};
+use super::colour::{BLACK, DARK, RED, TARGET};
 use super::panel::{Ground, MOST_MARK, Stage, colour_value, curved, gripper_radius};
 use super::projection::{Point, View};
 use super::relief::Relief;
@@ -40,7 +41,7 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
 
     let mut text = String::new();
     let mut canvas = Canvas::new(&mut text, size)?;
-    canvas.text(&title(result), [28.0, 26.0], heading(17.0))?;
+    canvas.text(&title(&result.scene.title), [28.0, 26.0], heading(17.0))?;
     let free = PANELS - ROOM[0] - ROOM[2] - wide * scale;
     for (k, step) in steps.iter().enumerate() {
         let top = HEAD + panel * k as f64;
@@ -52,22 +53,22 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
     // Lines alone carry no colour of height.
     if result.scene.grid.cells() > 0 {
         let name = if curved(result).is_some() { "gap (mm)" } else { "z (mm)" };
-        bar(&mut canvas, name, stage.scale, [HEAD + 40.0, size[1] - LEGEND - 24.0])?;
+        let between = [HEAD + 40.0, size[1] - LEGEND - 24.0];
+        bar(&mut canvas, name, stage.scale.map(|v| v * 1e3), PANELS + 24.0, between)?;
     }
     legend(&mut canvas, &stage, steps, size[1] - LEGEND / 2.0 - 4.0)?;
     canvas.finish()?;
     Ok(canvas::at_size(&text, size))
 }
 
-fn heading(size: f64) -> Type {
+pub(super) fn heading(size: f64) -> Type {
     Type { size, bold: true, ink: DARK, side: -1 }
 }
 
-/// The scene's title, cut to the width of the sheet.
-fn title(result: &ResultFile) -> String {
-    let title = &result.scene.title;
+/// A title, cut to the width of the sheet.
+pub(super) fn title(title: &str) -> String {
     if title.chars().count() <= 80 {
-        return title.clone();
+        return title.to_owned();
     }
     title.chars().take(79).chain(['…']).collect()
 }
@@ -122,14 +123,11 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
         high[c] += reach;
     }
     let across = (high[0] - low[0]).hypot(high[1] - low[1]);
-    let mold = ground(result, low, high, across);
-    let [floor, roof] = match &mold {
-        Some(Ground::Flat(patch)) => bounds(patch).map(|p| p[2]),
-        Some(Ground::Relief(relief)) => relief.heights(),
-        None => [low[2], high[2]],
-    };
-    low[2] = low[2].min(floor);
-    high[2] = high[2].max(roof);
+    let mold = result.scene.mold.as_ref().and_then(|mold| ground(mold, low, high, across));
+    if let Some([floor, roof]) = mold.as_ref().map(Ground::heights) {
+        low[2] = low[2].min(floor);
+        high[2] = high[2].max(roof);
+    }
     high[2] += 0.2 * reach;
     let least = 0.05 * across;
     if high[2] - low[2] < least {
@@ -144,7 +142,7 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
 }
 
 /// Lowest and highest coordinates of some points.
-fn bounds(points: &[Point]) -> [Point; 2] {
+pub(super) fn bounds(points: &[Point]) -> [Point; 2] {
     let by = |pick: fn(f64, f64) -> f64, start: f64| {
         [0, 1, 2].map(|c| points.iter().map(|p| p[c]).fold(start, pick))
     };
@@ -163,14 +161,11 @@ fn exaggeration(height: f64, across: f64, relief: f64) -> f64 {
 }
 
 /// The mold over the floor of the box, as far as it does not run far out of the picture.
-fn ground(result: &ResultFile, low: Point, high: Point, across: f64) -> Option<Ground> {
-    if let Some(mold) = curved(result) {
+pub(super) fn ground(mold: &Mold, low: Point, high: Point, across: f64) -> Option<Ground> {
+    let Mold::Plane(plane) = mold else {
         let heights = [low[2] - DEEP * across, high[2] + DEEP * across];
         let patch = Relief::of(mold, [low[0], low[1]], [high[0], high[1]], heights);
         return patch.map(Ground::Relief);
-    }
-    let Some(Mold::Plane(plane)) = &result.scene.mold else {
-        return None;
     };
     let [nx, ny, nz] = plane.normal;
     let [px, py, pz] = plane.point;
@@ -179,31 +174,6 @@ fn ground(result: &ResultFile, low: Point, high: Point, across: f64) -> Option<G
         [on(low[0], low[1]), on(high[0], low[1]), on(high[0], high[1]), on(low[0], high[1])];
     let near = |p: &Point| p[2] > low[2] - across && p[2] < high[2] + across;
     patch.iter().all(near).then_some(Ground::Flat(patch))
-}
-
-/// The colour bar between two heights on the sheet, with its name and ticks in mm.
-fn bar(
-    canvas: &mut Canvas,
-    name: &str,
-    [low, high]: [f64; 2],
-    [top, bottom]: Px,
-) -> Result<(), FigureError> {
-    let length = (bottom - top).min(340.0);
-    let top = top + (bottom - top - length) / 2.0;
-    let (left, right, slices) = (PANELS + 24.0, PANELS + 40.0, 85);
-    for k in 0..slices {
-        let share = f64::from(k) / f64::from(slices);
-        let y = top + length * (1.0 - share);
-        // Each slice reaches to the top and is covered by the next, so that no seam shows.
-        let slice = [[left, y], [right, y], [right, top], [left, top]];
-        canvas.polygon(&slice, viridis((f64::from(k) + 0.5) / f64::from(slices)))?;
-    }
-    for tick in axes::ticks(low, high, length / 42.0) {
-        let y = top + length * (high - tick * 1e-3) / (high - low);
-        canvas.line(&[[right, y], [right + 4.0, y]], FRAME, 1.0)?;
-        canvas.text(&axes::label(tick), [right + 8.0, y], plain(axes::TICK, -1))?;
-    }
-    canvas.text(name, [left - 4.0, top - 16.0], plain(axes::LABEL, -1))
 }
 
 /// What the marks mean, in one line.

@@ -7,6 +7,7 @@
 //! coloured by its gap to the mold. Same result, same bytes.
 
 mod axes;
+mod bar;
 mod canvas;
 mod colour;
 mod layout;

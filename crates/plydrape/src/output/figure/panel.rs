@@ -4,6 +4,7 @@ use super::FigureError;
 use super::axes::Frame;
 use super::canvas::{Canvas, Px};
 use super::colour::{BLACK, MOLD, RED, RIM, TARGET, WEAVE, viridis};
+use super::layout::bounds;
 use super::piece::{self, Form, Piece, grown, thread};
 use super::projection::{Point, View, turned};
 use super::relief::Relief;
@@ -71,6 +72,16 @@ pub(super) enum Ground {
     Relief(Relief),
 }
 
+impl Ground {
+    /// Lowest and highest point of what is shown (m).
+    pub(super) fn heights(&self) -> [f64; 2] {
+        match self {
+            Ground::Flat(patch) => bounds(patch).map(|p| p[2]),
+            Ground::Relief(relief) => relief.heights(),
+        }
+    }
+}
+
 /// The mold of a result, if it is curved.
 pub(super) fn curved(result: &ResultFile) -> Option<&Mold> {
     result.scene.mold.as_ref().filter(|mold| !matches!(mold, Mold::Plane(_)))
@@ -109,13 +120,10 @@ impl Stage<'_> {
             for line in self.outline() {
                 thread(&mut pieces, view, &line, 0.0, TARGET, 1.2);
             }
-            let hidden: Vec<bool> = pieces.iter().map(|p| relief.hides(view, p.place)).collect();
-            let mut hidden = hidden.into_iter();
-            let behind = pieces.extract_if(.., |_| hidden.next() == Some(true)).collect();
-            piece::paint(canvas, behind)?;
-            relief.draw(canvas, view)?;
+            relief.paint_among(canvas, view, pieces)?;
+        } else {
+            piece::paint(canvas, pieces)?;
         }
-        piece::paint(canvas, pieces)?;
         self.frame.front(canvas, view)
     }
 

@@ -108,7 +108,7 @@ impl Relief {
 
     /// True if the mold stands between a point (m) and the eye. What is inside the mold counts as lying
     /// on it.
-    pub(super) fn hides(&self, view: &View, [x, y, z]: Point) -> bool {
+    fn hides(&self, view: &View, [x, y, z]: Point) -> bool {
         let [dx, dy, rise] = view.towards();
         let step = 0.5 * self.side[0].min(self.side[1]) / dx.hypot(dy);
         let hair = HAIR * self.side[0] * self.count[0] as f64;
@@ -123,8 +123,22 @@ impl Relief {
             .any(|(x, y, ray)| self.height(x, y).is_some_and(|h| h > ray + hair))
     }
 
+    /// Draws what is behind the mold, the mold, and what is in front.
+    pub(super) fn paint_among(
+        &self,
+        canvas: &mut Canvas,
+        view: &View,
+        pieces: Vec<Piece>,
+    ) -> Result<(), FigureError> {
+        let (behind, front): (Vec<Piece>, Vec<Piece>) =
+            pieces.into_iter().partition(|piece| self.hides(view, piece.place));
+        paint(canvas, behind)?;
+        self.draw(canvas, view)?;
+        paint(canvas, front)
+    }
+
     /// Draws the patch. Where it turns its back to the eye it lets through what it hides.
-    pub(super) fn draw(&self, canvas: &mut Canvas, view: &View) -> Result<(), FigureError> {
+    fn draw(&self, canvas: &mut Canvas, view: &View) -> Result<(), FigureError> {
         let mut pieces = Vec::new();
         for quad in &self.quads {
             let mean = |of: &dyn Fn(Point) -> f64| {
@@ -136,6 +150,8 @@ impl Relief {
             let (ink, cover) = shade(view, &quad.outline);
             let points = if cover < 1.0 { flat } else { grown(&flat) };
             pieces.push(Piece { depth, place, points, ink: Ink(ink, cover), form: Form::Area });
+            // nearer than the quads on both of its sides
+            let depth = depth + self.side[0].max(self.side[1]);
             for line in &quad.lines {
                 let points = line.map(|p| view.at(p)).to_vec();
                 pieces.push(Piece { depth, place, points, ink: MOLD_EDGE, form: Form::Line(0.5) });
