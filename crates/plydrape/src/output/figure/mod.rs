@@ -15,6 +15,7 @@ mod panel;
 mod piece;
 mod projection;
 mod relief;
+pub mod shear_map;
 mod surface;
 
 use crate::draping::record::{ResultFile, Step};
@@ -62,6 +63,9 @@ pub enum FigureError {
         /// The step.
         step: usize,
     },
+    /// A net without a node on the mold.
+    #[error("the net has no node on the mold, so there is nothing to draw")]
+    NoNode,
     /// The SVG writer failed.
     #[error("the figure could not be drawn: {0}")]
     Drawing(String),

@@ -18,6 +18,8 @@ const QUADS: usize = 30;
 const APART: usize = 2;
 /// What the line of sight may run below the mold, as a share of the width, without being hidden.
 const HAIR: f64 = 2e-3;
+/// How much the back of a surface covers of what it hides.
+pub(super) const BACK: f64 = 0.4;
 /// Where the light comes from: from the left, above, a little from the front, as seen on the sheet.
 const LIGHT: [f64; 3] = [-0.45, 0.75, 0.48];
 
@@ -92,6 +94,11 @@ impl Relief {
         [all.fold(f64::INFINITY, f64::min), self.top]
     }
 
+    /// The patch in polygons (m).
+    pub(super) fn outlines(&self) -> Vec<Vec<Point>> {
+        self.quads.iter().map(|quad| quad.outline.clone()).collect()
+    }
+
     /// Height of the mold over a place of the plan (m), between the corners of its quad.
     fn height(&self, x: f64, y: f64) -> Option<f64> {
         let along = [(x - self.low[0]) / self.side[0], (y - self.low[1]) / self.side[1]];
@@ -151,7 +158,10 @@ impl Relief {
             let points = if cover < 1.0 { flat } else { grown(&flat) };
             pieces.push(Piece { depth, place, points, ink: Ink(ink, cover), form: Form::Area });
             // nearer than the quads on both of its sides
-            let depth = depth + self.side[0].max(self.side[1]);
+            let all = quad.outline.iter().map(|p| view.depth(*p));
+            let spread =
+                all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min);
+            let depth = depth + spread.max(self.side[0].max(self.side[1]));
             for line in &quad.lines {
                 let points = line.map(|p| view.at(p)).to_vec();
                 pieces.push(Piece { depth, place, points, ink: MOLD_EDGE, form: Form::Line(0.5) });
@@ -200,7 +210,7 @@ fn border(
     mut without: [f64; 2],
     on: &dyn Fn(f64, f64) -> Option<Point>,
 ) -> Point {
-    for _ in 0..10 {
+    for _ in 0..20 {
         let [x, y] = [0, 1].map(|c| 0.5 * (with[c] + without[c]));
         match on(x, y) {
             Some(point) => (last, with) = (point, [x, y]),
@@ -227,7 +237,7 @@ fn shade(view: &View, outline: &[Point]) -> ([u8; 3], f64) {
         let (dark, light) = (f64::from(MOLD_DARK.0[c]), f64::from(MOLD_LIGHT.0[c]));
         (dark + share * (light - dark)).round() as u8
     });
-    (ink, if on_sheet[2] < 0.0 { 0.45 } else { 1.0 })
+    (ink, if on_sheet[2] < 0.0 { BACK } else { 1.0 })
 }
 
 #[cfg(test)]
