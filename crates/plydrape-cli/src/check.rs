@@ -186,9 +186,10 @@ fn rules(scene: &Scene) -> [(&'static str, String); 4] {
         (
             "",
             format!(
-                "landing within {} mm (contact), {} mm (grippers), {} % in contact",
+                "landing within {} mm (contact), {} mm (grippers), fibres within {} deg, {} % in contact",
                 millimetres(limits.landing_contact),
                 millimetres(limits.landing_gripper),
+                degrees(limits.fibre_angle),
                 short(limits.contact_share * 100.0)
             ),
         ),

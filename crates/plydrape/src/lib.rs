@@ -6,10 +6,11 @@
 //!
 //! 1. [`scene`]: a file becomes a checked [`scene::Scene`];
 //! 2. [`mold`], [`catenary`]: the surface, and one span of ply;
-//! 3. [`ply`]: grippers, edges, diagonals, shear and the slope rules;
-//! 4. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
-//! 5. [`draping`]: the motion step by step, contact with the mold, the measures;
-//! 6. [`output`]: result files and the figure.
+//! 3. [`net`]: the ideal drape, where every point of the fabric should end on the mold;
+//! 4. [`ply`]: grippers, edges, diagonals, shear and the slope rules;
+//! 5. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
+//! 6. [`draping`]: the motion step by step, contact with the mold, the measures;
+//! 7. [`output`]: result files and the figure.
 //!
 //! SI units throughout, z up, gravity along −z.
 
@@ -18,6 +19,7 @@ pub mod draping;
 pub mod equilibrium;
 pub mod material;
 pub mod mold;
+pub mod net;
 pub mod output;
 pub mod ply;
 pub mod scene;

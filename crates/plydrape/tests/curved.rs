@@ -2,7 +2,7 @@
 
 use plydrape::draping::record::ResultFile;
 use plydrape::draping::simulate;
-use plydrape::mold::{Cylinder, Face, Graph, Mold, Pose, Saddle, Surface};
+use plydrape::mold::{Cylinder, Face, Graph, Mold, Pose, Saddle, Sphere, Surface};
 use plydrape::ply::Grid;
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Stepping};
 use std::ops::ControlFlow;
@@ -56,29 +56,42 @@ fn on_parabola(radius: f64, s: f64) -> ([f64; 3], [f64; 3]) {
     ([x, 0.0, -x * x / (2.0 * radius)], [1.0 / size, 0.0, slope / size])
 }
 
-/// Largest distance of what has landed of a strip from where its fabric belongs on the parabola (mm).
-fn drift(steps: usize, tolerance: f64, stepping: Stepping) -> f64 {
-    let radius = 0.6;
+/// Where the arc length s from the top of a circle of radius R ends (m), and the tangent there.
+fn on_circle(radius: f64, s: f64) -> ([f64; 3], [f64; 3]) {
+    let (sin, cos) = (s / radius).sin_cos();
+    ([radius * sin, 0.0, radius * (cos - 1.0)], [cos, 0.0, -sin])
+}
+
+/// The strip of four grippers rolled on a mold along exact tangents: place and tangent at an arc length.
+fn rolled(
+    mold: Mold,
+    along: impl Fn(f64) -> ([f64; 3], [f64; 3]),
+    steps: usize,
+    tolerance: f64,
+    stepping: Stepping,
+) -> ResultFile {
     let roll = |front: f64| -> Vec<[f64; 3]> {
         (0..4)
             .map(|n| {
                 let s = 0.1 * f64::from(n);
-                let (p, t) = on_parabola(radius, s.min(front));
+                let (p, t) = along(s.min(front));
                 [0, 1, 2].map(|c| p[c] + (s - front).max(0.0) * t[c])
             })
             .collect()
     };
     let positions = (0..steps).map(|n| roll(0.3 * n as f64 / (steps - 1) as f64)).collect();
-    let contact = Contact { tolerance, stepping, end: ContactEnd::Free };
-    let result = drape(&strip(4, parabola(radius), contact, positions));
+    drape(&strip(4, mold, Contact { tolerance, stepping, end: ContactEnd::Free }, positions))
+}
+
+/// Largest distance of what has landed of a strip from where its fabric belongs (mm).
+fn drift(result: &ResultFile, along: impl Fn(f64) -> ([f64; 3], [f64; 3])) -> f64 {
     let last = result.steps.last().expect("steps");
     let mut worst = 0.0_f64;
     for (n, catenary) in last.catenaries.iter().enumerate() {
         let contact = catenary.contact.as_ref().expect("it has been rolled on");
         let last = contact.points.len() - 1;
         for (arc, point) in contact.arc.iter().zip([contact.points[0], contact.points[last]]) {
-            let (place, _) = on_parabola(radius, 0.1 * n as f64 + arc);
-            worst = worst.max(distance(point, place));
+            worst = worst.max(distance(point, along(0.1 * n as f64 + arc).0));
         }
     }
     worst * 1e3
@@ -89,12 +102,30 @@ fn drift(steps: usize, tolerance: f64, stepping: Stepping) -> f64 {
 /// 0.005 mm at 0.2 mm, where snapping each point to the mold drifted 0.1, 0.3 and 1.0 mm.
 #[test]
 fn a_strip_rolled_on_a_parabola_lies_where_it_belongs_whatever_the_steps() {
+    let along = |s| on_parabola(0.6, s);
     for stepping in [Stepping::Once, Stepping::Cut] {
         for steps in [30, 60, 200] {
-            let (coarse, fine) = (drift(steps, 1e-3, stepping), drift(steps, 2e-4, stepping));
+            let at =
+                |tolerance| drift(&rolled(parabola(0.6), along, steps, tolerance, stepping), along);
+            let (coarse, fine) = (at(1e-3), at(2e-4));
             assert!(coarse < 0.04, "{stepping:?}, {steps} steps at 1 mm: {coarse} mm");
             assert!(fine < 0.005, "{stepping:?}, {steps} steps at 0.2 mm: {fine} mm");
         }
+    }
+}
+
+/// The same on a sphere and on a cylinder, along a circle.
+#[test]
+fn a_strip_rolled_on_a_circle_lies_where_it_belongs() {
+    let radius = 0.6;
+    let pose = Pose::new([0.0, 0.0, -radius], [0.0, 0.0, std::f64::consts::FRAC_PI_2]);
+    let along = |s| on_circle(radius, s);
+    for mold in [
+        Mold::Sphere(Sphere { pose, radius, face: Face::Outside }),
+        Mold::Cylinder(Cylinder { pose, radius, face: Face::Outside }),
+    ] {
+        let drift = drift(&rolled(mold.clone(), along, 60, 2e-4, Stepping::Cut), along);
+        assert!(drift < 0.005, "{mold:?}: {drift} mm");
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::spans::Point;
 use crate::equilibrium::{Side, Solver};
+use crate::mold::vector::{cross, unit};
 use crate::ply::Grid;
 
 /// Slopes of the ply at a gripper and the orientation that follows from them.
@@ -46,15 +47,6 @@ fn heading(grid: Grid, positions: &[Point], gripper: usize, direction: usize) ->
     let delta = [b[0] - a[0], b[1] - a[1]];
     let length = delta[0].hypot(delta[1]);
     (length > 0.0).then(|| delta.map(|d| d / length))
-}
-
-fn cross(a: Point, b: Point) -> Point {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(a: Point) -> Option<Point> {
-    let length = a.iter().map(|x| x * x).sum::<f64>().sqrt();
-    (length > 1e-12).then(|| a.map(|x| x / length))
 }
 
 /// The attitude of a gripper; the quaternion's sign continues `before`.

@@ -50,27 +50,48 @@ pub struct Look {
     pub bridge: Option<Bridge>,
 }
 
-/// Runs of points closer to the mold than `tolerance` (m), ascending.
-fn runs(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Vec<Run> {
-    if mold.clearance(span.ends[0], span.ends[1], span.length) > tolerance {
-        return Vec::new();
-    }
-    let distance = |t: f64| mold.signed_distance(span.point(t));
-    let at = |n: usize| n as f64 / STATIONS as f64;
-    let mut samples: Vec<(f64, f64)> = (0..=STATIONS).map(|n| (at(n), distance(at(n)))).collect();
-    // a touch may hide between two stations: add every local minimum that might be one
-    let minima: Vec<(f64, f64)> = (1..STATIONS)
-        .filter(|&n| {
-            let [before, here, after] = [samples[n - 1].1, samples[n].1, samples[n + 1].1];
-            // between stations a curve dips by no more than its neighbours rise
-            let reach = here - (before - here).max(after - here);
-            here <= before && here <= after && reach < tolerance
-        })
-        .map(|n| minimum(&distance, samples[n - 1], samples[n], samples[n + 1]))
-        .collect();
-    samples.extend(minima);
-    samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+/// How far a span is from the mold along its run: its stations, and the minima between them.
+#[derive(Debug, Clone)]
+pub struct Sounding {
+    /// Fraction of the run and distance there (m), ascending; empty if the span is clear of the mold.
+    samples: Vec<(f64, f64)>,
+}
 
+impl Sounding {
+    /// Sounds a span; minima that may come closer than `tolerance` (m) are found exactly.
+    pub fn new(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Self {
+        if mold.clearance(span.ends[0], span.ends[1], span.length) > tolerance {
+            return Sounding { samples: Vec::new() };
+        }
+        let distance = |t: f64| mold.signed_distance(span.point(t));
+        let at = |n: usize| n as f64 / STATIONS as f64;
+        let mut samples: Vec<(f64, f64)> =
+            (0..=STATIONS).map(|n| (at(n), distance(at(n)))).collect();
+        // a touch may hide between two stations: add every local minimum that might be one
+        let minima: Vec<(f64, f64)> = (1..STATIONS)
+            .filter(|&n| {
+                let [before, here, after] = [samples[n - 1].1, samples[n].1, samples[n + 1].1];
+                // between stations a curve dips by no more than its neighbours rise
+                let reach = here - (before - here).max(after - here);
+                here <= before && here <= after && reach < tolerance
+            })
+            .map(|n| minimum(&distance, samples[n - 1], samples[n], samples[n + 1]))
+            .collect();
+        samples.extend(minima);
+        samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Sounding { samples }
+    }
+
+    /// Depth of the lowest point below the mold (m), negative if the span hangs clear.
+    pub fn depth(&self) -> f64 {
+        -self.samples.iter().fold(f64::INFINITY, |least, (_, distance)| least.min(*distance))
+    }
+}
+
+/// Runs of points closer to the mold than `tolerance` (m), ascending.
+fn runs(span: &FreeSpan, sounding: &Sounding, mold: &Mold, tolerance: f64) -> Vec<Run> {
+    let distance = |t: f64| mold.signed_distance(span.point(t));
+    let samples = &sounding.samples;
     let mut out: Vec<Run> = Vec::new();
     let mut open: Option<Run> = None;
     for n in 0..samples.len() {
@@ -167,22 +188,6 @@ fn largest_gap(span: &FreeSpan, mold: &Mold, from: f64, to: f64) -> Bridge {
     worst
 }
 
-/// Depth of the lowest point of a span below the mold (m), negative if it hangs clear.
-pub fn depth(span: &FreeSpan, mold: &Mold) -> f64 {
-    if mold.clearance(span.ends[0], span.ends[1], span.length) > 0.0 {
-        return f64::NEG_INFINITY;
-    }
-    let distance = |t: f64| mold.signed_distance(span.point(t));
-    let at = |n: usize| n as f64 / STATIONS as f64;
-    let samples: [f64; STATIONS + 1] = std::array::from_fn(|n| distance(at(n)));
-    let lowest = (0..=STATIONS).fold(0, |a, b| if samples[b] < samples[a] { b } else { a });
-    if lowest == 0 || lowest == STATIONS {
-        return -distance(at(lowest));
-    }
-    let [a, m, b] = [lowest - 1, lowest, lowest + 1].map(|n| (at(n), distance(at(n))));
-    -minimum(&distance, a, m, b).1
-}
-
 /// One line from two that start at the same point, at fabric arc length `arc` (m): the first is gone
 /// back along.
 fn joined(back: Option<Strand>, arc: f64, on: Option<Strand>) -> Strand {
@@ -216,8 +221,8 @@ fn whole(mold: &Mold, a: [f64; 3], b: [f64; 3], length: f64) -> Strand {
 }
 
 /// Looks at a catenary that nothing has caught yet.
-pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
-    let runs = runs(span, mold, contact.tolerance);
+pub fn first_touch(span: &FreeSpan, sounding: &Sounding, mold: &Mold, contact: &Contact) -> Look {
+    let runs = runs(span, sounding, mold, contact.tolerance);
     let Some(run) = runs.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)) else {
         return Look::default();
     };
@@ -260,8 +265,14 @@ pub fn first_touch(span: &FreeSpan, mold: &Mold, contact: &Contact) -> Look {
 }
 
 /// Looks at a rest of a catenary that the mold has caught before.
-pub fn next_touch(span: &FreeSpan, laid: &Laid, mold: &Mold, contact: &Contact) -> Look {
-    let runs = runs(span, mold, contact.tolerance);
+pub fn next_touch(
+    span: &FreeSpan,
+    sounding: &Sounding,
+    laid: &Laid,
+    mold: &Mold,
+    contact: &Contact,
+) -> Look {
+    let runs = runs(span, sounding, mold, contact.tolerance);
     let rest = span.rest;
     // the contact end: the second end of the first rest, the first end of the second
     let at_contact = |run: &&Run| {

@@ -3,6 +3,7 @@
 
 use super::Snapshot;
 use super::attitude::Attitude;
+use super::landing::Landing;
 use super::record::{Measures, Worst};
 use super::spans::{FreeSpan, Point};
 use crate::mold::{Mold, Strand, distance};
@@ -120,25 +121,6 @@ pub fn lying_length(laid: &Laid) -> f64 {
     laid.line.length() + rests
 }
 
-/// Fabric coordinates (u, v) (m) of a catenary at an arc length from its first gripper.
-fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
-    let c = scene.ply.grid.catenary(catenary);
-    let [a, b] = scene.ply.cell;
-    let at = |from: usize, to: usize, side: f64| {
-        side * (from as f64 + share * (to as f64 - from as f64))
-    };
-    [at(c.from[0], c.to[0], a), at(c.from[1], c.to[1], b)]
-}
-
-/// Distances (m) of a contact segment's ends from their place in the ideal drape.
-pub fn landing_errors(scene: &Scene, catenary: usize, laid: &Laid) -> Option<[f64; 2]> {
-    let drape = scene.target.as_ref()?.drape.as_ref()?;
-    Some([0, 1].map(|end| {
-        let uv = fabric(scene, catenary, laid.arc()[end] / laid.length);
-        distance(laid.point()[end], drape.place(uv))
-    }))
-}
-
 /// A catenary in words.
 pub fn name(scene: &Scene, catenary: usize) -> String {
     let c = scene.ply.grid.catenary(catenary);
@@ -179,12 +161,14 @@ enum Landed {
     Gripper(usize),
 }
 
-/// The measures of one step. `points` are the stations of each free span (m).
+/// The measures of one step. `points` are the stations of each free span (m), `landings` how each
+/// catenary has landed.
 pub fn measures(
     scene: &Scene,
     snapshot: &Snapshot,
     attitudes: &[Attitude],
     points: &[Vec<Point>],
+    landings: &[Option<Landing>],
 ) -> Measures {
     const MM: f64 = 1e-3;
     let grid = scene.ply.grid;
@@ -206,7 +190,7 @@ pub fn measures(
         judge(span.catenary, whole, &fit(span));
     }
     let (mut lying, mut total) = (0.0, 0.0);
-    let mut landing = Most::default();
+    let (mut landing, mut fibre) = (Most::default(), Most::default());
     let mut bridging = Most::default();
     for (catenary, laid) in snapshot.laid.iter().enumerate() {
         let edge = catenary < grid.edges();
@@ -227,9 +211,12 @@ pub fn measures(
         if edge {
             lying += lying_length(laid);
         }
-        if let Some(errors) = landing_errors(scene, catenary, laid) {
-            for end in 0..2 {
-                landing.meet(errors[end], Landed::Catenary(catenary), laid.point()[end]);
+        if let Some(found) = &landings[catenary] {
+            if let Some((error, place)) = found.worst(&laid.line) {
+                landing.meet(error, Landed::Catenary(catenary), place);
+            }
+            if let Some((angle, place)) = found.fibre_angle {
+                fibre.meet(angle.to_degrees(), catenary, place);
             }
         }
     }
@@ -281,6 +268,7 @@ pub fn measures(
             Landed::Catenary(n) => catenary(n),
             Landed::Gripper(n) => gripper(n),
         }),
+        fibre_angle_deg: fibre.worst(1.0, catenary),
         gap_mm: gap.worst(MM, catenary).or(has_mold.then(|| nothing("nowhere"))),
         contact_share: has_mold.then_some(lying / total),
     }

@@ -7,6 +7,7 @@
 mod attitude;
 pub mod contact;
 mod crossing;
+mod landing;
 mod measures;
 pub mod record;
 mod report;
@@ -15,7 +16,7 @@ pub mod spans;
 use crate::equilibrium::{Equilibrium, Solver};
 use crate::ply::{Laid, shear};
 use crate::scene::{Scene, Stepping};
-use contact::Bridge;
+use contact::{Bridge, Sounding};
 use record::ResultFile;
 use spans::{Point, Shape, shape};
 use std::ops::ControlFlow;
@@ -149,7 +150,8 @@ impl<'a> Draping<'a> {
     /// As in the paper: one equilibrium, one look at the contact; solved anew where it has changed.
     fn arrive(&mut self, goal: &[Point]) -> Shape {
         let shape = self.solve(goal);
-        if self.touch(&shape) { self.solve(goal) } else { shape }
+        let soundings = self.soundings(&shape);
+        if self.touch(&shape, &soundings) { self.solve(goal) } else { shape }
     }
 
     /// Cuts the way where the ply would dip deeper than the tolerance, and follows the contact at each
@@ -168,15 +170,17 @@ impl<'a> Draping<'a> {
             let next = f64::min(done + part, 1.0);
             let place = if next >= 1.0 { goal.to_vec() } else { at(next) };
             let mut shape = self.solve(&place);
-            if part > SMALLEST_CUT && self.is_deep(&shape) && start != *goal {
+            let mut soundings = self.soundings(&shape);
+            if part > SMALLEST_CUT && self.is_deep(&soundings) && start != *goal {
                 part *= 0.5;
                 continue;
             }
             for _ in 0..MAX_ROUNDS {
-                if !self.touch(&shape) {
+                if !self.touch(&shape, &soundings) {
                     break;
                 }
                 shape = self.solve(&place);
+                soundings = self.soundings(&shape);
             }
             if next >= 1.0 {
                 return shape;
@@ -185,17 +189,22 @@ impl<'a> Draping<'a> {
         }
     }
 
-    /// Whether a span dips deeper below the mold than the tolerance.
-    fn is_deep(&self, shape: &Shape) -> bool {
+    /// How far every span is from the mold; none without a mold.
+    fn soundings(&self, shape: &Shape) -> Vec<Sounding> {
         let Some(mold) = &self.scene.mold else {
-            return false;
+            return Vec::new();
         };
         let tolerance = self.scene.settings.contact.tolerance;
-        shape.spans.iter().any(|span| contact::depth(span, mold) > tolerance)
+        shape.spans.iter().map(|span| Sounding::new(span, mold, tolerance)).collect()
+    }
+
+    /// Whether a span dips deeper below the mold than the tolerance.
+    fn is_deep(&self, soundings: &[Sounding]) -> bool {
+        soundings.iter().any(|sounding| sounding.depth() > self.scene.settings.contact.tolerance)
     }
 
     /// Looks at every span once; true if the contact has changed.
-    fn touch(&mut self, shape: &Shape) -> bool {
+    fn touch(&mut self, shape: &Shape, soundings: &[Sounding]) -> bool {
         let Some(mold) = &self.scene.mold else {
             return false;
         };
@@ -204,11 +213,11 @@ impl<'a> Draping<'a> {
         for bridge in &mut self.bridges {
             *bridge = None;
         }
-        for span in &shape.spans {
+        for (span, sounding) in shape.spans.iter().zip(soundings) {
             let slot = &mut self.laid[span.catenary];
             let look = match slot {
-                None => contact::first_touch(span, mold, rule),
-                Some(laid) => contact::next_touch(span, laid, mold, rule),
+                None => contact::first_touch(span, sounding, mold, rule),
+                Some(laid) => contact::next_touch(span, sounding, laid, mold, rule),
             };
             if let Some(laid) = look.laid {
                 *slot = Some(laid);

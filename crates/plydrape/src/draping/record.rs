@@ -173,8 +173,11 @@ pub struct ContactState {
     pub arc: [f64; 2],
     /// Its line on the mold (m), first to last.
     pub points: Vec<[f64; 3]>,
-    /// Distance of its two ends from their place in the ideal drape (mm), where that is known.
-    pub landing_error_mm: Option<[f64; 2]>,
+    /// Distance of each of these points from its place in the ideal drape (mm); null where that is not
+    /// known.
+    pub landing_error_mm: Option<Vec<Option<f64>>>,
+    /// Largest angle between the line and the fibre of the ideal drape there (°); edges only.
+    pub fibre_angle_deg: Option<f64>,
 }
 
 /// A touch away from the contact segment, which the model does not follow.
@@ -233,6 +236,8 @@ pub struct Measures {
     pub force_n: Option<Worst>,
     /// Distance of landed points and landed grippers from their ideal place (mm).
     pub landing_error_mm: Option<Worst>,
+    /// Angle between landed edges and the fibres of the ideal drape (°).
+    pub fibre_angle_deg: Option<Worst>,
     /// Largest distance between ply and mold (mm).
     pub gap_mm: Option<Worst>,
     /// Share of the edges' length that lies on the mold.
@@ -256,6 +261,8 @@ pub struct Numbers {
     pub tilt_deg: Option<f64>,
     /// Landing error (mm).
     pub landing_error_mm: Option<f64>,
+    /// Angle between landed edges and the fibres of the ideal drape (°).
+    pub fibre_angle_deg: Option<f64>,
 }
 
 /// A limit and whether it holds.

@@ -3,7 +3,8 @@
 use super::Snapshot;
 use super::attitude::{Attitude, attitude};
 use super::crossing::{STATIONS, hanging, lowered};
-use super::measures::{self, LyingRest, fit, landing_errors, name, words};
+use super::landing::{Landing, landing};
+use super::measures::{self, LyingRest, fit, name, words};
 use super::record::{
     Bridging, CatenaryId, CatenaryState, Cell, ContactState, FORMAT, Gripper, Measures, Numbers,
     ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step, Summary, VERSION, Verdict,
@@ -41,7 +42,10 @@ impl<'a> Report<'a> {
         let attitudes: Vec<Attitude> = (0..grid.grippers())
             .map(|n| attitude(solver, grid, &snapshot.positions, n, self.quaternions[n]))
             .collect();
-        let measures = measures::measures(scene, snapshot, &attitudes, &points);
+        let landings: Vec<Option<Landing>> = (snapshot.laid.iter().enumerate())
+            .map(|(n, laid)| laid.as_ref().and_then(|laid| landing(scene, n, laid)))
+            .collect();
+        let measures = measures::measures(scene, snapshot, &attitudes, &points, &landings);
         for (span, through) in lowered(scene, spans, &snapshot.laid) {
             points[span] = through;
         }
@@ -71,13 +75,18 @@ impl<'a> Report<'a> {
                 residual: equilibrium.residual,
                 equilibria: snapshot.equilibria,
             },
-            catenaries: self.catenaries(snapshot, points),
+            catenaries: self.catenaries(snapshot, points, &landings),
             cells: self.cells(snapshot),
             measures,
         });
     }
 
-    fn catenaries(&self, snapshot: &Snapshot, points: Vec<Vec<Point>>) -> Vec<CatenaryState> {
+    fn catenaries(
+        &self,
+        snapshot: &Snapshot,
+        points: Vec<Vec<Point>>,
+        landings: &[Option<Landing>],
+    ) -> Vec<CatenaryState> {
         let (scene, grid) = (self.scene, self.scene.ply.grid);
         let mut spans = snapshot.shape.spans.iter().zip(points).peekable();
         let mut out = Vec::with_capacity(grid.catenaries());
@@ -113,11 +122,15 @@ impl<'a> Report<'a> {
             }
             if let (Some(laid), Some(mold)) = (laid, &scene.mold) {
                 let grippers = [c.from, c.to].map(|g| snapshot.positions[grid.index(g)]);
-                let errors = landing_errors(scene, n, laid).map(|e| e.map(|error| error * 1e3));
                 state.contact = Some(ContactState {
                     arc: laid.arc(),
                     points: laid.line.points.clone(),
-                    landing_error_mm: errors,
+                    landing_error_mm: landings[n].as_ref().map(|landing| {
+                        landing.errors.iter().map(|e| e.map(|error| error * 1e3)).collect()
+                    }),
+                    fibre_angle_deg: (landings[n].as_ref())
+                        .and_then(|landing| landing.fibre_angle)
+                        .map(|(angle, _)| angle.to_degrees()),
                 });
                 let tolerance = scene.settings.contact.tolerance;
                 for rest in measures::lying_rests(laid, grippers, mold, tolerance) {
@@ -254,13 +267,11 @@ impl<'a> Report<'a> {
             }
             let contact = step.catenaries.iter().enumerate().filter_map(|(n, c)| {
                 let contact = c.contact.as_ref()?;
-                let errors = contact.landing_error_mm?;
-                let worse = usize::from(errors[1] > errors[0]);
-                Some(Worst {
-                    value: errors[worse],
-                    at: name(self.scene, n),
-                    place: contact.points[worse * (contact.points.len() - 1)],
-                })
+                let errors = contact.landing_error_mm.as_ref()?;
+                let known =
+                    errors.iter().zip(&contact.points).filter_map(|(e, p)| Some(((*e)?, *p)));
+                let (value, place) = known.max_by(|a, b| a.0.total_cmp(&b.0))?;
+                Some(Worst { value, at: name(self.scene, n), place })
             });
             let contact = contact.max_by(|a, b| a.value.total_cmp(&b.value));
             let found = contact.as_ref().map(|worst| (step.step, worst));
@@ -274,6 +285,8 @@ impl<'a> Report<'a> {
             let gripper = gripper.max_by(|a, b| a.value.total_cmp(&b.value));
             let found = gripper.as_ref().map(|worst| (step.step, worst));
             judge("landing_gripper", "mm", 1.0, limits.landing_gripper * 1e3, found);
+            let fibre = at_end(|m| &m.fibre_angle_deg);
+            judge("fibre_angle", "°", 1.0, limits.fibre_angle.to_degrees(), fibre);
             if let Some(share) = step.measures.contact_share {
                 out.push(Verdict {
                     name: "contact_share",
@@ -314,6 +327,7 @@ fn numbers(pick: impl Fn(fn(&Measures) -> &Option<Worst>) -> Option<f64>) -> Num
         shear_deg: pick(|m| &m.shear_deg),
         tilt_deg: pick(|m| &m.tilt_deg),
         landing_error_mm: pick(|m| &m.landing_error_mm),
+        fibre_angle_deg: pick(|m| &m.fibre_angle_deg),
     }
 }
 

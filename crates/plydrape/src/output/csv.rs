@@ -10,7 +10,7 @@ use ::csv::{Error, Writer};
 type Column = (&'static str, &'static str, fn(&Measures) -> Option<&Worst>);
 
 /// Every measure with a place: header of the value, header of the place, the field.
-const MEASURES: [Column; 11] = [
+const MEASURES: [Column; 12] = [
     ("slack (mm)", "slack at", |m| m.slack_mm.as_ref()),
     ("slack ratio (1)", "slack ratio at", |m| m.slack_ratio.as_ref()),
     ("wrinkle amplitude (mm)", "wrinkle amplitude at", |m| m.wrinkle_mm.as_ref()),
@@ -21,6 +21,7 @@ const MEASURES: [Column; 11] = [
     ("tilt (deg)", "tilt at", |m| m.tilt_deg.as_ref()),
     ("horizontal force (N)", "horizontal force at", |m| m.force_n.as_ref()),
     ("landing error (mm)", "landing error at", |m| m.landing_error_mm.as_ref()),
+    ("fibre angle (deg)", "fibre angle at", |m| m.fibre_angle_deg.as_ref()),
     ("gap (mm)", "gap at", |m| m.gap_mm.as_ref()),
 ];
 

@@ -166,6 +166,7 @@ fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) 
                 arc: [arc(a), arc(b)],
                 points: shape[a..=b].iter().map(|p| [p[0], p[1], mold.unwrap_or(p[2])]).collect(),
                 landing_error_mm: None,
+                fibre_angle_deg: None,
             };
             let free = rests.into_iter().filter(|(a, b)| b > a);
             (free.map(|(a, b)| span(a, b)).collect(), Some(segment))
@@ -262,6 +263,7 @@ fn frame(grid: Grid) -> ResultFile {
                 overstretch: 0.01,
                 landing_contact: 0.002,
                 landing_gripper: 0.002,
+                fibre_angle: 0.05,
                 shear: None,
                 tilt: 0.7,
                 force: None,

@@ -18,6 +18,8 @@ use std::path::Path;
 const MOST_GRIPPERS: i64 = 1000;
 /// Largest gripper tilt unless given, as in Krogh et al. 2018 (rad).
 const MAX_TILT: f64 = 40.0 * std::f64::consts::PI / 180.0;
+/// Largest angle between landed edges and the fibres of the ideal drape unless given (rad).
+const FIBRE_ANGLE: f64 = 3.0 * std::f64::consts::PI / 180.0;
 /// Smallest and largest finite axial stiffness (N).
 const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
 /// Smallest and largest gravity (m/s²).
@@ -225,6 +227,10 @@ fn limits(
         overstretch: share(table.overstretch.as_ref(), 0.001, document)?,
         landing_contact: length(&table.landing_contact, 2e-3)?,
         landing_gripper: length(&table.landing_gripper, 5e-4)?,
+        fibre_angle: match &table.fibre_angle {
+            Some(angle) => acute(angle, document)?,
+            None => FIBRE_ANGLE,
+        },
         shear: match &table.shear {
             Some(shear) => Some(acute(shear, document)?),
             None => ply.material.locking_angle,

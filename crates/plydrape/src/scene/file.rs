@@ -276,6 +276,8 @@ pub(super) struct LimitsTable {
     pub landing_contact: Option<Quantity<Length>>,
     /// Distance of a gripper from its ideal place (m), 0.5 mm unless given.
     pub landing_gripper: Option<Quantity<Length>>,
+    /// Angle between landed edges and the fibres of the ideal drape (rad), 3 deg unless given.
+    pub fibre_angle: Option<Quantity<Angle>>,
     /// Shear angle (rad); the material's locking angle unless given.
     pub shear: Option<Quantity<Angle>>,
     /// Gripper tilt (rad); the grippers' `max_tilt` unless given.

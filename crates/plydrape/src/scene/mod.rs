@@ -205,6 +205,8 @@ pub struct Limits {
     pub landing_contact: f64,
     /// Distance of a gripper from its ideal place (m).
     pub landing_gripper: f64,
+    /// Angle between landed edges and the fibres of the ideal drape (rad).
+    pub fibre_angle: f64,
     /// Shear angle (rad); the material's locking angle unless given.
     pub shear: Option<f64>,
     /// Gripper tilt (rad).

@@ -97,8 +97,14 @@ impl FlatDrape {
 
     /// Place (m) of the fabric point (u, v) (m).
     #[must_use]
-    pub fn place(&self, [u, v]: [f64; 2]) -> [f64; 3] {
-        [0, 1, 2].map(|k| self.origin[k] + u * self.along_u[k] + v * self.along_v[k])
+    pub fn place(&self, [u, v]: [f64; 2]) -> Option<[f64; 3]> {
+        Some([0, 1, 2].map(|k| self.origin[k] + u * self.along_u[k] + v * self.along_v[k]))
+    }
+
+    /// Unit vectors along the fibres at the fabric point (u, v) (m).
+    #[must_use]
+    pub fn fibres(&self, _uv: [f64; 2]) -> Option<[[f64; 3]; 2]> {
+        Some([self.along_u, self.along_v])
     }
 
     /// Places (m) of all grippers, `spacing` (m) apart along u and v, in the order of [`Grid::index`].
@@ -107,7 +113,8 @@ impl FlatDrape {
         (0..grid.grippers())
             .map(|index| {
                 let [i, j] = grid.id(index);
-                self.place([i as f64 * spacing[0], j as f64 * spacing[1]])
+                let (u, v) = (i as f64 * spacing[0], j as f64 * spacing[1]);
+                [0, 1, 2].map(|k| self.origin[k] + u * self.along_u[k] + v * self.along_v[k])
             })
             .collect()
     }

@@ -1,0 +1,142 @@
+//! What a net is asked for: the fabric, where it starts on the mold, and how its generators run.
+
+use super::edge::EdgeRule;
+use crate::mold::Mold;
+use crate::mold::vector::{along, cross, dot, unit};
+use serde::Serialize;
+
+/// How the two generators run, the lines of nodes through the seed from which all others follow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Generators {
+    /// Straight on over the mold.
+    #[default]
+    Geodesic,
+    /// Cell by cell so that each keeps the pre-shear, after Krogh et al. 2021.
+    LeastShear,
+}
+
+/// A ply to be laid on a mold as a net.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Layup {
+    /// Nodes along u and v.
+    pub nodes: [usize; 2],
+    /// Mesh widths: fabric between neighbouring nodes along u and v (m).
+    pub mesh: [f64; 2],
+    /// The node that is placed first.
+    pub seed: [usize; 2],
+    /// Where it lies on the mold (m).
+    pub place: [f64; 3],
+    /// Direction of u there, seen in plan from x towards y (rad): of its tangent, or of the first bar.
+    pub heading: f64,
+    /// Pre-shear γ (rad): v stands at 90° − γ from u, to the left of u seen from outside.
+    pub shear: f64,
+    /// How the generators run.
+    pub generators: Generators,
+    /// How the fabric between neighbouring nodes is measured.
+    pub edges: EdgeRule,
+}
+
+/// Why no net can be begun.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum LayupError {
+    /// No nodes in one direction.
+    #[error("a net of {nu} × {nv} nodes has none: both counts must be at least 1")]
+    NoNodes {
+        /// Nodes along u.
+        nu: usize,
+        /// Nodes along v.
+        nv: usize,
+    },
+    /// A mesh width that is no length.
+    #[error("the mesh widths are {du} m and {dv} m: both must be positive")]
+    MeshWidth {
+        /// Along u (m).
+        du: f64,
+        /// Along v (m).
+        dv: f64,
+    },
+    /// The seed is no node.
+    #[error("the seed node [{i}, {j}] is none of the {nu} × {nv} nodes, which count from [0, 0]")]
+    SeedNode {
+        /// Of the seed, along u.
+        i: usize,
+        /// Of the seed, along v.
+        j: usize,
+        /// Nodes along u.
+        nu: usize,
+        /// Nodes along v.
+        nv: usize,
+    },
+    /// The seed does not lie on the mold.
+    #[error("the seed lies {distance_mm:.3} mm off the mold: give a point of the mold")]
+    SeedPlace {
+        /// How far off (mm).
+        distance_mm: f64,
+    },
+    /// The mold is upright at the seed.
+    #[error(
+        "the mold is upright at the seed, where a heading in plan leads nowhere along it: seed it elsewhere"
+    )]
+    Upright,
+    /// A pre-shear that shuts the cells, or a heading that is none.
+    #[error(
+        "pre-shear {shear_deg:.2}° and heading {heading_deg:.2}°: the pre-shear must be within ±89°"
+    )]
+    Shear {
+        /// Pre-shear (degrees).
+        shear_deg: f64,
+        /// Heading (degrees).
+        heading_deg: f64,
+    },
+}
+
+/// Farthest that a seed may lie off its mold (m).
+const SEED_OFF: f64 = 1e-6;
+/// Largest pre-shear (rad).
+const SHUT: f64 = 89.0 / 180.0 * std::f64::consts::PI;
+
+impl Layup {
+    /// Whether a net can be begun: sensible numbers, and a seed on the mold.
+    pub(super) fn check(&self, mold: &Mold) -> Result<(), LayupError> {
+        let ([nu, nv], [du, dv], [i, j]) = (self.nodes, self.mesh, self.seed);
+        if nu == 0 || nv == 0 {
+            return Err(LayupError::NoNodes { nu, nv });
+        }
+        if ![du, dv].iter().all(|d| d.is_finite() && *d > 0.0) {
+            return Err(LayupError::MeshWidth { du, dv });
+        }
+        if i >= nu || j >= nv {
+            return Err(LayupError::SeedNode { i, j, nu, nv });
+        }
+        if !self.heading.is_finite() || self.shear.is_nan() || self.shear.abs() > SHUT {
+            let [shear_deg, heading_deg] = [self.shear, self.heading].map(f64::to_degrees);
+            return Err(LayupError::Shear { shear_deg, heading_deg });
+        }
+        let foot = mold.foot(self.place);
+        if foot.beyond || foot.distance.is_nan() || foot.distance.abs() > SEED_OFF {
+            return Err(LayupError::SeedPlace { distance_mm: foot.distance.abs() * 1e3 });
+        }
+        Ok(())
+    }
+
+    /// Unit tangents of u and v at the seed, where the mold has this unit normal.
+    pub(super) fn directions(&self, normal: [f64; 3]) -> Result<[[f64; 3]; 2], LayupError> {
+        let (sin, cos) = self.heading.sin_cos();
+        if normal[2].abs() < 1e-6 {
+            return Err(LayupError::Upright);
+        }
+        // lifted straight up into the tangent plane
+        let rise = -(cos * normal[0] + sin * normal[1]) / normal[2];
+        let u = unit([cos, sin, rise]).unwrap_or([cos, sin, 0.0]);
+        Ok([u, self.across(u, normal)])
+    }
+
+    /// Unit tangent of v beside the unit tangent `u`, turned left by 90° − γ.
+    pub(super) fn across(&self, u: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
+        let left = cross(normal, u);
+        let (sin, cos) = self.shear.sin_cos();
+        let v = along(left.map(|x| cos * x), sin, u);
+        along(v, -dot(v, normal), normal)
+    }
+}

@@ -1,0 +1,140 @@
+//! The place on the mold that meets two conditions, by Newton's method.
+//!
+//! Trials always lie on the mold. Each condition has a gap and its gradient, a tangent of the mold at the
+//! trial; a step δ in the tangent plane closes both gaps to second order, the bend of the lengths'
+//! level lines (1/L) included, and the foot of the trial moved by δ is the next trial.
+
+use super::edge::{EdgeRule, straightest};
+use super::spot::{Ground, Spot};
+use crate::mold::vector::{along, cross, dot, norm, sub};
+
+/// What is asked of a place.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Condition<'a> {
+    /// So much fabric away from a node (m).
+    Length(&'a Spot, f64),
+    /// On the straightest line that leaves a node across this unit vector.
+    Straight(&'a Spot, [f64; 3]),
+    /// In the plane through a node across this unit vector.
+    Plane(&'a Spot, [f64; 3]),
+}
+
+/// How a condition's gap is closed at a trial.
+struct Slope {
+    /// Its gradient, a tangent of the mold.
+    gradient: [f64; 3],
+    /// Curvature of its level line (1/m).
+    bend: f64,
+}
+
+/// Largest miss of a condition where Newton's method can do no more, as a share of the mesh width.
+const ACCEPTED: f64 = 1e-10;
+/// Trials before a place is given up.
+const TRIALS: usize = 60;
+
+impl Condition<'_> {
+    /// What is missing at a trial (m).
+    fn gap(self, x: &Spot, rule: EdgeRule) -> f64 {
+        match self {
+            Condition::Length(from, length) => length - rule.length(from, x),
+            Condition::Straight(from, across) => {
+                -EdgeRule::Along.length(from, x) * dot(straightest(from, x), across)
+            }
+            Condition::Plane(from, across) => -dot(sub(x.point, from.point), across),
+        }
+    }
+
+    fn slope(self, x: &Spot, rule: EdgeRule) -> Slope {
+        match self {
+            Condition::Length(from, _) => {
+                Slope { gradient: rule.gradient(from, x), bend: 1.0 / rule.length(from, x) }
+            }
+            Condition::Straight(from, across) => {
+                // across the line where it arrives, to the side it was left on
+                let left = cross(x.normal, straightest(x, from).map(|c| -c));
+                let side = dot(cross(from.normal, straightest(from, x)), across).signum();
+                Slope { gradient: left.map(|c| c * side), bend: 0.0 }
+            }
+            Condition::Plane(_, across) => {
+                let gradient = along(across, -dot(across, x.normal), x.normal);
+                Slope { gradient, bend: 0.0 }
+            }
+        }
+    }
+}
+
+/// The place next to `guess` (m) that meets both conditions; otherwise the best trial.
+pub(super) fn meet(
+    ground: &Ground,
+    rule: EdgeRule,
+    conditions: [Condition; 2],
+    guess: [f64; 3],
+    mesh: f64,
+) -> Result<Spot, Spot> {
+    let largest = guess.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let tolerance = 1e-13 * mesh + 4.0 * f64::EPSILON * largest;
+    let gaps_at = |x: &Spot| conditions.map(|c| c.gap(x, rule));
+    let mut best = ground.under(guess);
+    let mut gaps = gaps_at(&best);
+    let mut part = 1.0;
+    let mut step = None;
+    for _ in 0..TRIALS {
+        let miss = size(gaps);
+        if miss <= tolerance {
+            return Ok(best);
+        }
+        if step.is_none() {
+            step = newton(gaps, conditions.map(|c| c.slope(&best, rule)), mesh);
+        }
+        let Some(delta) = step else { break };
+        let trial = ground.under(along(best.point, part, delta));
+        let there = gaps_at(&trial);
+        if size(there) < miss {
+            (best, gaps, step) = (trial, there, None);
+            part = f64::min(1.0, 2.0 * part);
+            // a step that hardly helps any more: what is left is rounding
+            if size(gaps) > 0.5 * miss && miss <= ACCEPTED * mesh {
+                break;
+            }
+        } else {
+            part *= 0.5;
+            if miss <= ACCEPTED * mesh || part < 1e-4 {
+                break;
+            }
+        }
+    }
+    if size(gaps) <= tolerance.max(ACCEPTED * mesh) { Ok(best) } else { Err(best) }
+}
+
+fn size(gaps: [f64; 2]) -> f64 {
+    gaps[0].abs().max(gaps[1].abs())
+}
+
+/// The step that closes both gaps, no longer than half a mesh width; none where their gradients are
+/// parallel.
+fn newton(gaps: [f64; 2], slopes: [Slope; 2], mesh: f64) -> Option<[f64; 3]> {
+    let [p, q] = [slopes[0].gradient, slopes[1].gradient];
+    let (pp, pq, qq) = (dot(p, p), dot(p, q), dot(q, q));
+    let det = pp * qq - pq * pq;
+    if det.is_nan() || det <= 1e-10 * pp * qq {
+        return None;
+    }
+    let solve = |r: [f64; 2]| {
+        let [a, b] = [(qq * r[0] - pq * r[1]) / det, (pp * r[1] - pq * r[0]) / det];
+        [0, 1, 2].map(|n| a * p[n] + b * q[n])
+    };
+    let limited = |step: [f64; 3]| {
+        let part = (0.5 * mesh / norm(step)).min(1.0);
+        step.map(|x| part * x)
+    };
+    let first = solve(gaps);
+    if norm(first) > 0.5 * mesh {
+        return Some(limited(first));
+    }
+    // what the level lines bend away over the first estimate
+    let bent = [0, 1].map(|n| {
+        let forward = dot(first, slopes[n].gradient);
+        gaps[n] - 0.5 * slopes[n].bend * (dot(first, first) - forward * forward)
+    });
+    Some(limited(solve(bent)))
+}

@@ -1,0 +1,47 @@
+//! Nodes that have no place on the mold, and why.
+
+use serde::Serialize;
+use std::fmt;
+
+/// Why a node has no place on the mold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reason {
+    /// It lies beyond the mold's border.
+    OffMold,
+    /// Its two edges have no common end on the mold, or only with a cell shut or turned over.
+    Folded,
+    /// It hangs on a node that folded.
+    Unreached,
+}
+
+/// A node without a place.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Missing {
+    /// Which node.
+    pub node: [usize; 2],
+    /// Why.
+    pub reason: Reason,
+    /// Where it was looked for (m); none for a node that was not.
+    pub near: Option<[f64; 3]>,
+    /// How far beyond the mold's border it lies (m).
+    pub beyond: Option<f64>,
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [i, j] = self.node;
+        match self.reason {
+            Reason::OffMold => {
+                let beyond_mm = 1e3 * self.beyond.unwrap_or(0.0);
+                write!(f, "node [{i}, {j}] lies {beyond_mm:.2} mm beyond the border of the mold")?;
+            }
+            Reason::Folded => write!(f, "the cell before node [{i}, {j}] shuts: the ply folds")?,
+            Reason::Unreached => write!(f, "node [{i}, {j}] lies behind a fold")?,
+        }
+        match self.near {
+            Some([x, y, z]) => write!(f, ", at ({x:.4}, {y:.4}, {z:.4}) m"),
+            None => Ok(()),
+        }
+    }
+}

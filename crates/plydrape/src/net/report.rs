@@ -1,0 +1,81 @@
+//! A net in a few numbers.
+
+use super::layup::Layup;
+use super::missing::{Missing, Reason};
+use super::shear::CellShear;
+use super::spot::Spot;
+use serde::Serialize;
+
+/// A net in a few numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Nodes with a place on the mold.
+    pub placed: usize,
+    /// Nodes beyond the mold's border.
+    pub off_mold: usize,
+    /// Nodes where the ply folds.
+    pub folded: usize,
+    /// Nodes behind a fold.
+    pub unreached: usize,
+    /// Of each reason that occurs, the missing node closest to the seed.
+    pub first: Vec<Missing>,
+    /// Largest error of an edge between placed nodes, measured by the layup's rule (m).
+    pub largest_edge_error: f64,
+    /// Largest magnitude of a cell's shear (rad) and its cell; none without whole cells.
+    pub largest_shear: Option<(f64, [usize; 2])>,
+    /// Mean magnitude of the cells' shear (rad); 0 without whole cells.
+    pub mean_shear: f64,
+    /// Closest points asked of the mold.
+    pub feet: usize,
+}
+
+impl Report {
+    pub(super) fn new(
+        layup: &Layup,
+        spots: &[Option<Spot>],
+        shear: &[Option<CellShear>],
+        missing: &[Missing],
+        feet: usize,
+    ) -> Self {
+        let [nu, nv] = layup.nodes;
+        let count = |reason: Reason| missing.iter().filter(|m| m.reason == reason).count();
+        let first = [Reason::OffMold, Reason::Folded, Reason::Unreached]
+            .iter()
+            .filter_map(|reason| missing.iter().find(|m| m.reason == *reason).cloned())
+            .collect();
+
+        let at = |i: usize, j: usize| {
+            if i < nu && j < nv { spots[j * nu + i].filter(|s| s.beyond == 0.0) } else { None }
+        };
+        let error = |a: Option<Spot>, b: Option<Spot>, width: f64| match (a, b) {
+            (Some(a), Some(b)) => (layup.edges.length(&a, &b) - width).abs(),
+            _ => 0.0,
+        };
+        let mut largest_edge_error = 0.0_f64;
+        for j in 0..nv {
+            for i in 0..nu {
+                let along_u = error(at(i, j), at(i + 1, j), layup.mesh[0]);
+                let along_v = error(at(i, j), at(i, j + 1), layup.mesh[1]);
+                largest_edge_error = largest_edge_error.max(along_u).max(along_v);
+            }
+        }
+
+        let whole = || shear.iter().enumerate().filter_map(|(n, s)| Some((n, (*s)?.magnitude)));
+        let largest_shear = whole()
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(n, magnitude)| (magnitude, [n % (nu - 1), n / (nu - 1)]));
+        let cells = whole().count();
+        let mean_shear = whole().map(|(_, s)| s).sum::<f64>() / cells.max(1) as f64;
+        Report {
+            placed: nu * nv - missing.len(),
+            off_mold: count(Reason::OffMold),
+            folded: count(Reason::Folded),
+            unreached: count(Reason::Unreached),
+            first,
+            largest_edge_error,
+            largest_shear,
+            mean_shear,
+            feet,
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Where a node lies, on the mold or on what carries on beyond its border.
+
+use crate::mold::Mold;
+use crate::mold::vector::{along, dot, sub};
+use std::cell::Cell;
+
+/// A place of the net with the mold's normal there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Spot {
+    /// Place (m).
+    pub point: [f64; 3],
+    /// Unit normal, towards the ply.
+    pub normal: [f64; 3],
+    /// Distance beyond the mold's border (m); 0 on the mold.
+    pub beyond: f64,
+}
+
+/// A mold that carries on beyond its open border, there along its tangent planes.
+///
+/// So a ply that leaves the mold at one place comes back to it at another where it would on flat ground, and
+/// a gripper outside still has a place.
+pub(super) struct Ground<'a> {
+    mold: &'a Mold,
+    /// Feet asked of the mold so far.
+    feet: Cell<usize>,
+}
+
+impl<'a> Ground<'a> {
+    pub fn new(mold: &'a Mold) -> Self {
+        Ground { mold, feet: Cell::new(0) }
+    }
+
+    /// What lies closest to `p` (m).
+    pub fn under(&self, p: [f64; 3]) -> Spot {
+        self.feet.set(self.feet.get() + 1);
+        let foot = self.mold.foot(p);
+        if !foot.beyond {
+            return Spot { point: foot.point, normal: foot.normal, beyond: 0.0 };
+        }
+        let height = dot(sub(p, foot.point), foot.normal);
+        let point = along(p, -height, foot.normal);
+        let aside = sub(point, foot.point);
+        // never 0: a place beyond the border is no place of the mold
+        let beyond = dot(aside, aside).sqrt().max(f64::MIN_POSITIVE);
+        Spot { point, normal: foot.normal, beyond }
+    }
+
+    /// How many feet the mold was asked for.
+    pub fn feet(&self) -> usize {
+        self.feet.get()
+    }
+}
