@@ -6,6 +6,7 @@
 
 mod graph;
 mod height;
+pub mod mesh;
 mod plane;
 mod pose;
 mod round;

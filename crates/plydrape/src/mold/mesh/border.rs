@@ -1,0 +1,82 @@
+//! The borders of an open surface.
+
+use super::orient::{Component, NONE, Neighbours};
+use crate::mold::vector::distance;
+use serde::Serialize;
+
+/// A closed line of edges that have a triangle on one side only.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Border {
+    /// Its vertices in turn, the surface to the left.
+    pub vertices: Vec<u32>,
+    /// Its length (m).
+    pub length: f64,
+    /// Corners of the box around it (m): lowest and highest coordinates.
+    pub bounds: [[f64; 3]; 2],
+    /// The connected surface it belongs to.
+    pub surface: usize,
+    /// Not the longest border of its surface.
+    pub hole: bool,
+}
+
+/// All borders: around each surface the longest is the outer one, the others are holes.
+pub(super) fn borders(
+    vertices: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    neighbours: &Neighbours,
+    component: &[u32],
+    components: &[Component],
+) -> Vec<Border> {
+    let mut done = vec![[false; 3]; triangles.len()];
+    let mut borders: Vec<Border> = Vec::new();
+    for start in 0..triangles.len() {
+        for side in 0..3 {
+            if neighbours[start][side] != NONE || done[start][side] {
+                continue;
+            }
+            let mut line = Vec::new();
+            let (mut t, mut k) = (start, side);
+            while !done[t][k] {
+                done[t][k] = true;
+                line.push(triangles[t][k]);
+                (t, k) = next_on_border(triangles, neighbours, t, k);
+            }
+            borders.push(border(vertices, line, component[start] as usize));
+        }
+    }
+    let mut outer: Vec<Option<usize>> = vec![None; components.len()];
+    for (n, border) in borders.iter().enumerate() {
+        let best = &mut outer[border.surface];
+        if best.is_none_or(|m| border.length > borders[m].length) {
+            *best = Some(n);
+        }
+    }
+    for (n, border) in borders.iter_mut().enumerate() {
+        border.hole = outer[border.surface] != Some(n);
+    }
+    borders
+}
+
+/// The border edge that begins where border edge k of triangle t ends: around that vertex over the
+/// triangles in between.
+fn next_on_border(
+    triangles: &[[u32; 3]],
+    neighbours: &Neighbours,
+    t: usize,
+    k: usize,
+) -> (usize, usize) {
+    let (mut t, mut k) = (t, (k + 1) % 3);
+    let pivot = triangles[t][k];
+    while neighbours[t][k] != NONE {
+        t = neighbours[t][k] as usize;
+        k = (0..3).find(|&n| triangles[t][n] == pivot).unwrap_or(0);
+    }
+    (t, k)
+}
+
+fn border(points: &[[f64; 3]], vertices: Vec<u32>, surface: usize) -> Border {
+    let at = |n: usize| points[vertices[n % vertices.len()] as usize];
+    let length = (0..vertices.len()).map(|n| distance(at(n), at(n + 1))).sum();
+    let bounds = super::bounds(vertices.iter().map(|n| &points[*n as usize]));
+    Border { vertices, length, bounds, surface, hole: false }
+}

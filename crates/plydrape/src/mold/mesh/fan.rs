@@ -1,0 +1,73 @@
+//! The triangles around a vertex: its fan, which begins and ends at the border if there is one.
+
+use super::join::Joined;
+use super::orient::{NONE, Neighbours};
+
+/// Corner `k` of triangle `t`.
+pub(super) type Corner = (usize, usize);
+
+/// The next corner at the same vertex, anticlockwise seen from outside; none at the border.
+pub(super) fn next(
+    triangles: &[[u32; 3]],
+    neighbours: &[[u32; 3]],
+    (t, k): Corner,
+) -> Option<Corner> {
+    across(triangles, neighbours, (t, k), (k + 2) % 3)
+}
+
+/// The next corner at the same vertex, clockwise; none at the border.
+fn previous(triangles: &[[u32; 3]], neighbours: &[[u32; 3]], (t, k): Corner) -> Option<Corner> {
+    across(triangles, neighbours, (t, k), k)
+}
+
+fn across(
+    triangles: &[[u32; 3]],
+    neighbours: &[[u32; 3]],
+    (t, k): Corner,
+    edge: usize,
+) -> Option<Corner> {
+    let other = neighbours[t][edge];
+    let index = triangles.get(other as usize)?.iter().position(|n| *n == triangles[t][k])?;
+    Some((other as usize, index))
+}
+
+/// Gives every vertex one fan: a vertex at which several fans meet in a point only is doubled.
+/// Returns the first corner of each fan.
+pub(super) fn split(mesh: &mut Joined, neighbours: &Neighbours) -> Vec<Corner> {
+    let unknown: Corner = (NONE as usize, 0);
+    let mut first = vec![unknown; mesh.vertices.len()];
+    let mut done = vec![[false; 3]; mesh.triangles.len()];
+    for t in 0..mesh.triangles.len() {
+        for k in 0..3 {
+            if done[t][k] {
+                continue;
+            }
+            let mut start = (t, k);
+            while let Some(before) = previous(&mesh.triangles, neighbours, start) {
+                start = before;
+                if start == (t, k) {
+                    break;
+                }
+            }
+            let mut corners = Vec::with_capacity(8);
+            let mut corner = Some(start);
+            while let Some((t, k)) = corner.filter(|&(t, k)| !done[t][k]) {
+                done[t][k] = true;
+                corners.push((t, k));
+                corner = next(&mesh.triangles, neighbours, (t, k));
+            }
+            let vertex = mesh.triangles[t][k] as usize;
+            if first[vertex] == unknown {
+                first[vertex] = start;
+                continue;
+            }
+            let twin = mesh.vertices.len() as u32;
+            mesh.vertices.push(mesh.vertices[vertex]);
+            first.push(start);
+            for (t, k) in corners {
+                mesh.triangles[t][k] = twin;
+            }
+        }
+    }
+    first
+}

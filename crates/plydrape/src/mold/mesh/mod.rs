@@ -1,0 +1,135 @@
+//! A mold given by triangles.
+//!
+//! A file is read ([`Mesh::read`]), its vertices are merged, its triangles turned to face one way
+//! and its borders found; what was repaired stands in the [`MeshReport`]. The mesh then answers
+//! what any mold is asked: the closest point and which side it is on, a smooth normal, curvatures, lines along
+//! it in a vertical plane, and its highest point at a place.
+
+mod border;
+mod closest;
+mod curvature;
+mod drop;
+mod element;
+mod error;
+mod fan;
+mod foot;
+mod inp;
+mod instance;
+mod join;
+mod normals;
+mod obj;
+mod orient;
+mod query;
+mod read;
+mod report;
+mod section;
+mod soup;
+mod stl;
+mod text;
+
+pub use border::Border;
+pub use error::MeshError;
+pub use report::{Finding, MeshReport};
+
+use serde::Serialize;
+use std::fmt;
+use std::sync::OnceLock;
+
+/// A triangle mesh in its place. It never changes; share it behind an `Arc`.
+#[derive(Clone, Serialize)]
+pub struct Mesh {
+    /// Places of the vertices (m).
+    vertices: Vec<[f64; 3]>,
+    /// Corners of each triangle, anticlockwise seen from outside.
+    triangles: Vec<[u32; 3]>,
+    /// Triangles across the edges from corner k to corner k + 1, or none.
+    #[serde(skip)]
+    neighbours: Vec<[u32; 3]>,
+    /// First corner of the triangles around each vertex.
+    #[serde(skip)]
+    fans: Vec<fan::Corner>,
+    #[serde(skip)]
+    triangle_normals: Vec<[f64; 3]>,
+    #[serde(skip)]
+    vertex_normals: Vec<[f64; 3]>,
+    #[serde(skip)]
+    borders: Vec<Border>,
+    #[serde(skip)]
+    bounds: [[f64; 3]; 2],
+    /// Diagonal of the box around the mesh (m).
+    #[serde(skip)]
+    size: f64,
+    #[serde(skip)]
+    tree: query::Tree,
+    /// Shape operator of each vertex, once asked for.
+    #[serde(skip)]
+    shapes: OnceLock<Vec<curvature::Symmetric>>,
+}
+
+impl Mesh {
+    /// Places of the vertices (m).
+    #[must_use]
+    pub fn vertices(&self) -> &[[f64; 3]] {
+        &self.vertices
+    }
+
+    /// Corners of each triangle, as indices of vertices, anticlockwise seen from outside.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The triangle across each edge of a triangle, from corner k to corner k + 1; none at a border.
+    #[must_use]
+    pub fn neighbours(&self, triangle: usize) -> [Option<usize>; 3] {
+        self.neighbours[triangle].map(|n| (n != orient::NONE).then_some(n as usize))
+    }
+
+    /// Smooth unit normal of each vertex, outwards.
+    #[must_use]
+    pub fn vertex_normals(&self) -> &[[f64; 3]] {
+        &self.vertex_normals
+    }
+
+    /// The borders of its open surfaces, holes included.
+    #[must_use]
+    pub fn borders(&self) -> &[Border] {
+        &self.borders
+    }
+
+    /// Corners of the box around it (m): lowest and highest coordinates.
+    #[must_use]
+    pub fn bounds(&self) -> [[f64; 3]; 2] {
+        self.bounds
+    }
+
+    /// Places of a triangle's corners (m).
+    fn corners(&self, triangle: usize) -> [[f64; 3]; 3] {
+        self.triangles[triangle].map(|n| self.vertices[n as usize])
+    }
+}
+
+/// Equal vertices and triangles.
+impl PartialEq for Mesh {
+    fn eq(&self, other: &Self) -> bool {
+        self.vertices == other.vertices && self.triangles == other.triangles
+    }
+}
+
+/// Its size only.
+impl fmt::Debug for Mesh {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Mesh")
+            .field("vertices", &self.vertices.len())
+            .field("triangles", &self.triangles.len())
+            .field("bounds", &self.bounds)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Lowest and highest coordinates of some points; points that are no numbers do not count.
+fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
+    points.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[low, high], p| {
+        [[0, 1, 2].map(|n| low[n].min(p[n])), [0, 1, 2].map(|n| high[n].max(p[n]))]
+    })
+}

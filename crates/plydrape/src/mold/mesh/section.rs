@@ -1,0 +1,192 @@
+//! The line along which a vertical plane cuts a mesh, followed from triangle to triangle.
+//!
+//! Every vertex lies to the left or to the right of the plane. A triangle with vertices on both sides is
+//! crossed: seen from outside, the line enters it over the edge that runs from left to right and leaves
+//! over the one from right to left. A vertex in the plane itself is taken as lying to the left, or to
+//! the right, consistently; this moves the plane by less than any length, and the line never has to pass
+//! through a vertex or along an edge, although its points lie on them.
+
+use super::Mesh;
+use super::orient::NONE;
+use crate::mold::Strand;
+use crate::mold::vector::{along, distance, dot, sub};
+
+/// Vertices closer to the plane than this share of the mesh are in it.
+const IN_PLANE: f64 = 1e-13;
+/// Points closer to the line than this share of the mesh are on it.
+const ON_LINE: f64 = 1e-9;
+/// A line to a point gives up after this many times the chord.
+const DETOUR: f64 = 4.0;
+
+/// A vertical plane, with the side that its vertices count to.
+#[derive(Clone, Copy)]
+struct Cut<'a> {
+    mesh: &'a Mesh,
+    from: [f64; 3],
+    /// Horizontal unit vector to the left.
+    left: [f64; 2],
+    in_plane_is_left: bool,
+}
+
+/// Where a line ends.
+#[derive(Clone, Copy)]
+enum Goal {
+    Length(f64),
+    Point { point: [f64; 3], most: f64 },
+}
+
+/// How a walk ended.
+#[derive(PartialEq)]
+enum End {
+    Goal,
+    Border,
+}
+
+impl Mesh {
+    /// The line along the mesh from its point `from` (m), in the vertical plane of the horizontal unit
+    /// vector `heading`, over an arc length (m); a negative length leads the other way. It ends early at
+    /// an open border.
+    #[must_use]
+    pub fn section(&self, from: [f64; 3], heading: [f64; 2], length: f64) -> Strand {
+        let heading = if length < 0.0 { heading.map(|c| -c) } else { heading };
+        let length = if length.is_finite() { length.abs() } else { 0.0 };
+        self.follow(from, heading, Goal::Length(length)).0
+    }
+
+    /// The line along the mesh from one of its points to another (m) in the vertical plane of both; none
+    /// where it runs over a border, or does not get there within four times their distance.
+    #[must_use]
+    pub fn section_to(&self, a: [f64; 3], b: [f64; 3]) -> Option<Strand> {
+        let run = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let chord = distance(a, b);
+        if chord <= ON_LINE * self.size {
+            return Some(Strand { points: vec![a, b], arc: vec![0.0, chord] });
+        }
+        let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
+        if !heading[0].is_finite() || !heading[1].is_finite() {
+            return None;
+        }
+        let (strand, end) = self.follow(a, heading, Goal::Point { point: b, most: DETOUR * chord });
+        (end == End::Goal).then_some(strand)
+    }
+
+    fn follow(&self, from: [f64; 3], heading: [f64; 2], goal: Goal) -> (Strand, End) {
+        let spot = self.spot(from);
+        let start = spot.point;
+        let mut strand = Strand { points: vec![start], arc: vec![0.0] };
+        // seen from outside, a heading below an overhang is reversed
+        let ahead = self.normal_at(&spot)[2] >= 0.0;
+        let sign = if ahead { 1.0 } else { -1.0 };
+        let left = [-sign * heading[1], sign * heading[0]];
+        let mut cut = Cut { mesh: self, from: start, left, in_plane_is_left: true };
+        // where vertices in the plane are a border on one side, the other may go on
+        let mut idle = 0;
+        while idle < 2 {
+            let before = strand.points.len();
+            if cut.walk(&mut strand, goal) == End::Goal {
+                return (strand, End::Goal);
+            }
+            idle = if strand.points.len() > before { 0 } else { idle + 1 };
+            cut.in_plane_is_left = !cut.in_plane_is_left;
+        }
+        (strand, End::Border)
+    }
+}
+
+impl Cut<'_> {
+    /// Goes on from the last point of a line.
+    fn walk(&self, strand: &mut Strand, goal: Goal) -> End {
+        let mesh = self.mesh;
+        if matches!(goal, Goal::Length(length) if length <= strand.length()) {
+            return End::Goal;
+        }
+        let Some(mut triangle) = self.start(strand.end()) else { return End::Border };
+        // around a vertex that the plane only touches the walk goes in circles
+        let mut idle = 0;
+        while let Some((edge, next)) = self.crossing(triangle, false) {
+            let from = strand.end();
+            let (step, arc) = (distance(from, next), strand.length());
+            match goal {
+                Goal::Length(length) if arc + step >= length => {
+                    let share = (length - arc) / step;
+                    let end = if share >= 1.0 { next } else { along(from, share, sub(next, from)) };
+                    strand.push(end, length);
+                    return End::Goal;
+                }
+                Goal::Point { point, .. } if self.is_on(from, next, point) => {
+                    strand.push(point, arc + distance(from, point));
+                    return End::Goal;
+                }
+                Goal::Point { most, .. } if arc > most => return End::Border,
+                _ => {}
+            }
+            if step > IN_PLANE * mesh.size {
+                strand.push(next, arc + step);
+                idle = 0;
+            } else {
+                idle += 1;
+            }
+            match mesh.neighbours[triangle][edge] {
+                NONE => return End::Border,
+                _ if idle > mesh.triangles.len() => return End::Border,
+                other => triangle = other as usize,
+            }
+        }
+        End::Border
+    }
+
+    /// The crossed triangle that `p` (m) lies in.
+    fn start(&self, p: [f64; 3]) -> Option<usize> {
+        let tolerance = ON_LINE * self.mesh.size;
+        let mut best: Option<(f64, usize)> = None;
+        for triangle in self.mesh.tree.touching(p, tolerance) {
+            let triangle = triangle as usize;
+            let ends = (self.crossing(triangle, true), self.crossing(triangle, false));
+            let (Some((_, a)), Some((_, b))) = ends else { continue };
+            let off = off_segment(a, b, p);
+            if off <= tolerance && best.is_none_or(|(least, _)| off < least) {
+                best = Some((off, triangle));
+            }
+        }
+        best.map(|(_, triangle)| triangle)
+    }
+
+    /// The edge of a triangle over which the line leaves it, or enters it, and where; none if the plane
+    /// does not cross the triangle.
+    fn crossing(&self, triangle: usize, entry: bool) -> Option<(usize, [f64; 3])> {
+        let corners = self.mesh.corners(triangle);
+        let sides = corners.map(|p| self.side(p));
+        let is_left = sides.map(|s| if s == 0.0 { self.in_plane_is_left } else { s > 0.0 });
+        let edge = (0..3).find(|&k| is_left[k] == entry && is_left[(k + 1) % 3] != entry)?;
+        let [(p, s), (q, t)] = [edge, (edge + 1) % 3].map(|k| (corners[k], sides[k]));
+        // from the same end for both triangles, so that they agree to the last digit
+        let point = if s == 0.0 {
+            p
+        } else if t == 0.0 {
+            q
+        } else if s > 0.0 {
+            along(p, s / (s - t), sub(q, p))
+        } else {
+            along(q, t / (t - s), sub(p, q))
+        };
+        Some((edge, point))
+    }
+
+    /// Distance of `p` to the left of the plane (m).
+    fn side(&self, p: [f64; 3]) -> f64 {
+        let s = self.left[0] * (p[0] - self.from[0]) + self.left[1] * (p[1] - self.from[1]);
+        if s.abs() <= IN_PLANE * self.mesh.size { 0.0 } else { s }
+    }
+
+    fn is_on(&self, a: [f64; 3], b: [f64; 3], p: [f64; 3]) -> bool {
+        off_segment(a, b, p) <= ON_LINE * self.mesh.size
+    }
+}
+
+/// Distance of `p` from the straight line between two points (m).
+fn off_segment(a: [f64; 3], b: [f64; 3], p: [f64; 3]) -> f64 {
+    let (ab, ap) = (sub(b, a), sub(p, a));
+    let square = dot(ab, ab);
+    let share = if square > 0.0 { (dot(ap, ab) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(p, along(a, share, ab))
+}
