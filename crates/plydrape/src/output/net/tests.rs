@@ -28,12 +28,11 @@ fn draped(mold: &Mold, count: usize, mesh: f64, place: [f64; 3]) -> Net {
 }
 
 /// Many cells on a dome, none missing; and a ply that is larger than its bowl.
-fn nets() -> [(&'static str, Mold, Net); 3] {
+fn nets() -> [(Mold, Net); 2] {
     let (dome, open) = (ball(), bowl());
     let whole = draped(&dome, 41, 0.005, [0.0, 0.0, 0.1]);
     let large = draped(&open, 61, 0.012, [0.0; 3]);
-    let fine = draped(&dome, 161, 0.00125, [0.0, 0.0, 0.1]);
-    [("dome", dome.clone(), whole), ("bowl", open, large), ("fine dome", dome, fine)]
+    [(dome, whole), (open, large)]
 }
 
 fn rows(text: &str) -> Vec<Vec<String>> {
@@ -44,7 +43,7 @@ fn rows(text: &str) -> Vec<Vec<String>> {
 /// Every node has its row; places read back to the same bits, a missing node has none.
 #[test]
 fn the_table_of_nodes_reads_back_and_leaves_missing_ones_empty() {
-    let (_, _, net) = &nets()[1];
+    let (_, net) = &nets()[1];
     assert!(net.report.off_mold > 0 && net.report.placed > 100);
     let text = nodes::table(net).unwrap();
     assert_eq!(text.lines().next(), Some("i,j,u (m),v (m),x (m),y (m),z (m),shear (deg)"));
@@ -66,37 +65,18 @@ fn the_table_of_nodes_reads_back_and_leaves_missing_ones_empty() {
 /// A node's shear is the mean of the cells that meet in it.
 #[test]
 fn shear_at_a_node_is_the_mean_of_its_cells() {
-    let (_, _, net) = &nets()[0];
+    let (_, net) = &nets()[0];
     let cell = |i, j| net.cell_shear([i, j]).unwrap().magnitude;
     let inner = (cell(4, 7) + cell(5, 7) + cell(4, 8) + cell(5, 8)) / 4.0;
     assert!((nodal_shear(net, [5, 8]).unwrap() - inner).abs() < 1e-15);
     assert_eq!(nodal_shear(net, [0, 0]), Some(cell(0, 0)));
 }
 
-/// The picture shows what the net reports; same net, same bytes; even a fine net stays a page's size.
-#[test]
-fn a_net_has_a_shear_map() {
-    for (name, mold, net) in nets() {
-        let svg = figure::shear_map::svg(&net, &mold, "A <dome>").unwrap();
-        let path = std::env::temp_dir().join(format!("plydrape-{name}.svg"));
-        if std::env::var_os("PLYDRAPE_PICTURES").is_some() {
-            std::fs::write(path, &svg).unwrap();
-        }
-        let (largest, _) = net.report.largest_shear.unwrap();
-        assert!(svg.contains(&format!("largest shear {:.1}°", largest.to_degrees())), "{name}");
-        assert!(svg.contains("A &lt;dome&gt;") && svg.contains("shear (deg)"), "{name}");
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
-        assert_eq!(svg.contains("off the mold"), net.report.off_mold > 0, "{name}");
-        assert!(svg.len() < 3_000_000, "{name}: {} bytes", svg.len());
-        assert_eq!(svg, figure::shear_map::svg(&net, &mold, "A <dome>").unwrap());
-    }
-}
-
 /// A net of one line has no cells and no map, but it has a picture and files.
 #[test]
 fn a_line_of_nodes_is_drawn_as_a_line() {
     let mold = ball();
-    let mut layup = nets()[0].2.layup;
+    let mut layup = nets()[0].1.layup;
     (layup.nodes, layup.seed) = ([20, 1], [10, 0]);
     let net = Net::drape(&mold, layup).unwrap();
     let svg = figure::shear_map::svg(&net, &mold, "line").unwrap();
@@ -108,7 +88,7 @@ fn a_line_of_nodes_is_drawn_as_a_line() {
 /// Points, cells and their data have the sizes that the file says.
 #[test]
 fn vtk_arrays_have_the_announced_sizes() {
-    let (_, mold, net) = &nets()[1];
+    let (mold, net) = &nets()[1];
     let text = vtu::net(net);
     let cells = net.shear.iter().flatten().count();
     let head = format!("NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\"", net.report.placed);
@@ -130,7 +110,7 @@ fn vtk_arrays_have_the_announced_sizes() {
 #[test]
 fn a_net_writes_its_files_twice_the_same() {
     let dir = tempfile::tempdir().unwrap();
-    let (_, mold, net) = &nets()[0];
+    let (mold, net) = &nets()[0];
     let paths = write_all(net, mold, "dome", dir.path()).unwrap();
     let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
     assert_eq!(names, ["nodes.csv", "shear.svg", "net.vtu", "mold.vtu"]);

@@ -10,8 +10,8 @@ use std::fmt::Write;
 
 type Point = [f64; 3];
 
-/// VTK's number for a polygon, and for a quadrilateral.
-const POLYGON: u8 = 7;
+/// VTK's number for a triangle, and for a quadrilateral.
+const TRIANGLE: u8 = 5;
 const QUAD: u8 = 9;
 
 /// An array of data: its name, numbers of one entry, and all numbers.
@@ -63,7 +63,7 @@ pub fn net(net: &Net) -> String {
     text(&points, &cells, QUAD, &at_points, &in_cells)
 }
 
-/// The patch of mold that the shear map shows, as polygons; none if the mold is not near the net.
+/// The patch of mold that the shear map shows, in triangles; none if the mold is not near the net.
 #[must_use]
 pub fn mold(net: &Net, mold: &Mold) -> Option<String> {
     let outlines = crate::output::figure::shear_map::patch(net, mold);
@@ -71,15 +71,18 @@ pub fn mold(net: &Net, mold: &Mold) -> Option<String> {
     let mut known = std::collections::HashMap::new();
     let mut cells = Vec::new();
     for outline in outlines {
-        let cell = outline.iter().map(|p| {
-            *known.entry(p.map(f64::to_bits)).or_insert_with(|| {
-                points.push(*p);
-                points.len() - 1
+        let corners: Vec<usize> = outline
+            .iter()
+            .map(|p| {
+                *known.entry(p.map(f64::to_bits)).or_insert_with(|| {
+                    points.push(*p);
+                    points.len() - 1
+                })
             })
-        });
-        cells.push(cell.collect());
+            .collect();
+        cells.extend(corners[1..].windows(2).map(|pair| vec![corners[0], pair[0], pair[1]]));
     }
-    (!cells.is_empty()).then(|| text(&points, &cells, POLYGON, &[], &[]))
+    (!cells.is_empty()).then(|| text(&points, &cells, TRIANGLE, &[], &[]))
 }
 
 /// Unit vector along the mean of two opposite sides.
@@ -127,9 +130,13 @@ fn text(
 fn section(out: &mut String, name: &str, arrays: &[Array]) {
     let _ = writeln!(out, "<{name}>");
     for Array { name, width, values } in arrays {
+        let components = match width {
+            1 => String::new(),
+            more => format!(" NumberOfComponents=\"{more}\""),
+        };
         let _ = writeln!(
             out,
-            "<DataArray type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{width}\" format=\"ascii\">"
+            "<DataArray type=\"Float64\" Name=\"{name}\"{components} format=\"ascii\">"
         );
         for entry in values.chunks(*width) {
             let words: Vec<String> =
