@@ -2,11 +2,12 @@
 
 use plydrape::draping::record::ResultFile;
 use plydrape::draping::simulate;
-use plydrape::mold::{Cylinder, Face, Graph, Mold, Pose, Saddle, Sphere, Surface};
+use plydrape::mold::{Cylinder, Face, Graph, Mesh, Mold, Pose, Saddle, Sphere, Surface};
 use plydrape::ply::Grid;
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Stepping};
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 
 fn example(name: &str) -> Scene {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
@@ -160,5 +161,52 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
         assert!((bridge.width - length).abs() < 1e-4, "{radius} {half}: {}", bridge.width);
         let reported = last.measures.bridging_mm.as_ref().expect("bridging").value;
         assert!((reported * 1e-3 - bridge.gap).abs() < 1e-15, "{reported}");
+    }
+}
+
+/// The cap of a sphere of radius R with its top at the origin, as an OBJ of n × n squares.
+fn cap(radius: f64, n: usize) -> Mold {
+    let at = |k: usize| -0.1 + 0.5 * k as f64 / n as f64;
+    let mut text = String::new();
+    for j in 0..=n {
+        for i in 0..=n {
+            let (x, y) = (at(i), at(j) - 0.15);
+            let z = (radius * radius - x * x - y * y).sqrt() - radius;
+            text += &format!("v {x:.17} {y:.17} {z:.17}\n");
+        }
+    }
+    for j in 0..n {
+        for i in 0..n {
+            let a = j * (n + 1) + i + 1;
+            text += &format!("f {} {} {} {}\n", a, a + 1, a + n + 2, a + n + 1);
+        }
+    }
+    let pose = Pose::new([0.0; 3], [0.0; 3]);
+    let (mesh, _) = Mesh::parse("cap.obj", text.as_bytes(), 1.0, &pose).expect("a sound mesh");
+    Mold::Mesh(Arc::new(mesh))
+}
+
+/// A strip rolled on a sphere lies in the same place on a mesh of it, but for the mesh's own error, which
+/// falls with the square of its edges.
+#[test]
+fn a_mesh_of_a_sphere_drapes_like_the_sphere() {
+    let radius = 0.6;
+    let along = |s| on_circle(radius, s);
+    let drifts = [25, 50, 100, 200].map(|n| {
+        let mold = cap(radius, n);
+        let result = rolled(mold.clone(), along, 60, 1e-5, Stepping::Cut);
+        // what has landed lies on the triangles
+        for catenary in &result.steps.last().expect("steps").catenaries {
+            for point in &catenary.contact.as_ref().expect("contact").points {
+                assert!(mold.signed_distance(*point).abs() < 1e-12, "{n}: {point:?}");
+            }
+        }
+        drift(&result, along)
+    });
+    for (n, drift) in [25, 50, 100, 200].into_iter().zip(drifts) {
+        // the sagitta of an edge (mm), and what the tolerance adds
+        let edge = 0.5 / n as f64;
+        let error = edge * edge / (8.0 * radius) * 1e3;
+        assert!(drift < 2.5 * error + 5e-4, "{n}: {drift} mm, the mesh is {error} mm off");
     }
 }

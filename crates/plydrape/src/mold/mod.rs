@@ -16,6 +16,7 @@ pub(crate) mod vector;
 
 pub use graph::{Graph, Surface};
 pub use height::Height;
+pub use mesh::{Mesh, MeshError, MeshReport};
 pub use plane::Plane;
 pub use pose::Pose;
 pub use round::{Cylinder, Face, Sphere, Torus};
@@ -24,6 +25,7 @@ pub(crate) use vector::distance;
 
 use section::{Until, trace};
 use serde::Serialize;
+use std::sync::Arc;
 use vector::{along, dot};
 
 /// A mold.
@@ -40,6 +42,8 @@ pub enum Mold {
     Torus(Torus),
     /// A height over a plane, z = f(x, y).
     Graph(Graph),
+    /// Triangles.
+    Mesh(Arc<Mesh>),
 }
 
 /// What lies closest to a point.
@@ -154,6 +158,7 @@ impl Mold {
             Mold::Sphere(sphere) => sphere.foot(p),
             Mold::Torus(torus) => torus.foot(p),
             Mold::Graph(graph) => graph.foot(p),
+            Mold::Mesh(mesh) => mesh.foot(p),
         }
     }
 
@@ -192,6 +197,7 @@ impl Mold {
             Mold::Sphere(sphere) => sphere.curvatures(p),
             Mold::Torus(torus) => torus.curvatures(p),
             Mold::Graph(graph) => graph.curvatures(self.foot(p).point),
+            Mold::Mesh(mesh) => mesh.curvatures(p),
         }
     }
 
@@ -208,6 +214,7 @@ impl Mold {
                 let end = along(from, run, [heading[0], heading[1], slope]);
                 Strand { points: vec![from, end], arc: vec![0.0, length.abs()] }
             }
+            Mold::Mesh(mesh) => mesh.section(from, heading, length.abs()),
             _ => trace(self, from, heading, Until::Length(length.abs())),
         }
     }
@@ -222,6 +229,7 @@ impl Mold {
             Mold::Plane(_) => Some(straight()),
             _ if distance(a, b) < 1e-12 => Some(straight()),
             _ if run < 1e-9 => None,
+            Mold::Mesh(mesh) => mesh.section_to(a, b),
             _ => {
                 let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
                 let line = trace(self, a, heading, Until::Run(run));
@@ -250,6 +258,7 @@ impl Mold {
                 return Some([x, y, pz - (nx * (x - px) + ny * (y - py)) / nz]);
             }
             Mold::Graph(graph) => return graph.drop_to([x, y]),
+            Mold::Mesh(mesh) => return mesh.drop_to([x, y]),
             Mold::Cylinder(cylinder) => (cylinder.pose.position, None),
             Mold::Sphere(sphere) => (sphere.pose.position, Some(sphere.radius)),
             Mold::Torus(torus) => {
