@@ -32,6 +32,8 @@ const BLOCKS: f64 = 6000.0;
 const LINES: usize = 24;
 /// The colour scale reaches at least to here (°), so that rounding errors have no colour.
 const LEAST: f64 = 0.5;
+/// Cells whose shear differs by no more than this (°) shear alike.
+const ALIKE: f64 = 0.05;
 /// How far the mold is drawn beyond the net, as a share of the width.
 const MARGIN: f64 = 0.06;
 const WHITE: Ink = Ink([255; 3], 1.0);
@@ -126,9 +128,13 @@ fn figures(net: &Net) -> String {
     let mut parts = vec![format!("{nu} × {nv} nodes, mesh {mesh} mm")];
     if let Some((largest, cell)) = net.report.largest_shear {
         let [u, v] = [0, 1].map(|c| (cell[c] as f64 + 0.5) * net.layup.mesh[c] * 1e3);
-        let largest = largest.to_degrees();
-        parts.push(format!("largest shear {largest:.1}° at u = {u:.0} mm, v = {v:.0} mm"));
-        parts.push(format!("mean {:.1}°", net.report.mean_shear.to_degrees()));
+        let [largest, mean] = [largest, net.report.mean_shear].map(f64::to_degrees);
+        if marked(net).is_some() {
+            parts.push(format!("largest shear {largest:.1}° at u = {u:.0} mm, v = {v:.0} mm"));
+            parts.push(format!("mean {mean:.1}°"));
+        } else {
+            parts.push(format!("shear {mean:.1}° everywhere"));
+        }
     }
     parts.join("  ·  ")
 }
@@ -371,9 +377,10 @@ fn seed_ways(net: &Net) -> Vec<(&'static str, Vec<[usize; 2]>)> {
     [(0, "u"), (1, "v")].into_iter().map(way).collect()
 }
 
-/// The largest shear (°) and its cell, where it is worth a mark.
+/// The largest shear (°) and its cell, unless all cells shear alike.
 fn marked(net: &Net) -> Option<(f64, [usize; 2])> {
-    net.report.largest_shear.map(|(s, cell)| (s.to_degrees(), cell)).filter(|(s, _)| *s > LEAST)
+    let alike = net.report.mean_shear.to_degrees() + ALIKE;
+    net.report.largest_shear.map(|(s, cell)| (s.to_degrees(), cell)).filter(|(s, _)| *s > alike)
 }
 
 /// Where the flat fabric is on the sheet.
