@@ -3,9 +3,10 @@
 use crate::diagnostic::Done;
 use crate::numbers::{degrees, millimetres, short};
 use plydrape::material::{Material, Section, ShearCurve};
-use plydrape::mold::Mold;
+use plydrape::mold::{Face, MeshReport, Mold, Plane, Pose, Surface};
 use plydrape::ply::Direction;
 use plydrape::scene::{ContactEnd, Scene, SlopeRule, Stepping};
+use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -51,10 +52,9 @@ fn summary(scene: &Scene) -> Vec<(&'static str, String)> {
         ),
         ("material", material(&ply.material)),
         ("", ply.material.source.clone()),
-        ("mold", mold(scene.mold.as_ref())),
-        ("motion", motion(scene)),
-        ("target", target(scene)),
     ];
+    lines.extend(mold(scene));
+    lines.extend([("motion", motion(scene)), ("target", target(scene))]);
     lines.extend(rules(scene));
     lines
 }
@@ -83,10 +83,67 @@ fn material(material: &Material) -> String {
     format!("{}: {section}; {shear}{locking}", material.name)
 }
 
-fn mold(mold: Option<&Mold>) -> String {
-    let Some(Mold::Plane(plane)) = mold else {
-        return "none: the ply just hangs".into();
+/// The mold, and what was repaired in a mesh: one line each.
+fn mold(scene: &Scene) -> Vec<(&'static str, String)> {
+    let Some(mold) = &scene.mold else {
+        return vec![("mold", "none: the ply just hangs".into())];
     };
+    let mm = |length: f64| format!("{} mm", millimetres(length));
+    let side = |face: Face| match face {
+        Face::Outside => "outside",
+        Face::Inside => "inside",
+    };
+    let text = match mold {
+        Mold::Plane(plane) => level(plane),
+        Mold::Cylinder(c) => format!(
+            "cylinder of radius {}, from {}, {}",
+            mm(c.radius),
+            side(c.face),
+            standing("axis through", &c.pose)
+        ),
+        Mold::Sphere(s) => format!(
+            "sphere of radius {}, from {}, {}",
+            mm(s.radius),
+            side(s.face),
+            standing("centre", &s.pose)
+        ),
+        Mold::Torus(t) => format!(
+            "torus, ring of {} and tube of {}, from {}, {}",
+            mm(t.ring_radius),
+            mm(t.tube_radius),
+            side(t.face),
+            standing("centre", &t.pose)
+        ),
+        Mold::Graph(graph) => {
+            let surface = match &graph.surface {
+                Surface::Saddle(saddle) => {
+                    let [a, b] = saddle.radii.map(mm);
+                    format!("saddle of radii {a} and {b}")
+                }
+                Surface::Formula { z } => format!("z = {}", z.text()),
+                Surface::HeightGrid(grid) => {
+                    let [nx, ny] = grid.size();
+                    format!("grid of {nx} × {ny} heights")
+                }
+            };
+            let range = match graph.domain {
+                Some([x, y]) => {
+                    let [x, y] = [x, y].map(|ends| ends.map(millimetres).join(" to "));
+                    format!("x from {x} mm, y from {y} mm")
+                }
+                None => "without border".into(),
+            };
+            format!("{surface}, {range}, {}", standing("origin", &graph.pose))
+        }
+        Mold::Mesh(_) => match &scene.mesh {
+            Some(report) => return mesh(report),
+            None => "mesh".into(),
+        },
+    };
+    vec![("mold", text)]
+}
+
+fn level(plane: &Plane) -> String {
     let [x, y, z] = plane.point.map(millimetres);
     let [nx, ny, nz] = plane.normal;
     let tilt = nx.hypot(ny).atan2(nz);
@@ -97,6 +154,20 @@ fn mold(mold: Option<&Mold>) -> String {
         "level".into()
     };
     format!("plane through ({x}, {y}, {z}) mm, {climb}")
+}
+
+/// Where a mold stands, and whether it is turned.
+fn standing(what: &str, pose: &Pose) -> String {
+    let [x, y, z] = pose.position.map(millimetres);
+    let upright = *pose == Pose::new(pose.position, [0.0; 3]);
+    format!("{what} ({x}, {y}, {z}) mm{}", if upright { "" } else { ", turned" })
+}
+
+/// A mesh in the lines of its report.
+fn mesh(report: &MeshReport) -> Vec<(&'static str, String)> {
+    let text = report.to_string();
+    let nouns = std::iter::once("mold").chain(std::iter::repeat(""));
+    nouns.zip(text.lines()).map(|(noun, line)| (noun, line.to_string())).collect()
 }
 
 fn motion(scene: &Scene) -> String {
@@ -127,17 +198,27 @@ fn target(scene: &Scene) -> String {
     let Some(target) = &scene.target else {
         return "none".into();
     };
-    let Some(drape) = &target.drape else {
+    let Some(layup) = &target.layup else {
         return "gripper positions as given".into();
     };
-    let sin: f64 = (0..3).map(|k| drape.along_u[k] * drape.along_v[k]).sum();
-    let heading = drape.along_u[1].atan2(drape.along_u[0]);
-    let [x, y, z] = drape.origin.map(millimetres);
-    format!(
-        "on the mold from ({x}, {y}, {z}) mm, sheared by {} deg, u heading {} deg",
-        degrees(sin.asin()),
-        degrees(heading)
-    )
+    let [x, y, z] = layup.place.map(millimetres);
+    let [u, v] = [0, 1].map(|n| millimetres(layup.seed[n] as f64 * layup.mesh[n]));
+    let mut text = format!(
+        "on the mold, fabric point ({u}, {v}) mm at ({x}, {y}, {z}) mm, sheared by {} deg, u heading {} deg",
+        degrees(layup.shear),
+        degrees(layup.heading)
+    );
+    if let Some(net) = &target.net {
+        let [nu, nv] = layup.nodes;
+        let _ = write!(text, "; net of {nu} × {nv} nodes");
+        if let Some((shear, _)) = net.report.largest_shear {
+            let _ = write!(text, ", shear up to {} deg", degrees(shear));
+        }
+        if !net.missing.is_empty() {
+            let _ = write!(text, ", {} without a place on the mold", net.missing.len());
+        }
+    }
+    text
 }
 
 /// Rules of the model, contact and limits.

@@ -1,6 +1,8 @@
 //! Molds that are a height over a plane, z = f(x, y): closest points by Newton's method.
 
+use super::formula::Formula;
 use super::height::Height;
+use super::height_grid::HeightGrid;
 use super::pose::Pose;
 use super::saddle::Saddle;
 use super::vector::{distance, dot, sub, unit};
@@ -24,6 +26,13 @@ pub struct Graph {
 pub enum Surface {
     /// Curved down along one axis and up along the other.
     Saddle(Saddle),
+    /// A formula.
+    Formula {
+        /// z = f(x, y).
+        z: Formula,
+    },
+    /// Heights on a grid.
+    HeightGrid(HeightGrid),
 }
 
 /// Newton steps for a closest point; from above a mold it takes three to six.
@@ -35,6 +44,8 @@ impl Surface {
     pub fn at(&self, x: f64, y: f64) -> Height {
         match self {
             Surface::Saddle(saddle) => saddle.at(x, y),
+            Surface::Formula { z } => z.at(x, y),
+            Surface::HeightGrid(heights) => heights.at(x, y),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The height of a mold z = f(x, y) with its derivatives.
+//! The height of a mold z = f(x, y) with its derivatives, carried through arithmetic.
 
 /// Height of a surface at a place (x, y), with first and second derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,4 +9,56 @@ pub struct Height {
     pub gradient: [f64; 2],
     /// ∂²f/∂x², ∂²f/∂x∂y and ∂²f/∂y² (1/m).
     pub hessian: [f64; 3],
+}
+
+impl Height {
+    /// The same height everywhere.
+    pub(super) fn constant(z: f64) -> Self {
+        Height { z, gradient: [0.0; 2], hessian: [0.0; 3] }
+    }
+
+    /// x or y as a height: 0 for x, 1 for y.
+    pub(super) fn coordinate(value: f64, axis: usize) -> Self {
+        let mut gradient = [0.0; 2];
+        gradient[axis] = 1.0;
+        Height { z: value, gradient, hessian: [0.0; 3] }
+    }
+
+    /// Whether the height and all its derivatives are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let derivatives = self.gradient.iter().chain(&self.hessian);
+        self.z.is_finite() && derivatives.copied().all(f64::is_finite)
+    }
+
+    /// f + t g.
+    pub(super) fn plus(&self, t: f64, g: &Self) -> Self {
+        Height {
+            z: self.z + t * g.z,
+            gradient: [0, 1].map(|n| self.gradient[n] + t * g.gradient[n]),
+            hessian: [0, 1, 2].map(|n| self.hessian[n] + t * g.hessian[n]),
+        }
+    }
+
+    /// f g, by the product rule.
+    pub(super) fn times(&self, g: &Self) -> Self {
+        let ([fx, fy], [gx, gy]) = (self.gradient, g.gradient);
+        let mixed = [2.0 * fx * gx, fx * gy + fy * gx, 2.0 * fy * gy];
+        Height {
+            z: self.z * g.z,
+            gradient: [fx * g.z + self.z * gx, fy * g.z + self.z * gy],
+            hessian: [0, 1, 2].map(|n| self.hessian[n] * g.z + mixed[n] + self.z * g.hessian[n]),
+        }
+    }
+
+    /// h(f) from h, h′ and h″ at f, by the chain rule.
+    pub(super) fn chain(&self, [h, h1, h2]: [f64; 3]) -> Self {
+        let [fx, fy] = self.gradient;
+        let squares = [fx * fx, fx * fy, fy * fy];
+        Height {
+            z: h,
+            gradient: [h1 * fx, h1 * fy],
+            hessian: [0, 1, 2].map(|n| h1 * self.hessian[n] + h2 * squares[n]),
+        }
+    }
 }

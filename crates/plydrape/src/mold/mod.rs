@@ -4,8 +4,10 @@
 //! and curvatures, and where a length of fabric lies that is laid along it in a vertical plane. Distances
 //! in metres, positive outside; normals are unit vectors out of the mold, towards the ply.
 
+mod formula;
 mod graph;
 mod height;
+mod height_grid;
 pub mod mesh;
 mod plane;
 mod pose;
@@ -14,8 +16,10 @@ mod saddle;
 mod section;
 pub(crate) mod vector;
 
+pub use formula::{Formula, FormulaError, FormulaFault};
 pub use graph::{Graph, Surface};
 pub use height::Height;
+pub use height_grid::{HeightGrid, HeightGridError};
 pub use mesh::{Mesh, MeshError, MeshReport};
 pub use plane::Plane;
 pub use pose::Pose;

@@ -32,9 +32,12 @@ pub(super) fn scene(
     base: &Path,
 ) -> Result<Scene, SceneError> {
     let ply = ply(&file.ply, document, base)?;
-    let mold = match &file.mold {
-        Some(table) => Some(mold::mold(&table.value, document)?),
-        None => None,
+    let (mold, mesh) = match &file.mold {
+        Some(table) => {
+            let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
+            (Some(mold), report)
+        }
+        None => (None, None),
     };
     let max_tilt = match file.grippers.as_ref().map(|g| &g.value.max_tilt) {
         Some(Some(tilt)) => acute(tilt, document)?,
@@ -58,6 +61,7 @@ pub(super) fn scene(
         title: file.title.clone().unwrap_or_else(|| title(document, base)),
         ply,
         mold,
+        mesh,
         motion,
         target,
         settings,
@@ -109,17 +113,18 @@ fn gripper_count(
 }
 
 /// What gripper positions are read and checked against.
-struct Surroundings<'a> {
-    ply: &'a Ply,
-    mold: Option<&'a Mold>,
-    tolerance: f64,
-    document: &'a Document,
-    base: &'a Path,
+pub(super) struct Surroundings<'a> {
+    pub ply: &'a Ply,
+    pub mold: Option<&'a Mold>,
+    /// Depth in the mold that still counts as touching it (m).
+    pub tolerance: f64,
+    pub document: &'a Document,
+    pub base: &'a Path,
 }
 
 impl Surroundings<'_> {
     fn motion(&self, file: &SceneFile, target: Option<&Target>) -> Result<Motion, SceneError> {
-        let &Surroundings { ply, mold, tolerance, document, base } = self;
+        let &Surroundings { ply, document, base, .. } = self;
         let from_file = file.motion.as_ref().filter(|m| m.value.kind == MotionKind::File);
         if let Some(table) = from_file {
             if let Some(grippers) = &file.grippers
@@ -134,7 +139,7 @@ impl Surroundings<'_> {
                 ));
             }
             let (motion, start) = trajectory(table, ply, document, base)?;
-            start::check(&start, ply, mold, tolerance)?;
+            start::check(&start, self)?;
             return Ok(motion);
         }
         let Some(grippers) = &file.grippers else {
@@ -144,8 +149,8 @@ impl Surroundings<'_> {
                 "add [grippers] with spacing = [\"98 mm\", \"98 mm\"] and height = \"75 mm\", or with `positions`",
             ));
         };
-        let start = start::start(grippers, ply, mold, document, base)?;
-        start::check(&start, ply, mold, tolerance)?;
+        let start = start::start(grippers, self, target)?;
+        start::check(&start, self)?;
         motion(file.motion.as_ref(), &start, target, ply, document)
     }
 }

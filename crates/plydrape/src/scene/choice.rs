@@ -1,4 +1,4 @@
-//! Keys that may be written in more than one way: a material, a table of positions.
+//! Keys that may be written in more than one way: a material, a table of positions, a place.
 
 use super::file::MaterialTable;
 use super::located::{Fixed, Located};
@@ -6,9 +6,10 @@ use super::quantity::{Length, Quantity};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
 use std::borrow::Cow;
 use std::fmt;
+use std::marker::PhantomData;
 
 /// A material by name or file, or in place.
 #[derive(Debug)]
@@ -89,5 +90,72 @@ impl JsonSchema for Positions {
             { "type": "string", "description": "a CSV file", "examples": ["start.csv"] },
             rows
         ]})
+    }
+}
+
+/// A word that may stand for a place.
+pub(super) trait Word {
+    /// The word.
+    const WORD: &'static str;
+    /// The place by its coordinates.
+    const PAIR: &'static str;
+}
+
+/// Above the middle of the target.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Centred;
+/// The middle of the ply.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Middle;
+
+impl Word for Centred {
+    const WORD: &'static str = "centred";
+    const PAIR: &'static str = "a place [x, y]";
+}
+
+impl Word for Middle {
+    const WORD: &'static str = "middle";
+    const PAIR: &'static str = "a fabric point [u, v]";
+}
+
+/// Two coordinates (m), or a word.
+#[derive(Debug)]
+pub(super) enum Place<W> {
+    Word(PhantomData<W>),
+    At(Fixed<Quantity<Length>, 2>),
+}
+
+impl<'de, W: Word> Deserialize<'de> for Place<W> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Choice<W>(PhantomData<W>);
+        impl<'de, W: Word> Visitor<'de> for Choice<W> {
+            type Value = Place<W>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "{} or \"{}\"", W::PAIR, W::WORD)
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
+                if word == W::WORD {
+                    return Ok(Place::Word(PhantomData));
+                }
+                Err(E::invalid_value(Unexpected::Str(word), &self))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
+                Fixed::deserialize(SeqAccessDeserializer::new(seq)).map(Place::At)
+            }
+        }
+        deserializer.deserialize_any(Choice(PhantomData))
+    }
+}
+
+impl<W: Word> JsonSchema for Place<W> {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        W::WORD.into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let pair = generator.subschema_for::<Fixed<Quantity<Length>, 2>>();
+        json_schema!({ "anyOf": [{ "const": W::WORD }, pair] })
     }
 }

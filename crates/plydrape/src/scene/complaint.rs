@@ -126,7 +126,7 @@ fn hint(key: &str) -> String {
                 .into()
         }
         "mass" => "give the mass per length or per area: mass = \"314 g/m^2\"".into(),
-        "kind" => "say which: kind = \"plane\" for a mold; kind = \"straight\", \"hold\" or \"file\" for a motion".into(),
+        "kind" => "say which: kind = \"plane\", \"sphere\", \"mesh\" or another for a mold; kind = \"straight\", \"hold\" or \"file\" for a motion".into(),
         _ => format!("add `{key} = …`"),
     }
 }

@@ -17,6 +17,8 @@ mod complaint;
 mod csv;
 mod error;
 mod file;
+mod heading;
+mod layup;
 mod located;
 mod material;
 mod mold;
@@ -35,10 +37,12 @@ pub use error::SceneError;
 pub use material::shipped_materials;
 pub use schema::schema;
 
-use crate::mold::Mold;
+use crate::mold::{MeshReport, Mold};
+use crate::net::{Layup, Net};
 use crate::ply::Ply;
 use serde::Serialize;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A commented scene to start from.
 pub const TEMPLATE: &str = include_str!("template.toml");
@@ -87,6 +91,8 @@ pub struct Scene {
     pub ply: Ply,
     /// What it is laid on; a ply may also just hang.
     pub mold: Option<Mold>,
+    /// What was found and repaired while the mold was read, if it is a mesh.
+    pub mesh: Option<MeshReport>,
     /// Where the grippers are in every step.
     pub motion: Motion,
     /// Where the ply should end, if it is to be draped.
@@ -111,8 +117,12 @@ pub struct Motion {
 pub struct Target {
     /// Final gripper positions (m), in the order of [`crate::ply::Grid::index`].
     pub grippers: Vec<[f64; 3]>,
-    /// The ideal drape, where it is known beyond the grippers.
+    /// The ideal drape on a plane, where it is known beyond the grippers.
     pub drape: Option<FlatDrape>,
+    /// The ideal drape on a curved mold: the grippers are nodes of it.
+    pub net: Option<Arc<Net>>,
+    /// How the ideal drape is laid on the mold; none where the gripper positions were given.
+    pub layup: Option<Layup>,
 }
 
 /// The ideal drape on a plane: a parallelogram, affine in the fabric coordinates.

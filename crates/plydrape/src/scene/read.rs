@@ -12,8 +12,11 @@ pub(super) const LARGEST_TOML: u64 = 16 << 20;
 /// Largest CSV file that is read (bytes).
 pub(super) const LARGEST_CSV: u64 = 1 << 30;
 
-/// Reads a text file, named `name` in messages.
-pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, SceneError> {
+/// Largest mesh file that is read (bytes).
+pub(super) const LARGEST_MESH: u64 = 1 << 30;
+
+/// Reads a file, named `name` in messages.
+pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, SceneError> {
     let nothing = Document::new(name, "");
     if path.is_dir() {
         return Err(nothing.error_anywhere(
@@ -35,7 +38,12 @@ pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, Sc
             "is it the right file? large tables of gripper positions belong into a CSV file",
         ));
     }
-    match String::from_utf8(bytes) {
+    Ok(bytes)
+}
+
+/// Reads a text file, named `name` in messages.
+pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, SceneError> {
+    match String::from_utf8(bytes(path, name, largest)?) {
         // Spreadsheets and some editors put a byte order mark first.
         Ok(text) => Ok(Document::new(name, text.trim_start_matches('\u{feff}'))),
         Err(error) => {

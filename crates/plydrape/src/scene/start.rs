@@ -1,25 +1,25 @@
 //! Where the grippers start.
 
-use super::FlatDrape;
-use super::error::{Document, SceneError};
+use super::check::Surroundings;
+use super::choice::Place;
+use super::error::SceneError;
 use super::file::GrippersTable;
+use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
-use super::mold::{coordinates, heading};
 use super::places::Places;
 use super::quantity::{Length, Quantity};
+use super::{FlatDrape, Target};
 use crate::mold::{Mold, Plane};
-use crate::ply::Ply;
-use std::path::Path;
+use crate::ply::Grid;
 
 /// Checks where the table `[grippers]` puts the grippers.
 pub(super) fn start(
     table: &Located<GrippersTable>,
-    ply: &Ply,
-    mold: Option<&Mold>,
-    document: &Document,
-    base: &Path,
+    around: &Surroundings,
+    target: Option<&Target>,
 ) -> Result<Places, SceneError> {
     let keys = &table.value;
+    let &Surroundings { ply, document, base, .. } = around;
     match (&keys.positions, &keys.spacing, &keys.height) {
         (Some(positions), None, None) => {
             if let Some(key) = other_key(keys) {
@@ -36,9 +36,7 @@ pub(super) fn start(
             "the grippers have `positions` and a `spacing` or `height`",
             "keep `positions`, or `spacing` and `height`",
         )),
-        (None, Some(spacing), Some(height)) => {
-            rectangle(keys, spacing, height, ply, mold, document)
-        }
+        (None, Some(spacing), Some(height)) => rectangle(keys, spacing, height, around, target),
         (None, ..) => Err(document.error(
             table.span.clone(),
             "[grippers] does not say where the grippers start",
@@ -63,31 +61,42 @@ fn rectangle(
     keys: &GrippersTable,
     spacing: &Fixed<Quantity<Length>, 2>,
     height: &Quantity<Length>,
-    ply: &Ply,
-    mold: Option<&Mold>,
-    document: &Document,
+    around: &Surroundings,
+    target: Option<&Target>,
 ) -> Result<Places, SceneError> {
+    let &Surroundings { ply, document, .. } = around;
     let place = spacing.0[0].span.start..spacing.0[1].span.end;
     let distances = [spacing.0[0].size(document)?, spacing.0[1].size(document)?];
     let lift = height.coordinate(document)?;
-    let origin = match &keys.origin {
-        Some(origin) => coordinates(origin, document)?,
-        None => [0.0; 2],
+    let plane = ground(keys, around)?;
+    let (origin, direction) = match &keys.origin {
+        None => ([0.0; 2], 0.0),
+        Some(origin) => match &origin.value {
+            Place::At(origin) => (coordinates(origin, document)?, 0.0),
+            Place::Word(_) => {
+                let Some(target) = target else {
+                    return Err(document.error(
+                        origin.span.clone(),
+                        "the start shall be centred above the target, and the scene has no target",
+                        "add [target], or give the place [x, y] of gripper [0, 0]",
+                    ));
+                };
+                let direction = match &keys.direction {
+                    Some(direction) => heading(direction, document)?,
+                    None => heading_of(&target.grippers, ply.grid),
+                };
+                // gripper [0, 0] as far from the middle as without a shift
+                let unmoved = FlatDrape::on(&plane, [0.0; 2], direction, 0.0);
+                let [here, there] =
+                    [unmoved.grippers(ply.grid, distances), target.grippers.clone()]
+                        .map(|points| middle(&points));
+                ([0, 1].map(|n| there[n] - here[n]), direction)
+            }
+        },
     };
     let direction = match &keys.direction {
         Some(direction) => heading(direction, document)?,
-        None => 0.0,
-    };
-    let plane = match (&keys.parallel_to_mold, mold) {
-        (Some(parallel), None) if parallel.value => {
-            return Err(document.error(
-                parallel.span.clone(),
-                "the grippers shall be parallel to the mold, and the scene has no mold",
-                "add [mold] with kind = \"plane\", or remove `parallel_to_mold`",
-            ));
-        }
-        (Some(parallel), Some(Mold::Plane(plane))) if parallel.value => *plane,
-        _ => Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] },
+        None => direction,
     };
     let mut points = FlatDrape::on(&plane, origin, direction, 0.0).grippers(ply.grid, distances);
     for point in &mut points {
@@ -103,33 +112,69 @@ fn rectangle(
     })
 }
 
+/// The plane above which the rectangle lies: the mold, or z = 0.
+fn ground(keys: &GrippersTable, around: &Surroundings) -> Result<Plane, SceneError> {
+    let level = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    let Some(parallel) = keys.parallel_to_mold.as_ref().filter(|parallel| parallel.value) else {
+        return Ok(level);
+    };
+    let (message, help) = match around.mold {
+        Some(Mold::Plane(plane)) => return Ok(*plane),
+        Some(_) => (
+            "the grippers shall be parallel to the mold, and the mold is curved",
+            "remove `parallel_to_mold`: `height` is then the z of all grippers; or give their `positions`",
+        ),
+        None => (
+            "the grippers shall be parallel to the mold, and the scene has no mold",
+            "add [mold] with kind = \"plane\", or remove `parallel_to_mold`",
+        ),
+    };
+    Err(around.document.error(parallel.span.clone(), message, help))
+}
+
+/// Mean place of all grippers in plan (m).
+fn middle(points: &[[f64; 3]]) -> [f64; 2] {
+    [0, 1].map(|n| points.iter().map(|point| point[n]).sum::<f64>() / points.len() as f64)
+}
+
+/// Mean heading of the lines of grippers along u (rad).
+fn heading_of(points: &[[f64; 3]], grid: Grid) -> f64 {
+    let across = |n: usize| -> f64 {
+        (0..grid.nv)
+            .map(|j| points[grid.index([grid.nu - 1, j])][n] - points[grid.index([0, j])][n])
+            .sum()
+    };
+    across(1).atan2(across(0))
+}
+
 /// Refuses a start that cannot be: fabric too short, spans straight up, grippers in the mold.
-pub(super) fn check(
-    places: &Places,
-    ply: &Ply,
-    mold: Option<&Mold>,
-    tolerance: f64,
-) -> Result<(), SceneError> {
+pub(super) fn check(places: &Places, around: &Surroundings) -> Result<(), SceneError> {
+    let &Surroundings { ply, mold, tolerance, .. } = around;
     places.check_reach(ply)?;
     places.check_run(ply, "at the start")?;
-    let Some(Mold::Plane(plane)) = mold else {
+    let Some(mold) = mold else {
         return Ok(());
     };
-    for (index, point) in places.points.iter().enumerate() {
-        let height: f64 = (0..3).map(|k| (point[k] - plane.point[k]) * plane.normal[k]).sum();
-        if height < -tolerance {
-            let mut error = places.error(
-                index,
-                format!(
-                    "gripper {:?} starts {:.2} mm below the mold",
-                    ply.grid.id(index),
-                    -height * 1e3
-                ),
-                "start above the mold: raise the grippers or lower the mold",
-            );
-            error.span = places.height.clone().or(error.span);
-            return Err(error);
-        }
+    let depth = |point: &[f64; 3]| -mold.signed_distance(*point);
+    let Some((index, point)) =
+        places.points.iter().enumerate().find(|(_, point)| depth(point) > tolerance)
+    else {
+        return Ok(());
+    };
+    let id = ply.grid.id(index);
+    let depth_mm = depth(point) * 1e3;
+    let message = match mold {
+        Mold::Plane(_) => format!("gripper {id:?} starts {depth_mm:.2} mm below the mold"),
+        _ => format!("gripper {id:?} starts inside the mold, {depth_mm:.2} mm from its surface"),
+    };
+    let mut help = "start above the mold: raise the grippers or lower the mold".to_string();
+    // a level start clears the mold above its highest point under a gripper
+    let tops = places.points.iter().filter_map(|&[x, y, _]| mold.drop_to([x, y]));
+    let top = tops.map(|top| top[2]).fold(f64::NEG_INFINITY, f64::max);
+    if places.height.is_some() && !matches!(mold, Mold::Plane(_)) && top.is_finite() {
+        help += &format!("; below the grippers it reaches up to z = {:.1} mm", top * 1e3);
     }
-    Ok(())
+    let mut error = places.error(index, message, help);
+    error.span = places.height.clone().or(error.span);
+    Err(error)
 }

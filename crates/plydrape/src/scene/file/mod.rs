@@ -3,7 +3,13 @@
 //! These types say what is a key and what is not; [`super::check`] says what makes sense. Their
 //! comments are the descriptions of the JSON Schema.
 
-use super::choice::{MaterialChoice, Positions};
+mod mold;
+mod target;
+
+pub(super) use mold::{MoldKind, MoldTable, SideKey};
+pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
+
+use super::choice::{Centred, MaterialChoice, Place, Positions};
 use super::located::{Count, Fixed, Located};
 use super::quantity::{
     Acceleration, Angle, BendingRigidity, FlexuralRigidity, Force, ForcePerLength, Length, Mass,
@@ -114,32 +120,6 @@ pub(super) struct ShearCurveTable {
     pub polynomial: Option<Located<Vec<Quantity<Ratio>>>>,
 }
 
-/// The surface that the ply is laid on.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
-#[schemars(rename = "Mold")]
-pub(super) struct MoldTable {
-    /// Shape of the mold.
-    #[allow(dead_code, reason = "one shape so far: reading the key is the check")]
-    pub kind: MoldKind,
-    /// A point of the plane (m); the origin unless given.
-    pub point: Option<Fixed<Quantity<Length>, 3>>,
-    /// Direction out of the mold towards the ply, of any length, upwards; or give `tilt`.
-    pub normal: Option<Located<Fixed<Quantity<Ratio>, 3>>>,
-    /// Angle between the plane and the horizontal (rad).
-    pub tilt: Option<Quantity<Angle>>,
-    /// Heading in which the plane climbs (rad), from x towards y.
-    pub tilt_direction: Option<Quantity<Angle>>,
-}
-
-/// Shape of the mold.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum MoldKind {
-    /// Flat, of any position and tilt.
-    Plane,
-}
-
 /// Where the grippers start: a rectangle by `spacing` and `height`, or `positions`.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
@@ -149,9 +129,10 @@ pub(super) struct GrippersTable {
     pub spacing: Option<Fixed<Quantity<Length>, 2>>,
     /// Height z of all grippers; above the mold, with `parallel_to_mold` (m).
     pub height: Option<Quantity<Length>>,
-    /// Place x, y of gripper [0, 0] (m); with `parallel_to_mold`, of the mold point below it.
-    pub origin: Option<Fixed<Quantity<Length>, 2>>,
-    /// Heading of u (rad), from x towards y.
+    /// Place x, y of gripper [0, 0] (m), the origin unless given; with `parallel_to_mold`, of the mold point
+    /// below it. Or "centred": the rectangle's middle is above the middle of the target.
+    pub origin: Option<Located<Place<Centred>>>,
+    /// Heading of u (rad), from x towards y; that of the target where the origin is "centred".
     pub direction: Option<Quantity<Angle>>,
     /// True turns the rectangle parallel to the mold, `height` along its normal.
     pub parallel_to_mold: Option<Located<bool>>,
@@ -159,21 +140,6 @@ pub(super) struct GrippersTable {
     pub positions: Option<Located<Positions>>,
     /// Limit of the ball joints: largest gripper tilt (rad), 40 deg unless given.
     pub max_tilt: Option<Quantity<Angle>>,
-}
-
-/// Where the ply shall end: a sheared parallelogram on the mold, or `positions`.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
-#[schemars(rename = "Target")]
-pub(super) struct TargetTable {
-    /// Shear angle of the drape (rad): v stands at 90° minus this angle from u.
-    pub shear: Option<Quantity<Angle>>,
-    /// Place x, y of gripper [0, 0] (m); it is put on the mold.
-    pub origin: Option<Fixed<Quantity<Length>, 2>>,
-    /// Heading of u (rad), from x towards y.
-    pub direction: Option<Quantity<Angle>>,
-    /// Every position: a table of rows along v of [x, y, z] along u, or a CSV file (i, j, x, y, z).
-    pub positions: Option<Located<Positions>>,
 }
 
 /// How the grippers move.

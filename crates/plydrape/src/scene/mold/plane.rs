@@ -1,18 +1,16 @@
-//! The mold of a scene.
+//! A flat mold: by a point and a normal, or by its tilt.
 
-use super::error::{Document, SceneError};
-use super::file::MoldTable;
-use super::located::Fixed;
-use super::quantity::{Angle, Length, Quantity, Ratio};
+use super::UPWARD;
 use crate::mold::{Mold, Plane};
+use crate::scene::error::{Document, SceneError};
+use crate::scene::file::MoldTable;
+use crate::scene::heading::{coordinates, heading};
+use crate::scene::quantity::{Quantity, Ratio};
 
-/// Least upward part of a unit normal: a mold this steep or steeper is a wall (89.9°).
-const UPWARD: f64 = 1.7e-3;
-
-/// Checks the table `[mold]`.
-pub(super) fn mold(table: &MoldTable, document: &Document) -> Result<Mold, SceneError> {
+/// Checks the keys of a plane.
+pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, SceneError> {
     let point = match &table.point {
-        Some(point) => coordinates(point, document)?,
+        Some(point) => coordinates(&point.value, document)?,
         None => [0.0; 3],
     };
     let normal = match (&table.normal, &table.tilt) {
@@ -84,29 +82,4 @@ fn unit_normal(
     let norm = x.hypot(y).hypot(z);
     let unit = [x / norm, y / norm, z / norm];
     Ok((unit[2] >= UPWARD).then_some(unit))
-}
-
-/// A heading of at most one turn to either side (rad).
-pub(super) fn heading(angle: &Quantity<Angle>, document: &Document) -> Result<f64, SceneError> {
-    let value = angle.si(document)?;
-    if value.abs() <= std::f64::consts::TAU * (1.0 + 1e-9) {
-        return Ok(value);
-    }
-    Err(document.error(
-        angle.span.clone(),
-        format!("{} is more than a whole turn", document.quoted(&angle.span)),
-        "plain numbers are radians; write degrees as \"90 deg\"",
-    ))
-}
-
-/// Coordinates or distances from the origin (m).
-pub(super) fn coordinates<const N: usize>(
-    values: &Fixed<Quantity<Length>, N>,
-    document: &Document,
-) -> Result<[f64; N], SceneError> {
-    let mut numbers = [0.0; N];
-    for (number, value) in numbers.iter_mut().zip(&values.0) {
-        *number = value.coordinate(document)?;
-    }
-    Ok(numbers)
 }

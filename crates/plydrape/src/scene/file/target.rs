@@ -1,0 +1,53 @@
+//! The keys of the table `[target]`.
+
+use crate::scene::choice::{Middle, Place, Positions};
+use crate::scene::located::{Fixed, Located};
+use crate::scene::quantity::{Angle, Length, Quantity};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Where the ply shall end: laid on the mold as a net of yarns that do not stretch, or `positions`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Target")]
+pub(in crate::scene) struct TargetTable {
+    /// Place x, y (m) of the fabric point that is laid first, the `seed`; it is put on the mold.
+    pub origin: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    /// Heading of u there (rad), from x towards y.
+    pub direction: Option<Quantity<Angle>>,
+    /// Shear angle there (rad): v stands at 90° minus this angle from u.
+    pub shear: Option<Quantity<Angle>>,
+    /// The fabric point [u, v] (m) that is laid first, gripper [0, 0] unless given; or "middle".
+    pub seed: Option<Located<Place<Middle>>>,
+    /// Mesh width of the net (m), a whole part of both cells. Unless given, cells are divided to 10 mm or
+    /// less, on a plane not at all.
+    pub mesh: Option<Quantity<Length>>,
+    /// How the first two yarns run, "geodesic" unless given.
+    pub generators: Option<Located<GeneratorsKey>>,
+    /// How the fabric between neighbouring nodes of the net is measured, "along" unless given.
+    pub edges: Option<Located<EdgesKey>>,
+    /// Every position: a table of rows along v of [x, y, z] along u, or a CSV file (i, j, x, y, z).
+    pub positions: Option<Located<Positions>>,
+}
+
+/// How the two yarns through the seed run, from which all others follow.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[schemars(rename = "Generators")]
+pub(in crate::scene) enum GeneratorsKey {
+    /// Straight on over the mold.
+    Geodesic,
+    /// So that each cell beside them keeps the shear of the seed.
+    LeastShear,
+}
+
+/// How the fabric between neighbouring nodes of the net is measured.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "Edges")]
+pub(in crate::scene) enum EdgesKey {
+    /// Along the mold.
+    Along,
+    /// Straight from node to node.
+    Chord,
+}

@@ -1,0 +1,67 @@
+//! Meshes from STL, OBJ and Abaqus files.
+
+use super::Keys;
+use crate::mold::{Mesh, MeshError, MeshReport, Mold, Pose};
+use crate::scene::error::SceneError;
+use crate::scene::layup::round;
+use crate::scene::read;
+use crate::scene::units::{self, Dimension};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Checks the keys of a mesh, and reads its file.
+pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), SceneError> {
+    let document = keys.document;
+    let file = keys.wanted(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
+    let at_file = |error: MeshError| {
+        let (message, help) = in_two(&error);
+        document.error(file.span.clone(), message, help)
+    };
+    let path = base.join(&file.value);
+    let bytes = read::bytes(&path, &file.value, read::LARGEST_MESH).map_err(|error| {
+        let help = format!("paths are relative to the scene's folder; {}", error.help);
+        document.error(file.span.clone(), error.message, help)
+    })?;
+    let parse = |scale: f64, pose: &Pose| Mesh::parse(&file.value, &bytes, scale, pose);
+    let Some(unit) = &keys.table.unit else {
+        // how big the mold would be, in the unit of the file
+        let (mesh, _) = parse(1.0, &Pose::new([0.0; 3], [0.0; 3])).map_err(at_file)?;
+        let [low, high] = mesh.bounds();
+        let [x, y, z] = [0, 1, 2].map(|n| round(high[n] - low[n]));
+        return Err(document.error(
+            file.span.clone(),
+            format!("a mesh file does not say its unit, and `{}` needs one", file.value),
+            format!(
+                "add unit = \"mm\" if the mold measures {x} × {y} × {z} mm, or unit = \"m\" if these are metres"
+            ),
+        ));
+    };
+    let scale = match units::unit(&unit.value) {
+        Ok((size, Dimension::LENGTH)) => size,
+        Ok((_, other)) => {
+            return Err(document.error(
+                unit.span.clone(),
+                format!("{} is the unit of {other}", document.quoted(&unit.span)),
+                "the unit of a length is wanted: mm, cm, m or in",
+            ));
+        }
+        Err(fault) => {
+            return Err(document.error(
+                unit.span.clone(),
+                format!("{} is no unit: {fault}", document.quoted(&unit.span)),
+                format!("the unit of a length is wanted: mm, cm, m or in; {}", fault.help()),
+            ));
+        }
+    };
+    let (mesh, report) = parse(scale, &keys.pose()?).map_err(at_file)?;
+    Ok((Mold::Mesh(Arc::new(mesh)), report))
+}
+
+/// The text of a mesh's fault as what is wrong and what would be right.
+fn in_two(error: &MeshError) -> (String, String) {
+    let text = error.to_string();
+    match text.split_once("; ") {
+        Some((message, help)) => (message.into(), help.into()),
+        None => (text, "correct the file, or export the mold's surface anew".into()),
+    }
+}
