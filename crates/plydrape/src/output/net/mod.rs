@@ -5,9 +5,14 @@
 //! - `nodes.csv`, where every point of the fabric should end ([`nodes`]);
 //! - `shear.svg`, the shear map ([`figure::shear_map`](super::figure::shear_map));
 //! - `net.vtu` and `mold.vtu` for ParaView and other readers of VTK's files ([`vtu`]).
+//!
+//! [`Summary`] says in a few numbers how the net lies, and judges it.
 
 pub mod nodes;
+mod summary;
 pub mod vtu;
+
+pub use summary::{ShearPlace, Summary};
 
 use super::{OutputError, figure, finite, folder};
 use crate::mold::Mold;

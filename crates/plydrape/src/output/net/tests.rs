@@ -119,3 +119,21 @@ fn a_net_writes_its_files_twice_the_same() {
     write_all(net, mold, "dome", dir.path()).unwrap();
     assert_eq!(read(), first);
 }
+
+/// A net is accepted if every node has its place and no cell shears beyond the limit; the verdict says
+/// what is not so.
+#[test]
+fn a_net_is_refused_beyond_its_shear_limit_and_beyond_its_mold() {
+    let [(_, whole), (_, large)] = &nets();
+    let (largest, cell) = whole.report.largest_shear.unwrap();
+    let free = Summary::of(whole, None);
+    assert!(free.accepted && free.table().ends_with("\naccepted\n"), "{}", free.table());
+    assert_eq!(free.max_shear_at.unwrap().cell, cell);
+    assert!(Summary::of(whole, Some(largest)).accepted);
+    let tight = Summary::of(whole, Some(0.5 * largest));
+    assert!(!tight.accepted);
+    assert!(tight.verdict().starts_with("not accepted: shear 5"), "{}", tight.verdict());
+    let beyond = Summary::of(large, None);
+    assert!(!beyond.accepted && beyond.verdict().contains("beyond the mold's border"));
+    assert!(beyond.table().lines().all(|l| l.chars().count() <= 130), "{}", beyond.table());
+}
