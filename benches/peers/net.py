@@ -1,4 +1,4 @@
-"""The peer of the net: the hemisphere of Krogh et al. 2021 as a practitioner would drape it in SciPy.
+"""The peer of the net: the hemisphere of Krogh et al. 2021, as one would drape it in SciPy.
 
 A pin-jointed net of straight bars on the unit sphere z = sqrt(1 - x^2 - y^2), as published with
 KinDrape: cells along the four generator arms are placed one by one, each by SLSQP over the plan
@@ -33,7 +33,7 @@ SEED: Index = (11, 11)
 START = (-MESH / 2.0, -MESH / 2.0)
 RUNS = 5
 
-# Right, up, left, down: where each arm grows, and on which side its cells have their known edge's end.
+# Right, up, left, down: where each arm grows, and on which side its cells' known edge ends.
 AHEAD: list[Index] = [(1, 0), (0, 1), (-1, 0), (0, -1)]
 ASIDE: list[Index] = [(0, 1), (-1, 0), (0, -1), (1, 0)]
 
@@ -44,7 +44,7 @@ def on_sphere(x: float, y: float) -> tuple[float, float, float]:
 
 
 def corners(a: Real, b: Real, c: Real, d: Real) -> list[float]:
-    """Shear of the four corners of the cell a, b, c, d (rad): how far each is from a right angle."""
+    """Shear of the four corners of the cell a, b, c, d (rad): how far each is from 90 degrees."""
     ring = [a, b, c, d]
     shear = []
     for n in range(4):
@@ -60,7 +60,7 @@ def bar(a: Real, b: Real) -> float:
 
 
 def generator_cell(known: tuple[Real, Real], guess: Real) -> tuple[Real, Real, Real]:
-    """The two new nodes of an arm's cell, beside both known ones, and the steps that led to them."""
+    """The two new nodes of an arm's cell, beside both known ones, and the steps to them."""
     first, second = known
 
     def place(steps: Real) -> tuple[Real, Real]:
