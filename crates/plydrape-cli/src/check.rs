@@ -198,9 +198,10 @@ fn target(scene: &Scene) -> String {
     let Some(target) = &scene.target else {
         return "none".into();
     };
-    let Some(layup) = &target.layup else {
+    let Some(net) = &target.drape else {
         return "gripper positions as given".into();
     };
+    let layup = &net.layup;
     let [x, y, z] = layup.place.map(millimetres);
     let [u, v] = [0, 1].map(|n| millimetres(layup.seed[n] as f64 * layup.mesh[n]));
     let mut text = format!(
@@ -208,15 +209,13 @@ fn target(scene: &Scene) -> String {
         degrees(layup.shear),
         degrees(layup.heading)
     );
-    if let Some(net) = &target.net {
-        let [nu, nv] = layup.nodes;
-        let _ = write!(text, "; net of {nu} × {nv} nodes");
-        if let Some((shear, _)) = net.report.largest_shear {
-            let _ = write!(text, ", shear up to {} deg", degrees(shear));
-        }
-        if !net.missing.is_empty() {
-            let _ = write!(text, ", {} without a place on the mold", net.missing.len());
-        }
+    let [nu, nv] = layup.nodes;
+    let _ = write!(text, "; net of {nu} × {nv} nodes");
+    if let Some((shear, _)) = net.report.largest_shear {
+        let _ = write!(text, ", shear up to {} deg", degrees(shear));
+    }
+    if !net.missing.is_empty() {
+        let _ = write!(text, ", {} without a place on the mold", net.missing.len());
     }
     text
 }

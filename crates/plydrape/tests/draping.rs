@@ -3,11 +3,14 @@
 
 use plydrape::draping::record::{CatenaryState, ResultFile};
 use plydrape::draping::simulate;
+use plydrape::mold::{Mold, Plane};
+use plydrape::net::{EdgeRule, Generators, Layup, Net};
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, SlopeRule, Stepping, Target};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::Arc;
 
 fn example(name: &str) -> Scene {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
@@ -219,14 +222,21 @@ fn a_ply_set_down_in_its_target_shape_lies_without_fault() {
     for tilt in [0.0_f64, 12.0] {
         let mut scene = example("01_flat_sheared_mold");
         let (s, c) = tilt.to_radians().sin_cos();
-        scene.mold = Some(plydrape::mold::Mold::Plane(plydrape::mold::Plane {
-            point: [0.0; 3],
-            normal: [-s, 0.0, c],
-        }));
-        let plane = plydrape::mold::Plane { point: [0.0; 3], normal: [-s, 0.0, c] };
-        let ideal = plydrape::scene::FlatDrape::on(&plane, [0.0; 2], 0.0, 20_f64.to_radians());
-        let goal = ideal.grippers(scene.ply.grid, [0.1; 2]);
-        scene.target = Some(Target { grippers: goal.clone(), drape: Some(ideal) });
+        let plane = Mold::Plane(Plane { point: [0.0; 3], normal: [-s, 0.0, c] });
+        let layup = Layup {
+            nodes: [4, 2],
+            mesh: [0.1; 2],
+            seed: [0; 2],
+            place: [0.0; 3],
+            heading: 0.0,
+            shear: 20_f64.to_radians(),
+            generators: Generators::Geodesic,
+            edges: EdgeRule::Along,
+        };
+        let ideal = Net::drape(&plane, layup).expect("a net on a plane");
+        let goal: Vec<[f64; 3]> = ideal.nodes.iter().map(|node| node.expect("a node")).collect();
+        scene.mold = Some(plane);
+        scene.target = Some(Target { grippers: goal.clone(), drape: Some(Arc::new(ideal)) });
         scene.settings.contact.tolerance = 2e-4;
         scene.settings.contact.stepping = Stepping::Cut;
         scene.motion = Motion {

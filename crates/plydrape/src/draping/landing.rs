@@ -36,10 +36,10 @@ fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
 
 /// Lays a contact segment beside the ideal drape; none if that is not known.
 pub fn landing(scene: &Scene, catenary: usize, laid: &Laid) -> Option<Landing> {
-    let drape = scene.target.as_ref()?.drape.as_ref()?;
+    let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
     let line = &laid.line;
     let at = |arc: f64| fabric(scene, catenary, arc / laid.length);
-    let place = |arc: f64| drape.place(at(arc));
+    let place = |arc: f64| drape.place(mold, at(arc));
     let errors = line
         .arc
         .iter()
@@ -54,7 +54,7 @@ pub fn landing(scene: &Scene, catenary: usize, laid: &Laid) -> Option<Landing> {
     let angle = |n: usize| {
         let (from, to) = (line.points[n], line.points[n + 1]);
         let tangent = unit(sub(to, from))?;
-        let fibres = drape.fibres(at(0.5 * (line.arc[n] + line.arc[n + 1])))?;
+        let fibres = drape.fibres(mold, at(0.5 * (line.arc[n] + line.arc[n + 1])))?;
         let fibre = fibres[family?];
         // chords of one curve: the sine is sharp where the cosine is flat
         let sine = crate::mold::vector::norm(crate::mold::vector::cross(tangent, fibre));

@@ -5,9 +5,11 @@
 
 use crate::material::Material;
 use crate::mold::Mold;
+use crate::net::Net;
 use crate::ply::{Direction, Grid, GripperId};
-use crate::scene::{FlatDrape, Limits, Settings};
+use crate::scene::{Limits, Settings};
 use serde::Serialize;
+use std::sync::Arc;
 
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
@@ -49,7 +51,7 @@ pub struct SceneEcho {
     /// Final gripper positions of the ideal drape (m), if the ply is to be draped.
     pub target_grippers: Option<Vec<[f64; 3]>>,
     /// The ideal drape, where it is known.
-    pub ideal_drape: Option<FlatDrape>,
+    pub ideal_drape: Option<Arc<Net>>,
     /// Rules of the model.
     pub settings: Settings,
     /// Limits of an accepted drape.

@@ -172,7 +172,7 @@ impl<'a> Report<'a> {
             warp: scene.ply.warp,
             mold: scene.mold.clone(),
             target_grippers: scene.target.as_ref().map(|target| target.grippers.clone()),
-            ideal_drape: scene.target.as_ref().and_then(|target| target.drape),
+            ideal_drape: scene.target.as_ref().and_then(|target| target.drape.clone()),
             settings: scene.settings,
             limits: scene.limits,
         };

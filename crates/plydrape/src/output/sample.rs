@@ -5,7 +5,7 @@ use crate::draping::record::*;
 use crate::material::{Material, Section};
 use crate::mold::{Mold, Plane};
 use crate::ply::{Catenary, Direction, Grid, Kind};
-use crate::scene::{Contact, ContactEnd, FlatDrape, Limits, Settings, SlopeRule, Stepping};
+use crate::scene::{Contact, ContactEnd, Limits, Settings, SlopeRule, Stepping};
 
 const CELL: f64 = 0.1;
 const SPACING: f64 = 0.098;
@@ -20,11 +20,6 @@ pub(super) fn draped(nu: usize, nv: usize, steps: usize) -> ResultFile {
     let start = positions(grid, SPACING, 0.0, HEIGHT);
     let mut result = frame(grid);
     result.scene.mold = Some(Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }));
-    result.scene.ideal_drape = Some(FlatDrape {
-        origin: [0.0; 3],
-        along_u: [1.0, 0.0, 0.0],
-        along_v: [SHEAR.to_radians().sin(), SHEAR.to_radians().cos(), 0.0],
-    });
     for k in 0..steps {
         let t = k as f64 / (steps.max(2) - 1) as f64;
         let mix = |a: &[f64; 3], b: &[f64; 3]| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));

@@ -26,6 +26,7 @@ mod motion;
 mod places;
 mod quantity;
 mod read;
+mod rectangle;
 mod schema;
 mod start;
 mod target;
@@ -38,7 +39,7 @@ pub use material::shipped_materials;
 pub use schema::schema;
 
 use crate::mold::{MeshReport, Mold};
-use crate::net::{Layup, Net};
+use crate::net::Net;
 use crate::ply::Ply;
 use serde::Serialize;
 use std::path::Path;
@@ -117,23 +118,8 @@ pub struct Motion {
 pub struct Target {
     /// Final gripper positions (m), in the order of [`crate::ply::Grid::index`].
     pub grippers: Vec<[f64; 3]>,
-    /// The ideal drape on a plane, where it is known beyond the grippers.
-    pub drape: Option<FlatDrape>,
-    /// The ideal drape on a curved mold: the grippers are nodes of it.
-    pub net: Option<Arc<Net>>,
-    /// How the ideal drape is laid on the mold; none where the gripper positions were given.
-    pub layup: Option<Layup>,
-}
-
-/// The ideal drape on a plane: a parallelogram, affine in the fabric coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct FlatDrape {
-    /// Place of the fabric point (0, 0) (m).
-    pub origin: [f64; 3],
-    /// Unit vector along u in the mold.
-    pub along_u: [f64; 3],
-    /// Unit vector along v in the mold, sheared from perpendicular by the pre-shear.
-    pub along_v: [f64; 3],
+    /// The ideal drape, of which the grippers are nodes; none where their positions were given.
+    pub drape: Option<Arc<Net>>,
 }
 
 /// Rules of the model that a scene may choose.

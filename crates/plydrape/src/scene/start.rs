@@ -1,5 +1,6 @@
 //! Where the grippers start.
 
+use super::Target;
 use super::check::Surroundings;
 use super::choice::Place;
 use super::error::SceneError;
@@ -8,7 +9,7 @@ use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
 use super::places::Places;
 use super::quantity::{Length, Quantity};
-use super::{FlatDrape, Target};
+use super::rectangle::Rectangle;
 use crate::mold::{Mold, Plane};
 use crate::ply::Grid;
 
@@ -86,7 +87,7 @@ fn rectangle(
                     None => heading_of(&target.grippers, ply.grid),
                 };
                 // gripper [0, 0] as far from the middle as without a shift
-                let unmoved = FlatDrape::on(&plane, [0.0; 2], direction, 0.0);
+                let unmoved = Rectangle::on(&plane, [0.0; 2], direction);
                 let [here, there] =
                     [unmoved.grippers(ply.grid, distances), target.grippers.clone()]
                         .map(|points| middle(&points));
@@ -98,7 +99,7 @@ fn rectangle(
         Some(direction) => heading(direction, document)?,
         None => direction,
     };
-    let mut points = FlatDrape::on(&plane, origin, direction, 0.0).grippers(ply.grid, distances);
+    let mut points = Rectangle::on(&plane, origin, direction).grippers(ply.grid, distances);
     for point in &mut points {
         for (coordinate, n) in point.iter_mut().zip(plane.normal) {
             *coordinate += lift * n;

@@ -1,15 +1,14 @@
 //! Where the ply shall end: the ideal drape on the mold, or positions as given.
 
-use super::FlatDrape;
 use super::Target;
 use super::error::{Document, SceneError};
 use super::file::TargetTable;
 use super::layup::{layup, round};
 use super::located::Located;
 use super::places::Places;
-use crate::mold::{Mold, Plane};
-use crate::net::{Layup, LayupError, Net, Reason};
-use crate::ply::{Grid, Ply};
+use crate::mold::Mold;
+use crate::net::{LayupError, Net, Reason};
+use crate::ply::Ply;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -34,7 +33,7 @@ pub(super) fn target(
         }
         let places = Places::read(positions, ply.grid, document, base)?;
         places.check_run(ply, "at the target")?;
-        return Ok(Target { grippers: places.points, drape: None, net: None, layup: None });
+        return Ok(Target { grippers: places.points, drape: None });
     }
     let Some(mold) = mold else {
         return Err(document.error(
@@ -44,23 +43,16 @@ pub(super) fn target(
         ));
     };
     let layup = layup(keys, &table.span, ply, mold, document)?;
-    if let Mold::Plane(plane) = mold {
-        let drape = FlatDrape::laid(plane, &layup);
-        let grippers = drape.grippers(ply.grid, ply.cell);
-        return Ok(Target { grippers, drape: Some(drape), net: None, layup: Some(layup) });
-    }
     let net = Net::drape(mold, layup).map_err(|error| no_net(keys, table, &error, document))?;
-    let grippers = at_grippers(&net, ply, table, document)?;
     // nodes that hang straight above each other have no span between them
     let places = Places {
-        points: grippers,
+        points: at_grippers(&net, ply, table, document)?,
         document: document.clone(),
         spans: vec![header(table, document)],
         height: None,
     };
     places.check_run(ply, "at the target")?;
-    let net = Some(Arc::new(net));
-    Ok(Target { grippers: places.points, drape: None, net, layup: Some(layup) })
+    Ok(Target { grippers: places.points, drape: Some(Arc::new(net)) })
 }
 
 /// A key that says how the ply is laid on the mold.
@@ -143,95 +135,4 @@ fn at_grippers(
         format!("{missing} of {count} {have} no place on the mold: gripper {id:?} {reason}"),
         help,
     ))
-}
-
-impl FlatDrape {
-    /// The drape of a ply whose seed is laid on a plane.
-    #[must_use]
-    pub fn laid(plane: &Plane, layup: &Layup) -> Self {
-        let [x, y, _] = layup.place;
-        let mut drape = Self::on(plane, [x, y], layup.heading, layup.shear);
-        let [u, v] = [0, 1].map(|n| layup.seed[n] as f64 * layup.mesh[n]);
-        drape.origin =
-            [0, 1, 2].map(|k| drape.origin[k] - u * drape.along_u[k] - v * drape.along_v[k]);
-        drape
-    }
-
-    /// A drape on a plane: fabric point (0, 0) above or below `origin` (x, y in m), u along the
-    /// heading `direction` (rad) as seen from above, v at 90° − `shear` (rad) from u, to its left.
-    #[must_use]
-    pub fn on(plane: &Plane, origin: [f64; 2], direction: f64, shear: f64) -> Self {
-        let [nx, ny, nz] = plane.normal;
-        // u: the heading, lifted into the plane.
-        let (sin, cos) = direction.sin_cos();
-        let climb = -(nx * cos + ny * sin) / nz;
-        let length = climb.hypot(1.0);
-        let along_u = [cos / length, sin / length, climb / length];
-        // v: between u and the perpendicular n × u in the plane.
-        let [ux, uy, uz] = along_u;
-        let left = [ny * uz - nz * uy, nz * ux - nx * uz, nx * uy - ny * ux];
-        let (sin, cos) = shear.sin_cos();
-        let along_v = [0, 1, 2].map(|k| sin * along_u[k] + cos * left[k]);
-
-        let [x, y] = origin;
-        let [px, py, pz] = plane.point;
-        let z = pz - (nx * (x - px) + ny * (y - py)) / nz;
-        FlatDrape { origin: [x, y, z], along_u, along_v }
-    }
-
-    /// Place (m) of the fabric point (u, v) (m).
-    #[must_use]
-    pub fn place(&self, [u, v]: [f64; 2]) -> Option<[f64; 3]> {
-        Some([0, 1, 2].map(|k| self.origin[k] + u * self.along_u[k] + v * self.along_v[k]))
-    }
-
-    /// Unit vectors along the fibres at the fabric point (u, v) (m).
-    #[must_use]
-    pub fn fibres(&self, _uv: [f64; 2]) -> Option<[[f64; 3]; 2]> {
-        Some([self.along_u, self.along_v])
-    }
-
-    /// Places (m) of all grippers, `spacing` (m) apart along u and v, in the order of [`Grid::index`].
-    #[must_use]
-    pub fn grippers(&self, grid: Grid, spacing: [f64; 2]) -> Vec<[f64; 3]> {
-        (0..grid.grippers())
-            .map(|index| {
-                let [i, j] = grid.id(index);
-                let (u, v) = (i as f64 * spacing[0], j as f64 * spacing[1]);
-                [0, 1, 2].map(|k| self.origin[k] + u * self.along_u[k] + v * self.along_v[k])
-            })
-            .collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-        a.iter().zip(b).map(|(x, y)| x * y).sum()
-    }
-
-    proptest! {
-        /// On any plane the sides keep their length, stand at 90° − γ, lie in the plane, and u
-        /// keeps its heading in plan.
-        #[test]
-        fn a_flat_drape_is_a_parallelogram_in_the_plane(
-            tilt in 0.0..1.5f64, climb in -3.0..3.0f64, direction in -6.0..6.0f64, shear in -1.5..1.5f64,
-        ) {
-            let normal = [-tilt.sin() * climb.cos(), -tilt.sin() * climb.sin(), tilt.cos()];
-            let plane = Plane { point: [0.1, -0.2, 0.3], normal };
-            let drape = FlatDrape::on(&plane, [0.4, 0.5], direction, shear);
-            let (u, v) = (drape.along_u, drape.along_v);
-            prop_assert!((dot(u, u) - 1.0).abs() < 1e-13 && (dot(v, v) - 1.0).abs() < 1e-13);
-            prop_assert!((dot(u, v) - shear.sin()).abs() < 1e-13);
-            prop_assert!(dot(u, normal).abs() < 1e-13 && dot(v, normal).abs() < 1e-13);
-            prop_assert!((u[0] * direction.sin() - u[1] * direction.cos()).abs() < 1e-13);
-            prop_assert!(u[0] * direction.cos() + u[1] * direction.sin() > 0.0);
-            let off = [0, 1, 2].map(|k| drape.origin[k] - plane.point[k]);
-            prop_assert!(dot(off, normal).abs() < 1e-13);
-            prop_assert_eq!([drape.origin[0], drape.origin[1]], [0.4, 0.5]);
-        }
-    }
 }
