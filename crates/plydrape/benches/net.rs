@@ -3,8 +3,10 @@
 //! `benches/run` prints these beside a SciPy solver of the same net; `benches/README.md` is its table.
 
 use divan::{Bencher, black_box};
-use plydrape::mold::{Face, Mold, Pose, Sphere};
+use plydrape::mold::{Face, Mesh, Mold, Pose, Sphere};
 use plydrape::net::{EdgeRule, Generators, Layup, Net};
+use std::fmt::Write;
+use std::sync::Arc;
 
 fn main() {
     divan::main();
@@ -56,6 +58,34 @@ fn hemisphere_24_along_geodesic(bencher: Bencher) {
 #[divan::bench(args = [100, 300])]
 fn sphere_along_geodesic(bencher: Bencher, side: usize) {
     let (mold, layup) = (sphere(0.6), fine(side));
+    bencher.bench(|| Net::drape(black_box(&mold), black_box(layup)));
+}
+
+/// A cap of the sphere of 0.6 m radius as 100 352 triangles.
+fn meshed_cap() -> Mold {
+    let (n, radius) = (224, 0.6);
+    let mut text = String::new();
+    let arc = |k: usize| 1.2 * (k as f64 / n as f64 - 0.5);
+    for (i, j) in (0..=n).flat_map(|j| (0..=n).map(move |i| (i, j))) {
+        let (x, y) = (arc(i), arc(j));
+        let angle = x.hypot(y) / radius;
+        let out = radius * angle.sin() / x.hypot(y).max(1e-300);
+        let _ = writeln!(text, "v {:?} {:?} {:?}", out * x, out * y, radius * angle.cos());
+    }
+    for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
+        let a = j * (n + 1) + i + 1;
+        let (b, c, d) = (a + 1, a + n + 2, a + n + 1);
+        let _ = writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}");
+    }
+    let pose = Pose::new([0.0; 3], [0.0; 3]);
+    let (mesh, _) = Mesh::parse("cap.obj", text.as_bytes(), 1.0, &pose).expect("a sound mesh");
+    Mold::Mesh(Arc::new(mesh))
+}
+
+#[divan::bench(args = [100, 300], sample_count = 10)]
+fn mesh_along_geodesic(bencher: Bencher, side: usize) {
+    let mold = meshed_cap();
+    let layup = fine(side);
     bencher.bench(|| Net::drape(black_box(&mold), black_box(layup)));
 }
 

@@ -1,7 +1,11 @@
 //! The ideal drape against closed forms, printed figures, invariants and an independent solver.
 
-use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
+use plydrape::mold::{
+    Cylinder, Face, Graph, Mesh, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus,
+};
 use plydrape::net::{EdgeRule, Generators, Layup, LayupError, Net, Reason};
+use std::fmt::Write;
+use std::sync::Arc;
 
 const BOTH_GENERATORS: [Generators; 2] = [Generators::Geodesic, Generators::LeastShear];
 const BOTH_RULES: [EdgeRule; 2] = [EdgeRule::Along, EdgeRule::Chord];
@@ -398,7 +402,12 @@ fn nodes_beyond_the_border_are_named() {
         for missing in &net.missing {
             let p = missing.near.expect("it was looked for");
             assert!(p[0].abs() > 0.3 || p[1].abs() > 0.2, "{missing}");
-            assert!(missing.beyond > Some(0.0));
+            // on the tangent plane of the border
+            let border = mold.foot(p);
+            let beyond = missing.beyond.expect("beyond the border");
+            assert!(beyond > 0.0 && (beyond - distance(p, border.point)).abs() < 1e-12);
+            let side = [0, 1, 2].map(|n| p[n] - border.point[n]);
+            assert!(dot(side, border.normal).abs() < 1e-12, "{missing}");
         }
         assert_eq!(net.place(&mold, [0.0, 0.0]), None);
         assert!(net.place(&mold, [0.4, 0.4]).is_some() && net.place(&mold, [0.81, 0.4]).is_none());
@@ -461,6 +470,129 @@ fn shear_on_a_sphere_obeys_its_equation_and_folds_where_cells_shut() {
         }
         let first = net.report.first[0].to_string();
         assert!(first.contains("shuts: the ply folds, at ("), "{first}");
+    }
+}
+
+/// n × n cells of two triangles, those that are kept, over the unit square about (0, 0).
+fn meshed(
+    n: usize,
+    place: impl Fn([f64; 2]) -> [f64; 3],
+    keep: impl Fn(usize, usize) -> bool,
+) -> Mold {
+    let mut text = String::new();
+    let at = |k: usize| k as f64 / n as f64 - 0.5;
+    for (i, j) in (0..=n).flat_map(|j| (0..=n).map(move |i| (i, j))) {
+        let [x, y, z] = place([at(i), at(j)]);
+        writeln!(text, "v {x:?} {y:?} {z:?}").unwrap();
+    }
+    for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {
+        let a = j * (n + 1) + i + 1;
+        let (b, c, d) = (a + 1, a + n + 2, a + n + 1);
+        if keep(i, j) {
+            writeln!(text, "f {a} {b} {c}\nf {a} {c} {d}").unwrap();
+        }
+    }
+    let (mesh, _) = Mesh::parse("mold.obj", text.as_bytes(), 1.0, &level()).expect("a sound mesh");
+    Mold::Mesh(Arc::new(mesh))
+}
+
+/// A sphere's cap of 1 × 1 m of arc, its vertices on the sphere.
+fn meshed_cap(radius: f64, n: usize) -> Mold {
+    let on_sphere = |[x, y]: [f64; 2]| {
+        let angle = x.hypot(y) / radius;
+        let out = radius * angle.sin() / x.hypot(y).max(1e-300);
+        [out * x, out * y, radius * angle.cos()]
+    };
+    meshed(n, on_sphere, |_, _| true)
+}
+
+/// Facets of length a lie a²/8R inside the sphere: the nets differ by that order, and Newton's method
+/// gets over the facets' kinks.
+#[test]
+fn net_on_a_mesh_of_a_sphere_tends_to_that_on_the_sphere() {
+    let radius = 0.6;
+    for generators in BOTH_GENERATORS {
+        for edges in BOTH_RULES {
+            let away = [20, 40, 80].map(|n| {
+                let mold = meshed_cap(radius, n);
+                let layup = Layup {
+                    nodes: [41, 41],
+                    mesh: [0.015, 0.015],
+                    seed: [20, 20],
+                    place: mold.drop_to([0.0123, -0.0071]).expect("mold below"),
+                    heading: 0.3,
+                    generators,
+                    edges,
+                    ..published()
+                };
+                let net = drape(&mold, layup);
+                assert_eq!(net.report.placed, 1681, "{:?}", net.report);
+                assert!(net.report.largest_edge_error < 1e-12, "{:?}", net.report);
+                assert!(nodes(&net).all(|(_, p)| mold.signed_distance(p).abs() < 1e-12));
+                let smooth = sphere(radius);
+                let ideal =
+                    drape(&smooth, Layup { place: smooth.closest_point(layup.place), ..layup });
+                nodes(&net)
+                    .map(|(n, p)| distance(p, ideal.node(n).expect("placed")))
+                    .fold(0.0, f64::max)
+            });
+            assert!(away[2] < 1e-4 && away[0] > 8.0 * away[2], "{away:?}");
+        }
+    }
+}
+
+#[test]
+fn a_ply_larger_than_its_mesh_leaves_it_at_the_border() {
+    let mold = meshed_cap(0.6, 40);
+    let layup = Layup {
+        nodes: [31, 31],
+        mesh: [0.04, 0.04],
+        seed: [15, 15],
+        place: mold.drop_to([0.0, 0.0]).expect("mold below"),
+        generators: Generators::Geodesic,
+        edges: EdgeRule::Along,
+        ..published()
+    };
+    let net = drape(&mold, layup);
+    // half a metre of arc holds twelve meshes of 40 mm on the generators
+    for n in 0..31_usize {
+        let held = n.abs_diff(15) <= 12;
+        assert_eq!(net.node([n, 15]).is_some(), held, "{n}");
+        assert_eq!(net.node([15, n]).is_some(), held, "{n}");
+    }
+    let off = net.report.first.iter().find(|m| m.reason == Reason::OffMold).expect("some are off");
+    assert!(off.beyond.is_some_and(|far| far < 0.04), "{off}");
+}
+
+/// A flat mold with a hole of 0.2 × 0.2 m: what lies behind the hole lies as if there were none.
+#[test]
+fn a_ply_goes_on_behind_a_hole() {
+    let in_hole = |i: usize, j: usize| (12..16).contains(&i) && (10..14).contains(&j);
+    let mold = meshed(20, |[x, y]| [x, y, 0.25 * x], |i, j| !in_hole(i, j));
+    for generators in BOTH_GENERATORS {
+        let layup = Layup {
+            nodes: [21, 21],
+            mesh: [0.04, 0.04],
+            seed: [10, 10],
+            place: [0.01, -0.02, 0.0025],
+            heading: 0.0,
+            generators,
+            edges: EdgeRule::Along,
+            ..published()
+        };
+        let net = drape(&mold, layup);
+        assert_eq!((net.report.folded, net.report.unreached), (0, 0));
+        let run = 0.04 / 0.25_f64.hypot(1.0);
+        for j in 0..21_usize {
+            for i in 0..21_usize {
+                let (x, y) = (0.01 + run * (i as f64 - 10.0), -0.02 + 0.04 * (j as f64 - 10.0));
+                let off = x > 0.1 && x < 0.3 && y > 0.0 && y < 0.2;
+                match net.node([i, j]) {
+                    Some(p) => assert!(!off && distance(p, [x, y, 0.25 * x]) < 1e-12, "{i} {j}"),
+                    None => assert!(off, "{i} {j}"),
+                }
+            }
+        }
     }
 }
 

@@ -13,6 +13,7 @@
 
 mod build;
 mod edge;
+mod generators;
 mod layup;
 mod meet;
 mod missing;

@@ -1,0 +1,190 @@
+//! The generators: straight lines over the mold, or strips of cells that keep their shear.
+//!
+//! A straight line takes its direction along from node to node by parallel transport. A strip of least
+//! shear (Krogh et al. 2021) grows from a known edge cell by cell: of the one-parameter family of cells
+//! whose edges have their lengths, the one whose mean shear is the pre-shear.
+
+use super::build::{Build, Node};
+use super::edge::{EdgeRule, straightest};
+use super::meet::{Condition, meet};
+use super::shear::CellShear;
+use super::spot::Spot;
+use crate::mold::vector::{along, cross, dot, sub};
+
+impl Build<'_> {
+    /// The first node from the seed along u, of either sign: where its edge starts off in plan.
+    fn first(&self, seed: &Spot, sign: f64, u: [f64; 3]) -> Result<Spot, Spot> {
+        let length = Condition::Length(seed, self.layup.mesh[0]);
+        let (sin, cos) = self.layup.heading.sin_cos();
+        let course = match self.rule() {
+            EdgeRule::Chord => Condition::Plane(seed, [-sin, cos, 0.0]),
+            EdgeRule::Along => Condition::Straight(seed, cross(seed.normal, u)),
+        };
+        let guess = along(seed.point, sign * self.layup.mesh[0], u);
+        meet(&self.ground, self.rule(), [length, course], guess, self.mesh())
+    }
+
+    /// The next node of a straight line that leaves `from` along the unit tangent `course`.
+    fn straight(&self, from: &Spot, course: [f64; 3], length: f64) -> Result<Spot, Spot> {
+        let conditions = [
+            Condition::Length(from, length),
+            Condition::Straight(from, cross(from.normal, course)),
+        ];
+        let guess = along(from.point, length, course);
+        meet(&self.ground, self.rule(), conditions, guess, self.mesh())
+    }
+
+    /// Four lines from the seed that go straight on over the mold.
+    pub fn geodesics(&mut self, seed: Node, [u, v]: [[f64; 3]; 2]) {
+        let Some(start) = self.at(seed) else { return };
+        let (mut u, mut v) = (u, v);
+        // a first bar gives the direction of both generators
+        if self.rule() == EdgeRule::Chord
+            && let Ok(next) = self.first(&start, 1.0, u)
+        {
+            u = straightest(&start, &next);
+            v = self.layup.across(u, start.normal);
+        }
+        for (step, tangent, length) in [
+            ([1, 0], u, self.layup.mesh[0]),
+            ([-1, 0], u.map(|x| -x), self.layup.mesh[0]),
+            ([0, 1], v, self.layup.mesh[1]),
+            ([0, -1], v.map(|x| -x), self.layup.mesh[1]),
+        ] {
+            let (mut node, mut from, mut course) = (seed, start, tangent);
+            loop {
+                node = [node[0] + step[0], node[1] + step[1]];
+                if self.index(node).is_none() {
+                    break;
+                }
+                match self.straight(&from, course, length) {
+                    Ok(next) => {
+                        self.put(node, next);
+                        course = straightest(&next, &from).map(|x| -x);
+                        from = next;
+                    }
+                    Err(near) => {
+                        self.give_up(node, near);
+                        break;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The seed's first edge and four strips of cells that keep the pre-shear, from its two ends.
+    pub fn least_shear(&mut self, seed: Node, u: [f64; 3]) {
+        let Some(start) = self.at(seed) else { return };
+        // the seed's cell lies ahead, or behind at the net's rim
+        let ahead =
+            [0, 1].map(|n| if self.layup.seed[n] + 1 < self.layup.nodes[n] { 1_isize } else { -1 });
+        let ends = [seed, [seed[0] + ahead[0], seed[1]]];
+        match self.first(&start, ahead[0] as f64, u) {
+            Ok(next) => self.put(ends[1], next),
+            Err(near) => return self.give_up(ends[1], near),
+        }
+        // across u on the side of the seed's cell, then along u from that cell's two other edges
+        self.strip(ends, [0, ahead[1]]);
+        self.strip(ends, [0, -ahead[1]]);
+        let other = |end: Node| [end, [end[0], end[1] + ahead[1]]];
+        self.strip(other(ends[0]), [-ahead[0], 0]);
+        self.strip(other(ends[1]), [ahead[0], 0]);
+    }
+
+    /// Cells one after the other from a known edge, each with its shear at the pre-shear.
+    fn strip(&mut self, edge: [Node; 2], step: Node) {
+        let mut edge = edge;
+        let mut before: Option<[f64; 3]> = None;
+        loop {
+            let next = edge.map(|n| [n[0] + step[0], n[1] + step[1]]);
+            let [Some(a), Some(b)] = edge.map(|n| self.at(n)) else { return };
+            if next.iter().any(|n| self.index(*n).is_none()) {
+                return;
+            }
+            if next.iter().any(|n| self.at(*n).is_none()) {
+                match self.least_shear_cell([(edge[0], a), (edge[1], b)], step, before) {
+                    Ok([c, d]) => {
+                        self.put(next[0], c);
+                        self.put(next[1], d);
+                    }
+                    Err(near) => {
+                        next.iter().for_each(|n| self.give_up(*n, near));
+                        return;
+                    }
+                }
+            }
+            before = self.at(next[0]).map(|c| straightest(&c, &a).map(|x| -x));
+            edge = next;
+        }
+    }
+
+    /// The two nodes beyond a known edge whose cell has the pre-shear: the direction in which the cell's
+    /// side leaves the edge's first node is found by the secant method.
+    fn least_shear_cell(
+        &self,
+        edge: [(Node, Spot); 2],
+        step: Node,
+        before: Option<[f64; 3]>,
+    ) -> Result<[Spot; 2], Spot> {
+        let [(first, a), (second, b)] = edge;
+        let (length, width) = if step[0] != 0 {
+            (self.layup.mesh[0], self.layup.mesh[1])
+        } else {
+            (self.layup.mesh[1], self.layup.mesh[0])
+        };
+        // the side's direction if the corner had the pre-shear itself
+        let along_edge = straightest(&a, &b);
+        let side = [second[0] - first[0], second[1] - first[1]];
+        let left = (side[0] * step[1] - side[1] * step[0]) as f64;
+        let sign = (step[0] + step[1]) as f64 * (side[0] + side[1]) as f64;
+        let (sin, cos) = (sign * self.layup.shear).sin_cos();
+        let across = cross(a.normal, along_edge).map(|x| left * x);
+        let straight = [0, 1, 2].map(|n| cos * across[n] + sin * along_edge[n]);
+        let mut turn =
+            before.map_or(0.0, |t| dot(cross(straight, t), a.normal).atan2(dot(straight, t)));
+
+        let cell = |turn: f64| -> Result<([Spot; 2], f64), Spot> {
+            let (sin, cos) = turn.sin_cos();
+            let around = cross(a.normal, straight);
+            let course = [0, 1, 2].map(|n| cos * straight[n] + sin * around[n]);
+            let near = self.straight(&a, course, length)?;
+            let conditions = [Condition::Length(&b, length), Condition::Length(&near, width)];
+            let guess = along(near.point, 1.0, sub(b.point, a.point));
+            let far = meet(&self.ground, self.rule(), conditions, guess, self.mesh())?;
+            let shear = self.shear_of([(first, a), (second, b)], step, [near, far]);
+            Ok(([near, far], shear - self.layup.shear))
+        };
+        let (mut found, mut miss) = cell(turn)?;
+        // turning the side by dφ changes the shear by ±dφ
+        let mut slope = -left * sign;
+        for _ in 0..30 {
+            if miss.abs() <= 1e-13 {
+                break;
+            }
+            let change = (-miss / slope).clamp(-0.3, 0.3);
+            let (next, missed) = cell(turn + change)?;
+            if missed.abs() >= miss.abs() && miss.abs() < 1e-9 {
+                break;
+            }
+            let rate = (missed - miss) / change;
+            // kept near the flat cell's rate
+            if rate * slope > 0.1 && change.abs() > 1e-9 {
+                slope = rate;
+            }
+            (turn, found, miss) = (turn + change, next, missed);
+        }
+        if miss.abs() <= 1e-9 { Ok(found) } else { Err(found[0]) }
+    }
+
+    /// Signed shear (rad) of the cell between a known edge and its two nodes beyond.
+    fn shear_of(&self, edge: [(Node, Spot); 2], step: Node, beyond: [Spot; 2]) -> f64 {
+        let [(p, a), (q, b)] = edge;
+        let [c, d] = beyond;
+        let moved = |n: Node| [n[0] + step[0], n[1] + step[1]];
+        let mut corners = [(p, a), (q, b), (moved(p), c), (moved(q), d)];
+        // by v and then by u: [i, j], [i+1, j], [i, j+1], [i+1, j+1]
+        corners.sort_by_key(|(n, _)| [n[1], n[0]]);
+        let [s00, s10, s01, s11] = corners.map(|(_, spot)| spot);
+        CellShear::of([&s00, &s10, &s11, &s01], self.rule()).angle
+    }
+}
