@@ -22,11 +22,6 @@ material = "krogh2018"
 kind = "sphere"
 radius = "120 mm"
 position = [0, 0, "-120 mm"]
-[grippers]
-spacing = ["120 mm", "80 mm"]
-height = "200 mm"
-[motion]
-kind = "hold"
 [target]
 seed = "middle"
 mesh = "5 mm"

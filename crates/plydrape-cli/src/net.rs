@@ -1,6 +1,6 @@
 //! `plydrape net`: lays the ply of a scene on its mold as a net, and says how it lies.
 
-use crate::diagnostic::{Done, Failure};
+use crate::diagnostic::Done;
 use plydrape::net::Net;
 use plydrape::output::net::{Summary, write_all};
 use plydrape::output::{OutputError, json};
@@ -17,7 +17,7 @@ Writes nodes.csv, shear.svg, net.vtu and mold.vtu. A file in the folder that ply
 that was edited since, is never overwritten. Not accepted, with exit code 1, is a ply that runs off the
 mold, folds, or shears beyond the scene's limit or the material's locking angle.")]
 pub struct Arguments {
-    /// The scene file; its [target] says where the net begins.
+    /// The scene file; of it [ply], [mold], [target] and [limits] are read.
     scene: PathBuf,
 
     /// Folder of the files; beside the scene, with its name and `.net`, unless given.
@@ -39,27 +39,23 @@ struct Printed<'a> {
 
 /// Lays the net, writes the files and judges.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
-    let scene = plydrape::scene::read(&arguments.scene)?;
-    let (Some(mold), Some(target)) = (&scene.mold, &scene.target) else {
-        return Err(nothing_to_lay("the scene has no [mold] or no [target]"));
-    };
-    let Some(layup) = target.layup else {
-        return Err(nothing_to_lay("the [target] of the scene gives all `positions`"));
-    };
+    let ideal = plydrape::scene::read_ideal_drape(&arguments.scene)?;
+    let (mold, net) = (&ideal.mold, &ideal.net);
+    // once more, to tell how long it takes apart from all else that reading a scene does
     let start = Instant::now();
-    let net = Net::drape(mold, layup).map_err(|error| nothing_to_lay(&error.to_string()))?;
+    let again = Net::drape(mold, net.layup);
     let time_ms = start.elapsed().as_secs_f64() * 1e3;
+    debug_assert_eq!(again.as_ref(), Ok(net));
 
-    let limit = scene.limits.shear.or(scene.ply.material.locking_angle);
-    let summary = Summary::of(&net, limit);
+    let summary = Summary::of(net, ideal.shear_limit);
     let folder = arguments.output.clone().unwrap_or_else(|| arguments.scene.with_extension("net"));
-    let files = write_all(&net, mold, &scene.title, &folder)?;
+    let files = write_all(net, mold, &ideal.title, &folder)?;
     let mut out = io::stdout().lock();
     if arguments.json {
         let printed = Printed { summary: &summary, time_ms };
         write!(out, "{}", json::of(&printed).map_err(OutputError::from)?)?;
     } else if !quiet {
-        writeln!(out, "{}\n", scene.title)?;
+        writeln!(out, "{}\n", ideal.title)?;
         writeln!(out, "{}", summary.table())?;
         for file in files {
             writeln!(out, "wrote {}", file.display())?;
@@ -67,12 +63,4 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     }
     out.flush()?;
     Ok(if summary.accepted { ExitCode::SUCCESS } else { ExitCode::from(1) })
-}
-
-/// A scene that does not say how the ply is laid.
-fn nothing_to_lay(why: &str) -> Failure {
-    Failure::Argument {
-        message: format!("there is no net to lay: {why}"),
-        help: "give a [mold], and a [target] with `origin`, `direction`, `shear` and `seed`".into(),
-    }
 }

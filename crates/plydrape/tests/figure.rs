@@ -25,7 +25,7 @@ fn lowered(grid: Grid, mold: Mold, target: &[[f64; 3]], height: f64, steps: usiz
     scene.ply.grid = grid;
     scene.ply.cell = [0.1; 2];
     scene.mold = Some(mold);
-    scene.target = Some(Target { grippers: target.to_vec(), drape: None, net: None, layup: None });
+    scene.target = Some(Target { grippers: target.to_vec(), drape: None });
     let last = steps - 1;
     scene.motion = Motion {
         times: (0..steps).map(|n| n as f64).collect(),
