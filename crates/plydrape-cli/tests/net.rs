@@ -110,9 +110,9 @@ fn a_quiet_net_prints_nothing_and_overwrites_nothing_foreign() {
 }
 
 /// The hemisphere of Krogh et al. 2021 needs no grippers, and shears by 38.005° at most and 10.533° on the
-/// mean.
+/// mean, the numbers of the peer in `benches/peers/net.py`.
 #[test]
-fn the_hemisphere_of_krogh_2021_shears_as_published() {
+fn the_hemisphere_needs_no_grippers_and_shears_as_its_peer_says() {
     let home = tempfile::tempdir().unwrap();
     let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/hemisphere_net/scene.toml");
     let scene = std::fs::read_to_string(example).unwrap();

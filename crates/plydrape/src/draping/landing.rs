@@ -1,17 +1,21 @@
 //! How far what has landed is from where the ideal drape has the same fabric, and how its fibres run.
 
 use super::spans::Point;
-use crate::mold::vector::{dot, sub, unit};
+use crate::mold::vector::{cross, dot, norm, sub, unit};
 use crate::mold::{Strand, distance};
-use crate::ply::{Kind, Laid};
+use crate::ply::Laid;
 use crate::scene::Scene;
+
+/// Segments shorter than this share of their catenary have no direction worth a name.
+const CRUMB: f64 = 1e-2;
 
 /// A contact segment beside the ideal drape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Landing {
     /// Distance of each point of the segment from its ideal place (m), where that is known.
     pub errors: Vec<Option<f64>>,
-    /// Largest angle between the segment and the ideal fibre (rad) and where it is; edges only.
+    /// Angle between the segment, from end to end, and the same fabric in the ideal drape (rad), and the
+    /// middle of its ends; for edges, where the segment is long enough to have a direction.
     pub fibre_angle: Option<(f64, Point)>,
 }
 
@@ -46,21 +50,14 @@ pub fn landing(scene: &Scene, catenary: usize, laid: &Laid) -> Option<Landing> {
         .zip(&line.points)
         .map(|(arc, point)| place(*arc).map(|ideal| distance(*point, ideal)))
         .collect();
-    let family = match scene.ply.grid.catenary(catenary).kind {
-        Kind::EdgeU => Some(0),
-        Kind::EdgeV => Some(1),
-        Kind::Rising | Kind::Falling => None,
-    };
-    let angle = |n: usize| {
-        let (from, to) = (line.points[n], line.points[n + 1]);
-        let tangent = unit(sub(to, from))?;
-        let fibres = drape.fibres(mold, at(0.5 * (line.arc[n] + line.arc[n + 1])))?;
-        let fibre = fibres[family?];
-        // chords of one curve: the sine is sharp where the cosine is flat
-        let sine = crate::mold::vector::norm(crate::mold::vector::cross(tangent, fibre));
-        Some((sine.atan2(dot(tangent, fibre)), from))
-    };
-    let pieces = 0..line.points.len().saturating_sub(1);
-    let fibre_angle = pieces.filter_map(angle).max_by(|a, b| a.0.total_cmp(&b.0));
+    let fibre_angle = (catenary < scene.ply.grid.edges()).then(|| {
+        let ([from, to], [a, b]) = (laid.arc(), laid.point());
+        let landed = unit(sub(b, a)).filter(|_| to - from > CRUMB * laid.length)?;
+        let ideal = unit(sub(place(to)?, place(from)?))?;
+        // the sine is sharp where the cosine is flat
+        let angle = norm(cross(landed, ideal)).atan2(dot(landed, ideal));
+        Some((angle, [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]))))
+    });
+    let fibre_angle = fibre_angle.flatten();
     Some(Landing { errors, fibre_angle })
 }

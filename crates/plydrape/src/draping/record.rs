@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// A whole result file.
 #[derive(Debug, Clone, Serialize)]
@@ -50,7 +50,7 @@ pub struct SceneEcho {
     pub mold: Option<Mold>,
     /// Final gripper positions of the ideal drape (m), if the ply is to be draped.
     pub target_grippers: Option<Vec<[f64; 3]>>,
-    /// The ideal drape, where it is known.
+    /// The ideal drape, a net, where it is known.
     pub ideal_drape: Option<Arc<Net>>,
     /// Rules of the model.
     pub settings: Settings,
@@ -178,7 +178,7 @@ pub struct ContactState {
     /// Distance of each of these points from its place in the ideal drape (mm); null where that is not
     /// known.
     pub landing_error_mm: Option<Vec<Option<f64>>>,
-    /// Largest angle between the line and the fibre of the ideal drape there (°); edges only.
+    /// Angle between the line, from end to end, and the same fabric in the ideal drape (°); edges only.
     pub fibre_angle_deg: Option<f64>,
 }
 

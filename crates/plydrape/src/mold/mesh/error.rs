@@ -12,7 +12,7 @@ pub enum MeshError {
         source: std::io::Error,
     },
     /// The name of the file does not end as a mesh format.
-    #[error("{file}: the file name ends in `.{extension}`; a mesh ends in .stl, .obj or .inp")]
+    #[error("{file}: {}; the name of a mesh ends in .stl, .obj or .inp", ending(.extension))]
     Format {
         /// The file.
         file: String,
@@ -74,7 +74,9 @@ pub enum MeshError {
         value: f64,
     },
     /// A face names a vertex that is not there.
-    #[error("{file}, line {line}: face {number} uses vertex {vertex} of {vertices}")]
+    #[error(
+        "{file}, line {line}: face {number} uses vertex {vertex}; the file has {vertices} vertices"
+    )]
     Vertex {
         /// The file.
         file: String,
@@ -105,7 +107,7 @@ pub enum MeshError {
     },
     /// A node is defined twice, in two places.
     #[error(
-        "{file}, line {line}: node {node} is defined again at another place; line {before} was the first"
+        "{file}, line {line}: node {node} is defined again at another place; it stands in line {before} already; give it a number of its own"
     )]
     NodeTwice {
         /// The file.
@@ -153,7 +155,7 @@ pub enum MeshError {
     },
     /// All triangles have no area.
     #[error(
-        "{file}: none of the {triangles} triangles has an area; the mesh spans {size:.3e} m, check its unit and its coordinates"
+        "{file}: none of the {triangles} triangles has an area; the mesh spans {size:.4} m; check the coordinates"
     )]
     NoArea {
         /// The file.
@@ -202,8 +204,8 @@ pub enum MeshError {
     },
     /// The surface has one side only, like a Möbius strip.
     #[error(
-        "{file}: the surface has no two sides: {noun}s {} and {} near ({:.4}, {:.4}, {:.4}) m cannot face the same way; cut it there",
-        .numbers[0], .numbers[1], .place[0], .place[1], .place[2]
+        "{file}: the surface has one side only, as a Möbius strip: it meets itself upside down at {} near ({:.4}, {:.4}, {:.4}) m; cut it there",
+        pair(.noun, .numbers), .place[0], .place[1], .place[2]
     )]
     OneSided {
         /// The file.
@@ -231,4 +233,17 @@ pub enum MeshError {
         /// Vertical component of the mean of its normals, weighted by area.
         upwards: f64,
     },
+}
+
+/// How a file name ends.
+fn ending(extension: &str) -> String {
+    match extension {
+        "" => "the file name has no ending".to_owned(),
+        _ => format!("the file name ends in .{extension}"),
+    }
+}
+
+/// Two triangles may come from one face.
+fn pair(noun: &str, [a, b]: &[u64; 2]) -> String {
+    if a == b { format!("{noun} {a}") } else { format!("{noun}s {a} and {b}") }
 }

@@ -154,15 +154,16 @@ impl Reader<'_> {
         self.data = Data::Ignored;
         match name.as_str() {
             "NODE" | "ELEMENT" if value("INPUT").is_some() => {
-                return Err(self.refused("INPUT=", "paste the file in its place"));
+                return Err(
+                    self.refused(&format!("*{name}, INPUT="), "paste the file in its place")
+                );
             }
             "NODE" => {
                 let rectangular =
                     |system: &str| system.is_empty() || system.starts_with(['R', 'r']);
                 if !value("SYSTEM").is_none_or(rectangular) {
-                    return Err(
-                        self.refused("SYSTEM=", "write the nodes in rectangular coordinates")
-                    );
+                    return Err(self
+                        .refused("*NODE, SYSTEM=", "write the nodes in rectangular coordinates"));
                 }
                 self.data = Data::Nodes;
             }
@@ -280,8 +281,12 @@ impl Reader<'_> {
                 Ok(())
             }
             Data::Placing { lines } => {
-                let fields = line.trim_end_matches(',').split(',').map(str::trim);
-                let values = fields.map(|field| match field {
+                let mut fields: Vec<&str> = line.split(',').map(str::trim).collect();
+                // a comma may end the line
+                if matches!(fields[..], [.., ""]) && matches!(fields.len(), 4 | 8) {
+                    fields.pop();
+                }
+                let values = fields.into_iter().map(|field| match field {
                     "" => Ok(0.0),
                     field => self.lines.number(field),
                 });

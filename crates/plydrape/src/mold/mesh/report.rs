@@ -74,14 +74,14 @@ impl fmt::Display for MeshReport {
             self.triangles, self.vertices, self.surfaces, self.closed
         )?;
         let kinds = [
-            (&self.merged, "vertices all but coincide and were merged"),
-            (&self.degenerate, "triangles have no area and were left out"),
-            (&self.duplicate, "triangles repeat another and were left out"),
-            (&self.flipped, "triangles faced the wrong way and were turned over"),
+            (&self.merged, "vertices that all but coincide, merged"),
+            (&self.degenerate, "triangles without area, left out"),
+            (&self.duplicate, "triangles that repeat another, left out"),
+            (&self.flipped, "triangles that faced the wrong way, turned over"),
         ];
         for (finding, what) in kinds {
             if let Some((number, [x, y, z])) = finding.first.first() {
-                write!(f, "\n{} {what}: the first is {number}", finding.count)?;
+                write!(f, "\n{what}: {}, the first is number {number}", finding.count)?;
                 write!(f, " near ({x:.4}, {y:.4}, {z:.4}) m")?;
             }
         }
@@ -91,7 +91,7 @@ impl fmt::Display for MeshReport {
             write!(f, "\na hole of {:.4} m around, near ({x:.4}, {y:.4}, {z:.4}) m", hole.length)?;
         }
         for (kind, count) in &self.skipped {
-            write!(f, "\n{count} line(s) of {kind} elements are no surface and were left out")?;
+            write!(f, "\nlines of {kind} elements, which are no surface, left out: {count}")?;
         }
         Ok(())
     }

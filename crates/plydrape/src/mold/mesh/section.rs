@@ -17,6 +17,9 @@ const IN_PLANE: f64 = 1e-13;
 const ON_LINE: f64 = 1e-9;
 /// A line to a point gives up after this many times the chord.
 const DETOUR: f64 = 4.0;
+/// A line around a closed mesh ends after this many points for each triangle; it crosses each at most
+/// once a round.
+const ROUNDS: usize = 4;
 
 /// A vertical plane, with the side that its vertices count to.
 #[derive(Clone, Copy)]
@@ -128,7 +131,9 @@ impl Cut<'_> {
             }
             match mesh.neighbours[triangle][edge] {
                 NONE => return End::Border,
-                _ if idle > mesh.triangles.len() => return End::Border,
+                _ if idle.max(strand.points.len() / ROUNDS) > mesh.triangles.len() => {
+                    return End::Border;
+                }
                 other => triangle = other as usize,
             }
         }
@@ -138,16 +143,18 @@ impl Cut<'_> {
     /// The crossed triangle that `p` (m) lies in.
     fn start(&self, p: [f64; 3]) -> Option<usize> {
         let tolerance = ON_LINE * self.mesh.size;
+        let reaches = |[low, high]: &[[f64; 3]; 2]| {
+            (0..3).all(|n| low[n] <= p[n] + tolerance && p[n] - tolerance <= high[n])
+        };
         let mut best: Option<(f64, usize)> = None;
-        for triangle in self.mesh.tree.touching(p, tolerance) {
-            let triangle = triangle as usize;
+        self.mesh.tree.visit(reaches, |triangle| {
             let ends = (self.crossing(triangle, true), self.crossing(triangle, false));
-            let (Some((_, a)), Some((_, b))) = ends else { continue };
+            let (Some((_, a)), Some((_, b))) = ends else { return };
             let off = off_segment(a, b, p);
             if off <= tolerance && best.is_none_or(|(least, _)| off < least) {
                 best = Some((off, triangle));
             }
-        }
+        });
         best.map(|(_, triangle)| triangle)
     }
 

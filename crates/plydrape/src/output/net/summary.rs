@@ -126,10 +126,7 @@ impl Summary {
         ];
         for (noun, count, reason) in missing {
             let first = self.first_missing.iter().find(|m| m.reason == reason);
-            lines.push(match first {
-                Some(first) => (noun, format!("{count} nodes; next to the seed, {first}")),
-                None => (noun, "no node".into()),
-            });
+            lines.push((noun, first.map_or("no node".into(), |first| missing_words(count, first))));
         }
         let mut text = String::new();
         for (noun, words) in lines {
@@ -173,6 +170,17 @@ impl ShearPlace {
         ];
         let place = [0, 1, 2].map(|c| ring.iter().map(|p| p[c]).sum::<f64>() / 4.0);
         Some(ShearPlace { cell: [i, j], u, v, place })
+    }
+}
+
+/// How many nodes are missing, and the one next to the seed.
+fn missing_words(count: usize, first: &Missing) -> String {
+    let [i, j] = first.node;
+    let text = format!("{count} nodes; next to the seed [{i}, {j}]");
+    match (first.beyond, first.near) {
+        (Some(beyond), _) => format!("{text}, {:.1} mm beyond the border", beyond * 1e3),
+        (None, Some(near)) => format!("{text} at {} mm", at(near)),
+        (None, None) => text,
     }
 }
 
