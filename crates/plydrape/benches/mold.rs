@@ -45,47 +45,45 @@ fn load() -> Mesh {
 
 static MESH: LazyLock<Mesh> = LazyLock::new(load);
 
-/// How many places are asked for in one sample.
-const PLACES: usize = 1000;
-
-/// Points along a line that winds over the sheet, as the points of a ply do, within `off` (m) of it.
-fn points(off: f64) -> Vec<[f64; 3]> {
-    let at = |n: usize| {
-        let x = (n as f64 / PLACES as f64 * 30.0).fract();
-        let y = n as f64 / PLACES as f64;
-        [x, y, height(x, y) + off * (2.0 * (n as f64 * 0.618_034).fract() - 1.0)]
-    };
-    (0..PLACES).map(at).collect()
+/// Points all over the sheet within `off` (m) of it.
+fn points(off: f64) -> impl FnMut() -> [f64; 3] {
+    let mut n = 0.0;
+    move || {
+        n += 1.0;
+        let [x, y, z] = [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|step: f64| (n * step).fract());
+        [x, y, height(x, y) + off * (2.0 * z - 1.0)]
+    }
 }
 
 /// Everything from the bytes of the file to a mesh that can be asked.
-#[divan::bench(sample_count = 20)]
+#[divan::bench(sample_count = 10)]
 fn load_200k_triangles(bencher: Bencher) {
     LazyLock::force(&FILE);
     bencher.bench(load);
 }
 
-/// 1000 closest points with normal and side, from points that far from the mesh at most (mm).
+/// One closest point with its normal and side, from points that far from the mesh at most (mm).
 #[divan::bench(args = [1, 10, 100])]
-fn feet_on_200k_triangles_1000(bencher: Bencher, off: u32) {
-    let points = points(f64::from(off) * 1e-3);
+fn foot_on_200k_triangles(bencher: Bencher, off: u32) {
     LazyLock::force(&MESH);
-    bencher.bench(|| points.iter().map(|p| MESH.foot(black_box(*p)).distance).sum::<f64>());
+    let mut next = points(f64::from(off) * 1e-3);
+    bencher.with_inputs(|| next()).bench_local_values(|p| MESH.foot(black_box(p)));
 }
 
-/// 1000 lines of 0.1 m along the mesh, each over some 70 triangles.
+/// 0.1 m along the mesh, over some 70 triangles.
 #[divan::bench]
-fn sections_of_100_mm_on_200k_triangles_1000(bencher: Bencher) {
-    let points = points(0.0);
+fn section_of_100_mm_on_200k_triangles(bencher: Bencher) {
     LazyLock::force(&MESH);
-    let line = |p: &[f64; 3]| MESH.section(*p, black_box([0.8, 0.6]), 0.1).length();
-    bencher.bench(|| points.iter().map(line).sum::<f64>());
+    let mut next = points(0.0);
+    bencher.with_inputs(|| next()).bench_local_values(|[x, y, _]| {
+        MESH.section([x, y, height(x, y)], black_box([0.8, 0.6]), 0.1)
+    });
 }
 
-/// 1000 highest points.
+/// The highest point at a place.
 #[divan::bench]
-fn drops_on_200k_triangles_1000(bencher: Bencher) {
-    let points = points(0.0);
+fn drop_to_200k_triangles(bencher: Bencher) {
     LazyLock::force(&MESH);
-    bencher.bench(|| points.iter().filter_map(|p| MESH.drop_to(black_box([p[0], p[1]]))).count());
+    let mut next = points(0.0);
+    bencher.with_inputs(|| next()).bench_local_values(|[x, y, _]| MESH.drop_to(black_box([x, y])));
 }

@@ -37,6 +37,11 @@ pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> Sc
             },
             wanted(expected),
         )
+    } else if head.starts_with("invalid value: string") {
+        (format!("{} is no choice here", document.quoted(&span)), wanted(expected))
+    } else if text == "wanted string or table" {
+        let remedy = "a choice in double quotes is wanted, as in kind = \"plane\"";
+        (format!("{} is {}", document.quoted(&span), kind_of(document, &span)), remedy.into())
     } else if head.starts_with("invalid type") || head.starts_with("invalid value") {
         (format!("{} is {}", document.quoted(&span), kind_of(document, &span)), wanted(expected))
     } else if text.starts_with("duplicate key") {
@@ -89,6 +94,7 @@ fn starts_a_line(document: &Document, at: usize) -> bool {
 /// `a length is wanted, e.g. "98 mm"` from `a length, e.g. "98 mm"`.
 fn wanted(expected: &str) -> String {
     match expected.split_once(", e.g. ") {
+        _ if expected == "a string" => "a text in double quotes is wanted".into(),
         Some((what, example)) => format!("{what} is wanted, e.g. {example}"),
         None => format!("{expected} is wanted"),
     }

@@ -167,7 +167,8 @@ fn given_divisions(
             }
             None => "leave `mesh` out: each side of a cell is then divided by itself".into(),
         };
-        let sides = if cells[1] { format!("{a} mm and {b} mm") } else { format!("{a} mm") };
+        let sides =
+            if cells[1] && a != b { format!("{a} mm and {b} mm") } else { format!("{a} mm") };
         return Err(error(
             format!("{} does not divide cells of {sides} evenly", document.quoted(&width.span)),
             help,
@@ -197,15 +198,17 @@ fn given_divisions(
     Ok(divisions)
 }
 
-/// The width nearest to `value` that divides both cells evenly, if there is one not far from it (m).
+/// The width nearest to `value` that divides both cells evenly and can be written with few digits, if
+/// there is one not far from it (m).
 fn nearest_width(value: f64, ply: &Ply, cells: [bool; 2]) -> Option<f64> {
     let [a, b] = ply.cell;
     let wished = (a / value).round().clamp(1.0, 1e6) as usize;
-    let fits = |count: usize| {
-        let quotient = b * count as f64 / a;
-        !cells[1] || quotient >= 0.5 && is_whole(quotient)
-    };
     let width = |count: usize| a / count as f64;
+    let fits = |count: usize| {
+        let written = round(width(count) * 1e3).parse::<f64>().map_or(f64::NAN, |mm| mm * 1e-3);
+        let counts = [a / written, b / written];
+        is_whole(counts[0]) && (!cells[1] || counts[1] >= 0.5 && is_whole(counts[1]))
+    };
     let counts = wished.saturating_sub(200).max(1)..=wished + 200;
     counts
         .filter(|count| fits(*count))

@@ -1,6 +1,7 @@
 //! From the text of a formula to its operations, by descent: sums hold products, products hold powers.
 
-use super::{FUNCTIONS, FormulaError, FormulaFault, Operation};
+use super::operation::{FUNCTIONS, Operation};
+use super::{FormulaError, FormulaFault};
 use std::ops::Range;
 
 /// Most brackets, signs and powers within each other.

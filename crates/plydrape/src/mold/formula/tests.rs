@@ -1,6 +1,7 @@
 //! What a formula says, and its derivatives against central differences.
 
 use super::*;
+use std::ops::Range;
 
 fn read(text: &str) -> Formula {
     Formula::new(text).unwrap_or_else(|e| panic!("{text}: {e}"))

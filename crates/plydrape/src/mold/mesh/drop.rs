@@ -9,12 +9,9 @@ impl Mesh {
     /// The highest point of the mesh at the place (x, y) (m); none beside the mesh.
     #[must_use]
     pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
-        let over = |[low, high]: &[[f64; 3]; 2]| {
-            low[0] <= x && x <= high[0] && low[1] <= y && y <= high[1]
-        };
         let mut top: Option<f64> = None;
-        self.tree.visit(over, |triangle| {
-            let corners = self.corners(triangle);
+        for triangle in self.tree.over([x, y]) {
+            let corners = self.corners(triangle as usize);
             // weights of the corners in plan, times twice the area there
             let weights = [1, 2, 0].map(|k| {
                 let (p, q) = (corners[k], corners[(k + 1) % 3]);
@@ -27,7 +24,7 @@ impl Mesh {
                 let z = (0..3).map(|k| weights[k] * corners[k][2]).sum();
                 top = Some(top.map_or(z, |top: f64| top.max(z)));
             }
-        });
+        }
         top.map(|z| [x, y, z])
     }
 }

@@ -6,6 +6,7 @@
 
 use super::closest::{Weights, closest};
 use super::orient::NONE;
+use super::query::Near;
 use super::{Mesh, fan};
 use crate::mold::Foot;
 use crate::mold::vector::{cross, dot, norm, sub, unit};
@@ -44,19 +45,17 @@ impl Mesh {
 
     /// The point of the mesh closest to `p` (m).
     pub(super) fn spot(&self, p: [f64; 3]) -> Spot {
-        // of a point that is no number, or too far away to tell
-        let first = self.corners(0)[0];
-        let mut best = Spot { triangle: 0, weights: [1.0, 0.0, 0.0], point: first };
-        self.tree.nearest(p, |triangle, least| {
-            let (weights, point, square) = closest(self.corners(triangle), p);
-            if square < least {
-                best = Spot { triangle, weights, point };
-                square
-            } else {
-                least
+        let near = |triangle: u32| {
+            let (weights, point, square) = closest(self.corners(triangle as usize), p);
+            Near { square, what: (weights, point) }
+        };
+        match self.tree.nearest(p, near) {
+            Some((triangle, Near { what: (weights, point), .. })) => {
+                Spot { triangle: triangle as usize, weights, point }
             }
-        });
-        best
+            // no number, or too far away to tell
+            None => Spot { triangle: 0, weights: [1.0, 0.0, 0.0], point: self.corners(0)[0] },
+        }
     }
 
     /// Smooth unit normal.

@@ -19,13 +19,13 @@ mod join;
 mod normals;
 mod obj;
 mod orient;
+mod query;
 mod read;
 mod report;
 mod section;
 mod soup;
 mod stl;
 mod text;
-mod tree;
 
 pub use border::Border;
 pub use error::MeshError;
@@ -60,7 +60,7 @@ pub struct Mesh {
     #[serde(skip)]
     size: f64,
     #[serde(skip)]
-    tree: tree::Tree,
+    tree: query::Tree,
     /// Shape operator of each vertex, once asked for.
     #[serde(skip)]
     shapes: OnceLock<Vec<curvature::Symmetric>>,

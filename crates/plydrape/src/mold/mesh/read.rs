@@ -1,10 +1,9 @@
 //! From a file to a mold: reading, placing, joining, turning, borders.
 
-use super::join::Joined;
-use super::orient::{NONE, Neighbours, neighbours, orient};
+use super::orient::{neighbours, orient};
+use super::query::Tree;
 use super::report::MeshReport;
 use super::soup::Soup;
-use super::tree::Tree;
 use super::{Mesh, MeshError, border, bounds, fan, inp, join, normals, obj, stl};
 use crate::mold::Pose;
 use crate::mold::vector::distance;
@@ -98,16 +97,15 @@ fn build(
     drop(soup);
     let mut neighbours = neighbours(&joined, file, noun)?;
     let (component, components) = orient(&mut joined, &mut neighbours, file, noun, &mut report)?;
-    let around = |corners: &[u32; 3]| bounds(corners.iter().map(|n| &joined.vertices[*n as usize]));
-    let (tree, order) = Tree::new(&joined.triangles.iter().map(around).collect::<Vec<_>>());
-    let component: Vec<u32> = order.iter().map(|n| component[*n as usize]).collect();
-    let (mut joined, neighbours) = reorder(&joined, &neighbours, &order);
     let fans = fan::split(&mut joined, &neighbours);
 
-    let Joined { vertices, triangles, .. } = joined;
+    let join::Joined { vertices, triangles, .. } = joined;
     let triangle_normals = normals::of_triangles(&vertices, &triangles);
     let vertex_normals = normals::of_vertices(&vertices, &triangles, &triangle_normals);
     let borders = border::borders(&vertices, &triangles, &neighbours, &component, &components);
+    let tree = Tree::new(
+        triangles.iter().map(|corners| bounds(corners.iter().map(|n| &vertices[*n as usize]))),
+    );
     report.vertices = vertices.len();
     report.triangles = triangles.len();
     report.surfaces = components.len();
@@ -128,27 +126,4 @@ fn build(
         shapes: OnceLock::new(),
     };
     Ok((mesh, report))
-}
-
-/// The same mesh with its triangles in another order, and its vertices in the order of their use.
-fn reorder(mesh: &Joined, neighbours: &Neighbours, order: &[u32]) -> (Joined, Neighbours) {
-    let mut place = vec![NONE; order.len()];
-    order.iter().zip(0..).for_each(|(old, new)| place[*old as usize] = new);
-    let mut index = vec![NONE; mesh.vertices.len()];
-    let mut vertices = Vec::with_capacity(mesh.vertices.len());
-    let mut triangles = Vec::with_capacity(order.len());
-    for old in order {
-        triangles.push(mesh.triangles[*old as usize].map(|n| {
-            let index = &mut index[n as usize];
-            if *index == NONE {
-                *index = vertices.len() as u32;
-                vertices.push(mesh.vertices[n as usize]);
-            }
-            *index
-        }));
-    }
-    let moved = |n: u32| if n == NONE { NONE } else { place[n as usize] };
-    let neighbours = order.iter().map(|old| neighbours[*old as usize].map(moved)).collect();
-    let numbers = order.iter().map(|old| mesh.numbers[*old as usize]).collect();
-    (Joined { vertices, triangles, numbers }, neighbours)
 }

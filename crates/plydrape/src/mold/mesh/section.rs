@@ -143,18 +143,16 @@ impl Cut<'_> {
     /// The crossed triangle that `p` (m) lies in.
     fn start(&self, p: [f64; 3]) -> Option<usize> {
         let tolerance = ON_LINE * self.mesh.size;
-        let reaches = |[low, high]: &[[f64; 3]; 2]| {
-            (0..3).all(|n| low[n] <= p[n] + tolerance && p[n] - tolerance <= high[n])
-        };
         let mut best: Option<(f64, usize)> = None;
-        self.mesh.tree.visit(reaches, |triangle| {
+        for triangle in self.mesh.tree.touching(p, tolerance) {
+            let triangle = triangle as usize;
             let ends = (self.crossing(triangle, true), self.crossing(triangle, false));
-            let (Some((_, a)), Some((_, b))) = ends else { return };
+            let (Some((_, a)), Some((_, b))) = ends else { continue };
             let off = off_segment(a, b, p);
             if off <= tolerance && best.is_none_or(|(least, _)| off < least) {
                 best = Some((off, triangle));
             }
-        });
+        }
         best.map(|(_, triangle)| triangle)
     }
 

@@ -25,6 +25,13 @@ pub(super) fn heights(
         points.push(point(&row, [0, 1, 2])?);
         spans.push(row.span.clone());
     }
+    if points.is_empty() {
+        return Err(document.error(
+            csv.header.clone(),
+            "there is no row below the header",
+            "give every node of the grid one row with x, y and z",
+        ));
+    }
     let axes = [0, 1].map(|n| axis(&points, n));
     let z = in_order(&axes, &points, &spans, &document, &csv.header)?;
     let [x, y] = axes;

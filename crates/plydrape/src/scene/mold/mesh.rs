@@ -25,7 +25,8 @@ pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), Scene
     let parse = |scale: f64, pose: &Pose| Mesh::parse(&file.value, &bytes, scale, pose);
     let Some(unit) = &keys.table.unit else {
         // how big the mold would be, in the unit of the file
-        let (mesh, _) = parse(1.0, &Pose::new([0.0; 3], [0.0; 3])).map_err(at_file)?;
+        let turned = Pose { position: [0.0; 3], ..keys.pose()? };
+        let (mesh, _) = parse(1.0, &turned).map_err(at_file)?;
         let [low, high] = mesh.bounds();
         let [x, y, z] = [0, 1, 2].map(|n| round(high[n] - low[n]));
         return Err(document.error(
@@ -38,19 +39,13 @@ pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), Scene
     };
     let scale = match units::unit(&unit.value) {
         Ok((size, Dimension::LENGTH)) => size,
-        Ok((_, other)) => {
-            return Err(document.error(
-                unit.span.clone(),
-                format!("{} is the unit of {other}", document.quoted(&unit.span)),
-                "the unit of a length is wanted: mm, cm, m or in",
-            ));
-        }
-        Err(fault) => {
-            return Err(document.error(
-                unit.span.clone(),
-                format!("{} is no unit: {fault}", document.quoted(&unit.span)),
-                format!("the unit of a length is wanted: mm, cm, m or in; {}", fault.help()),
-            ));
+        found => {
+            let message = match found {
+                Ok((_, other)) => format!("{} is the unit of {other}", document.quoted(&unit.span)),
+                Err(_) => format!("{} is no unit known here", document.quoted(&unit.span)),
+            };
+            let help = "the unit of a length is wanted: \"mm\", \"cm\", \"m\" or \"in\"";
+            return Err(document.error(unit.span.clone(), message, help));
         }
     };
     let (mesh, report) = parse(scale, &keys.pose()?).map_err(at_file)?;
@@ -61,6 +56,9 @@ pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), Scene
 fn in_two(error: &MeshError) -> (String, String) {
     let text = error.to_string();
     match text.split_once("; ") {
+        Some((message, "is it complete?")) => {
+            (message.into(), "is the file complete? copy or export it once more".into())
+        }
         Some((message, help)) => (message.into(), help.into()),
         None => (text, "correct the file, or export the mold's surface anew".into()),
     }

@@ -98,9 +98,9 @@ impl Keys<'_> {
             format!("a mold of kind \"{}\" has no `{key}`", kind.name()),
             format!(
                 "`{key}` belongs to kind {}; \"{}\" takes {}",
-                owners.join(", "),
+                listed(&owners),
                 kind.name(),
-                own.join(", ")
+                listed(&own)
             ),
         ))
     }
@@ -148,5 +148,14 @@ impl Keys<'_> {
             )),
             _ => Ok(pose),
         }
+    }
+}
+
+/// Words with commas and an `and`.
+fn listed(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [only] => only.clone(),
+        [most @ .., last] => format!("{} and {last}", most.join(", ")),
     }
 }
