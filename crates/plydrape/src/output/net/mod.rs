@@ -3,7 +3,7 @@
 //! [`write_all`] puts four files into a folder:
 //!
 //! - `nodes.csv`, where every point of the fabric should end ([`nodes`]);
-//! - `shear.svg`, the shear map ([`figure::shear_map`](super::figure::shear_map));
+//! - `shear.svg`, the shear map ([`figure::shear_map`]);
 //! - `net.vtu` and `mold.vtu` for ParaView and other readers of VTK's files ([`vtu`]).
 //!
 //! [`Summary`] says in a few numbers how the net lies, and judges it.
