@@ -3,6 +3,7 @@
 mod check;
 mod complete;
 mod diagnostic;
+mod net;
 mod new;
 mod numbers;
 mod schema;
@@ -36,6 +37,7 @@ Exit codes:
 #[derive(Debug, Subcommand)]
 enum Command {
     Simulate(simulate::Arguments),
+    Net(net::Arguments),
     Check(check::Arguments),
     Span(span::Arguments),
     New(new::Arguments),
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
     let Cli { command, quiet } = Cli::parse();
     let done = match command {
         Command::Simulate(arguments) => simulate::run(&arguments, quiet),
+        Command::Net(arguments) => net::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Span(arguments) => span::run(&arguments),
         Command::New(arguments) => new::run(&arguments, quiet),

@@ -2,7 +2,7 @@
 
 use plydrape::draping::record::ResultFile;
 use plydrape::draping::simulate;
-use plydrape::mold::{Cylinder, Face, Graph, Mesh, Mold, Pose, Saddle, Sphere, Surface};
+use plydrape::mold::{Cylinder, Face, Formula, Graph, Mesh, Mold, Pose, Saddle, Sphere, Surface};
 use plydrape::ply::Grid;
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Stepping};
 use std::ops::ControlFlow;
@@ -208,5 +208,77 @@ fn a_mesh_of_a_sphere_drapes_like_the_sphere() {
         let edge = 0.5 / n as f64;
         let error = edge * edge / (8.0 * radius) * 1e3;
         assert!(drift < 2.5 * error + 5e-4, "{n}: {drift} mm, the mesh is {error} mm off");
+    }
+}
+
+/// The dome of the examples, its straight paths followed to 96 %: with a finer tolerance what has landed no
+/// longer depends on the number of steps, and tends to one drape.
+#[test]
+fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
+    let scene = example("04_dome");
+    let (first, last) = (&scene.motion.positions[0], &scene.motion.positions[29]);
+    // share of the edges in contact, and landing error of the edges (mm)
+    let landed = |steps: usize, tolerance: f64| -> [f64; 2] {
+        let mut scene = scene.clone();
+        let stepping = Stepping::Cut;
+        scene.settings.contact = Contact { tolerance, stepping, end: ContactEnd::Tangent };
+        let at = |t: f64| -> Vec<[f64; 3]> {
+            let mix = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
+            first.iter().zip(last).map(mix).collect()
+        };
+        let part = |n: usize| 0.96 * n as f64 / (steps - 1) as f64;
+        scene.motion = Motion {
+            times: (0..steps).map(|n| n as f64).collect(),
+            positions: (0..steps).map(|n| at(part(n))).collect(),
+        };
+        let result = drape(&scene);
+        let last = result.steps.last().expect("steps");
+        let edges = last.catenaries.iter().filter(|c| c.kind == "edge");
+        let contacts = edges.filter_map(|c| c.contact.as_ref());
+        let errors = contacts.flat_map(|c| c.landing_error_mm.iter().flatten().flatten());
+        let error = errors.copied().fold(0.0, f64::max);
+        [last.measures.contact_share.expect("a mold"), error]
+    };
+    // middle and spread over the numbers of steps
+    let over_steps = |tolerance: f64| -> [[f64; 2]; 2] {
+        let found = [30, 60, 120, 240].map(|steps| landed(steps, tolerance));
+        [0, 1].map(|n| {
+            let low = found.iter().map(|f| f[n]).fold(f64::INFINITY, f64::min);
+            let high = found.iter().map(|f| f[n]).fold(0.0, f64::max);
+            [0.5 * (low + high), high - low]
+        })
+    };
+    let [coarse, fine, finest] = [2e-4, 5e-5, 2.5e-5].map(over_steps);
+    for n in 0..2 {
+        assert!(finest[n][1] < 0.6 * coarse[n][1], "{n}: spread {coarse:?} {finest:?}");
+        let (step, before) = (finest[n][0] - fine[n][0], fine[n][0] - coarse[n][0]);
+        assert!(step.abs() < 0.6 * before.abs(), "{n}: middle {coarse:?} {fine:?} {finest:?}");
+    }
+    assert!(finest[0][1] < 0.02 && finest[1][1] < 0.02, "{finest:?}");
+}
+
+/// The same sphere as a closed form and as a formula drapes the same.
+#[test]
+fn a_sphere_as_a_formula_drapes_like_the_sphere() {
+    let radius = 0.6;
+    let along = |s| on_circle(radius, s);
+    let pose = Pose::new([0.0, 0.0, -radius], [0.0; 3]);
+    let sphere = Mold::Sphere(Sphere { pose, radius, face: Face::Outside });
+    let z = Formula::new("sqrt(0.36 - x^2 - y^2) - 0.6").expect("a formula");
+    let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Formula { z });
+    let domain = Some([[-0.4, 0.4], [-0.4, 0.4]]);
+    let formula = Mold::Graph(Graph { pose, surface, domain });
+    let [exact, found] = [sphere, formula].map(|mold| rolled(mold, along, 60, 2e-4, Stepping::Cut));
+    for (a, b) in exact.steps.iter().zip(&found.steps) {
+        for (a, b) in a.catenaries.iter().zip(&b.catenaries) {
+            let (Some(a), Some(b)) = (&a.contact, &b.contact) else {
+                assert_eq!(a.contact.is_some(), b.contact.is_some());
+                continue;
+            };
+            for (a, b) in a.arc.iter().zip(b.arc) {
+                assert!((a - b).abs() < 1e-7, "{a} {b}");
+            }
+            assert!(distance(a.points[0], b.points[0]) < 1e-7);
+        }
     }
 }

@@ -80,7 +80,7 @@ fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
-fn text(table: Writer<Vec<u8>>) -> Result<String, Error> {
+pub(super) fn text(table: Writer<Vec<u8>>) -> Result<String, Error> {
     let bytes = table.into_inner().map_err(|e| e.into_error())?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }

@@ -7,7 +7,7 @@
 //! - `steps.csv` and `trajectory.csv`, with units in their headers ([`csv`]);
 //! - `figure.svg`, three chosen steps in 3D ([`figure`]).
 //!
-//! [`table`] prints steps and verdict for people, [`folder`] writes files whole or not at all.
+//! [`net`] does the same for a net, the ideal drape. [`table`] prints steps and verdict for people, [`folder`] writes files whole or not at all.
 
 pub mod csv;
 mod error;
@@ -16,6 +16,7 @@ mod finite;
 pub mod folder;
 pub mod json;
 mod manifest;
+pub mod net;
 pub mod table;
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use std::path::Path;
 /// Most grippers along u or v.
 const MOST_GRIPPERS: i64 = 1000;
 /// Largest gripper tilt unless given, as in Krogh et al. 2018 (rad).
-const MAX_TILT: f64 = 40.0 * std::f64::consts::PI / 180.0;
+pub(super) const MAX_TILT: f64 = 40.0 * std::f64::consts::PI / 180.0;
 /// Largest angle between landed edges and the fibres of the ideal drape unless given (rad).
 const FIBRE_ANGLE: f64 = 3.0 * std::f64::consts::PI / 180.0;
 /// Smallest and largest finite axial stiffness (N).
@@ -70,7 +70,7 @@ pub(super) fn scene(
 }
 
 /// The file's name without its ending; its folder's, if the file is just `scene.toml`.
-fn title(document: &Document, base: &Path) -> String {
+pub(super) fn title(document: &Document, base: &Path) -> String {
     let stem = Path::new(&document.file).file_stem().unwrap_or_default();
     match base.file_name() {
         Some(folder) if stem == "scene" => folder.to_string_lossy().into_owned(),
@@ -78,7 +78,7 @@ fn title(document: &Document, base: &Path) -> String {
     }
 }
 
-fn ply(table: &PlyTable, document: &Document, base: &Path) -> Result<Ply, SceneError> {
+pub(super) fn ply(table: &PlyTable, document: &Document, base: &Path) -> Result<Ply, SceneError> {
     let [nu, nv] = &table.grippers.value.0;
     let grid =
         Grid { nu: gripper_count(nu, 2, "u", document)?, nv: gripper_count(nv, 1, "v", document)? };
@@ -222,7 +222,7 @@ fn settings(file: &SceneFile, ply: &Ply, document: &Document) -> Result<Settings
     })
 }
 
-fn limits(
+pub(super) fn limits(
     table: &LimitsTable,
     ply: &Ply,
     max_tilt: f64,

@@ -18,6 +18,7 @@ mod csv;
 mod error;
 mod file;
 mod heading;
+mod ideal;
 mod layup;
 mod located;
 mod material;
@@ -35,6 +36,7 @@ mod units;
 
 pub use argument::{Measured, quantity};
 pub use error::SceneError;
+pub use ideal::IdealDrape;
 pub use material::shipped_materials;
 pub use schema::schema;
 
@@ -53,15 +55,29 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 /// # Errors
 /// The first fault found, with its place and a remedy.
 pub fn read(path: &Path) -> Result<Scene, SceneError> {
+    let (document, base) = open(path)?;
+    scene(&document, base)
+}
+
+/// Reads of a scene file what its ideal drape needs, `[ply]`, `[mold]`, `[target]` and `[limits]`, and
+/// lays the ply; files it names are relative to its folder.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy. A ply that runs off the mold or folds is none.
+pub fn read_ideal_drape(path: &Path) -> Result<IdealDrape, SceneError> {
+    let (document, base) = open(path)?;
+    ideal::ideal_drape(&keys(&document)?, &document, base)
+}
+
+/// The text of a scene file, and the folder of the files it names.
+fn open(path: &Path) -> Result<(error::Document, &Path), SceneError> {
     let mut document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML);
     if let Err(error) = &mut document
         && !path.exists()
     {
         error.help += "; `plydrape new NAME` writes a scene to start from";
     }
-    let document = document?;
-    let base = path.parent().unwrap_or(Path::new(""));
-    scene(&document, base)
+    Ok((document?, path.parent().unwrap_or(Path::new(""))))
 }
 
 /// Reads and checks the text of a scene; files it names are relative to `base`, and `name` stands
@@ -74,13 +90,17 @@ pub fn parse(text: &str, base: &Path, name: &str) -> Result<Scene, SceneError> {
 }
 
 fn scene(document: &error::Document, base: &Path) -> Result<Scene, SceneError> {
+    check::scene(&keys(document)?, document, base)
+}
+
+fn keys(document: &error::Document) -> Result<file::SceneFile, SceneError> {
     if document.text.trim().is_empty() {
         return Err(document.error_anywhere(
             format!("`{}` is empty", document.file),
             "`plydrape new NAME` writes a commented scene to start from",
         ));
     }
-    check::scene(&read::keys(document)?, document, base)
+    read::keys(document)
 }
 
 /// A checked scene.

@@ -42,8 +42,7 @@ pub(super) fn target(
             "add [mold] with kind = \"plane\", or give the target's `positions`",
         ));
     };
-    let layup = layup(keys, &table.span, ply, mold, document)?;
-    let net = Net::drape(mold, layup).map_err(|error| no_net(keys, table, &error, document))?;
+    let net = net(table, ply, mold, document)?;
     // nodes that hang straight above each other have no span between them
     let places = Places {
         points: at_grippers(&net, ply, table, document)?,
@@ -53,6 +52,18 @@ pub(super) fn target(
     };
     places.check_run(ply, "at the target")?;
     Ok(Target { grippers: places.points, drape: Some(Arc::new(net)) })
+}
+
+/// Lays the ply on the mold; nodes without a place are no fault here.
+pub(super) fn net(
+    table: &Located<TargetTable>,
+    ply: &Ply,
+    mold: &Mold,
+    document: &Document,
+) -> Result<Net, SceneError> {
+    let keys = &table.value;
+    let layup = layup(keys, &table.span, ply, mold, document)?;
+    Net::drape(mold, layup).map_err(|error| no_net(keys, table, &error, document))
 }
 
 /// A key that says how the ply is laid on the mold.

@@ -27,14 +27,18 @@ pub(super) struct Frame {
 
 /// Round numbers (mm) within a range (m), at most so many intervals.
 pub(super) fn ticks(low: f64, high: f64, most: f64) -> Vec<f64> {
-    let (low, high) = (low * 1e3, high * 1e3);
+    round(low * 1e3, high * 1e3, most)
+}
+
+/// Round numbers within a range, at most so many intervals.
+pub(super) fn round(low: f64, high: f64, most: f64) -> Vec<f64> {
     let raw = (high - low) / most.max(1.0);
     if !raw.is_finite() || raw <= 0.0 {
         return Vec::new();
     }
     let ten = 10f64.powf(raw.log10().floor());
-    let round = [1.0, 2.0, 5.0, 10.0].map(|m| m * ten);
-    let step = round.into_iter().find(|s| *s >= raw * 0.999).unwrap_or(10.0 * ten);
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|m| m * ten);
+    let step = steps.into_iter().find(|s| *s >= raw * 0.999).unwrap_or(10.0 * ten);
     let (first, last) = ((low / step - 1e-6).ceil(), (high / step + 1e-6).floor());
     if !(first.abs() < 1e12 && last - first < 1e3) {
         return Vec::new();
@@ -60,8 +64,10 @@ impl Frame {
             end[axis] = self.high[axis];
             let ([ax, ay], [bx, by]) = (view.at(self.low), view.at(end));
             let room = [62.0, 34.0, 28.0][axis];
-            let most = ((bx - ax).hypot(by - ay) / room).floor();
-            ticks(self.low[axis], self.high[axis], most.clamp(2.0, 10.0))
+            let most = ((bx - ax).hypot(by - ay) / room).floor().clamp(2.0, 10.0);
+            let found = ticks(self.low[axis], self.high[axis], most);
+            // a lone tick gives no scale
+            if found.len() > 1 { found } else { ticks(self.low[axis], self.high[axis], 2.0 * most) }
         })
     }
 

@@ -13,6 +13,11 @@ pub(super) const GRID: Ink = Ink([223, 226, 231], 1.0);
 pub(super) const FRAME: Ink = Ink([160, 166, 175], 1.0);
 /// The mold.
 pub(super) const MOLD: Ink = Ink([214, 220, 228], 0.75);
+/// A curved mold turned away from the light, and towards it.
+pub(super) const MOLD_DARK: Ink = Ink([138, 146, 158], 1.0);
+pub(super) const MOLD_LIGHT: Ink = Ink([240, 243, 246], 1.0);
+/// Grid lines on a curved mold.
+pub(super) const MOLD_EDGE: Ink = Ink([176, 183, 193], 1.0);
 /// The outline of the target on the mold.
 pub(super) const TARGET: Ink = Ink([88, 98, 112], 1.0);
 /// Fabric lines on the surface.

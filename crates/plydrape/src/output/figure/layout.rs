@@ -1,10 +1,12 @@
 //! The sheet: title, panels one above the other, colour bar, legend.
 
 use super::axes::{self, Frame, ROOM, plain};
+use super::bar::bar;
 use super::canvas::{self, Canvas, Px, Type};
-use super::colour::{BLACK, DARK, FRAME, RED, TARGET, viridis};
-use super::panel::{MOST_MARK, Stage, gripper_radius};
+use super::colour::{BLACK, DARK, RED, TARGET};
+use super::panel::{Ground, MOST_MARK, Stage, colour_value, curved, gripper_radius};
 use super::projection::{Point, View};
+use super::relief::Relief;
 use super::{FigureError, points};
 use crate::draping::record::{ResultFile, Step};
 use crate::mold::Mold;
@@ -19,6 +21,9 @@ const HEIGHT: [f64; 2] = [430.0, 285.0];
 const HEAD: f64 = 46.0;
 const TITLE: f64 = 20.0;
 const LEGEND: f64 = 42.0;
+/// How far a curved mold is drawn beyond the ply, and at most below and above it, as shares of the width.
+const MARGIN: f64 = 0.1;
+const DEEP: f64 = 0.35;
 
 /// Draws the whole sheet.
 pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, FigureError> {
@@ -36,7 +41,7 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
 
     let mut text = String::new();
     let mut canvas = Canvas::new(&mut text, size)?;
-    canvas.text(&title(result), [28.0, 26.0], heading(17.0))?;
+    canvas.text(&title(&result.scene.title), [28.0, 26.0], heading(17.0))?;
     let free = PANELS - ROOM[0] - ROOM[2] - wide * scale;
     for (k, step) in steps.iter().enumerate() {
         let top = HEAD + panel * k as f64;
@@ -47,22 +52,23 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
     }
     // Lines alone carry no colour of height.
     if result.scene.grid.cells() > 0 {
-        bar(&mut canvas, stage.scale, [HEAD + 40.0, size[1] - LEGEND - 24.0])?;
+        let name = if curved(result).is_some() { "gap (mm)" } else { "z (mm)" };
+        let between = [HEAD + 40.0, size[1] - LEGEND - 24.0];
+        bar(&mut canvas, name, stage.scale.map(|v| v * 1e3), PANELS + 24.0, between)?;
     }
     legend(&mut canvas, &stage, steps, size[1] - LEGEND / 2.0 - 4.0)?;
     canvas.finish()?;
     Ok(canvas::at_size(&text, size))
 }
 
-fn heading(size: f64) -> Type {
+pub(super) fn heading(size: f64) -> Type {
     Type { size, bold: true, ink: DARK, side: -1 }
 }
 
-/// The scene's title, cut to the width of the sheet.
-fn title(result: &ResultFile) -> String {
-    let title = &result.scene.title;
+/// A title, cut to the width of the sheet.
+pub(super) fn title(title: &str) -> String {
     if title.chars().count() <= 80 {
-        return title.clone();
+        return title.to_owned();
     }
     title.chars().take(79).chain(['…']).collect()
 }
@@ -83,14 +89,22 @@ fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
         1.0 => String::new(),
         more => format!("  (z exaggerated {} ×)", axes::label(more)),
     };
-    format!("iteration {number}{what}{note}")
+    let gap = match (curved(result), &step.measures.gap_mm) {
+        (Some(_), Some(gap)) => format!("  (gap to the mold up to {:.1} mm)", gap.value),
+        _ => String::new(),
+    };
+    format!("iteration {number}{what}{note}{gap}")
 }
 
 /// Box, colour scale and mold patch that hold all shown steps.
 fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
     let shown: Vec<Point> = steps.iter().flat_map(|s| points(s)).collect();
     let [bottom, top] = bounds(&shown);
-    let mut scale = [bottom[2], top[2]];
+    let mut scale = match curved(result) {
+        None => [bottom[2], top[2]],
+        // a gap scale begins where the ply lies on the mold
+        Some(_) => [0.0, shown.iter().map(|p| colour_value(result, *p)).fold(1e-4, f64::max)],
+    };
     if scale[1] - scale[0] < 1e-5 {
         scale = [scale[0] - 5e-4, scale[1] + 5e-4];
     }
@@ -100,16 +114,19 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
     let [mut low, mut high] = bounds(&all);
 
     // Discs reach beyond the grippers; the mold reaches to the walls.
-    let reach = 1.35 * gripper_radius(result);
+    let mut reach = 1.35 * gripper_radius(result);
+    if curved(result).is_some() {
+        reach = reach.max(MARGIN * (high[0] - low[0]).hypot(high[1] - low[1]));
+    }
     for c in 0..2 {
         low[c] -= reach;
         high[c] += reach;
     }
     let across = (high[0] - low[0]).hypot(high[1] - low[1]);
-    let mold = mold_patch(result, low, high, across);
-    for corner in mold.iter().flatten() {
-        low[2] = low[2].min(corner[2]);
-        high[2] = high[2].max(corner[2]);
+    let mold = result.scene.mold.as_ref().and_then(|mold| ground(mold, low, high, across));
+    if let Some([floor, roof]) = mold.as_ref().map(Ground::heights) {
+        low[2] = low[2].min(floor);
+        high[2] = high[2].max(roof);
     }
     high[2] += 0.2 * reach;
     let least = 0.05 * across;
@@ -117,12 +134,15 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
         low[2] = (low[2] + high[2] - least) / 2.0;
         high[2] = low[2] + least;
     }
-    let stretch = exaggeration(high[2] - low[2], across, scale[1] - scale[0]);
+    let stretch = match curved(result) {
+        None => exaggeration(high[2] - low[2], across, scale[1] - scale[0]),
+        Some(_) => 1.0,
+    };
     Stage { result, frame: Frame { low, high, stretch }, panels: steps.len(), scale, mold }
 }
 
 /// Lowest and highest coordinates of some points.
-fn bounds(points: &[Point]) -> [Point; 2] {
+pub(super) fn bounds(points: &[Point]) -> [Point; 2] {
     let by = |pick: fn(f64, f64) -> f64, start: f64| {
         [0, 1, 2].map(|c| points.iter().map(|p| p[c]).fold(start, pick))
     };
@@ -140,10 +160,12 @@ fn exaggeration(height: f64, across: f64, relief: f64) -> f64 {
     round.into_iter().find(|f| *f <= wanted).unwrap_or(1.0)
 }
 
-/// The mold over the floor of the box, unless it runs far out of the picture.
-fn mold_patch(result: &ResultFile, low: Point, high: Point, across: f64) -> Option<[Point; 4]> {
-    let Some(Mold::Plane(plane)) = &result.scene.mold else {
-        return None;
+/// The mold over the floor of the box, as far as it does not run far out of the picture.
+pub(super) fn ground(mold: &Mold, low: Point, high: Point, across: f64) -> Option<Ground> {
+    let Mold::Plane(plane) = mold else {
+        let heights = [low[2] - DEEP * across, high[2] + DEEP * across];
+        let patch = Relief::of(mold, [low[0], low[1]], [high[0], high[1]], heights);
+        return patch.map(Ground::Relief);
     };
     let [nx, ny, nz] = plane.normal;
     let [px, py, pz] = plane.point;
@@ -151,27 +173,7 @@ fn mold_patch(result: &ResultFile, low: Point, high: Point, across: f64) -> Opti
     let patch =
         [on(low[0], low[1]), on(high[0], low[1]), on(high[0], high[1]), on(low[0], high[1])];
     let near = |p: &Point| p[2] > low[2] - across && p[2] < high[2] + across;
-    patch.iter().all(near).then_some(patch)
-}
-
-/// The colour bar between two heights on the sheet, ticks in mm.
-fn bar(canvas: &mut Canvas, [low, high]: [f64; 2], [top, bottom]: Px) -> Result<(), FigureError> {
-    let length = (bottom - top).min(340.0);
-    let top = top + (bottom - top - length) / 2.0;
-    let (left, right, slices) = (PANELS + 24.0, PANELS + 40.0, 85);
-    for k in 0..slices {
-        let share = f64::from(k) / f64::from(slices);
-        let y = top + length * (1.0 - share);
-        // Each slice reaches to the top and is covered by the next, so that no seam shows.
-        let slice = [[left, y], [right, y], [right, top], [left, top]];
-        canvas.polygon(&slice, viridis((f64::from(k) + 0.5) / f64::from(slices)))?;
-    }
-    for tick in axes::ticks(low, high, length / 42.0) {
-        let y = top + length * (high - tick * 1e-3) / (high - low);
-        canvas.line(&[[right, y], [right + 4.0, y]], FRAME, 1.0)?;
-        canvas.text(&axes::label(tick), [right + 8.0, y], plain(axes::TICK, -1))?;
-    }
-    canvas.text("z (mm)", [left - 4.0, top - 16.0], plain(axes::LABEL, -1))
+    patch.iter().all(near).then_some(Ground::Flat(patch))
 }
 
 /// What the marks mean, in one line.

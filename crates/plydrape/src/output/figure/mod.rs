@@ -3,15 +3,19 @@
 //! After Krogh et al. 2018, the figure of the numerical example: catenaries are red lines, a surface
 //! inside each cell is coloured by z, grippers are black discs tilted with the ply, contact is marked by
 //! red circles. Horizontal lengths have equal scale, z too unless its label says by how much it is
-//! exaggerated. Same result, same bytes.
+//! exaggerated. A curved mold is drawn as a shaded surface, never exaggerated, and the ply over it is
+//! coloured by its gap to the mold. Same result, same bytes.
 
 mod axes;
+mod bar;
 mod canvas;
 mod colour;
 mod layout;
 mod panel;
 mod piece;
 mod projection;
+mod relief;
+pub mod shear_map;
 mod surface;
 
 use crate::draping::record::{ResultFile, Step};
@@ -59,6 +63,9 @@ pub enum FigureError {
         /// The step.
         step: usize,
     },
+    /// A net without a node on the mold.
+    #[error("the net has no node on the mold, so there is nothing to draw")]
+    NoNode,
     /// The SVG writer failed.
     #[error("the figure could not be drawn: {0}")]
     Drawing(String),

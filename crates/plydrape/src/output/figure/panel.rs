@@ -4,10 +4,13 @@ use super::FigureError;
 use super::axes::Frame;
 use super::canvas::{Canvas, Px};
 use super::colour::{BLACK, MOLD, RED, RIM, TARGET, WEAVE, viridis};
-use super::piece::{self, Form, Piece, thread};
+use super::layout::bounds;
+use super::piece::{self, Form, Piece, grown, thread};
 use super::projection::{Point, View, turned};
+use super::relief::Relief;
 use super::surface;
 use crate::draping::record::{Gripper, ResultFile, SpanState, Step};
+use crate::mold::Mold;
 
 /// Radius of a gripper as a share of the shorter side of a cell.
 const GRIPPER: f64 = 0.12;
@@ -55,10 +58,38 @@ pub(super) struct Stage<'a> {
     pub frame: Frame,
     /// Panels on the sheet.
     pub panels: usize,
-    /// Heights of the colour scale's ends (m).
+    /// Values of the colour scale's ends (m).
     pub scale: [f64; 2],
-    /// Corners of the patch of mold that is shown.
-    pub mold: Option<[Point; 4]>,
+    /// The patch of mold that is shown.
+    pub mold: Option<Ground>,
+}
+
+/// What is shown of a mold.
+pub(super) enum Ground {
+    /// The corners of a flat one.
+    Flat([Point; 4]),
+    /// The surface of a curved one.
+    Relief(Relief),
+}
+
+impl Ground {
+    /// Lowest and highest point of what is shown (m).
+    pub(super) fn heights(&self) -> [f64; 2] {
+        match self {
+            Ground::Flat(patch) => bounds(patch).map(|p| p[2]),
+            Ground::Relief(relief) => relief.heights(),
+        }
+    }
+}
+
+/// The mold of a result, if it is curved.
+pub(super) fn curved(result: &ResultFile) -> Option<&Mold> {
+    result.scene.mold.as_ref().filter(|mold| !matches!(mold, Mold::Plane(_)))
+}
+
+/// What the ply's colour tells at a place (m): its gap to a curved mold, else its height.
+pub(super) fn colour_value(result: &ResultFile, p: Point) -> f64 {
+    curved(result).map_or(p[2], |mold| mold.signed_distance(p).max(0.0))
 }
 
 /// Radius of a gripper's disc (m).
@@ -85,13 +116,45 @@ impl Stage<'_> {
             self.gripper(&mut pieces, view, gripper, detail);
         }
         self.contact(&mut pieces, view, step, detail);
-        piece::paint(canvas, pieces)?;
+        if let Some(Ground::Relief(relief)) = &self.mold {
+            for line in self.outline() {
+                thread(&mut pieces, view, &line, 0.0, TARGET, 1.2);
+            }
+            relief.paint_among(canvas, view, pieces)?;
+        } else {
+            piece::paint(canvas, pieces)?;
+        }
         self.frame.front(canvas, view)
     }
 
-    /// The patch of mold, and on it the outline of where the ply should end.
+    /// The outline of where the ply should end, side by side, each on the mold.
+    fn outline(&self) -> Vec<Vec<Point>> {
+        let (Some(target), Some(mold)) = (&self.result.scene.target_grippers, curved(self.result))
+        else {
+            return Vec::new();
+        };
+        let grid = self.result.scene.grid;
+        let border = (0..grid.edges()).map(|k| grid.catenary(k)).filter(|edge| {
+            let ([i, j], [k, m]) = (edge.from, edge.to);
+            let along_u = j == m && (j == 0 || j + 1 == grid.nv);
+            let along_v = i == k && (i == 0 || i + 1 == grid.nu);
+            along_u || along_v
+        });
+        let side = |(a, b): (Point, Point)| match mold.path(a, b) {
+            Some(line) => surface::stations(&line.points, 12),
+            None => vec![a, b],
+        };
+        border
+            .filter_map(|e| {
+                target.get(grid.index(e.from)).copied().zip(target.get(grid.index(e.to)).copied())
+            })
+            .map(side)
+            .collect()
+    }
+
+    /// The patch of a flat mold, and on it the outline of where the ply should end.
     fn mold(&self, canvas: &mut Canvas, view: &View) -> Result<(), FigureError> {
-        let Some(patch) = self.mold else {
+        let Some(Ground::Flat(patch)) = self.mold else {
             return Ok(());
         };
         canvas.polygon(&patch.map(|p| view.at(p)), MOLD)?;
@@ -168,21 +231,16 @@ impl Stage<'_> {
         }
     }
 
-    /// A piece of surface in the colour of its mean height, grown by a hair so that no seam shows.
+    /// A piece of surface in the colour of its middle, grown by a hair so that no seam shows.
     fn square(&self, view: &View, corners: [Point; 4]) -> Piece {
         let mean = |of: &dyn Fn(Point) -> f64| corners.iter().map(|p| of(*p)).sum::<f64>() / 4.0;
         let [low, high] = self.scale;
-        let flat = corners.map(|p| view.at(p));
-        let center = [0, 1].map(|c| flat.iter().map(|p| p[c]).sum::<f64>() / 4.0);
-        let grown = flat.map(|[x, y]| {
-            let (dx, dy) = (x - center[0], y - center[1]);
-            let hair = 0.7 / dx.hypot(dy).max(0.7);
-            [x + hair * dx, y + hair * dy]
-        });
+        let place = [0, 1, 2].map(|c| mean(&|p| p[c]));
         Piece {
             depth: mean(&|p| view.depth(p)),
-            points: grown.to_vec(),
-            ink: viridis((mean(&|p| p[2]) - low) / (high - low)),
+            place,
+            points: grown(&corners.map(|p| view.at(p))),
+            ink: viridis((colour_value(self.result, place) - low) / (high - low)),
             form: Form::Area,
         }
     }
@@ -201,7 +259,8 @@ impl Stage<'_> {
         let depth = view.depth(gripper.position) + self.lift(detail) + 2.0 * radius;
         let mut rim = points.clone();
         rim.push(points[0]);
-        let piece = |points, ink, form| Piece { depth, points, ink, form };
+        let place = gripper.position;
+        let piece = |points, ink, form| Piece { depth, place, points, ink, form };
         pieces.push(piece(points, BLACK, Form::Area));
         if rim_width > 0.2 {
             pieces.push(piece(rim, RIM, Form::Line(rim_width)));
@@ -241,6 +300,7 @@ impl Stage<'_> {
             if radius > 1.0 {
                 pieces.extend(spots.into_iter().map(|spot| Piece {
                     depth: view.depth(spot) + lift,
+                    place: spot,
                     points: vec![view.at(spot)],
                     ink: RED,
                     form: Form::Ring(radius),

@@ -8,6 +8,8 @@ use super::projection::{Point, View};
 pub(super) struct Piece {
     /// How near it is (m); larger is nearer.
     pub(super) depth: f64,
+    /// Where it is in space (m).
+    pub(super) place: Point,
     /// Its corners.
     pub(super) points: Vec<Px>,
     /// Its colour.
@@ -54,6 +56,7 @@ pub(super) fn thread(
 ) {
     pieces.extend(line.windows(2).map(|pair| Piece {
         depth: lift + (view.depth(pair[0]) + view.depth(pair[1])) / 2.0,
+        place: [0, 1, 2].map(|c| (pair[0][c] + pair[1][c]) / 2.0),
         points: overlapped(view.at(pair[0]), view.at(pair[1])),
         ink,
         form: Form::Line(width),
@@ -65,4 +68,16 @@ fn overlapped(a: Px, b: Px) -> Vec<Px> {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let hair = 0.3 / dx.hypot(dy).max(0.3);
     vec![[a[0] - hair * dx, a[1] - hair * dy], [b[0] + hair * dx, b[1] + hair * dy]]
+}
+
+/// A polygon grown by a hair, so that no seam shows beside its neighbours.
+pub(super) fn grown(corners: &[Px]) -> Vec<Px> {
+    let count = corners.len() as f64;
+    let center = [0, 1].map(|c| corners.iter().map(|p| p[c]).sum::<f64>() / count);
+    let grow = |[x, y]: &Px| {
+        let (dx, dy) = (x - center[0], y - center[1]);
+        let hair = 0.7 / dx.hypot(dy).max(0.7);
+        [x + hair * dx, y + hair * dy]
+    };
+    corners.iter().map(grow).collect()
 }

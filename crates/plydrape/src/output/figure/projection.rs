@@ -33,7 +33,8 @@ fn dot(a: Point, b: Point) -> f64 {
 impl View {
     /// The view of a box (m), z stretched, at one picture point per metre.
     pub(super) fn of(low: Point, high: Point, stretch: f64) -> Self {
-        let wide = high[0] - low[0] >= high[1] - low[1];
+        // a square counts as wide, whatever its last digits say
+        let wide = high[0] - low[0] >= (high[1] - low[1]) * (1.0 - 1e-9);
         let azimuth = if wide { TURN - 90.0 } else { -TURN };
         let (sa, ca) = azimuth.to_radians().sin_cos();
         let (se, ce) = ELEVATION.to_radians().sin_cos();
@@ -55,6 +56,16 @@ impl View {
     /// Picture points per metre.
     pub(super) fn scale(&self) -> f64 {
         self.scale
+    }
+
+    /// The direction from space to the eye, where z is not stretched.
+    pub(super) fn towards(&self) -> Point {
+        self.near
+    }
+
+    /// Unit vectors to the right of the sheet, up on it and out of it.
+    pub(super) fn axes(&self) -> [Point; 3] {
+        [self.right, self.up, self.near]
     }
 
     fn stretched(&self, p: Point) -> Point {

@@ -1,0 +1,91 @@
+"""The files of `plydrape net` in other programs' readers: meshio for VTK's, csv for the table."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+from program import run
+
+SCENE = """
+title = "A ply on a ball"
+[ply]
+grippers = [2, 2]
+cell = ["150 mm", "100 mm"]
+material = "krogh2018"
+[mold]
+kind = "sphere"
+radius = "120 mm"
+position = [0, 0, "-120 mm"]
+[target]
+seed = "middle"
+mesh = "5 mm"
+direction = "20 deg"
+shear = "10 deg"
+edges = "along"
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The files of one net, and what --json printed."""
+    home = tmp_path_factory.mktemp("net")
+    (home / "ball.toml").write_text(SCENE)
+    done = run("net", str(home / "ball.toml"), "-o", str(home / "out"), "--json")
+    (home / "out" / "printed.json").write_text(done.stdout)
+    return home / "out"
+
+
+def test_meshio_reads_the_net_that_the_table_lists(folder: Path) -> None:
+    """Points are the rows of nodes.csv, to the last bit."""
+    net = meshio.read(folder / "net.vtu")
+    with (folder / "nodes.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    columns = ["x (m)", "y (m)", "z (m)"]
+    assert np.array_equal(net.points, [[float(row[name]) for name in columns] for row in rows])
+    for name, column in [("u", "u (m)"), ("v", "v (m)"), ("i", "i"), ("j", "j")]:
+        assert np.array_equal(net.point_data[name], [float(row[column]) for row in rows])
+    assert np.array_equal(net.point_data["shear_deg"], [float(row["shear (deg)"]) for row in rows])
+
+
+def test_cells_shear_as_their_fibres_stand(folder: Path) -> None:
+    """Fibre directions are unit vectors; the angle between them is 90° less the signed shear.
+
+    Both are of the cell's middle: chords there against tangents, equal up to the square of mesh
+    over radius, (5/120)² or 0.1°.
+    """
+    net = meshio.read(folder / "net.vtu")
+    assert [block.type for block in net.cells] == ["quad"]
+    u, v = (net.cell_data[name][0] for name in ("fibre_u", "fibre_v"))
+    assert np.allclose(np.linalg.norm(u, axis=1), 1, atol=1e-14)
+    assert np.allclose(np.linalg.norm(v, axis=1), 1, atol=1e-14)
+    shear = np.degrees(np.arcsin(np.sum(u * v, axis=1)))
+    assert np.max(np.abs(shear - net.cell_data["signed_shear_deg"][0])) < 0.1
+    printed = json.loads((folder / "printed.json").read_text())
+    size = net.cell_data["shear_deg"][0]
+    assert printed["max_shear_deg"] == pytest.approx(size.max(), abs=1e-12)
+    assert printed["mean_shear_deg"] == pytest.approx(size.mean(), abs=1e-12)
+
+
+def test_edges_are_arcs_of_the_mesh_width(folder: Path) -> None:
+    """On a sphere an edge is an arc of a great circle: its chord is 2R sin(mesh/2R)."""
+    net = meshio.read(folder / "net.vtu")
+    ring = net.points[net.cells[0].data]
+    chords = np.linalg.norm(np.roll(ring, -1, axis=1) - ring, axis=2)
+    assert np.allclose(chords, 0.24 * math.sin(0.005 / 0.24), rtol=0, atol=1e-12)
+
+
+def test_the_mold_lies_on_its_sphere_under_the_net(folder: Path) -> None:
+    """The mold's points are on the sphere, and its box in plan holds the net."""
+    mold, net = (meshio.read(folder / name) for name in ("mold.vtu", "net.vtu"))
+    assert [block.type for block in mold.cells] == ["triangle"]
+    assert np.allclose(
+        np.linalg.norm(mold.points - np.array([0, 0, -0.12]), axis=1), 0.12, atol=1e-9
+    )
+    assert np.all(mold.points.min(axis=0)[:2] < net.points.min(axis=0)[:2])
+    assert np.all(mold.points.max(axis=0)[:2] > net.points.max(axis=0)[:2])
