@@ -152,7 +152,7 @@ impl Surroundings<'_> {
                 return Err(document.error(
                     file.ply.grippers.span.clone(),
                     "the scene does not say where the grippers start",
-                    "add [grippers] with spacing = [\"98 mm\", \"98 mm\"] and height = \"75 mm\", or with `positions`",
+                    "add [grippers] with spacing = [\"98 mm\", \"98 mm\"] and height = \"75 mm\", or with `positions`; or a [target] to start above",
                 ));
             }
         };

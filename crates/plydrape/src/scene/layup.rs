@@ -163,7 +163,7 @@ fn given_divisions(
         let [a, b] = ply.cell.map(|cell| round(cell * 1e3));
         let help = match nearest_width(value, ply, cells) {
             Some(nearest) => {
-                format!("the nearest width that does is \"{} mm\"", round(nearest * 1e3))
+                format!("a width that does is \"{} mm\"", round(nearest * 1e3))
             }
             None => "leave `mesh` out: each side of a cell is then divided by itself".into(),
         };
