@@ -1,253 +1,216 @@
-//! From the text of a formula to its operations, by descent: sums hold products, products hold powers.
+//! From the text of a formula to its operations: winnow reads it, by the precedence of its operators.
 
 use super::operation::{FUNCTIONS, Operation};
 use super::{FormulaError, FormulaFault};
 use std::ops::Range;
+use winnow::ascii::digit1;
+use winnow::combinator::{Infix, Prefix, alt, cut_err, delimited, dispatch, eof, expression};
+use winnow::combinator::{fail, opt, peek, terminated};
+use winnow::error::{ErrMode, ParserError};
+use winnow::prelude::*;
+use winnow::stream::{LocatingSlice, Location, Stateful};
+use winnow::token::{any, one_of, take_while};
 
 /// Most brackets, signs and powers within each other.
-const DEEPEST: usize = 100;
+const DEEPEST: usize = 64;
 
-/// The operations of a formula, each behind its operands.
-pub(super) fn program(text: &str) -> Result<Vec<Operation>, FormulaError> {
-    let mut parser = Parser { text, at: 0, last: 0..0, program: Vec::new(), depth: 0 };
-    if parser.next().is_none() {
-        return Err(FormulaError { at: 0..text.len(), fault: FormulaFault::Empty });
-    }
-    parser.sum()?;
-    match parser.next() {
-        None => Ok(parser.program),
-        Some(_) => Err(parser.stray()),
-    }
-}
+// How tightly operators bind. A sign lets the power behind it come first, and may stand in an exponent.
+const SUM: i64 = 1;
+const PRODUCT: i64 = 3;
+const SIGN: i64 = 5;
+const POWER: i64 = 7;
 
-struct Parser<'a> {
+/// Operations, each behind its operands.
+type Program = Vec<Operation>;
+type Input<'a> = Stateful<LocatingSlice<&'a str>, State<'a>>;
+type Parsed<T> = ModalResult<T, FormulaError>;
+
+#[derive(Debug)]
+struct State<'a> {
     text: &'a str,
-    /// The next byte to be read.
-    at: usize,
-    /// The word or sign that was read last.
-    last: Range<usize>,
-    program: Vec<Operation>,
     /// How deep in brackets, signs and powers.
     depth: usize,
 }
 
-impl Parser<'_> {
-    /// The next character behind any spaces.
-    fn next(&mut self) -> Option<char> {
-        let rest = &self.text[self.at..];
-        self.at += rest.len() - rest.trim_start().len();
-        self.text[self.at..].chars().next()
-    }
+/// The operations of a formula.
+pub(super) fn program(text: &str) -> Result<Program, FormulaError> {
+    let input = Input { input: LocatingSlice::new(text), state: State { text, depth: 0 } };
+    let end = alt((eof.void(), stray));
+    delimited(spaces, formula, end).parse(input).map_err(|error| error.into_inner())
+}
 
-    /// Takes a sign if it comes next.
-    fn take(&mut self, sign: &str) -> bool {
-        self.next();
-        let found = self.text[self.at..].starts_with(sign);
-        if found {
-            self.last = self.at..self.at + sign.len();
-            self.at += sign.len();
+fn formula(i: &mut Input) -> Parsed<Program> {
+    expression(operand).prefix(prefix).infix(infix).parse_next(i)
+}
+
+fn infix<'a>(i: &mut Input<'a>) -> Parsed<Infix<Input<'a>, Program, ErrMode<FormulaError>>> {
+    let operator = alt((
+        (alt(("**", "^")), deeper).value(Infix::Right(POWER, |i: &mut Input, a, b| {
+            i.state.depth -= 1;
+            Ok(power(a, b))
+        })),
+        alt(("*", "·")).value(Infix::Left(PRODUCT, |_, a, b| Ok(join(a, b, Operation::Multiply)))),
+        "/".value(Infix::Left(PRODUCT, |_, a, b| Ok(join(a, b, Operation::Divide)))),
+        "+".value(Infix::Left(SUM, |_, a, b| Ok(join(a, b, Operation::Add)))),
+        alt(("-", "−")).value(Infix::Left(SUM, |_, a, b| Ok(join(a, b, Operation::Subtract)))),
+    ));
+    terminated(operator, spaces).parse_next(i)
+}
+
+fn prefix<'a>(i: &mut Input<'a>) -> Parsed<Prefix<Input<'a>, Program, ErrMode<FormulaError>>> {
+    let sign = alt((
+        alt(("-", "−")).value(Prefix(SIGN, |i: &mut Input, a| {
+            i.state.depth -= 1;
+            Ok(negative(a))
+        })),
+        "+".value(Prefix(SIGN, |i: &mut Input, a| {
+            i.state.depth -= 1;
+            Ok(a)
+        })),
+    ));
+    terminated(sign, (deeper, spaces)).parse_next(i)
+}
+
+/// A number, a name, a function or a bracket.
+fn operand(i: &mut Input) -> Parsed<Program> {
+    let value = dispatch! { peek(any);
+        '(' => bracket,
+        '0'..='9' | '.' => number,
+        c if c.is_alphabetic() || c == '_' => named,
+        _ => fail,
+    };
+    terminated(value, spaces).parse_next(i)
+}
+
+fn bracket(i: &mut Input) -> Parsed<Program> {
+    let open = i.current_token_start();
+    ("(", deeper, spaces).parse_next(i)?;
+    let inner = cut_err(formula).parse_next(i)?;
+    if i.is_empty() {
+        return refuse(open..open + 1, FormulaFault::Bracket);
+    }
+    alt((")".void(), stray)).parse_next(i)?;
+    i.state.depth -= 1;
+    Ok(inner)
+}
+
+fn number(i: &mut Input) -> Parsed<Program> {
+    let exponent = (one_of(['e', 'E']), opt(one_of(['+', '-'])), digit1);
+    let number = (take_while(1.., ('0'..='9', '.')), opt(exponent)).take();
+    let (written, at) = number.with_span().parse_next(i)?;
+    match written.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(vec![Operation::Number(value)]),
+        _ => refuse(at, FormulaFault::Number(written.into())),
+    }
+}
+
+fn named(i: &mut Input) -> Parsed<Program> {
+    let (name, at) = terminated(word.with_span(), spaces).parse_next(i)?;
+    let known = FUNCTIONS.iter().find(|(known, _)| *known == name);
+    match (name, known) {
+        ("x", _) => Ok(vec![Operation::X]),
+        ("y", _) => Ok(vec![Operation::Y]),
+        ("pi" | "π", _) => Ok(vec![Operation::Number(std::f64::consts::PI)]),
+        (_, Some(_)) if !i.starts_with('(') => refuse(at, FormulaFault::Argument(name.into())),
+        (_, Some((_, function))) => {
+            let mut program = bracket(i)?;
+            program.push(Operation::Call(*function));
+            Ok(program)
         }
-        found
+        (_, None) => refuse(at, FormulaFault::Name(name.into())),
     }
+}
 
-    fn error<T>(&self, at: Range<usize>, fault: FormulaFault) -> Result<T, FormulaError> {
-        Err(FormulaError { at, fault })
+/// Letters, digits and points.
+fn word<'a>(i: &mut Input<'a>) -> Parsed<&'a str> {
+    take_while(1.., |c: char| c.is_alphanumeric() || c == '_' || c == '.').parse_next(i)
+}
+
+fn spaces(i: &mut Input) -> Parsed<()> {
+    take_while(0.., char::is_whitespace).void().parse_next(i)
+}
+
+/// Counts a bracket, a sign or a power that was just opened; where it ends it is taken off again. A weaker operator is
+/// read and put back where a stronger one ends, but nothing is stronger than a power: each is counted once.
+fn deeper(i: &mut Input) -> Parsed<()> {
+    i.state.depth += 1;
+    if i.state.depth > DEEPEST {
+        return refuse(before(i), FormulaFault::Depth);
     }
+    Ok(())
+}
 
-    /// What is wrong with what stands behind a whole value.
-    fn stray(&mut self) -> FormulaError {
-        let Some(sign) = self.next() else {
-            return FormulaError { at: self.last.clone(), fault: FormulaFault::Bracket };
-        };
-        let at = self.at..self.at + sign.len_utf8();
-        match sign {
-            ')' => FormulaError { at, fault: FormulaFault::Bracket },
-            '(' => FormulaError { at, fault: FormulaFault::Operator("(".into()) },
-            c if c.is_alphanumeric() || c == '_' || c == '.' => {
-                let at = self.at..self.at + self.word();
-                let word = self.text[at.clone()].to_string();
-                FormulaError { at, fault: FormulaFault::Operator(word) }
-            }
-            c => FormulaError { at, fault: FormulaFault::Character(c) },
+fn join(mut a: Program, b: Program, operation: Operation) -> Program {
+    a.extend(b);
+    a.push(operation);
+    a
+}
+
+fn negative(mut a: Program) -> Program {
+    match a[..] {
+        [Operation::Number(value)] => a[0] = Operation::Number(-value),
+        _ => a.push(Operation::Negate),
+    }
+    a
+}
+
+fn power(mut base: Program, exponent: Program) -> Program {
+    // an exponent that is just a number needs no logarithm
+    match exponent[..] {
+        [Operation::Number(n)] if n.fract() == 0.0 && n.abs() <= 1000.0 => {
+            base.push(Operation::Whole(n as i32));
         }
+        [Operation::Number(n)] => base.push(Operation::Real(n)),
+        _ => return join(base, exponent, Operation::Power),
     }
+    base
+}
 
-    /// Bytes of the letters, digits and points that come next.
-    fn word(&self) -> usize {
-        let rest = &self.text[self.at..];
-        let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'));
-        end.unwrap_or(rest.len())
+fn refuse<T>(at: Range<usize>, fault: FormulaFault) -> Parsed<T> {
+    Err(ErrMode::Cut(FormulaError { at, fault }))
+}
+
+/// Where the operator or bracket before this place stands.
+fn before(i: &Input) -> Range<usize> {
+    let read = i.state.text[..i.current_token_start()].trim_end();
+    let power = read.ends_with("**").then_some(2);
+    let sign = power.or(read.chars().next_back().map(char::len_utf8));
+    read.len() - sign.unwrap_or(0)..read.len()
+}
+
+/// What is wrong with what stands behind a whole value.
+fn stray(i: &mut Input) -> Parsed<()> {
+    if let Some((word, at)) = opt(alt((word, "(")).with_span()).parse_next(i)? {
+        return refuse(at, FormulaFault::Operator(word.into()));
     }
+    let (sign, at) = any.with_span().parse_next(i)?;
+    refuse(at, if sign == ')' { FormulaFault::Bracket } else { FormulaFault::Character(sign) })
+}
 
-    fn sum(&mut self) -> Result<(), FormulaError> {
-        self.product()?;
-        loop {
-            let operation = if self.take("+") {
-                Operation::Add
-            } else if self.take("-") || self.take("−") {
-                Operation::Subtract
-            } else {
-                return Ok(());
+impl ParserError<Input<'_>> for FormulaError {
+    type Inner = Self;
+
+    /// What is wrong where a value is due and none is found; nothing else that is looked for has to be there.
+    fn from_input(i: &Input) -> Self {
+        let (start, before) = (i.current_token_start(), before(i));
+        let operator = &i.state.text[before.clone()];
+        let missing = FormulaFault::Value(operator.into());
+        let Some(sign) = i.chars().next() else {
+            return match operator {
+                "" => FormulaError { at: 0..start, fault: FormulaFault::Empty },
+                _ => FormulaError { at: before, fault: missing },
             };
-            self.product()?;
-            self.program.push(operation);
-        }
-    }
-
-    fn product(&mut self) -> Result<(), FormulaError> {
-        self.signed()?;
-        loop {
-            let operation = if self.take("*") || self.take("·") {
-                Operation::Multiply
-            } else if self.take("/") {
-                Operation::Divide
-            } else {
-                return Ok(());
-            };
-            self.signed()?;
-            self.program.push(operation);
-        }
-    }
-
-    /// A power with signs before it: the power comes first.
-    fn signed(&mut self) -> Result<(), FormulaError> {
-        if self.take("-") || self.take("−") {
-            self.deeper(Self::signed)?;
-            self.negate();
-            return Ok(());
-        }
-        if self.take("+") {
-            return self.deeper(Self::signed);
-        }
-        self.power()
-    }
-
-    fn negate(&mut self) {
-        match self.program.last_mut() {
-            Some(Operation::Number(value)) => *value = -*value,
-            _ => self.program.push(Operation::Negate),
-        }
-    }
-
-    fn power(&mut self) -> Result<(), FormulaError> {
-        self.value()?;
-        if !(self.take("**") || self.take("^")) {
-            return Ok(());
-        }
-        let exponent = self.program.len();
-        self.deeper(Self::signed)?;
-        // an exponent that is just a number needs no logarithm
-        match self.program[exponent..] {
-            [Operation::Number(n)] => {
-                self.program.truncate(exponent);
-                self.program.push(if n.fract() == 0.0 && n.abs() <= 1000.0 {
-                    Operation::Whole(n as i32)
-                } else {
-                    Operation::Real(n)
-                });
-            }
-            _ => self.program.push(Operation::Power),
-        }
-        Ok(())
-    }
-
-    /// A number, a name, a function or a bracket.
-    fn value(&mut self) -> Result<(), FormulaError> {
-        let before = self.text[self.last.clone()].to_string();
-        let Some(sign) = self.next() else {
-            return self.error(self.last.clone(), FormulaFault::Value(before));
         };
-        let start = self.at;
-        if self.take("(") {
-            return self.bracket();
-        }
-        if sign.is_ascii_digit() || sign == '.' {
-            return self.number();
-        }
-        if !(sign.is_alphabetic() || sign == '_') {
-            let at = start..start + sign.len_utf8();
-            return match sign {
-                ')' if before.is_empty() => self.error(at, FormulaFault::Bracket),
-                '*' | '/' | '^' if before.is_empty() => {
-                    self.error(at, FormulaFault::ValueBefore(sign))
-                }
-                '*' | '/' | '^' | ')' => self.error(self.last.clone(), FormulaFault::Value(before)),
-                _ => self.error(at, FormulaFault::Character(sign)),
-            };
-        }
-        let at = start..start + self.word();
-        let name = &self.text[at.clone()];
-        (self.at, self.last) = (at.end, at.clone());
-        match name {
-            "x" => self.program.push(Operation::X),
-            "y" => self.program.push(Operation::Y),
-            "pi" | "π" => self.program.push(Operation::Number(std::f64::consts::PI)),
-            _ => {
-                let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
-                    return self.error(at, FormulaFault::Name(name.to_string()));
-                };
-                if !self.take("(") {
-                    return self.error(at, FormulaFault::Argument(name.to_string()));
-                }
-                self.bracket()?;
-                self.program.push(Operation::Call(*function));
-            }
-        }
-        Ok(())
-    }
-
-    /// What stands in a bracket that was just opened.
-    fn bracket(&mut self) -> Result<(), FormulaError> {
-        let open = self.last.clone();
-        self.deeper(Self::sum)?;
-        if self.take(")") {
-            return Ok(());
-        }
-        match self.next() {
-            None => self.error(open, FormulaFault::Bracket),
-            Some(_) => Err(self.stray()),
+        let at = start..start + sign.len_utf8();
+        match (sign, operator) {
+            (')', "") => FormulaError { at, fault: FormulaFault::Bracket },
+            ('*' | '/' | '^', "") => FormulaError { at, fault: FormulaFault::ValueBefore(sign) },
+            ('*' | '/' | '^' | ')', _) => FormulaError { at: before, fault: missing },
+            _ => FormulaError { at, fault: FormulaFault::Character(sign) },
         }
     }
 
-    fn deeper(
-        &mut self,
-        part: impl FnOnce(&mut Self) -> Result<(), FormulaError>,
-    ) -> Result<(), FormulaError> {
-        self.depth += 1;
-        if self.depth > DEEPEST {
-            return self.error(self.last.clone(), FormulaFault::Depth);
-        }
-        part(self)?;
-        self.depth -= 1;
-        Ok(())
-    }
-
-    fn number(&mut self) -> Result<(), FormulaError> {
-        let (start, bytes) = (self.at, self.text.as_bytes());
-        let digits = |from: usize| {
-            let tail = bytes.get(from..).unwrap_or_default();
-            from + tail.iter().take_while(|b| b.is_ascii_digit()).count()
-        };
-        let mut end = digits(start);
-        if bytes.get(end) == Some(&b'.') {
-            end = digits(end + 1);
-        }
-        if matches!(bytes.get(end), Some(b'e' | b'E')) {
-            let exponent = end + 1 + usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
-            if digits(exponent) > exponent {
-                end = digits(exponent);
-            }
-        }
-        (self.at, self.last) = (end, start..end);
-        match self.text[start..end].parse::<f64>() {
-            Ok(value) if value.is_finite() => {
-                self.program.push(Operation::Number(value));
-                Ok(())
-            }
-            _ => {
-                let written = self.text[start..end].to_string();
-                self.error(start..end, FormulaFault::Number(written))
-            }
-        }
+    fn into_inner(self) -> Result<Self, Self> {
+        Ok(self)
     }
 }

@@ -112,9 +112,11 @@ fn a_fault_is_found_at_its_place() {
     assert_eq!(refusal("z = x"), (0..1, name("z")));
     assert_eq!(refusal("1e999"), (0..5, FormulaFault::Number("1e999".into())));
     assert_eq!(refusal("."), (0..1, FormulaFault::Number(".".into())));
+    assert_eq!(refusal("1.2.3*x"), (0..5, FormulaFault::Number("1.2.3".into())));
     assert_eq!(refusal("  "), (0..2, FormulaFault::Empty));
-    assert_eq!(refusal(&"(".repeat(1000)).1, FormulaFault::Depth);
-    assert_eq!(refusal(&"-".repeat(1000)).1, FormulaFault::Depth);
+    for deep in ["(", "-", "x^", "1 + 2*sin("] {
+        assert_eq!(refusal(&deep.repeat(10_000)).1, FormulaFault::Depth, "{deep}");
+    }
 }
 
 #[test]
