@@ -66,16 +66,16 @@ fn load_200k_triangles(bencher: Bencher) {
 #[divan::bench(args = [1, 10, 100])]
 fn foot_on_200k_triangles(bencher: Bencher, off: u32) {
     LazyLock::force(&MESH);
-    let mut next = points(f64::from(off) * 1e-3);
-    bencher.with_inputs(|| next()).bench_local_values(|p| MESH.foot(black_box(p)));
+    let next = points(f64::from(off) * 1e-3);
+    bencher.with_inputs(next).bench_local_values(|p| MESH.foot(black_box(p)));
 }
 
 /// 0.1 m along the mesh, over some 70 triangles.
 #[divan::bench]
 fn section_of_100_mm_on_200k_triangles(bencher: Bencher) {
     LazyLock::force(&MESH);
-    let mut next = points(0.0);
-    bencher.with_inputs(|| next()).bench_local_values(|[x, y, _]| {
+    let next = points(0.0);
+    bencher.with_inputs(next).bench_local_values(|[x, y, _]| {
         MESH.section([x, y, height(x, y)], black_box([0.8, 0.6]), 0.1)
     });
 }
@@ -84,6 +84,6 @@ fn section_of_100_mm_on_200k_triangles(bencher: Bencher) {
 #[divan::bench]
 fn drop_to_200k_triangles(bencher: Bencher) {
     LazyLock::force(&MESH);
-    let mut next = points(0.0);
-    bencher.with_inputs(|| next()).bench_local_values(|[x, y, _]| MESH.drop_to(black_box([x, y])));
+    let next = points(0.0);
+    bencher.with_inputs(next).bench_local_values(|[x, y, _]| MESH.drop_to(black_box([x, y])));
 }
