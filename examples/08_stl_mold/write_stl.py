@@ -25,6 +25,7 @@ def triangle(*corners: tuple[float, float]) -> bytes:
 
 
 def main() -> None:
+    """Writes the file beside this one."""
     places = range(LOW, HIGH, STEP)
     records = []
     for y in places:

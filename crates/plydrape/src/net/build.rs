@@ -20,7 +20,7 @@ pub(super) struct Build<'a> {
     /// Node [i, j] at j·nu + i.
     pub spots: Vec<Option<Spot>>,
     /// Where nodes were given up.
-    pub folds: Vec<(usize, [f64; 3])>,
+    pub folds: Vec<(usize, Spot)>,
 }
 
 impl Build<'_> {
@@ -62,7 +62,7 @@ impl Build<'_> {
         if let Some(index) = self.index(node)
             && !self.folds.iter().any(|(n, _)| *n == index)
         {
-            self.folds.push((index, near.point));
+            self.folds.push((index, near));
         }
     }
 
@@ -143,7 +143,14 @@ impl Build<'_> {
             }
             Some(_) => None,
             None => Some(match self.folds.iter().find(|(n, _)| *n == index) {
-                Some((_, near)) => (Reason::Folded, Some(*near), None),
+                // how fabric lies beside the mold is no matter of the mold
+                Some((_, near)) if near.beyond > 0.0 => {
+                    (Reason::OffMold, Some(near.point), Some(near.beyond))
+                }
+                Some((_, near)) => (Reason::Folded, Some(near.point), None),
+                None if self.folds.iter().all(|(_, near)| near.beyond > 0.0) => {
+                    (Reason::OffMold, None, None)
+                }
                 None => (Reason::Unreached, None, None),
             }),
         }

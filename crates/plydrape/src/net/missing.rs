@@ -9,7 +9,8 @@ use std::fmt;
 pub enum Reason {
     /// It lies beyond the mold's border.
     OffMold,
-    /// Its two edges have no common end on the mold, or only with a cell shut or turned over.
+    /// Its two edges have no common end on the mold, or only with a cell shut or turned over; beyond the
+    /// border that counts as [`Reason::OffMold`].
     Folded,
     /// It hangs on a node that folded.
     Unreached,
@@ -24,7 +25,7 @@ pub struct Missing {
     pub reason: Reason,
     /// Where it was looked for (m); none for a node that was not.
     pub near: Option<[f64; 3]>,
-    /// How far beyond the mold's border it lies (m).
+    /// How far beyond the mold's border it lies (m); none for a node that was not looked for.
     pub beyond: Option<f64>,
 }
 
@@ -33,8 +34,9 @@ impl fmt::Display for Missing {
         let [i, j] = self.node;
         match self.reason {
             Reason::OffMold => {
-                let beyond_mm = 1e3 * self.beyond.unwrap_or(0.0);
-                write!(f, "node [{i}, {j}] lies {beyond_mm:.2} mm beyond the border of the mold")?;
+                let far = self.beyond.map(|beyond| format!("{:.2} mm ", 1e3 * beyond));
+                let far = far.unwrap_or_default();
+                write!(f, "node [{i}, {j}] lies {far}beyond the border of the mold")?;
             }
             Reason::Folded => write!(f, "the cell before node [{i}, {j}] shuts: the ply folds")?,
             Reason::Unreached => write!(f, "node [{i}, {j}] lies behind a fold")?,

@@ -127,7 +127,12 @@ fn at_grippers(
     let reason = net.missing.iter().find(|missing| missing.node == node(first));
     let (reason, help) = match reason.map(|missing| (missing.reason, missing.beyond)) {
         Some((Reason::OffMold, beyond)) => (
-            format!("lies {} mm beyond the border of the mold", round(beyond.unwrap_or(0.0) * 1e3)),
+            match beyond {
+                Some(beyond) => {
+                    format!("lies {} mm beyond the border of the mold", round(beyond * 1e3))
+                }
+                None => "lies beyond the border of the mold".into(),
+            },
             "the ply reaches over the mold's border: move `origin` or turn `direction`, or take a larger mold or a smaller ply",
         ),
         Some((Reason::Folded, _)) => (
