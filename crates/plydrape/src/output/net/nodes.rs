@@ -1,4 +1,4 @@
-//! The table `nodes.csv`: where every node of the net lies, units in its header.
+//! The table `nodes.csv`: where every node of the net lies; lengths in metres, shear in degrees.
 //!
 //! Numbers are in the shortest form that reads back to the same double. A node without a place on the mold
 //! has empty cells for what is not known.
@@ -14,7 +14,7 @@ use ::csv::{Error, Writer};
 /// If the table cannot be formed; memory apart there is no known case.
 pub fn table(net: &Net) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
-    table.write_record(["i", "j", "u (m)", "v (m)", "x (m)", "y (m)", "z (m)", "shear (deg)"])?;
+    table.write_record(["i", "j", "u", "v", "x", "y", "z", "shear_deg"])?;
     let ([nu, nv], mesh) = (net.layup.nodes, net.layup.mesh);
     for id in (0..nu * nv).map(|n| [n % nu, n / nu]) {
         let mut row = vec![id[0].to_string(), id[1].to_string()];
