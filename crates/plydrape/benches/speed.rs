@@ -15,11 +15,16 @@ fn main() {
     divan::main();
 }
 
+/// A scene of the shipped examples.
+fn shipped(name: &str) -> Scene {
+    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
+    let path = Path::new(examples).join(name).join("scene.toml");
+    plydrape::scene::read(&path).expect("the example is shipped with the project")
+}
+
 /// The paper's example.
 fn example() -> Scene {
-    let path =
-        concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/01_flat_sheared_mold/scene.toml");
-    plydrape::scene::read(Path::new(path)).expect("the example is shipped with the project")
+    shipped("01_flat_sheared_mold")
 }
 
 /// The example's ply over a larger array, level, 98 mm apart.
@@ -129,4 +134,12 @@ fn array_moment_balance_cold(bencher: Bencher, side: usize) {
 fn example_30_steps(bencher: Bencher) {
     let scene = example();
     bencher.bench(|| simulate(black_box(&scene), |_| ControlFlow::Continue(())));
+}
+
+/// 4 × 4 grippers over curved molds, 30 steps cut where they dip, without writing files: a sphere in closed
+/// form, a formula, and a mesh of 3 872 triangles.
+#[divan::bench(args = ["04_dome", "07_cubic", "08_stl_mold"], sample_count = 5, sample_size = 1)]
+fn curved_example(bencher: Bencher, name: &str) {
+    let scene = shipped(name);
+    bencher.bench_local(|| simulate(black_box(&scene), |_| ControlFlow::Continue(())));
 }

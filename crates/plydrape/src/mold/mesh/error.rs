@@ -40,7 +40,9 @@ pub enum MeshError {
         expected: String,
     },
     /// The file stops too early.
-    #[error("{file}: the file ends at line {line}, expected {expected}; is it complete?")]
+    #[error(
+        "{file}: the file ends at line {line}, expected {expected}; is the file complete? copy or export it once more"
+    )]
     Ends {
         /// The file.
         file: String,
@@ -51,7 +53,7 @@ pub enum MeshError {
     },
     /// A binary STL file is longer or shorter than its number of triangles asks.
     #[error(
-        "{file}: a binary STL file of {triangles} triangles has {expected} bytes, this one has {bytes}; is it complete?"
+        "{file}: a binary STL file of {triangles} triangles has {expected} bytes, this one has {bytes}; is the file complete? copy or export it once more"
     )]
     Length {
         /// The file.
@@ -233,6 +235,18 @@ pub enum MeshError {
         /// Vertical component of the mean of its normals, weighted by area.
         upwards: f64,
     },
+}
+
+impl MeshError {
+    /// What is wrong, and what to do about it: the message up to and after its semicolon.
+    #[must_use]
+    pub fn fault_and_remedy(&self) -> (String, String) {
+        let text = self.to_string();
+        match text.split_once("; ") {
+            Some((fault, remedy)) => (fault.into(), remedy.into()),
+            None => (text, "correct the file, or export the mold's surface anew".into()),
+        }
+    }
 }
 
 /// How a file name ends.

@@ -14,7 +14,7 @@ pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), Scene
     let document = keys.document;
     let file = keys.wanted(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
     let at_file = |error: MeshError| {
-        let (message, help) = in_two(&error);
+        let (message, help) = error.fault_and_remedy();
         document.error(file.span.clone(), message, help)
     };
     let path = base.join(&file.value);
@@ -50,16 +50,4 @@ pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), Scene
     };
     let (mesh, report) = parse(scale, &keys.pose()?).map_err(at_file)?;
     Ok((Mold::Mesh(Arc::new(mesh)), report))
-}
-
-/// The text of a mesh's fault as what is wrong and what would be right.
-fn in_two(error: &MeshError) -> (String, String) {
-    let text = error.to_string();
-    match text.split_once("; ") {
-        Some((message, "is it complete?")) => {
-            (message.into(), "is the file complete? copy or export it once more".into())
-        }
-        Some((message, help)) => (message.into(), help.into()),
-        None => (text, "correct the file, or export the mold's surface anew".into()),
-    }
 }
