@@ -151,7 +151,7 @@ impl Profile {
                 for (t, weight) in LONG.t.iter().zip(&LONG.weight) {
                     let [u, v, g] = self.form.slope(start + width * t).value;
                     let slope = theta + rho * g + amplitude[0] * u + amplitude[1] * v;
-                    sum += width * weight * slope.hypot(1.0);
+                    sum += width * weight * (1.0 + slope * slope).sqrt();
                 }
             }
         }

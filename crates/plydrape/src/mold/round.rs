@@ -59,7 +59,7 @@ struct Arc {
 }
 
 fn arc(h: f64, z: f64, radius: f64, face: Face) -> Arc {
-    let from_centre = h.hypot(z);
+    let from_centre = length(h, z);
     match face {
         Face::Outside => {
             let outward =
@@ -101,9 +101,14 @@ fn sign(face: Face) -> f64 {
     }
 }
 
+/// Length of a vector of ordinary size; `hypot` would spend most of a foot on guarding against overflow.
+fn length(a: f64, b: f64) -> f64 {
+    (a * a + b * b).sqrt()
+}
+
 /// Radial distance from the z axis and the unit vector of it in plan.
 fn radial(x: f64, y: f64) -> (f64, [f64; 2]) {
-    let rho = x.hypot(y);
+    let rho = length(x, y);
     if rho > 0.0 { (rho, [x / rho, y / rho]) } else { (0.0, [1.0, 0.0]) }
 }
 
