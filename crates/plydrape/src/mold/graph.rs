@@ -86,7 +86,7 @@ impl Graph {
             let Some((next, there, closer)) = found else { break };
             (xy, height, value) = (next, there, closer);
             // quadratic convergence: what is left is below rounding
-            if size < 1e-9 * scale {
+            if size < 1e-7 * scale {
                 break;
             }
         }
