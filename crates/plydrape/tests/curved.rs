@@ -2,8 +2,11 @@
 
 use plydrape::draping::record::ResultFile;
 use plydrape::draping::simulate;
-use plydrape::mold::{Cylinder, Face, Formula, Graph, Mesh, Mold, Pose, Saddle, Sphere, Surface};
-use plydrape::ply::Grid;
+use plydrape::mold::{
+    Cylinder, Face, Formula, Graph, HeightGrid, Mesh, Mold, Pose, Saddle, Sphere, Surface,
+};
+use plydrape::net::{Layup, Net};
+use plydrape::ply::{Grid, Kind};
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Stepping};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -281,4 +284,64 @@ fn a_sphere_as_a_formula_drapes_like_the_sphere() {
             assert!(distance(a.points[0], b.points[0]) < 1e-7);
         }
     }
+}
+
+/// Landing error of an edge of a dome at the end (mm), and the slack of its rests (mm).
+fn edge_off(result: &ResultFile, edge: usize) -> (f64, f64) {
+    let edge = &result.steps.last().expect("steps").catenaries[edge];
+    let contact = edge.contact.as_ref().expect("it has landed");
+    let errors = contact.landing_error_mm.iter().flatten().flatten().copied();
+    let slack = edge.spans.iter().map(|span| span.slack_mm).fold(0.0, f64::max);
+    (errors.fold(0.0, f64::max), slack)
+}
+
+/// The dome of the examples, landed as a front that spreads from its middle: ahead of the front the ply
+/// curves away from the mold by 2 m⁻¹·(r − front)², and the net on that surface gives the grippers. A trial of the
+/// model left 0.046 mm so, and 1.04 mm on straight paths. What is left on the outer edges is the model's
+/// own: an edge hangs and lands in a vertical plane, but fibres 150 mm off the middle bow sideways with the
+/// geodesic curvature of a parallel of the sphere, tan(0.15/R)/R, so that their middles lie a²/8 of it aside.
+#[test]
+fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it() {
+    let mut scene = example("04_dome");
+    let target = scene.target.clone().expect("a target");
+    let layup = target.drape.as_ref().expect("an ideal drape").layup;
+    let axis: Vec<f64> = (0..121).map(|n| -0.3 + 0.005 * f64::from(n)).collect();
+    let grippers = |front: f64| -> Vec<[f64; 3]> {
+        let places = axis.iter().flat_map(|y| axis.iter().map(move |x| (x, y)));
+        let height = |(x, y): (&f64, &f64)| {
+            let ahead = (x.hypot(*y) - front).max(0.0);
+            (0.36 - x * x - y * y).sqrt() - 0.6 + 2.0 * ahead * ahead
+        };
+        let z = places.map(height).collect();
+        let heights = HeightGrid::new(axis.clone(), axis.clone(), z).expect("a grid");
+        let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::HeightGrid(heights));
+        let mold = Mold::Graph(Graph { pose, surface, domain: Some([[-0.3, 0.3]; 2]) });
+        let place = mold.drop_to([0.0; 2]).expect("the middle");
+        let net = Net::drape(&mold, Layup { place, ..layup }).expect("a net");
+        let divisions = (0.1 / layup.mesh[0]).round() as usize;
+        let node = |n: usize| net.node([n % 4 * divisions, n / 4 * divisions]).expect("a node");
+        (0..16).map(node).collect()
+    };
+    let mut positions: Vec<_> = (0..60).map(|n| grippers(0.25 * f64::from(n) / 59.0)).collect();
+    positions[59] = target.grippers.clone();
+    let straight = drape(&scene);
+    scene.motion = Motion { times: (0..60).map(f64::from).collect(), positions };
+    let rolled = drape(&scene);
+
+    let bow = (0.15_f64 / 0.6).tan() / 0.6 * 0.1 * 0.1 / 8.0 * 1e3;
+    let grid = scene.ply.grid;
+    let mut worst = 0.0_f64;
+    for edge in 0..grid.edges() {
+        let c = grid.catenary(edge);
+        let along = usize::from(c.kind == Kind::EdgeV);
+        let outer = [0, 3].contains(&c.from[1 - along]);
+        let (off, slack) = edge_off(&rolled, edge);
+        worst = worst.max(off);
+        let limit = if outer { bow + 0.03 } else { 0.1 };
+        assert!(off < limit, "{:?} {:?}: {off} mm", c.from, c.to);
+        assert!(slack < 0.05, "{:?} {:?}: {slack} mm of slack", c.from, c.to);
+    }
+    assert!((worst - bow).abs() < 0.03, "{worst} {bow}");
+    let wrinkled = (0..grid.edges()).map(|edge| edge_off(&straight, edge).1).fold(0.0, f64::max);
+    assert!(wrinkled > 1.0, "straight paths leave {wrinkled} mm of slack");
 }
