@@ -2,13 +2,13 @@
 //!
 //! The unit tangent T of the curve is across both the plane's normal m and the mold's normal n,
 //! T = m × n / |m × n|. The curve p' = T(p) is followed by the Runge–Kutta method of fourth order, in
-//! steps over which T turns by about a hundredth of a radian; after each step the point is put
-//! back on the mold within the plane. The error of an arc is then some 1e-11 of its length.
+//! steps over which neither T nor n turns by more than about a hundredth of a radian; after each step the
+//! point is put back on the mold within the plane. The error of an arc is then some 1e-11 of its length.
 
-use super::vector::{along, cross, dot, unit};
+use super::vector::{along, cross, distance, dot, unit};
 use super::{Foot, Mold, Strand};
 
-/// Largest turn of the tangent in one step (rad).
+/// Turn of tangent or normal that a step aims at (rad).
 const TURN: f64 = 0.01;
 /// A step that turns more than this is tried again shorter (rad).
 const MOST_TURN: f64 = 0.012;
@@ -24,6 +24,38 @@ pub(super) enum Until {
     Length(f64),
     /// Over a horizontal distance (m).
     Run(f64),
+}
+
+/// How a curve runs somewhere.
+#[derive(Clone, Copy)]
+struct Course {
+    /// Unit tangent T.
+    tangent: [f64; 3],
+    /// Unit normal of the mold.
+    normal: [f64; 3],
+}
+
+impl Course {
+    /// How far tangent or normal turn from here to there, the larger of both (rad).
+    fn turn(&self, there: &Course) -> f64 {
+        angle(self.tangent, there.tangent).max(angle(self.normal, there.normal))
+    }
+}
+
+/// Where a step along a curve leads.
+struct Step {
+    /// Its end, on the mold (m).
+    end: [f64; 3],
+    /// How the curve runs there.
+    course: Course,
+    /// How it runs half-way.
+    half_way: Course,
+}
+
+/// Angle between two unit vectors (rad).
+fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
+    // the chord is sharp where the cosine is flat
+    2.0 * (0.5 * distance(a, b)).min(1.0).asin()
 }
 
 /// The plane of a section: vertical, along a horizontal unit vector.
@@ -42,7 +74,7 @@ pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until
     let total = match until {
         Until::Length(length) | Until::Run(length) => length,
     };
-    let Some(mut tangent) = section.tangent(&mold.foot(from)) else {
+    let Some(mut course) = section.course(&mold.foot(from)) else {
         return strand;
     };
     let (mut p, mut arc, mut step) = (from, 0.0, total);
@@ -50,18 +82,21 @@ pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until
         let left = match until {
             Until::Length(length) => length - arc,
             Until::Run(run) => {
-                (run - section.run(from, p)) / section.run([0.0; 3], tangent).max(1e-3)
+                (run - section.run(from, p)) / section.run([0.0; 3], course.tangent).max(1e-3)
             }
         };
         if left <= 1e-15 * total {
             break;
         }
         step = f64::min(step, left);
-        let Some((mut next, mut there)) = section.step(p, tangent, step) else {
+        let Some(Step { end: mut next, course: mut there, half_way }) =
+            section.step(p, course, step)
+        else {
             step *= 0.5;
             if step < 1e-9 * total { break } else { continue }
         };
-        let turn = dot(tangent, there).clamp(-1.0, 1.0).acos();
+        // by way of the middle: an S turns too
+        let turn = course.turn(&half_way) + half_way.turn(&there);
         if turn > MOST_TURN && step > 1e-6 * total {
             step *= 0.5;
             continue;
@@ -75,16 +110,16 @@ pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until
                 if miss.abs() <= 1e-15 * run {
                     break;
                 }
-                step += miss / section.run([0.0; 3], there).max(1e-3);
-                let Some(found) = section.step(p, tangent, step) else { return strand };
-                (next, there) = found;
+                step += miss / section.run([0.0; 3], there.tangent).max(1e-3);
+                let Some(found) = section.step(p, course, step) else { return strand };
+                (next, there) = (found.end, found.course);
             }
             strand.push(next, arc + step);
             break;
         }
         arc = if matches!(until, Until::Length(_)) && step >= left { total } else { arc + step };
         strand.push(next, arc);
-        (p, tangent) = (next, there);
+        (p, course) = (next, there);
         step *= (TURN / turn.max(1e-12)).clamp(0.5, 2.0);
     }
     strand
@@ -96,18 +131,20 @@ impl Section<'_> {
         (b[0] - a[0]) * self.heading[0] + (b[1] - a[1]) * self.heading[1]
     }
 
-    fn tangent(&self, foot: &Foot) -> Option<[f64; 3]> {
+    fn course(&self, foot: &Foot) -> Option<Course> {
         // horizontal normals along `across`: the mold touches the plane
-        unit(cross(self.across, foot.normal)).filter(|_| !foot.beyond)
+        let tangent = unit(cross(self.across, foot.normal)).filter(|_| !foot.beyond)?;
+        Some(Course { tangent, normal: foot.normal })
     }
 
-    /// One step along the curve: where it ends, on the mold, and the tangent there.
-    fn step(&self, p: [f64; 3], tangent: [f64; 3], length: f64) -> Option<([f64; 3], [f64; 3])> {
-        let slope = |p| self.tangent(&self.mold.foot(p));
-        let k1 = tangent;
-        let k2 = slope(along(p, 0.5 * length, k1))?;
-        let k3 = slope(along(p, 0.5 * length, k2))?;
-        let k4 = slope(along(p, length, k3))?;
+    /// One step along the curve.
+    fn step(&self, p: [f64; 3], course: Course, length: f64) -> Option<Step> {
+        let at = |p| self.course(&self.mold.foot(p));
+        let k1 = course.tangent;
+        let k2 = at(along(p, 0.5 * length, k1))?.tangent;
+        let half_way = at(along(p, 0.5 * length, k2))?;
+        let k3 = half_way.tangent;
+        let k4 = at(along(p, length, k3))?.tangent;
         let mean = [0, 1, 2].map(|n| (k1[n] + 2.0 * (k2[n] + k3[n]) + k4[n]) / 6.0);
         let mut next = along(p, length, mean);
         // back onto the mold, within the plane
@@ -119,11 +156,11 @@ impl Section<'_> {
             let sideways = dot(foot.normal, self.across);
             let within = along(foot.normal, -sideways, self.across);
             if foot.distance.abs() <= ON_MOLD {
-                return Some((next, self.tangent(&foot)?));
+                return Some(Step { end: next, course: self.course(&foot)?, half_way });
             }
             next = along(next, -foot.distance / dot(within, within), within);
         }
         let foot = self.mold.foot(next);
-        Some((next, self.tangent(&foot)?))
+        Some(Step { end: next, course: self.course(&foot)?, half_way })
     }
 }
