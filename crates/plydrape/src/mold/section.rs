@@ -2,8 +2,8 @@
 //!
 //! The unit tangent T of the curve is across both the plane's normal m and the mold's normal n,
 //! T = m × n / |m × n|. The curve p' = T(p) is followed by the Runge–Kutta method of fourth order, in
-//! steps over which neither T nor n turns by more than about a hundredth of a radian; after each step the
-//! point is put back on the mold within the plane. The error of an arc is then some 1e-11 of its length.
+//! steps over which neither T nor n turns by more than about a hundredth of a radian, nor would n along the
+//! mold's strongest bend; after each step the point is put back on the mold within the plane. The error of an arc is then some 1e-11 of its length.
 
 use super::vector::{along, cross, distance, dot, unit};
 use super::{Foot, Mold, Strand};
@@ -88,7 +88,9 @@ pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until
         if left <= 1e-15 * total {
             break;
         }
-        step = f64::min(step, left);
+        // where the curve itself hardly turns the mold may still bend across it
+        let bend = mold.curvatures(p).principal.map(f64::abs).into_iter().fold(0.0, f64::max);
+        step = step.min(left).min(MOST_TURN / bend.max(1e-12));
         let Some(Step { end: mut next, course: mut there, half_way }) =
             section.step(p, course, step)
         else {
