@@ -1,4 +1,4 @@
-//! The equilibrium of a net against printed reference values, its own optimality conditions and
+//! The equilibrium of a ply against printed reference values, its own optimality conditions and
 //! central differences.
 
 use plydrape::catenary::Profile;
@@ -46,11 +46,11 @@ fn level(grid: Grid, spacing: f64) -> Vec<[f64; 3]> {
 
 fn forces(solver: &Solver, kind: Kind) -> Vec<f64> {
     let grid_kind = |n: usize| {
-        let element = &solver.net().elements[n];
+        let element = &solver.assembly().elements[n];
         (element.catenary, solver.force(n).expect("it hangs"))
     };
     let grid = Grid { nu: 4, nv: 2 };
-    (0..solver.net().elements.len())
+    (0..solver.assembly().elements.len())
         .map(grid_kind)
         .filter(|(catenary, _)| grid.catenary(*catenary).kind == kind)
         .map(|(_, force)| force)
@@ -119,10 +119,10 @@ fn any_rule() -> impl Strategy<Value = Settings> {
 
 /// Sum of squares of all forces with the shared slopes put where the caller wants them.
 fn norm_at(solver: &Solver, slopes: &[f64]) -> f64 {
-    let net = solver.net();
-    let mut outcome = vec![[0.0; 2]; net.elements.len()];
+    let assembly = solver.assembly();
+    let mut outcome = vec![[0.0; 2]; assembly.elements.len()];
     let mut sum = 0.0;
-    for (n, element) in net.elements.iter().enumerate() {
+    for (n, element) in assembly.elements.iter().enumerate() {
         let mut span = solver.span(n);
         for end in 0..2 {
             let slope = match element.ends[end] {
@@ -169,7 +169,7 @@ proptest! {
         let outcome = solver.solve(&positions, &laid);
         prop_assert_eq!(outcome.status, Status::Converged, "{:?}", outcome);
         prop_assert!(outcome.residual < 1e-8);
-        for n in 0..solver.net().elements.len() {
+        for n in 0..solver.assembly().elements.len() {
             let Some(force) = solver.force(n) else { continue };
             let span = solver.span(n);
             let chord = span.chord() / span.run;
@@ -190,7 +190,7 @@ proptest! {
                 }
             } else {
                 let moment = |k: usize| {
-                    let element = solver.net().joints[joint].elements[k];
+                    let element = solver.assembly().joints[joint].elements[k];
                     let span = solver.span(element);
                     let profile = Profile::new(&span, solver.force(element).expect("hangs"));
                     profile.station(if k == 0 { span.run } else { 0.0 }).moment
@@ -200,8 +200,8 @@ proptest! {
                 let jump = before - after;
                 let carried = (*slope >= bound && jump < 0.0) || (*slope <= -bound && jump > 0.0);
                 // a slope off by 1e-7 leaves a moment of 1e-7 √(EI H)
-                let span = solver.span(solver.net().joints[joint].elements[0]);
-                let stiffness = (span.flexural_rigidity * solver.force(solver.net().joints[joint].elements[0]).expect("hangs").abs()).sqrt();
+                let span = solver.span(solver.assembly().joints[joint].elements[0]);
+                let stiffness = (span.flexural_rigidity * solver.force(solver.assembly().joints[joint].elements[0]).expect("hangs").abs()).sqrt();
                 let small = (before - after).abs() < 1e-7 * stiffness + 1e-9 * scale;
                 prop_assert!(small || carried, "joint {}: {} {}", joint, before, after);
             }
@@ -221,7 +221,7 @@ proptest! {
         for (a, b) in warm.slopes().iter().zip(cold.slopes()) {
             prop_assert!((a - b).abs() < 1e-7, "{a} {b}");
         }
-        for n in 0..cold.net().elements.len() {
+        for n in 0..cold.assembly().elements.len() {
             let (a, b) = (warm.force(n).unwrap_or(0.0), cold.force(n).unwrap_or(0.0));
             prop_assert!((a - b).abs() < 1e-6 * b.abs().max(0.1), "{n}: {a} {b}");
         }
@@ -262,9 +262,9 @@ proptest! {
         // the state is differentiable here: the same spans, shear and active bounds on both sides
         let bound = settings.max_tilt.tan();
         let kind = |s: &Solver| (
-            s.net().shearing.iter().map(|s| s.map(|(_, f)| f)).collect::<Vec<_>>(),
+            s.assembly().shearing.iter().map(|s| s.map(|(_, f)| f)).collect::<Vec<_>>(),
             s.slopes().iter().map(|s| s.abs() >= bound).collect::<Vec<_>>(),
-            s.net().elements.iter().map(|e| e.state).collect::<Vec<_>>(),
+            s.assembly().elements.iter().map(|e| e.state).collect::<Vec<_>>(),
         );
         prop_assume!(kind(&low) == kind(&middle) && kind(&high) == kind(&middle));
         // min-force may have several minima (mirror images in a symmetric ply): all on one of them
@@ -275,7 +275,7 @@ proptest! {
             let difference = (high.slopes()[j] - low.slopes()[j]) / (2.0 * h);
             prop_assert!((slope - difference).abs() < 1e-4 * (1.0 + difference.abs()), "slope {j}: {slope} {difference}");
         }
-        for n in 0..middle.net().elements.len() {
+        for n in 0..middle.assembly().elements.len() {
             let Some(force) = middle.force(n) else { continue };
             let difference = (high.force(n).unwrap_or(0.0) - low.force(n).unwrap_or(0.0)) / (2.0 * h);
             let scale = force.abs() + difference.abs();

@@ -21,12 +21,12 @@ pub struct Attitude {
 /// A shearing diagonal's, or the shared one; at the rim that of the one edge; where two edges keep
 /// slopes of their own (a limp ply, or one side on the mold) their mean.
 fn slope(solver: &Solver, gripper: usize, direction: usize) -> Option<f64> {
-    let net = solver.net();
-    if let Some(slope) = net.governed[gripper][direction] {
+    let assembly = solver.assembly();
+    if let Some(slope) = assembly.governed[gripper][direction] {
         return Some(slope);
     }
     let (mut sum, mut count) = (0.0, 0.0);
-    for side in net.sides[gripper][direction] {
+    for side in assembly.sides[gripper][direction] {
         let slope = match side {
             Side::None => continue,
             Side::Hanging(element, end) => solver.end_slopes(element)[end],

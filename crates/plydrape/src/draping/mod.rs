@@ -144,7 +144,7 @@ impl<'a> Draping<'a> {
     fn shear(&self) -> Vec<Option<CellShear>> {
         let cell = self.scene.ply.cell;
         let shear = |(path, falling)| CellShear { angle: shear::angle(cell, path), path, falling };
-        self.solver.net().shearing.iter().map(|cell| cell.map(shear)).collect()
+        self.solver.assembly().shearing.iter().map(|cell| cell.map(shear)).collect()
     }
 
     /// As in the paper: one equilibrium, one look at the contact; solved anew where it has changed.

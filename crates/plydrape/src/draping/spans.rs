@@ -111,14 +111,14 @@ pub fn shape(
     laid: &[Option<Laid>],
 ) -> Shape {
     let grid = ply.grid;
-    let net = solver.net();
-    let mut elements = net.elements.iter().enumerate().peekable();
+    let assembly = solver.assembly();
+    let mut elements = assembly.elements.iter().enumerate().peekable();
     let mut spans = Vec::with_capacity(2 * grid.catenaries());
     for catenary in 0..grid.catenaries() {
         let c = grid.catenary(catenary);
         let grippers = [c.from, c.to].map(|g| positions[grid.index(g)]);
         let stretched = (catenary >= grid.edges())
-            .then(|| net.shearing[(catenary - grid.edges()) / 2])
+            .then(|| assembly.shearing[(catenary - grid.edges()) / 2])
             .flatten()
             .filter(|(_, falling)| *falling == (c.kind == Kind::Falling));
         let rests = laid[catenary].as_ref().map_or(1, |_| 2);

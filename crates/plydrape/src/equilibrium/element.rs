@@ -1,11 +1,11 @@
-//! One span of the net with its force as a function of what holds it.
+//! One span of the ply with its force as a function of what holds it.
 //!
 //! The force H of a span is given implicitly by its length, C(H, x) = L − L_set(1 + H sec θ/EA) = 0.
 //! Its derivatives follow from those of C: `H_x = −C_x/C_H` and, differentiating once more,
 //! `H_xy = −(C_xy + C_Hx H_y + C_Hy H_x + C_HH H_x H_y)/C_H`.
 
 use super::Number;
-use super::net::{Element, End};
+use super::assembly::{Element, End};
 use crate::catenary::{
     EndCondition, Excess, Jet, Profile, Span, Variable, compose, power, product, variable,
 };

@@ -4,25 +4,25 @@
 //! The Hessian is never formed: it is a 2×2 matrix for each element and a list of the joints that its
 //! ends follow.
 
-use super::net::{End, SlopeSource};
+use super::assembly::{End, SlopeSource};
 use super::solver::Solver;
 
 /// Element matrices of the Hessian: 2×2 of each element, and what a diagonal's ends are made of.
 pub fn assemble(solver: &mut Solver) {
     let work = &mut solver.work;
-    let (net, settled) = (&solver.net, &solver.settled);
-    let joints = net.joints.len();
+    let (assembly, settled) = (&solver.assembly, &solver.settled);
+    let joints = assembly.joints.len();
     work.blocks.clear();
     work.rows.clear();
     work.diagonal.clear();
     work.diagonal.resize(joints, 0.0);
-    for (n, element) in net.elements.iter().enumerate() {
+    for (n, element) in assembly.elements.iter().enumerate() {
         let jet = &settled[n].force;
         let mut block = [[0.0; 2]; 2];
         for i in 0..2 {
             for j in 0..2 {
                 block[i][j] = jet.gradient[i] * jet.gradient[j] + jet.value * jet.hessian[i][j];
-                if n < net.edge_elements {
+                if n < assembly.edge_elements {
                     for end in 0..2 {
                         block[i][j] += work.adjoint[n][end] * settled[n].slope[end].hessian[i][j];
                     }
@@ -40,14 +40,15 @@ pub fn assemble(solver: &mut Solver) {
                         row[end][m] = match plane.source[m] {
                             SlopeSource::Given(_) => (0, 0.0),
                             SlopeSource::Joint(joint) => (joint, plane.share[m]),
-                            SlopeSource::Outcome(edge, at) => match net.elements[edge].ends[1 - at]
-                            {
-                                End::Joint(joint) => (
-                                    joint,
-                                    plane.share[m] * settled[edge].slope[at].gradient[1 - at],
-                                ),
-                                _ => (0, 0.0),
-                            },
+                            SlopeSource::Outcome(edge, at) => {
+                                match assembly.elements[edge].ends[1 - at] {
+                                    End::Joint(joint) => (
+                                        joint,
+                                        plane.share[m] * settled[edge].slope[at].gradient[1 - at],
+                                    ),
+                                    _ => (0, 0.0),
+                                }
+                            }
                         };
                     }
                 }

@@ -8,8 +8,8 @@
 //! number of cells.
 
 use super::Number;
+use super::assembly::{Assembly, End, SlopeSource};
 use super::hessian::{assemble, bounded_step, solve_linear};
-use super::net::{End, Net, SlopeSource};
 use super::solver::{Equilibrium, MAX_ITERATIONS, Solver, Status, error_after};
 
 /// An element's force and end slopes with their derivatives to its own end slopes.
@@ -24,14 +24,14 @@ pub struct Response<T> {
 /// Gradient of ½‖H‖² to the shared slopes (N²), and on the way its gradient to the free end slopes
 /// of every edge element.
 pub fn gradient<T: Number>(
-    net: &Net<T>,
+    assembly: &Assembly<T>,
     response: impl Fn(usize) -> Response<T>,
     out: &mut [T],
     adjoint: &mut [[T; 2]],
 ) {
     out.fill(T::from(0.0));
     adjoint.fill([T::from(0.0); 2]);
-    for (n, element) in net.elements.iter().enumerate().skip(net.edge_elements) {
+    for (n, element) in assembly.elements.iter().enumerate().skip(assembly.edge_elements) {
         let (force, slopes) = response(n).force;
         for end in 0..2 {
             let End::Plane(plane) = element.ends[end] else {
@@ -47,7 +47,7 @@ pub fn gradient<T: Number>(
             }
         }
     }
-    for (n, element) in net.elements[..net.edge_elements].iter().enumerate() {
+    for (n, element) in assembly.elements[..assembly.edge_elements].iter().enumerate() {
         for end in 0..2 {
             let End::Joint(joint) = element.ends[end] else {
                 continue;
@@ -73,7 +73,7 @@ pub(super) fn respond(solver: &mut Solver, change: &[f64], out: &mut [f64]) {
 impl Solver {
     /// Settles everything and evaluates ½‖H‖² (N²) and its gradient.
     fn evaluate(&mut self) -> f64 {
-        let (edges, all) = (self.net.edge_elements, self.net.elements.len());
+        let (edges, all) = (self.assembly.edge_elements, self.assembly.elements.len());
         self.settle(0..edges);
         self.settle(edges..all);
         let settled = &self.settled;
@@ -83,7 +83,7 @@ impl Solver {
             force: (settled[n].force.value, settled[n].force.gradient),
             slope: settled[n].slope.map(|s| (s.value, s.gradient)),
         };
-        gradient(&self.net, response, &mut self.work.gradient, &mut self.work.adjoint);
+        gradient(&self.assembly, response, &mut self.work.gradient, &mut self.work.adjoint);
         0.5 * settled.iter().map(|s| s.force.value * s.force.value).sum::<f64>()
     }
 }
@@ -120,7 +120,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         if settled && tolerance * size <= 1e-12 && solver.may_finish(size, before) {
             solver.slopes.clear();
             solver.slopes.extend((0..count).map(|n| projected(1.0, n)));
-            solver.finish(0..solver.net.elements.len());
+            solver.finish(0..solver.assembly.elements.len());
             residual = error_after(size, before).min(size);
             status = Status::Converged;
             accepted = true;

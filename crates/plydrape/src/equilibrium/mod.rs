@@ -1,20 +1,21 @@
 //! All horizontal forces and shared slopes of a ply at given gripper positions.
 //!
 //! Given the shared slopes, every edge force is a scalar root and the diagonals follow, so only the
-//! slopes are solved for together. `net` states what hangs where, `slopes` what holds it, `element` differentiates one span,
+//! slopes are solved for together. `assembly` states what hangs where, `slopes` what holds it,
+//! `element` differentiates one span,
 //! `min_force` and `moment_balance` are the two rules for the slopes, eqs. (9) and (10) of
 //! `docs/theory.md`, and `tangent` is the exact derivative of the solved state.
 
+mod assembly;
 mod element;
 mod hessian;
 mod min_force;
 mod moment_balance;
-mod net;
 mod slopes;
 mod solver;
 mod tangent;
 
-pub use net::{Element, End, Joint, Net, PlaneSlope, Side, SlopeSource};
+pub use assembly::{Assembly, Element, End, Joint, PlaneSlope, Side, SlopeSource};
 pub use solver::{Equilibrium, Solver, Status};
 pub use tangent::{Direction, StateTangent};
 

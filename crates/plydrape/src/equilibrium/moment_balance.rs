@@ -5,32 +5,37 @@
 //! of moment instead. Newton's method on the active set; each edge force follows its own length.
 
 use super::Number;
-use super::net::{End, Net};
+use super::assembly::{Assembly, End};
 use super::solver::{Equilibrium, MAX_ITERATIONS, Solver, Status, error_after};
 
 /// Jump of moment across a joint (N·m): EI z'' before the gripper minus EI z'' after it. It grows
 /// with the joint's slope.
-pub fn jump<T: Number>(net: &Net<T>, joint: usize, curvature: impl Fn(usize, usize) -> T) -> T {
-    let [a, b] = net.joints[joint].elements;
-    let [end_a, end_b] = [a, b].map(|e| end_at(net, e, joint));
-    net.elements[a].rigidity * curvature(a, end_a) - net.elements[b].rigidity * curvature(b, end_b)
+pub fn jump<T: Number>(
+    assembly: &Assembly<T>,
+    joint: usize,
+    curvature: impl Fn(usize, usize) -> T,
+) -> T {
+    let [a, b] = assembly.joints[joint].elements;
+    let [end_a, end_b] = [a, b].map(|e| end_at(assembly, e, joint));
+    assembly.elements[a].rigidity * curvature(a, end_a)
+        - assembly.elements[b].rigidity * curvature(b, end_b)
 }
 
 /// Which end of an element is held by a joint.
-fn end_at<T>(net: &Net<T>, element: usize, joint: usize) -> usize {
-    usize::from(!matches!(net.elements[element].ends[0], End::Joint(j) if j == joint))
+fn end_at<T>(assembly: &Assembly<T>, element: usize, joint: usize) -> usize {
+    usize::from(!matches!(assembly.elements[element].ends[0], End::Joint(j) if j == joint))
 }
 
 /// One row of the tridiagonal system: below, on and above the diagonal.
 fn row(solver: &Solver, joint: usize) -> [f64; 3] {
-    let net = &solver.net;
+    let assembly = &solver.assembly;
     let mut row = [0.0; 3];
-    for (element, sign) in net.joints[joint].elements.into_iter().zip([1.0, -1.0]) {
-        let end = end_at(net, element, joint);
+    for (element, sign) in assembly.joints[joint].elements.into_iter().zip([1.0, -1.0]) {
+        let end = end_at(assembly, element, joint);
         let gradient = solver.settled[element].curvature[end].gradient;
-        let factor = sign * net.elements[element].rigidity;
+        let factor = sign * assembly.elements[element].rigidity;
         row[1] += factor * gradient[end];
-        if let End::Joint(other) = net.elements[element].ends[1 - end] {
+        if let End::Joint(other) = assembly.elements[element].ends[1 - end] {
             row[if other < joint { 0 } else { 2 }] += factor * gradient[1 - end];
         }
     }
@@ -80,12 +85,12 @@ pub(super) fn respond(solver: &mut Solver, change: &[f64], out: &mut [f64]) {
 impl Solver {
     /// Settles the edges and evaluates all jumps.
     fn evaluate_jumps(&mut self) {
-        self.settle(0..self.net.edge_elements);
+        self.settle(0..self.assembly.edge_elements);
         let count = self.slopes.len();
         self.work.gradient.resize(count, 0.0);
         for joint in 0..count {
             let settled = &self.settled;
-            let jump = jump(&self.net, joint, |e, end| settled[e].curvature[end].value);
+            let jump = jump(&self.assembly, joint, |e, end| settled[e].curvature[end].value);
             self.work.gradient[joint] = jump;
         }
         self.mark_active();
@@ -131,12 +136,12 @@ const FAR_STEP: f64 = 0.3;
 pub fn solve(solver: &mut Solver) -> Equilibrium {
     let (count, bound) = (solver.slopes.len(), solver.bound());
     for joint in 0..count {
-        for element in solver.net.joints[joint].elements {
-            let end = end_at(&solver.net, element, joint);
+        for element in solver.assembly.joints[joint].elements {
+            let end = end_at(&solver.assembly, element, joint);
             solver.wanted[element].curvature[end] = true;
         }
     }
-    let diagonals = solver.net.edge_elements..solver.net.elements.len();
+    let diagonals = solver.assembly.edge_elements..solver.assembly.elements.len();
     for wanted in &mut solver.wanted[diagonals] {
         wanted.derivatives = false;
     }
@@ -147,7 +152,7 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         balance(solver, bound)
     };
     // diagonals are no tows: they follow
-    let (edges, all) = (solver.net.edge_elements, solver.net.elements.len());
+    let (edges, all) = (solver.assembly.edge_elements, solver.assembly.elements.len());
     solver.settle(edges..all);
     solver.read_free_ends();
     outcome
@@ -172,7 +177,7 @@ fn balance(solver: &mut Solver, bound: f64) -> Equilibrium {
         let way = solver.slopes.iter().zip(&start).map(|(s, start)| (s - start).abs());
         let size = way.fold(0.0, f64::max);
         if solver.may_finish(size, before) {
-            solver.finish(0..solver.net.edge_elements);
+            solver.finish(0..solver.assembly.edge_elements);
             solver.work.trial = start;
             let residual = error_after(size, before).min(size);
             return Equilibrium { status: Status::Converged, iterations, residual };

@@ -5,11 +5,11 @@
 //! shearing diagonal's own slope for all around it.
 
 use super::Number;
-use super::net::{Build, End, Joint, Line, Net, PlaneSlope, Side, SlopeSource};
+use super::assembly::{Assembly, Build, End, Joint, Line, PlaneSlope, Side, SlopeSource};
 use crate::ply::{Catenary, Kind, Laid};
 use crate::scene::ContactEnd;
 
-impl<T: Number> Net<T> {
+impl<T: Number> Assembly<T> {
     /// Slopes at the grippers of shearing diagonals: their outward slope, each taken in the line's own
     /// direction; where several meet, the mean.
     pub(super) fn govern(&mut self, build: &Build<T>) {

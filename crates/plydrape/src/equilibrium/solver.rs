@@ -1,11 +1,11 @@
-//! The solver: one [`Net`], its forces and slopes, and the memory that makes the next step cheap.
+//! The solver: one [`Assembly`], its forces and slopes, and the memory that makes the next step cheap.
 //!
-//! [`Solver::solve`] is the paper's section 3: build the net, iterate on the shared slopes by one of
-//! the two rules, read off the forces. Between calls it remembers forces and slopes by place, so a net
+//! [`Solver::solve`] is the paper's section 3: build the assembly, iterate on the shared slopes by one of
+//! the two rules, read off the forces. Between calls it remembers forces and slopes by place, so an assembly
 //! that has gained or lost a span still starts warm. The iteration allocates nothing.
 
+use super::assembly::{Assembly, Build, Element, End, PlaneSlope, SlopeSource};
 use super::element::{Settled, Wanted, settle, settle_still};
-use super::net::{Build, Element, End, Net, PlaneSlope, SlopeSource};
 use super::{min_force, moment_balance};
 use crate::catenary::SpanState;
 use crate::ply::{Laid, Ply};
@@ -80,7 +80,7 @@ pub(super) fn error_after(size: f64, before: f64) -> f64 {
 pub struct Solver {
     pub(super) ply: Ply,
     pub(super) settings: Settings,
-    pub(super) net: Net<f64>,
+    pub(super) assembly: Assembly<f64>,
     /// Shared slopes, one a joint.
     pub(super) slopes: Vec<f64>,
     /// Slopes that hold both ends of each element; a free end's is its outcome.
@@ -123,7 +123,7 @@ impl Solver {
         Solver {
             ply: ply.clone(),
             settings: *settings,
-            net: Net::default(),
+            assembly: Assembly::default(),
             slopes: Vec::new(),
             held: Vec::new(),
             settled: Vec::new(),
@@ -187,7 +187,7 @@ impl Solver {
             laid,
             factors: [1.0, 1.0, stiffness],
         };
-        self.net.rebuild(&build);
+        self.assembly.rebuild(&build);
         self.recall();
         let outcome = match self.settings.slopes {
             SlopeRule::MinForce => min_force::solve(self),
@@ -204,13 +204,13 @@ impl Solver {
         outcome
     }
 
-    /// The net of the last solve.
+    /// The assembly of the last solve.
     #[must_use]
-    pub fn net(&self) -> &Net<f64> {
-        &self.net
+    pub fn assembly(&self) -> &Assembly<f64> {
+        &self.assembly
     }
 
-    /// Shared slopes of the last solve, one a joint of the net.
+    /// Shared slopes of the last solve, one a joint of the assembly.
     #[must_use]
     pub fn slopes(&self) -> &[f64] {
         &self.slopes
@@ -219,7 +219,7 @@ impl Solver {
     /// Horizontal force (N) of an element; none for a straight inextensible or vertical one.
     #[must_use]
     pub fn force(&self, element: usize) -> Option<f64> {
-        let hangs = self.net.elements[element].state != SpanState::Straight;
+        let hangs = self.assembly.elements[element].state != SpanState::Straight;
         hangs.then(|| self.settled[element].force.value)
     }
 
@@ -232,13 +232,13 @@ impl Solver {
     /// Which ends of an element have a prescribed slope.
     #[must_use]
     pub fn holds(&self, element: usize) -> [bool; 2] {
-        self.net.elements[element].ends.map(|end| !matches!(end, End::Free))
+        self.assembly.elements[element].ends.map(|end| !matches!(end, End::Free))
     }
 
     /// The span of an element, as solved.
     #[must_use]
     pub fn span(&self, element: usize) -> crate::catenary::Span {
-        self.net.elements[element].span(self.settings.axial_stiffness, &self.held[element])
+        self.assembly.elements[element].span(self.settings.axial_stiffness, &self.held[element])
     }
 
     /// Largest slope of a ball joint.
@@ -259,9 +259,9 @@ impl Solver {
 
     /// Starts from what was found last time at the same places.
     fn recall(&mut self) {
-        let (count, bound) = (self.net.elements.len(), self.bound());
+        let (count, bound) = (self.assembly.elements.len(), self.bound());
         self.slopes.clear();
-        for joint in &self.net.joints {
+        for joint in &self.assembly.joints {
             let slope = self.memory[joint.gripper][joint.direction];
             self.slopes.push(slope.clamp(-bound, bound));
         }
@@ -272,7 +272,7 @@ impl Solver {
         self.wanted.clear();
         self.wanted.resize(count, Wanted::default());
         for n in 0..count {
-            for end in self.net.elements[n].ends {
+            for end in self.assembly.elements[n].ends {
                 match end {
                     End::Joint(_) => self.wanted[n].derivatives = true,
                     End::Plane(plane) => self.watch(n, &plane),
@@ -281,7 +281,7 @@ impl Solver {
             }
         }
         self.heights.clear();
-        for (n, element) in self.net.elements.iter().enumerate() {
+        for (n, element) in self.assembly.elements.iter().enumerate() {
             // the force follows the parabola's from step to step; NaN where the span is new
             let ratio = self.ratios[element.catenary][element.rest].unwrap_or(f64::NAN);
             let span = element.span(self.settings.axial_stiffness, &[]);
@@ -307,13 +307,13 @@ impl Solver {
     }
 
     fn remember(&mut self) {
-        for (n, element) in self.net.elements.iter().enumerate() {
+        for (n, element) in self.assembly.elements.iter().enumerate() {
             let [pole, height] = self.heights[n];
             let ratio = (self.settled[n].force.value - pole) / height;
             self.ratios[element.catenary][element.rest] =
                 (element.state != SpanState::Straight && ratio.is_finite()).then_some(ratio);
         }
-        for (joint, slope) in self.net.joints.iter().zip(&self.slopes) {
+        for (joint, slope) in self.assembly.joints.iter().zip(&self.slopes) {
             self.memory[joint.gripper][joint.direction] = *slope;
         }
     }
@@ -321,7 +321,7 @@ impl Solver {
     /// Settles the elements of a range at the present shared slopes.
     pub(super) fn settle(&mut self, elements: std::ops::Range<usize>) {
         for n in elements {
-            let element = self.net.elements[n];
+            let element = self.assembly.elements[n];
             if element.state == SpanState::Straight {
                 let slope = if element.run > 0.0 { element.rise / element.run } else { 0.0 };
                 self.held[n] = [slope; 2];
@@ -397,7 +397,7 @@ impl Solver {
     /// Takes a last small step of the shared slopes by series, without settling anew.
     pub(super) fn finish(&mut self, elements: std::ops::Range<usize>) {
         for n in elements {
-            let element = self.net.elements[n];
+            let element = self.assembly.elements[n];
             if element.state == SpanState::Straight {
                 continue;
             }
@@ -422,7 +422,7 @@ impl Solver {
 
     /// Writes the outcome of free ends where their slope is reported.
     pub(super) fn read_free_ends(&mut self) {
-        for (n, element) in self.net.elements.iter().enumerate() {
+        for (n, element) in self.assembly.elements.iter().enumerate() {
             if element.state == SpanState::Straight {
                 continue;
             }

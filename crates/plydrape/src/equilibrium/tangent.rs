@@ -2,13 +2,13 @@
 //! `docs/theory.md`.
 //!
 //! A direction of change of positions, lengths or material is carried as a dual number through the
-//! same net and the same rule; what it does to the rule's residual at fixed slopes gives the slopes'
+//! same assembly and the same rule; what it does to the rule's residual at fixed slopes gives the slopes'
 //! response through the matrix of the last Newton step, and a second pass gives every force.
 
+use super::assembly::{Assembly, Build, End, SlopeSource};
 use super::element::{Settled, Wanted, settle};
 use super::min_force::{self, Response};
 use super::moment_balance;
-use super::net::{Build, End, Net, SlopeSource};
 use super::solver::{Solver, Work};
 use crate::catenary::{Jet, SpanState};
 use crate::ply::Laid;
@@ -39,7 +39,7 @@ impl Direction {
 /// How the solved state changes along a [`Direction`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateTangent {
-    /// Change of each shared slope, one a joint of the net.
+    /// Change of each shared slope, one a joint of the assembly.
     pub slopes: Vec<f64>,
     /// Change of each element's horizontal force (N); 0 where it has none.
     pub force: Vec<f64>,
@@ -89,23 +89,24 @@ impl Solver {
                 factor(direction.rigidity),
             ],
         };
-        let mut net = Net::default();
-        net.rebuild(&build);
-        let jets: Vec<Settled<7>> = (0..net.elements.len()).map(|n| self.all_jets(n)).collect();
+        let mut assembly = Assembly::default();
+        assembly.rebuild(&build);
+        let jets: Vec<Settled<7>> =
+            (0..assembly.elements.len()).map(|n| self.all_jets(n)).collect();
 
         // what the direction does to the rule at fixed slopes
         let joints = self.slopes.len();
         let still = vec![0.0; joints];
-        let pass = self.pass(&net, &jets, &still);
+        let pass = self.pass(&assembly, &jets, &still);
         let change: Vec<f64> = match self.settings.slopes {
             SlopeRule::MinForce => {
                 let mut gradient = vec![Dual64::from(0.0); joints];
-                let mut adjoint = vec![[Dual64::from(0.0); 2]; net.elements.len()];
-                min_force::gradient(&net, |n| pass.responses[n], &mut gradient, &mut adjoint);
+                let mut adjoint = vec![[Dual64::from(0.0); 2]; assembly.elements.len()];
+                min_force::gradient(&assembly, |n| pass.responses[n], &mut gradient, &mut adjoint);
                 gradient.iter().map(|g| g.eps).collect()
             }
             SlopeRule::MomentBalance => (0..joints)
-                .map(|j| moment_balance::jump(&net, j, |e, end| pass.curvatures[e][end]).eps)
+                .map(|j| moment_balance::jump(&assembly, j, |e, end| pass.curvatures[e][end]).eps)
                 .collect(),
         };
         // what the slopes answer, and with it everything else
@@ -115,7 +116,7 @@ impl Solver {
             SlopeRule::MinForce => min_force::respond(self, &change, &mut slopes),
             SlopeRule::MomentBalance => moment_balance::respond(self, &change, &mut slopes),
         }
-        let pass = self.pass(&net, &jets, &slopes);
+        let pass = self.pass(&assembly, &jets, &slopes);
         StateTangent {
             slopes,
             force: pass.responses.iter().map(|r| r.force.0.eps).collect(),
@@ -125,7 +126,7 @@ impl Solver {
 
     /// An element with derivatives to everything it depends on.
     fn all_jets(&self, n: usize) -> Settled<7> {
-        let element = &self.net.elements[n];
+        let element = &self.assembly.elements[n];
         if element.state == SpanState::Straight {
             return Settled::default();
         }
@@ -155,32 +156,32 @@ impl Solver {
             slope: settled[n].slope.map(|s| (s.value, s.gradient)),
         };
         self.work.gradient.resize(self.slopes.len(), 0.0);
-        self.work.adjoint.resize(self.net.elements.len(), [0.0; 2]);
+        self.work.adjoint.resize(self.assembly.elements.len(), [0.0; 2]);
         match self.settings.slopes {
             SlopeRule::MinForce => {
                 let Work { gradient, adjoint, .. } = &mut self.work;
-                min_force::gradient(&self.net, response, gradient, adjoint);
+                min_force::gradient(&self.assembly, response, gradient, adjoint);
             }
             SlopeRule::MomentBalance => {
                 for (n, out) in self.work.gradient.iter_mut().enumerate() {
                     let curvature = |e: usize, end: usize| settled[e].curvature[end].value;
-                    *out = moment_balance::jump(&self.net, n, curvature);
+                    *out = moment_balance::jump(&self.assembly, n, curvature);
                 }
             }
         }
         self.mark_active();
     }
 
-    fn pass(&self, net: &Net<Dual64>, jets: &[Settled<7>], slopes: &[f64]) -> Pass {
+    fn pass(&self, assembly: &Assembly<Dual64>, jets: &[Settled<7>], slopes: &[f64]) -> Pass {
         let zero = Dual64::from(0.0);
-        let count = net.elements.len();
+        let count = assembly.elements.len();
         let mut pass = Pass {
             responses: Vec::with_capacity(count),
             curvatures: Vec::with_capacity(count),
             held: Vec::with_capacity(count),
         };
         let joint = |j: usize| Dual64::new(self.slopes[j], slopes[j]);
-        for (n, element) in net.elements.iter().enumerate() {
+        for (n, element) in assembly.elements.iter().enumerate() {
             if element.state == SpanState::Straight {
                 let slope = if element.run.re > 0.0 { element.rise / element.run } else { zero };
                 pass.responses

@@ -1,7 +1,7 @@
 //! What hangs where: the spans of a ply at given gripper positions, and what holds their ends.
 //!
 //! The slope rules of the paper (section 2.2), eqs. (6)–(8) of `docs/theory.md`. Everything that
-//! depends on a position is a [`Number`], so the same code gives the net and its derivative.
+//! depends on a position is a [`Number`], so the same code gives the assembly and its derivative.
 
 use super::Number;
 use super::slopes::contact_end;
@@ -89,7 +89,7 @@ pub enum Side<T> {
 
 /// A ply at given gripper positions.
 #[derive(Debug, Clone)]
-pub struct Net<T> {
+pub struct Assembly<T> {
     /// All free spans: those of edges first, then those of diagonals.
     pub elements: Vec<Element<T>>,
     /// Number of edge elements.
@@ -150,7 +150,7 @@ impl<T: Number> Line<T> {
     }
 }
 
-/// The catenaries around a cell and the contact on them, for building a [`Net`].
+/// The catenaries around a cell and the contact on them, for building an [`Assembly`].
 pub struct Build<'a, T> {
     /// The ply.
     pub ply: &'a Ply,
@@ -208,9 +208,9 @@ impl<T: Number> Build<'_, T> {
     }
 }
 
-impl<T> Default for Net<T> {
+impl<T> Default for Assembly<T> {
     fn default() -> Self {
-        Net {
+        Assembly {
             elements: Vec::new(),
             edge_elements: 0,
             joints: Vec::new(),
@@ -224,8 +224,8 @@ impl<T> Default for Net<T> {
     }
 }
 
-impl<T: Number> Net<T> {
-    /// Rebuilds the net in place.
+impl<T: Number> Assembly<T> {
+    /// Rebuilds the assembly in place.
     pub fn rebuild(&mut self, build: &Build<T>) {
         let grid = build.grid();
         self.elements.clear();
