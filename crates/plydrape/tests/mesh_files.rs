@@ -11,6 +11,11 @@ fn still() -> Pose {
     Pose::new([0.0; 3], [0.0; 3])
 }
 
+/// A fault and its remedy on one line.
+fn told(fault: &MeshError) -> String {
+    format!("{fault}; {}\n", fault.remedy())
+}
+
 fn parse(file: &str, contents: impl AsRef<[u8]>) -> Result<(Mesh, MeshReport), MeshError> {
     Mesh::parse(file, contents.as_ref(), 1.0, &still())
 }
@@ -413,14 +418,14 @@ fn broken_files_are_refused_with_place_and_remedy() {
     for (file, contents) in &cases {
         match parse(file, contents) {
             Ok((_, report)) => panic!("{file} passes: {report}"),
-            Err(fault) => messages += &format!("{fault}\n"),
+            Err(fault) => messages += &told(&fault),
         }
     }
     let missing = Mesh::read(Path::new("nowhere/mold.stl"), 1.0, &still());
-    messages += &format!("{}\n", missing.unwrap_err());
+    messages += &told(&missing.unwrap_err());
     for scale in [0.0, f64::NAN] {
         let fault = Mesh::parse("a.obj", square.as_bytes(), scale, &still()).unwrap_err();
-        messages += &format!("{fault}\n");
+        messages += &told(&fault);
     }
     insta::assert_snapshot!("messages", messages);
 }
@@ -447,4 +452,12 @@ fn no_damage_to_a_file_makes_a_panic() {
             }
         }
     }
+}
+
+/// What stands in the file is quoted whole and never taken for the remedy.
+#[test]
+fn a_semicolon_in_a_file_is_part_of_the_fault() {
+    let fault = parse("a.obj", "wall; floor\n").unwrap_err();
+    assert!(fault.to_string().contains("`wall; floor`"), "{fault}");
+    assert!(!fault.remedy().contains("floor"), "{}", fault.remedy());
 }

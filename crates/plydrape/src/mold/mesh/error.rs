@@ -12,7 +12,7 @@ pub enum MeshError {
         source: std::io::Error,
     },
     /// The name of the file does not end as a mesh format.
-    #[error("{file}: {}; the name of a mesh ends in .stl, .obj or .inp", ending(.extension))]
+    #[error("{file}: {}", ending(.extension))]
     Format {
         /// The file.
         file: String,
@@ -20,7 +20,7 @@ pub enum MeshError {
         extension: String,
     },
     /// A text file holds bytes that are no text.
-    #[error("{file}, line {line}: bytes that are no text; save the file as plain text (UTF-8)")]
+    #[error("{file}, line {line}: bytes that are no text")]
     NotText {
         /// The file.
         file: String,
@@ -40,9 +40,7 @@ pub enum MeshError {
         expected: String,
     },
     /// The file stops too early.
-    #[error(
-        "{file}: the file ends at line {line}, expected {expected}; is the file complete? copy or export it once more"
-    )]
+    #[error("{file}: the file ends at line {line}, expected {expected}")]
     Ends {
         /// The file.
         file: String,
@@ -53,7 +51,7 @@ pub enum MeshError {
     },
     /// A binary STL file is longer or shorter than its number of triangles asks.
     #[error(
-        "{file}: a binary STL file of {triangles} triangles has {expected} bytes, this one has {bytes}; is the file complete? copy or export it once more"
+        "{file}: a binary STL file of {triangles} triangles has {expected} bytes, this one has {bytes}"
     )]
     Length {
         /// The file.
@@ -76,9 +74,7 @@ pub enum MeshError {
         value: f64,
     },
     /// A face names a vertex that is not there.
-    #[error(
-        "{file}, line {line}: face {number} uses vertex {vertex}; the file has {vertices} vertices"
-    )]
+    #[error("{file}, line {line}: face {number} uses vertex {vertex}")]
     Vertex {
         /// The file.
         file: String,
@@ -109,7 +105,7 @@ pub enum MeshError {
     },
     /// A node is defined twice, in two places.
     #[error(
-        "{file}, line {line}: node {node} is defined again at another place; it stands in line {before} already; give it a number of its own"
+        "{file}, line {line}: node {node} is defined again at another place; it stands in line {before} already"
     )]
     NodeTwice {
         /// The file.
@@ -122,7 +118,7 @@ pub enum MeshError {
         before: usize,
     },
     /// A keyword that changes the geometry and is not understood.
-    #[error("{file}, line {line}: {keyword} is not read; {remedy}")]
+    #[error("{file}, line {line}: {keyword} is not read")]
     Keyword {
         /// The file.
         file: String,
@@ -134,7 +130,7 @@ pub enum MeshError {
         remedy: &'static str,
     },
     /// An instance of a part that is not there.
-    #[error("{file}, line {line}: there is no part `{part}`; parts are {known}")]
+    #[error("{file}, line {line}: there is no part `{part}`")]
     Part {
         /// The file.
         file: String,
@@ -146,7 +142,7 @@ pub enum MeshError {
         known: String,
     },
     /// The file is in order and has no surface.
-    #[error("{file}: no {noun}s{others}; export the mold as a surface mesh")]
+    #[error("{file}: no {noun}s{others}")]
     Empty {
         /// The file.
         file: String,
@@ -156,9 +152,7 @@ pub enum MeshError {
         others: String,
     },
     /// All triangles have no area.
-    #[error(
-        "{file}: none of the {triangles} triangles has an area; the mesh spans {size:.4} m; check the coordinates"
-    )]
+    #[error("{file}: none of the {triangles} triangles has an area; the mesh spans {size:.4} m")]
     NoArea {
         /// The file.
         file: String,
@@ -168,9 +162,7 @@ pub enum MeshError {
         size: f64,
     },
     /// The mesh is no size for a mold.
-    #[error(
-        "{file}: the mesh spans {size:.3e} m at {scale} m per unit, expected 1e-4 to 1e5 m; state the unit that the file is written in"
-    )]
+    #[error("{file}: the mesh spans {size:.3e} m at {scale} m per unit, expected 1e-4 to 1e5 m")]
     Size {
         /// The file.
         file: String,
@@ -191,7 +183,7 @@ pub enum MeshError {
     },
     /// Three or more triangles share an edge.
     #[error(
-        "{file}: {noun}s {}, {} and {} share an edge near ({:.4}, {:.4}, {:.4}) m; a mold is one skin: two {noun}s at an edge, or one at its border",
+        "{file}: {noun}s {}, {} and {} share an edge near ({:.4}, {:.4}, {:.4}) m",
         .numbers[0], .numbers[1], .numbers[2], .place[0], .place[1], .place[2]
     )]
     Branching {
@@ -206,7 +198,7 @@ pub enum MeshError {
     },
     /// The surface has one side only, like a Möbius strip.
     #[error(
-        "{file}: the surface has one side only, as a Möbius strip: it meets itself upside down at {} near ({:.4}, {:.4}, {:.4}) m; cut it there",
+        "{file}: the surface has one side only, as a Möbius strip: it meets itself upside down at {} near ({:.4}, {:.4}, {:.4}) m",
         pair(.noun, .numbers), .place[0], .place[1], .place[2]
     )]
     OneSided {
@@ -221,7 +213,7 @@ pub enum MeshError {
     },
     /// An open surface faces neither up nor down, so its side for the ply is unknown.
     #[error(
-        "{file}: the open surface of {triangles} triangles at {noun} {number} faces sideways (mean of its normals: z = {upwards:.4}), the ply comes from above; turn the mold, or close its holes if it is meant to be a solid"
+        "{file}: the open surface of {triangles} triangles at {noun} {number} faces sideways (mean of its normals: z = {upwards:.4}), the ply comes from above"
     )]
     Sideways {
         /// The file.
@@ -238,13 +230,32 @@ pub enum MeshError {
 }
 
 impl MeshError {
-    /// What is wrong, and what to do about it: the message up to and after its semicolon.
+    /// What to do about it.
     #[must_use]
-    pub fn fault_and_remedy(&self) -> (String, String) {
-        let text = self.to_string();
-        match text.split_once("; ") {
-            Some((fault, remedy)) => (fault.into(), remedy.into()),
-            None => (text, "correct the file, or export the mold's surface anew".into()),
+    pub fn remedy(&self) -> String {
+        match self {
+            MeshError::Unreadable { .. } => "check its name and its permissions".into(),
+            MeshError::Format { .. } => "the name of a mesh ends in .stl, .obj or .inp".into(),
+            MeshError::NotText { .. } => "save the file as plain text (UTF-8)".into(),
+            MeshError::Ends { .. } | MeshError::Length { .. } => {
+                "is the file complete? copy or export it once more".into()
+            }
+            MeshError::Vertex { vertices, .. } => format!("the file has {vertices} vertices"),
+            MeshError::NodeTwice { .. } => "give it a number of its own".into(),
+            MeshError::Keyword { remedy, .. } => (*remedy).into(),
+            MeshError::Part { known, .. } => format!("parts are {known}"),
+            MeshError::Empty { .. } => "export the mold as a surface mesh".into(),
+            MeshError::NoArea { .. } => "check the coordinates".into(),
+            MeshError::Size { .. } => "state the unit that the file is written in".into(),
+            MeshError::Scale { .. } => "give the metres of one unit of the file".into(),
+            MeshError::Branching { noun, .. } => {
+                format!("a mold is one skin: two {noun}s at an edge, or one at its border")
+            }
+            MeshError::OneSided { .. } => "cut it there".into(),
+            MeshError::Sideways { .. } => {
+                "turn the mold, or close its holes if it is meant to be a solid".into()
+            }
+            _ => "correct the file, or export the mold's surface anew".into(),
         }
     }
 }

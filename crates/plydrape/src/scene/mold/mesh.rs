@@ -13,10 +13,8 @@ use std::sync::Arc;
 pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), SceneError> {
     let document = keys.document;
     let file = keys.wanted(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
-    let at_file = |error: MeshError| {
-        let (message, help) = error.fault_and_remedy();
-        document.error(file.span.clone(), message, help)
-    };
+    let at_file =
+        |error: MeshError| document.error(file.span.clone(), error.to_string(), error.remedy());
     let path = base.join(&file.value);
     let bytes = read::bytes(&path, &file.value, read::LARGEST_MESH).map_err(|error| {
         let help = format!("paths are relative to the scene's folder; {}", error.help);
