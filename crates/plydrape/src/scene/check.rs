@@ -8,7 +8,9 @@ use super::located::{Count, Located};
 use super::motion::motion;
 use super::quantity::{Angle, Quantity, Ratio};
 use super::trajectory::trajectory;
-use super::{Contact, ContactEnd, Limits, Motion, Scene, Settings, SlopeRule, Stepping, Target};
+use super::{
+    Contact, ContactEnd, Limits, Motion, Plan, Scene, Settings, SlopeRule, Stepping, Target,
+};
 use super::{material, mold, start, target};
 use crate::mold::Mold;
 use crate::ply::{Direction, Grid, Ply};
@@ -66,6 +68,7 @@ pub(super) fn scene(
         target,
         settings,
         limits,
+        plan: Plan::default(),
     })
 }
 
@@ -255,6 +258,11 @@ pub(super) fn limits(
             None => None,
         },
         contact_share: share(table.contact_share.as_ref(), 0.95, document)?,
+        gripper_distance: 0.5 * ply.cell[0].min(ply.cell[1]),
+        workspace: None,
+        speed: 0.25,
+        acceleration: 1.0,
+        jerk: 10.0,
     })
 }
 

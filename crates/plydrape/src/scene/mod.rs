@@ -122,6 +122,43 @@ pub struct Scene {
     pub settings: Settings,
     /// What an accepted drape keeps to.
     pub limits: Limits,
+    /// How a motion is planned, where none is followed.
+    pub plan: Plan,
+}
+
+/// How gripper trajectories are planned.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Plan {
+    /// The planner.
+    pub method: PlanMethod,
+    /// Steps of the planned motion, the start being the first; of the stepwise planner the most it may take.
+    pub steps: usize,
+    /// Farthest that a gripper may move in one step (m); the stepwise planner needs one and takes a share of
+    /// its way unless given.
+    pub move_limit: Option<f64>,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Most complete drapes that the search may try.
+    pub evaluations: usize,
+    /// Samples a second of the dense motion file (Hz).
+    pub rate: f64,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        let method = PlanMethod::Path;
+        Plan { method, steps: 90, move_limit: None, seed: 0, evaluations: 60, rate: 100.0 }
+    }
+}
+
+/// The planner of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PlanMethod {
+    /// Whole trajectories, judged by complete drapes.
+    Path,
+    /// Step by step, as Krogh et al. 2018 sketch it.
+    Stepwise,
 }
 
 /// Gripper positions over the steps.
@@ -231,4 +268,14 @@ pub struct Limits {
     pub force: Option<f64>,
     /// Share of the ply's edges that lies on the mold.
     pub contact_share: f64,
+    /// Smallest distance between grippers (m).
+    pub gripper_distance: f64,
+    /// Box that the grippers can reach: [from, to] in x, y and z (m).
+    pub workspace: Option<[[f64; 2]; 3]>,
+    /// Speed of a gripper (m/s), of planned motions.
+    pub speed: f64,
+    /// Acceleration of a gripper (m/s²), of planned motions.
+    pub acceleration: f64,
+    /// Jerk of a gripper (m/s³), of planned motions.
+    pub jerk: f64,
 }
