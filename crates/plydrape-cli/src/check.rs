@@ -125,6 +125,7 @@ fn mold(scene: &Scene) -> Vec<(&'static str, String)> {
                     let [nx, ny] = grid.size();
                     format!("grid of {nx} × {ny} heights")
                 }
+                Surface::Lifted(_) => "mold lifted ahead of a front".into(),
             };
             let range = match graph.domain {
                 Some([x, y]) => {

@@ -21,5 +21,6 @@ pub mod material;
 pub mod mold;
 pub mod net;
 pub mod output;
+pub mod planner;
 pub mod ply;
 pub mod scene;

@@ -255,7 +255,12 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
     for n in 0..2 {
         assert!(finest[n][1] < 0.6 * coarse[n][1], "{n}: spread {coarse:?} {finest:?}");
         let (step, before) = (finest[n][0] - fine[n][0], fine[n][0] - coarse[n][0]);
-        assert!(step.abs() < 0.6 * before.abs(), "{n}: middle {coarse:?} {fine:?} {finest:?}");
+        // or by no more than half a per cent: there is nothing left to converge
+        let still = 0.005 * fine[n][0];
+        assert!(
+            step.abs() < still.max(0.6 * before.abs()),
+            "{n}: middle {coarse:?} {fine:?} {finest:?}"
+        );
     }
     assert!(finest[0][1] < 0.02 && finest[1][1] < 0.02, "{finest:?}");
 }

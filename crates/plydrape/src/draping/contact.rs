@@ -21,6 +21,9 @@ const STATIONS: usize = 48;
 /// Depth from which a span dips, as a share of the tolerance.
 const DIP: f64 = 1e-3;
 
+/// Stretch that laying a run may add to what it leaves free, as a share of the whole catenary.
+const PULL: f64 = 1e-4;
+
 /// A run of touching points of a span, as fractions of its run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Run {
@@ -39,6 +42,15 @@ pub struct Bridge {
     pub gap: f64,
     /// Straight distance between the touches on both sides of it (m).
     pub width: f64,
+}
+
+/// A diagonal in the ideal drape on a curved mold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IdealDiagonal {
+    /// Its way along the mold (m): what it is set to where it lands.
+    pub length: f64,
+    /// [`crate::ply::shear::curved_scale`] of its cell.
+    pub scale: f64,
 }
 
 /// What a look at one catenary found.
@@ -174,6 +186,20 @@ fn crossing(distance: &impl Fn(f64) -> f64, outside: f64, inside: f64, level: f6
     into
 }
 
+/// How far one can go from `near` towards `far` so that it still fits, by bisection.
+fn farthest(near: f64, far: f64, fits: impl Fn(f64) -> bool) -> f64 {
+    let (mut good, mut bad) = (near, far);
+    for _ in 0..40 {
+        let middle = 0.5 * (good + bad);
+        if fits(middle) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    good
+}
+
 /// Largest gap between two fractions of a span.
 fn largest_gap(span: &FreeSpan, mold: &Mold, from: f64, to: f64) -> Bridge {
     let [a, b] = [from, to].map(|t| span.point(t));
@@ -221,27 +247,48 @@ fn whole(mold: &Mold, a: [f64; 3], b: [f64; 3], length: f64) -> Strand {
 }
 
 /// Looks at a catenary that nothing has caught yet.
-pub fn first_touch(span: &FreeSpan, sounding: &Sounding, mold: &Mold, contact: &Contact) -> Look {
+pub fn first_touch(
+    span: &FreeSpan,
+    sounding: &Sounding,
+    mold: &Mold,
+    contact: &Contact,
+    ideal: Option<IdealDiagonal>,
+) -> Look {
     let runs = runs(span, sounding, mold, contact.tolerance);
     let Some(run) = runs.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)) else {
         return Look::default();
     };
     let heading = span.heading();
-    let (from, to) = (span.arc(run.from), span.arc(run.to));
+    let length = ideal.map_or(span.length, |ideal| ideal.length);
+    let arc = |t: f64| length / span.length * span.arc(t);
     let (held_first, held_last) = (run.from <= 0.0, run.to >= 1.0);
     let [a, b] = span.ends.map(|end| mold.closest_point(end));
-    let line = match (held_first, held_last) {
-        (true, true) => whole(mold, a, b, span.length),
-        (true, false) => joined(None, 0.0, Some(mold.lay(a, heading, to))),
-        (false, true) => {
-            let back = mold.lay(b, heading, from - span.length);
-            joined(Some(back), span.length, None)
+    // where laying starts: at a gripper that stands on the mold, else at the deepest point
+    let (seed, seed_arc) = match (held_first, held_last) {
+        (true, _) => (a, 0.0),
+        (false, true) => (b, length),
+        (false, false) => (mold.closest_point(span.point(run.deepest)), arc(run.deepest)),
+    };
+    let piece = |t: f64| mold.lay(seed, heading, arc(t) - seed_arc);
+    // laying a run must not stretch what it leaves free
+    let reach = |side: usize, far: f64| {
+        let left = |t: f64| if side == 0 { arc(t) } else { length - arc(t) };
+        let fits = |t: f64| {
+            let pull = distance(piece(t).end(), span.ends[side]) - left(t);
+            pull <= (span.chord() - length).max(0.0) + PULL * length
+        };
+        if run.depth < -contact.tolerance || fits(far) {
+            return far;
         }
+        farthest(run.deepest, far, fits)
+    };
+    let line = match (held_first, held_last) {
+        (true, true) => whole(mold, a, b, length),
+        (true, false) => joined(None, 0.0, Some(piece(reach(1, run.to)))),
+        (false, true) => joined(Some(piece(reach(0, run.from))), length, None),
         (false, false) => {
-            let place = mold.closest_point(span.point(run.deepest));
-            let deepest = span.arc(run.deepest);
-            let [back, on] = [from, to].map(|arc| mold.lay(place, heading, arc - deepest));
-            joined(Some(back), deepest, Some(on))
+            let [back, on] = [reach(0, run.from), reach(1, run.to)].map(piece);
+            joined(Some(back), seed_arc, Some(on))
         }
     };
     // the gap to any other run: whatever lies between the two
@@ -255,11 +302,12 @@ pub fn first_touch(span: &FreeSpan, sounding: &Sounding, mold: &Mold, contact: &
         })
         .max_by(|a, b| a.gap.total_cmp(&b.gap));
     let laid = Laid {
-        length: span.length,
+        length,
         normal: [line.points[0], line.end()].map(|p| mold.normal(p)),
         line,
         lying: [held_first && held_last; 2],
         arch: [0.0; 2],
+        scale: ideal.map_or(1.0, |ideal| ideal.scale),
     };
     Look { laid: Some(laid), bridge }
 }
@@ -306,13 +354,29 @@ pub fn next_touch(
     }
     let heading = span.heading();
     let (end, arc) = (laid.point()[rest], laid.arc()[rest]);
+    // from the contact end towards the gripper
+    let piece = |t: f64| match rest {
+        0 => mold.lay(end, heading, span.arc(t) - span.length),
+        _ => mold.lay(end, heading, span.arc(t)),
+    };
+    let left = |t: f64| if rest == 0 { span.arc(t) } else { span.length - span.arc(t) };
+    let whole = laid.length;
+    let fits = |t: f64| {
+        let pull = distance(piece(t).end(), span.ends[rest]) - left(t);
+        pull <= (span.chord() - span.length).max(0.0) + PULL * whole
+    };
+    let far = if rest == 0 { run.from } else { run.to };
+    let to = if run.depth < -contact.tolerance || fits(far) {
+        far
+    } else {
+        farthest(1.0 - rest as f64, far, fits)
+    };
     let line = std::mem::take(&mut laid.line);
     laid.line = if rest == 0 {
-        let length = span.length - span.arc(run.from);
-        joined(Some(mold.lay(end, heading, -length)), arc, Some(line))
+        joined(Some(piece(to)), arc, Some(line))
     } else {
         let mut grown = line;
-        let on = mold.lay(end, heading, span.arc(run.to));
+        let on = piece(to);
         for (point, s) in on.points.into_iter().zip(on.arc).skip(1) {
             grown.push(point, arc + s);
         }

@@ -10,9 +10,6 @@ use crate::mold::{Mold, Strand, distance};
 use crate::ply::{Kind, Laid};
 use crate::scene::Scene;
 
-/// Rests shorter than this share of their catenary have slack, but no slack ratio worth a name.
-const CRUMB: f64 = 1e-2;
-
 /// Fit of one free or lying rest between what holds it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
@@ -104,7 +101,7 @@ pub fn lying_rests(
         .map(|which| {
             let end = laid.point()[which];
             let along = |a, b| mold.path(a, b).unwrap_or_else(|| straight(a, b));
-            let line = match (feet[which].filter(|_| laid.lying[which]), which) {
+            let line = match (feet[which], which) {
                 (Some(foot), 0) => along(foot, end),
                 (Some(foot), _) => along(end, foot),
                 (None, 0) => straight(grippers[0], end),
@@ -174,11 +171,15 @@ pub fn measures(
     let grid = scene.ply.grid;
     let (mut slack, mut ratio, mut wrinkle) = (Most::default(), Most::default(), Most::default());
     let (mut stretch, mut stretch_share) = (Most::default(), Most::default());
+    // slack of a catenary is that of all its rests; its place that of the largest
+    let mut loose = vec![(0.0, 0.0, [0.0; 3]); grid.catenaries()];
     let mut judge = |catenary: usize, whole: f64, fit: &Fit| {
         slack.meet(fit.slack(), catenary, fit.place);
         wrinkle.meet(fit.wrinkle(), catenary, fit.place);
-        if fit.length > CRUMB * whole {
-            ratio.meet(fit.slack_ratio(), catenary, fit.place);
+        let (sum, largest, place) = &mut loose[catenary];
+        *sum += fit.slack() / whole;
+        if fit.slack() >= *largest {
+            (*largest, *place) = (fit.slack(), fit.place);
         }
         if catenary < grid.edges() {
             stretch.meet(fit.overstretch(), catenary, fit.place);
@@ -219,6 +220,10 @@ pub fn measures(
                 fibre.meet(angle.to_degrees(), catenary, place);
             }
         }
+    }
+
+    for (catenary, (sum, _, place)) in loose.into_iter().enumerate() {
+        ratio.meet(sum, catenary, place);
     }
 
     let (mut tilt, mut force, mut gap) = (Most::default(), Most::default(), Most::default());

@@ -14,9 +14,10 @@ mod report;
 pub mod spans;
 
 use crate::equilibrium::{Equilibrium, Solver};
+use crate::mold::Mold;
 use crate::ply::{Laid, shear};
 use crate::scene::{Scene, Stepping};
-use contact::{Bridge, Sounding};
+use contact::{Bridge, IdealDiagonal, Sounding};
 use record::ResultFile;
 use spans::{Point, Shape, shape};
 use std::ops::ControlFlow;
@@ -73,17 +74,49 @@ pub struct Drape {
 ///
 /// `progress` is told after each step how many are done; when it breaks, the drape ends there, complete
 /// for the steps done.
-pub fn simulate(scene: &Scene, mut progress: impl FnMut(usize) -> ControlFlow<()>) -> Drape {
-    let mut draping = Draping::new(scene);
+pub fn simulate(scene: &Scene, progress: impl FnMut(usize) -> ControlFlow<()>) -> Drape {
+    simulate_within(scene, usize::MAX, progress)
+}
+
+/// As [`simulate`], broken off after the step in which more than `most` equilibria have been solved.
+pub(crate) fn simulate_within(
+    scene: &Scene,
+    most: usize,
+    mut progress: impl FnMut(usize) -> ControlFlow<()>,
+) -> Drape {
+    let mut draping = Draping { most, ..Draping::new(scene) };
     let mut report = report::Report::new(scene);
     for step in 0..scene.motion.positions.len() {
         let snapshot = draping.advance(step);
         report.add(&snapshot, &draping.solver);
-        if progress(step + 1).is_break() {
+        if progress(step + 1).is_break() || draping.equilibria > most {
             break;
         }
     }
     Drape { result: report.finish(), solving: draping.solving }
+}
+
+/// What the ideal drape knows of each diagonal, where the mold is curved and the drape is known.
+fn ideal_diagonals(scene: &Scene) -> Vec<Option<IdealDiagonal>> {
+    let grid = scene.ply.grid;
+    let mut out = vec![None; grid.catenaries()];
+    let (Some(mold), Some(target)) = (&scene.mold, &scene.target) else { return out };
+    if matches!(mold, Mold::Plane(_)) || target.drape.is_none() {
+        return out;
+    }
+    for cell in 0..grid.cells() {
+        let diagonals = [0, 1].map(|n| grid.edges() + 2 * cell + n);
+        let ways = diagonals.map(|n| {
+            let c = grid.catenary(n);
+            let [a, b] = [c.from, c.to].map(|g| target.grippers[grid.index(g)]);
+            mold.path_length(a, b)
+        });
+        let scale = shear::curved_scale(scene.ply.cell, ways);
+        for (n, length) in diagonals.into_iter().zip(ways) {
+            out[n] = Some(IdealDiagonal { length, scale });
+        }
+    }
+    out
 }
 
 /// A drape under way.
@@ -93,7 +126,10 @@ struct Draping<'a> {
     positions: Vec<Point>,
     laid: Vec<Option<Laid>>,
     bridges: Vec<Option<Bridge>>,
+    ideal: Vec<Option<IdealDiagonal>>,
     equilibria: usize,
+    /// Equilibria after which a step is not cut any further.
+    most: usize,
     solving: Duration,
 }
 
@@ -106,7 +142,9 @@ impl<'a> Draping<'a> {
             positions: scene.motion.positions[0].clone(),
             laid: vec![None; count],
             bridges: vec![None; count],
+            ideal: ideal_diagonals(scene),
             equilibria: 0,
+            most: usize::MAX,
             solving: Duration::ZERO,
         }
     }
@@ -142,9 +180,13 @@ impl<'a> Draping<'a> {
     }
 
     fn shear(&self) -> Vec<Option<CellShear>> {
-        let cell = self.scene.ply.cell;
-        let shear = |(path, falling)| CellShear { angle: shear::angle(cell, path), path, falling };
-        self.solver.assembly().shearing.iter().map(|cell| cell.map(shear)).collect()
+        let shearing = self.solver.assembly().shearing.iter().enumerate();
+        let shear = |(cell, stretched): (usize, &Option<(f64, bool)>)| {
+            let (path, falling) = (*stretched)?;
+            let sides = self.scene.ply.sides(cell, &self.laid);
+            Some(CellShear { angle: shear::angle(sides, path), path, falling })
+        };
+        shearing.map(shear).collect()
     }
 
     /// As in the paper: one equilibrium, one look at the contact; solved anew where it has changed.
@@ -182,7 +224,7 @@ impl<'a> Draping<'a> {
                 shape = self.solve(&place);
                 soundings = self.soundings(&shape);
             }
-            if next >= 1.0 {
+            if next >= 1.0 || self.equilibria > self.most {
                 return shape;
             }
             (done, part) = (next, f64::min(2.0 * part, 1.0 - next));
@@ -216,7 +258,10 @@ impl<'a> Draping<'a> {
         for (span, sounding) in shape.spans.iter().zip(soundings) {
             let slot = &mut self.laid[span.catenary];
             let look = match slot {
-                None => contact::first_touch(span, sounding, mold, rule),
+                None => {
+                    let ideal = self.ideal[span.catenary];
+                    contact::first_touch(span, sounding, mold, rule, ideal)
+                }
                 Some(laid) => contact::next_touch(span, sounding, laid, mold, rule),
             };
             if let Some(laid) = look.laid {

@@ -105,7 +105,7 @@ impl<'a> Report<'a> {
                 to: c.to,
                 length: laid.map_or_else(|| scene.ply.flat_length(c.kind), |laid| laid.length),
                 shearing: shear.is_some(),
-                shear_force_n: shear.and_then(|shear| self.shear_force(shear.path)),
+                shear_force_n: shear.and_then(|shear| self.shear_force(&shear)),
                 spans: Vec::with_capacity(2),
                 contact: None,
                 bridging: snapshot.bridges[n].map(|b| Bridging {
@@ -144,10 +144,9 @@ impl<'a> Report<'a> {
     }
 
     /// Force of a stretched diagonal (N), where the material has a shear curve.
-    fn shear_force(&self, path: f64) -> Option<f64> {
-        let ply = &self.scene.ply;
-        let curve = ply.material.shear_curve.as_ref()?;
-        let force = shear::force(ply.cell, path, curve.force(shear::angle(ply.cell, path)).0);
+    fn shear_force(&self, shear: &super::CellShear) -> Option<f64> {
+        let curve = self.scene.ply.material.shear_curve.as_ref()?;
+        let force = shear::force(shear.angle, shear.path, curve.force(shear.angle).0);
         force.is_finite().then_some(force)
     }
 

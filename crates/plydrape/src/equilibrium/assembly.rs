@@ -254,7 +254,7 @@ impl<T: Number> Assembly<T> {
         for cell in 0..grid.cells() {
             let [rising, falling] = [0, 1].map(|n| build.taut_path(grid.edges() + 2 * cell + n));
             let longer = if falling.re() > rising.re() { (falling, true) } else { (rising, false) };
-            let shears = shear::is_shearing(build.ply.cell, longer.0.re());
+            let shears = shear::is_shearing(build.ply.sides(cell, build.laid), longer.0.re());
             self.shearing.push(shears.then_some(longer));
         }
     }
@@ -342,7 +342,8 @@ impl<T: Number> Assembly<T> {
         let flat = T::from(build.ply.flat_length(c.kind)) * build.factors[0];
         let length = match stretched {
             Some((path, _)) => {
-                shear::partner_length(build.ply.cell.map(|side| build.factors[0] * side), path)
+                let sides = build.ply.sides(cell, build.laid);
+                shear::partner_length(sides.map(|side| build.factors[0] * side), path)
             }
             None => flat,
         };

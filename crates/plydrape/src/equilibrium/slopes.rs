@@ -26,6 +26,10 @@ impl<T: Number> Assembly<T> {
             let index = grid.edges() + 2 * cell + usize::from(*falling);
             let catenary = grid.catenary(index);
             for (end, gripper) in [catenary.from, catenary.to].into_iter().enumerate() {
+                // where the diagonal lies up to its gripper, all but a crumb, it governs nothing
+                if build.laid[index].as_ref().is_some_and(|laid| laid.is_crumb(end)) {
+                    continue;
+                }
                 // slope in the diagonal's direction from its first end; outward at its second end is minus it
                 let slope = build.rest_line(index, end).slope();
                 let outward = if end == 0 { slope } else { -slope };

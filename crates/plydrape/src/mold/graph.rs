@@ -3,6 +3,7 @@
 use super::formula::Formula;
 use super::height::Height;
 use super::height_grid::HeightGrid;
+use super::lifted::Lifted;
 use super::pose::Pose;
 use super::saddle::Saddle;
 use super::vector::{distance, dot, sub, unit};
@@ -33,6 +34,8 @@ pub enum Surface {
     },
     /// Heights on a grid.
     HeightGrid(HeightGrid),
+    /// Heights on a grid, lifted ahead of a front.
+    Lifted(Lifted),
 }
 
 /// Newton steps for a closest point; from above a mold it takes three to six.
@@ -46,6 +49,7 @@ impl Surface {
             Surface::Saddle(saddle) => saddle.at(x, y),
             Surface::Formula { z } => z.at(x, y),
             Surface::HeightGrid(heights) => heights.at(x, y),
+            Surface::Lifted(lifted) => lifted.at(x, y),
         }
     }
 }

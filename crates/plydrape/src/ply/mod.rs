@@ -45,6 +45,15 @@ impl Ply {
         }
     }
 
+    /// Sides of a cell (m) as its diagonals measure it: those of the fabric, scaled where a diagonal lies on a
+    /// curved mold ([`shear::curved_scale`]). `laid` is what the mold has caught of each catenary.
+    #[must_use]
+    pub fn sides(&self, cell: usize, laid: &[Option<Laid>]) -> [f64; 2] {
+        let first = self.grid.edges() + 2 * cell;
+        let scale = laid[first..first + 2].iter().flatten().map(|laid| laid.scale).next();
+        self.cell.map(|side| scale.unwrap_or(1.0) * side)
+    }
+
     /// Mass per length and flexural rigidity of a catenary.
     ///
     /// With areal properties each catenary stands for a strip one cell wide: `b` for the lines along

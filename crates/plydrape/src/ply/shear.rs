@@ -30,9 +30,17 @@ pub fn partner_length<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretc
     if square.re() > least * least { square.sqrt() } else { T::from(least) }
 }
 
-/// Force (N) in the stretched diagonal: τ d₁/cos γ by virtual work, τ (N/m) the picture-frame shear
-/// force per length at γ. Infinite where the cell has folded.
+/// By how much a curved mold scales both diagonals of a cell that lies on it: √((d₁² + d₂²) / 2(a²+b²)),
+/// d₁ and d₂ the ways along the mold (m) in the ideal drape. 1 on a plane, where a cell is a parallelogram.
 #[must_use]
-pub fn force(cell: [f64; 2], stretched: f64, shear_force_per_length: f64) -> f64 {
-    shear_force_per_length * stretched / angle(cell, stretched).cos()
+pub fn curved_scale([a, b]: [f64; 2], diagonals: [f64; 2]) -> f64 {
+    let [rising, falling] = diagonals;
+    ((rising * rising + falling * falling) / (2.0 * (a * a + b * b))).sqrt()
+}
+
+/// Force (N) in the stretched diagonal: τ d₁/cos γ by virtual work, at the shear angle γ (rad), τ (N/m) the
+/// picture-frame shear force per length there. Infinite where the cell has folded.
+#[must_use]
+pub fn force(angle: f64, stretched: f64, shear_force_per_length: f64) -> f64 {
+    shear_force_per_length * stretched / angle.cos()
 }

@@ -1,0 +1,88 @@
+//! A mold lifted ahead of a front: the surface of a ply that lies inside the front and curves away from
+//! the mold outside it.
+//!
+//! S = f + σ²/A (√(1 + (A e/σ)²) − 1), e = max(0, r − r_f): a curvature A right at the front, and a slope
+//! of no more than σ far ahead of it.
+
+use super::height::Height;
+use super::height_grid::HeightGrid;
+use serde::Serialize;
+use std::sync::Arc;
+
+/// A height grid lifted ahead of a front.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Lifted {
+    /// The surface that is lifted.
+    pub ground: Arc<HeightGrid>,
+    /// By how much.
+    pub lift: Lift,
+}
+
+/// Height added ahead of an elliptic front.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Lift {
+    /// Where the front starts from (m).
+    pub centre: [f64; 2],
+    /// The metric of the front: r² = q₀ x² + 2 q₁ x y + q₂ y² about the centre.
+    pub metric: [f64; 3],
+    /// How far the front has come, in r (m).
+    pub front: f64,
+    /// Curvature at the front A (1/m).
+    pub curvature: f64,
+    /// Steepest slope σ.
+    pub slope: f64,
+}
+
+/// Rounds the tip of r = 0 (m).
+const TIP: f64 = 1e-4;
+
+impl Lifted {
+    /// The height at (x, y) (m).
+    #[must_use]
+    pub fn at(&self, x: f64, y: f64) -> Height {
+        self.ground.at(x, y).plus(1.0, &self.lift.at(x, y))
+    }
+
+    /// By how much it is lifted at (x, y) (m).
+    #[must_use]
+    pub fn raised(&self, x: f64, y: f64) -> f64 {
+        self.lift.at(x, y).z
+    }
+}
+
+impl Lift {
+    /// Distance r of a place from where the front starts (m).
+    #[must_use]
+    pub fn radius(&self, [x, y]: [f64; 2]) -> f64 {
+        let [dx, dy] = [x - self.centre[0], y - self.centre[1]];
+        let [q0, q1, q2] = self.metric;
+        (q0 * dx * dx + 2.0 * q1 * dx * dy + q2 * dy * dy).max(0.0).sqrt()
+    }
+
+    /// The added height at (x, y) (m).
+    fn at(&self, x: f64, y: f64) -> Height {
+        let [dx, dy] = [x - self.centre[0], y - self.centre[1]];
+        let [q0, q1, q2] = self.metric;
+        let half = [q0 * dx + q1 * dy, q1 * dx + q2 * dy];
+        let r = (half[0] * dx + half[1] * dy + TIP * TIP).sqrt();
+        let ahead = r - self.front;
+        if ahead <= 0.0 {
+            return Height::constant(0.0);
+        }
+        // the profile and its derivatives to r
+        let (a, sigma) = (self.curvature, self.slope);
+        let root = (1.0 + (a * ahead / sigma).powi(2)).sqrt();
+        let (rate, bend) = (a * ahead / root, a / (root * root * root));
+        let gradient = half.map(|h| h / r);
+        let [gx, gy] = gradient;
+        Height {
+            z: sigma * sigma / a * (root - 1.0),
+            gradient: gradient.map(|g| rate * g),
+            hessian: [
+                bend * gx * gx + rate * (q0 - gx * gx) / r,
+                bend * gx * gy + rate * (q1 - gx * gy) / r,
+                bend * gy * gy + rate * (q2 - gy * gy) / r,
+            ],
+        }
+    }
+}

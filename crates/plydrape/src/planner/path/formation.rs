@@ -1,0 +1,179 @@
+//! Where the grippers are while a front lays the ply: the net on the mold lifted ahead of it.
+//!
+//! Inside the front the net is the ideal drape, outside it the fabric curves away from the mold. It is a net
+//! at every moment, so that fibre lengths are right at every moment. A pull stretches what has not landed a
+//! little towards the start, so that its spans stay taut.
+
+use super::strategy::Strategy;
+use crate::draping::spans::Point;
+use crate::mold::vector::{along, dot, sub};
+use crate::mold::{Graph, HeightGrid, Lift, Lifted, Mold, Pose, Surface};
+use crate::net::{Layup, Net};
+use crate::ply::Grid;
+use crate::scene::Scene;
+use std::sync::Arc;
+
+/// Divisions of a cell of the net on the lifted mold; even, so that the middle of a cell is a node.
+const DIVISIONS: usize = 4;
+/// Nodes of the grid of heights along each axis.
+const NODES: usize = 121;
+/// Margin of the grid of heights around the drape, as a share of its size.
+const MARGIN: f64 = 0.25;
+/// Height over which a gripper gives up its pull as it lands (m).
+const LANDING: f64 = 2e-3;
+
+/// A scene's mold as heights, on which formations are laid.
+#[derive(Debug, Clone)]
+pub struct Ground {
+    heights: Arc<HeightGrid>,
+}
+
+/// The formation of grippers behind and ahead of one front.
+#[derive(Debug, Clone)]
+pub struct Formation<'a> {
+    mold: &'a Mold,
+    heights: Arc<HeightGrid>,
+    /// The net from the front's start; none where the ideal drape is not known as a net.
+    layup: Option<Layup>,
+    grid: Grid,
+    targets: &'a [Point],
+    strategy: Strategy,
+    centre: [f64; 2],
+    /// What brings each gripper from where the net on the mold ends, without and with pull, to its target.
+    off: [Vec<Point>; 2],
+}
+
+impl Ground {
+    /// The heights of a scene's mold around its drape; none without a mold or a target.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Option<Self> {
+        let heights = heights(scene.mold.as_ref()?, &scene.target.as_ref()?.grippers)?;
+        Some(Ground { heights: Arc::new(heights) })
+    }
+}
+
+impl<'a> Formation<'a> {
+    /// The formation of a strategy; none without a mold or a target.
+    #[must_use]
+    pub fn new(scene: &'a Scene, ground: &Ground, strategy: Strategy) -> Option<Self> {
+        let (mold, target) = (scene.mold.as_ref()?, scene.target.as_ref()?);
+        let layup = layup(scene, &strategy);
+        let count = target.grippers.len() as f64;
+        let middle = [0, 1].map(|n| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count);
+        let mut formation = Formation {
+            mold,
+            heights: Arc::clone(&ground.heights),
+            layup,
+            grid: scene.ply.grid,
+            targets: &target.grippers,
+            strategy,
+            centre: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
+            off: [Vec::new(), Vec::new()],
+        };
+        let landed = 2.0 * formation.reach() + 1.0;
+        let still = vec![[0.0; 3]; target.grippers.len()];
+        formation.off = [0.0, strategy.pull].map(|pull| match formation.net(landed, pull) {
+            Some(ends) => target.grippers.iter().zip(ends).map(|(a, b)| sub(*a, b)).collect(),
+            None => still.clone(),
+        });
+        Some(formation)
+    }
+
+    fn lift(&self, front: f64) -> Lift {
+        let Strategy { ratio, angle, curvature, slope, .. } = self.strategy;
+        let (sin, cos) = angle.sin_cos();
+        let along = 1.0 / (ratio * ratio);
+        let metric = [
+            along * cos * cos + sin * sin,
+            (along - 1.0) * sin * cos,
+            along * sin * sin + cos * cos,
+        ];
+        Lift { centre: self.centre, metric, front, curvature, slope }
+    }
+
+    /// How far the front has to come to have passed every gripper (m).
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let lift = self.lift(0.0);
+        self.targets.iter().map(|p| lift.radius([p[0], p[1]])).fold(0.0, f64::max)
+    }
+
+    /// The net on the lifted mold at the grippers (m); none where it folds or there is none.
+    fn net(&self, front: f64, pull: f64) -> Option<Vec<Point>> {
+        let layup = self.layup?;
+        let lifted = Lifted { ground: Arc::clone(&self.heights), lift: self.lift(front) };
+        let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Lifted(lifted));
+        let mold = Mold::Graph(Graph { pose, surface, domain: None });
+        let place = mold.drop_to(self.centre)?;
+        let mesh = layup.mesh.map(|width| width * (1.0 + pull));
+        let net = Net::drape(&mold, Layup { place, mesh, ..layup }).ok()?;
+        let node = |n: usize| net.node(self.grid.id(n).map(|k| k * DIVISIONS));
+        (0..self.grid.grippers()).map(node).collect()
+    }
+
+    /// Gripper positions (m) when the front has come to `front` (m).
+    #[must_use]
+    pub fn grippers(&self, front: f64) -> Vec<Point> {
+        let Some(net) = self.net(front, self.strategy.pull) else {
+            // without a net, straight above where they land
+            let lift = Lifted { ground: Arc::clone(&self.heights), lift: self.lift(front) };
+            let raise = |p: &Point| [p[0], p[1], p[2] + lift.raised(p[0], p[1])];
+            return self.targets.iter().map(raise).collect();
+        };
+        let move_in = |(n, p): (usize, Point)| {
+            let height = self.mold.signed_distance(p).max(0.0);
+            let landing = (-height / LANDING).exp();
+            let [unpulled, pulled] = [self.off[0][n], self.off[1][n]];
+            along(along(p, 1.0 - landing, unpulled), landing, pulled)
+        };
+        net.into_iter().enumerate().map(move_in).collect()
+    }
+}
+
+/// The net of a scene's ideal drape, begun where the front starts; none where the drape is not known.
+fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
+    let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
+    let grid = scene.ply.grid;
+    let nodes = [grid.nu, grid.nv].map(|n| (n - 1) * DIVISIONS + 1);
+    let mesh = scene.ply.cell.map(|side| side / DIVISIONS as f64);
+    let seed = [0, 1].map(|n| (strategy.start[n] * (nodes[n] - 1) as f64).round() as usize);
+    let uv = [0, 1].map(|n| seed[n] as f64 * mesh[n]);
+    let place = drape.place(mold, uv)?;
+    let [u, v] = drape.fibres(mold, uv)?;
+    let shear = dot(u, v).clamp(-1.0, 1.0).asin();
+    Some(Layup { nodes, mesh, seed, place, heading: u[1].atan2(u[0]), shear, ..drape.layup })
+}
+
+/// Heights of a mold over the drape and some margin around it.
+fn heights(mold: &Mold, targets: &[Point]) -> Option<HeightGrid> {
+    let range = [0, 1].map(|n| {
+        let low = targets.iter().map(|p| p[n]).fold(f64::INFINITY, f64::min);
+        let high = targets.iter().map(|p| p[n]).fold(f64::NEG_INFINITY, f64::max);
+        [low, high]
+    });
+    let margin = MARGIN * range.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let axis = |n: usize| -> Vec<f64> {
+        let [low, high] = [range[n][0] - margin, range[n][1] + margin];
+        (0..NODES).map(|k| low + (high - low) * k as f64 / (NODES - 1) as f64).collect()
+    };
+    let [x, y] = [0, 1].map(axis);
+    let top = targets.iter().map(|p| p[2]).fold(f64::NEG_INFINITY, f64::max);
+    let z = y.iter().flat_map(|y| x.iter().map(move |x| height(mold, [*x, *y], top))).collect();
+    HeightGrid::new(x, y, z).ok()
+}
+
+/// Height of a mold at (x, y) (m); beyond its border that of the tangent plane there.
+fn height(mold: &Mold, [x, y]: [f64; 2], top: f64) -> f64 {
+    if let Some(place) = mold.drop_to([x, y]) {
+        return place[2];
+    }
+    let mut z = top;
+    for _ in 0..4 {
+        let foot = mold.foot([x, y, z]);
+        let [nx, ny, nz] = foot.normal;
+        let fall = nx * (x - foot.point[0]) + ny * (y - foot.point[1]);
+        // an upright border would lead nowhere
+        z = foot.point[2] - fall / nz.abs().max(0.3);
+    }
+    z
+}

@@ -1,0 +1,109 @@
+//! The search for a strategy: a few families first, then evolution of the best (CMA-ES, Hansen 2016), every
+//! candidate judged by its complete drape. Candidates are independent and run on all cores; which one wins
+//! does not depend on how many there are.
+
+use super::formation::Ground;
+use super::strategy::Strategy;
+use super::trajectory::trajectory;
+use crate::draping::Drape;
+use crate::planner::board::Board;
+use crate::planner::judge;
+use crate::scene::Scene;
+use cmaes::{CMAESOptions, DVector};
+use rayon::prelude::*;
+use std::cmp::Ordering;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Score below which a plan keeps every limit with so much to spare that the search ends.
+const GOOD: f64 = 0.6;
+/// First step of the evolution, in shares of each range.
+const STEP: f64 = 0.08;
+/// Candidates of a generation, and of the first look: whole pairs, for two cores.
+const GENERATION: usize = 8;
+
+/// A strategy and the drape that it leads to.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// What was tried.
+    pub strategy: Strategy,
+    /// Its complete drape.
+    pub drape: Drape,
+    /// [`judge::score`] of it.
+    pub score: f64,
+}
+
+impl Candidate {
+    fn of(scene: &Scene, ground: &Ground, strategy: Strategy, board: &Board) -> Option<Candidate> {
+        let drape = judge::drape(scene, trajectory(scene, ground, strategy)?, board);
+        let score = judge::score(&drape.result);
+        Some(Candidate { strategy, drape, score })
+    }
+}
+
+/// The best strategy that is found: families first, or `earlier` where a search is continued, then
+/// evolution. None without a mold or a target.
+#[must_use]
+pub fn search(
+    scene: &Scene,
+    earlier: Option<(Strategy, usize)>,
+    board: &Board,
+) -> Option<Candidate> {
+    let ground = Ground::new(scene)?;
+    let most = scene.plan.evaluations.max(1);
+    let try_one = |strategy: Strategy| {
+        let candidate = Candidate::of(scene, &ground, strategy, board)?;
+        board.add(&candidate.drape.result, candidate.score);
+        Some(candidate)
+    };
+    let first = match earlier {
+        Some((strategy, _)) => vec![strategy],
+        None => Strategy::families(scene),
+    };
+    let tried: Vec<Candidate> =
+        first[..first.len().min(most)].par_iter().copied().filter_map(try_one).collect();
+    let mut left = most - first.len().min(most);
+    let mut best = tried.into_iter().reduce(better)?;
+
+    // evolution about the best; what it has tried before it goes on from, with other samples
+    let mean = best.strategy.to_unit().to_vec();
+    let seed =
+        scene.plan.seed.wrapping_add(earlier.map_or(0, |(_, evaluations)| evaluations as u64));
+    let found: Mutex<Option<Candidate>> = Mutex::new(None);
+    let objective = |unit: &DVector<f64>| -> f64 {
+        if board.is_stopped() {
+            return f64::MAX;
+        }
+        let Some(candidate) = try_one(Strategy::of_unit(unit.as_slice())) else { return f64::MAX };
+        let score = candidate.score;
+        let mut found = lock(&found);
+        *found = Some(match found.take() {
+            Some(before) => better(before, candidate),
+            None => candidate,
+        });
+        score
+    };
+    let options = CMAESOptions::new(mean, STEP).population_size(GENERATION).seed(seed);
+    let Ok(mut evolution) = options.build(objective) else { return Some(best) };
+    while best.score > GOOD && left >= GENERATION && !board.is_stopped() {
+        let ended = evolution.next_parallel().is_some();
+        left -= GENERATION;
+        if let Some(candidate) = lock(&found).take() {
+            best = better(best, candidate);
+        }
+        if ended {
+            break;
+        }
+    }
+    Some(best)
+}
+
+/// The one with the lower score; where they are equal, the one whose numbers come first.
+fn better(a: Candidate, b: Candidate) -> Candidate {
+    let key = |c: &Candidate| (c.score, c.strategy.to_unit());
+    let order = key(&a).partial_cmp(&key(&b)).unwrap_or(Ordering::Equal);
+    if order == Ordering::Greater { b } else { a }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

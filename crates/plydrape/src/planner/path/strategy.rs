@@ -1,0 +1,124 @@
+//! The few numbers that say how a front lays the ply, and the vector that a search sees of them.
+
+use crate::mold::Mold;
+use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+
+/// How a front lays the ply: where it starts, its shape, how steep and how taut the ply is ahead of it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Strategy {
+    /// Where the front starts, as shares of the fabric along u and v.
+    pub start: [f64; 2],
+    /// Ratio of the front's axes: 1 is a circle, a large number a line.
+    pub ratio: f64,
+    /// Direction of its longer axis in plan (rad).
+    pub angle: f64,
+    /// Curvature of the lifted ply right at the front A (1/m).
+    pub curvature: f64,
+    /// Steepest slope of the lifted ply σ.
+    pub slope: f64,
+    /// Pull: relative stretch of what has not landed.
+    pub pull: f64,
+}
+
+/// Numbers that a search varies.
+pub const DIMENSION: usize = 7;
+
+/// Ranges of [`Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pull.
+const RANGES: [[f64; 2]; DIMENSION] = [
+    [0.0, 1.0],
+    [0.0, 1.0],
+    [0.0, 5.0],
+    [-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2],
+    [-1.6, 2.7],
+    [-4.0, 0.0],
+    [0.0, 4e-4],
+];
+
+impl Strategy {
+    /// As a point whose every coordinate goes from 0 to 1.
+    #[must_use]
+    pub fn to_unit(&self) -> [f64; DIMENSION] {
+        let values = [
+            self.start[0],
+            self.start[1],
+            self.ratio.ln(),
+            self.angle,
+            self.curvature.ln(),
+            self.slope.ln(),
+            self.pull,
+        ];
+        let mut unit = [0.0; DIMENSION];
+        for n in 0..DIMENSION {
+            let [low, high] = RANGES[n];
+            unit[n] = ((values[n] - low) / (high - low)).clamp(0.0, 1.0);
+        }
+        unit
+    }
+
+    /// From such a point; what lies beyond is reflected at the border, so that a search feels no wall.
+    #[must_use]
+    pub fn of_unit(unit: &[f64]) -> Self {
+        let value = |n: usize| {
+            let [low, high] = RANGES[n];
+            let folded = unit[n].rem_euclid(2.0);
+            low + (high - low) * if folded > 1.0 { 2.0 - folded } else { folded }
+        };
+        Strategy {
+            start: [value(0), value(1)],
+            ratio: value(2).exp(),
+            angle: value(3),
+            curvature: value(4).exp(),
+            slope: value(5).exp(),
+            pull: value(6),
+        }
+    }
+
+    /// What is tried first: a ring that spreads from the middle, lines along the mold's two principal
+    /// directions there, and a descent all at once.
+    #[must_use]
+    pub fn families(scene: &Scene) -> Vec<Strategy> {
+        let ring = Strategy {
+            start: [0.5; 2],
+            ratio: 1.0,
+            angle: 0.0,
+            curvature: 4.0,
+            slope: 0.4,
+            pull: 1e-4,
+        };
+        let [first, second] =
+            principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
+        let line = |angle| Strategy { ratio: 100.0, angle, ..ring };
+        vec![
+            ring,
+            line(second),
+            line(first),
+            Strategy { curvature: 0.3, slope: 0.03, ..ring },
+            Strategy { slope: 0.25, ..ring },
+            Strategy { curvature: 2.0, slope: 0.2, ..ring },
+            Strategy { curvature: 0.5, slope: 0.05, ..line(second) },
+            Strategy { curvature: 0.5, slope: 0.05, ..line(first) },
+        ]
+    }
+}
+
+/// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape.
+fn principal_directions(scene: &Scene) -> Option<[f64; 2]> {
+    let (mold, target) = (scene.mold.as_ref()?, scene.target.as_ref()?);
+    if matches!(mold, Mold::Plane(_)) {
+        return None;
+    }
+    let count = target.grippers.len() as f64;
+    let sum = |n: usize| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count;
+    let curvatures = mold.curvatures([sum(0), sum(1), sum(2)]);
+    let [a, b] = curvatures.principal;
+    let angles = curvatures.directions.map(|d| folded(d[1].atan2(d[0])));
+    Some(if a.abs() >= b.abs() { angles } else { [angles[1], angles[0]] })
+}
+
+/// A direction without a sense, between ±90° (rad).
+fn folded(angle: f64) -> f64 {
+    let pi = std::f64::consts::PI;
+    (angle + 0.5 * pi).rem_euclid(pi) - 0.5 * pi
+}
