@@ -68,6 +68,28 @@ impl JsonSchema for Count {
     }
 }
 
+/// A whole number of zero or more.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seed(pub i64);
+
+impl<'de> Deserialize<'de> for Seed {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Count::deserialize(deserializer).map(|Count(number)| Seed(number))
+    }
+}
+
+impl JsonSchema for Seed {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "seed".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "integer", "minimum": 0 })
+    }
+}
+
 /// An array of exactly `N` values.
 #[derive(Debug, Clone)]
 pub(super) struct Fixed<T, const N: usize>(pub [T; N]);
