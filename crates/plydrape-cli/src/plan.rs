@@ -18,13 +18,14 @@ use std::time::Instant;
 /// Find trajectories that lay the ply on its mold, and drape along them; verdict, files.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The scene needs [mold] and [target]; [plan] and [limits] say how to look and what to keep. Grippers start
-where they start in `simulate`: of a motion from a file only the first step is used. What no plan can keep is
-said first. The best plan found is written even if it is not accepted. Ctrl-C ends the search and writes
-the best plan so far.
+The scene needs [mold] and [target]; [plan] and [limits] say how to look and what to keep. Grippers
+start where they start in `simulate`: of a motion from a file only the first step is used. What no
+plan can keep is said first. The best plan found is written even if it is not accepted. Ctrl-C ends
+the search and writes the best plan so far.
 
-Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg and plan.json to the scene's name with
-`.plan`. A file in the folder that plydrape did not write, or that was edited since, is never overwritten.")]
+Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg and plan.json to the scene's
+name with `.plan`. A file in the folder that plydrape did not write, or that was edited since, is
+never overwritten.")]
 pub struct Arguments {
     #[command(flatten)]
     results: Results,
@@ -34,7 +35,7 @@ pub struct Arguments {
     method: Option<Method>,
 
     /// Seed of the search, instead of the scene's: the same seed, the same plan.
-    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(..=i64::MAX as u64))]
+    #[arg(long, value_name = "N")]
     seed: Option<u64>,
 
     /// Threads of the search, one per core unless given; the plan does not depend on it.
@@ -110,7 +111,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let tell = !quiet && !results.json;
     if tell {
         let mut out = io::stdout().lock();
-        write!(out, "{}\n\n{}", scene.title, table::obstacles(&obstacles(&scene)))?;
+        writeln!(out, "{}\n", scene.title)?;
+        let found = obstacles(&scene);
+        if !found.is_empty() {
+            writeln!(out, "{}", table::obstacles(&found))?;
+        }
         out.flush()?;
     }
 

@@ -190,7 +190,7 @@ fn options_out_of_range_are_refused() {
     for flags in [
         ["--method", "best"],
         ["--seed", "-1"],
-        ["--seed", "9223372036854775808"],
+        ["--seed", "18446744073709551616"],
         ["--threads", "0"],
         ["--threads", "all"],
     ] {

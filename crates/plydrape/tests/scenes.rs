@@ -104,24 +104,23 @@ fn an_inextensible_ply_is_written_as_infinity() {
     }
 }
 
-/// The keys of [plan] and the motion's limits, each in a unit of its own; what is left out has the default.
+/// The keys of [plan] and the motion's limits, each in a unit of its own, a seed of 64 bits; what is left out
+/// has the default.
 #[test]
 fn a_plan_and_its_limits_are_read_in_si() {
-    let keys = "[plan]\nmethod = \"stepwise\"\nsteps = 40\nmove_limit = \"5 mm\"\nseed = 7\nrate = \"1 kHz\"\n";
+    let keys = "[plan]\nmethod = \"stepwise\"\nsteps = 40\nmove_limit = \"5 mm\"\nseed = 9223372036854775808\nrate = \"1 kHz\"\n";
     let limits = "gripper_distance = \"60 mm\"\nworkspace = [[\"-500 mm\", 1], [-1, 1], [0, 2]]\nspeed = \"6 m/min\"\n";
-    let text = format!(
-        "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.12]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n"
-    );
+    let text = "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.12]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n";
     let scene = parse(&format!("{text}{keys}[limits]\n{limits}")).unwrap_or_else(|e| panic!("{e}"));
     let plan = scene.plan;
-    assert_eq!((plan.method, plan.steps, plan.seed), (scene::PlanMethod::Stepwise, 40, 7));
+    assert_eq!((plan.method, plan.steps, plan.seed), (scene::PlanMethod::Stepwise, 40, 1 << 63));
     assert_eq!((plan.move_limit, plan.rate, plan.evaluations), (Some(0.005), 1000.0, 60));
     let limits = scene.limits;
     assert_eq!(limits.gripper_distance, 0.06);
     assert_eq!(limits.workspace, Some([[-0.5, 1.0], [-1.0, 1.0], [0.0, 2.0]]));
     assert!((limits.speed - 0.1).abs() < 1e-15, "{}", limits.speed);
 
-    let scene = parse(&text).unwrap_or_else(|e| panic!("{e}"));
+    let scene = parse(text).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(scene.plan, scene::Plan::default());
     assert_eq!((scene.limits.gripper_distance, scene.limits.workspace), (0.05, None));
 }

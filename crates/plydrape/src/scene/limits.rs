@@ -89,7 +89,7 @@ fn workspace(
             return Err(document.error(
                 side.0[0].span.start..side.0[1].span.end,
                 format!("the workspace {fault} along {axis}"),
-                format!("give [from, to] with from below to, as in [\"-500 mm\", \"500 mm\"]; z points up"),
+                "give [from, to] with from below to, as in [\"-500 mm\", \"500 mm\"]",
             ));
         }
         out[n] = [from, to];

@@ -68,13 +68,26 @@ impl JsonSchema for Count {
     }
 }
 
-/// A whole number of zero or more.
+/// A whole number of zero or more, as far as 64 bits reach.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Seed(pub i64);
+pub(super) struct Seed(pub i128);
 
 impl<'de> Deserialize<'de> for Seed {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Count::deserialize(deserializer).map(|Count(number)| Seed(number))
+        struct Whole;
+        impl Visitor<'_> for Whole {
+            type Value = Seed;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a whole number, e.g. 0")
+            }
+            fn visit_i64<E>(self, value: i64) -> Result<Seed, E> {
+                Ok(Seed(value.into()))
+            }
+            fn visit_u64<E>(self, value: u64) -> Result<Seed, E> {
+                Ok(Seed(value.into()))
+            }
+        }
+        deserializer.deserialize_any(Whole)
     }
 }
 

@@ -60,18 +60,18 @@ fn count(
     {
         return Ok(value);
     }
-    let fault = if value < least as i64 { "few" } else { "many" };
+    let fault = match value {
+        1 => format!("1 {} is too few for a plan", of.trim_end_matches('s')),
+        _ if value < 1 => format!("{value} {of} are too few for a plan"),
+        _ => format!("{value} {of} are too many for a plan"),
+    };
     let help = match of {
         "steps" => format!(
             "{least} to {most} steps are possible: step 1 is the start, the last one the target"
         ),
         _ => format!("{least} to {most} {of} are possible"),
     };
-    Err(document.error(
-        written.span.clone(),
-        format!("{value} {of} are too {fault} for a plan"),
-        help,
-    ))
+    Err(document.error(written.span.clone(), fault, help))
 }
 
 /// The seed of the search.
