@@ -5,7 +5,7 @@ use crate::numbers::{degrees, millimetres, short};
 use plydrape::material::{Material, Section, ShearCurve};
 use plydrape::mold::{Face, MeshReport, Mold, Plane, Pose, Surface};
 use plydrape::ply::Direction;
-use plydrape::scene::{ContactEnd, Scene, SlopeRule, Stepping};
+use plydrape::scene::{ContactEnd, Limits, PlanMethod, Scene, SlopeRule, Stepping};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -56,6 +56,7 @@ fn summary(scene: &Scene) -> Vec<(&'static str, String)> {
     lines.extend(mold(scene));
     lines.extend([("motion", motion(scene)), ("target", target(scene))]);
     lines.extend(rules(scene));
+    lines.extend(plan(scene));
     lines
 }
 
@@ -221,8 +222,29 @@ fn target(scene: &Scene) -> String {
     text
 }
 
+/// How a motion would be planned; nothing where there is nothing to plan.
+fn plan(scene: &Scene) -> Option<(&'static str, String)> {
+    let (Some(_), Some(_), plan) = (&scene.mold, &scene.target, &scene.plan) else {
+        return None;
+    };
+    let method = match plan.method {
+        PlanMethod::Path => "path",
+        PlanMethod::Stepwise => "stepwise",
+    };
+    let far = plan.move_limit.map(|far| format!(" of up to {} mm", millimetres(far)));
+    let text = format!(
+        "{method}, {} steps{}, up to {} drapes, seed {}, motion at {} Hz",
+        plan.steps,
+        far.unwrap_or_default(),
+        plan.evaluations,
+        plan.seed,
+        short(plan.rate)
+    );
+    Some(("plan", text))
+}
+
 /// Rules of the model, contact and limits.
-fn rules(scene: &Scene) -> [(&'static str, String); 4] {
+fn rules(scene: &Scene) -> [(&'static str, String); 5] {
     let settings = &scene.settings;
     let limits = &scene.limits;
     let slopes = match settings.slopes {
@@ -274,5 +296,24 @@ fn rules(scene: &Scene) -> [(&'static str, String); 4] {
                 short(limits.contact_share * 100.0)
             ),
         ),
+        ("", reach(limits)),
     ]
+}
+
+/// Where grippers may be and how fast they may move.
+fn reach(limits: &Limits) -> String {
+    let workspace = match limits.workspace {
+        Some(sides) => {
+            let [x, y, z] = sides.map(|ends| ends.map(millimetres).join(" to "));
+            format!("x {x}, y {y}, z {z} mm")
+        }
+        None => "anywhere".into(),
+    };
+    format!(
+        "grippers {workspace}, {} mm apart, up to {} m/s, {} m/s², {} m/s³",
+        millimetres(limits.gripper_distance),
+        short(limits.speed),
+        short(limits.acceleration),
+        short(limits.jerk)
+    )
 }

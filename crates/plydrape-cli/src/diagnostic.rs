@@ -27,6 +27,9 @@ pub enum Failure {
         /// What would be right.
         help: String,
     },
+    /// No plan could be looked for.
+    #[error(transparent)]
+    Plan(#[from] plydrape::planner::PlanError),
     /// The input is sound, but has no solution.
     #[error("{message}")]
     NoSolution {
@@ -97,7 +100,7 @@ impl Diagnostic for Failure {
             Failure::Argument { help, .. }
             | Failure::NoSolution { help, .. }
             | Failure::Output { help, .. } => Some(Box::new(help)),
-            Failure::Results(_) | Failure::Stdout(_) => None,
+            Failure::Plan(_) | Failure::Results(_) | Failure::Stdout(_) => None,
         }
     }
 

@@ -6,9 +6,13 @@ mod diagnostic;
 mod net;
 mod new;
 mod numbers;
+mod outcome;
+mod plan;
+mod results;
 mod schema;
 mod simulate;
 mod span;
+mod watch;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -37,6 +41,7 @@ Exit codes:
 #[derive(Debug, Subcommand)]
 enum Command {
     Simulate(simulate::Arguments),
+    Plan(plan::Arguments),
     Net(net::Arguments),
     Check(check::Arguments),
     Span(span::Arguments),
@@ -50,6 +55,7 @@ fn main() -> ExitCode {
     let Cli { command, quiet } = Cli::parse();
     let done = match command {
         Command::Simulate(arguments) => simulate::run(&arguments, quiet),
+        Command::Plan(arguments) => plan::run(&arguments, quiet),
         Command::Net(arguments) => net::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Span(arguments) => span::run(&arguments),

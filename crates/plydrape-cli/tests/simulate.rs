@@ -137,7 +137,7 @@ fn the_paper_s_example_has_its_printed_contacts_and_shear() {
     let last = &result(folder.path())["steps"][29]["measures"];
     for key in ["slack_mm", "wrinkle_mm", "overstretch"] {
         assert!(last[key]["value"].as_f64().unwrap() > 0.0, "{key}: {last}");
-        let at = last[key]["at"].as_str().unwrap();
+        let at = last[key]["where"].as_str().unwrap();
         assert!(at.starts_with("diagonal") || at.starts_with("edge"), "{at}");
         assert_eq!(last[key]["place"].as_array().unwrap().len(), 3);
     }

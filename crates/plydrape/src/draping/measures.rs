@@ -4,6 +4,7 @@
 use super::Snapshot;
 use super::attitude::Attitude;
 use super::landing::Landing;
+use super::reach::{self, closest, outside};
 use super::record::{Measures, Worst};
 use super::spans::{FreeSpan, Point};
 use crate::mold::{Mold, Strand, distance};
@@ -252,10 +253,7 @@ pub fn measures(
     let shear = shear(scene, snapshot);
 
     let catenary = |n: usize| name(scene, n);
-    let gripper = |n: usize| {
-        let [i, j] = grid.id(n);
-        format!("gripper [{i},{j}]")
-    };
+    let gripper = |n: usize| format!("gripper {}", reach::id(grid, n));
     let has_mold = scene.mold.is_some();
     let nothing = |at: &str| Worst { value: 0.0, at: at.into(), place: [0.0; 3] };
     Measures {
@@ -275,6 +273,9 @@ pub fn measures(
         }),
         fibre_angle_deg: fibre.worst(1.0, catenary),
         gap_mm: gap.worst(MM, catenary).or(has_mold.then(|| nothing("nowhere"))),
+        gripper_distance_mm: closest(grid, &snapshot.positions),
+        workspace_mm: (scene.limits.workspace)
+            .and_then(|workspace| outside(grid, &snapshot.positions, workspace)),
         contact_share: has_mold.then_some(lying / total),
     }
 }

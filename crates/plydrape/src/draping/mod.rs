@@ -9,6 +9,7 @@ pub mod contact;
 mod crossing;
 mod landing;
 mod measures;
+pub(crate) mod reach;
 pub mod record;
 mod report;
 pub mod spans;

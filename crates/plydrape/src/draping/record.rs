@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// A whole result file.
 #[derive(Debug, Clone, Serialize)]
@@ -210,6 +210,7 @@ pub struct Worst {
     /// The value, in the unit that the measure names.
     pub value: f64,
     /// Which part of the ply: a catenary, a cell or a gripper, in words.
+    #[serde(rename = "where")]
     pub at: String,
     /// Place in space (m).
     pub place: [f64; 3],
@@ -242,6 +243,10 @@ pub struct Measures {
     pub fibre_angle_deg: Option<Worst>,
     /// Largest distance between ply and mold (mm).
     pub gap_mm: Option<Worst>,
+    /// Smallest distance between any two grippers (mm).
+    pub gripper_distance_mm: Option<Worst>,
+    /// Farthest that a gripper is outside the workspace (mm), where there is one.
+    pub workspace_mm: Option<Worst>,
     /// Share of the edges' length that lies on the mold.
     pub contact_share: Option<f64>,
 }
@@ -274,15 +279,16 @@ pub struct Verdict {
     pub name: &'static str,
     /// Worst value, in the unit of the limit as reported.
     pub value: f64,
-    /// The limit, in the same unit.
+    /// The limit, in the same unit: the least allowed of `contact_share` and `gripper_distance`, else the most.
     pub limit: f64,
     /// Unit of both.
     pub unit: &'static str,
     /// Whether it holds.
     pub ok: bool,
-    /// Step of the worst value.
-    pub step: usize,
+    /// Step of the worst value; none where it belongs to no step, as the speed of a motion.
+    pub step: Option<usize>,
     /// Place of the worst value, in words.
+    #[serde(rename = "where")]
     pub at: String,
 }
 
@@ -325,4 +331,14 @@ pub struct Summary {
     pub limits: Vec<Verdict>,
     /// Equilibria solved.
     pub equilibria: usize,
+}
+
+impl Summary {
+    /// Judges the drape by more limits, such as those of the motion that it came from.
+    pub fn judge_also(&mut self, verdicts: impl IntoIterator<Item = Verdict>) {
+        for verdict in verdicts {
+            self.accepted &= verdict.ok;
+            self.limits.push(verdict);
+        }
+    }
 }

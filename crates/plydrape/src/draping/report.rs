@@ -218,10 +218,19 @@ impl<'a> Report<'a> {
 
     /// The worst of a measure over all steps, the first one where several are equal.
     fn worst(&self, pick: impl Fn(&Measures) -> &Option<Worst>) -> Option<(usize, &Worst)> {
+        self.extreme(pick, |value, before| value > before)
+    }
+
+    /// The value of a measure over all steps that beats all others, the first one where several are equal.
+    fn extreme(
+        &self,
+        pick: impl Fn(&Measures) -> &Option<Worst>,
+        beats: impl Fn(f64, f64) -> bool,
+    ) -> Option<(usize, &Worst)> {
         let mut out: Option<(usize, &Worst)> = None;
         for step in &self.steps {
             if let Some(worst) = pick(&step.measures)
-                && out.is_none_or(|(_, before)| worst.value > before.value)
+                && out.is_none_or(|(_, before)| beats(worst.value, before.value))
             {
                 out = Some((step.step, worst));
             }
@@ -238,7 +247,8 @@ impl<'a> Report<'a> {
             let value = worst.value * scale;
             // a bound that holds a slope exactly at its limit is no breach
             let ok = value <= limit * (1.0 + 1e-9);
-            out.push(Verdict { name, value, limit, unit, ok, step, at: worst.at.clone() });
+            let (step, at) = (Some(step), worst.at.clone());
+            out.push(Verdict { name, value, limit, unit, ok, step, at });
         };
         let last = self.steps.last();
         let at_end = |pick: fn(&Measures) -> &Option<Worst>| {
@@ -252,6 +262,9 @@ impl<'a> Report<'a> {
         }
         if let Some(force) = limits.force {
             judge("force", "N", 1.0, force, everywhere(|m| &m.force_n));
+        }
+        if limits.workspace.is_some() {
+            judge("workspace", "mm", 1.0, 0.0, everywhere(|m| &m.workspace_mm));
         }
         if let (Some(target), Some(step)) = (&self.scene.target, last) {
             if self.scene.mold.is_some() {
@@ -293,10 +306,24 @@ impl<'a> Report<'a> {
                     limit: limits.contact_share * 1e2,
                     unit: "%",
                     ok: share >= limits.contact_share,
-                    step: step.step,
+                    step: Some(step.step),
                     at: "all edges".into(),
                 });
             }
+        }
+        let closest = self.extreme(|m| &m.gripper_distance_mm, |value, before| value < before);
+        if let Some((step, worst)) = closest {
+            let limit = limits.gripper_distance * 1e3;
+            out.push(Verdict {
+                name: "gripper_distance",
+                value: worst.value,
+                limit,
+                unit: "mm",
+                // as above
+                ok: worst.value >= limit * (1.0 - 1e-9),
+                step: Some(step),
+                at: worst.at.clone(),
+            });
         }
         if let Some(step) = self.steps.iter().find(|step| step.solver.status != "converged") {
             out.push(Verdict {
@@ -305,7 +332,7 @@ impl<'a> Report<'a> {
                 limit: 1e-6,
                 unit: "slope",
                 ok: false,
-                step: step.step,
+                step: Some(step.step),
                 at: format!(
                     "solver {} with max_tilt {:.1}°",
                     step.solver.status,

@@ -10,7 +10,7 @@ use ::csv::{Error, Writer};
 type Column = (&'static str, &'static str, fn(&Measures) -> Option<&Worst>);
 
 /// Every measure with a place: header of the value, header of the place, the field.
-const MEASURES: [Column; 12] = [
+const MEASURES: [Column; 14] = [
     ("slack (mm)", "slack at", |m| m.slack_mm.as_ref()),
     ("slack ratio (1)", "slack ratio at", |m| m.slack_ratio.as_ref()),
     ("wrinkle amplitude (mm)", "wrinkle amplitude at", |m| m.wrinkle_mm.as_ref()),
@@ -23,6 +23,8 @@ const MEASURES: [Column; 12] = [
     ("landing error (mm)", "landing error at", |m| m.landing_error_mm.as_ref()),
     ("fibre angle (deg)", "fibre angle at", |m| m.fibre_angle_deg.as_ref()),
     ("gap (mm)", "gap at", |m| m.gap_mm.as_ref()),
+    ("gripper distance (mm)", "gripper distance at", |m| m.gripper_distance_mm.as_ref()),
+    ("outside workspace (mm)", "outside workspace at", |m| m.workspace_mm.as_ref()),
 ];
 
 /// One row a step: time (s), every measure and where it is, share in contact, how the solver ended.

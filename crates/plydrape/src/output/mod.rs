@@ -7,7 +7,8 @@
 //! - `steps.csv` and `trajectory.csv`, with units in their headers ([`csv`]);
 //! - `figure.svg`, three chosen steps in 3D ([`figure`]).
 //!
-//! [`net`] does the same for a net, the ideal drape. [`table`] prints steps and verdict for people, [`folder`] writes files whole or not at all.
+//! [`plan`] puts the motion and the search's memory beside them, [`net`] does the same for a net, the ideal
+//! drape. [`table`] prints steps and verdict for people, [`folder`] writes files whole or not at all.
 
 pub mod csv;
 mod error;
@@ -17,6 +18,7 @@ pub mod folder;
 pub mod json;
 mod manifest;
 pub mod net;
+pub mod plan;
 pub mod table;
 
 #[cfg(test)]
@@ -35,20 +37,28 @@ use std::path::{Path, PathBuf};
 /// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
 /// the folder is then as it was.
 pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
+    write_with(result, &[], dir)
+}
+
+/// As [`write_all`], with more files (plain name and content) behind them.
+fn write_with(
+    result: &ResultFile,
+    more: &[(&str, &[u8])],
+    dir: &Path,
+) -> Result<Vec<PathBuf>, OutputError> {
     // First of all: it proves every number finite.
     let json = json::text(result)?;
     let steps = csv::steps(result)?;
     let trajectory = csv::trajectory(result)?;
     let figure = figure::svg(result, &figure::default_steps(result))?;
-    folder::write(
-        dir,
-        &[
-            ("result.json", json.as_bytes()),
-            ("steps.csv", steps.as_bytes()),
-            ("trajectory.csv", trajectory.as_bytes()),
-            ("figure.svg", figure.as_bytes()),
-        ],
-    )
+    let mut files = vec![
+        ("result.json", json.as_bytes()),
+        ("steps.csv", steps.as_bytes()),
+        ("trajectory.csv", trajectory.as_bytes()),
+        ("figure.svg", figure.as_bytes()),
+    ];
+    files.extend(more);
+    folder::write(dir, &files)
 }
 
 #[cfg(test)]

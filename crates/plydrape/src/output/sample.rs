@@ -288,7 +288,7 @@ fn frame(grid: Grid) -> ResultFile {
                 limit: 40.0,
                 unit: "°",
                 ok: true,
-                step: 1,
+                step: Some(1),
                 at: "gripper [0, 0]".into(),
             }],
             equilibria: 30,

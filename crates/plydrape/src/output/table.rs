@@ -76,7 +76,7 @@ fn chosen(result: &ResultFile) -> BTreeSet<usize> {
         return (0..count).collect();
     }
     let summary = &result.summary;
-    let mut numbers: BTreeSet<usize> = summary.limits.iter().map(|v| v.step).collect();
+    let mut numbers: BTreeSet<usize> = summary.limits.iter().filter_map(|v| v.step).collect();
     for first in [summary.first_contact_step, summary.first_shear_step, summary.all_shear_step]
         .into_iter()
         .flatten()
@@ -117,7 +117,7 @@ pub fn verdict(result: &ResultFile) -> String {
                 significant(v.limit),
                 v.unit.into(),
                 if v.ok { "pass" } else { "FAIL" }.into(),
-                v.step.to_string(),
+                v.step.map_or_else(|| "–".into(), |step| step.to_string()),
                 v.at.clone(),
             ]
         }));
@@ -127,24 +127,48 @@ pub fn verdict(result: &ResultFile) -> String {
         let (done, planned) = (summary.steps, summary.steps_planned);
         let _ = writeln!(text, "interrupted after step {done} of {planned}");
     }
-    let worst =
-        summary.limits.iter().filter(|v| !v.ok).max_by(|a, b| excess(a).total_cmp(&excess(b)));
-    match worst {
+    match limiting(&summary.limits) {
         None if summary.accepted => text.push_str("accepted\n"),
         None => text.push_str("not accepted\n"),
-        Some(v) => {
-            let (name, unit) = (v.name.replace('_', " "), unit(v.unit));
-            let (value, limit) = (significant(v.value), significant(v.limit));
-            let at = if v.at.is_empty() { String::new() } else { format!(", {}", v.at) };
-            let line = format!(
-                "not accepted: {name} {value}{unit} against {limit}{unit} in step {}{at}",
-                v.step
-            );
-            text.push_str(&shortened(&line, 100));
+        Some(worst) => {
+            text.push_str(&shortened(&format!("not accepted: {}", in_words(worst)), 100));
             text.push('\n');
         }
     }
     text
+}
+
+/// Of the limits that do not hold, the one exceeded furthest.
+#[must_use]
+pub fn limiting(limits: &[Verdict]) -> Option<&Verdict> {
+    limits.iter().filter(|v| !v.ok).max_by(|a, b| excess(a).total_cmp(&excess(b)))
+}
+
+/// Of the limits that hold, the one that is nearest to not holding; none of zero, which only zero keeps.
+#[must_use]
+pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
+    let kept = limits.iter().filter(|v| v.ok && v.limit != 0.0);
+    kept.min_by(|a, b| excess(a).total_cmp(&excess(b)))
+}
+
+/// A verdict in words: name, value, limit, step and place.
+#[must_use]
+pub fn in_words(v: &Verdict) -> String {
+    let (name, unit) = (v.name.replace('_', " "), unit(v.unit));
+    let (value, limit) = (significant(v.value), significant(v.limit));
+    let step = v.step.map(|step| format!(" in step {step}")).unwrap_or_default();
+    let at = if v.at.is_empty() { String::new() } else { format!(", {}", v.at) };
+    format!("{name} {value}{unit} against {limit}{unit}{step}{at}")
+}
+
+/// The limits that no plan can keep, one in a line; empty if there are none.
+#[must_use]
+pub fn obstacles(verdicts: &[Verdict]) -> String {
+    if verdicts.is_empty() {
+        return String::new();
+    }
+    let lines = verdicts.iter().map(|v| shortened(&format!("  {}", in_words(v)), 100) + "\n");
+    "no plan can keep these limits:\n".to_owned() + &lines.collect::<String>()
 }
 
 /// How far beyond its limit a value is, as a ratio above 1; the limit may be a least or a largest value.
@@ -252,7 +276,7 @@ mod tests {
             limit,
             unit: "mm",
             ok,
-            step: 30,
+            step: Some(30),
             at: "edge [1, 0]–[2, 0]".into(),
         };
         result.summary.accepted = false;
@@ -272,6 +296,34 @@ mod tests {
         result.summary.limits.truncate(1);
         result.summary.accepted = true;
         assert!(verdict(&result).ends_with("accepted\n"));
+    }
+
+    /// 38° of 40° is nearer to its limit than 60 mm, where 50 mm is the least; a limit of zero is never near.
+    #[test]
+    fn the_closest_limit_is_the_one_with_the_smallest_margin() {
+        let limit = |name, value, limit, ok| Verdict {
+            name,
+            value,
+            limit,
+            unit: "mm",
+            ok,
+            step: None,
+            at: "gripper [0,0]".into(),
+        };
+        let limits = [
+            limit("gripper_distance", 60.0, 50.0, true),
+            limit("tilt", 38.0, 40.0, true),
+            limit("workspace", 0.0, 0.0, true),
+            limit("slack_ratio", 0.05, 0.05, false),
+        ];
+        assert_eq!(closest(&limits).map(|v| v.name), Some("tilt"));
+        assert_eq!(limiting(&limits).map(|v| v.name), Some("slack_ratio"));
+        assert_eq!(in_words(&limits[1]), "tilt 38 mm against 40 mm, gripper [0,0]");
+        assert_eq!(
+            obstacles(&limits[3..]),
+            "no plan can keep these limits:\n  slack ratio 0.05 mm against 0.05 mm, gripper [0,0]\n"
+        );
+        assert_eq!(obstacles(&[]), "");
     }
 
     /// Digits that matter, none that do not.

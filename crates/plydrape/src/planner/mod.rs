@@ -2,7 +2,11 @@
 
 pub mod board;
 pub mod judge;
+pub mod obstacles;
 pub mod path;
+mod stand_in;
+
+pub use stand_in::{Memory, PlanError, Planned, plan};
 
 use crate::draping::record::Verdict;
 

@@ -1,16 +1,13 @@
 //! From the keys of a file to a scene that makes sense.
 
 use super::error::{Document, SceneError};
-use super::file::{
-    EndKey, GrippersTable, LimitsTable, MotionKind, PlyTable, SceneFile, Slopes, SteppingKey,
-};
+use super::file::{EndKey, GrippersTable, MotionKind, PlyTable, SceneFile, Slopes, SteppingKey};
+use super::limits::{acute, limits};
 use super::located::{Count, Located};
 use super::motion::motion;
-use super::quantity::{Angle, Quantity, Ratio};
+use super::plan::plan;
 use super::trajectory::trajectory;
-use super::{
-    Contact, ContactEnd, Limits, Motion, Plan, Scene, Settings, SlopeRule, Stepping, Target,
-};
+use super::{Contact, ContactEnd, Motion, Scene, Settings, SlopeRule, Stepping, Target};
 use super::{material, mold, start, target};
 use crate::mold::Mold;
 use crate::ply::{Direction, Grid, Ply};
@@ -20,8 +17,6 @@ use std::path::Path;
 const MOST_GRIPPERS: i64 = 1000;
 /// Largest gripper tilt unless given, as in Krogh et al. 2018 (rad).
 pub(super) const MAX_TILT: f64 = 40.0 * std::f64::consts::PI / 180.0;
-/// Largest angle between landed edges and the fibres of the ideal drape unless given (rad).
-const FIBRE_ANGLE: f64 = 3.0 * std::f64::consts::PI / 180.0;
 /// Smallest and largest finite axial stiffness (N).
 const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
 /// Smallest and largest gravity (m/s²).
@@ -59,6 +54,7 @@ pub(super) fn scene(
     };
     let motion = places.motion(file, target.as_ref())?;
     let limits = limits(&file.limits, &ply, max_tilt, document)?;
+    let plan = plan(&file.plan, ply.grid, document)?;
     Ok(Scene {
         title: file.title.clone().unwrap_or_else(|| title(document, base)),
         ply,
@@ -68,7 +64,7 @@ pub(super) fn scene(
         target,
         settings,
         limits,
-        plan: Plan::default(),
+        plan,
     })
 }
 
@@ -223,71 +219,4 @@ fn settings(file: &SceneFile, ply: &Ply, document: &Document) -> Result<Settings
             },
         },
     })
-}
-
-pub(super) fn limits(
-    table: &LimitsTable,
-    ply: &Ply,
-    max_tilt: f64,
-    document: &Document,
-) -> Result<Limits, SceneError> {
-    let length = |key: &Option<Quantity<_>>, default: f64| match key {
-        Some(value) => value.not_negative(document),
-        None => Ok(default),
-    };
-    Ok(Limits {
-        slack_ratio: share(table.slack_ratio.as_ref(), 0.0005, document)?,
-        bridging: length(&table.bridging, 1e-3)?,
-        overstretch: share(table.overstretch.as_ref(), 0.001, document)?,
-        landing_contact: length(&table.landing_contact, 2e-3)?,
-        landing_gripper: length(&table.landing_gripper, 5e-4)?,
-        fibre_angle: match &table.fibre_angle {
-            Some(angle) => acute(angle, document)?,
-            None => FIBRE_ANGLE,
-        },
-        shear: match &table.shear {
-            Some(shear) => Some(acute(shear, document)?),
-            None => ply.material.locking_angle,
-        },
-        tilt: match &table.tilt {
-            Some(tilt) => acute(tilt, document)?,
-            None => max_tilt,
-        },
-        force: match &table.force {
-            Some(force) => Some(force.positive(document)?),
-            None => None,
-        },
-        contact_share: share(table.contact_share.as_ref(), 0.95, document)?,
-        gripper_distance: 0.5 * ply.cell[0].min(ply.cell[1]),
-        workspace: None,
-        speed: 0.25,
-        acceleration: 1.0,
-        jerk: 10.0,
-    })
-}
-
-/// An angle above zero and below a right angle (rad).
-fn acute(angle: &Quantity<Angle>, document: &Document) -> Result<f64, SceneError> {
-    angle.positive(document)?;
-    angle.below_right_angle(document)
-}
-
-/// A share from 0 to 1.
-fn share(
-    key: Option<&Quantity<Ratio>>,
-    default: f64,
-    document: &Document,
-) -> Result<f64, SceneError> {
-    let Some(ratio) = key else {
-        return Ok(default);
-    };
-    let value = ratio.not_negative(document)?;
-    if value <= 1.0 {
-        return Ok(value);
-    }
-    Err(document.error(
-        ratio.span.clone(),
-        format!("{} is more than the whole", document.quoted(&ratio.span)),
-        format!("a share from 0 to 1 is wanted; {value} of a hundred is \"{value} %\""),
-    ))
 }

@@ -1,8 +1,9 @@
 //! The ideal drape alone: of a scene, what says how the ply is laid on the mold.
 
-use super::check::{MAX_TILT, limits, ply, title};
+use super::check::{MAX_TILT, ply, title};
 use super::error::{Document, SceneError};
 use super::file::SceneFile;
+use super::limits::limits;
 use super::{mold, target};
 use crate::mold::Mold;
 use crate::net::Net;

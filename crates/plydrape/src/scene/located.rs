@@ -68,6 +68,41 @@ impl JsonSchema for Count {
     }
 }
 
+/// A whole number of zero or more, as far as 64 bits reach.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seed(pub i128);
+
+impl<'de> Deserialize<'de> for Seed {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Whole;
+        impl Visitor<'_> for Whole {
+            type Value = Seed;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a whole number, e.g. 0")
+            }
+            fn visit_i64<E>(self, value: i64) -> Result<Seed, E> {
+                Ok(Seed(value.into()))
+            }
+            fn visit_u64<E>(self, value: u64) -> Result<Seed, E> {
+                Ok(Seed(value.into()))
+            }
+        }
+        deserializer.deserialize_any(Whole)
+    }
+}
+
+impl JsonSchema for Seed {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "seed".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "integer", "minimum": 0 })
+    }
+}
+
 /// An array of exactly `N` values.
 #[derive(Debug, Clone)]
 pub(super) struct Fixed<T, const N: usize>(pub [T; N]);

@@ -5,8 +5,8 @@
 //!
 //! 1. `read`, `complaint`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the wanted dimension;
-//! 3. `check` with `material`, `mold`, `layup`, `target`, `start`, `motion`, `trajectory`: numbers become
-//!    a [`Scene`].
+//! 3. `check` with `material`, `mold`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `plan`: numbers
+//!    become a [`Scene`].
 //!
 //! `argument` lends the reader of stage 2 to values on the command line.
 
@@ -20,11 +20,13 @@ mod file;
 mod heading;
 mod ideal;
 mod layup;
+mod limits;
 mod located;
 mod material;
 mod mold;
 mod motion;
 mod places;
+mod plan;
 mod quantity;
 mod read;
 mod rectangle;

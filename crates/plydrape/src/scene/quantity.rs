@@ -44,6 +44,12 @@ measures! {
     Time: [TIME], "a time", "s", "29 s";
     /// Force (N).
     Force: [FORCE], "a force", "N", "100 kN";
+    /// Speed (m/s).
+    Speed: [SPEED], "a speed", "m/s", "0.25 m/s";
+    /// Jerk (m/s³).
+    Jerk: [JERK], "a jerk", "m/s^3", "10 m/s^3";
+    /// Frequency (Hz).
+    Frequency: [FREQUENCY], "a frequency", "Hz", "100 Hz";
     /// Acceleration (m/s²).
     Acceleration: [ACCELERATION], "an acceleration", "m/s^2", "9.81 m/s^2";
     /// Share of a whole, without a unit.
@@ -157,7 +163,17 @@ impl<M: Measure> Quantity<M> {
     }
 
     /// A value above zero and within bounds, both in SI units.
-    pub fn within(&self, document: &Document, [low, high]: [f64; 2]) -> Result<f64, SceneError> {
+    pub fn within(&self, document: &Document, bounds: [f64; 2]) -> Result<f64, SceneError> {
+        self.within_for(document, bounds, "a ply")
+    }
+
+    /// The same, of something else than the ply.
+    pub fn within_for(
+        &self,
+        document: &Document,
+        [low, high]: [f64; 2],
+        what: &str,
+    ) -> Result<f64, SceneError> {
         let value = self.positive(document)?;
         if (low..=high).contains(&value) {
             return Ok(value);
@@ -165,7 +181,7 @@ impl<M: Measure> Quantity<M> {
         let side = if value < low { "small" } else { "large" };
         Err(document.error(
             self.span.clone(),
-            format!("{} is too {side} for a ply", document.quoted(&self.span)),
+            format!("{} is too {side} for {what}", document.quoted(&self.span)),
             format!("{} from {low:e} to {high:e} {} is wanted", M::NAME, M::UNIT),
         ))
     }

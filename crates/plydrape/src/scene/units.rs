@@ -18,7 +18,10 @@ impl Dimension {
     pub const ANGLE: Self = Dimension([0, 0, 0, 1]);
     pub const FORCE: Self = Dimension([1, 1, -2, 0]);
     pub const PRESSURE: Self = Dimension([-1, 1, -2, 0]);
+    pub const SPEED: Self = Dimension([1, 0, -1, 0]);
     pub const ACCELERATION: Self = Dimension([1, 0, -2, 0]);
+    pub const JERK: Self = Dimension([1, 0, -3, 0]);
+    pub const FREQUENCY: Self = Dimension([0, 0, -1, 0]);
     pub const LINE_MASS: Self = Dimension([-1, 1, 0, 0]);
     pub const AREAL_MASS: Self = Dimension([-2, 1, 0, 0]);
     pub const FLEXURAL_RIGIDITY: Self = Dimension([3, 1, -2, 0]);
@@ -36,7 +39,7 @@ impl Dimension {
 }
 
 /// The dimensions with a name of their own.
-const NAMES: [(Dimension, &str); 16] = [
+const NAMES: [(Dimension, &str); 18] = [
     (Dimension::NONE, "a number without a unit"),
     (Dimension::LENGTH, "a length"),
     (Dimension::MASS, "a mass"),
@@ -44,14 +47,16 @@ const NAMES: [(Dimension, &str); 16] = [
     (Dimension::ANGLE, "an angle"),
     (Dimension::FORCE, "a force"),
     (Dimension::PRESSURE, "a pressure"),
+    (Dimension::SPEED, "a speed"),
     (Dimension::ACCELERATION, "an acceleration"),
+    (Dimension::JERK, "a jerk"),
+    (Dimension::FREQUENCY, "a frequency"),
     (Dimension::LINE_MASS, "a mass per length"),
     (Dimension::AREAL_MASS, "a mass per area"),
     (Dimension::FLEXURAL_RIGIDITY, "a flexural rigidity"),
     (Dimension::MOMENT, "a moment"),
     (Dimension::FORCE_PER_LENGTH, "a force per length"),
     (Dimension([2, 0, 0, 0]), "an area"),
-    (Dimension([1, 0, -1, 0]), "a speed"),
     (Dimension([-3, 1, 0, 0]), "a density"),
 ];
 
@@ -73,7 +78,7 @@ impl fmt::Display for Dimension {
 }
 
 /// Symbols of units, their size in SI base units and their dimension.
-const UNITS: [(&str, f64, Dimension); 24] = [
+const UNITS: [(&str, f64, Dimension); 26] = [
     ("m", 1.0, Dimension::LENGTH),
     ("cm", 1e-2, Dimension::LENGTH),
     ("mm", 1e-3, Dimension::LENGTH),
@@ -90,6 +95,8 @@ const UNITS: [(&str, f64, Dimension); 24] = [
     ("s", 1.0, Dimension::TIME),
     ("ms", 1e-3, Dimension::TIME),
     ("min", 60.0, Dimension::TIME),
+    ("Hz", 1.0, Dimension::FREQUENCY),
+    ("kHz", 1e3, Dimension::FREQUENCY),
     ("N", 1.0, Dimension::FORCE),
     ("mN", 1e-3, Dimension::FORCE),
     ("kN", 1e3, Dimension::FORCE),
@@ -147,6 +154,7 @@ fn nearest_unit(symbol: &str) -> Option<&'static str> {
         "degree" | "degrees" | "grad" => "deg",
         "radian" | "radians" => "rad",
         "sec" | "second" | "seconds" => "s",
+        "hertz" => "Hz",
         "newton" | "newtons" => "N",
         "gram" | "grams" => "g",
         "percent" => "%",
@@ -286,6 +294,10 @@ mod tests {
             ("1in", 0.0254, Dimension::LENGTH),
             ("-2.5e1 mm", -0.025, Dimension::LENGTH),
             ("5 mN*m", 5e-3, Dimension::MOMENT),
+            ("0.25 m/s", 0.25, Dimension::SPEED),
+            ("10 m/s^3", 10.0, Dimension::JERK),
+            ("1 kHz", 1e3, Dimension::FREQUENCY),
+            ("100 s^-1", 100.0, Dimension::FREQUENCY),
             ("180°", std::f64::consts::PI, Dimension::ANGLE),
             ("0.05 %", 0.0005, Dimension::NONE),
         ];

@@ -3,10 +3,14 @@
 //! These types say what is a key and what is not; [`super::check`] says what makes sense. Their
 //! comments are the descriptions of the JSON Schema.
 
+mod limits;
 mod mold;
+mod plan;
 mod target;
 
+pub(super) use limits::LimitsTable;
 pub(super) use mold::{MoldKind, MoldTable, SideKey};
+pub(super) use plan::{MethodKey, PlanTable};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 
 use super::choice::{Centred, MaterialChoice, Place, Positions};
@@ -46,6 +50,9 @@ pub(super) struct SceneFile {
     /// What an accepted drape keeps to.
     #[serde(default)]
     pub limits: LimitsTable,
+    /// How `plydrape plan` looks for the motion.
+    #[serde(default)]
+    pub plan: PlanTable,
 }
 
 /// What hangs between the grippers.
@@ -144,7 +151,8 @@ pub(super) struct GrippersTable {
     pub max_tilt: Option<Quantity<Angle>>,
 }
 
-/// How the grippers move.
+/// How the grippers move. `plydrape plan` finds a motion of its own and takes only the start from here: the
+/// first step of a file.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Motion")]
@@ -227,31 +235,4 @@ pub(super) enum EndKey {
     Free,
     /// The slope of the mold.
     Tangent,
-}
-
-/// What an accepted drape keeps to.
-#[derive(Debug, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
-#[schemars(rename = "Limits")]
-pub(super) struct LimitsTable {
-    /// Slack of a span as a share of its free length, 0.0005 unless given.
-    pub slack_ratio: Option<Quantity<Ratio>>,
-    /// Bridging gap (m), 1 mm unless given.
-    pub bridging: Option<Quantity<Length>>,
-    /// Chord beyond the free length as a share of the edge, 0.001 unless given.
-    pub overstretch: Option<Quantity<Ratio>>,
-    /// Distance of a contact point from its ideal place (m), 2 mm unless given.
-    pub landing_contact: Option<Quantity<Length>>,
-    /// Distance of a gripper from its ideal place (m), 0.5 mm unless given.
-    pub landing_gripper: Option<Quantity<Length>>,
-    /// Angle between landed edges and the fibres of the ideal drape (rad), 3 deg unless given.
-    pub fibre_angle: Option<Quantity<Angle>>,
-    /// Shear angle (rad); the material's locking angle unless given.
-    pub shear: Option<Quantity<Angle>>,
-    /// Gripper tilt (rad); the grippers' `max_tilt` unless given.
-    pub tilt: Option<Quantity<Angle>>,
-    /// Horizontal force of a span (N); none unless given.
-    pub force: Option<Quantity<Force>>,
-    /// Share of the ply's edges on the mold at the end, 0.95 unless given.
-    pub contact_share: Option<Quantity<Ratio>>,
 }

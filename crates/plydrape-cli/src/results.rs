@@ -1,0 +1,51 @@
+//! What every command that leaves a folder of results takes, and how it prints what it found.
+
+use crate::diagnostic::Failure;
+use plydrape::output::{OutputError, json};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+/// The scene, and where its results go.
+#[derive(Debug, clap::Args)]
+pub struct Results {
+    /// The scene file.
+    pub scene: PathBuf,
+
+    /// Folder of the files; beside the scene, with its name and the ending said below, unless given.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+
+    /// Print one JSON object on standard output instead of tables.
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl Results {
+    /// The folder asked for, or else the scene's name with an ending.
+    pub fn folder(&self, ending: &str) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| self.scene.with_extension(ending))
+    }
+
+    /// Prints `object` as one line of JSON, if that is asked for; else, unless `quiet`, the text and the
+    /// files that were written.
+    pub fn print<T: Serialize>(
+        &self,
+        quiet: bool,
+        object: &T,
+        text: &str,
+        files: &[PathBuf],
+    ) -> Result<(), Failure> {
+        let mut out = io::stdout().lock();
+        if self.json {
+            write!(out, "{}", json::of(object).map_err(OutputError::from)?)?;
+        } else if !quiet {
+            writeln!(out, "{text}")?;
+            for file in files {
+                writeln!(out, "wrote {}", file.display())?;
+            }
+        }
+        out.flush()?;
+        Ok(())
+    }
+}

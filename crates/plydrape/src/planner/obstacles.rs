@@ -1,0 +1,205 @@
+//! What no plan that ends at the target can keep, found before any search.
+//!
+//! Start, target and ideal drape are held against the limits of the scene. Neighbours further apart at the
+//! start than the ply between them, and a start inside the mold, are not asked for here: reading the scene
+//! refuses them.
+
+use crate::draping::reach::{closest, id, outside};
+use crate::draping::record::Verdict;
+use crate::mold::{Mold, distance};
+use crate::ply::{Kind, shear};
+use crate::scene::{Scene, Target};
+
+/// A value and where it is, in words.
+type Found = (f64, String);
+
+/// Every limit that the scene itself rules out, with amount and place; none if a plan may keep them all.
+///
+/// Its verdicts are those of [`crate::draping::record::Summary::limits`] by name and unit, all of them not
+/// ok. Three have no limit of the scene behind them: `missing_nodes`, of the ideal drape, `off_mold`, of
+/// targets given by position (mm), and `move_limit`, the reach of a gripper in all steps (mm).
+#[must_use]
+pub fn obstacles(scene: &Scene) -> Vec<Verdict> {
+    let start = scene.motion.positions.first().map(Vec::as_slice).unwrap_or_default();
+    let mut out = Vec::new();
+    out.extend(places(scene, start, "at the start", Some(1)));
+    let Some(target) = &scene.target else {
+        return out;
+    };
+    out.extend(places(scene, &target.grippers, "at the target", None));
+    out.extend(overstretch(scene, target));
+    out.extend(shear(scene, target));
+    out.extend(missing_nodes(target));
+    if let Some(mold) = &scene.mold {
+        out.extend(off_mold(scene, target, mold));
+        out.extend(tilt(scene, target, mold));
+    }
+    out.extend(way(scene, start, target));
+    out
+}
+
+/// A verdict of something that exceeds its limit, if it does.
+fn beyond(
+    name: &'static str,
+    unit: &'static str,
+    limit: f64,
+    found: Option<Found>,
+) -> Option<Verdict> {
+    let (value, at) = found?;
+    // what rounding puts beyond a limit is within it
+    let ok = value <= limit * (1.0 + 1e-9);
+    (!ok).then_some(Verdict { name, value, limit, unit, ok, step: None, at })
+}
+
+/// The largest value, the first of several that are equal.
+fn largest(values: impl Iterator<Item = (f64, usize)>) -> Option<(f64, usize)> {
+    values.reduce(|most, next| if next.0 > most.0 { next } else { most })
+}
+
+/// Grippers outside the workspace or too close to each other.
+fn places(
+    scene: &Scene,
+    positions: &[[f64; 3]],
+    when: &str,
+    step: Option<usize>,
+) -> impl Iterator<Item = Verdict> {
+    let (grid, limits) = (scene.ply.grid, &scene.limits);
+    let workspace = limits.workspace.and_then(|workspace| {
+        let worst = outside(grid, positions, workspace)?;
+        beyond("workspace", "mm", 0.0, Some((worst.value, format!("{} {when}", worst.at))))
+    });
+    let apart = closest(grid, positions).and_then(|worst| {
+        let limit = limits.gripper_distance * 1e3;
+        (worst.value < limit * (1.0 - 1e-9)).then(|| Verdict {
+            name: "gripper_distance",
+            value: worst.value,
+            limit,
+            unit: "mm",
+            ok: false,
+            step: None,
+            at: format!("{} {when}", worst.at),
+        })
+    });
+    workspace.into_iter().chain(apart).map(move |verdict| Verdict { step, ..verdict })
+}
+
+/// Fabric between two targets (m): along the mold if both lie on it.
+fn fabric(scene: &Scene, a: [f64; 3], b: [f64; 3]) -> f64 {
+    let tolerance = scene.settings.contact.tolerance;
+    let lies = |mold: &&Mold| [a, b].iter().all(|p| mold.signed_distance(*p).abs() <= tolerance);
+    match scene.mold.as_ref().filter(lies) {
+        Some(mold) => mold.path_length(a, b),
+        None => distance(a, b),
+    }
+}
+
+/// Neighbours whose targets are further apart than the ply between them; the net keeps its lengths.
+fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
+    if target.drape.is_some() {
+        return None;
+    }
+    let grid = scene.ply.grid;
+    let ends = |n: usize| {
+        let edge = grid.catenary(n);
+        (edge, [edge.from, edge.to].map(|g| grid.index(g)))
+    };
+    let share = |n: usize| {
+        let (edge, [a, b]) = ends(n);
+        fabric(scene, target.grippers[a], target.grippers[b]) / scene.ply.flat_length(edge.kind)
+            - 1.0
+    };
+    let worst = largest((0..grid.edges()).map(|n| (share(n), n)));
+    let found = worst.map(|(share, n)| {
+        let [a, b] = ends(n).1.map(|g| id(grid, g));
+        (share * 1e2, format!("edge {a}–{b} at the target"))
+    });
+    beyond("overstretch", "%", scene.limits.overstretch * 1e2, found)
+}
+
+/// Shear of the ideal drape, or of the cells between the targets where it is not known.
+fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
+    let limit = scene.limits.shear?;
+    let (grid, ply) = (scene.ply.grid, &scene.ply);
+    let found = match &target.drape {
+        Some(net) => net.report.largest_shear.map(|(angle, [i, j])| {
+            let [x, y, z] = net.node([i, j]).unwrap_or_default().map(|c| c * 1e3);
+            (
+                angle,
+                format!("net cell [{i},{j}] of the ideal drape, at ({x:.1}, {y:.1}, {z:.1}) mm"),
+            )
+        }),
+        None => {
+            let angle = |cell: usize| {
+                let [i, j] = [cell % (grid.nu - 1), cell / (grid.nu - 1)];
+                let paths = grid.diagonals([i, j]).map(|n| {
+                    let diagonal = grid.catenary(n);
+                    let [a, b] =
+                        [diagonal.from, diagonal.to].map(|g| target.grippers[grid.index(g)]);
+                    fabric(scene, a, b)
+                });
+                let longer = paths[0].max(paths[1]).max(ply.flat_length(Kind::Rising));
+                shear::angle(ply.cell, longer)
+            };
+            let worst = largest((0..grid.cells()).map(|cell| (angle(cell), cell)));
+            worst.map(|(angle, cell)| {
+                let [i, j] = [cell % (grid.nu - 1), cell / (grid.nu - 1)];
+                (angle, format!("cell [{i},{j}] of the target"))
+            })
+        }
+    };
+    let found = found.map(|(angle, at)| (angle.to_degrees(), at));
+    beyond("shear", "°", limit.to_degrees(), found)
+}
+
+/// Parts of the ideal drape without a place on the mold.
+fn missing_nodes(target: &Target) -> Option<Verdict> {
+    let net = target.drape.as_ref()?;
+    let first = net.missing.first()?;
+    let found = (net.missing.len() as f64, format!("ideal drape: {first}"));
+    beyond("missing_nodes", "", 0.0, Some(found))
+}
+
+/// Targets given beyond the mold's border, or deeper in it than touching it; those of the net lie on it.
+fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
+    if target.drape.is_some() {
+        return None;
+    }
+    let off = |place: [f64; 3]| {
+        let foot = mold.foot(place);
+        if foot.beyond { foot.distance } else { -foot.distance }
+    };
+    let worst = largest(target.grippers.iter().enumerate().map(|(n, place)| (off(*place), n)));
+    let found = worst.map(|(far, n)| {
+        let side =
+            if mold.foot(target.grippers[n]).beyond { "beyond its border" } else { "inside it" };
+        (far * 1e3, format!("target of gripper {}, {side}", id(scene.ply.grid, n)))
+    });
+    beyond("off_mold", "mm", scene.settings.contact.tolerance * 1e3, found)
+}
+
+/// The mold's slope where a gripper is to stand on it: its joint follows the ply, and the ply the mold.
+fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
+    let tolerance = scene.settings.contact.tolerance;
+    let tilt = |place: [f64; 3]| {
+        let foot = mold.foot(place);
+        let stands = !foot.beyond && foot.distance.abs() <= tolerance;
+        stands.then(|| foot.normal[2].clamp(-1.0, 1.0).acos())
+    };
+    let all = target.grippers.iter().enumerate();
+    let found = largest(all.filter_map(|(n, place)| Some((tilt(*place)?, n)))).map(|(tilt, n)| {
+        (tilt.to_degrees(), format!("mold at the target of gripper {}", id(scene.ply.grid, n)))
+    });
+    beyond("tilt", "°", scene.limits.tilt.to_degrees(), found)
+}
+
+/// A way to the target that is longer than all steps together may go.
+fn way(scene: &Scene, start: &[[f64; 3]], target: &Target) -> Option<Verdict> {
+    let plan = &scene.plan;
+    let moves = plan.steps.saturating_sub(1);
+    let reach = plan.move_limit? * moves as f64;
+    let ways = start.iter().zip(&target.grippers).map(|(a, b)| distance(*a, *b));
+    let found = largest(ways.enumerate().map(|(n, way)| (way, n))).map(|(way, n)| {
+        (way * 1e3, format!("straight way of gripper {} in {moves} moves", id(scene.ply.grid, n)))
+    });
+    beyond("move_limit", "mm", reach * 1e3, found)
+}

@@ -1,0 +1,43 @@
+//! The keys of the table `[limits]`.
+
+use crate::scene::located::Fixed;
+use crate::scene::quantity::{Acceleration, Angle, Force, Jerk, Length, Quantity, Ratio, Speed};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// What an accepted drape keeps to.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Limits")]
+pub(in crate::scene) struct LimitsTable {
+    /// Slack of a span as a share of its free length, 0.0005 unless given.
+    pub slack_ratio: Option<Quantity<Ratio>>,
+    /// Bridging gap (m), 1 mm unless given.
+    pub bridging: Option<Quantity<Length>>,
+    /// Chord beyond the free length as a share of the edge, 0.001 unless given.
+    pub overstretch: Option<Quantity<Ratio>>,
+    /// Distance of a contact point from its ideal place (m), 2 mm unless given.
+    pub landing_contact: Option<Quantity<Length>>,
+    /// Distance of a gripper from its ideal place (m), 0.5 mm unless given.
+    pub landing_gripper: Option<Quantity<Length>>,
+    /// Angle between landed edges and the fibres of the ideal drape (rad), 3 deg unless given.
+    pub fibre_angle: Option<Quantity<Angle>>,
+    /// Shear angle (rad); the material's locking angle unless given.
+    pub shear: Option<Quantity<Angle>>,
+    /// Gripper tilt (rad); the grippers' `max_tilt` unless given.
+    pub tilt: Option<Quantity<Angle>>,
+    /// Horizontal force of a span (N); none unless given.
+    pub force: Option<Quantity<Force>>,
+    /// Share of the ply's edges on the mold at the end, 0.95 unless given.
+    pub contact_share: Option<Quantity<Ratio>>,
+    /// Smallest distance between any two grippers (m), half the shorter side of a cell unless given.
+    pub gripper_distance: Option<Quantity<Length>>,
+    /// Box that the grippers must stay in: [from, to] in x, y and z (m); none unless given.
+    pub workspace: Option<Fixed<Fixed<Quantity<Length>, 2>, 3>>,
+    /// Speed of a gripper (m/s), 0.25 unless given. It is kept by planned motions, as are the next two.
+    pub speed: Option<Quantity<Speed>>,
+    /// Acceleration of a gripper (m/s²), 1 unless given.
+    pub acceleration: Option<Quantity<Acceleration>>,
+    /// Jerk of a gripper (m/s³), 10 unless given.
+    pub jerk: Option<Quantity<Jerk>>,
+}

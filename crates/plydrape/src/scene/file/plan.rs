@@ -1,0 +1,37 @@
+//! The keys of the table `[plan]`.
+
+use crate::scene::located::{Count, Located, Seed};
+use crate::scene::quantity::{Frequency, Length, Quantity};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// How `plydrape plan` looks for the motion; `plydrape simulate` does not read it.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Plan")]
+pub(in crate::scene) struct PlanTable {
+    /// The planner, "path" unless given.
+    pub method: Option<MethodKey>,
+    /// Steps of the planned motion, 90 unless given, step 1 being the start; of "stepwise" the most it may take.
+    pub steps: Option<Located<Count>>,
+    /// Farthest that a gripper may move in one step (m). Without it "path" is free, and "stepwise" takes a share
+    /// of its way.
+    pub move_limit: Option<Quantity<Length>>,
+    /// Seed of the search, 0 unless given: the same seed, the same plan.
+    pub seed: Option<Located<Seed>>,
+    /// Most complete drapes that the search may try, 60 unless given.
+    pub evaluations: Option<Located<Count>>,
+    /// Samples a second of the file motion.csv (Hz), 100 unless given.
+    pub rate: Option<Quantity<Frequency>>,
+}
+
+/// The planner of a motion.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "Method")]
+pub(in crate::scene) enum MethodKey {
+    /// Whole trajectories, judged by complete drapes.
+    Path,
+    /// Step by step, as Krogh et al. 2018 sketch it.
+    Stepwise,
+}
