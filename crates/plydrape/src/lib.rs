@@ -10,7 +10,8 @@
 //! 4. [`ply`]: grippers, edges, diagonals, shear and the slope rules;
 //! 5. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
 //! 6. [`draping`]: the motion step by step, contact with the mold, the measures;
-//! 7. [`output`]: result files and the figure.
+//! 7. [`motion`]: planned positions become smooth in time, within limits of speed, acceleration and jerk;
+//! 8. [`output`]: result files and the figure.
 //!
 //! SI units throughout, z up, gravity along −z.
 
@@ -19,6 +20,7 @@ pub mod draping;
 pub mod equilibrium;
 pub mod material;
 pub mod mold;
+pub mod motion;
 pub mod net;
 pub mod output;
 pub mod ply;
