@@ -10,8 +10,9 @@
 //! 4. [`ply`]: grippers, edges, diagonals, shear and the slope rules;
 //! 5. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
 //! 6. [`draping`]: the motion step by step, contact with the mold, the measures;
-//! 7. [`planner`]: gripper trajectories, and what no trajectory can do;
-//! 8. [`output`]: result files and the figure.
+//! 7. [`motion`]: positions step by step become smooth in time, within limits of speed, acceleration, jerk;
+//! 8. [`planner`]: gripper trajectories, and what no trajectory can do;
+//! 9. [`output`]: result files and the figure.
 //!
 //! SI units throughout, z up, gravity along −z.
 
@@ -20,6 +21,7 @@ pub mod draping;
 pub mod equilibrium;
 pub mod material;
 pub mod mold;
+pub mod motion;
 pub mod net;
 pub mod output;
 pub mod planner;

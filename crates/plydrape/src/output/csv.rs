@@ -1,9 +1,12 @@
-//! The tables `steps.csv` and `trajectory.csv`, units in their headers.
+//! The tables `steps.csv`, `trajectory.csv` and `motion.csv`, units in their headers.
 //!
 //! Numbers are in the shortest form that reads back to the same double. A measure without a meaning in
 //! a step leaves its cells empty.
 
+use super::OutputError;
 use crate::draping::record::{Measures, ResultFile, Step, Worst};
+use crate::motion::{Attitudes, MotionError, TimedMotion};
+use crate::ply::{Grid, GripperId};
 use ::csv::{Error, Writer};
 
 /// Column of a measure, and how to find it.
@@ -64,17 +67,57 @@ fn step_row(step: &Step) -> Vec<String> {
 /// If the table cannot be formed; memory apart there is no known case.
 pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
-    table.write_record(["t (s)", "gripper", "x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"])?;
+    table.write_record(POSE)?;
     for step in &result.steps {
         for gripper in &step.grippers {
-            let [i, j] = gripper.id;
-            let mut row = vec![number(step.time), format!("{i}-{j}")];
-            row.extend(gripper.position.map(number));
-            row.extend(gripper.quaternion.map(number));
-            table.write_record(&row)?;
+            table.write_record(pose(
+                step.time,
+                gripper.id,
+                gripper.position,
+                gripper.quaternion,
+            ))?;
         }
     }
     text(table)
+}
+
+/// The table of [`trajectory`] for a timed motion, sampled at a rate (Hz), the last sample at its end.
+///
+/// A scene can follow it: `[motion]`, `kind = "file"`.
+///
+/// # Errors
+/// [`OutputError::Motion`] if motion, attitudes and grid differ in grippers, or the rate gives no or too
+/// many samples.
+pub fn motion(
+    motion: &TimedMotion,
+    attitudes: &Attitudes,
+    grid: Grid,
+    rate: f64,
+) -> Result<String, OutputError> {
+    for found in [motion.grippers(), attitudes.grippers()] {
+        if found != grid.grippers() {
+            return Err(MotionError::Grippers { found, expected: grid.grippers() }.into());
+        }
+    }
+    let mut table = Writer::from_writer(Vec::new());
+    table.write_record(POSE)?;
+    for time in motion.samples(rate)? {
+        let poses = motion.at(time).into_iter().zip(attitudes.at(time));
+        for (gripper, (position, quaternion)) in poses.enumerate() {
+            table.write_record(pose(time, grid.id(gripper), position, quaternion))?;
+        }
+    }
+    Ok(text(table)?)
+}
+
+/// The columns of a gripper's pose at a time.
+const POSE: [&str; 9] = ["t (s)", "gripper", "x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"];
+
+fn pose(time: f64, [i, j]: GripperId, position: [f64; 3], quaternion: [f64; 4]) -> Vec<String> {
+    let mut row = vec![number(time), format!("{i}-{j}")];
+    row.extend(position.map(number));
+    row.extend(quaternion.map(number));
+    row
 }
 
 /// The shortest decimal that reads back to the same double.

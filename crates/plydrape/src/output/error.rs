@@ -2,6 +2,7 @@
 
 use super::figure::FigureError;
 use super::json::JsonError;
+use crate::motion::MotionError;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
@@ -54,6 +55,9 @@ pub enum OutputError {
     /// A table could not be formed.
     #[error("cannot form a table: {0}")]
     Csv(#[from] csv::Error),
+    /// A motion cannot be sampled as asked for.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
     /// The figure could not be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),

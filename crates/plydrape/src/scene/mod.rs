@@ -40,6 +40,7 @@ pub use argument::{Measured, quantity};
 pub use error::SceneError;
 pub use ideal::IdealDrape;
 pub use material::shipped_materials;
+pub(crate) use motion::{MOST_POSITIONS, MOST_STEPS};
 pub use schema::schema;
 
 use crate::mold::{MeshReport, Mold};

@@ -10,9 +10,9 @@ use crate::ply::{Grid, Ply};
 /// Steps of a straight motion unless given, as in Krogh et al. 2018.
 const STEPS: usize = 30;
 /// Most steps of a motion.
-pub(super) const MOST_STEPS: usize = 1_000_000;
+pub(crate) const MOST_STEPS: usize = 1_000_000;
 /// Most gripper positions of a motion: a gigabyte of them.
-pub(super) const MOST_POSITIONS: usize = 50_000_000;
+pub(crate) const MOST_POSITIONS: usize = 50_000_000;
 /// Shortest and longest duration (s).
 pub(super) const DURATIONS: [f64; 2] = [1e-6, 1e7];
 

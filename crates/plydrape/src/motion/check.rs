@@ -1,0 +1,93 @@
+//! What is asked for is possible: positions, bounds and rates.
+
+use super::path::Vector;
+use super::spacing::farthest;
+use super::{Bounds, MotionError};
+use crate::scene::{MOST_POSITIONS, MOST_STEPS};
+
+/// Largest coordinate (m): a path's derivatives stay far from the end of the numbers.
+const FARTHEST: f64 = 1e6;
+/// Range of each bound (SI).
+const RANGE: [f64; 2] = [1e-6, 1e9];
+/// A step shorter than this share of the mean step would be a stop on the way.
+const SHORTEST: f64 = 0.01;
+/// A step shorter than this is none (m).
+const STILL: f64 = 1e-9;
+/// A last sample closer than this share of an interval to the end gives way to the end.
+const CLOSE: f64 = 1e-6;
+
+/// Refuses steps that differ in grippers, and places that are none.
+pub(super) fn positions(planned: &[Vec<Vector>]) -> Result<(), MotionError> {
+    let expected = planned.first().map_or(0, Vec::len);
+    if expected == 0 {
+        return Err(MotionError::Empty);
+    }
+    for (k, step) in planned.iter().enumerate() {
+        if step.len() != expected {
+            return Err(MotionError::Unequal { step: k + 1, found: step.len(), expected });
+        }
+        // NaN is within no bound.
+        let strange = step.iter().position(|p| !p.iter().all(|x| x.abs() <= FARTHEST));
+        if let Some(gripper) = strange {
+            let position = step[gripper];
+            return Err(MotionError::Place { step: k + 1, gripper, position, most: FARTHEST });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses bounds that are no numbers above zero.
+pub(super) fn bounds(bounds: &Bounds) -> Result<(), MotionError> {
+    let Bounds { speed, acceleration, jerk } = *bounds;
+    let [least, most] = RANGE;
+    for (quantity, value) in [("speed", speed), ("acceleration", acceleration), ("jerk", jerk)] {
+        if !(least..=most).contains(&value) {
+            return Err(MotionError::Limit { quantity, value, least, most });
+        }
+    }
+    Ok(())
+}
+
+/// The steps that move a gripper, the first and the last among them; one step if none does.
+pub(super) fn moving(planned: &[Vec<Vector>]) -> Vec<&[Vector]> {
+    let (Some(start), Some(target)) = (planned.first(), planned.last()) else { return Vec::new() };
+    let length: f64 = planned.windows(2).map(|step| farthest(&step[0], &step[1])).sum();
+    let moves = planned.windows(2).filter(|step| farthest(&step[0], &step[1]) > STILL).count();
+    let least = (SHORTEST * length / moves.max(1) as f64).max(STILL);
+    let mut steps: Vec<&[Vector]> = vec![start];
+    for step in &planned[1..] {
+        if steps.last().is_some_and(|before| farthest(before, step) > least) {
+            steps.push(step);
+        }
+    }
+    // The motion ends where it is told to.
+    match steps.len() {
+        1 if farthest(start, target) > STILL => steps.push(target),
+        last => steps[last - 1] = target,
+    }
+    steps
+}
+
+/// Times (s) from 0 at a rate (Hz), the last exactly the duration.
+pub(super) fn samples(rate: f64, duration: f64, grippers: usize) -> Result<Vec<f64>, MotionError> {
+    if !(rate > 0.0 && rate.is_finite()) {
+        return Err(MotionError::Rate { rate });
+    }
+    let most = MOST_STEPS.min(MOST_POSITIONS / grippers);
+    let whole = (rate * duration - CLOSE).ceil().max(0.0);
+    if whole + 1.0 > most as f64 {
+        let largest_rate = (most - 1) as f64 / duration;
+        let samples = whole + 1.0;
+        return Err(MotionError::TooManySamples {
+            rate,
+            duration,
+            grippers,
+            samples,
+            most,
+            largest_rate,
+        });
+    }
+    let mut times: Vec<f64> = (0..whole as usize).map(|k| k as f64 / rate).collect();
+    times.push(duration);
+    Ok(times)
+}

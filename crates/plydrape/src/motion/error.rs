@@ -1,0 +1,108 @@
+//! Why positions cannot become a motion, and what to do about it.
+
+/// Why positions cannot become a motion.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// There is nothing to move.
+    #[error("a motion needs at least one step with at least one gripper")]
+    Empty,
+    /// A step has another number of grippers than the first.
+    #[error(
+        "step {step} has {found} grippers and the first step {expected}: give every gripper a place in every step"
+    )]
+    Unequal {
+        /// Counts from 1.
+        step: usize,
+        /// Grippers in that step.
+        found: usize,
+        /// Grippers in the first step.
+        expected: usize,
+    },
+    /// A motion or its attitudes are of another grid.
+    #[error("{found} grippers move and the grid has {expected}: give both the same grippers")]
+    Grippers {
+        /// Grippers of the motion or the attitudes.
+        found: usize,
+        /// Grippers of the grid.
+        expected: usize,
+    },
+    /// A coordinate is NaN, infinite or farther than any robot reaches.
+    #[error(
+        "gripper {gripper} in step {step} is at {position:?} m: coordinates are numbers up to {most:e} m"
+    )]
+    Place {
+        /// Counts from 1.
+        step: usize,
+        /// Index of the gripper.
+        gripper: usize,
+        /// Where it was put (m).
+        position: [f64; 3],
+        /// Largest coordinate (m).
+        most: f64,
+    },
+    /// A limit allows no motion, or any.
+    #[error("the limit of the {quantity} is {value}: give a number from {least:e} to {most:e}")]
+    Limit {
+        /// `speed`, `acceleration` or `jerk`.
+        quantity: &'static str,
+        /// What was given (SI).
+        value: f64,
+        /// Least value (SI).
+        least: f64,
+        /// Largest value (SI).
+        most: f64,
+    },
+    /// No time law was found; with positions and limits in range there is no known case.
+    #[error("no time law found for a path of {length} m: {cause}")]
+    NoLaw {
+        /// Length of the path (m).
+        length: f64,
+        /// What the law's library says.
+        cause: String,
+    },
+    /// A rate is no number above zero.
+    #[error("{rate} samples a second: give a rate above 0 Hz")]
+    Rate {
+        /// What was given (Hz).
+        rate: f64,
+    },
+    /// The dense motion would be larger than a motion may be.
+    #[error(
+        "{rate} Hz over {duration:.3} s and {grippers} grippers are {samples:e} samples; {most} are the most: choose a rate below {largest_rate:.3e} Hz"
+    )]
+    TooManySamples {
+        /// What was given (Hz).
+        rate: f64,
+        /// Duration of the motion (s).
+        duration: f64,
+        /// Number of grippers.
+        grippers: usize,
+        /// Samples that the rate asks for.
+        samples: f64,
+        /// Most samples.
+        most: usize,
+        /// Largest rate with that number (Hz).
+        largest_rate: f64,
+    },
+    /// Times of attitudes are not one a step, or do not ascend.
+    #[error("{steps} steps of attitudes at {times} times: give one finite time a step, ascending")]
+    Times {
+        /// Steps given.
+        steps: usize,
+        /// Times given.
+        times: usize,
+    },
+    /// A quaternion has no direction.
+    #[error(
+        "gripper {gripper} in step {step} has the quaternion {quaternion:?}: its length must be about 1"
+    )]
+    Quaternion {
+        /// Counts from 1.
+        step: usize,
+        /// Index of the gripper.
+        gripper: usize,
+        /// What was given (x, y, z, w).
+        quaternion: [f64; 4],
+    },
+}

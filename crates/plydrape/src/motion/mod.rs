@@ -1,0 +1,189 @@
+//! Time: planned gripper positions become a motion that robots can run.
+//!
+//! 1. `path`: one smooth path for all grippers, a B-spline whose control points are what was planned;
+//! 2. `spacing`: where it bends, its parameter is long, so that one law suits all of it;
+//! 3. `law`: how the parameter runs from rest to rest with bounded jerk;
+//! 4. `peaks`: what that comes to for each gripper, and the least stretch of time that keeps the limits;
+//! 5. `attitude`: orientations between the steps.
+//!
+//! All grippers share the parameter, so the shapes of the ply come in the planned order however fast they
+//! come.
+
+mod attitude;
+mod check;
+mod error;
+mod law;
+mod path;
+mod peaks;
+mod spacing;
+mod timing;
+
+pub use attitude::Attitudes;
+pub use error::MotionError;
+pub use peaks::{Peak, Peaks};
+
+use crate::scene::{self, Limits};
+use law::{Law, State};
+use path::{Path, Vector};
+
+/// What no gripper exceeds at any time; norms of vectors in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Speed (m/s).
+    pub speed: f64,
+    /// Acceleration (m/s²).
+    pub acceleration: f64,
+    /// Jerk (m/s³).
+    pub jerk: f64,
+}
+
+impl From<&Limits> for Bounds {
+    fn from(limits: &Limits) -> Self {
+        let Limits { speed, acceleration, jerk, .. } = *limits;
+        Bounds { speed, acceleration, jerk }
+    }
+}
+
+/// A motion of all grippers from rest to rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimedMotion {
+    /// None where nothing moves.
+    path: Option<Path>,
+    law: Law,
+    times: Vec<f64>,
+    positions: Vec<Vec<Vector>>,
+    peaks: Peaks,
+}
+
+impl TimedMotion {
+    /// The motion of planned positions (m): one list of all grippers a step, the first the start, the last
+    /// the target.
+    ///
+    /// A step that moves no gripper by more than a hundredth of the mean step is merged with the one
+    /// before. One position, or none a nanometre from the first, gives a motion of duration 0 at the target.
+    ///
+    /// # Errors
+    /// [`MotionError`] if there is no position, a step lacks grippers, a coordinate is not a number up to
+    /// 10⁶ m, or a bound is none from 10⁻⁶ to 10⁹.
+    pub fn new(planned: &[Vec<[f64; 3]>], bounds: &Bounds) -> Result<Self, MotionError> {
+        check::positions(planned)?;
+        check::bounds(bounds)?;
+        let steps = check::moving(planned);
+        let [.., target] = steps[..] else { return Err(MotionError::Empty) };
+        if steps.len() == 1 {
+            return Ok(TimedMotion {
+                path: None,
+                law: Law::rest(),
+                times: vec![0.0],
+                positions: vec![target.to_vec()],
+                peaks: Peaks::default(),
+            });
+        }
+
+        let (path, law, peaks) = timing::fastest(&steps, bounds)?;
+        let last = path.knots.len() - 1;
+        let mut times: Vec<f64> = path.knots.iter().map(|u| law.time(*u)).collect();
+        times[last] = law.duration;
+        let places = |k: usize| {
+            let place = |g| path.jet(k.min(last - 1), g, path.knots[k])[0];
+            (0..path.grippers).map(place).collect()
+        };
+        let positions = (0..=last).map(places).collect();
+        Ok(TimedMotion { times, positions, law, peaks, path: Some(path) })
+    }
+
+    /// Number of grippers.
+    #[must_use]
+    pub fn grippers(&self) -> usize {
+        self.positions[0].len()
+    }
+
+    /// How long the motion takes (s).
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.law.duration
+    }
+
+    /// The times (s) that stand for the planned steps, strictly ascending from 0 to [`Self::duration`].
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Where the grippers are at [`Self::times`] (m): the first exactly the start, the last the target.
+    #[must_use]
+    pub fn positions(&self) -> &[Vec<[f64; 3]>] {
+        &self.positions
+    }
+
+    /// Where the grippers are at a time (m); before 0 the start, after the end the target.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Vec<[f64; 3]> {
+        let Some(path) = &self.path else { return self.positions[0].clone() };
+        let s = self.law.at(t)[0];
+        let span = path.span(s);
+        (0..path.grippers).map(|g| path.jet(span, g, s)[0]).collect()
+    }
+
+    /// Velocity of the grippers at a time from 0 to the end (m/s).
+    #[must_use]
+    pub fn velocity(&self, t: f64) -> Vec<[f64; 3]> {
+        self.rate(t, 0)
+    }
+
+    /// Acceleration of the grippers at a time from 0 to the end (m/s²).
+    #[must_use]
+    pub fn acceleration(&self, t: f64) -> Vec<[f64; 3]> {
+        self.rate(t, 1)
+    }
+
+    /// Jerk of the grippers at a time from 0 to the end (m/s³); where it jumps, that after the jump.
+    #[must_use]
+    pub fn jerk(&self, t: f64) -> Vec<[f64; 3]> {
+        self.rate(t, 2)
+    }
+
+    fn rate(&self, t: f64, order: usize) -> Vec<Vector> {
+        let Some(path) = &self.path else { return vec![[0.0; 3]; self.grippers()] };
+        let state = self.law.at(t);
+        let span = path.span(state[0]);
+        (0..path.grippers).map(|g| rates(&path.jet(span, g, state[0]), &state)[order]).collect()
+    }
+
+    /// The largest speed, acceleration and jerk, and where they are.
+    #[must_use]
+    pub fn peaks(&self) -> &Peaks {
+        &self.peaks
+    }
+
+    /// The motion at [`Self::times`], one step for every planned step that moves.
+    #[must_use]
+    pub fn steps(&self) -> scene::Motion {
+        scene::Motion { times: self.times.clone(), positions: self.positions.clone() }
+    }
+
+    /// Times (s) from 0 at a rate (Hz), the last exactly [`Self::duration`].
+    ///
+    /// # Errors
+    /// [`MotionError::Rate`] if the rate is no number above 0, [`MotionError::TooManySamples`] if a motion
+    /// of so many steps would be larger than a scene's may be.
+    pub fn samples(&self, rate: f64) -> Result<Vec<f64>, MotionError> {
+        check::samples(rate, self.duration(), self.grippers())
+    }
+
+    /// The motion at [`Self::samples`]; more steps than were planned, or fewer.
+    ///
+    /// # Errors
+    /// Those of [`Self::samples`].
+    pub fn sampled(&self, rate: f64) -> Result<scene::Motion, MotionError> {
+        let times = self.samples(rate)?;
+        let positions = times.iter().map(|t| self.at(*t)).collect();
+        Ok(scene::Motion { times, positions })
+    }
+}
+
+/// Velocity, acceleration and jerk from the derivatives of path and law, by the chain rule.
+fn rates([_, d, e, f]: &[Vector; 4], [_, v, a, j]: &State) -> [Vector; 3] {
+    let sum = |x: f64, y: f64, z: f64| [0, 1, 2].map(|k| x * d[k] + y * e[k] + z * f[k]);
+    [sum(*v, 0.0, 0.0), sum(*a, v * v, 0.0), sum(*j, 3.0 * v * a, v.powi(3))]
+}

@@ -1,0 +1,164 @@
+//! The largest speed, acceleration and jerk of a motion, found with a bound that no sampling misses.
+//!
+//! Between knots of the path and jumps of the law, s(t) is a cubic and p(s) is one: everything is smooth.
+//! With bounds P', P'', P''' of the path's derivatives and V, A, J of the law's on an interval Δt, the
+//! chain rule bounds the rates of change,
+//! `|d jerk/dt| ≤ 6 P''' V² A + 4 P'' V J + 3 P'' A²`, so that no value inside exceeds the mean of the
+//! end values by more than Δt/2 times that. Intervals that could still hold a larger value are halved.
+
+use super::Bounds;
+use super::law::{Law, State, advance};
+use super::path::Path;
+use super::rates;
+use crate::mold::vector::norm;
+
+/// An interval is halved no more often than this.
+const DEEPEST: u32 = 24;
+
+/// The largest value of one quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peak {
+    /// The value (m/s, m/s² or m/s³).
+    pub value: f64,
+    /// Index of the gripper.
+    pub gripper: usize,
+    /// Where in time (s).
+    pub time: f64,
+}
+
+/// The largest speed, acceleration and jerk of any gripper at any time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peaks {
+    /// Largest speed (m/s).
+    pub speed: Peak,
+    /// Largest acceleration (m/s²).
+    pub acceleration: Peak,
+    /// Largest jerk (m/s³).
+    pub jerk: Peak,
+}
+
+impl Peaks {
+    /// How many times longer the motion must take for these peaks to keep to the bounds.
+    pub(super) fn stretch(&self, bounds: &Bounds) -> f64 {
+        let speed = self.speed.value / bounds.speed;
+        let acceleration = (self.acceleration.value / bounds.acceleration).sqrt();
+        let jerk = (self.jerk.value / bounds.jerk).cbrt();
+        speed.max(acceleration).max(jerk)
+    }
+}
+
+/// An interval of time in which path and law are polynomials.
+struct Piece {
+    span: usize,
+    begin: f64,
+    state: State,
+}
+
+/// Values of one gripper at one time: the law's state, |p'|, |p''|, |p'''|, then speed, acceleration, jerk.
+struct Values {
+    state: State,
+    path: [f64; 3],
+    motion: [f64; 3],
+}
+
+/// The peaks, none smaller than the true one by more than a share `tolerance`.
+pub(super) fn peaks(path: &Path, law: &Law, tolerance: f64) -> Peaks {
+    let mut times = law.breaks();
+    times.extend(path.knots.iter().map(|u| law.time(*u)));
+    times.sort_by(f64::total_cmp);
+    let mut search = Search { path, tolerance, found: [Peak::default(); 3] };
+    let pieces = times.windows(2).filter(|pair| pair[1] > pair[0]).map(|pair| {
+        // Which span and which jerk: those in the middle.
+        let middle = law.at(0.5 * (pair[0] + pair[1]));
+        let [s, v, a, _] = law.at(pair[0]);
+        let piece =
+            Piece { span: path.span(middle[0]), begin: pair[0], state: [s, v, a, middle[3]] };
+        (piece, pair[1] - pair[0])
+    });
+    let pieces: Vec<(Piece, f64)> = pieces.collect();
+    let ends = |search: &mut Search, piece: &Piece, time: f64, gripper: usize| {
+        let ends = [0.0, time].map(|t| search.values(piece, t, gripper));
+        for (t, values) in [0.0, time].into_iter().zip(&ends) {
+            search.note(piece.begin + t, gripper, values);
+        }
+        ends
+    };
+    // All ends first, so that the search can drop most intervals at once.
+    for (piece, time) in &pieces {
+        for gripper in 0..path.grippers {
+            ends(&mut search, piece, *time, gripper);
+        }
+    }
+    for (piece, time) in &pieces {
+        for gripper in 0..path.grippers {
+            let [from, to] = ends(&mut search, piece, *time, gripper);
+            search.halve(piece, gripper, (0.0, &from), (*time, &to), DEEPEST);
+        }
+    }
+    let [speed, acceleration, jerk] = search.found;
+    Peaks { speed, acceleration, jerk }
+}
+
+struct Search<'a> {
+    path: &'a Path,
+    tolerance: f64,
+    found: [Peak; 3],
+}
+
+impl Search<'_> {
+    fn values(&self, piece: &Piece, t: f64, gripper: usize) -> Values {
+        let state = advance(piece.state, t);
+        let jet = self.path.jet(piece.span, gripper, state[0]);
+        let motion = rates(&jet, &state).map(norm);
+        Values { state, path: [norm(jet[1]), norm(jet[2]), norm(jet[3])], motion }
+    }
+
+    fn note(&mut self, time: f64, gripper: usize, values: &Values) {
+        for (peak, value) in self.found.iter_mut().zip(values.motion) {
+            if value > peak.value {
+                *peak = Peak { value, gripper, time };
+            }
+        }
+    }
+
+    /// Looks into an interval where a value could exceed what is known.
+    fn halve(
+        &mut self,
+        piece: &Piece,
+        gripper: usize,
+        (t0, from): (f64, &Values),
+        (t1, to): (f64, &Values),
+        depth: u32,
+    ) {
+        let bounds = bounds(t1 - t0, from, to);
+        let within = |(bound, peak): (&f64, &Peak)| *bound <= peak.value * (1.0 + self.tolerance);
+        if depth == 0 || bounds.iter().zip(&self.found).all(within) {
+            return;
+        }
+        let t = 0.5 * (t0 + t1);
+        let middle = self.values(piece, t, gripper);
+        self.note(piece.begin + t, gripper, &middle);
+        self.halve(piece, gripper, (t0, from), (t, &middle), depth - 1);
+        self.halve(piece, gripper, (t, &middle), (t1, to), depth - 1);
+    }
+}
+
+/// What speed, acceleration and jerk cannot exceed between two times.
+fn bounds(time: f64, from: &Values, to: &Values) -> [f64; 3] {
+    // Of the law: ṡ is a parabola, s̈ a line.
+    let larger = |k: usize| from.state[k].abs().max(to.state[k].abs());
+    let j = from.state[3].abs();
+    let v = larger(1) + j * time.powi(2) / 8.0;
+    let a = larger(2);
+    // Of the path: p' is a parabola, p'' a line.
+    let way = to.state[0] - from.state[0];
+    let third = from.path[2];
+    let second = from.path[1].max(to.path[1]);
+    let first = from.path[0].max(to.path[0]) + third * way.powi(2) / 8.0;
+    // Each rate of change.
+    let snap = 6.0 * third * v.powi(2) * a + 4.0 * second * v * j + 3.0 * second * a.powi(2);
+    let jerk = third * v.powi(3) + 3.0 * second * v * a + first * j;
+    let acceleration = second * v.powi(2) + first * a;
+    let rate = [acceleration, jerk, snap];
+    [0, 1, 2].map(|k| 0.5 * (from.motion[k] + to.motion[k] + time * rate[k]))
+}
