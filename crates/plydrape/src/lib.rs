@@ -10,7 +10,8 @@
 //! 4. [`ply`]: grippers, edges, diagonals, shear and the slope rules;
 //! 5. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
 //! 6. [`draping`]: the motion step by step, contact with the mold, the measures;
-//! 7. [`output`]: result files and the figure.
+//! 7. [`planner`]: motions that lay the ply without wrinkles;
+//! 8. [`output`]: result files and the figure.
 //!
 //! SI units throughout, z up, gravity along −z.
 
@@ -21,5 +22,6 @@ pub mod material;
 pub mod mold;
 pub mod net;
 pub mod output;
+pub mod planner;
 pub mod ply;
 pub mod scene;

@@ -17,6 +17,7 @@ use crate::equilibrium::{Equilibrium, Solver};
 use crate::ply::{Laid, shear};
 use crate::scene::{Scene, Stepping};
 use contact::{Bridge, Sounding};
+pub(crate) use landing::fabric;
 use record::ResultFile;
 use spans::{Point, Shape, shape};
 use std::ops::ControlFlow;

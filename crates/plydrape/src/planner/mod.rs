@@ -1,0 +1,3 @@
+//! Gripper motions that lay a ply where it belongs, without wrinkles.
+
+pub mod sensitivity;
