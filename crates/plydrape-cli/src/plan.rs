@@ -90,9 +90,9 @@ impl Motion {
         let peaks = planned.motion.peaks();
         Motion {
             duration_s: planned.motion.duration(),
-            max_speed: peaks.speed,
-            max_acceleration: peaks.acceleration,
-            max_jerk: peaks.jerk,
+            max_speed: peaks.speed.value,
+            max_acceleration: peaks.acceleration.value,
+            max_jerk: peaks.jerk.value,
         }
     }
 }

@@ -223,6 +223,31 @@ impl Form {
         }
     }
 
+    /// ∫₀ᵗ of U, V, G, with first χ-derivatives alone.
+    pub fn integral(&self, t: f64) -> Values {
+        let value = self.station(t)[0];
+        let first = match *self {
+            Form::Stiff { kappa, terms, c: mean } => {
+                let (t2, c) = (t * t, entire(kappa * t * t, terms));
+                [
+                    t2 * t2 * slope(&c, 2) - t * slope(&mean, 2),
+                    t2 * t2 * t * slope(&c, 3) - t * slope(&mean, 3),
+                    t * slope(&mean, 4) - t2 * t2 * t2 * slope(&c, 4),
+                ]
+            }
+            Form::Taut { k, far: e, mean } => {
+                let [near, far] = self.layers(t);
+                [
+                    (t * near - (1.0 - near) / k) / k - mean[1] * t,
+                    (e - (1.0 - t) * far - (far - e) / k) / k - mean[1] * t,
+                    0.0,
+                ]
+            }
+            Form::Limp => [0.0; 3],
+        };
+        Values { value, first, ..Values::default() }
+    }
+
     /// ∂/∂t of U, V, G at t = 0 or t = 1.
     pub fn end_derivative(&self, end: usize) -> Values {
         match *self {

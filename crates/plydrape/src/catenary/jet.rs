@@ -178,6 +178,17 @@ impl<const N: usize> Chain<N> {
         }
     }
 
+    /// Gradient of a function of the inner parameters to the physical variables.
+    pub fn gradient(&self, first: &[f64; INNER]) -> [f64; N] {
+        let mut out = [0.0; N];
+        for (inner, row) in first.iter().zip(&self.first) {
+            for i in 0..N {
+                out[i] += inner * row[i];
+            }
+        }
+        out
+    }
+
     /// A function of the inner parameters, as one of the physical variables.
     pub fn outer(
         &self,

@@ -13,6 +13,7 @@ mod profile;
 mod quadrature;
 mod shape;
 mod solve;
+mod station;
 mod sums;
 
 pub use jet::{Jet, Variable};
@@ -21,6 +22,7 @@ pub use length::Excess;
 pub use profile::Profile;
 pub use shape::Station;
 pub use solve::{Root, SpanState};
+pub use station::{Graded, Stations};
 
 /// A free length of ply between two ends in one vertical plane.
 #[derive(Debug, Clone, Copy, PartialEq)]

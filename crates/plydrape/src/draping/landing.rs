@@ -29,7 +29,7 @@ impl Landing {
 }
 
 /// Fabric coordinates (u, v) (m) of a catenary at a share of its length from its first gripper.
-fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
+pub(crate) fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
     let c = scene.ply.grid.catenary(catenary);
     let [a, b] = scene.ply.cell;
     let at = |from: usize, to: usize, side: f64| {

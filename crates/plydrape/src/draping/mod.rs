@@ -19,6 +19,8 @@ use crate::mold::Mold;
 use crate::ply::{Laid, shear};
 use crate::scene::{Scene, Stepping};
 use contact::{Bridge, IdealDiagonal, Sounding};
+pub(crate) use landing::fabric;
+pub(crate) use measures::{fit, lying_rests};
 use record::ResultFile;
 use spans::{Point, Shape, shape};
 use std::ops::ControlFlow;
@@ -121,11 +123,15 @@ fn ideal_diagonals(scene: &Scene) -> Vec<Option<IdealDiagonal>> {
 }
 
 /// A drape under way.
-struct Draping<'a> {
+#[derive(Clone)]
+pub(crate) struct Draping<'a> {
     scene: &'a Scene,
-    solver: Solver,
-    positions: Vec<Point>,
-    laid: Vec<Option<Laid>>,
+    /// The solver, as it was left by the last move.
+    pub(crate) solver: Solver,
+    /// Where the grippers are (m).
+    pub(crate) positions: Vec<Point>,
+    /// What the mold has caught of each catenary.
+    pub(crate) laid: Vec<Option<Laid>>,
     bridges: Vec<Option<Bridge>>,
     ideal: Vec<Option<IdealDiagonal>>,
     equilibria: usize,
@@ -135,7 +141,7 @@ struct Draping<'a> {
 }
 
 impl<'a> Draping<'a> {
-    fn new(scene: &'a Scene) -> Self {
+    pub(crate) fn new(scene: &'a Scene) -> Self {
         let count = scene.ply.grid.catenaries();
         Draping {
             scene,
@@ -163,11 +169,7 @@ impl<'a> Draping<'a> {
     fn advance(&mut self, step: usize) -> Snapshot {
         let before = self.equilibria;
         let goal = &self.scene.motion.positions[step];
-        let shape = match self.scene.settings.contact.stepping {
-            Stepping::Once => self.arrive(goal),
-            Stepping::Cut => self.cut_to(goal),
-        };
-        self.positions.clone_from(goal);
+        let shape = self.move_to(goal);
         Snapshot {
             step: step + 1,
             time: self.scene.motion.times[step],
@@ -178,6 +180,17 @@ impl<'a> Draping<'a> {
             shear: self.shear(),
             equilibria: self.equilibria - before,
         }
+    }
+
+    /// Moves the grippers and follows the contact, by the scene's rule for steps.
+    pub(crate) fn move_to(&mut self, goal: &[Point]) -> Shape {
+        let shape = match self.scene.settings.contact.stepping {
+            Stepping::Once => self.arrive(goal),
+            Stepping::Cut => self.cut_to(goal),
+        };
+        self.positions.clear();
+        self.positions.extend_from_slice(goal);
+        shape
     }
 
     fn shear(&self) -> Vec<Option<CellShear>> {

@@ -15,6 +15,8 @@ pub struct FreeSpan {
     pub catenary: usize,
     /// 0 for a whole catenary or the rest before the contact segment, 1 for the rest after it.
     pub rest: usize,
+    /// The element of the solver's assembly that it is; none for a line that a stretched diagonal draws.
+    pub element: Option<usize>,
     /// Its ends (m).
     pub ends: [Point; 2],
     /// Fabric length (m).
@@ -137,6 +139,7 @@ pub fn shape(
             let mut span = FreeSpan {
                 catenary,
                 rest,
+                element: None,
                 ends,
                 length: 0.0,
                 start,
@@ -153,6 +156,7 @@ pub fn shape(
             } else if let Some((n, element)) =
                 elements.next_if(|(_, e)| e.catenary == catenary && e.rest == rest)
             {
+                span.element = Some(n);
                 span.length = element.length;
                 span.state = element.state;
                 span.force = solver.force(n);

@@ -62,9 +62,9 @@ pub fn gradient<T: Number>(
     }
 }
 
-/// Derivative of the slopes for a change of the gradient: −B⁻¹ `change`, active bounds held.
+/// Derivative of the slopes for a change of the gradient: −B⁻¹ `change`, active bounds held. The Hessian B
+/// must have been assembled at the solution.
 pub(super) fn respond(solver: &mut Solver, change: &[f64], out: &mut [f64]) {
-    assemble(solver);
     let right: Vec<f64> =
         change.iter().zip(&solver.work.active).map(|(g, a)| if *a { 0.0 } else { -g }).collect();
     solve_linear(solver, &right, 1e-14, out);

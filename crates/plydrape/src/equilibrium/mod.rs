@@ -17,7 +17,7 @@ mod tangent;
 
 pub use assembly::{Assembly, Element, End, Joint, PlaneSlope, Side, SlopeSource};
 pub use solver::{Equilibrium, Solver, Status};
-pub use tangent::{Direction, StateTangent};
+pub use tangent::{Direction, Linearized, StateTangent};
 
 use num_dual::DualNum;
 

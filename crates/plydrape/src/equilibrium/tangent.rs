@@ -5,8 +5,9 @@
 //! same assembly and the same rule; what it does to the rule's residual at fixed slopes gives the slopes'
 //! response through the matrix of the last Newton step, and a second pass gives every force.
 
-use super::assembly::{Assembly, Build, End, SlopeSource};
+use super::assembly::{Assembly, Build, End, Side, SlopeSource};
 use super::element::{Settled, Wanted, settle};
+use super::hessian::assemble;
 use super::min_force::{self, Response};
 use super::moment_balance;
 use super::solver::{Solver, Work};
@@ -45,6 +46,15 @@ pub struct StateTangent {
     pub force: Vec<f64>,
     /// Change of the slopes at both ends of each element.
     pub end_slopes: Vec<[f64; 2]>,
+    /// Change of each element's run, rise and fabric length (m).
+    pub spans: Vec<[f64; 3]>,
+    /// Change of the taut path of each cell's stretched diagonal (m); 0 where none is.
+    pub paths: Vec<f64>,
+    /// Change of the slopes along u and v that a shearing diagonal governs at each gripper; 0 where none.
+    pub governed: Vec<[f64; 2]>,
+    /// Change of the slopes of edges that are straight or lie, `[direction][before, after]` at each gripper;
+    /// 0 where they hang.
+    pub fixed: Vec<[[f64; 2]; 2]>,
 }
 
 /// A jet along the direction: its value and gradient to the end slopes as dual numbers.
@@ -54,11 +64,97 @@ fn along(jet: &Jet<7>, x: &[f64; 7]) -> (Dual64, [Dual64; 2]) {
     (Dual64::new(jet.value, dot(&jet.gradient)), gradient)
 }
 
-/// Every element's response along the direction, the shared slopes changing by `slopes`.
+/// Every element's response along a direction, the shared slopes changing by a given amount.
+#[derive(Debug, Default)]
 struct Pass {
     responses: Vec<Response<Dual64>>,
     curvatures: Vec<[Dual64; 2]>,
     held: Vec<[Dual64; 2]>,
+}
+
+/// The last solved state of a [`Solver`], ready to be differentiated along any number of directions.
+///
+/// What does not depend on the direction is done once: every element's derivatives and the matrix of
+/// the slopes.
+#[derive(Debug)]
+pub struct Linearized<'a> {
+    solver: &'a mut Solver,
+    positions: &'a [[f64; 3]],
+    laid: &'a [Option<Laid>],
+    jets: Vec<Settled<7>>,
+    moving: Vec<[Dual64; 3]>,
+    assembly: Assembly<Dual64>,
+    pass: Pass,
+    gradient: Vec<Dual64>,
+    adjoint: Vec<[Dual64; 2]>,
+    change: Vec<f64>,
+}
+
+impl Linearized<'_> {
+    /// How the state changes along a direction.
+    pub fn along(&mut self, direction: &Direction) -> StateTangent {
+        self.moving.clear();
+        let moved = self.positions.iter().zip(&direction.grippers);
+        self.moving.extend(moved.map(|(p, v)| [0, 1, 2].map(|n| Dual64::new(p[n], v[n]))));
+        let factor = |change| Dual64::new(1.0, change);
+        self.assembly.rebuild(&Build {
+            ply: &self.solver.ply,
+            settings: &self.solver.settings,
+            positions: &self.moving,
+            laid: self.laid,
+            factors: [
+                factor(direction.length),
+                factor(direction.weight),
+                factor(direction.rigidity),
+            ],
+        });
+
+        // what the direction does to the rule at fixed slopes
+        let joints = self.solver.slopes.len();
+        let mut slopes = vec![0.0; joints];
+        self.pass.run(self.solver, &self.assembly, &self.jets, &slopes);
+        let (assembly, pass) = (&self.assembly, &self.pass);
+        self.change.clear();
+        match self.solver.settings.slopes {
+            SlopeRule::MinForce => {
+                self.gradient.resize(joints, Dual64::from(0.0));
+                self.adjoint.resize(assembly.elements.len(), [Dual64::from(0.0); 2]);
+                let response = |n: usize| pass.responses[n];
+                min_force::gradient(assembly, response, &mut self.gradient, &mut self.adjoint);
+                self.change.extend(self.gradient.iter().map(|g| g.eps));
+            }
+            SlopeRule::MomentBalance => {
+                let curvature = |e: usize, end: usize| pass.curvatures[e][end];
+                let jump = |j| moment_balance::jump(assembly, j, curvature).eps;
+                self.change.extend((0..joints).map(jump));
+            }
+        }
+        // what the slopes answer, and with it everything else
+        match self.solver.settings.slopes {
+            SlopeRule::MinForce => min_force::respond(self.solver, &self.change, &mut slopes),
+            SlopeRule::MomentBalance => {
+                moment_balance::respond(self.solver, &self.change, &mut slopes);
+            }
+        }
+        self.pass.run(self.solver, &self.assembly, &self.jets, &slopes);
+        let (assembly, pass) = (&self.assembly, &self.pass);
+        let fixed = |side: &Side<Dual64>| if let Side::Fixed(s) = side { s.eps } else { 0.0 };
+        StateTangent {
+            slopes,
+            force: pass.responses.iter().map(|r| r.force.0.eps).collect(),
+            end_slopes: pass.held.iter().map(|h| h.map(|s| s.eps)).collect(),
+            spans: (assembly.elements.iter())
+                .map(|e| [e.run.eps, e.rise.eps, e.length.eps])
+                .collect(),
+            paths: assembly.shearing.iter().map(|s| s.map_or(0.0, |(path, _)| path.eps)).collect(),
+            governed: (assembly.governed.iter())
+                .map(|g| g.map(|slope| slope.map_or(0.0, |s| s.eps)))
+                .collect(),
+            fixed: (assembly.sides.iter())
+                .map(|sides| [0, 1].map(|d| [0, 1].map(|n| fixed(&sides[d][n]))))
+                .collect(),
+        }
+    }
 }
 
 impl Solver {
@@ -72,55 +168,34 @@ impl Solver {
         laid: &[Option<Laid>],
         direction: &Direction,
     ) -> StateTangent {
-        let moving: Vec<[Dual64; 3]> = positions
-            .iter()
-            .zip(&direction.grippers)
-            .map(|(p, v)| [0, 1, 2].map(|n| Dual64::new(p[n], v[n])))
-            .collect();
-        let factor = |change| Dual64::new(1.0, change);
-        let build = Build {
-            ply: &self.ply,
-            settings: &self.settings,
-            positions: &moving,
-            laid,
-            factors: [
-                factor(direction.length),
-                factor(direction.weight),
-                factor(direction.rigidity),
-            ],
-        };
-        let mut assembly = Assembly::default();
-        assembly.rebuild(&build);
-        let jets: Vec<Settled<7>> =
-            (0..assembly.elements.len()).map(|n| self.all_jets(n)).collect();
+        self.linearize(positions, laid).along(direction)
+    }
 
-        // what the direction does to the rule at fixed slopes
-        let joints = self.slopes.len();
-        let still = vec![0.0; joints];
-        let pass = self.pass(&assembly, &jets, &still);
-        let change: Vec<f64> = match self.settings.slopes {
-            SlopeRule::MinForce => {
-                let mut gradient = vec![Dual64::from(0.0); joints];
-                let mut adjoint = vec![[Dual64::from(0.0); 2]; assembly.elements.len()];
-                min_force::gradient(&assembly, |n| pass.responses[n], &mut gradient, &mut adjoint);
-                gradient.iter().map(|g| g.eps).collect()
-            }
-            SlopeRule::MomentBalance => (0..joints)
-                .map(|j| moment_balance::jump(&assembly, j, |e, end| pass.curvatures[e][end]).eps)
-                .collect(),
-        };
-        // what the slopes answer, and with it everything else
-        let mut slopes = vec![0.0; joints];
+    /// Prepares the derivatives of the last solved state, for many directions.
+    ///
+    /// `positions` and `laid` must be those of the last [`Solver::solve`].
+    pub fn linearize<'a>(
+        &'a mut self,
+        positions: &'a [[f64; 3]],
+        laid: &'a [Option<Laid>],
+    ) -> Linearized<'a> {
+        let jets: Vec<Settled<7>> =
+            (0..self.assembly.elements.len()).map(|n| self.all_jets(n)).collect();
         self.refresh(&jets);
-        match self.settings.slopes {
-            SlopeRule::MinForce => min_force::respond(self, &change, &mut slopes),
-            SlopeRule::MomentBalance => moment_balance::respond(self, &change, &mut slopes),
+        if self.settings.slopes == SlopeRule::MinForce {
+            assemble(self);
         }
-        let pass = self.pass(&assembly, &jets, &slopes);
-        StateTangent {
-            slopes,
-            force: pass.responses.iter().map(|r| r.force.0.eps).collect(),
-            end_slopes: pass.held.iter().map(|h| h.map(|s| s.eps)).collect(),
+        Linearized {
+            solver: self,
+            positions,
+            laid,
+            jets,
+            moving: Vec::new(),
+            assembly: Assembly::default(),
+            pass: Pass::default(),
+            gradient: Vec::new(),
+            adjoint: Vec::new(),
+            change: Vec::new(),
         }
     }
 
@@ -171,23 +246,29 @@ impl Solver {
         }
         self.mark_active();
     }
+}
 
-    fn pass(&self, assembly: &Assembly<Dual64>, jets: &[Settled<7>], slopes: &[f64]) -> Pass {
+impl Pass {
+    /// Carries the direction in `assembly` through every element, the shared slopes changing by `slopes`.
+    fn run(
+        &mut self,
+        solver: &Solver,
+        assembly: &Assembly<Dual64>,
+        jets: &[Settled<7>],
+        slopes: &[f64],
+    ) {
         let zero = Dual64::from(0.0);
-        let count = assembly.elements.len();
-        let mut pass = Pass {
-            responses: Vec::with_capacity(count),
-            curvatures: Vec::with_capacity(count),
-            held: Vec::with_capacity(count),
-        };
-        let joint = |j: usize| Dual64::new(self.slopes[j], slopes[j]);
+        self.responses.clear();
+        self.curvatures.clear();
+        self.held.clear();
+        let joint = |j: usize| Dual64::new(solver.slopes[j], slopes[j]);
         for (n, element) in assembly.elements.iter().enumerate() {
             if element.state == SpanState::Straight {
                 let slope = if element.run.re > 0.0 { element.rise / element.run } else { zero };
-                pass.responses
+                self.responses
                     .push(Response { force: (zero, [zero; 2]), slope: [(slope, [zero; 2]); 2] });
-                pass.curvatures.push([zero; 2]);
-                pass.held.push([slope; 2]);
+                self.curvatures.push([zero; 2]);
+                self.held.push([slope; 2]);
                 continue;
             }
             let held = element.ends.map(|end| match end {
@@ -199,7 +280,7 @@ impl Solver {
                         SlopeSource::Given(slope) => slope,
                         SlopeSource::Joint(j) => joint(j),
                         SlopeSource::Outcome(edge, end) => {
-                            let response: &Response<Dual64> = &pass.responses[edge];
+                            let response: &Response<Dual64> = &self.responses[edge];
                             response.slope[end].0
                         }
                     });
@@ -218,10 +299,9 @@ impl Solver {
             ];
             let jets = &jets[n];
             let slope = [0, 1].map(|end| along(&jets.slope[end], &x));
-            pass.responses.push(Response { force: along(&jets.force, &x), slope });
-            pass.curvatures.push([0, 1].map(|end| along(&jets.curvature[end], &x).0));
-            pass.held.push([0, 1].map(|end| held[end].unwrap_or(slope[end].0)));
+            self.responses.push(Response { force: along(&jets.force, &x), slope });
+            self.curvatures.push([0, 1].map(|end| along(&jets.curvature[end], &x).0));
+            self.held.push([0, 1].map(|end| held[end].unwrap_or(slope[end].0)));
         }
-        pass
     }
 }

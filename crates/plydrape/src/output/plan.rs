@@ -1,6 +1,6 @@
 //! The files of a plan: those of its drape, the dense motion and what the search remembers.
 
-use super::{OutputError, json, write_with};
+use super::{OutputError, csv, json, write_with};
 use crate::planner::Planned;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// [`OutputError`], as for [`super::write_all`].
 pub fn write_all(planned: &Planned, rate: f64, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
-    let motion = planned.motion.csv(rate)?;
+    let grid = planned.drape.result.scene.grid;
+    let motion = csv::motion(&planned.motion, &planned.attitudes, grid, rate)?;
     let memory = json::of(&planned.memory)?;
     let own = [("motion.csv", motion.as_bytes()), ("plan.json", memory.as_bytes())];
     write_with(&planned.drape.result, &own, dir)

@@ -1,11 +1,25 @@
 //! What is known of a search while it runs: the best plan so far, told to whoever watches, and whether the
 //! search shall end.
 
-use super::Progress;
 use crate::draping::record::{ResultFile, Verdict};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+
+/// How far a search has come.
+#[derive(Debug)]
+pub struct Progress<'a> {
+    /// Complete drapes tried; of the stepwise planner, steps.
+    pub evaluations: usize,
+    /// Most that the search may try.
+    pub most: usize,
+    /// What is being done.
+    pub stage: &'static str,
+    /// Limits of the best plan so far; empty before there is one.
+    pub best: &'a [Verdict],
+    /// Whether the best plan so far keeps them all.
+    pub accepted: bool,
+}
 
 /// Who watches a plan being made: breaks to have the best so far.
 pub type Watcher<'a> = &'a mut (dyn FnMut(&Progress) -> ControlFlow<()> + Send);
@@ -46,6 +60,11 @@ impl<'a> Board<'a> {
     /// Complete drapes that have been tried.
     pub fn evaluations(&self) -> usize {
         self.evaluations.load(Ordering::Relaxed)
+    }
+
+    /// Sets how much has been done.
+    pub fn count(&self, done: usize) {
+        self.evaluations.store(done, Ordering::Relaxed);
     }
 
     /// Whether the search shall end with the best that it has.

@@ -21,13 +21,27 @@ pub fn with_motion(scene: &Scene, motion: Motion) -> Scene {
     scene
 }
 
-/// The complete drape along positions of grippers (m), one second a step; broken off where it is hopeless or
-/// the board is stopped.
+/// The complete drape along planned positions of grippers (m), rounded as the motion will round them; broken off
+/// where it is hopeless or the board is stopped.
 #[must_use]
-pub fn drape(scene: &Scene, positions: Vec<Vec<[f64; 3]>>, board: &Board) -> Drape {
+pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Drape {
+    let positions = rounded(planned);
     let most = HOPELESS * positions.len();
     let times = (0..positions.len()).map(|n| n as f64).collect();
     simulate_within(&with_motion(scene, Motion { times, positions }), most, |_| board.tick())
+}
+
+/// Where a cubic B-spline passes the planned positions, which are its control points, if its knots are evenly
+/// spaced: nearly what [`crate::motion::TimedMotion`] makes of them, without its search for the spacing.
+fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
+    let mut out = planned.to_vec();
+    for (k, around) in planned.windows(3).enumerate() {
+        for (n, place) in out[k + 1].iter_mut().enumerate() {
+            let [before, here, after] = [around[0][n], around[1][n], around[2][n]];
+            *place = [0, 1, 2].map(|c| (before[c] + 4.0 * here[c] + after[c]) / 6.0);
+        }
+    }
+    out
 }
 
 /// A measure as a multiple of its limit: up to 1 it holds.

@@ -6,6 +6,7 @@ use super::formation::Ground;
 use super::strategy::Strategy;
 use super::trajectory::trajectory;
 use crate::draping::Drape;
+use crate::draping::spans::Point;
 use crate::planner::board::Board;
 use crate::planner::judge;
 use crate::scene::Scene;
@@ -26,6 +27,8 @@ const GENERATION: usize = 8;
 pub struct Candidate {
     /// What was tried.
     pub strategy: Strategy,
+    /// The positions that it plans (m), one list of all grippers a step.
+    pub positions: Vec<Vec<Point>>,
     /// Its complete drape.
     pub drape: Drape,
     /// [`judge::score`] of it.
@@ -34,9 +37,10 @@ pub struct Candidate {
 
 impl Candidate {
     fn of(scene: &Scene, ground: &Ground, strategy: Strategy, board: &Board) -> Option<Candidate> {
-        let drape = judge::drape(scene, trajectory(scene, ground, strategy)?, board);
+        let positions = trajectory(scene, ground, strategy)?;
+        let drape = judge::drape(scene, &positions, board);
         let score = judge::score(&drape.result);
-        Some(Candidate { strategy, drape, score })
+        Some(Candidate { strategy, positions, drape, score })
     }
 }
 

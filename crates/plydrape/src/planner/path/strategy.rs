@@ -75,6 +75,14 @@ impl Strategy {
         }
     }
 
+    /// Whether all numbers are such as a search has.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let Strategy { start, ratio, angle, curvature, slope, pull } = *self;
+        let numbers = [start[0], start[1], ratio, angle, curvature, slope, pull];
+        numbers.iter().all(|n| n.is_finite()) && ratio > 0.0 && curvature > 0.0 && slope > 0.0
+    }
+
     /// What is tried first: a ring that spreads from the middle, lines along the mold's two principal
     /// directions there, and a descent all at once.
     #[must_use]

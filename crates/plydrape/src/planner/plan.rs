@@ -1,0 +1,197 @@
+//! From a scene to a motion: a planner finds positions, they become a motion in time, and the ply is draped
+//! along it once more.
+
+use super::board::{Board, Watcher};
+use super::judge;
+use super::memory::Memory;
+use super::obstacles::obstacles;
+use super::path::{self, Strategy};
+use super::stepwise::{Outcome, stepwise};
+use crate::draping::record::{ResultFile, Verdict};
+use crate::draping::spans::Point;
+use crate::draping::{Drape, simulate};
+use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
+use crate::scene::{Motion, PlanMethod, Scene};
+use std::ops::ControlFlow;
+
+/// A finished plan.
+#[derive(Debug, Clone)]
+pub struct Planned {
+    /// The drape along the planned motion, step-cutting on, with all limits judged.
+    pub drape: Drape,
+    /// The planner that made it.
+    pub method: PlanMethod,
+    /// Complete drapes tried; of the stepwise planner, steps.
+    pub evaluations: usize,
+    /// The motion in time.
+    pub motion: TimedMotion,
+    /// How the grippers are turned in it.
+    pub attitudes: Attitudes,
+    /// Whether the search was broken off.
+    pub interrupted: bool,
+    /// For another search to go on from.
+    pub memory: Memory,
+}
+
+/// Why there is no plan.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// Nothing to lay the ply on.
+    #[error("the scene has no mold to lay the ply on")]
+    NoMold,
+    /// Nowhere to go.
+    #[error("the scene has no target: a plan needs to know where the ply shall end")]
+    NoTarget,
+    /// A file that is no plan of this version.
+    #[error("the earlier plan is of format `{format}`, version {version}: plan anew")]
+    Format {
+        /// Its format.
+        format: String,
+        /// Its version.
+        version: u32,
+    },
+    /// A plan for other grippers or other fabric.
+    #[error(
+        "the earlier plan is for {earlier_u} × {earlier_v} grippers or other cells, the scene has {nu} × {nv}: plan anew"
+    )]
+    OtherPly {
+        /// Grippers of the earlier plan along u.
+        earlier_u: usize,
+        /// Grippers of the earlier plan along v.
+        earlier_v: usize,
+        /// Grippers of the scene along u.
+        nu: usize,
+        /// Grippers of the scene along v.
+        nv: usize,
+    },
+    /// A strategy with numbers that no search has.
+    #[error("the earlier plan has a strategy that no search can have: plan anew")]
+    Strategy,
+    /// Positions that are no motion.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+}
+
+/// What a planner hands over.
+struct Found {
+    positions: Vec<Vec<Point>>,
+    evaluations: usize,
+    strategy: Option<Strategy>,
+    /// Limits of the planner itself.
+    limits: Vec<Verdict>,
+}
+
+/// Plans the gripper motion of a scene, from where it starts to its target.
+///
+/// `memory` is that of an earlier search for the same ply, to go on from. `watcher` is told how the search gets
+/// on; when it breaks, the best so far is finished. A plan that keeps not all limits is a plan all the same: the
+/// verdict says which, where and by how much.
+///
+/// # Errors
+/// [`PlanError`] if the scene has no mold or target, or the memory is not of its ply.
+pub fn plan(
+    scene: &Scene,
+    memory: Option<&Memory>,
+    watcher: Watcher,
+) -> Result<Planned, PlanError> {
+    if scene.mold.is_none() {
+        return Err(PlanError::NoMold);
+    }
+    if scene.target.is_none() {
+        return Err(PlanError::NoTarget);
+    }
+    if let Some(memory) = memory {
+        memory.check(scene)?;
+    }
+    let most = match scene.plan.method {
+        PlanMethod::Path => scene.plan.evaluations,
+        PlanMethod::Stepwise => scene.plan.steps,
+    };
+    let board = Board::new(most, watcher);
+    let found = match scene.plan.method {
+        PlanMethod::Path => by_path(scene, memory, &board)?,
+        PlanMethod::Stepwise => by_steps(scene, &board),
+    };
+    let interrupted = board.is_stopped();
+
+    let bounds = Bounds::from(&scene.limits);
+    let motion = TimedMotion::new(&found.positions, &bounds)?;
+    let followed =
+        Motion { times: motion.times().to_vec(), positions: motion.positions().to_vec() };
+    let steps = judge::with_motion(scene, followed);
+    let mut drape = simulate(&steps, |_| ControlFlow::Continue(()));
+    let limits = drape.result.summary.limits.iter().map(|verdict| verdict.name).collect::<Vec<_>>();
+    // what the drape has judged itself needs not be said twice
+    let obstacles = obstacles(scene).into_iter().filter(|o| !limits.contains(&o.name));
+    let own = found.limits.into_iter().chain(rates(&motion, &bounds, scene));
+    drape.result.summary.judge_also(obstacles.chain(own).collect::<Vec<_>>());
+    let attitudes = attitudes(&drape.result)?;
+    let before = memory.map_or(0, |memory| memory.evaluations);
+    let memory = Memory::new(scene, before + found.evaluations, found.strategy);
+    let (method, evaluations) = (scene.plan.method, found.evaluations);
+    Ok(Planned { drape, method, evaluations, motion, attitudes, interrupted, memory })
+}
+
+fn by_path(scene: &Scene, memory: Option<&Memory>, board: &Board) -> Result<Found, PlanError> {
+    let earlier = memory.and_then(|m| m.strategy.map(|strategy| (strategy, m.evaluations)));
+    let best = path::search(scene, earlier, board).ok_or(PlanError::NoTarget)?;
+    Ok(Found {
+        positions: best.positions,
+        evaluations: board.evaluations(),
+        strategy: Some(best.strategy),
+        limits: Vec::new(),
+    })
+}
+
+fn by_steps(scene: &Scene, board: &Board) -> Found {
+    board.enter("step by step");
+    let plan = stepwise(scene, &mut |done| {
+        board.count(done);
+        board.tick()
+    });
+    let limits = match plan.outcome {
+        Outcome::OutOfSteps(stray) | Outcome::OutOfReach(stray) => vec![Verdict {
+            name: "steps",
+            value: stray.distance * 1e3,
+            limit: 0.0,
+            unit: "mm",
+            ok: false,
+            step: Some(plan.positions.len()),
+            at: format!("gripper [{},{}], short of its target", stray.gripper[0], stray.gripper[1]),
+        }],
+        Outcome::Arrived | Outcome::Interrupted | Outcome::NoTarget => Vec::new(),
+    };
+    Found { evaluations: plan.positions.len(), positions: plan.positions, strategy: None, limits }
+}
+
+/// Largest speed, acceleration and jerk of the motion against their limits.
+fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
+    let peaks = motion.peaks();
+    let verdict = |name, unit, peak: Peak, limit: f64| {
+        let [i, j] = scene.ply.grid.id(peak.gripper);
+        let step = motion.times().partition_point(|t| *t < peak.time) + 1;
+        Verdict {
+            name,
+            value: peak.value,
+            limit,
+            unit,
+            ok: peak.value <= limit * (1.0 + 1e-9),
+            step: Some(step.min(motion.times().len())),
+            at: format!("gripper [{i},{j}]"),
+        }
+    };
+    vec![
+        verdict("speed", "m/s", peaks.speed, bounds.speed),
+        verdict("acceleration", "m/s²", peaks.acceleration, bounds.acceleration),
+        verdict("jerk", "m/s³", peaks.jerk, bounds.jerk),
+    ]
+}
+
+/// The attitudes of a drape's grippers over its time.
+fn attitudes(result: &ResultFile) -> Result<Attitudes, MotionError> {
+    let times: Vec<f64> = result.steps.iter().map(|step| step.time).collect();
+    let turned: Vec<Vec<[f64; 4]>> = (result.steps.iter())
+        .map(|step| step.grippers.iter().map(|gripper| gripper.quaternion).collect())
+        .collect();
+    Attitudes::new(&times, &turned)
+}

@@ -1,0 +1,92 @@
+//! Grippers and cells: tilt, height above the mold, distances, shear.
+
+use super::touch::distance_gradient;
+use super::{Quantity, Sensitivity};
+use crate::mold::vector::{sub, unit};
+use crate::ply::shear;
+use num_dual::{Dual64, DualNum};
+
+impl Sensitivity<'_> {
+    /// Shear angle γ of a cell (rad); none while it does not shear.
+    #[must_use]
+    pub fn shear(&self, cell: usize) -> Option<Quantity> {
+        let path = self.paths[cell].as_ref()?;
+        let sides = self.scene.ply.cell;
+        let value = shear::angle(sides, path.value);
+        // from sin γ = (d₁² − a² − b²)/2ab; a folded cell shears no further
+        let rate = path.value / (sides[0] * sides[1] * value.cos());
+        let rate = if rate.is_finite() && value.cos() > 1e-6 { rate } else { 0.0 };
+        Some(Quantity { value, gradient: path.gradient.iter().map(|g| rate * g).collect() })
+    }
+
+    /// Distance of a gripper from the mold (m); none without a mold.
+    #[must_use]
+    pub fn clearance(&self, gripper: usize) -> Option<Quantity> {
+        let point = self.positions[gripper];
+        let foot = self.scene.mold.as_ref()?.foot(point);
+        let mut gradient = self.zeros();
+        gradient[3 * gripper..][..3].copy_from_slice(&distance_gradient(point, &foot));
+        Some(Quantity { value: foot.distance, gradient })
+    }
+
+    /// Distance between two grippers (m).
+    #[must_use]
+    pub fn separation(&self, a: usize, b: usize) -> Quantity {
+        let way = sub(self.positions[b], self.positions[a]);
+        let mut gradient = self.zeros();
+        let direction = unit(way).unwrap_or([0.0; 3]);
+        for n in 0..3 {
+            gradient[3 * a + n] -= direction[n];
+            gradient[3 * b + n] += direction[n];
+        }
+        Quantity { value: way.iter().map(|c| c * c).sum::<f64>().sqrt(), gradient }
+    }
+
+    /// Angle between the ply's normal at a gripper and the vertical (rad), eq. (13a) of `docs/theory.md`. A
+    /// level gripper's has no derivative and gets zeros.
+    #[must_use]
+    pub fn tilt(&self, gripper: usize) -> Quantity {
+        let mut gradient = self.zeros();
+        let value = self.tilt_along(gripper, None).re;
+        for (column, out) in gradient.iter_mut().enumerate() {
+            *out = self.tilt_along(gripper, Some(column)).eps;
+        }
+        Quantity { value, gradient }
+    }
+
+    fn tilt_along(&self, gripper: usize, column: Option<usize>) -> Dual64 {
+        let position = |n: usize, axis: usize| {
+            let moves = column == Some(3 * n + axis);
+            Dual64::new(self.positions[n][axis], f64::from(u8::from(moves)))
+        };
+        let heading = |d: usize| {
+            let [before, after] = self.neighbours(gripper, d);
+            let [x, y] = [0, 1].map(|n| position(after, n) - position(before, n));
+            let square = x * x + y * y;
+            (square.re > 0.0).then(|| [x, y].map(|c| c / square.sqrt()))
+        };
+        let (one, zero) = (Dual64::from(1.0), Dual64::from(0.0));
+        let u = heading(0).unwrap_or([one, zero]);
+        let v = heading(1).unwrap_or([-u[1], u[0]]);
+        let [su, sv] = [0, 1].map(|d| match &self.slopes[gripper][d] {
+            Some(slope) => Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient[c])),
+            None => zero,
+        });
+        // the normal is the cross product of both tangents
+        let (nx, ny) = (u[1] * sv - su * v[1], su * v[0] - u[0] * sv);
+        let nz = u[0] * v[1] - u[1] * v[0];
+        let square = nx * nx + ny * ny;
+        let aside = if square.re > 0.0 { square.sqrt() } else { zero };
+        let up = if nz.re < 0.0 { -nz } else { nz };
+        aside.atan2(up)
+    }
+
+    /// The grippers before and after one along a direction; itself at the rim.
+    fn neighbours(&self, gripper: usize, direction: usize) -> [usize; 2] {
+        let grid = self.scene.ply.grid;
+        let [i, j] = grid.id(gripper);
+        let (index, count) = if direction == 0 { (i, grid.nu) } else { (j, grid.nv) };
+        let at = |k: usize| grid.index(if direction == 0 { [k, j] } else { [i, k] });
+        [at(index.saturating_sub(1)), at((index + 1).min(count - 1))]
+    }
+}

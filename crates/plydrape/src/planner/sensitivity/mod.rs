@@ -1,0 +1,198 @@
+//! What a plan looks at in a solved ply, each with its exact gradient to all gripper positions.
+//!
+//! The equilibrium is differentiated by the implicit function theorem, eq. (11) of `docs/theory.md`: one
+//! tangent for each gripper coordinate gives how every span's force, end slopes, run, rise and length
+//! follow. All else is the chain rule. Contact segments stay fixed; exact wherever the state is
+//! differentiable: not where a diagonal just begins to shear, a slope just reaches its limit, or a point
+//! just touches.
+//!
+//! `span` holds what one span has to say, `touch` what it and the mold have, `gripper` what belongs to
+//! grippers and cells.
+
+mod gripper;
+mod span;
+mod touch;
+
+pub use span::Place;
+
+use crate::draping::spans::{FreeSpan, Point, Shape};
+use crate::equilibrium::{Direction, Side, Solver, StateTangent};
+use crate::ply::Laid;
+use crate::scene::Scene;
+
+/// A number with its gradient to all gripper positions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// The value.
+    pub value: f64,
+    /// Derivatives to x, y, z of each gripper (per m), in the order of [`crate::ply::Grid::index`].
+    pub gradient: Vec<f64>,
+}
+
+/// Rows that an element has: force, both end slopes, run, rise, length.
+const ROWS: usize = 6;
+
+/// A solved ply with the derivatives of its state to all gripper positions.
+pub struct Sensitivity<'a> {
+    scene: &'a Scene,
+    /// The free spans that it speaks of.
+    pub shape: &'a Shape,
+    positions: &'a [Point],
+    laid: &'a [Option<Laid>],
+    /// Derivatives of each element's force (N), end slopes, run, rise and length (m).
+    rows: Vec<f64>,
+    /// Taut path of each cell's stretched diagonal (m), if any, and its derivatives.
+    paths: Vec<Option<Quantity>>,
+    /// Slope of the ply at each gripper along u and v, where there is one.
+    slopes: Vec<[Option<Quantity>; 2]>,
+}
+
+impl<'a> Sensitivity<'a> {
+    /// Differentiates the last state of a solver: `shape` is what was read off it, `positions` (m) and `laid`
+    /// are what it was solved with.
+    #[must_use]
+    pub fn new(
+        scene: &'a Scene,
+        solver: &mut Solver,
+        shape: &'a Shape,
+        positions: &'a [Point],
+        laid: &'a [Option<Laid>],
+    ) -> Self {
+        let width = 3 * positions.len();
+        let mut state = State::new(solver, positions.len());
+        let mut direction = Direction::none(positions.len());
+        let mut linearized = solver.linearize(positions, laid);
+        for column in 0..width {
+            direction.grippers[column / 3][column % 3] = 1.0;
+            state.put(column, &linearized.along(&direction));
+            direction.grippers[column / 3][column % 3] = 0.0;
+        }
+        let State { rows, paths, slopes, .. } = state;
+        Sensitivity { scene, shape, positions, laid, rows, paths, slopes }
+    }
+
+    /// Number of derivatives: three a gripper.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        3 * self.positions.len()
+    }
+
+    /// Derivatives of one row of an element.
+    fn row(&self, element: usize, row: usize) -> &[f64] {
+        let width = self.width();
+        &self.rows[(ROWS * element + row) * width..][..width]
+    }
+
+    /// The gripper that holds an end of a span; none where the mold does.
+    #[must_use]
+    pub fn gripper_at(&self, span: &FreeSpan, end: usize) -> Option<usize> {
+        let grid = self.scene.ply.grid;
+        let c = grid.catenary(span.catenary);
+        let whole = self.laid[span.catenary].is_none();
+        (whole || span.rest == end).then(|| grid.index(if end == 0 { c.from } else { c.to }))
+    }
+
+    fn zeros(&self) -> Vec<f64> {
+        vec![0.0; self.width()]
+    }
+}
+
+/// Adds `factor` times `row` to `to`.
+fn add(to: &mut [f64], factor: f64, row: &[f64]) {
+    if factor != 0.0 {
+        for (to, x) in to.iter_mut().zip(row) {
+            *to += factor * x;
+        }
+    }
+}
+
+/// The derivatives of a state, filled column by column.
+struct State {
+    width: usize,
+    rows: Vec<f64>,
+    paths: Vec<Option<Quantity>>,
+    slopes: Vec<[Option<Quantity>; 2]>,
+    /// What makes up the slope at each gripper.
+    sources: Vec<[Source; 2]>,
+}
+
+/// Where the slope at a gripper comes from.
+#[derive(Clone, Copy)]
+enum Source {
+    Governed,
+    /// The mean of the edges on both sides.
+    Sides([Side<f64>; 2]),
+}
+
+impl State {
+    fn new(solver: &Solver, grippers: usize) -> Self {
+        let (assembly, width) = (solver.assembly(), 3 * grippers);
+        let quantity = |value| Quantity { value, gradient: vec![0.0; width] };
+        let mut slopes = Vec::with_capacity(grippers);
+        let mut sources = Vec::with_capacity(grippers);
+        for gripper in 0..grippers {
+            let source = [0, 1].map(|d| match assembly.governed[gripper][d] {
+                Some(_) => Source::Governed,
+                None => Source::Sides(assembly.sides[gripper][d]),
+            });
+            slopes.push([0, 1].map(|d| {
+                if let Some(slope) = assembly.governed[gripper][d] {
+                    return Some(quantity(slope));
+                }
+                let at = |side| match side {
+                    Side::None => None,
+                    Side::Hanging(element, end) => Some(solver.end_slopes(element)[end]),
+                    Side::Fixed(slope) => Some(slope),
+                };
+                match assembly.sides[gripper][d].map(at) {
+                    [Some(a), Some(b)] => Some(quantity(0.5 * (a + b))),
+                    [a, b] => a.or(b).map(quantity),
+                }
+            }));
+            sources.push(source);
+        }
+        State {
+            width,
+            rows: vec![0.0; ROWS * assembly.elements.len() * width],
+            paths: assembly.shearing.iter().map(|s| s.map(|(path, _)| quantity(path))).collect(),
+            slopes,
+            sources,
+        }
+    }
+
+    fn put(&mut self, column: usize, tangent: &StateTangent) {
+        for (n, force) in tangent.force.iter().enumerate() {
+            let ([first, second], [run, rise, length]) = (tangent.end_slopes[n], tangent.spans[n]);
+            for (row, value) in [*force, first, second, run, rise, length].into_iter().enumerate() {
+                self.rows[(ROWS * n + row) * self.width + column] = value;
+            }
+        }
+        for (path, change) in self.paths.iter_mut().zip(&tangent.paths) {
+            if let Some(path) = path {
+                path.gradient[column] = *change;
+            }
+        }
+        for (gripper, sources) in self.sources.iter().enumerate() {
+            for (d, source) in sources.iter().enumerate() {
+                let Some(slope) = &mut self.slopes[gripper][d] else {
+                    continue;
+                };
+                slope.gradient[column] = match source {
+                    Source::Governed => tangent.governed[gripper][d],
+                    Source::Sides(sides) => {
+                        let (mut sum, mut count) = (0.0, 0.0);
+                        for (n, side) in sides.iter().enumerate() {
+                            sum += match *side {
+                                Side::None => continue,
+                                Side::Hanging(element, end) => tangent.end_slopes[element][end],
+                                Side::Fixed(_) => tangent.fixed[gripper][d][n],
+                            };
+                            count += 1.0;
+                        }
+                        sum / count
+                    }
+                };
+            }
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! A span and the mold: how far it is, where it would land, and how steeply it leaves.
+
+use super::{Place, Quantity, Sensitivity, add};
+use crate::draping::fabric;
+use crate::draping::spans::{FreeSpan, Point};
+use crate::mold::vector::{along, dot, sub};
+use crate::mold::{Foot, Mold};
+
+/// Distances below this have no direction but the normal's (m).
+const ON_MOLD: f64 = 1e-9;
+
+/// Gradient of the distance from the mold at a point.
+pub(super) fn distance_gradient(point: Point, foot: &Foot) -> [f64; 3] {
+    if foot.distance.abs() < ON_MOLD {
+        return foot.normal;
+    }
+    // beside an open border it points away from the border
+    sub(point, foot.point).map(|c| c / foot.distance)
+}
+
+impl Sensitivity<'_> {
+    /// Distance from the mold (m) of a span at a fixed fraction `t` of its run; none without a mold. At a
+    /// minimum along the span the gradient is that of the smallest distance.
+    #[must_use]
+    pub fn gap(&self, span: &FreeSpan, t: f64) -> Option<Quantity> {
+        let place = self.place(span, t);
+        let foot = self.scene.mold.as_ref()?.foot(place.point);
+        let slope = place.along(distance_gradient(place.point, &foot));
+        Some(Quantity { value: foot.distance, ..slope })
+    }
+
+    /// Where the ideal drape has a span's fabric at a share of its length (m); none where it is not known.
+    #[must_use]
+    pub fn ideal(&self, span: &FreeSpan, share: f64) -> Option<Point> {
+        let (mold, target) = (self.scene.mold.as_ref()?, self.scene.target.as_ref()?);
+        let whole = self.laid[span.catenary].as_ref().map_or(span.length, |laid| laid.length);
+        let share = (span.start + share * span.length) / whole;
+        target.drape.as_ref()?.place(mold, fabric(self.scene, span.catenary, share))
+    }
+
+    /// Way from the ideal place of a span's fabric at a share of its length to where it is (m); its x and
+    /// y are the error in plan. None where the ideal drape does not know the place.
+    #[must_use]
+    pub fn landing(&self, span: &FreeSpan, share: f64) -> Option<Place> {
+        let ideal = self.ideal(span, share)?;
+        let place = self.fabric_place(span, share);
+        Some(Place { point: sub(place.point, ideal), ..place })
+    }
+
+    /// Slope by which a span leaves the mold at one of its ends, outward from there: the ply's minus the
+    /// mold's, positive where the ply rises from it. The end is one that the mold holds or a gripper that
+    /// stands on it. None without a mold or where it is upright.
+    #[must_use]
+    pub fn rise(&self, span: &FreeSpan, end: usize) -> Option<Quantity> {
+        let mold = self.scene.mold.as_ref()?;
+        let outward = if end == 0 { 1.0 } else { -1.0 };
+        let mut ply = match (span.profile.is_some(), span.element) {
+            (true, Some(element)) => {
+                let gradient = self.row(element, 1 + end).to_vec();
+                Quantity { value: span.slopes[end], gradient }
+            }
+            _ => self.slope(span, end as f64),
+        };
+        let gripper = self.gripper_at(span, end);
+        let normal = match (&self.laid[span.catenary], gripper) {
+            (Some(laid), None) => laid.normal[span.rest],
+            _ => mold.normal(span.ends[end]),
+        };
+        let ([x, y], run) = (span.heading(), span.run());
+        if normal[2] <= 0.0 || run <= 0.0 {
+            return None;
+        }
+        // the mold's slope along the heading, and what turning the heading does to it
+        let slope = -(normal[0] * x + normal[1] * y) / normal[2];
+        let across = (normal[0] * y - normal[1] * x) / normal[2] / run;
+        for (at, sign) in [(0, -1.0), (1, 1.0)] {
+            if let Some(gripper) = self.gripper_at(span, at) {
+                ply.gradient[3 * gripper] -= sign * across * -y;
+                ply.gradient[3 * gripper + 1] -= sign * across * x;
+            }
+        }
+        if let Some(gripper) = gripper {
+            let turn = slope_gradient(mold, span.ends[end], normal, [x, y], slope);
+            add(&mut ply.gradient[3 * gripper..][..3], -1.0, &turn);
+        }
+        ply.value = outward * (ply.value - slope);
+        ply.gradient.iter_mut().for_each(|g| *g *= outward);
+        Some(ply)
+    }
+}
+
+/// How the mold's slope along a heading changes with the point whose foot it is taken at (1/m).
+fn slope_gradient(
+    mold: &Mold,
+    point: Point,
+    normal: [f64; 3],
+    [x, y]: [f64; 2],
+    slope: f64,
+) -> [f64; 3] {
+    let (curvatures, distance) = (mold.curvatures(point), mold.signed_distance(point));
+    // the slope −(n·e)/n_z changes by −(e + slope ẑ)·dn/n_z, and the normal by the curvatures out here
+    let turned = [x, y, slope];
+    let mut out = [0.0; 3];
+    for (curvature, direction) in curvatures.principal.iter().zip(curvatures.directions) {
+        let rate = curvature / (1.0 + curvature * distance);
+        out = along(out, -rate * dot(turned, direction) / normal[2], direction);
+    }
+    out
+}

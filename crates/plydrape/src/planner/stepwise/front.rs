@@ -1,0 +1,145 @@
+//! How high each gripper should be: the ply is laid from its middle outwards, free and rising beyond the
+//! front.
+//!
+//! Let r be the distance of a gripper's place from the place of the ply's middle, f the radius of the front
+//! and A a rate of rise. The ply should hang at
+//!
+//! `h(r) = hover + ½A (r − f)²` for r > f, at most as steep as the tilt of the grippers allows,
+//!
+//! above the mold. A rises faster than the mold bends away, so that the ply touches next to what lies already
+//! and not beyond it. On a flat mold A = 0: the ply takes its final form above the mold and comes down as
+//! a whole. The front is ours; the paper leaves open in which order a ply should land.
+
+use crate::mold::vector::{along, norm, sub, unit};
+use crate::scene::Scene;
+
+/// Rate of rise A over the largest curvature of the mold.
+const RISE: f64 = 2.4;
+
+/// Steepest rise from the mold, where the tilt leaves room for it.
+const STEEPEST: f64 = 0.35;
+
+/// Share of the grippers' tilt that the plan means to use.
+const TILT_SHARE: f64 = 0.8;
+
+/// Pull of the last move, as a share of an edge.
+const LAST_PULL: f64 = 4e-4;
+
+/// Difference of two distances that is none, over the pull of the last move.
+const SAME: f64 = 25.0;
+
+/// Height from which a gripper goes down at once, over the tolerance of contact.
+const LAST: f64 = 1.6;
+
+/// Where the landing front is, and what follows for each gripper.
+#[derive(Debug, Clone)]
+pub struct Front {
+    /// Distance of each gripper's place from the middle (m).
+    pub distance: Vec<f64>,
+    /// Normal of the mold at each gripper's place.
+    pub normal: Vec<[f64; 3]>,
+    /// Rate of rise A (1/m).
+    pub rise: f64,
+    /// Distance beyond the front from which the rise is even (m).
+    knee: f64,
+    /// Height of the front above the mold (m).
+    pub hover: f64,
+    /// Radius of the front f (m).
+    pub radius: f64,
+    /// Height from which a gripper goes down at once (m).
+    last: f64,
+}
+
+impl Front {
+    /// The front before anything has landed, for a ply whose grippers shall end at `targets` (m).
+    pub fn new(scene: &Scene, targets: &[[f64; 3]]) -> Self {
+        let up = [0.0, 0.0, 1.0];
+        let count = targets.len() as f64;
+        let mean = [0, 1, 2].map(|n| targets.iter().map(|p| p[n]).sum::<f64>() / count);
+        let middle = scene.mold.as_ref().map_or(mean, |mold| mold.closest_point(mean));
+        let normal: Vec<[f64; 3]> =
+            targets.iter().map(|p| scene.mold.as_ref().map_or(up, |m| m.normal(*p))).collect();
+        let bend = |p: &[f64; 3]| {
+            scene.mold.as_ref().map_or(0.0, |mold| {
+                mold.curvatures(*p).principal.iter().fold(0.0_f64, |most, k| most.max(k.abs()))
+            })
+        };
+        let rise = RISE * targets.iter().chain([&middle]).map(bend).fold(0.0, f64::max);
+        // what the mold's own slope leaves of the tilt
+        let slope = |n: &[f64; 3]| n[0].hypot(n[1]) / n[2].max(1e-3);
+        let steepest = normal.iter().map(slope).fold(0.0, f64::max);
+        let room = TILT_SHARE * scene.limits.tilt.min(scene.settings.max_tilt).tan() - steepest;
+        let cap = room.clamp(0.05, STEEPEST);
+        Front {
+            distance: targets.iter().map(|p| norm(sub(*p, middle))).collect(),
+            normal,
+            rise,
+            knee: if rise > 0.0 { cap / rise } else { f64::INFINITY },
+            hover: 0.0,
+            radius: 0.0,
+            last: LAST * scene.settings.contact.tolerance,
+        }
+    }
+
+    /// Distance of the farthest gripper (m).
+    pub fn farthest(&self) -> f64 {
+        self.distance.iter().fold(0.0, |most, r| most.max(*r))
+    }
+
+    /// How high a gripper should be above the mold (m).
+    ///
+    /// The last bit is one step: an edge that touches up to a gripper is held at the gripper's foot, and
+    /// pulled by as much as the gripper still hangs above it.
+    pub fn height(&self, gripper: usize) -> f64 {
+        let height = self.hover + self.lift(gripper, self.radius);
+        if height > self.last { height } else { 0.0 }
+    }
+
+    /// What a gripper hangs higher than the front would, were its radius `radius` (m).
+    pub fn lift(&self, gripper: usize, radius: f64) -> f64 {
+        let x = self.distance[gripper] - radius;
+        if x <= 0.0 || self.rise == 0.0 {
+            return 0.0;
+        }
+        let near = x.min(self.knee);
+        self.rise * near * (x - 0.5 * near)
+    }
+
+    /// Where the grippers should come down (m): a little short of their targets, seen from where the ply has
+    /// landed before.
+    ///
+    /// A micrometre of fabric too much beside a gripper is a fold that cannot leave. So the last move, along the
+    /// mold, pulls what lies by a share of its edges; with it what errors there are become pull, not slack.
+    pub fn aims(&self, scene: &Scene, targets: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let grid = scene.ply.grid;
+        let mut aims = targets.to_vec();
+        if self.rise == 0.0 {
+            return aims;
+        }
+        for edge in 0..grid.edges() {
+            let c = grid.catenary(edge);
+            let [a, b] = [c.from, c.to].map(|g| grid.index(g));
+            let Some(way) = unit(sub(targets[b], targets[a])) else {
+                continue;
+            };
+            let pull = LAST_PULL * scene.ply.flat_length(c.kind);
+            let later = self.distance[b] - self.distance[a];
+            // edges whose ends land together share the pull
+            let shares = if later.abs() < SAME * pull {
+                [0.5, 0.5]
+            } else {
+                [f64::from(u8::from(later < 0.0)), f64::from(u8::from(later > 0.0))]
+            };
+            aims[a] = along(aims[a], shares[0] * pull, way);
+            aims[b] = along(aims[b], -shares[1] * pull, way);
+        }
+        let place = |p: &[f64; 3]| scene.mold.as_ref().map_or(*p, |mold| mold.closest_point(*p));
+        aims.iter().map(place).collect()
+    }
+
+    /// Largest height that any gripper loses if the front grows to `radius` (m).
+    pub fn drop(&self, radius: f64) -> f64 {
+        let loss = |n: usize| self.lift(n, self.radius) - self.lift(n, radius);
+        (0..self.distance.len()).map(loss).fold(0.0, f64::max)
+    }
+}

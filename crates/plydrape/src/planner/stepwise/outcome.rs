@@ -1,0 +1,37 @@
+//! What a stepwise plan came to.
+
+use crate::draping::spans::Point;
+use crate::ply::GripperId;
+
+/// A planned motion and how the planning ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stepwise {
+    /// Positions (m) of each step, the start first, in the order of [`crate::ply::Grid::index`].
+    pub positions: Vec<Vec<Point>>,
+    /// How it ended.
+    pub outcome: Outcome,
+}
+
+/// How a stepwise plan ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Outcome {
+    /// Every gripper stands on its target.
+    Arrived,
+    /// The steps are used up: the gripper that is farthest from its target.
+    OutOfSteps(Stray),
+    /// All steps at their farthest do not reach the target: the gripper that lacks most, and by how much.
+    OutOfReach(Stray),
+    /// The caller broke it off.
+    Interrupted,
+    /// The scene has no target.
+    NoTarget,
+}
+
+/// A gripper and how far it is from where it should be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stray {
+    /// The gripper.
+    pub gripper: GripperId,
+    /// Its distance (m).
+    pub distance: f64,
+}
