@@ -150,3 +150,41 @@ impl Law {
 pub(super) fn advance([s, v, a, j]: State, t: f64) -> State {
     [s + t * (v + t * (a / 2.0 + t * (j / 6.0))), v + t * (a + t * (j / 2.0)), a + t * j, j]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: Bounds = Bounds { speed: 0.25, acceleration: 1.0, jerk: 10.0 };
+
+    /// The time of a place is the inverse of the place at a time, in both halves and in every phase.
+    #[test]
+    fn time_and_place_are_inverse() {
+        let law = Law::new(0.4, &BOUNDS).unwrap().stretched(1.3);
+        for k in 1..100 {
+            let t = law.duration * f64::from(k) / 100.0;
+            let [s, v, ..] = law.at(t);
+            // A rounding of s is one of t, over ṡ.
+            assert!((law.time(s) - t).abs() < 1e-15 + 1e-15 / v, "{t}");
+        }
+        assert_eq!((law.time(0.0), law.time(0.4)), (0.0, law.duration));
+    }
+
+    /// s, ṡ and s̈ are continuous at every jump of the jerk, and in the middle.
+    #[test]
+    fn nothing_but_the_jerk_jumps() {
+        for length in [1e-3, 0.05, 0.4] {
+            let law = Law::new(length, &BOUNDS).unwrap();
+            let mut breaks = law.breaks();
+            breaks.push(0.5 * law.duration);
+            for t in breaks {
+                let [before, after] = [-1e-9, 1e-9].map(|h| law.at(t + h));
+                // In 2 ns a state moves by its rate; the jerk is at most 10 m/s³.
+                assert!(
+                    (0..3).all(|k| (before[k] - after[k]).abs() < 3e-8),
+                    "{before:?} {after:?}"
+                );
+            }
+        }
+    }
+}

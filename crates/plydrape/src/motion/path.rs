@@ -159,3 +159,39 @@ fn knots(spacing: &[f64]) -> Vec<f64> {
 fn between(a: Vector, b: Vector, share: f64) -> Vector {
     along(a, share, sub(b, a))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Position, p' and p'' of one span's end are those of the next one's beginning, uneven knots or not;
+    /// the path ends at its ends without curvature.
+    #[test]
+    fn spans_meet_with_slope_and_curvature() {
+        let places = [0.0, 0.3, 0.7, 0.9, 2.0, 2.2_f64];
+        let rows: Vec<Vec<Vector>> =
+            places.iter().map(|x| vec![[*x, x.sin(), x * x], [x.cos(), 0.0, 1.0]]).collect();
+        for count in 2..=rows.len() {
+            let planned: Vec<&[Vector]> = rows[..count].iter().map(Vec::as_slice).collect();
+            let spacing = &[0.4, 0.1, 0.35, 1.0, 0.2][..count - 1];
+            let path = Path::new(&planned, spacing);
+            let near = |a: Vector, b: Vector| (0..3).all(|c| (a[c] - b[c]).abs() < 1e-12);
+            for g in 0..2 {
+                for k in 1..count - 1 {
+                    let [before, after] = [k - 1, k].map(|span| path.jet(span, g, path.knots[k]));
+                    assert!(
+                        (0..3).all(|n| near(before[n], after[n])),
+                        "{count} {k} {before:?} {after:?}"
+                    );
+                }
+                let [begin, end] = [0.0, path.length()].map(|s| path.jet(path.span(s), g, s));
+                assert!(begin[0] == planned[0][g] && end[0] == planned[count - 1][g]);
+                // Three points of one leg: with three steps both legs have theirs.
+                assert!(
+                    near(begin[2], [0.0; 3]) && near(end[2], [0.0; 3]),
+                    "{count} {begin:?} {end:?}"
+                );
+            }
+        }
+    }
+}

@@ -162,3 +162,33 @@ fn bounds(time: f64, from: &Values, to: &Values) -> [f64; 3] {
     let rate = [acceleration, jerk, snap];
     [0, 1, 2].map(|k| 0.5 * (from.motion[k] + to.motion[k] + time * rate[k]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// No value of a fine sampling exceeds the peaks by more than their tolerance, coarse or fine.
+    #[test]
+    fn no_sample_exceeds_the_peaks() {
+        let rows: Vec<Vec<[f64; 3]>> = (0..9)
+            .map(|k| f64::from(k) * 0.6)
+            .map(|x| vec![[x.cos(), x.sin(), 0.1 * x], [0.0, 0.3 * x, (2.0 * x).sin()]])
+            .collect();
+        let planned: Vec<&[[f64; 3]]> = rows.iter().map(Vec::as_slice).collect();
+        let path = Path::new(&planned, &[0.6, 0.7, 0.5, 0.6, 0.9, 0.6, 0.3, 0.6]);
+        let bounds = Bounds { speed: 0.8, acceleration: 2.0, jerk: 20.0 };
+        let law = Law::new(path.length(), &bounds).unwrap();
+        for tolerance in [0.1, 1e-4] {
+            let peaks = peaks(&path, &law, tolerance);
+            let peaks = [peaks.speed, peaks.acceleration, peaks.jerk].map(|peak| peak.value);
+            for k in 0..=20_000 {
+                let state = law.at(law.duration * f64::from(k) / 20_000.0);
+                for g in 0..2 {
+                    let values =
+                        rates(&path.jet(path.span(state[0]), g, state[0]), &state).map(norm);
+                    assert!((0..3).all(|n| values[n] <= peaks[n] * (1.0 + tolerance)));
+                }
+            }
+        }
+    }
+}
