@@ -119,7 +119,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         out.flush()?;
     }
 
-    let template = "planning {bar:25} {pos} of {len} drapes, {eta} left; {wide_msg}";
+    let template = "planning {bar:40} {pos} of {len} drapes, {eta} left\n{wide_msg}";
     let bar = bar(scene.plan.evaluations, template, quiet);
     let start = Instant::now();
     let planned = planner::plan(&scene, earlier.as_ref(), &mut |progress| {
@@ -199,11 +199,11 @@ fn memory(folder: &Path) -> Result<Memory, Failure> {
 /// Where the search stands, for the bar.
 fn best(progress: &Progress) -> String {
     let best = match table::limiting(progress.best) {
-        _ if progress.accepted => "the best so far is accepted".into(),
-        Some(worst) => format!("best so far: {}", table::in_words(worst)),
+        _ if progress.accepted => "; the best so far is accepted".into(),
+        Some(worst) => format!("; best so far: {}", table::in_words(worst)),
         None => String::new(),
     };
-    format!("{}; {best}", progress.stage)
+    format!("{}{best}", progress.stage)
 }
 
 /// What is printed for people, below the obstacles.
