@@ -104,6 +104,8 @@ impl Strategy {
             line(first),
             Strategy { curvature: 0.3, slope: 0.03, ..ring },
             Strategy { slope: 0.25, ..ring },
+            Strategy { ratio: 2.0, ..line(second) },
+            Strategy { ratio: 2.0, ..line(first) },
             Strategy { curvature: 2.0, slope: 0.2, ..ring },
             Strategy { curvature: 0.5, slope: 0.05, ..line(second) },
             Strategy { curvature: 0.5, slope: 0.05, ..line(first) },
