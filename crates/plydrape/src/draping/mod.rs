@@ -16,6 +16,7 @@ pub mod spans;
 use crate::equilibrium::{Equilibrium, Solver};
 use crate::ply::{Laid, shear};
 use crate::scene::{Scene, Stepping};
+pub(crate) use attitude::attitude;
 use contact::{Bridge, Sounding};
 pub(crate) use landing::fabric;
 pub(crate) use measures::{fit, lying_rests};

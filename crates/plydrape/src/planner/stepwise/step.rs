@@ -19,6 +19,10 @@ const MM: f64 = 1e3;
 /// Pull beyond the length that an edge is meant to have, as a share of the whole edge.
 const PULL: f64 = 5e-5;
 
+/// What an edge over a hollow is looser than it will lie, as a share of the whole edge: too short it would
+/// bridge the hollow, too long it is drawn taut at the end.
+const LOOSE: f64 = 2e-4;
+
 /// Pull that no edge may exceed, as a share of the whole edge.
 const MOST_PULL: f64 = 1e-4;
 
@@ -31,8 +35,8 @@ mod weight {
     pub const LENGTH: f64 = 100.0;
     pub const PLACE: f64 = 1e-2;
     pub const LANDING: f64 = 1.0;
-    pub const ROLLING: f64 = 0.1;
-    pub const SMOOTH: f64 = 1e-3;
+    pub const ROLLING: f64 = 1e-3;
+    pub const SMOOTH: f64 = 1e-2;
 }
 
 /// What one step starts from.
@@ -49,6 +53,8 @@ pub struct Step<'a> {
     pub landing: bool,
     /// Farthest that a gripper may move (m).
     pub reach: f64,
+    /// Grippers that are to come down do so on their places.
+    pub firm: bool,
 }
 
 impl Step<'_> {
@@ -59,11 +65,19 @@ impl Step<'_> {
         self.places(&mut program);
         self.lengths(look, &mut program);
         self.landings(look, &mut program);
+        self.rolling(look, &mut program);
         self.smoothness(&mut program);
         self.limits(look, &mut program);
         self.reaches(look, &mut program);
         let x = program.solve()?;
         Some(x.chunks(3).map(|c| [c[0] / MM, c[1] / MM, c[2] / MM]).collect())
+    }
+
+    /// Whether a gripper stands on its place after this step: once it is down it stays where it is.
+    fn lands(&self, gripper: usize) -> bool {
+        let way = sub(self.targets[gripper], self.positions[gripper]);
+        let down = self.firm && self.front.height(gripper) <= 0.0;
+        self.arrived[gripper] || (down && dot(way, way).sqrt() <= self.reach)
     }
 
     /// Height of a gripper above the mold, or above its target where there is no mold.
@@ -149,6 +163,23 @@ impl Step<'_> {
         }
     }
 
+    /// The ply is rolled on: it should leave what lies along the mold.
+    fn rolling(&self, look: &Sensitivity, program: &mut Program) {
+        for span in self.edges(look) {
+            for end in 0..2 {
+                let lies = look.gripper_at(span, end).is_none_or(|gripper| self.arrived[gripper]);
+                let free = look.gripper_at(span, 1 - end).is_some_and(|n| !self.arrived[n]);
+                let Some(rise) = look.rise(span, end).filter(|_| lies && free) else {
+                    continue;
+                };
+                // as the height that it makes at the other end
+                let arm = span.length;
+                let gradient: Vec<f64> = rise.gradient.iter().map(|g| arm * g).collect();
+                program.square(weight::ROLLING, MM * arm * rise.value, &gradient);
+            }
+        }
+    }
+
     fn smoothness(&self, program: &mut Program) {
         for (gripper, before) in self.before.iter().enumerate() {
             for n in 0..3 {
@@ -179,7 +210,9 @@ impl Step<'_> {
             program.at_most(&q.gradient, -1.0, MM * (q.value - least.min(q.value)));
         };
         for gripper in 0..grid.grippers() {
-            above(self.clearance(look, gripper), 0.0);
+            if !self.lands(gripper) {
+                above(self.clearance(look, gripper), 0.0);
+            }
             let [i, j] = grid.id(gripper);
             if i > 0 {
                 above(look.separation(gripper - 1, gripper), limits.gripper_distance);
@@ -189,7 +222,7 @@ impl Step<'_> {
             }
         }
         if self.landing {
-            for gripper in 0..grid.grippers() {
+            for gripper in (0..grid.grippers()).filter(|n| !self.lands(*n)) {
                 program.at_most(&self.clearance(look, gripper).gradient, 1.0, 0.0);
             }
         }
@@ -208,9 +241,10 @@ impl Step<'_> {
 
     /// Moves and lengths of edges: cones, exact for any move.
     fn reaches(&self, look: &Sensitivity, program: &mut Program) {
-        for (gripper, arrived) in self.arrived.iter().enumerate() {
-            if *arrived {
-                program.fix(gripper, [0.0; 3]);
+        for (gripper, target) in self.targets.iter().enumerate() {
+            let way = sub(*target, self.positions[gripper]);
+            if self.lands(gripper) {
+                program.fix(gripper, way.map(|c| MM * c));
             } else {
                 program.cone(vec![(gripper, 1.0)], [0.0; 3], MM * self.reach);
             }
@@ -220,13 +254,14 @@ impl Step<'_> {
             let free: Vec<(usize, f64)> = ends
                 .into_iter()
                 .filter_map(|(end, sign)| Some((look.gripper_at(span, end)?, sign)))
-                .filter(|(gripper, _)| !self.arrived[*gripper])
                 .collect();
-            if free.is_empty() {
+            if free.iter().all(|(gripper, _)| self.lands(*gripper)) {
                 continue;
             }
             let [a, b] = span.ends;
-            let most = (span.length + MOST_PULL * self.whole(span)).max(span.chord());
+            let lands = free.iter().any(|(gripper, _)| self.lands(*gripper));
+            let pull = if lands { 0.5 * self.scene.limits.overstretch } else { MOST_PULL };
+            let most = (span.length + pull * self.whole(span)).max(span.chord());
             program.cone(free, sub(b, a).map(|c| MM * c), MM * most);
         }
     }
@@ -242,7 +277,7 @@ fn nearness(height: f64) -> f64 {
 pub fn wanted_stretch(scene: &Scene, span: &FreeSpan) -> f64 {
     let whole = scene.ply.flat_length(scene.ply.grid.catenary(span.catenary).kind);
     let sag = hollow(scene, span).powi(2) * span.length.powi(3) / 24.0;
-    if sag > 0.0 { -sag } else { PULL * whole }
+    if sag > 0.0 { -sag - LOOSE * whole } else { PULL * whole }
 }
 
 /// How hollow the mold is below a span, along it (1/m); 0 where it is not.
