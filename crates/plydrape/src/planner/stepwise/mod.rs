@@ -5,11 +5,13 @@
 //! radius of a trust region), and let the landing front (`front`) go on. What touches stays, so a step cannot
 //! be taken back: the method is greedy.
 
+mod bounds;
 mod front;
 mod judgement;
 mod outcome;
 mod program;
 mod settle;
+mod stage;
 mod step;
 
 pub use outcome::{Outcome, Stepwise, Stray};
@@ -18,27 +20,19 @@ use super::sensitivity::Sensitivity;
 use crate::draping::Draping;
 use crate::draping::spans::{Point, Shape};
 use crate::mold::distance;
-use crate::mold::vector::{norm, sub};
+use crate::mold::vector::sub;
 use crate::scene::Scene;
 use front::Front;
 use judgement::Judgement;
+use stage::Stage;
 use std::ops::ControlFlow;
 use step::Step;
-
-/// Share of the move limit by which the front means to move the grippers.
-const PACE: f64 = 0.7;
 
 /// Times that a step is halved.
 const HALVINGS: usize = 6;
 
 /// Moves that take out slack at the end.
 const SETTLINGS: usize = 3;
-
-/// Distance (m) from the form to take above the mold that does for it.
-const FORMED: f64 = 1e-4;
-
-/// Share of the move limit below which the grippers have come to rest.
-const STILL: f64 = 0.03;
 
 /// Distance (m) from its place at which a gripper that has landed is put there.
 const SNAP: f64 = 5e-5;
@@ -57,17 +51,6 @@ pub fn stepwise(scene: &Scene, progress: &mut dyn FnMut(usize) -> ControlFlow<()
         return Stepwise { positions: vec![start], outcome: Outcome::NoTarget };
     };
     Plan::new(scene, &target.grippers, start).run(progress)
-}
-
-/// What the front does.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Stage {
-    /// The ply takes its form above the mold.
-    Form,
-    /// It comes down.
-    Lower,
-    /// It is rolled on.
-    Roll,
 }
 
 /// A plan under way.
@@ -170,60 +153,6 @@ impl<'a> Plan<'a> {
                 n[0] * way[0] + n[1] * way[1] + n[2] * way[2]
             }
         }
-    }
-
-    /// Moves the front on, as far as the grippers can follow.
-    fn advance_front(&mut self, remaining: usize) {
-        let late = (0..self.targets.len())
-            .map(|n| (self.height(n) - self.front.height(n)).abs())
-            .fold(0.0, f64::max);
-        let pace = PACE * self.reach;
-        if self.stage == Stage::Form {
-            // form: heights reached, edges as long as they should be
-            let slack = self.slack();
-            let formed = late < FORMED && slack < FORMED;
-            let still = self.moves.iter().all(|m| norm(*m) < STILL * self.reach);
-            let late = self.positions.len() > self.scene.plan.steps / 2;
-            if formed || still && self.positions.len() > 1 || late {
-                self.stage = Stage::Lower;
-            }
-        }
-        if late > self.reach && self.stage != Stage::Form {
-            return;
-        }
-        if self.stage == Stage::Lower {
-            self.front.hover = (self.front.hover - pace).max(0.0);
-            if self.front.hover == 0.0 {
-                self.stage = Stage::Roll;
-                return;
-            }
-        }
-        if self.stage == Stage::Roll {
-            let end = self.front.farthest() + 1e-3;
-            let left = end - self.front.radius;
-            let mut grow = left / (remaining.saturating_sub(5).max(1)) as f64;
-            if self.front.rise == 0.0 {
-                grow = left;
-            }
-            for _ in 0..30 {
-                if self.front.drop(self.front.radius + grow) <= pace {
-                    break;
-                }
-                grow *= 0.8;
-            }
-            self.front.radius += grow.min(left);
-        }
-    }
-
-    /// Largest difference of a hanging edge from the length that it should have (m).
-    fn slack(&self) -> f64 {
-        let edges = self.scene.ply.grid.edges();
-        self.shape
-            .spans
-            .iter()
-            .filter(|span| span.catenary < edges)
-            .map(|span| span.length - span.chord() + step::wanted_stretch(self.scene, span))
-            .fold(0.0, |most, slack| most.max(slack.abs()))
     }
 
     /// One step: the program, the true model, half of it where that disagrees.
