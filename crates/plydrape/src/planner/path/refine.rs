@@ -26,7 +26,7 @@ const NEAR: f64 = 5e-3;
 /// Share of the overstretch limit that the correction may use.
 const STRETCH: f64 = 0.5;
 /// Weight of the correction itself beside the landing errors.
-const SMALL: f64 = 0.3;
+const SMALL: f64 = 1e-2;
 /// Weight of every gripper that has landed: it stays.
 const LANDED: f64 = 1e2;
 /// Millimetres in a metre: the program's unit.

@@ -26,7 +26,7 @@ const STEP: f64 = 0.08;
 const GENERATION: usize = 8;
 
 /// Rounds of refinement.
-const ROUNDS: usize = 2;
+const ROUNDS: usize = 3;
 /// Parts of a correction that are tried.
 const PARTS: [f64; 2] = [1.0, 0.4];
 
