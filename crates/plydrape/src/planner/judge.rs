@@ -13,12 +13,18 @@ const SPARE: f64 = 0.9;
 /// Equilibria a step on the average from which on a drape is broken off; good ones take two or three.
 const HOPELESS: usize = 12;
 
-/// A scene with another motion, judged as plans are: with steps cut where the ply would dip.
+/// A scene as plans are judged in it: with steps cut where the ply would dip.
 #[must_use]
-pub fn with_motion(scene: &Scene, motion: Motion) -> Scene {
-    let mut scene = Scene { motion, ..scene.clone() };
+pub fn as_judged(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
     scene.settings.contact.stepping = Stepping::Cut;
     scene
+}
+
+/// The same with another motion.
+#[must_use]
+pub fn with_motion(scene: &Scene, motion: Motion) -> Scene {
+    Scene { motion, ..as_judged(scene) }
 }
 
 /// The complete drape along planned positions of grippers (m), rounded as the motion will round them; broken off
@@ -33,7 +39,8 @@ pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Drape {
 
 /// Where a cubic B-spline passes the planned positions, which are its control points, if its knots are evenly
 /// spaced: nearly what [`crate::motion::TimedMotion`] makes of them, without its search for the spacing.
-fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
+#[must_use]
+pub fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
     let mut out = planned.to_vec();
     for (k, around) in planned.windows(3).enumerate() {
         for (n, place) in out[k + 1].iter_mut().enumerate() {

@@ -13,6 +13,7 @@ mod memory;
 pub mod obstacles;
 pub mod path;
 mod plan;
+mod program;
 pub mod sensitivity;
 pub mod stepwise;
 

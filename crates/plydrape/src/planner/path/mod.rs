@@ -1,11 +1,13 @@
 //! Whole trajectories, judged by complete drapes, section 4 of the planning chapter of `docs/theory.md`.
 
 mod formation;
+mod refine;
 mod search;
 mod strategy;
 mod trajectory;
 
 pub use formation::{Formation, Ground};
+pub use refine::correction;
 pub use search::{Candidate, search};
 pub use strategy::Strategy;
 pub use trajectory::{longest_move, trajectory};

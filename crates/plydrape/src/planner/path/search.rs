@@ -3,10 +3,12 @@
 //! does not depend on how many there are.
 
 use super::formation::Ground;
+use super::refine::correction;
 use super::strategy::Strategy;
 use super::trajectory::trajectory;
 use crate::draping::Drape;
 use crate::draping::spans::Point;
+use crate::mold::vector::along;
 use crate::planner::board::Board;
 use crate::planner::judge;
 use crate::scene::Scene;
@@ -21,6 +23,11 @@ const GOOD: f64 = 0.6;
 const STEP: f64 = 0.08;
 /// Candidates of a generation, and of the first look: whole pairs, for two cores.
 const GENERATION: usize = 8;
+
+/// Rounds of refinement.
+const ROUNDS: usize = 2;
+/// Parts of a correction that are tried.
+const PARTS: [f64; 2] = [1.0, 0.4];
 
 /// A strategy and the drape that it leads to.
 #[derive(Debug, Clone)]
@@ -37,10 +44,19 @@ pub struct Candidate {
 
 impl Candidate {
     fn of(scene: &Scene, ground: &Ground, strategy: Strategy, board: &Board) -> Option<Candidate> {
-        let positions = trajectory(scene, ground, strategy)?;
+        Some(Candidate::along(scene, strategy, trajectory(scene, ground, strategy)?, board))
+    }
+
+    fn along(
+        scene: &Scene,
+        strategy: Strategy,
+        positions: Vec<Vec<Point>>,
+        board: &Board,
+    ) -> Candidate {
         let drape = judge::drape(scene, &positions, board);
         let score = judge::score(&drape.result);
-        Some(Candidate { strategy, positions, drape, score })
+        board.add(&drape.result, score);
+        Candidate { strategy, positions, drape, score }
     }
 }
 
@@ -54,11 +70,8 @@ pub fn search(
 ) -> Option<Candidate> {
     let ground = Ground::new(scene)?;
     let most = scene.plan.evaluations.max(1);
-    let try_one = |strategy: Strategy| {
-        let candidate = Candidate::of(scene, &ground, strategy, board)?;
-        board.add(&candidate.drape.result, candidate.score);
-        Some(candidate)
-    };
+    let try_one = |strategy: Strategy| Candidate::of(scene, &ground, strategy, board);
+    board.enter("a first look");
     let first = match earlier {
         Some((strategy, _)) => vec![strategy],
         None => Strategy::families(scene),
@@ -68,6 +81,7 @@ pub fn search(
     let mut left = most - first.len().min(most);
     let mut best = tried.into_iter().reduce(better)?;
 
+    board.enter("evolution");
     // evolution about the best; what it has tried before it goes on from, with other samples
     let mean = best.strategy.to_unit().to_vec();
     let seed =
@@ -88,7 +102,7 @@ pub fn search(
     };
     let options = CMAESOptions::new(mean, STEP).population_size(GENERATION).seed(seed);
     let Ok(mut evolution) = options.build(objective) else { return Some(best) };
-    while best.score > GOOD && left >= GENERATION && !board.is_stopped() {
+    while best.score > GOOD && left >= GENERATION + ROUNDS * PARTS.len() && !board.is_stopped() {
         let ended = evolution.next_parallel().is_some();
         left -= GENERATION;
         if let Some(candidate) = lock(&found).take() {
@@ -98,7 +112,32 @@ pub fn search(
             break;
         }
     }
+    board.enter("refinement");
+    for _ in 0..ROUNDS {
+        if best.score <= GOOD || left < PARTS.len() || board.is_stopped() {
+            break;
+        }
+        left -= PARTS.len();
+        let Some(refined) = refined(scene, &best, board) else { break };
+        if refined.score >= best.score {
+            break;
+        }
+        best = refined;
+    }
     Some(best)
+}
+
+/// The best along parts of the correction that gradients propose.
+fn refined(scene: &Scene, best: &Candidate, board: &Board) -> Option<Candidate> {
+    let correction = correction(scene, &best.positions)?;
+    let corrected = |part: &f64| {
+        let moved = |(p, c): (&Point, &Point)| along(*p, *part, *c);
+        let step = |(p, c): (&Vec<Point>, &Vec<Point>)| p.iter().zip(c).map(moved).collect();
+        let positions = best.positions.iter().zip(&correction).map(step).collect();
+        Candidate::along(scene, best.strategy, positions, board)
+    };
+    let tried: Vec<Candidate> = PARTS.par_iter().map(corrected).collect();
+    tried.into_iter().reduce(better)
 }
 
 /// The one with the lower score; where they are equal, the one whose numbers come first.

@@ -7,7 +7,6 @@
 
 mod front;
 mod outcome;
-mod program;
 mod step;
 
 pub use outcome::{Outcome, Stepwise, Stray};

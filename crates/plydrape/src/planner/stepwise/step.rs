@@ -7,9 +7,9 @@
 //! Limits: no edge pulled, moves, shear, tilt, force, distances, workspace, and nothing rises again.
 
 use super::front::Front;
-use super::program::Program;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{dot, sub};
+use crate::planner::program::Program;
 use crate::planner::sensitivity::{Quantity, Sensitivity};
 use crate::scene::Scene;
 
