@@ -1,7 +1,7 @@
 //! What a plan must reach: every solved mold of the examples, from two heights, judged by draping the ply once more
 //! along the files that were written. Limits are the defaults of `[limits]`, repeated here as numbers.
 
-use plydrape::draping::record::{ResultFile, Verdict};
+use plydrape::draping::record::{CatenaryState, ResultFile, Step, Verdict};
 use plydrape::draping::simulate;
 use plydrape::output::{csv, plan, table};
 use plydrape::planner::{self, Planned};
@@ -110,16 +110,19 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let edges = |step: usize| result.steps[step].catenaries.iter().filter(|c| c.kind == "edge");
     let last = result.steps.last().expect("steps");
-    let spans = || last.catenaries.iter().flat_map(|line| &line.spans);
     let contacts = || last.catenaries.iter().filter_map(|line| line.contact.as_ref());
 
-    // slack of edges and diagonals as shares, and again from lengths
-    let slack = largest(&mut spans().map(|span| span.slack_ratio));
-    assert!(slack <= SLACK, "{what}: slack {slack}");
-    let caught = largest(&mut spans().map(|span| 1e-3 * span.slack_mm / span.length.max(1e-9)));
-    assert!(caught <= SLACK, "{what}: slack {caught} of a length");
+    // what all rests of a line keep of slack, as a share of the line; rests may be as short as one likes
+    for kind in ["edge", "diagonal"] {
+        let lines = last.catenaries.iter().filter(|line| line.kind == kind);
+        let share = |line: &CatenaryState| {
+            1e-3 * line.spans.iter().map(|span| span.slack_mm).sum::<f64>() / line.length
+        };
+        let slack = largest(&mut lines.map(share));
+        assert!(slack <= SLACK, "{what}: slack of {slack} of {kind} length");
+    }
 
-    let gap = |line: &plydrape::draping::record::CatenaryState| line.bridging.map(|b| b.gap);
+    let gap = |line: &CatenaryState| line.bridging.map(|b| b.gap);
     let gap = largest(&mut last.catenaries.iter().filter_map(gap));
     assert!(gap <= BRIDGING, "{what}: a bridge of {gap} m");
 
@@ -145,7 +148,7 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     let share = last.measures.contact_share.expect("a mold");
     assert!(share >= CONTACT_SHARE, "{what}: contact {share}");
     let close = verdict(result, "gripper_distance");
-    let least = |step: &plydrape::draping::record::Step| {
+    let least = |step: &Step| {
         let places: Vec<_> = step.grippers.iter().map(|g| g.position).collect();
         let pairs = (0..places.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
         pairs.map(|(a, b)| distance(places[a], places[b])).fold(f64::INFINITY, f64::min)
@@ -223,10 +226,7 @@ fn only_comes_down(scene: &Scene, result: &ResultFile, rise: f64, what: &str) {
             lowest[n] = lowest[n].min(height);
         }
     }
-    eprintln!(
-        "{what}: grippers rise by {:.3} mm off the mold once contact began, {worst:?}",
-        1e3 * worst.0
-    );
+    println!("{what}: a gripper rises by {:.3} mm once contact began", 1e3 * worst.0);
     assert!(
         worst.0 <= rise,
         "{what}: gripper {} rises by {} m in step {}",
