@@ -18,6 +18,7 @@ use crate::equilibrium::{Equilibrium, Solver};
 use crate::mold::Mold;
 use crate::ply::{Laid, shear};
 use crate::scene::{Scene, Stepping};
+pub(crate) use attitude::attitude;
 use contact::{Bridge, IdealDiagonal, Sounding};
 pub(crate) use landing::fabric;
 pub(crate) use measures::{fit, lying_rests};

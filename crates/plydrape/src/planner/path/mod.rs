@@ -1,6 +1,7 @@
 //! Whole trajectories, judged by complete drapes, section 4 of the planning chapter of `docs/theory.md`.
 
 mod formation;
+mod quick;
 mod refine;
 mod search;
 mod strategy;

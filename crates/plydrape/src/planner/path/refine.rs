@@ -55,9 +55,12 @@ pub fn correction(scene: &Scene, planned: &[Vec<Point>]) -> Option<Vec<Vec<Point
         let (positions, laid) = (draping.positions.clone(), draping.laid.clone());
         let look = Sensitivity::new(&scene, &mut draping.solver, &shape, &positions, &laid);
         let mut rows = Rows { scene: &scene, look: &look, weights, program: &mut program };
-        for span in shape.spans.iter().filter(|span| span.catenary < scene.ply.grid.edges()) {
-            rows.landing(span);
-            rows.overstretch(span);
+        for span in &shape.spans {
+            let edge = span.catenary < scene.ply.grid.edges();
+            rows.landing(span, edge);
+            if edge {
+                rows.overstretch(span);
+            }
         }
         rows.landed(&positions);
     }
@@ -118,8 +121,8 @@ impl Rows<'_, '_> {
         self.weights.iter().flat_map(|w| gradient.iter().map(move |g| w * g)).collect()
     }
 
-    /// What of a span touches next shall land where it belongs.
-    fn landing(&mut self, span: &FreeSpan) {
+    /// What of a span touches next shall land where it belongs; of a diagonal, which is no fibre, along it.
+    fn landing(&mut self, span: &FreeSpan, edge: bool) {
         let Some(mold) = &self.scene.mold else { return };
         let share = match [0, 1].map(|end| self.look.gripper_at(span, end)) {
             [None, _] => AHEAD,
@@ -133,7 +136,8 @@ impl Rows<'_, '_> {
         let [x, y] = span.heading();
         let ahead = [x, y, 0.0];
         let Some(ahead) = unit(along(ahead, -dot(ahead, normal), normal)) else { return };
-        for direction in [ahead, cross(normal, ahead)] {
+        let aside = edge.then(|| cross(normal, ahead));
+        for direction in [Some(ahead), aside].into_iter().flatten() {
             let error = off.along(direction);
             let gradient = self.spread(&error.gradient);
             self.program.square(1.0, MM * error.value, &gradient);

@@ -3,6 +3,7 @@
 //! does not depend on how many there are.
 
 use super::formation::Ground;
+use super::quick::quick;
 use super::refine::correction;
 use super::strategy::Strategy;
 use super::trajectory::trajectory;
@@ -25,7 +26,7 @@ const STEP: f64 = 0.08;
 const GENERATION: usize = 8;
 
 /// Rounds of refinement.
-const ROUNDS: usize = 2;
+const ROUNDS: usize = 3;
 /// Parts of a correction that are tried.
 const PARTS: [f64; 2] = [1.0, 0.4];
 
@@ -69,6 +70,7 @@ pub fn search(
     board: &Board,
 ) -> Option<Candidate> {
     let ground = Ground::new(scene)?;
+    let scene = &*quick(scene);
     let most = scene.plan.evaluations.max(1);
     let try_one = |strategy: Strategy| Candidate::of(scene, &ground, strategy, board);
     board.enter("a first look");
@@ -81,6 +83,7 @@ pub fn search(
     let mut left = most - first.len().min(most);
     let mut best = tried.into_iter().reduce(better)?;
 
+    best = refine(scene, best, &mut left, board);
     board.enter("evolution");
     // evolution about the best; what it has tried before it goes on from, with other samples
     let mean = best.strategy.to_unit().to_vec();
@@ -112,19 +115,24 @@ pub fn search(
             break;
         }
     }
+    best = refine(scene, best, &mut left, board);
+    Some(best)
+}
+
+/// Rounds of refinement, as long as they help and are needed.
+fn refine(scene: &Scene, mut best: Candidate, left: &mut usize, board: &Board) -> Candidate {
     board.enter("refinement");
     for _ in 0..ROUNDS {
-        if best.score <= GOOD || left < PARTS.len() || board.is_stopped() {
+        if best.score <= GOOD || *left < PARTS.len() || board.is_stopped() {
             break;
         }
-        left -= PARTS.len();
-        let Some(refined) = refined(scene, &best, board) else { break };
-        if refined.score >= best.score {
-            break;
+        *left -= PARTS.len();
+        match refined(scene, &best, board) {
+            Some(refined) if refined.score < best.score => best = refined,
+            _ => break,
         }
-        best = refined;
     }
-    Some(best)
+    best
 }
 
 /// The best along parts of the correction that gradients propose.

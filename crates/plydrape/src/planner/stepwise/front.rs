@@ -10,7 +10,7 @@
 //! and not beyond it. On a flat mold A = 0: the ply takes its final form above the mold and comes down as
 //! a whole. The front is ours; the paper leaves open in which order a ply should land.
 
-use crate::mold::vector::{along, norm, sub, unit};
+use crate::mold::vector::{norm, sub};
 use crate::scene::Scene;
 
 /// Rate of rise A over the largest curvature of the mold.
@@ -22,14 +22,8 @@ const STEEPEST: f64 = 0.35;
 /// Share of the grippers' tilt that the plan means to use.
 const TILT_SHARE: f64 = 0.8;
 
-/// Pull of the last move, as a share of an edge.
-const LAST_PULL: f64 = 4e-4;
-
-/// Difference of two distances that is none, over the pull of the last move.
-const SAME: f64 = 25.0;
-
 /// Height from which a gripper goes down at once, over the tolerance of contact.
-const LAST: f64 = 1.6;
+const LAST: f64 = 5.0;
 
 /// Where the landing front is, and what follows for each gripper.
 #[derive(Debug, Clone)]
@@ -103,38 +97,6 @@ impl Front {
         }
         let near = x.min(self.knee);
         self.rise * near * (x - 0.5 * near)
-    }
-
-    /// Where the grippers should come down (m): a little short of their targets, seen from where the ply has
-    /// landed before.
-    ///
-    /// A micrometre of fabric too much beside a gripper is a fold that cannot leave. So the last move, along the
-    /// mold, pulls what lies by a share of its edges; with it what errors there are become pull, not slack.
-    pub fn aims(&self, scene: &Scene, targets: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let grid = scene.ply.grid;
-        let mut aims = targets.to_vec();
-        if self.rise == 0.0 {
-            return aims;
-        }
-        for edge in 0..grid.edges() {
-            let c = grid.catenary(edge);
-            let [a, b] = [c.from, c.to].map(|g| grid.index(g));
-            let Some(way) = unit(sub(targets[b], targets[a])) else {
-                continue;
-            };
-            let pull = LAST_PULL * scene.ply.flat_length(c.kind);
-            let later = self.distance[b] - self.distance[a];
-            // edges whose ends land together share the pull
-            let shares = if later.abs() < SAME * pull {
-                [0.5, 0.5]
-            } else {
-                [f64::from(u8::from(later < 0.0)), f64::from(u8::from(later > 0.0))]
-            };
-            aims[a] = along(aims[a], shares[0] * pull, way);
-            aims[b] = along(aims[b], -shares[1] * pull, way);
-        }
-        let place = |p: &[f64; 3]| scene.mold.as_ref().map_or(*p, |mold| mold.closest_point(*p));
-        aims.iter().map(place).collect()
     }
 
     /// Largest height that any gripper loses if the front grows to `radius` (m).

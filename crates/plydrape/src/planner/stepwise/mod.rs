@@ -5,28 +5,33 @@
 //! radius of a trust region), and let the landing front (`front`) go on. What touches stays, so a step cannot
 //! be taken back: the method is greedy.
 
+mod bounds;
 mod front;
+mod judgement;
 mod outcome;
+mod settle;
+mod stage;
 mod step;
 
 pub use outcome::{Outcome, Stepwise, Stray};
 
 use super::sensitivity::Sensitivity;
+use crate::draping::Draping;
 use crate::draping::spans::{Point, Shape};
-use crate::draping::{Draping, fit, lying_rests};
-use crate::equilibrium::Status;
 use crate::mold::distance;
 use crate::mold::vector::sub;
 use crate::scene::Scene;
 use front::Front;
+use judgement::Judgement;
+use stage::Stage;
 use std::ops::ControlFlow;
 use step::Step;
 
-/// Share of the move limit by which the front means to move the grippers.
-const PACE: f64 = 0.7;
-
 /// Times that a step is halved.
 const HALVINGS: usize = 6;
+
+/// Moves that take out slack at the end.
+const SETTLINGS: usize = 3;
 
 /// Distance (m) from its place at which a gripper that has landed is put there.
 const SNAP: f64 = 5e-5;
@@ -39,29 +44,18 @@ const SNAP: f64 = 5e-5;
 /// [`Stepwise::outcome`].
 pub fn stepwise(scene: &Scene, progress: &mut dyn FnMut(usize) -> ControlFlow<()>) -> Stepwise {
     let start = scene.motion.positions.first().cloned().unwrap_or_default();
-    let Some(target) = &scene.target else {
+    let count = scene.ply.grid.grippers();
+    let target = scene.target.as_ref().filter(|target| target.grippers.len() == count);
+    let Some(target) = target.filter(|_| start.len() == count) else {
         return Stepwise { positions: vec![start], outcome: Outcome::NoTarget };
     };
     Plan::new(scene, &target.grippers, start).run(progress)
-}
-
-/// What the front does.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Stage {
-    /// The ply takes its form above the mold.
-    Form,
-    /// It comes down.
-    Lower,
-    /// It is rolled on.
-    Roll,
 }
 
 /// A plan under way.
 struct Plan<'a> {
     scene: &'a Scene,
     targets: &'a [Point],
-    /// Where the grippers come down before the last move.
-    aims: Vec<Point>,
     draping: Draping<'a>,
     shape: Shape,
     front: Front,
@@ -87,13 +81,12 @@ impl<'a> Plan<'a> {
         };
         front.hover = (0..start.len()).map(over).fold(f64::INFINITY, f64::min).max(0.01);
         let way = start.iter().zip(targets).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
-        let all = way + front.hover + front.lift(0, 0.0).max(front.drop(front.farthest()));
+        let all = way + front.hover + front.drop(front.farthest());
         let reach = scene.plan.move_limit.unwrap_or(2.0 * all / scene.plan.steps.max(2) as f64);
         let count = start.len();
         Plan {
             scene,
             targets,
-            aims: front.aims(scene, targets),
             draping,
             shape,
             front,
@@ -106,35 +99,36 @@ impl<'a> Plan<'a> {
     }
 
     fn run(mut self, progress: &mut dyn FnMut(usize) -> ControlFlow<()>) -> Stepwise {
-        let mut outcome = Outcome::OutOfSteps(self.stray());
         let most = self.scene.plan.steps.max(1);
-        if progress(1).is_break() {
-            return self.end(Outcome::Interrupted);
+        let lacks = self.lacks((most - 1) as f64 * self.reach);
+        let mut done = |plan: &Self| progress(plan.positions.len()).is_break();
+        let mut broken = done(&self);
+        while !broken && self.positions.len() < most && self.stray().distance > 0.0 {
+            self.advance_front(most - self.positions.len());
+            self.step();
+            broken = done(&self);
         }
-        while self.positions.len() < most {
-            if self.stray().distance == 0.0 {
-                outcome = Outcome::Arrived;
+        let outcome = match (self.stray(), lacks) {
+            (stray, _) if stray.distance == 0.0 => Outcome::Arrived,
+            _ if broken => Outcome::Interrupted,
+            (_, Some(lacks)) => Outcome::OutOfReach(lacks),
+            (stray, None) => Outcome::OutOfSteps(stray),
+        };
+        for _ in 0..SETTLINGS {
+            let room = !broken && self.positions.len() < most;
+            if outcome != Outcome::Arrived || !room || !self.settle() {
                 break;
             }
-            self.advance_front(most - self.positions.len());
-            if self.draping.positions == self.aims {
-                self.arrived.fill(false);
-                self.aims = self.targets.to_vec();
-            }
-            self.step();
-            outcome = Outcome::OutOfSteps(self.stray());
-            if progress(self.positions.len()).is_break() {
-                return self.end(Outcome::Interrupted);
-            }
+            broken = done(&self);
         }
-        if self.stray().distance == 0.0 {
-            outcome = Outcome::Arrived;
-        }
-        self.end(outcome)
+        Stepwise { positions: self.positions, outcome }
     }
 
-    fn end(self, outcome: Outcome) -> Stepwise {
-        Stepwise { positions: self.positions, outcome }
+    /// The gripper that lacks most of its way with all steps at their farthest, `reach` (m) together.
+    fn lacks(&self, reach: f64) -> Option<Stray> {
+        let stray = self.stray();
+        let lack = stray.distance - reach;
+        (lack > 0.0).then_some(Stray { distance: lack, ..stray })
     }
 
     /// The gripper farthest from its target.
@@ -160,85 +154,32 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Moves the front on, as far as the grippers can follow.
-    fn advance_front(&mut self, remaining: usize) {
-        let late = (0..self.targets.len())
-            .map(|n| (self.height(n) - self.front.height(n)).abs())
-            .fold(0.0, f64::max);
-        let pace = PACE * self.reach;
-        if self.stage == Stage::Form {
-            // form: heights reached, edges as long as they should be
-            let slack = self.slack();
-            if (late < 1e-4 && slack < 2e-4) || self.positions.len() > self.scene.plan.steps / 2 {
-                self.stage = Stage::Lower;
-            }
-        }
-        if late > self.reach && self.stage != Stage::Form {
-            return;
-        }
-        if self.stage == Stage::Lower {
-            self.front.hover = (self.front.hover - pace).max(0.0);
-            if self.front.hover == 0.0 {
-                self.stage = Stage::Roll;
-                return;
-            }
-        }
-        if self.stage == Stage::Roll {
-            let end = self.front.farthest() + 1e-3;
-            let left = end - self.front.radius;
-            let mut grow = left / (remaining.saturating_sub(5).max(1)) as f64;
-            if self.front.rise == 0.0 {
-                grow = left;
-            }
-            for _ in 0..30 {
-                if self.front.drop(self.front.radius + grow) <= pace {
-                    break;
-                }
-                grow *= 0.8;
-            }
-            self.front.radius += grow.min(left);
-        }
-    }
-
-    /// Largest difference of a hanging edge from the length that it should have (m).
-    fn slack(&self) -> f64 {
-        let edges = self.scene.ply.grid.edges();
-        self.shape
-            .spans
-            .iter()
-            .filter(|span| span.catenary < edges)
-            .map(|span| span.length - span.chord() + step::wanted_stretch(self.scene, span))
-            .fold(0.0, |most, slack| most.max(slack.abs()))
-    }
-
     /// One step: the program, the true model, half of it where that disagrees.
     fn step(&mut self) {
         let landing = self.draping.laid.iter().any(Option::is_some);
         for n in 0..self.targets.len() {
             self.arrived[n] |=
-                self.draping.positions[n] == self.aims[n] && self.front.height(n) <= 0.0;
+                self.draping.positions[n] == self.targets[n] && self.front.height(n) <= 0.0;
         }
         let (positions, laid) = (self.draping.positions.clone(), self.draping.laid.clone());
         let look =
             Sensitivity::new(self.scene, &mut self.draping.solver, &self.shape, &positions, &laid);
         let mut reach = self.reach;
-        let before = self.worst_stretch(&self.draping, &self.shape);
+        let before = Judgement::of(self.scene, &self.draping, &self.shape);
         let mut best: Option<(Draping<'a>, Shape)> = None;
-        for _ in 0..HALVINGS {
+        for trial in 0..HALVINGS {
             let step = Step {
                 scene: self.scene,
-                targets: &self.aims,
+                targets: self.targets,
                 front: &self.front,
                 positions: &positions,
                 arrived: &self.arrived,
                 before: &self.moves,
                 landing,
                 reach,
+                firm: trial < HALVINGS / 2,
             };
             let Some(moves) = step.moves(&look) else {
-                if std::env::var("DBG").is_ok() {
-                    println!("no qp at step {}", self.positions.len());
-                }
                 reach *= 0.5;
                 continue;
             };
@@ -247,19 +188,10 @@ impl<'a> Plan<'a> {
                 .collect();
             let mut trial = self.draping.clone();
             let shape = trial.move_to(&goal);
-            let stretch = self.worst_stretch(&trial, &shape);
-            let good = shape.equilibrium.status == Status::Converged
-                && stretch <= (0.5 * self.scene.limits.overstretch).max(before);
+            let good = Judgement::of(self.scene, &trial, &shape).is_sound(self.scene, &before);
             best = Some((trial, shape));
             if good {
                 break;
-            }
-            if std::env::var("DBG").is_ok() {
-                println!(
-                    "halved at step {} stretch {stretch:.2e} before {before:.2e} {:?}",
-                    self.positions.len(),
-                    best.as_ref().unwrap().1.equilibrium.status
-                );
             }
             reach *= 0.5;
         }
@@ -272,32 +204,30 @@ impl<'a> Plan<'a> {
         self.positions.push(self.draping.positions.clone());
     }
 
-    /// Where a gripper goes that should be at `place` (m): on its target once it is all but there.
-    fn landed_place(&self, gripper: usize, place: Point) -> Point {
-        let target = self.aims[gripper];
-        let down = self.front.height(gripper) <= 0.0;
-        if down && distance(place, target) <= SNAP { target } else { place }
+    /// The last move, if it leaves the ply better than it lies; whether it does.
+    fn settle(&mut self) -> bool {
+        let Some(goal) = settle::settled(self.scene, &self.draping, &self.shape, self.targets)
+        else {
+            return false;
+        };
+        let mut trial = self.draping.clone();
+        let shape = trial.move_to(&goal);
+        let found = Judgement::of(self.scene, &trial, &shape);
+        let far =
+            goal.iter().zip(&self.draping.positions).any(|(a, b)| distance(*a, *b) > self.reach);
+        let better = !far && found.converged && found.stretch <= self.scene.limits.overstretch;
+        if better {
+            (self.draping, self.shape) = (trial, shape);
+            self.positions.push(goal);
+        }
+        better
     }
 
-    /// Largest overstretch of an edge, as a share of the whole edge.
-    fn worst_stretch(&self, draping: &Draping, shape: &Shape) -> f64 {
-        let (ply, edges) = (&self.scene.ply, self.scene.ply.grid.edges());
-        let length = |catenary: usize| ply.flat_length(ply.grid.catenary(catenary).kind);
-        let mut worst = 0.0_f64;
-        for span in shape.spans.iter().filter(|span| span.catenary < edges) {
-            worst = worst.max(fit(span).overstretch() / length(span.catenary));
-        }
-        let Some(mold) = &self.scene.mold else {
-            return worst;
-        };
-        for (n, laid) in draping.laid.iter().enumerate().take(edges) {
-            let Some(laid) = laid else { continue };
-            let c = ply.grid.catenary(n);
-            let ends = [c.from, c.to].map(|g| draping.positions[ply.grid.index(g)]);
-            for rest in lying_rests(laid, ends, mold, self.scene.settings.contact.tolerance) {
-                worst = worst.max(rest.fit.overstretch() / length(n));
-            }
-        }
-        worst
+    /// Where a gripper goes that should be at `place` (m): on its target once it is all but there.
+    fn landed_place(&self, gripper: usize, place: Point) -> Point {
+        let target = self.targets[gripper];
+        let down = self.front.height(gripper) <= 0.0
+            && distance(self.draping.positions[gripper], target) <= self.reach;
+        if down && distance(place, target) <= SNAP { target } else { place }
     }
 }

@@ -3,8 +3,8 @@
 //! All terms are linear in the moves of the grippers, their derivatives exact
 //! ([`crate::planner::sensitivity`]). Objective: the height of each gripper above the mold; edges as long
 //! as they will lie; the way to where grippers and points about to touch belong, weighed by how near they
-//! are; rolling, the rise of the ply from the mold at each contact end; a little smoothness.
-//! Limits: no edge pulled, moves, shear, tilt, force, distances, workspace, and nothing rises again.
+//! are; rolling, the rise of the ply from the mold at each contact end; a little smoothness. What the step
+//! must keep to is in `bounds`.
 
 use super::front::Front;
 use crate::draping::spans::{FreeSpan, Point};
@@ -14,13 +14,14 @@ use crate::planner::sensitivity::{Quantity, Sensitivity};
 use crate::scene::Scene;
 
 /// Millimetres in a metre.
-const MM: f64 = 1e3;
+pub(super) const MM: f64 = 1e3;
 
 /// Pull beyond the length that an edge is meant to have, as a share of the whole edge.
 const PULL: f64 = 5e-5;
 
-/// Pull that no edge may exceed, as a share of the whole edge.
-const MOST_PULL: f64 = 1e-4;
+/// What an edge over a hollow is looser than it will lie, as a share of the whole edge: too short it would
+/// bridge the hollow, too long it is drawn taut at the end.
+const LOOSE: f64 = 2e-4;
 
 /// Height (mm) at which what lands next counts half.
 const NEAR: f64 = 1.0;
@@ -31,8 +32,8 @@ mod weight {
     pub const LENGTH: f64 = 100.0;
     pub const PLACE: f64 = 1e-2;
     pub const LANDING: f64 = 1.0;
-    pub const ROLLING: f64 = 0.1;
-    pub const SMOOTH: f64 = 1e-3;
+    pub const ROLLING: f64 = 1e-3;
+    pub const SMOOTH: f64 = 1e-2;
 }
 
 /// What one step starts from.
@@ -49,6 +50,8 @@ pub struct Step<'a> {
     pub landing: bool,
     /// Farthest that a gripper may move (m).
     pub reach: f64,
+    /// Grippers that are to come down do so on their places.
+    pub firm: bool,
 }
 
 impl Step<'_> {
@@ -59,6 +62,7 @@ impl Step<'_> {
         self.places(&mut program);
         self.lengths(look, &mut program);
         self.landings(look, &mut program);
+        self.rolling(look, &mut program);
         self.smoothness(&mut program);
         self.limits(look, &mut program);
         self.reaches(look, &mut program);
@@ -66,8 +70,15 @@ impl Step<'_> {
         Some(x.chunks(3).map(|c| [c[0] / MM, c[1] / MM, c[2] / MM]).collect())
     }
 
+    /// Whether a gripper stands on its place after this step: once it is down it stays where it is.
+    pub(super) fn lands(&self, gripper: usize) -> bool {
+        let way = sub(self.targets[gripper], self.positions[gripper]);
+        let down = self.firm && self.front.height(gripper) <= 0.0;
+        self.arrived[gripper] || (down && dot(way, way).sqrt() <= self.reach)
+    }
+
     /// Height of a gripper above the mold, or above its target where there is no mold.
-    fn clearance(&self, look: &Sensitivity, gripper: usize) -> Quantity {
+    pub(super) fn clearance(&self, look: &Sensitivity, gripper: usize) -> Quantity {
         look.clearance(gripper).unwrap_or_else(|| {
             let mut gradient = vec![0.0; look.width()];
             let normal = self.front.normal[gripper];
@@ -106,12 +117,12 @@ impl Step<'_> {
     }
 
     /// The edges that hang.
-    fn edges<'s>(&self, look: &'s Sensitivity) -> impl Iterator<Item = &'s FreeSpan> {
+    pub(super) fn edges<'s>(&self, look: &'s Sensitivity) -> impl Iterator<Item = &'s FreeSpan> {
         let edges = self.scene.ply.grid.edges();
         look.shape.spans.iter().filter(move |span| span.catenary < edges)
     }
 
-    fn whole(&self, span: &FreeSpan) -> f64 {
+    pub(super) fn whole(&self, span: &FreeSpan) -> f64 {
         self.scene.ply.flat_length(self.scene.ply.grid.catenary(span.catenary).kind)
     }
 
@@ -149,85 +160,28 @@ impl Step<'_> {
         }
     }
 
+    /// The ply is rolled on: it should leave what lies along the mold.
+    fn rolling(&self, look: &Sensitivity, program: &mut Program) {
+        for span in self.edges(look) {
+            for end in 0..2 {
+                let lies = look.gripper_at(span, end).is_none_or(|gripper| self.arrived[gripper]);
+                let free = look.gripper_at(span, 1 - end).is_some_and(|n| !self.arrived[n]);
+                let Some(rise) = look.rise(span, end).filter(|_| lies && free) else {
+                    continue;
+                };
+                // as the height that it makes at the other end
+                let arm = span.length;
+                let gradient: Vec<f64> = rise.gradient.iter().map(|g| arm * g).collect();
+                program.square(weight::ROLLING, MM * arm * rise.value, &gradient);
+            }
+        }
+    }
+
     fn smoothness(&self, program: &mut Program) {
         for (gripper, before) in self.before.iter().enumerate() {
             for n in 0..3 {
                 program.near(weight::SMOOTH, 3 * gripper + n, MM * before[n]);
             }
-        }
-    }
-
-    /// Shear, tilt, force, distances: linear. What breaks a limit already must not get worse.
-    fn limits(&self, look: &Sensitivity, program: &mut Program) {
-        let limits = &self.scene.limits;
-        let grid = self.scene.ply.grid;
-        let mut keep = |q: Option<Quantity>, limit: f64| {
-            if let Some(q) = q {
-                program.at_most(&q.gradient, 1.0 / MM, limit.max(q.value) - q.value);
-            }
-        };
-        if let Some(limit) = limits.shear {
-            (0..grid.cells()).for_each(|cell| keep(look.shear(cell), limit));
-        }
-        for gripper in 0..grid.grippers() {
-            keep(Some(look.tilt(gripper)), limits.tilt);
-        }
-        if let Some(limit) = limits.force {
-            look.shape.spans.iter().for_each(|span| keep(look.force(span), limit));
-        }
-        let mut above = |q: Quantity, least: f64| {
-            program.at_most(&q.gradient, -1.0, MM * (q.value - least.min(q.value)));
-        };
-        for gripper in 0..grid.grippers() {
-            above(self.clearance(look, gripper), 0.0);
-            let [i, j] = grid.id(gripper);
-            if i > 0 {
-                above(look.separation(gripper - 1, gripper), limits.gripper_distance);
-            }
-            if j > 0 {
-                above(look.separation(gripper - grid.nu, gripper), limits.gripper_distance);
-            }
-        }
-        if self.landing {
-            for gripper in 0..grid.grippers() {
-                program.at_most(&self.clearance(look, gripper).gradient, 1.0, 0.0);
-            }
-        }
-        if let Some(box_) = limits.workspace {
-            for (gripper, p) in self.positions.iter().enumerate() {
-                for axis in 0..3 {
-                    let mut unit = vec![0.0; look.width()];
-                    unit[3 * gripper + axis] = 1.0;
-                    let [low, high] = box_[axis];
-                    program.at_most(&unit, 1.0, MM * (high.max(p[axis]) - p[axis]));
-                    program.at_most(&unit, -1.0, MM * (p[axis] - low.min(p[axis])));
-                }
-            }
-        }
-    }
-
-    /// Moves and lengths of edges: cones, exact for any move.
-    fn reaches(&self, look: &Sensitivity, program: &mut Program) {
-        for (gripper, arrived) in self.arrived.iter().enumerate() {
-            if *arrived {
-                program.fix(gripper, [0.0; 3]);
-            } else {
-                program.cone(vec![(gripper, 1.0)], [0.0; 3], MM * self.reach);
-            }
-        }
-        for span in self.edges(look) {
-            let ends = [(0, -1.0), (1, 1.0)];
-            let free: Vec<(usize, f64)> = ends
-                .into_iter()
-                .filter_map(|(end, sign)| Some((look.gripper_at(span, end)?, sign)))
-                .filter(|(gripper, _)| !self.arrived[*gripper])
-                .collect();
-            if free.is_empty() {
-                continue;
-            }
-            let [a, b] = span.ends;
-            let most = (span.length + MOST_PULL * self.whole(span)).max(span.chord());
-            program.cone(free, sub(b, a).map(|c| MM * c), MM * most);
         }
     }
 }
@@ -242,7 +196,7 @@ fn nearness(height: f64) -> f64 {
 pub fn wanted_stretch(scene: &Scene, span: &FreeSpan) -> f64 {
     let whole = scene.ply.flat_length(scene.ply.grid.catenary(span.catenary).kind);
     let sag = hollow(scene, span).powi(2) * span.length.powi(3) / 24.0;
-    if sag > 0.0 { -sag } else { PULL * whole }
+    if sag > 0.0 { -sag - LOOSE * whole } else { PULL * whole }
 }
 
 /// How hollow the mold is below a span, along it (1/m); 0 where it is not.

@@ -1,0 +1,61 @@
+//! What the true model says of a step.
+
+use crate::draping::spans::Shape;
+use crate::draping::{Draping, attitude, fit, lying_rests};
+use crate::equilibrium::Status;
+use crate::scene::Scene;
+
+/// Share of the overstretch that a step may use.
+const STRETCH: f64 = 0.5;
+
+/// The worst of a state.
+#[derive(Debug, Clone, Copy)]
+pub struct Judgement {
+    /// The equilibrium was found.
+    pub converged: bool,
+    /// Largest overstretch of an edge, as a share of the whole edge.
+    pub stretch: f64,
+    /// Largest tilt of a gripper (rad).
+    pub tilt: f64,
+}
+
+impl Judgement {
+    pub fn of(scene: &Scene, draping: &Draping, shape: &Shape) -> Self {
+        let (grid, positions) = (scene.ply.grid, &draping.positions);
+        let tilt = |n| attitude(&draping.solver, grid, positions, n, None).tilt;
+        Judgement {
+            converged: shape.equilibrium.status == Status::Converged,
+            stretch: stretch(scene, draping, shape),
+            tilt: (0..grid.grippers()).map(tilt).fold(0.0, f64::max),
+        }
+    }
+
+    /// Whether a step keeps its limits, or makes nothing worse that broke them before.
+    pub fn is_sound(&self, scene: &Scene, before: &Judgement) -> bool {
+        let limits = &scene.limits;
+        self.converged
+            && self.stretch <= (STRETCH * limits.overstretch).max(before.stretch)
+            && self.tilt <= limits.tilt.max(before.tilt) * (1.0 + 1e-9)
+    }
+}
+
+fn stretch(scene: &Scene, draping: &Draping, shape: &Shape) -> f64 {
+    let (ply, edges) = (&scene.ply, scene.ply.grid.edges());
+    let length = |catenary: usize| ply.flat_length(ply.grid.catenary(catenary).kind);
+    let mut worst = 0.0_f64;
+    for span in shape.spans.iter().filter(|span| span.catenary < edges) {
+        worst = worst.max(fit(span).overstretch() / length(span.catenary));
+    }
+    let Some(mold) = &scene.mold else {
+        return worst;
+    };
+    for (n, laid) in draping.laid.iter().enumerate().take(edges) {
+        let Some(laid) = laid else { continue };
+        let c = ply.grid.catenary(n);
+        let ends = [c.from, c.to].map(|g| draping.positions[ply.grid.index(g)]);
+        for rest in lying_rests(laid, ends, mold, scene.settings.contact.tolerance) {
+            worst = worst.max(rest.fit.overstretch() / length(n));
+        }
+    }
+    worst
+}
