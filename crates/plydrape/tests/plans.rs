@@ -364,3 +364,38 @@ fn the_cubic_mold_gets_a_plan_that_says_what_it_fails_by() {
     let (plan, limiting) = is_explained(&scene);
     assert!(!verdict(&plan.drape.result, "tilt").ok, "{limiting:?}");
 }
+
+/// The paper's example with limits that no plan can keep, from plane geometry: a target sheared by 20°, its far
+/// corner 100 mm · sin 20° beyond 300 mm, 75 mm down and a little aside in 19 moves of 1 mm.
+#[test]
+fn what_cannot_be_kept_is_in_the_verdict_of_the_plan() {
+    let (sin, cos) = 20f64.to_radians().sin_cos();
+    let way = (6.0 + 100.0 * sin).hypot(100.0 * cos - 98.0).hypot(75.0);
+    let workspace = "workspace = [[-1, \"330 mm\"], [-1, 1], [0, 1]]";
+    let plan = "steps = 20\nevaluations = 2\n";
+    for (limits, more, name, value, limit, at) in [
+        ("shear = \"15 deg\"", "", "shear", 20.0, 15.0, ""),
+        (workspace, "", "workspace", 100.0 * sin - 30.0, 0.0, "gripper [3,1]"),
+        ("", "move_limit = \"1 mm\"", "move_limit", way, 19.0, "gripper [3,1] in 19 moves"),
+    ] {
+        let example = Example::of("01_flat_sheared_mold")
+            .with_table("limits", |_| None, limits)
+            .with_table("plan", |_| None, &format!("{plan}{more}"));
+        let (plan, _) = is_explained(&example.scene());
+        let found = verdict(&plan.drape.result, name);
+        assert!(!found.ok && found.at.contains(at), "{found:?}");
+        assert!(
+            (found.value - value).abs() < 0.05 && (found.limit - limit).abs() < 1e-9,
+            "{found:?}"
+        );
+    }
+}
+
+/// 101 mm apart with 100 mm of fabric between them.
+#[test]
+fn a_start_beyond_the_fabric_is_no_scene() {
+    let wide = Example::of("01_flat_sheared_mold")
+        .with("[\"98 mm\", \"98 mm\"]", "[\"101 mm\", \"98 mm\"]");
+    let refused = scene::parse(&wide.text, &wide.folder, "scene.toml").expect_err("overstretched");
+    assert!(refused.message.contains("101") && !refused.help.is_empty(), "{refused:?}");
+}
