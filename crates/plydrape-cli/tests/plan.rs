@@ -147,6 +147,52 @@ fn what_no_plan_can_keep_is_said_first_and_the_plan_is_written_all_the_same() {
     assert_eq!(limits.iter().filter(found).count(), 1, "{limits:?}");
 }
 
+/// Limits that no plan can keep, from plane geometry: which, by how much and where, before anything is searched;
+/// exit 1, and the best plan is there. A target sheared by 20°; one whose far corner is 500 + 100 mm off; 75 mm down
+/// in eleven moves of 1 mm.
+#[test]
+fn impossible_limits_are_named_with_amount_and_place_and_exit_with_one() {
+    let sheared = SCENE.replace("[target]", "[target]\nshear = \"20 deg\"");
+    let far = SCENE.replace("[target]\norigin = [\"0 mm\"", "[target]\norigin = [\"500 mm\"");
+    let slow = SCENE.replace("steps = 12", "steps = 12\nmove_limit = \"1 mm\"");
+    let shear = "\n[limits]\nshear = \"15 deg\"\n";
+    let workspace = "\n[limits]\nworkspace = [[-1, \"300 mm\"], [-1, 1], [-1, 1]]\n";
+    for (text, said, place) in [
+        (sheared + shear, "shear 20° against 15°", "net cell ["),
+        (far + workspace, "workspace 300 mm against 0 mm", "gripper [1,0] at the target"),
+        (slow, "move limit 75.", "gripper [1,1] in 11 moves"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let output = plan(&scene(folder.path(), &text), &[]);
+        let shown = text_of_obstacles(&output);
+        assert_eq!(output.status.code(), Some(1), "{shown}");
+        assert!(shown.contains(said) && shown.contains(place), "{said}, {place}: {shown}");
+        assert!(words(&output.stdout).contains("not accepted: "));
+        assert_eq!(files(&folder.path().join("flat.plan")), FILES);
+    }
+}
+
+/// What is printed above the plan.
+fn text_of_obstacles(output: &Output) -> String {
+    let shown = text(&output.stdout);
+    let end = shown.find("path plan after").unwrap_or_else(|| panic!("{shown}"));
+    let start = shown.find("no plan can keep these limits:").unwrap_or_else(|| panic!("{shown}"));
+    shown[start..end].to_owned()
+}
+
+/// Grippers 101 mm apart with 100 mm of fabric between them: no start, so no scene.
+#[test]
+fn an_overstretched_start_is_refused_with_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene =
+        scene(folder.path(), &SCENE.replace("[\"98 mm\", \"98 mm\"]", "[\"101 mm\", \"98 mm\"]"));
+    let output = plan(&scene, &[]);
+    let message = words(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("101") && message.contains("100"), "{message}");
+    assert!(!folder.path().join("flat.plan").exists());
+}
+
 #[test]
 fn a_scene_without_mold_or_target_is_refused_with_a_remedy() {
     let folder = tempfile::tempdir().unwrap();

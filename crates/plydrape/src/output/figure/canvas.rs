@@ -4,6 +4,7 @@
 //! of the file brings it back: coordinates are exact to a tenth of a point.
 
 use super::FigureError;
+use super::shorten::shortened;
 use plotters::backend::DrawingBackend;
 use plotters::prelude::{IntoFont, RGBAColor, SVGBackend, ShapeStyle};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -108,7 +109,7 @@ pub(super) fn at_size(text: &str, size: Px) -> String {
     let drawn = format!("width=\"{w}\" height=\"{h}\"");
     let shown = format!("width=\"{}\" height=\"{}\" role=\"img\"", size[0], size[1]);
     // Full cover is what an SVG has by itself; texts cannot hold this, their quotes are escaped.
-    text.replacen(&drawn, &shown, 1).replace(" opacity=\"1\"", "")
+    shortened(&text.replacen(&drawn, &shown, 1).replace(" opacity=\"1\"", ""))
 }
 
 fn fine(p: Px) -> (i32, i32) {

@@ -16,6 +16,7 @@ mod piece;
 mod projection;
 mod relief;
 pub mod shear_map;
+mod shorten;
 mod surface;
 
 use crate::draping::record::{ResultFile, Step};
