@@ -27,7 +27,7 @@ const GENERATION: usize = 8;
 
 /// Generations without a gain after which an accepted plan is good enough, and the ratio of scores that is a
 /// gain.
-const PATIENCE: usize = 2;
+const PATIENCE: usize = 3;
 const GAIN: f64 = 0.98;
 /// Rounds of refinement.
 const ROUNDS: usize = 3;
