@@ -37,6 +37,35 @@ pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Drape {
     simulate_within(&with_motion(scene, Motion { times, positions }), most, |_| board.tick())
 }
 
+/// The drape of [`drape`] once more with twice the steps on the same path: a good plan does not hang on them.
+#[must_use]
+pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Drape {
+    let coarse = rounded(planned);
+    let mut positions = Vec::with_capacity(2 * coarse.len());
+    for (k, here) in coarse.iter().enumerate() {
+        if k > 0 {
+            positions.push(halfway(planned, k - 1));
+        }
+        positions.push(here.clone());
+    }
+    let most = HOPELESS * positions.len();
+    let times = (0..positions.len()).map(|n| n as f64).collect();
+    simulate_within(&with_motion(scene, Motion { times, positions }), most, |_| board.tick())
+}
+
+/// Where the spline of [`rounded`] passes halfway between two steps; straight between the first two and the last
+/// two.
+fn halfway(planned: &[Vec<[f64; 3]>], k: usize) -> Vec<[f64; 3]> {
+    let weights = if k == 0 || k + 2 == planned.len() {
+        [0.0, 0.5, 0.5, 0.0]
+    } else {
+        [1.0 / 48.0, 23.0 / 48.0, 23.0 / 48.0, 1.0 / 48.0]
+    };
+    let at = |n: usize| &planned[(k + n).saturating_sub(1).min(planned.len() - 1)];
+    let place = |g: usize| [0, 1, 2].map(|c| (0..4).map(|n| weights[n] * at(n)[g][c]).sum::<f64>());
+    (0..planned[k].len()).map(place).collect()
+}
+
 /// Where a cubic B-spline passes the planned positions, which are its control points, if its knots are evenly
 /// spaced: nearly what [`crate::motion::TimedMotion`] makes of them, without its search for the spacing.
 #[must_use]

@@ -120,11 +120,12 @@ pub fn plan(
         Motion { times: motion.times().to_vec(), positions: motion.positions().to_vec() };
     let steps = judge::with_motion(scene, followed);
     let mut drape = simulate(&steps, |_| ControlFlow::Continue(()));
-    let limits = drape.result.summary.limits.iter().map(|verdict| verdict.name).collect::<Vec<_>>();
-    // what the drape has judged itself needs not be said twice
-    let obstacles = obstacles(scene).into_iter().filter(|o| !limits.contains(&o.name));
-    let own = found.limits.into_iter().chain(rates(&motion, &bounds, scene));
-    drape.result.summary.judge_also(obstacles.chain(own).collect::<Vec<_>>());
+    // what no plan can keep comes first
+    let summary = &mut drape.result.summary;
+    let judged = std::mem::take(&mut summary.limits);
+    summary.judge_also(obstacles(scene));
+    summary.limits.extend(judged);
+    summary.judge_also(found.limits.into_iter().chain(rates(&motion, &bounds, scene)));
     let attitudes = attitudes(&drape.result)?;
     let before = memory.map_or(0, |memory| memory.evaluations);
     let memory = Memory::new(scene, before + found.evaluations, found.strategy);

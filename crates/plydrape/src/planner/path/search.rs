@@ -20,6 +20,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Score below which a plan keeps every limit with so much to spare that the search ends.
 const GOOD: f64 = 0.6;
+/// Score below which a plan is worth a second look: whether it is as good with twice the steps.
+const PROMISING: f64 = 1.3;
 /// First step of the evolution, in shares of each range.
 const STEP: f64 = 0.08;
 /// Candidates of a generation, and of the first look: whole pairs, for two cores.
@@ -59,7 +61,11 @@ impl Candidate {
         board: &Board,
     ) -> Candidate {
         let drape = judge::drape(scene, &positions, board);
-        let score = judge::score(&drape.result);
+        let mut score = judge::score(&drape.result);
+        if score < PROMISING && score > GOOD {
+            let finer = judge::drape_finer(scene, &positions, board);
+            score = score.max(judge::score(&finer.result));
+        }
         board.add(&drape.result, score);
         Candidate { strategy, positions, drape, score }
     }
