@@ -62,6 +62,7 @@ fn caught(mold: &Mold, [a, b]: [Point; 2], length: f64, what: Caught) -> Option<
         normal,
         lying: [what == Caught::First, what == Caught::Lying],
         arch: [0.0, if what == Caught::Lying { 1e-5 } else { 0.0 }],
+        scale: 1.0,
     })
 }
 

@@ -185,12 +185,23 @@ impl<T: Number> Build<'_, T> {
         let ends = self.ends(&self.grid().catenary(catenary));
         match &self.laid[catenary] {
             None => line(ends[0], ends[1]),
-            Some(laid) if laid.rest(end) <= 0.0 && laid.line.length() > 0.0 => {
+            // nor has a crumb that lies one of its own: it goes on as the segment ends
+            Some(laid)
+                if (laid.rest(end) <= 0.0 || (laid.lying[end] && laid.is_crumb(end)))
+                    && laid.line.length() > 0.0 =>
+            {
                 let [a, b] = laid.end_piece(end).map(constant);
                 line(a, b)
             }
-            Some(laid) if end == 0 => line(ends[0], constant(laid.point()[0])),
-            Some(laid) => line(constant(laid.point()[1]), ends[1]),
+            Some(laid) => {
+                // a touch at the very gripper has no direction: the other rest leaves from there
+                let point = laid.line.length() <= 0.0 && laid.rest(end) <= 0.0;
+                if (end == 0) != point {
+                    line(ends[0], constant(laid.point()[0]))
+                } else {
+                    line(constant(laid.point()[1]), ends[1])
+                }
+            }
         }
     }
 

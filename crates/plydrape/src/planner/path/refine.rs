@@ -25,6 +25,8 @@ const AHEAD: f64 = 0.1;
 const NEAR: f64 = 5e-3;
 /// Share of the overstretch limit that the correction may use.
 const STRETCH: f64 = 0.5;
+/// Stretch of a taut span, as a share of its edge: what is beyond is to go.
+const TAUT: f64 = 1e-4;
 /// Weight of the correction itself beside the landing errors.
 const SMALL: f64 = 1e-2;
 /// Weight of every gripper that has landed: it stays.
@@ -151,7 +153,8 @@ impl Rows<'_, '_> {
         let whole = self.scene.ply.flat_length(self.scene.ply.grid.catenary(span.catenary).kind);
         let most = STRETCH * self.scene.limits.overstretch * whole;
         self.program.at_most(&gradient, 1.0, MM * (most - stretch.value).max(0.0));
-        self.program.square(1.0, 0.0, &gradient);
+        let excess = (stretch.value - TAUT * whole).max(0.0);
+        self.program.square(1.0, MM * excess, &gradient);
     }
 
     /// What stands on the mold stays there.

@@ -25,6 +25,10 @@ const STEP: f64 = 0.08;
 /// Candidates of a generation, and of the first look: whole pairs, for two cores.
 const GENERATION: usize = 8;
 
+/// Generations without a gain after which an accepted plan is good enough, and the ratio of scores that is a
+/// gain.
+const PATIENCE: usize = 3;
+const GAIN: f64 = 0.98;
 /// Rounds of refinement.
 const ROUNDS: usize = 3;
 /// Parts of a correction that are tried.
@@ -105,12 +109,20 @@ pub fn search(
     };
     let options = CMAESOptions::new(mean, STEP).population_size(GENERATION).seed(seed);
     let Ok(mut evolution) = options.build(objective) else { return Some(best) };
-    while best.score > GOOD && left >= GENERATION + ROUNDS * PARTS.len() && !board.is_stopped() {
+    let mut idle = 0;
+    while best.score > GOOD
+        && idle < PATIENCE
+        && left >= GENERATION + ROUNDS * PARTS.len()
+        && !board.is_stopped()
+    {
         let ended = evolution.next_parallel().is_some();
         left -= GENERATION;
+        let before = best.score;
         if let Some(candidate) = lock(&found).take() {
             best = better(best, candidate);
         }
+        // what is accepted needs not be searched for long
+        idle = if best.score < GAIN * before || !is_accepted(&best) { 0 } else { idle + 1 };
         if ended {
             break;
         }
@@ -146,6 +158,10 @@ fn refined(scene: &Scene, best: &Candidate, board: &Board) -> Option<Candidate> 
     };
     let tried: Vec<Candidate> = PARTS.par_iter().map(corrected).collect();
     tried.into_iter().reduce(better)
+}
+
+fn is_accepted(candidate: &Candidate) -> bool {
+    candidate.drape.result.summary.accepted
 }
 
 /// The one with the lower score; where they are equal, the one whose numbers come first.
