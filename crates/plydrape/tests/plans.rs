@@ -381,13 +381,18 @@ fn what_cannot_be_kept_is_in_the_verdict_of_the_plan() {
         let example = Example::of("01_flat_sheared_mold")
             .with_table("limits", |_| None, limits)
             .with_table("plan", |_| None, &format!("{plan}{more}"));
-        let (plan, _) = is_explained(&example.scene());
-        let found = verdict(&plan.drape.result, name);
-        assert!(!found.ok && found.at.contains(at), "{found:?}");
+        let scene = example.scene();
+        let known = planner::obstacles::obstacles(&scene);
+        let [known] = &known[..] else { panic!("{known:?}") };
+        assert!(known.name == name && known.at.contains(at), "{known:?}");
         assert!(
-            (found.value - value).abs() < 0.05 && (found.limit - limit).abs() < 1e-9,
-            "{found:?}"
+            (known.value - value).abs() < 0.05 && (known.limit - limit).abs() < 1e-9,
+            "{known:?}"
         );
+        // the drape may come to more on its way, never to less
+        let (plan, _) = is_explained(&scene);
+        let found = verdict(&plan.drape.result, name);
+        assert!(!found.ok && found.value > value - 0.05, "{found:?}");
     }
 }
 
