@@ -31,7 +31,7 @@ const RANGES: [[f64; 2]; DIMENSION] = [
     [0.0, 1.0],
     [0.0, 5.0],
     [-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2],
-    [-1.6, 2.7],
+    [-1.6, 3.4],
     [-4.0, 0.0],
     [0.0, 4e-4],
 ];
@@ -98,17 +98,18 @@ impl Strategy {
         let [first, second] =
             principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
         let line = |angle| Strategy { ratio: 100.0, angle, ..ring };
+        let sharp = Strategy { curvature: 20.0, slope: 0.25, pull: 0.0, ..ring };
         vec![
             ring,
+            Strategy { curvature: 12.0, ..sharp },
             line(second),
             line(first),
             Strategy { curvature: 0.3, slope: 0.03, ..ring },
-            Strategy { slope: 0.25, ..ring },
-            Strategy { ratio: 2.0, ..line(second) },
-            Strategy { ratio: 2.0, ..line(first) },
-            Strategy { curvature: 2.0, slope: 0.2, ..ring },
             Strategy { curvature: 0.5, slope: 0.05, ..line(second) },
-            Strategy { curvature: 0.5, slope: 0.05, ..line(first) },
+            Strategy { ratio: 1.3, angle: second, ..sharp },
+            Strategy { ratio: 1.3, angle: first, ..sharp },
+            Strategy { ratio: 2.0, angle: second, ..sharp },
+            Strategy { ratio: 2.0, angle: first, ..sharp },
         ]
     }
 }
