@@ -143,9 +143,10 @@ fn what_no_plan_can_keep_is_said_first_and_the_plan_is_written_all_the_same() {
     let printed: Value = serde_json::from_slice(&plan(&scene, &["--json"]).stdout).unwrap();
     assert_eq!(printed["accepted"], false);
     let limits = printed["limits"].as_array().unwrap();
-    // known before and found in the drape, and said once
+    // what was known before stands first; the drape finds it too
+    assert_eq!(limits[0]["where"], "gripper [0,0] at the start", "{limits:?}");
     let found: Vec<&Value> = limits.iter().filter(|limit| limit["name"] == "workspace").collect();
-    assert!(found.len() == 1 && found[0]["where"] == "gripper [0,0]", "{limits:?}");
+    assert!(found.len() == 2 && found[1]["where"] == "gripper [0,0]", "{limits:?}");
 }
 
 /// Limits that no plan can keep, from plane geometry: which, by how much and where, before anything is searched;
