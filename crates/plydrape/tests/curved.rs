@@ -350,3 +350,43 @@ fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it
     let wrinkled = (0..grid.edges()).map(|edge| edge_off(&straight, edge).1).fold(0.0, f64::max);
     assert!(wrinkled > 1.0, "straight paths leave {wrinkled} mm of slack");
 }
+
+/// The diagonals of any parallelogram have the scale 1, by the parallelogram law. On a sphere of radius R a cell of
+/// geodesic sides a has cos(a/R) = cos²(d/2R), diagonals d = a√2 (1 + a²/24R²), and so that scale.
+#[test]
+fn a_cell_has_the_scale_of_its_diagonals() {
+    let (a, b) = (0.1_f64, 0.07_f64);
+    for shear in [0.0_f64, 0.1, 0.35, -0.2] {
+        let square = |sign: f64| (a * a + b * b + 2.0 * sign * a * b * shear.sin()).sqrt();
+        let scale = plydrape::ply::shear::curved_scale([a, b], [square(1.0), square(-1.0)]);
+        assert!((scale - 1.0).abs() < 1e-15, "{shear}: {scale}");
+    }
+    let scene = example("04_dome");
+    let (mold, target) = (scene.mold.as_ref().expect("a mold"), scene.target.as_ref());
+    let (grid, grippers) = (scene.ply.grid, &target.expect("a target").grippers);
+    let ways = grid.diagonals([1, 1]).map(|n| {
+        let c = grid.catenary(n);
+        mold.path_length(grippers[grid.index(c.from)], grippers[grid.index(c.to)])
+    });
+    let scale = plydrape::ply::shear::curved_scale([0.1; 2], ways);
+    let expected = 2.0 * 0.6 * (0.1_f64 / 0.6).cos().sqrt().acos() / (0.1 * 2_f64.sqrt());
+    assert!((expected - 1.0 - 0.01 / (24.0 * 0.36)).abs() < 2e-5, "{expected}");
+    // the cell's sides, 50 mm off the middle, are all but geodesics: by 1e-5
+    assert!((scale - expected).abs() < 1e-5, "{scale} {expected}");
+}
+
+/// A ply rolled on the dome along its plan keeps the fabric: laying what touches pulls nothing, so no edge is ever longer
+/// than its fabric by more than the formation's own pull and what a run may add, in any step.
+#[test]
+fn laying_within_the_tolerance_stretches_nothing() {
+    use plydrape::planner::path::{Ground, Strategy, trajectory};
+    let mut scene = example("04_dome");
+    let ground = Ground::new(&scene).expect("a mold");
+    let positions = trajectory(&scene, &ground, Strategy::families(&scene)[0]).expect("a target");
+    scene.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
+    let tolerance = scene.settings.contact.tolerance;
+    let result = drape(&scene);
+    let stretch = result.summary.worst.overstretch.expect("edges");
+    // without the rule it is the tolerance, as a share of an edge
+    assert!(stretch < 0.25 * tolerance / 0.1, "{stretch}");
+}
