@@ -221,7 +221,7 @@ pub struct Worst {
 pub struct Measures {
     /// Slack (mm).
     pub slack_mm: Option<Worst>,
-    /// Slack as a share of the span's free length.
+    /// Slack of all rests of a catenary as a share of its length.
     pub slack_ratio: Option<Worst>,
     /// Wrinkle amplitude of the worst slack (mm).
     pub wrinkle_mm: Option<Worst>,
@@ -256,7 +256,7 @@ pub struct Measures {
 pub struct Numbers {
     /// Slack (mm).
     pub slack_mm: Option<f64>,
-    /// Slack as a share of the span's free length.
+    /// Slack of all rests of a catenary as a share of its length.
     pub slack_ratio: Option<f64>,
     /// Overstretch of an edge, as a share of the whole edge.
     pub overstretch: Option<f64>,

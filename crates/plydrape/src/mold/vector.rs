@@ -14,6 +14,11 @@ pub(crate) fn along(a: [f64; 3], t: f64, b: [f64; 3]) -> [f64; 3] {
     [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
 }
 
+/// The point a share `t` of the way from a to b; at 1 it is b to the last bit.
+pub(crate) fn between(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
+    if t >= 1.0 { b } else { [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n])) }
+}
+
 pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

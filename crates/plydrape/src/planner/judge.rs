@@ -31,23 +31,24 @@ pub fn with_motion(scene: &Scene, motion: Motion) -> Scene {
 /// where it is hopeless or the board is stopped.
 #[must_use]
 pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Drape {
-    let positions = rounded(planned);
-    let most = HOPELESS * positions.len();
-    let times = (0..positions.len()).map(|n| n as f64).collect();
-    simulate_within(&with_motion(scene, Motion { times, positions }), most, |_| board.tick())
+    follow(scene, rounded(planned), board)
 }
 
-/// The drape of [`drape`] once more with twice the steps on the same path: a good plan does not hang on them.
+/// The same with twice the steps on the same path: a good plan does not hang on them.
 #[must_use]
 pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Drape {
-    let coarse = rounded(planned);
-    let mut positions = Vec::with_capacity(2 * coarse.len());
-    for (k, here) in coarse.iter().enumerate() {
+    let mut positions = Vec::with_capacity(2 * planned.len());
+    for (k, here) in rounded(planned).into_iter().enumerate() {
         if k > 0 {
             positions.push(halfway(planned, k - 1));
         }
-        positions.push(here.clone());
+        positions.push(here);
     }
+    follow(scene, positions, board)
+}
+
+/// The drape along positions (m), one second a step.
+fn follow(scene: &Scene, positions: Vec<Vec<[f64; 3]>>, board: &Board) -> Drape {
     let most = HOPELESS * positions.len();
     let times = (0..positions.len()).map(|n| n as f64).collect();
     simulate_within(&with_motion(scene, Motion { times, positions }), most, |_| board.tick())

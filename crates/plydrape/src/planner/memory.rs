@@ -25,12 +25,20 @@ pub struct Memory {
     pub evaluations: usize,
     /// The best strategy; none of a plan that was made step by step.
     pub strategy: Option<Strategy>,
+    /// What the best plan has, positions (m) of all grippers step by step: its strategy's, single grippers
+    /// refined.
+    positions: Vec<Vec<[f64; 3]>>,
 }
 
 impl Memory {
     /// What is remembered of a search for a scene.
     #[must_use]
-    pub fn new(scene: &Scene, evaluations: usize, strategy: Option<Strategy>) -> Self {
+    pub fn new(
+        scene: &Scene,
+        evaluations: usize,
+        strategy: Option<Strategy>,
+        positions: Vec<Vec<[f64; 3]>>,
+    ) -> Self {
         let Grid { nu, nv } = scene.ply.grid;
         Memory {
             format: FORMAT.into(),
@@ -39,7 +47,16 @@ impl Memory {
             cell: scene.ply.cell,
             evaluations,
             strategy,
+            positions,
         }
+    }
+
+    /// The strategy to go on from, and its positions if they lead from the scene's start to its target.
+    pub(super) fn path(&self, scene: &Scene) -> Option<(Strategy, Option<Vec<Vec<[f64; 3]>>>)> {
+        let (start, target) = (scene.motion.positions.first()?, &scene.target.as_ref()?.grippers);
+        let ends = [self.positions.first(), self.positions.last()] == [Some(start), Some(target)];
+        let steps = self.positions.len() == scene.plan.steps;
+        Some((self.strategy?, (ends && steps).then(|| self.positions.clone())))
     }
 
     /// Refuses what another version wrote, or what belongs to another ply.
@@ -52,9 +69,11 @@ impl Memory {
             let [earlier_u, earlier_v] = self.grippers;
             return Err(PlanError::OtherPly { earlier_u, earlier_v, nu, nv });
         }
-        match self.strategy {
-            Some(strategy) if !strategy.is_sound() => Err(PlanError::Strategy),
-            _ => Ok(()),
+        let sound = |place: &[f64; 3]| place.iter().all(|c| c.is_finite());
+        let whole = |step: &Vec<[f64; 3]>| step.len() == nu * nv && step.iter().all(sound);
+        if self.strategy.is_some_and(|s| !s.is_sound()) || !self.positions.iter().all(whole) {
+            return Err(PlanError::Numbers);
         }
+        Ok(())
     }
 }

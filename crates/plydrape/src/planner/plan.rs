@@ -11,7 +11,7 @@ use crate::draping::record::{ResultFile, Verdict};
 use crate::draping::spans::Point;
 use crate::draping::{Drape, simulate};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
-use crate::scene::{Motion, PlanMethod, Scene};
+use crate::scene::{PlanMethod, Scene};
 use std::ops::ControlFlow;
 
 /// A finished plan.
@@ -64,9 +64,11 @@ pub enum PlanError {
         /// Grippers of the scene along v.
         nv: usize,
     },
-    /// A strategy with numbers that no search has.
-    #[error("the earlier plan has a strategy that no search can have: plan anew")]
-    Strategy,
+    /// Numbers that no search leaves.
+    #[error(
+        "the earlier plan holds a strategy or positions that no search can have left: plan anew"
+    )]
+    Numbers,
     /// Positions that are no motion.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -116,10 +118,8 @@ pub fn plan(
 
     let bounds = Bounds::from(&scene.limits);
     let motion = TimedMotion::new(&found.positions, &bounds)?;
-    let followed =
-        Motion { times: motion.times().to_vec(), positions: motion.positions().to_vec() };
-    let steps = judge::with_motion(scene, followed);
-    let mut drape = simulate(&steps, |_| ControlFlow::Continue(()));
+    let followed = judge::with_motion(scene, motion.steps());
+    let mut drape = simulate(&followed, |_| ControlFlow::Continue(()));
     // what no plan can keep comes first
     let summary = &mut drape.result.summary;
     let judged = std::mem::take(&mut summary.limits);
@@ -128,14 +128,13 @@ pub fn plan(
     summary.judge_also(found.limits.into_iter().chain(rates(&motion, &bounds, scene)));
     let attitudes = attitudes(&drape.result)?;
     let before = memory.map_or(0, |memory| memory.evaluations);
-    let memory = Memory::new(scene, before + found.evaluations, found.strategy);
+    let memory = Memory::new(scene, before + found.evaluations, found.strategy, found.positions);
     let (method, evaluations) = (scene.plan.method, found.evaluations);
     Ok(Planned { drape, method, evaluations, motion, attitudes, interrupted, memory })
 }
 
 fn by_path(scene: &Scene, memory: Option<&Memory>, board: &Board) -> Result<Found, PlanError> {
-    let earlier = memory.and_then(|m| m.strategy.map(|strategy| (strategy, m.evaluations)));
-    let best = path::search(scene, earlier, board).ok_or(PlanError::NoTarget)?;
+    let best = path::search(scene, memory, board).ok_or(PlanError::NoTarget)?;
     Ok(Found {
         positions: best.positions,
         evaluations: board.evaluations(),

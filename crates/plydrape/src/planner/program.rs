@@ -1,4 +1,4 @@
-//! The quadratic program of one step: least squares of linear residuals within linear limits, second-order
+//! A quadratic program in moves of grippers: least squares of linear residuals within linear limits, second-order
 //! cones and places that are fixed.
 //!
 //! `min Σ wᵢ(cᵢ + gᵢ·x)²` over the moves x of all grippers, subject to `g·x ≤ c`, `|B x + d| ≤ c` and `x_g = d_g`.
@@ -7,6 +7,9 @@
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+
+/// Millimetres in a metre: the program's unit of length.
+pub const MM: f64 = 1e3;
 
 /// The program, as it is put together.
 pub struct Program {

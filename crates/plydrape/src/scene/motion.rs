@@ -5,6 +5,7 @@ use super::file::{MotionKind, MotionTable};
 use super::located::{Count, Located};
 use super::places::Places;
 use super::{Motion, Target};
+use crate::mold::vector;
 use crate::ply::{Grid, Ply};
 
 /// Steps of a straight motion unless given, as in Krogh et al. 2018.
@@ -112,12 +113,7 @@ fn step_count(
 
 /// Positions a share `t` of the way from start to target.
 fn between(start: &[[f64; 3]], target: &[[f64; 3]], t: f64) -> Vec<[f64; 3]> {
-    let at = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));
-    // The ends are met to the last bit.
-    if t >= 1.0 {
-        return target.to_vec();
-    }
-    start.iter().zip(target).map(at).collect()
+    start.iter().zip(target).map(|(a, b)| vector::between(*a, *b, t)).collect()
 }
 
 /// Refuses grippers that pass straight above each other on their way.

@@ -12,6 +12,9 @@ const ELEVATION: f64 = 32.0;
 /// Angle of the view from the shorter horizontal axis (°): the longer one runs across the sheet.
 const TURN: f64 = 17.0;
 
+/// Ratio of the sides from which on a box counts as wide.
+const SQUARE: f64 = 0.8;
+
 /// The view of one panel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
@@ -33,8 +36,8 @@ fn dot(a: Point, b: Point) -> f64 {
 impl View {
     /// The view of a box (m), z stretched, at one picture point per metre.
     pub(super) fn of(low: Point, high: Point, stretch: f64) -> Self {
-        // a square counts as wide, whatever its last digits say
-        let wide = high[0] - low[0] >= (high[1] - low[1]) * (1.0 - 1e-9);
+        // what is all but square counts as wide, so that drapes of one scene are seen from one side
+        let wide = high[0] - low[0] >= (high[1] - low[1]) * SQUARE;
         let azimuth = if wide { TURN - 90.0 } else { -TURN };
         let (sa, ca) = azimuth.to_radians().sin_cos();
         let (se, ce) = ELEVATION.to_radians().sin_cos();

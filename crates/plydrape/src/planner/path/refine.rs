@@ -11,7 +11,7 @@ use crate::draping::Draping;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, cross, dot, unit};
 use crate::planner::judge;
-use crate::planner::program::Program;
+use crate::planner::program::{MM, Program};
 use crate::planner::sensitivity::Sensitivity;
 use crate::scene::Scene;
 
@@ -31,9 +31,6 @@ const TAUT: f64 = 1e-4;
 const SMALL: f64 = 1e-2;
 /// Weight of every gripper that has landed: it stays.
 const LANDED: f64 = 1e2;
-/// Millimetres in a metre: the program's unit.
-const MM: f64 = 1e3;
-
 /// Smooth corrections (m) of all positions of a plan, one list of all grippers a step; none where nothing
 /// touches, or the program has no solution or would be too large.
 #[must_use]

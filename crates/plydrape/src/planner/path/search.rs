@@ -12,6 +12,7 @@ use crate::draping::spans::Point;
 use crate::mold::vector::along;
 use crate::planner::board::Board;
 use crate::planner::judge;
+use crate::planner::memory::Memory;
 use crate::scene::Scene;
 use cmaes::{CMAESOptions, DVector};
 use rayon::prelude::*;
@@ -62,7 +63,7 @@ impl Candidate {
     ) -> Candidate {
         let drape = judge::drape(scene, &positions, board);
         let mut score = judge::score(&drape.result);
-        if score < PROMISING && score > GOOD {
+        if score < PROMISING {
             let finer = judge::drape_finer(scene, &positions, board);
             score = score.max(judge::score(&finer.result));
         }
@@ -71,34 +72,35 @@ impl Candidate {
     }
 }
 
-/// The best strategy that is found: families first, or `earlier` where a search is continued, then
-/// evolution. None without a mold or a target.
+/// The best plan that is found: families first, or what an earlier search has left, then evolution. None without
+/// a mold or a target.
 #[must_use]
-pub fn search(
-    scene: &Scene,
-    earlier: Option<(Strategy, usize)>,
-    board: &Board,
-) -> Option<Candidate> {
+pub fn search(scene: &Scene, memory: Option<&Memory>, board: &Board) -> Option<Candidate> {
     let ground = Ground::new(scene)?;
     let scene = &*quick(scene);
     let most = scene.plan.evaluations.max(1);
     let try_one = |strategy: Strategy| Candidate::of(scene, &ground, strategy, board);
     board.enter("a first look");
-    let first = match earlier {
-        Some((strategy, _)) => vec![strategy],
-        None => Strategy::families(scene),
+    let tried: Vec<Candidate> = match memory.and_then(|memory| memory.path(scene)) {
+        Some((strategy, Some(positions))) => {
+            vec![Candidate::along(scene, strategy, positions, board)]
+        }
+        Some((strategy, None)) => vec![try_one(strategy)?],
+        None => {
+            let mut first = Strategy::families(scene);
+            first.truncate(most);
+            first.into_par_iter().filter_map(try_one).collect()
+        }
     };
-    let tried: Vec<Candidate> =
-        first[..first.len().min(most)].par_iter().copied().filter_map(try_one).collect();
-    let mut left = most - first.len().min(most);
+    let mut left = most.saturating_sub(tried.len());
     let mut best = tried.into_iter().reduce(better)?;
 
     best = refine(scene, best, &mut left, board);
     board.enter("evolution");
     // evolution about the best; what it has tried before it goes on from, with other samples
     let mean = best.strategy.to_unit().to_vec();
-    let seed =
-        scene.plan.seed.wrapping_add(earlier.map_or(0, |(_, evaluations)| evaluations as u64));
+    let before = memory.map_or(0, |memory| memory.evaluations as u64);
+    let seed = scene.plan.seed.wrapping_add(before);
     let found: Mutex<Option<Candidate>> = Mutex::new(None);
     let objective = |unit: &DVector<f64>| -> f64 {
         if board.is_stopped() {

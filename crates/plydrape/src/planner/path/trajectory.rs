@@ -3,7 +3,7 @@
 use super::formation::{Formation, Ground};
 use super::strategy::Strategy;
 use crate::draping::spans::Point;
-use crate::mold::distance;
+use crate::mold::{distance, vector};
 use crate::scene::Scene;
 
 /// Height over its first formation at which the ply comes in, as a share of a cell.
@@ -57,8 +57,7 @@ fn positions(
 
 /// Positions a share `t` of the way from one to the other.
 fn between(from: &[Point], to: &[Point], t: f64) -> Vec<Point> {
-    let mix = |(a, b): (&Point, &Point)| [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n]));
-    from.iter().zip(to).map(mix).collect()
+    from.iter().zip(to).map(|(a, b)| vector::between(*a, *b, t)).collect()
 }
 
 /// The farthest that a gripper moves between two steps (m).

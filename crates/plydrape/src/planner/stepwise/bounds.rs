@@ -1,8 +1,8 @@
 //! What one step must keep to: limits of the ply and of the grippers, moves, and lengths of edges.
 
-use super::step::{MM, Step};
+use super::step::Step;
 use crate::mold::vector::sub;
-use crate::planner::program::Program;
+use crate::planner::program::{MM, Program};
 use crate::planner::sensitivity::{Quantity, Sensitivity};
 
 /// Pull that no edge may exceed, as a share of the whole edge.

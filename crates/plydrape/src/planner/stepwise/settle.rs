@@ -10,11 +10,8 @@ use crate::draping::spans::{Point, Shape};
 use crate::draping::{Draping, lying_rests};
 use crate::mold::Strand;
 use crate::mold::vector::{along, norm, sub, unit};
-use crate::planner::program::Program;
+use crate::planner::program::{MM, Program};
 use crate::scene::Scene;
-
-/// Millimetres in a metre.
-const MM: f64 = 1e3;
 
 /// Share of the gripper's landing error that the last move may use.
 const SHARE: f64 = 0.5;
@@ -28,9 +25,6 @@ const STRETCH: f64 = 0.8;
 /// Weight of a rest's length over that of a gripper's way.
 const FIRM: f64 = 1e3;
 
-/// Rests shorter than this share of their edge have no slack worth a name.
-const CRUMB: f64 = 1e-2;
-
 /// Rounds in which rests that have become slack are added.
 const ROUNDS: usize = 6;
 
@@ -40,19 +34,13 @@ struct Rest {
     pull: f64,
     /// What it should be (m).
     wanted: f64,
-    /// Fabric length (m), and that of the whole edge.
-    length: f64,
+    /// Fabric length of the whole edge (m).
     whole: f64,
     /// Its grippers, each with the direction in which it pulls.
     grippers: Vec<(usize, [f64; 3])>,
 }
 
 impl Rest {
-    /// Whether slack here counts.
-    fn counts(&self) -> bool {
-        self.length > CRUMB * self.whole
-    }
-
     fn pull_after(&self, moves: &[f64]) -> f64 {
         let pull = |(gripper, way): &(usize, [f64; 3])| {
             (0..3).map(|n| way[n] * moves[3 * gripper + n] / MM).sum::<f64>()
@@ -90,7 +78,6 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
             out.push(Rest {
                 pull: rest.fit.path - rest.fit.length,
                 wanted: PULL * ply.flat_length(c.kind),
-                length: rest.fit.length,
                 whole: ply.flat_length(c.kind),
                 grippers: held
                     .iter()
@@ -114,7 +101,6 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
         out.push(Rest {
             pull: span.chord() - span.length,
             wanted: wanted_stretch(scene, span),
-            length: span.length,
             whole: ply.flat_length(c.kind),
             grippers: vec![(gripper, way)],
         });
@@ -131,8 +117,7 @@ pub fn settled(
 ) -> Option<Vec<Point>> {
     let (mold, limits) = (scene.mold.as_ref()?, &scene.limits);
     let rests = rests(scene, draping, shape);
-    let slack =
-        |rest: &Rest| rest.counts() && -rest.pull > SHARE * limits.slack_ratio * rest.length;
+    let slack = |rest: &Rest| -rest.pull > SHARE * limits.slack_ratio * rest.whole;
     if !rests.iter().any(slack) {
         return None;
     }
@@ -165,7 +150,7 @@ pub fn settled(
         moves = program.solve()?;
         let mut changed = false;
         for (rest, active) in rests.iter().zip(&mut active) {
-            let slack = rest.counts() && rest.pull_after(&moves) < 0.0;
+            let slack = rest.pull_after(&moves) < 0.0;
             changed |= slack && !*active;
             *active |= slack;
         }

@@ -9,12 +9,9 @@
 use super::front::Front;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{dot, sub};
-use crate::planner::program::Program;
+use crate::planner::program::{MM, Program};
 use crate::planner::sensitivity::{Quantity, Sensitivity};
 use crate::scene::Scene;
-
-/// Millimetres in a metre.
-pub(super) const MM: f64 = 1e3;
 
 /// Pull beyond the length that an edge is meant to have, as a share of the whole edge.
 const PULL: f64 = 5e-5;
