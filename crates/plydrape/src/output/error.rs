@@ -1,6 +1,7 @@
 //! Why results could not be written, and what to do about it.
 
 use super::figure::FigureError;
+use super::inp::InpError;
 use super::json::JsonError;
 use crate::motion::MotionError;
 use std::io::{self, ErrorKind};
@@ -61,6 +62,9 @@ pub enum OutputError {
     /// The figure could not be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// The result cannot be an input deck.
+    #[error(transparent)]
+    Inp(#[from] InpError),
 }
 
 impl OutputError {

@@ -8,13 +8,14 @@
 //! - `figure.svg`, three chosen steps in 3D ([`figure`]).
 //!
 //! [`plan`] puts the motion and the search's memory beside them, [`net`] does the same for a net, the ideal
-//! drape. [`table`] prints steps and verdict for people, [`folder`] writes files whole or not at all.
+//! drape. [`inp`] makes a deck for CalculiX and Abaqus. [`table`] prints steps and verdict for people, [`folder`] writes files whole or not at all.
 
 pub mod csv;
 mod error;
 pub mod figure;
 mod finite;
 pub mod folder;
+pub mod inp;
 pub mod json;
 mod manifest;
 pub mod net;
