@@ -15,6 +15,7 @@ mod pose;
 mod round;
 mod saddle;
 mod section;
+pub mod patch;
 pub(crate) mod vector;
 
 pub use formula::{Formula, FormulaError, FormulaFault};

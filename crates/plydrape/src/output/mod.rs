@@ -19,6 +19,8 @@ pub mod json;
 mod manifest;
 pub mod net;
 pub mod plan;
+pub mod ros2;
+pub mod surface;
 pub mod table;
 
 #[cfg(test)]

@@ -19,6 +19,9 @@ pub mod shear_map;
 mod shorten;
 mod surface;
 
+pub(super) use colour::viridis_rgb;
+pub(super) use panel::{colour_value, gripper_radius};
+
 use crate::draping::record::{ResultFile, Step};
 
 /// The most steps that one figure shows.
@@ -191,4 +194,9 @@ mod tests {
         result.steps[2].grippers.pop();
         assert!(matches!(svg(&result, &[3]), Err(FigureError::Grippers { found: 7, .. })));
     }
+}
+
+pub(super) fn cells(grid: crate::ply::Grid, step: &Step, n: usize) -> Vec<([usize;2], Vec<[f64;3]>)> {
+    let l = surface::lines(grid, step, n);
+    (0..grid.nv-1).flat_map(|j| (0..grid.nu-1).map(move |i| [i,j])).map(|id| (id, surface::cell(grid,&l,id,n))).collect()
 }

@@ -1,0 +1,163 @@
+//! Shapes to look at: the ply's surface, its catenaries, what the mold has caught, the grippers, the mold.
+//!
+//! Every marker stays until its successor comes. They carry no time, so a viewer puts them where the frame is
+//! now; the bag has the time. What a step does not have is deleted, so that a bag can be played again.
+
+use super::FRAME;
+use super::message::{ColorRgba, Header, Marker, MarkerArray, Pose, Vector3};
+use crate::draping::record::{CatenaryState, Gripper, ResultFile, Step};
+use crate::mold::patch::patch;
+use crate::output::figure;
+use crate::output::surface::Surface;
+
+type Point = [f64; 3];
+
+/// `Marker.type` and `Marker.action`.
+const CYLINDER: i32 = 3;
+const LINE_LIST: i32 = 5;
+const TRIANGLE_LIST: i32 = 11;
+const DELETE: i32 = 2;
+
+const RED: ColorRgba = ColorRgba { r: 0.84, g: 0.10, b: 0.13, a: 1.0 };
+const PINK: ColorRgba = ColorRgba { r: 0.93, g: 0.55, b: 0.55, a: 1.0 };
+const BLUE: ColorRgba = ColorRgba { r: 0.10, g: 0.30, b: 0.85, a: 1.0 };
+const BLACK: ColorRgba = ColorRgba { r: 0.08, g: 0.09, b: 0.10, a: 1.0 };
+const GREY: ColorRgba = ColorRgba { r: 0.78, g: 0.80, b: 0.83, a: 1.0 };
+
+/// Width of a catenary, and thickness of a gripper's disc, as shares of the disc's radius.
+const LINE: f64 = 0.1;
+const DISC: f64 = 0.2;
+/// Triangles of the surface of one step, about, and of the mold at most.
+const TRIANGLES: usize = 6000;
+const MOLD_TRIANGLES: usize = 20_000;
+/// Pieces of a cell's side, at most.
+const DIVISIONS: usize = 8;
+/// How far the mold is shown beyond the ply, as a share of the ply's size.
+const BEYOND: f64 = 0.15;
+
+/// What all steps share: pieces of a cell's side, and the range of what colours the ply (m).
+pub(super) struct Paint {
+    divisions: usize,
+    range: [f64; 2],
+}
+
+impl Paint {
+    /// Fine enough to look round, coarse enough to play; one range of colours for the whole drape.
+    pub fn of(result: &ResultFile) -> Self {
+        let cells = result.scene.grid.cells().max(1);
+        let divisions = (TRIANGLES / (2 * cells)).isqrt().clamp(1, DIVISIONS);
+        let grippers = result.steps.iter().flat_map(|step| &step.grippers);
+        let value = |gripper: &Gripper| figure::colour_value(result, gripper.position);
+        let range = grippers
+            .map(value)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
+        Paint { divisions, range }
+    }
+
+    fn colour(&self, value: f64) -> ColorRgba {
+        let [low, high] = self.range;
+        let share = if high > low { (value - low) / (high - low) } else { 0.0 };
+        let [r, g, b] = figure::viridis_rgb(share).map(|c| f32::from(c) / 255.0);
+        ColorRgba { r, g, b, a: 1.0 }
+    }
+}
+
+/// The markers of a step, by its index.
+pub(super) fn ply(result: &ResultFile, index: usize, paint: &Paint) -> MarkerArray {
+    let Some(step) = result.steps.get(index) else { return MarkerArray::default() };
+    let radius = figure::gripper_radius(result);
+    let mut markers = Vec::with_capacity(4 + step.grippers.len());
+    if result.scene.grid.cells() > 0 {
+        markers.push(surface(result, index, paint));
+    }
+    let spans = |kind: &str| {
+        let lines = step.catenaries.iter().filter(|line| line.kind.to_string() == kind);
+        segments(lines.flat_map(|line| line.spans.iter().map(|span| &span.points)))
+    };
+    markers.push(lines("catenaries", 0, spans("edge"), RED, LINE * radius));
+    markers.push(lines("catenaries", 1, spans("diagonal"), PINK, 0.6 * LINE * radius));
+    markers.push(lines("contact", 0, caught(step), BLUE, 1.6 * LINE * radius));
+    markers.extend(step.grippers.iter().zip(0..).map(|(gripper, id)| disc(gripper, id, radius)));
+    MarkerArray { markers }
+}
+
+/// The mold under the drape, if there is one.
+pub(super) fn mold(result: &ResultFile) -> Option<MarkerArray> {
+    let mold = result.scene.mold.as_ref()?;
+    let places = result.steps.iter().flat_map(|step| &step.grippers).map(|g| g.position);
+    let targets = result.scene.target_grippers.iter().flatten().copied();
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for place in places.chain(targets) {
+        for c in 0..2 {
+            low[c] = low[c].min(place[c]);
+            high[c] = high[c].max(place[c]);
+        }
+    }
+    let more = BEYOND * (high[0] - low[0]).max(high[1] - low[1]);
+    let found = patch(mold, low.map(|c| c - more), high.map(|c| c + more), MOLD_TRIANGLES);
+    let corners = found.triangles.iter().flatten();
+    let points: Vec<Vector3> =
+        corners.filter_map(|n| found.vertices.get(*n as usize)).map(|p| (*p).into()).collect();
+    let marker = Marker { points, color: GREY, ..marker("mold", 0, TRIANGLE_LIST) };
+    (!marker.points.is_empty()).then(|| MarkerArray { markers: vec![marker] })
+}
+
+fn surface(result: &ResultFile, index: usize, paint: &Paint) -> Marker {
+    let surface = Surface::new(result, index, paint.divisions);
+    let grid = result.scene.grid;
+    let [across, along] = [grid.nu, grid.nv].map(|n| (n - 1) * paint.divisions);
+    let colours: Vec<ColorRgba> = (surface.vertices.iter())
+        .map(|p| paint.colour(figure::colour_value(result, *p)))
+        .collect();
+    let mut marker = Marker { color: GREY, ..marker("ply", 0, TRIANGLE_LIST) };
+    for [k, m] in (0..along).flat_map(|m| (0..across).map(move |k| [k, m])) {
+        let first = m * (across + 1) + k;
+        let [a, b, c, d] = [first, first + 1, first + across + 2, first + across + 1];
+        for corner in [a, b, c, a, c, d] {
+            marker.points.push(surface.vertices[corner].into());
+            marker.colors.push(colours[corner]);
+        }
+    }
+    marker
+}
+
+/// The lines of fabric that lie on the mold.
+fn caught(step: &Step) -> Vec<Vector3> {
+    let on = |line: &CatenaryState| line.contact.as_ref().map(|c| c.points.clone());
+    let lines: Vec<Vec<Point>> = step.catenaries.iter().filter_map(on).collect();
+    segments(lines.iter())
+}
+
+/// Both ends of every piece of polylines.
+fn segments<'a>(lines: impl Iterator<Item = &'a Vec<Point>>) -> Vec<Vector3> {
+    let pieces = lines.flat_map(|line| line.windows(2)).flatten();
+    pieces.map(|p| (*p).into()).collect()
+}
+
+/// Polylines; nothing deletes what the step before had.
+fn lines(ns: &str, id: i32, points: Vec<Vector3>, color: ColorRgba, width: f64) -> Marker {
+    let action = if points.is_empty() { DELETE } else { 0 };
+    let scale = [width, 0.0, 0.0].into();
+    Marker { action, scale, color, points, ..marker(ns, id, LINE_LIST) }
+}
+
+/// A gripper: a flat disc about its position, its axis along the ply's normal.
+fn disc(gripper: &Gripper, id: i32, radius: f64) -> Marker {
+    let pose =
+        Pose { position: gripper.position.into(), orientation: gripper.quaternion.into() };
+    let scale = [2.0 * radius, 2.0 * radius, DISC * radius].into();
+    Marker { pose, scale, color: BLACK, ..marker("grippers", id, CYLINDER) }
+}
+
+fn marker(ns: &str, id: i32, r#type: i32) -> Marker {
+    Marker {
+        header: Header { frame_id: FRAME.into(), ..Header::default() },
+        ns: ns.into(),
+        id,
+        r#type,
+        scale: [1.0; 3].into(),
+        // follow the frame if it moves
+        frame_locked: true,
+        ..Marker::default()
+    }
+}
