@@ -15,7 +15,6 @@ mod pose;
 mod round;
 mod saddle;
 mod section;
-pub mod patch;
 pub(crate) mod vector;
 
 pub use formula::{Formula, FormulaError, FormulaFault};

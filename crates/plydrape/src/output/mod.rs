@@ -20,7 +20,6 @@ mod manifest;
 pub mod net;
 pub mod plan;
 pub mod ros2;
-pub mod surface;
 pub mod table;
 
 #[cfg(test)]

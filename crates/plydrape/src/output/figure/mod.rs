@@ -195,8 +195,3 @@ mod tests {
         assert!(matches!(svg(&result, &[3]), Err(FigureError::Grippers { found: 7, .. })));
     }
 }
-
-pub(super) fn cells(grid: crate::ply::Grid, step: &Step, n: usize) -> Vec<([usize;2], Vec<[f64;3]>)> {
-    let l = surface::lines(grid, step, n);
-    (0..grid.nv-1).flat_map(|j| (0..grid.nu-1).map(move |i| [i,j])).map(|id| (id, surface::cell(grid,&l,id,n))).collect()
-}
