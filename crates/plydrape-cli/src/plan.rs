@@ -132,7 +132,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     bar.finish_and_clear();
     let planned = planned?;
 
-    let files = write_all(&planned, scene.plan.rate, &results.folder("plan"))?;
+    let files = write_all(&planned, &results.folder("plan"))?;
     let printed = Printed {
         method: planned.method,
         plan_time_s,

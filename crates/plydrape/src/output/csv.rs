@@ -54,7 +54,7 @@ fn step_row(step: &Step) -> Vec<String> {
         row.push(worst.map(|w| w.at.clone()).unwrap_or_default());
     }
     row.push(step.measures.contact_share.map(number).unwrap_or_default());
-    row.push(step.solver.status.to_owned());
+    row.push(step.solver.status.name().to_owned());
     row.push(step.solver.iterations.to_string());
     row.push(number(step.solver.residual));
     row.push(step.solver.equilibria.to_string());
@@ -79,6 +79,19 @@ pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
         }
     }
     text(table)
+}
+
+/// The table of [`motion`] for a plan at its rate; none of a simulated drape.
+///
+/// # Errors
+/// As [`motion`], if plan and steps do not belong together.
+pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError> {
+    match (&result.plan, result.motion()?) {
+        (Some(plan), Some((timed, attitudes))) => {
+            motion(&timed, &attitudes, result.scene.grid, plan.rate).map(Some)
+        }
+        _ => Ok(None),
+    }
 }
 
 /// The table of [`trajectory`] for a timed motion, sampled at a rate (Hz), the last sample at its end.

@@ -19,7 +19,9 @@ pub mod json;
 mod manifest;
 pub mod net;
 pub mod plan;
+pub mod read;
 pub mod ros2;
+pub mod surface;
 pub mod table;
 
 #[cfg(test)]
@@ -30,9 +32,10 @@ pub use error::OutputError;
 use crate::draping::record::ResultFile;
 use std::path::{Path, PathBuf};
 
-/// Writes `result.json`, `steps.csv`, `trajectory.csv` and `figure.svg` into a folder, all or none.
+/// Writes `result.json`, `steps.csv`, `trajectory.csv`, for a plan `motion.csv`, and `figure.svg` into a
+/// folder, all or none.
 ///
-/// The figure shows [`figure::default_steps`]. Returns the four paths. Same result, same bytes.
+/// The figure shows [`figure::default_steps`]. Returns the paths. Same result, same bytes.
 ///
 /// # Errors
 /// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
@@ -51,13 +54,15 @@ fn write_with(
     let json = json::text(result)?;
     let steps = csv::steps(result)?;
     let trajectory = csv::trajectory(result)?;
+    let motion = csv::planned_motion(result)?;
     let figure = figure::svg(result, &figure::default_steps(result))?;
     let mut files = vec![
         ("result.json", json.as_bytes()),
         ("steps.csv", steps.as_bytes()),
         ("trajectory.csv", trajectory.as_bytes()),
-        ("figure.svg", figure.as_bytes()),
     ];
+    files.extend(motion.as_ref().map(|motion| ("motion.csv", motion.as_bytes())));
+    files.push(("figure.svg", figure.as_bytes()));
     files.extend(more);
     folder::write(dir, &files)
 }

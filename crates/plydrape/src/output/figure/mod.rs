@@ -17,7 +17,6 @@ mod projection;
 mod relief;
 pub mod shear_map;
 mod shorten;
-mod surface;
 
 pub(super) use colour::viridis_rgb;
 pub(super) use panel::{colour_value, gripper_radius};

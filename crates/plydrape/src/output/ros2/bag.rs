@@ -29,7 +29,7 @@ impl Bag {
     pub fn new() -> Result<Self, Ros2Error> {
         let options = WriteOptions::new()
             .profile("ros2")
-            .library(concat!("plydrape ", env!("CARGO_PKG_VERSION")))
+            .library(crate::PROGRAM)
             .compression(None);
         let writer = options.create(Cursor::new(Vec::new()))?;
         Ok(Bag { writer, channels: BTreeMap::new() })

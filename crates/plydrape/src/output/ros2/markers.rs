@@ -5,7 +5,7 @@
 
 use super::FRAME;
 use super::message::{ColorRgba, Header, Marker, MarkerArray, Pose, Vector3};
-use crate::draping::record::{CatenaryState, Gripper, ResultFile, Step};
+use crate::draping::record::{CatenaryKind, CatenaryState, Gripper, ResultFile, Step};
 use crate::mold::patch::patch;
 use crate::output::figure;
 use crate::output::surface::Surface;
@@ -29,7 +29,7 @@ const LINE: f64 = 0.1;
 const DISC: f64 = 0.2;
 /// Triangles of the surface of one step, about, and of the mold at most.
 const TRIANGLES: usize = 6000;
-const MOLD_TRIANGLES: usize = 20_000;
+const MOLD_TRIANGLES: usize = 8000;
 /// Pieces of a cell's side, at most.
 const DIVISIONS: usize = 8;
 /// How far the mold is shown beyond the ply, as a share of the ply's size.
@@ -62,20 +62,19 @@ impl Paint {
     }
 }
 
-/// The markers of a step, by its index.
-pub(super) fn ply(result: &ResultFile, index: usize, paint: &Paint) -> MarkerArray {
-    let Some(step) = result.steps.get(index) else { return MarkerArray::default() };
+/// The markers of a step.
+pub(super) fn ply(result: &ResultFile, step: &Step, paint: &Paint) -> MarkerArray {
     let radius = figure::gripper_radius(result);
     let mut markers = Vec::with_capacity(4 + step.grippers.len());
     if result.scene.grid.cells() > 0 {
-        markers.push(surface(result, index, paint));
+        markers.push(surface(result, step, paint));
     }
-    let spans = |kind: &str| {
-        let lines = step.catenaries.iter().filter(|line| line.kind.to_string() == kind);
+    let spans = |kind: CatenaryKind| {
+        let lines = step.catenaries.iter().filter(|line| line.kind == kind);
         segments(lines.flat_map(|line| line.spans.iter().map(|span| &span.points)))
     };
-    markers.push(lines("catenaries", 0, spans("edge"), RED, LINE * radius));
-    markers.push(lines("catenaries", 1, spans("diagonal"), PINK, 0.6 * LINE * radius));
+    markers.push(lines("catenaries", 0, spans(CatenaryKind::Edge), RED, LINE * radius));
+    markers.push(lines("catenaries", 1, spans(CatenaryKind::Diagonal), PINK, 0.6 * LINE * radius));
     markers.push(lines("contact", 0, caught(step), BLUE, 1.6 * LINE * radius));
     markers.extend(step.grippers.iter().zip(0..).map(|(gripper, id)| disc(gripper, id, radius)));
     MarkerArray { markers }
@@ -93,6 +92,9 @@ pub(super) fn mold(result: &ResultFile) -> Option<MarkerArray> {
             high[c] = high[c].max(place[c]);
         }
     }
+    if !low.iter().chain(&high).all(|c| c.is_finite()) {
+        return None;
+    }
     let more = BEYOND * (high[0] - low[0]).max(high[1] - low[1]);
     let found = patch(mold, low.map(|c| c - more), high.map(|c| c + more), MOLD_TRIANGLES);
     let corners = found.triangles.iter().flatten();
@@ -102,10 +104,9 @@ pub(super) fn mold(result: &ResultFile) -> Option<MarkerArray> {
     (!marker.points.is_empty()).then(|| MarkerArray { markers: vec![marker] })
 }
 
-fn surface(result: &ResultFile, index: usize, paint: &Paint) -> Marker {
-    let surface = Surface::new(result, index, paint.divisions);
-    let grid = result.scene.grid;
-    let [across, along] = [grid.nu, grid.nv].map(|n| (n - 1) * paint.divisions);
+fn surface(result: &ResultFile, step: &Step, paint: &Paint) -> Marker {
+    let surface = Surface::new(result, step, paint.divisions);
+    let [across, along] = surface.size.map(|n| n - 1);
     let colours: Vec<ColorRgba> = (surface.vertices.iter())
         .map(|p| paint.colour(figure::colour_value(result, *p)))
         .collect();

@@ -55,8 +55,8 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
     }
     bag.channel(PLY, schema::MARKERS, bag::VOLATILE)?;
     let paint = markers::Paint::of(result);
-    for (index, step) in result.steps.iter().enumerate() {
-        let ply = markers::ply(result, index, &paint);
+    for step in &result.steps {
+        let ply = markers::ply(result, step, &paint);
         finite::check(&ply)?;
         bag.write(PLY, time::nanoseconds(step.step, step.time)?, &ply)?;
     }

@@ -9,7 +9,7 @@ use super::message::{
     Header, MultiDofJointTrajectory, MultiDofJointTrajectoryPoint, Transform, Twist,
 };
 use super::{FRAME, Ros2Error, time, turning};
-use crate::draping::record::{ResultFile, Step};
+use crate::draping::record::{Gripper, ResultFile, Step};
 use crate::motion::{Attitudes, MotionError, TimedMotion};
 use crate::output::OutputError;
 use crate::ply::Grid;
@@ -20,7 +20,10 @@ use crate::ply::Grid;
 /// [`OutputError`] if a time is none that ROS 2 can say, or the plan is not one of this result.
 pub(super) fn trajectory(result: &ResultFile) -> Result<MultiDofJointTrajectory, OutputError> {
     let grid = result.scene.grid;
-    let points = steps(&result.steps)?;
+    let points = match (&result.plan, result.motion()?) {
+        (Some(plan), Some((motion, attitudes))) => samples(&motion, &attitudes, grid, plan.rate)?,
+        _ => steps(&result.steps)?,
+    };
     // a time of 0: begin when the message is received
     let header = Header { frame_id: FRAME.into(), ..Header::default() };
     let joint = |k| {
@@ -38,7 +41,7 @@ pub(super) fn trajectory(result: &ResultFile) -> Result<MultiDofJointTrajectory,
 fn steps(steps: &[Step]) -> Result<Vec<MultiDofJointTrajectoryPoint>, Ros2Error> {
     let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
     let points = steps.iter().zip(clock(&times)?).map(|(step, time)| {
-        let transform = |g: &crate::draping::record::Gripper| Transform {
+        let transform = |g: &Gripper| Transform {
             translation: g.position.into(),
             rotation: g.quaternion.into(),
         };
