@@ -15,6 +15,7 @@ mod error;
 pub mod figure;
 mod finite;
 pub mod folder;
+mod ground;
 pub mod json;
 mod manifest;
 pub mod net;
@@ -23,6 +24,7 @@ pub mod read;
 pub mod ros2;
 pub mod surface;
 pub mod table;
+pub mod vtk;
 
 #[cfg(test)]
 mod sample;

@@ -27,10 +27,7 @@ struct Channel {
 impl Bag {
     /// An empty bag.
     pub fn new() -> Result<Self, Ros2Error> {
-        let options = WriteOptions::new()
-            .profile("ros2")
-            .library(crate::PROGRAM)
-            .compression(None);
+        let options = WriteOptions::new().profile("ros2").library(crate::PROGRAM).compression(None);
         let writer = options.create(Cursor::new(Vec::new()))?;
         Ok(Bag { writer, channels: BTreeMap::new() })
     }

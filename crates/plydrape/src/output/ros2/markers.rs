@@ -6,8 +6,8 @@
 use super::FRAME;
 use super::message::{ColorRgba, Header, Marker, MarkerArray, Pose, Vector3};
 use crate::draping::record::{CatenaryKind, CatenaryState, Gripper, ResultFile, Step};
-use crate::mold::patch::patch;
 use crate::output::figure;
+use crate::output::ground::ground;
 use crate::output::surface::Surface;
 
 type Point = [f64; 3];
@@ -32,8 +32,6 @@ const TRIANGLES: usize = 6000;
 const MOLD_TRIANGLES: usize = 8000;
 /// Pieces of a cell's side, at most.
 const DIVISIONS: usize = 8;
-/// How far the mold is shown beyond the ply, as a share of the ply's size.
-const BEYOND: f64 = 0.15;
 
 /// What all steps share: pieces of a cell's side, and the range of what colours the ply (m).
 pub(super) struct Paint {
@@ -82,34 +80,19 @@ pub(super) fn ply(result: &ResultFile, step: &Step, paint: &Paint) -> MarkerArra
 
 /// The mold under the drape, if there is one.
 pub(super) fn mold(result: &ResultFile) -> Option<MarkerArray> {
-    let mold = result.scene.mold.as_ref()?;
-    let places = result.steps.iter().flat_map(|step| &step.grippers).map(|g| g.position);
-    let targets = result.scene.target_grippers.iter().flatten().copied();
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for place in places.chain(targets) {
-        for c in 0..2 {
-            low[c] = low[c].min(place[c]);
-            high[c] = high[c].max(place[c]);
-        }
-    }
-    if !low.iter().chain(&high).all(|c| c.is_finite()) {
-        return None;
-    }
-    let more = BEYOND * (high[0] - low[0]).max(high[1] - low[1]);
-    let found = patch(mold, low.map(|c| c - more), high.map(|c| c + more), MOLD_TRIANGLES);
+    let found = ground(result, MOLD_TRIANGLES)?;
     let corners = found.triangles.iter().flatten();
     let points: Vec<Vector3> =
         corners.filter_map(|n| found.vertices.get(*n as usize)).map(|p| (*p).into()).collect();
     let marker = Marker { points, color: GREY, ..marker("mold", 0, TRIANGLE_LIST) };
-    (!marker.points.is_empty()).then(|| MarkerArray { markers: vec![marker] })
+    Some(MarkerArray { markers: vec![marker] })
 }
 
 fn surface(result: &ResultFile, step: &Step, paint: &Paint) -> Marker {
     let surface = Surface::new(result, step, paint.divisions);
     let [across, along] = surface.size.map(|n| n - 1);
-    let colours: Vec<ColorRgba> = (surface.vertices.iter())
-        .map(|p| paint.colour(figure::colour_value(result, *p)))
-        .collect();
+    let colours: Vec<ColorRgba> =
+        (surface.vertices.iter()).map(|p| paint.colour(figure::colour_value(result, *p))).collect();
     let mut marker = Marker { color: GREY, ..marker("ply", 0, TRIANGLE_LIST) };
     for [k, m] in (0..along).flat_map(|m| (0..across).map(move |k| [k, m])) {
         let first = m * (across + 1) + k;
@@ -144,8 +127,7 @@ fn lines(ns: &str, id: i32, points: Vec<Vector3>, color: ColorRgba, width: f64) 
 
 /// A gripper: a flat disc about its position, its axis along the ply's normal.
 fn disc(gripper: &Gripper, id: i32, radius: f64) -> Marker {
-    let pose =
-        Pose { position: gripper.position.into(), orientation: gripper.quaternion.into() };
+    let pose = Pose { position: gripper.position.into(), orientation: gripper.quaternion.into() };
     let scale = [2.0 * radius, 2.0 * radius, DISC * radius].into();
     Marker { pose, scale, color: BLACK, ..marker("grippers", id, CYLINDER) }
 }
