@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-
 from program import run
 
 RADIUS = 0.5
@@ -94,6 +93,8 @@ def stations(step: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str, list[l
     """Every drawn piece of every catenary: the catenary, `span` or `contact`, its points."""
     for line in step["catenaries"]:
         for span in line["spans"]:
-            yield line, "span", span["points"]
+            # a rest of no length has no points
+            if span["points"]:
+                yield line, "span", span["points"]
         if line["contact"]:
             yield line, "contact", line["contact"]["points"]

@@ -5,7 +5,7 @@
 
 use super::FRAME;
 use super::message::{ColorRgba, Header, Marker, MarkerArray, Pose, Vector3};
-use crate::draping::record::{CatenaryKind, CatenaryState, Gripper, ResultFile, Step};
+use crate::draping::record::{CatenaryKind, Gripper, ResultFile, Step};
 use crate::output::figure;
 use crate::output::ground::ground;
 use crate::output::surface::Surface;
@@ -15,6 +15,7 @@ type Point = [f64; 3];
 /// `Marker.type` and `Marker.action`.
 const CYLINDER: i32 = 3;
 const LINE_LIST: i32 = 5;
+const SPHERE_LIST: i32 = 7;
 const TRIANGLE_LIST: i32 = 11;
 const DELETE: i32 = 2;
 
@@ -73,7 +74,9 @@ pub(super) fn ply(result: &ResultFile, step: &Step, paint: &Paint) -> MarkerArra
     };
     markers.push(lines("catenaries", 0, spans(CatenaryKind::Edge), RED, LINE * radius));
     markers.push(lines("catenaries", 1, spans(CatenaryKind::Diagonal), PINK, 0.6 * LINE * radius));
-    markers.push(lines("contact", 0, caught(step), BLUE, 1.6 * LINE * radius));
+    let (lying, touching) = caught(step);
+    markers.push(lines("contact", 0, segments(lying.into_iter()), BLUE, 1.6 * LINE * radius));
+    markers.push(points(touching, radius));
     markers.extend(step.grippers.iter().zip(0..).map(|(gripper, id)| disc(gripper, id, radius)));
     MarkerArray { markers }
 }
@@ -105,11 +108,12 @@ fn surface(result: &ResultFile, step: &Step, paint: &Paint) -> Marker {
     marker
 }
 
-/// The lines of fabric that lie on the mold.
-fn caught(step: &Step) -> Vec<Vector3> {
-    let on = |line: &CatenaryState| line.contact.as_ref().map(|c| c.points.clone());
-    let lines: Vec<Vec<Point>> = step.catenaries.iter().filter_map(on).collect();
-    segments(lines.iter())
+/// The lines of fabric that the mold has caught, and where it has caught no more than a point.
+fn caught(step: &Step) -> (Vec<&Vec<Point>>, Vec<Vector3>) {
+    let lines = step.catenaries.iter().filter_map(|line| line.contact.as_ref());
+    let (lying, touching): (Vec<_>, Vec<_>) =
+        lines.map(|contact| &contact.points).partition(|points| points.len() > 1);
+    (lying, touching.into_iter().flatten().map(|p| (*p).into()).collect())
 }
 
 /// Both ends of every piece of polylines.
@@ -123,6 +127,13 @@ fn lines(ns: &str, id: i32, points: Vec<Vector3>, color: ColorRgba, width: f64) 
     let action = if points.is_empty() { DELETE } else { 0 };
     let scale = [width, 0.0, 0.0].into();
     Marker { action, scale, color, points, ..marker(ns, id, LINE_LIST) }
+}
+
+/// Touches in a point, as balls.
+fn points(places: Vec<Vector3>, radius: f64) -> Marker {
+    let action = if places.is_empty() { DELETE } else { 0 };
+    let scale = [3.0 * LINE * radius; 3].into();
+    Marker { action, scale, color: BLUE, points: places, ..marker("contact", 1, SPHERE_LIST) }
 }
 
 /// A gripper: a flat disc about its position, its axis along the ply's normal.

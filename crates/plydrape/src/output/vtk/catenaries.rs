@@ -1,5 +1,5 @@
 //! The catenaries in their pieces, as they are in the result file: those that hang or lie, and what the mold has
-//! caught.
+//! caught. A touch in a single point is a line from it to itself; a rest of no length has no points and is left out.
 //!
 //! Point data: `contact`, 1 on pieces that lie on the mold. Cell data, of the catenary:
 //!
@@ -89,13 +89,14 @@ pub(super) fn catenaries(step: &Step) -> PolyData {
         let caught = line.contact.iter().map(Rest::Caught);
         pieces.extend(spans.chain(caught).map(|rest| Piece { number, line, rest }));
     }
-    // a single point is no line
-    pieces.retain(|piece| piece.points().len() > 1);
+    pieces.retain(|piece| !piece.points().is_empty());
 
     let mut first = 0;
     let mut joined = |piece: &Piece| {
-        first += piece.points().len();
-        (first - piece.points().len()..first).collect()
+        let count = piece.points().len();
+        first += count;
+        // a touch in one point is a line from it to itself
+        if count == 1 { vec![first - 1; 2] } else { (first - count..first).collect() }
     };
     let cells = pieces.iter().map(&mut joined).collect();
     let on_mold = |piece: &Piece| vec![u8::from(piece.state() > 2); piece.points().len()];
