@@ -3,6 +3,7 @@
 use super::figure::FigureError;
 use super::inp::InpError;
 use super::json::JsonError;
+use super::ros2::Ros2Error;
 use crate::motion::MotionError;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -59,6 +60,9 @@ pub enum OutputError {
     /// A motion cannot be sampled as asked for.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// The result has no ROS 2 messages.
+    #[error(transparent)]
+    Ros2(#[from] Ros2Error),
     /// The figure could not be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),

@@ -16,6 +16,7 @@ pub mod export;
 pub mod figure;
 mod finite;
 pub mod folder;
+mod ground;
 pub mod inp;
 pub mod json;
 mod manifest;
@@ -24,8 +25,10 @@ pub mod net;
 pub mod page;
 pub mod plan;
 pub mod read;
+pub mod ros2;
 pub mod surface;
 pub mod table;
+pub mod vtk;
 
 #[cfg(test)]
 mod sample;
