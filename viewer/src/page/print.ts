@@ -1,0 +1,40 @@
+/**
+ * Print: light colours, the 3D picture of the step in view as an image, all charts at the width of the
+ * paper; afterwards everything as before. What is hidden on paper is said in the style sheet.
+ */
+
+import type { Scene3d } from "../scene/scene3d";
+import type { Charts } from "./charts";
+import { byId } from "./dom";
+import type { State } from "./state";
+import { applyTheme } from "./theme";
+
+export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): void {
+  const image = byId<HTMLImageElement>("snapshot");
+  let printing = false;
+  const recolour = (dark: boolean) => {
+    applyTheme(dark);
+    scene?.ink();
+    charts.redraw();
+  };
+  const begin = () => {
+    if (printing) return;
+    printing = true;
+    recolour(false);
+    if (scene !== null) image.src = scene.snapshot();
+    document.documentElement.classList.add("printing");
+    charts.resize();
+  };
+  const end = () => {
+    if (!printing) return;
+    printing = false;
+    document.documentElement.classList.remove("printing");
+    image.removeAttribute("src");
+    recolour(state.now.dark);
+    charts.resize();
+    scene?.draw();
+  };
+  addEventListener("beforeprint", begin);
+  addEventListener("afterprint", end);
+  matchMedia("print").addEventListener("change", (event) => (event.matches ? begin() : end()));
+}

@@ -1,0 +1,76 @@
+/** The mold: a quiet, neutral surface with its borders and sharp edges drawn as thin lines. */
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DoubleSide,
+  EdgesGeometry,
+  Group,
+  Mesh,
+  ShaderMaterial,
+} from "three";
+import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
+import type { Geometry } from "../data/page_data";
+import { Lines, screenColour } from "./lines";
+import { PROJECT, SHADE } from "./shade";
+
+const VERTEX = /* glsl */ `
+  varying vec3 vNormal;
+  ${PROJECT}
+  void main() {
+    vNormal = normalMatrix * normal;
+    gl_Position = project(position);
+  }
+`;
+
+const FRAGMENT = /* glsl */ `
+  uniform vec3 colour;
+  varying vec3 vNormal;
+  ${SHADE}
+  void main() {
+    gl_FragColor = vec4(colour * mix(0.72, 1.0, (shade(vNormal) - 0.74) / 0.32), 1.0);
+  }
+`;
+
+/** Above this many triangles sharp edges are not looked for. */
+const MANY = 60_000;
+/** An edge is sharp from this angle between its faces on. */
+const SHARP = 30;
+
+export class Mold {
+  readonly group = new Group();
+  private readonly surface: Mesh<BufferGeometry, ShaderMaterial>;
+  private readonly outline: Lines | null = null;
+
+  constructor(mold: NonNullable<Geometry["mold"]>, push: number) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(Float32Array.from(mold.vertices), 3));
+    geometry.setIndex(new BufferAttribute(Uint32Array.from(mold.triangles), 1));
+    const few = mold.triangles.length / 3 <= MANY;
+    let shaded = geometry;
+    if (few) shaded = toCreasedNormals(geometry, (SHARP * Math.PI) / 180);
+    else geometry.computeVertexNormals();
+    const material = new ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      side: DoubleSide,
+      uniforms: { colour: { value: new Color() }, push: { value: push } },
+    });
+    this.surface = new Mesh(shaded, material);
+    this.group.add(this.surface);
+    if (few) {
+      const edges = new EdgesGeometry(geometry, SHARP).getAttribute("position").array;
+      this.outline = new Lines(edges.length / 6, 1, 0.9 * push);
+      this.outline.ends.set(edges);
+      this.outline.changed();
+      this.outline.mesh.renderOrder = 1;
+      this.group.add(this.outline.mesh);
+    }
+  }
+
+  ink(colour: string, line: string): void {
+    (this.surface.material.uniforms.colour!.value as Color).copy(screenColour(colour));
+    this.outline?.ink(line);
+  }
+}

@@ -1,0 +1,201 @@
+/**
+ * The ply surface, coloured by the chosen field.
+ *
+ * Each cell has its own (n+1)² vertices, so that a field given on cells has sharp borders. Positions and
+ * normals are computed once a step on the shared grid and copied to the cells; all buffers are written in
+ * place. The value goes to the shader as a share of its range and is looked up in the colour map there.
+ */
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DataTexture,
+  DoubleSide,
+  DynamicDrawUsage,
+  LinearFilter,
+  Mesh,
+  ShaderMaterial,
+} from "three";
+import { colourAt, mapOf, shareOf } from "../data/colour_map";
+import { MICRO, type Motion } from "../data/motion";
+import type { Field } from "../data/page_data";
+import { PROJECT, SHADE } from "./shade";
+
+const VERTEX = /* glsl */ `
+  attribute float share;
+  attribute vec2 thread;
+  varying float vShare;
+  varying vec2 vThread;
+  varying vec3 vNormal;
+  ${PROJECT}
+  void main() {
+    vShare = share;
+    vThread = thread;
+    vNormal = normalMatrix * normal;
+    gl_Position = project(position);
+  }
+`;
+
+const FRAGMENT = /* glsl */ `
+  uniform sampler2D map;
+  varying float vShare;
+  varying vec2 vThread;
+  varying vec3 vNormal;
+  ${SHADE}
+  void main() {
+    vec3 colour = texture2D(map, vec2(vShare * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb * shade(vNormal);
+    // Threads of the fabric, where they are far enough apart to be seen.
+    vec2 width = fwidth(vThread);
+    vec2 away = abs(fract(vThread - 0.5) - 0.5) / width;
+    float line = 1.0 - min(min(away.x, away.y), 1.0);
+    float room = clamp(0.34 - 2.0 * max(width.x, width.y), 0.0, 0.28);
+    gl_FragColor = vec4(mix(colour, vec3(1.0), line * room), 1.0);
+  }
+`;
+
+export class PlySurface {
+  readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
+  private readonly columns: number;
+  private readonly rows: number;
+  /** For each drawn vertex, the vertex of the shared grid, and its cell. */
+  private readonly source: Uint32Array;
+  private readonly cell: Uint32Array;
+  private readonly first: Int32Array;
+  private readonly normals: Float32Array;
+  private readonly position: BufferAttribute;
+  private readonly normal: BufferAttribute;
+  private readonly share: BufferAttribute;
+
+  constructor(
+    private readonly motion: Motion,
+    push: number,
+  ) {
+    const [nu, nv] = motion.data.grid;
+    const n = motion.data.divisions;
+    this.columns = (nu - 1) * n + 1;
+    this.rows = (nv - 1) * n + 1;
+    const total = (nu - 1) * (nv - 1) * (n + 1) ** 2;
+    this.source = new Uint32Array(total);
+    this.cell = new Uint32Array(total);
+    this.first = new Int32Array(this.columns * this.rows).fill(-1);
+    this.normals = new Float32Array(3 * this.columns * this.rows);
+    const threads = new Float32Array(2 * total);
+    const index = this.layOut(nu, nv, n, threads);
+
+    const dynamic = (size: number) =>
+      new BufferAttribute(new Float32Array(size * total), size).setUsage(DynamicDrawUsage);
+    this.position = dynamic(3);
+    this.normal = dynamic(3);
+    this.share = dynamic(1);
+    const geometry = new BufferGeometry();
+    geometry.setIndex(new BufferAttribute(index, 1));
+    geometry.setAttribute("position", this.position);
+    geometry.setAttribute("normal", this.normal);
+    geometry.setAttribute("share", this.share);
+    geometry.setAttribute("thread", new BufferAttribute(threads, 2));
+    const material = new ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      side: DoubleSide,
+      uniforms: { map: { value: null }, push: { value: push } },
+    });
+    this.mesh = new Mesh(geometry, material);
+    this.mesh.frustumCulled = false;
+  }
+
+  /** Lists the vertices and triangles cell by cell. */
+  private layOut(nu: number, nv: number, n: number, threads: Float32Array): Uint32Array {
+    const index: number[] = [];
+    let k = 0;
+    for (let cj = 0; cj < nv - 1; cj++) {
+      for (let ci = 0; ci < nu - 1; ci++) {
+        for (let b = 0; b <= n; b++) {
+          for (let a = 0; a <= n; a++) {
+            const [column, row] = [ci * n + a, cj * n + b];
+            const at = row * this.columns + column;
+            this.source[k] = at;
+            this.cell[k] = cj * (nu - 1) + ci;
+            if (this.first[at]! < 0) this.first[at] = k;
+            threads.set([column, row], 2 * k);
+            if (a < n && b < n) index.push(k, k + 1, k + n + 2, k, k + n + 2, k + n + 1);
+            k++;
+          }
+        }
+      }
+    }
+    return Uint32Array.from(index);
+  }
+
+  /** Moves the surface to a step. */
+  moveTo(step: number): void {
+    const points = this.motion.surface.at(step);
+    this.findNormals(points);
+    const position = this.position.array;
+    const normal = this.normal.array;
+    for (let k = 0; k < this.source.length; k++) {
+      const from = 3 * this.source[k]!;
+      for (let c = 0; c < 3; c++) {
+        position[3 * k + c] = points[from + c]! * MICRO;
+        normal[3 * k + c] = this.normals[from + c]!;
+      }
+    }
+    this.position.needsUpdate = true;
+    this.normal.needsUpdate = true;
+  }
+
+  /** Colours the surface by a field in a step. */
+  colour(field: Field, step: number): void {
+    const item = field.on === "cell" ? this.cell : this.source;
+    const share = this.share.array;
+    for (let k = 0; k < item.length; k++) {
+      share[k] = shareOf(field, this.motion.value(field, step, item[k]!));
+    }
+    this.share.needsUpdate = true;
+  }
+
+  /** Loads the colour map of a field. */
+  useMap(field: Field): void {
+    const map = mapOf(field);
+    const texels = new Uint8Array(4 * 256);
+    for (let k = 0; k < 256; k++) texels.set([...colourAt(map, k / 255), 255], 4 * k);
+    const texture = new DataTexture(texels, 256, 1);
+    texture.magFilter = texture.minFilter = LinearFilter;
+    texture.needsUpdate = true;
+    const uniform = this.mesh.material.uniforms.map!;
+    (uniform.value as DataTexture | null)?.dispose();
+    uniform.value = texture;
+  }
+
+  /** A vertex of the shared grid as it is drawn now (m). */
+  vertex(at: number): [number, number, number] {
+    const k = 3 * (this.first[at] ?? -1);
+    const { array } = this.position;
+    return [array[k]!, array[k + 1]!, array[k + 2]!];
+  }
+
+  /** Normals from the two diagonals through the neighbours of every vertex (their scale does not matter). */
+  private findNormals(points: Int32Array): void {
+    const { columns, rows, normals } = this;
+    for (let row = 0; row < rows; row++) {
+      const below = Math.max(row - 1, 0) * columns;
+      const above = Math.min(row + 1, rows - 1) * columns;
+      for (let column = 0; column < columns; column++) {
+        const here = row * columns;
+        const west = 3 * (here + Math.max(column - 1, 0));
+        const east = 3 * (here + Math.min(column + 1, columns - 1));
+        const south = 3 * (below + column);
+        const north = 3 * (above + column);
+        const ux = (points[east]! - points[west]!) * 1e-3;
+        const uy = (points[east + 1]! - points[west + 1]!) * 1e-3;
+        const uz = (points[east + 2]! - points[west + 2]!) * 1e-3;
+        const vx = (points[north]! - points[south]!) * 1e-3;
+        const vy = (points[north + 1]! - points[south + 1]!) * 1e-3;
+        const vz = (points[north + 2]! - points[south + 2]!) * 1e-3;
+        const k = 3 * (here + column);
+        normals[k] = uy * vz - uz * vy;
+        normals[k + 1] = uz * vx - ux * vz;
+        normals[k + 2] = ux * vy - uy * vx;
+      }
+    }
+  }
+}
