@@ -51,7 +51,7 @@ class Chart {
   private readonly card = make("figure", { class: "chart" });
   private readonly room = make("div", { class: "plot" });
   private readonly value = make("output", { class: "chart-value" });
-  private readonly where = make("p", { class: "chart-where" });
+  private readonly where = make("span", { class: "chart-where" });
   private readonly line = make("div", { class: "chart-marker" });
   private readonly dot = make("div", { class: "chart-dot" });
   private index = 0;
@@ -63,20 +63,26 @@ class Chart {
     private readonly state: State,
   ) {
     const { label, unit, limit, least } = measure;
-    const allowed = limit === null ? "" : `${least ? "≥" : "≤"}\u202f${withUnit(short(limit), unit)}`;
+    const allowed = limit === null ? "" : `limit ${least ? "≥" : "≤"}\u202f${withUnit(short(limit), unit)}`;
     const bound = make("span", { class: "chart-limit" }, allowed);
-    if (limit !== null)
-      bound.title = `limit: ${least ? "at least" : "at most"} ${withUnit(full(limit), unit)}`;
-    const head = make("figcaption", {}, make("span", { class: "chart-name" }, label), bound, this.value);
+    if (limit !== null) bound.title = `${least ? "at least" : "at most"} ${withUnit(full(limit), unit)}`;
+    const head = make(
+      "figcaption",
+      {},
+      make("span", { class: "chart-name" }, label),
+      this.value,
+      bound,
+      this.where,
+    );
     this.card.dataset.measure = measure.key;
-    this.card.append(head, this.where, this.room);
+    this.card.append(head, this.room);
     host.append(this.card);
     this.plot = new uPlot(this.options(), [steps, measure.values], this.room);
     this.plot.over.append(this.line, this.dot);
     this.plot.over.setAttribute("role", "img");
     this.plot.over.setAttribute(
       "aria-label",
-      `${label} over the steps${allowed === "" ? "" : `, limit ${allowed}`}`,
+      `${label} over the steps${allowed === "" ? "" : `, ${allowed}`}`,
     );
     this.listen();
   }

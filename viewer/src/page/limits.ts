@@ -62,7 +62,7 @@ function row(state: State, data: PageData, limit: Limit): HTMLTableRowElement {
   const value = withUnit(short(limit.value), limit.unit);
   const bound = `${limit.least ? "≥" : "≤"}\u202f${withUnit(short(limit.limit), limit.unit)}`;
   const index = limit.step === null ? -1 : data.steps.indexOf(limit.step);
-  const word = limit.ok ? "pass" : "exceeded";
+  const word = limit.ok ? "pass" : "fail";
   const cells = [
     make("th", { scope: "row" }, limit.name),
     make("td", { class: "word" }, sign(limit.ok), word),
@@ -81,7 +81,7 @@ function row(state: State, data: PageData, limit: Limit): HTMLTableRowElement {
   cells[5]!.replaceChildren(button);
   tr.classList.add("linked");
   tr.addEventListener("click", () => {
-    const label = `${limit.name}: ${value}\n${word}, ${limit.least ? "least" : "most"} ${withUnit(short(limit.limit), limit.unit)} allowed\n${limit.where}`;
+    const label = `${limit.name}: ${value}\n${limit.ok ? "pass" : "exceeded"}, ${limit.least ? "least" : "most"} ${withUnit(short(limit.limit), limit.unit)} allowed\n${limit.where}`;
     state.goto(index);
     if (limit.place !== null) state.set({ pointer: { index, place: limit.place, label } });
     for (const other of tr.parentElement?.children ?? []) other.removeAttribute("aria-current");

@@ -11,7 +11,9 @@ import { applyTheme } from "./theme";
 
 export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): void {
   const image = byId<HTMLImageElement>("snapshot");
+  const input = document.querySelector<HTMLDetailsElement>("#input");
   let printing = false;
+  let opened = false;
   const recolour = (dark: boolean) => {
     applyTheme(dark);
     scene?.ink();
@@ -23,6 +25,8 @@ export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): 
     recolour(false);
     if (scene !== null) image.src = scene.snapshot();
     document.documentElement.classList.add("printing");
+    opened = input?.open ?? false;
+    if (input !== null) input.open = true;
     charts.resize();
   };
   const end = () => {
@@ -30,6 +34,7 @@ export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): 
     printing = false;
     document.documentElement.classList.remove("printing");
     image.removeAttribute("src");
+    if (input !== null) input.open = opened;
     recolour(state.now.dark);
     charts.resize();
     scene?.draw();

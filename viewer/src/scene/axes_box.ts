@@ -90,25 +90,22 @@ export class AxesBox {
     for (const axis of [0, 1, 2]) {
       const edge = this.outerEdge(axis, direction, eye, centre);
       if (edge === null) continue;
-      const at = (value: number) => {
-        edge.point.setComponent(axis, value);
-        return eye.project(edge.point);
-      };
-      const [out, length] = [edge.out, edge.length];
+      const { out, point, length } = edge;
       const values = this.ticks[axis]!;
-      const every = Math.ceil((values.length * 34) / Math.max(length, 1));
+      const texts = values.map((value) => full(Math.round(value * MM * 1e6) / 1e6));
+      const widest = Math.max(...texts.map(widthOf));
+      const every = Math.ceil((values.length * (Math.abs(out[1]) * widest + 14)) / length);
+      const put = (text: string, value: number, away: number, name: boolean) => {
+        const [x, y] = eye.project(point.setComponent(axis, value));
+        const reach = away + Math.abs(out[0]) * 0.5 * widthOf(text) + Math.abs(out[1]) * 7;
+        const label = { text, x: x + reach * out[0], y: y + reach * out[1], name };
+        if (!labels.some((other) => overlap(label, other))) labels.push(label);
+      };
+      const beyond = 16 + Math.abs(out[0]) * widest + Math.abs(out[1]) * 12;
+      put(`${NAMES[axis]!} (mm)`, (this.low[axis]! + this.high[axis]!) / 2, beyond, true);
       values.forEach((value, k) => {
-        if (k % every !== 0) return;
-        const [x, y] = at(value);
-        labels.push({
-          text: full(Math.round(value * MM * 1e6) / 1e6),
-          x: x + 15 * out[0],
-          y: y + 12 * out[1],
-          name: false,
-        });
+        if (k % every === 0) put(texts[k]!, value, 7, false);
       });
-      const [x, y] = at((this.low[axis]! + this.high[axis]!) / 2);
-      labels.push({ text: `${NAMES[axis]!} (mm)`, x: x + 40 * out[0], y: y + 30 * out[1], name: true });
     }
     return labels;
   }
@@ -139,4 +136,13 @@ export class AxesBox {
     if (away < -1e-6 || (Math.abs(away) <= 1e-6 && out[1] < 0)) out = [-out[0], -out[1]];
     return { point, out, length };
   }
+}
+
+/** About how wide a label is (CSS pixels). */
+function widthOf(text: string): number {
+  return 6.6 * text.length;
+}
+
+function overlap(a: Label, b: Label): boolean {
+  return Math.abs(a.x - b.x) < (widthOf(a.text) + widthOf(b.text)) / 2 + 4 && Math.abs(a.y - b.y) < 14;
 }

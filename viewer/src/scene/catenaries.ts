@@ -1,6 +1,7 @@
 /**
  * The catenaries: edges between neighbouring grippers, which are lines of the surface's grid, and the two
- * diagonals of every cell.
+ * diagonals of every cell. Diagonals hang below the surface drawn between the edges; they are pulled towards
+ * the eye by as much as that, so that they are seen through it.
  */
 
 import { Group } from "three";
@@ -17,6 +18,7 @@ export class Catenaries {
   constructor(
     private readonly motion: Motion,
     push: number,
+    pull: number,
   ) {
     const [nu, nv] = motion.data.grid;
     const n = motion.data.divisions;
@@ -31,7 +33,7 @@ export class Catenaries {
     }
     this.pairs = Uint32Array.from(pairs);
     this.edges = new Lines(pairs.length / 2, 1.9, push);
-    this.diagonals = new Lines(2 * (nu - 1) * (nv - 1) * n, 1.1, push);
+    this.diagonals = new Lines(2 * (nu - 1) * (nv - 1) * n, 1.2, -pull);
     this.group.add(this.diagonals.mesh, this.edges.mesh);
   }
 

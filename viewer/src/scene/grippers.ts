@@ -24,9 +24,11 @@ const VERTEX = /* glsl */ `
   attribute vec3 axis;
   uniform float radius;
   varying vec3 vLocal;
+  varying float vTowards;
   ${PROJECT}
   void main() {
     vLocal = position;
+    vTowards = (normalMatrix * axis).z * position.z;
     vec3 side = normalize(cross(abs(axis.x) < 0.9 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), axis));
     vec3 other = cross(axis, side);
     gl_Position = project(centre + radius * (position.x * side + position.y * other + position.z * axis));
@@ -37,8 +39,11 @@ const FRAGMENT = /* glsl */ `
   uniform vec3 colour;
   uniform vec3 rim;
   varying vec3 vLocal;
+  varying float vTowards;
   void main() {
-    if (abs(vLocal.z) < 0.0799) {
+    // The wall is dark, and so is the face that looks away.
+    if (abs(vLocal.z) < 0.0799 || vTowards < 0.0) {
+      if (length(vLocal.xy) > 0.941) discard;
       gl_FragColor = vec4(colour, 1.0);
       return;
     }

@@ -57,7 +57,7 @@ export class Scene3d {
     const { mold } = motion.data.geometry;
 
     this.surface = new PlySurface(motion, 0.003 * size);
-    this.catenaries = new Catenaries(motion, 0.0005 * size);
+    this.catenaries = new Catenaries(motion, 0.0005 * size, 0.02 * size);
     this.grippers = new Grippers(motion, 0.1 * motion.spacing(), -0.004 * size);
     this.contacts = new Contacts(motion, -0.003 * size);
     this.mold = mold === null ? null : new Mold(mold, 0.008 * size);

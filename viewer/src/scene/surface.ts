@@ -48,7 +48,7 @@ const FRAGMENT = /* glsl */ `
     vec2 width = fwidth(vThread);
     vec2 away = abs(fract(vThread - 0.5) - 0.5) / width;
     float line = 1.0 - min(min(away.x, away.y), 1.0);
-    float room = clamp(0.34 - 2.0 * max(width.x, width.y), 0.0, 0.28);
+    float room = clamp(0.36 - 1.1 * max(width.x, width.y), 0.0, 0.26);
     gl_FragColor = vec4(mix(colour, vec3(1.0), line * room), 1.0);
   }
 `;
