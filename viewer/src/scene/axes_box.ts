@@ -64,8 +64,8 @@ export class AxesBox {
         }
       }
     }
-    const lines = new Lines(segments.length / 6, 1, push);
-    lines.ends.set(segments);
+    const lines = new Lines(new Array<number>(segments.length / 6).fill(2), 1, push);
+    lines.points.set(segments);
     lines.changed();
     return lines;
   }

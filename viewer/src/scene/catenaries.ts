@@ -12,8 +12,8 @@ export class Catenaries {
   readonly group = new Group();
   private readonly edges: Lines;
   private readonly diagonals: Lines;
-  /** Pairs of grid vertices, one a segment of an edge. */
-  private readonly pairs: Uint32Array;
+  /** Vertices of the surface's grid under the edges, edge line after edge line. */
+  private readonly under: Uint32Array;
 
   constructor(
     private readonly motion: Motion,
@@ -24,16 +24,17 @@ export class Catenaries {
     const n = motion.data.divisions;
     const columns = (nu - 1) * n + 1;
     const rows = (nv - 1) * n + 1;
-    const pairs: number[] = [];
+    const under: number[] = [];
     for (let row = 0; row < rows; row += n) {
-      for (let k = 0; k < columns - 1; k++) pairs.push(row * columns + k, row * columns + k + 1);
+      for (let k = 0; k < columns; k++) under.push(row * columns + k);
     }
     for (let column = 0; column < columns; column += n) {
-      for (let k = 0; k < rows - 1; k++) pairs.push(k * columns + column, (k + 1) * columns + column);
+      for (let k = 0; k < rows; k++) under.push(k * columns + column);
     }
-    this.pairs = Uint32Array.from(pairs);
-    this.edges = new Lines(pairs.length / 2, 1.9, push);
-    this.diagonals = new Lines(2 * (nu - 1) * (nv - 1) * n, 1.2, -pull);
+    this.under = Uint32Array.from(under);
+    const along = (count: number, length: number) => new Array<number>(count).fill(length);
+    this.edges = new Lines([...along(nv, columns), ...along(nu, rows)], 1.9, push);
+    this.diagonals = new Lines(along(2 * (nu - 1) * (nv - 1), n + 1), 1.2, -pull);
     this.group.add(this.diagonals.mesh, this.edges.mesh);
   }
 
@@ -52,27 +53,17 @@ export class Catenaries {
   }
 
   moveTo(step: number): void {
-    const points = this.motion.surface.at(step);
-    const { ends } = this.edges;
-    for (let k = 0; k < this.pairs.length; k++) {
-      const from = 3 * this.pairs[k]!;
-      for (let c = 0; c < 3; c++) ends[3 * k + c] = points[from + c]! * MICRO;
+    const grid = this.motion.surface.at(step);
+    const edges = this.edges.points;
+    for (let k = 0; k < this.under.length; k++) {
+      const from = 3 * this.under[k]!;
+      for (let c = 0; c < 3; c++) edges[3 * k + c] = grid[from + c]! * MICRO;
     }
     this.edges.changed();
-    this.moveDiagonals(this.motion.diagonals.at(step));
-  }
 
-  private moveDiagonals(points: Int32Array): void {
-    const n = this.motion.data.divisions;
-    const { ends } = this.diagonals;
-    const curves = points.length / (3 * (n + 1));
-    let k = 0;
-    for (let curve = 0; curve < curves; curve++) {
-      const start = 3 * curve * (n + 1);
-      for (let piece = 0; piece < n; piece++) {
-        for (let c = 0; c < 6; c++) ends[k++] = points[start + 3 * piece + c]! * MICRO;
-      }
-    }
+    const given = this.motion.diagonals.at(step);
+    const diagonals = this.diagonals.points;
+    for (let k = 0; k < given.length; k++) diagonals[k] = given[k]! * MICRO;
     this.diagonals.changed();
   }
 }

@@ -2,16 +2,15 @@
  * Grippers: flat black discs with a light rim, tilted with the ply.
  *
  * A disc is two quads, cut round and smoothed by the shader, and a short wall between them, so that it can
- * also be seen edge-on. One instance a gripper.
+ * also be seen edge-on. Every vertex knows its disc's centre and axis, which are written in place.
  */
 
 import {
   BufferAttribute,
+  BufferGeometry,
   Color,
   DoubleSide,
   DynamicDrawUsage,
-  InstancedBufferAttribute,
-  InstancedBufferGeometry,
   Mesh,
   ShaderMaterial,
 } from "three";
@@ -20,18 +19,18 @@ import { screenColour } from "./lines";
 import { PROJECT } from "./shade";
 
 const VERTEX = /* glsl */ `
-  attribute vec3 centre;
+  attribute vec3 local;
   attribute vec3 axis;
   uniform float radius;
   varying vec3 vLocal;
   varying float vTowards;
   ${PROJECT}
   void main() {
-    vLocal = position;
-    vTowards = (normalMatrix * axis).z * position.z;
+    vLocal = local;
+    vTowards = (normalMatrix * axis).z * local.z;
     vec3 side = normalize(cross(abs(axis.x) < 0.9 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), axis));
     vec3 other = cross(axis, side);
-    gl_Position = project(centre + radius * (position.x * side + position.y * other + position.z * axis));
+    gl_Position = project(position + radius * (local.x * side + local.y * other + local.z * axis));
   }
 `;
 
@@ -57,11 +56,13 @@ const FRAGMENT = /* glsl */ `
 
 /** Thickness of a disc over its radius, one half. */
 const HALF = 0.08;
+/** Faces of the wall. */
+const FACES = 14;
 
 export class Grippers {
-  readonly mesh: Mesh<InstancedBufferGeometry, ShaderMaterial>;
-  private readonly centre: InstancedBufferAttribute;
-  private readonly axis: InstancedBufferAttribute;
+  readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
+  private readonly centre: BufferAttribute;
+  private readonly axis: BufferAttribute;
 
   constructor(
     private readonly motion: Motion,
@@ -69,14 +70,26 @@ export class Grippers {
     push: number,
   ) {
     const { count } = motion.grippers;
+    const { points, index } = disc();
+    const size = points.length / 3;
     const dynamic = () =>
-      new InstancedBufferAttribute(new Float32Array(3 * count), 3).setUsage(DynamicDrawUsage);
+      new BufferAttribute(new Float32Array(count * points.length), 3).setUsage(DynamicDrawUsage);
     this.centre = dynamic();
     this.axis = dynamic();
-    const geometry = disc();
-    geometry.setAttribute("centre", this.centre);
+    const locals = new Float32Array(count * points.length);
+    const faces = new Uint32Array(count * index.length);
+    for (let k = 0; k < count; k++) {
+      locals.set(points, k * points.length);
+      faces.set(
+        index.map((corner) => corner + k * size),
+        k * index.length,
+      );
+    }
+    const geometry = new BufferGeometry();
+    geometry.setIndex(new BufferAttribute(faces, 1));
+    geometry.setAttribute("position", this.centre);
     geometry.setAttribute("axis", this.axis);
-    geometry.instanceCount = count;
+    geometry.setAttribute("local", new BufferAttribute(locals, 3));
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
@@ -103,33 +116,34 @@ export class Grippers {
     const positions = this.motion.grippers.at(step);
     const normals = this.motion.normals.at(step);
     const [centre, axis] = [this.centre.array, this.axis.array];
-    for (let k = 0; k < positions.length; k++) {
-      centre[k] = positions[k]! * MICRO;
-      axis[k] = normals[k]! * 1e-4;
+    const size = centre.length / positions.length;
+    for (let k = 0; k < centre.length; k += 3) {
+      const from = 3 * Math.floor(k / (3 * size));
+      for (let c = 0; c < 3; c++) {
+        centre[k + c] = positions[from + c]! * MICRO;
+        axis[k + c] = normals[from + c]! * 1e-4;
+      }
     }
     this.centre.needsUpdate = true;
     this.axis.needsUpdate = true;
   }
 }
 
-/** Two quads and a wall of 24 faces, in units of the radius. */
-function disc(): InstancedBufferGeometry {
+/** Two quads and a wall, in units of the radius. */
+function disc(): { points: number[]; index: number[] } {
   const points: number[] = [];
   const index: number[] = [];
-  const quad = (...corners: number[][]) => {
-    const k = points.length / 3;
-    points.push(...corners.flat());
-    index.push(k, k + 1, k + 2, k, k + 2, k + 3);
-  };
-  const faces = 24;
-  for (let k = 0; k < faces; k++) {
-    const [a, b] = [k, k + 1].map((s) => (2 * Math.PI * s) / faces) as [number, number];
-    const at = (angle: number, z: number) => [0.94 * Math.cos(angle), 0.94 * Math.sin(angle), z];
-    quad(at(a, -HALF), at(b, -HALF), at(b, HALF), at(a, HALF));
+  for (let k = 0; k < FACES; k++) {
+    const angle = (2 * Math.PI * k) / FACES;
+    const [x, y] = [0.94 * Math.cos(angle), 0.94 * Math.sin(angle)];
+    points.push(x, y, -HALF * 0.998, x, y, HALF * 0.998);
+    const [a, b] = [2 * k, 2 * ((k + 1) % FACES)];
+    index.push(a, b, b + 1, a, b + 1, a + 1);
   }
-  for (const z of [-HALF, HALF]) quad([-1, -1, z], [1, -1, z], [1, 1, z], [-1, 1, z]);
-  const geometry = new InstancedBufferGeometry();
-  geometry.setIndex(index);
-  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(points), 3));
-  return geometry;
+  for (const z of [-HALF, HALF]) {
+    const k = points.length / 3;
+    points.push(-1, -1, z, 1, -1, z, 1, 1, z, -1, 1, z);
+    index.push(k, k + 1, k + 2, k, k + 2, k + 3);
+  }
+  return { points, index };
 }

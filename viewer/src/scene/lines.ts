@@ -1,16 +1,17 @@
 /**
  * Lines of a given width on the screen: catenaries, the axes box, outlines of the mold.
  *
- * Every segment is a quad, drawn as an instance and smoothed at its sides; ends are written in place.
+ * Each point of a curve is two vertices, one on either side of the line; the shader moves them apart, square to
+ * the curve's tangent, and smooths the sides. Buffers are written in place. No instances: software renderers
+ * draw them one by one.
  */
 
 import {
   BufferAttribute,
+  BufferGeometry,
   Color,
+  DoubleSide,
   DynamicDrawUsage,
-  InstancedBufferGeometry,
-  InstancedInterleavedBuffer,
-  InterleavedBufferAttribute,
   Mesh,
   ShaderMaterial,
   Vector2,
@@ -18,24 +19,22 @@ import {
 import { PROJECT } from "./shade";
 
 const VERTEX = /* glsl */ `
-  attribute vec3 from;
-  attribute vec3 to;
+  attribute vec3 tangent3;
+  attribute float side;
   uniform vec2 resolution;
   uniform float width;
   varying float vSide;
   ${PROJECT}
   void main() {
-    vec4 a = project(from);
-    vec4 b = project(to);
-    vec2 along = (b.xy - a.xy) * resolution;
+    vec4 here = project(position);
+    vec2 along = (projectionMatrix * modelViewMatrix * vec4(tangent3, 0.0)).xy * resolution;
     float run = length(along);
     along = run > 1e-6 ? along / run : vec2(1.0, 0.0);
     // One pixel more than the width, for the smooth sides.
     float half_width = width + 1.0;
-    vSide = position.y * half_width;
-    vec4 p = position.x < 0.5 ? a : b;
-    p.xy += (vec2(-along.y, along.x) * position.y * half_width + along * (position.x * 2.0 - 1.0) * 0.3 * width) / resolution;
-    gl_Position = p;
+    vSide = side * half_width;
+    here.xy += vec2(-along.y, along.x) * vSide / resolution;
+    gl_Position = here;
   }
 `;
 
@@ -55,31 +54,34 @@ export const resolution = new Vector2(1, 1);
 export const pixelRatio = { value: 1 };
 
 export class Lines {
-  readonly mesh: Mesh<InstancedBufferGeometry, ShaderMaterial>;
-  /** Two ends of three coordinates for every segment (m). */
-  readonly ends: Float32Array;
-  private readonly buffer: InstancedInterleavedBuffer;
+  readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
+  /** Three coordinates for every point, curve after curve (m); call `changed` after writing. */
+  readonly points: Float32Array;
+  private readonly position: BufferAttribute;
+  private readonly tangent: BufferAttribute;
 
-  /** Room for `segments` lines, `width` CSS pixels wide, pushed back by `push` metres. */
+  /** Curves with so many points each, `width` CSS pixels wide, pushed back by `push` metres. */
   constructor(
-    segments: number,
+    private readonly lengths: number[],
     private readonly width: number,
     push: number,
   ) {
-    this.ends = new Float32Array(6 * segments);
-    this.buffer = new InstancedInterleavedBuffer(this.ends, 6, 1).setUsage(DynamicDrawUsage);
-    const geometry = new InstancedBufferGeometry();
-    const corners = new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0]);
-    geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    geometry.setAttribute("position", new BufferAttribute(corners, 3));
-    geometry.setAttribute("from", new InterleavedBufferAttribute(this.buffer, 3, 0));
-    geometry.setAttribute("to", new InterleavedBufferAttribute(this.buffer, 3, 3));
-    geometry.instanceCount = segments;
+    const total = lengths.reduce((sum, length) => sum + length, 0);
+    this.points = new Float32Array(3 * total);
+    this.position = new BufferAttribute(new Float32Array(6 * total), 3).setUsage(DynamicDrawUsage);
+    this.tangent = new BufferAttribute(new Float32Array(6 * total), 3).setUsage(DynamicDrawUsage);
+    const geometry = new BufferGeometry();
+    geometry.setIndex(new BufferAttribute(quads(lengths), 1));
+    geometry.setAttribute("position", this.position);
+    geometry.setAttribute("tangent3", this.tangent);
+    const sides = Float32Array.from({ length: 2 * total }, (_, k) => (k % 2 === 0 ? -1 : 1));
+    geometry.setAttribute("side", new BufferAttribute(sides, 1));
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
       transparent: true,
       depthWrite: false,
+      side: DoubleSide,
       uniforms: {
         resolution: { value: resolution },
         width: { value: width },
@@ -96,9 +98,25 @@ export class Lines {
     };
   }
 
-  /** The ends were written. */
+  /** The points were written. */
   changed(): void {
-    this.buffer.needsUpdate = true;
+    const { points } = this;
+    const [position, tangent] = [this.position.array, this.tangent.array];
+    let start = 0;
+    for (const length of this.lengths) {
+      const last = start + length - 1;
+      for (let k = start; k <= last; k++) {
+        const before = 3 * Math.max(k - 1, start);
+        const after = 3 * Math.min(k + 1, last);
+        for (let c = 0; c < 3; c++) {
+          position[6 * k + c] = position[6 * k + 3 + c] = points[3 * k + c]!;
+          tangent[6 * k + c] = tangent[6 * k + 3 + c] = points[after + c]! - points[before + c]!;
+        }
+      }
+      start += length;
+    }
+    this.position.needsUpdate = true;
+    this.tangent.needsUpdate = true;
   }
 
   ink(colour: string, opacity = 1): void {
@@ -106,6 +124,19 @@ export class Lines {
     (uniforms.colour!.value as Color).copy(screenColour(colour));
     uniforms.opacity!.value = opacity;
   }
+}
+
+/** Two triangles for each piece of each curve. */
+function quads(lengths: number[]): Uint32Array {
+  const index: number[] = [];
+  let start = 0;
+  for (const length of lengths) {
+    for (let k = start; k < start + length - 1; k++) {
+      index.push(2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 1, 2 * k + 2, 2 * k + 3);
+    }
+    start += length;
+  }
+  return Uint32Array.from(index);
 }
 
 /** A CSS colour as the shaders write it: as it is on the screen, not linear. */

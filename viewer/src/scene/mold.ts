@@ -61,8 +61,8 @@ export class Mold {
     this.group.add(this.surface);
     if (few) {
       const edges = new EdgesGeometry(geometry, SHARP).getAttribute("position").array;
-      this.outline = new Lines(edges.length / 6, 1, 0.9 * push);
-      this.outline.ends.set(edges);
+      this.outline = new Lines(new Array<number>(edges.length / 6).fill(2), 1, 0.9 * push);
+      this.outline.points.set(edges);
       this.outline.changed();
       this.outline.mesh.renderOrder = 1;
       this.group.add(this.outline.mesh);

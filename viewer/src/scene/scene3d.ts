@@ -3,7 +3,7 @@
  * step, the eye, the size or the theme.
  */
 
-import { Box3, Scene, Vector3, WebGLRenderer } from "three";
+import { Box3, Color, Scene, Vector3, WebGLRenderer } from "three";
 import type { Motion } from "../data/motion";
 import type { Field } from "../data/page_data";
 import { themeColour } from "../page/dom";
@@ -118,6 +118,7 @@ export class Scene3d {
     this.grippers.ink(themeColour("disc"), themeColour("disc-rim"));
     this.mold?.ink(themeColour("mold"), themeColour("mold-line"));
     this.box.ink(themeColour("box-line"));
+    this.renderer.setClearColor(new Color(themeColour("surface")));
   }
 
   private resize(): void {
