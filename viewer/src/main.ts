@@ -46,7 +46,7 @@ async function open(): Promise<void> {
   const page = byId("page");
   page.hidden = false;
   const scene = draw(motion, state, data);
-  const player = new Player(state, data.times, (milliseconds) => scene?.report(milliseconds));
+  const player = new Player(state, data.times);
   linkToolbar(state, data, scene?.eye ?? null);
   linkLegend(state, data);
   linkTimeline(state, player, motion);

@@ -9,6 +9,9 @@ import { BrokenData, type Field, type PageData, type Place } from "./page_data";
 export const MICRO = 1e-6;
 
 export class Motion {
+  /** The smallest distance of neighbouring grippers in the first step (m): the scale for what is drawn. */
+  readonly spacing: number;
+
   private constructor(
     readonly data: PageData,
     readonly surface: Frames,
@@ -20,7 +23,9 @@ export class Motion {
     readonly direction: Frames,
     private readonly contactPoints: Frames,
     private readonly contactStarts: number[],
-  ) {}
+  ) {
+    this.spacing = this.leastSpacing();
+  }
 
   static async unpack(data: PageData): Promise<Motion> {
     const g = data.geometry;
@@ -88,8 +93,7 @@ export class Motion {
     return { low, high };
   }
 
-  /** The smallest distance of neighbouring grippers in the first step (m): the scale for what is drawn. */
-  spacing(): number {
+  private leastSpacing(): number {
     const [nu, nv] = this.data.grid;
     const at = this.grippers.at(0);
     let least = Infinity;

@@ -43,6 +43,11 @@ export class Catenaries {
     this.diagonals.ink(colour, 0.9);
   }
 
+  thin(thin: boolean): void {
+    this.edges.thin(thin);
+    this.diagonals.thin(thin);
+  }
+
   showDiagonals(shown: boolean): void {
     this.diagonals.mesh.visible = shown;
   }

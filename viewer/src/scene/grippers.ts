@@ -63,30 +63,30 @@ export class Grippers {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
   private readonly centre: BufferAttribute;
   private readonly axis: BufferAttribute;
+  /** Corners of the quads in the index; those of the walls follow. */
+  private readonly quads: number;
 
   constructor(
     private readonly motion: Motion,
-    radius: number,
+    private readonly radius: number,
     push: number,
   ) {
     const { count } = motion.grippers;
-    const { points, index } = disc();
+    const { points, quads, wall } = disc();
     const size = points.length / 3;
     const dynamic = () =>
       new BufferAttribute(new Float32Array(count * points.length), 3).setUsage(DynamicDrawUsage);
     this.centre = dynamic();
     this.axis = dynamic();
     const locals = new Float32Array(count * points.length);
-    const faces = new Uint32Array(count * index.length);
-    for (let k = 0; k < count; k++) {
-      locals.set(points, k * points.length);
-      faces.set(
-        index.map((corner) => corner + k * size),
-        k * index.length,
-      );
-    }
+    for (let k = 0; k < count; k++) locals.set(points, k * points.length);
+    // All quads first, then all walls, so that the walls can be left out.
+    const faces = [quads, wall].map((part) =>
+      Array.from({ length: count }, (_, k) => part.map((corner) => corner + k * size)).flat(),
+    );
+    this.quads = faces[0]!.length;
     const geometry = new BufferGeometry();
-    geometry.setIndex(new BufferAttribute(faces, 1));
+    geometry.setIndex(faces.flat());
     geometry.setAttribute("position", this.centre);
     geometry.setAttribute("axis", this.axis);
     geometry.setAttribute("local", new BufferAttribute(locals, 3));
@@ -112,6 +112,11 @@ export class Grippers {
     (uniforms.rim!.value as Color).copy(screenColour(rim));
   }
 
+  /** Leaves the walls out where they would be less than a pixel high, at so many CSS pixels a metre. */
+  showWalls(zoom: number): void {
+    this.mesh.geometry.setDrawRange(0, this.radius * zoom * 2 * HALF < 1 ? this.quads : Infinity);
+  }
+
   moveTo(step: number): void {
     const positions = this.motion.grippers.at(step);
     const normals = this.motion.normals.at(step);
@@ -130,20 +135,21 @@ export class Grippers {
 }
 
 /** Two quads and a wall, in units of the radius. */
-function disc(): { points: number[]; index: number[] } {
+function disc(): { points: number[]; quads: number[]; wall: number[] } {
   const points: number[] = [];
-  const index: number[] = [];
+  const wall: number[] = [];
+  const quads: number[] = [];
   for (let k = 0; k < FACES; k++) {
     const angle = (2 * Math.PI * k) / FACES;
     const [x, y] = [0.94 * Math.cos(angle), 0.94 * Math.sin(angle)];
     points.push(x, y, -HALF * 0.998, x, y, HALF * 0.998);
     const [a, b] = [2 * k, 2 * ((k + 1) % FACES)];
-    index.push(a, b, b + 1, a, b + 1, a + 1);
+    wall.push(a, b, b + 1, a, b + 1, a + 1);
   }
   for (const z of [-HALF, HALF]) {
     const k = points.length / 3;
     points.push(-1, -1, z, 1, -1, z, 1, 1, z, -1, 1, z);
-    index.push(k, k + 1, k + 2, k, k + 2, k + 3);
+    quads.push(k, k + 1, k + 2, k, k + 2, k + 3);
   }
-  return { points, index };
+  return { points, quads, wall };
 }

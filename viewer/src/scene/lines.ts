@@ -27,7 +27,7 @@ const VERTEX = /* glsl */ `
   ${PROJECT}
   void main() {
     vec4 here = project(position);
-    vec2 along = (projectionMatrix * modelViewMatrix * vec4(tangent3, 0.0)).xy * resolution;
+    vec2 along = (projectionMatrix * (modelViewMatrix * vec4(tangent3, 0.0))).xy * resolution;
     float run = length(along);
     along = run > 1e-6 ? along / run : vec2(1.0, 0.0);
     // One pixel more than the width, for the smooth sides.
@@ -58,6 +58,8 @@ export class Lines {
   /** Three coordinates for every point, curve after curve (m); call `changed` after writing. */
   readonly points: Float32Array;
   private readonly position: BufferAttribute;
+  private readonly every: BufferAttribute;
+  private second: BufferAttribute | null = null;
   private readonly tangent: BufferAttribute;
 
   /** Curves with so many points each, `width` CSS pixels wide, pushed back by `push` metres. */
@@ -71,7 +73,8 @@ export class Lines {
     this.position = new BufferAttribute(new Float32Array(6 * total), 3).setUsage(DynamicDrawUsage);
     this.tangent = new BufferAttribute(new Float32Array(6 * total), 3).setUsage(DynamicDrawUsage);
     const geometry = new BufferGeometry();
-    geometry.setIndex(new BufferAttribute(quads(lengths), 1));
+    this.every = new BufferAttribute(quads(lengths, 1), 1);
+    geometry.setIndex(this.every);
     geometry.setAttribute("position", this.position);
     geometry.setAttribute("tangent3", this.tangent);
     const sides = Float32Array.from({ length: 2 * total }, (_, k) => (k % 2 === 0 ? -1 : 1));
@@ -96,6 +99,12 @@ export class Lines {
       material.uniforms.width!.value = this.width * pixelRatio.value;
       material.uniformsNeedUpdate = true;
     };
+  }
+
+  /** Draws through every second point of each curve only, which is less work, or through all. */
+  thin(thin: boolean): void {
+    if (thin) this.second ??= new BufferAttribute(quads(this.lengths, 2), 1);
+    this.mesh.geometry.setIndex(thin ? this.second : this.every);
   }
 
   /** The points were written. */
@@ -126,13 +135,15 @@ export class Lines {
   }
 }
 
-/** Two triangles for each piece of each curve. */
-function quads(lengths: number[]): Uint32Array {
+/** Two triangles for each piece of each curve; a piece runs over so many points, and the last ends at the end. */
+function quads(lengths: number[], stride: number): Uint32Array {
   const index: number[] = [];
   let start = 0;
   for (const length of lengths) {
-    for (let k = start; k < start + length - 1; k++) {
-      index.push(2 * k, 2 * k + 2, 2 * k + 1, 2 * k + 1, 2 * k + 2, 2 * k + 3);
+    const last = start + length - 1;
+    for (let k = start; k < last; k += stride) {
+      const [a, b] = [2 * k, 2 * Math.min(k + stride, last)];
+      index.push(a, b, a + 1, a + 1, b, b + 1);
     }
     start += length;
   }

@@ -10,26 +10,26 @@ import {
   Mesh,
   ShaderMaterial,
 } from "three";
-import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
+import { mergeVertices, toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import type { Geometry } from "../data/page_data";
 import { Lines, screenColour } from "./lines";
 import { PROJECT, SHADE } from "./shade";
 
 const VERTEX = /* glsl */ `
-  varying vec3 vNormal;
+  varying float vShade;
   ${PROJECT}
+  ${SHADE}
   void main() {
-    vNormal = normalMatrix * normal;
+    vShade = mix(0.72, 1.0, (shade(normalMatrix * normal) - 0.74) / 0.32);
     gl_Position = project(position);
   }
 `;
 
 const FRAGMENT = /* glsl */ `
   uniform vec3 colour;
-  varying vec3 vNormal;
-  ${SHADE}
+  varying float vShade;
   void main() {
-    gl_FragColor = vec4(colour * mix(0.72, 1.0, (shade(vNormal) - 0.74) / 0.32), 1.0);
+    gl_FragColor = vec4(colour * vShade, 1.0);
   }
 `;
 
@@ -49,7 +49,7 @@ export class Mold {
     geometry.setIndex(new BufferAttribute(Uint32Array.from(mold.triangles), 1));
     const few = mold.triangles.length / 3 <= MANY;
     let shaded = geometry;
-    if (few) shaded = toCreasedNormals(geometry, (SHARP * Math.PI) / 180);
+    if (few) shaded = mergeVertices(toCreasedNormals(geometry, (SHARP * Math.PI) / 180));
     else geometry.computeVertexNormals();
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
@@ -58,13 +58,15 @@ export class Mold {
       uniforms: { colour: { value: new Color() }, push: { value: push } },
     });
     this.surface = new Mesh(shaded, material);
+    // After the ply, which hides much of it.
+    this.surface.renderOrder = 1;
     this.group.add(this.surface);
     if (few) {
       const edges = new EdgesGeometry(geometry, SHARP).getAttribute("position").array;
       this.outline = new Lines(new Array<number>(edges.length / 6).fill(2), 1, 0.9 * push);
       this.outline.points.set(edges);
       this.outline.changed();
-      this.outline.mesh.renderOrder = 1;
+      this.outline.mesh.renderOrder = 2;
       this.group.add(this.outline.mesh);
     }
   }

@@ -10,6 +10,8 @@ const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', Arial, sa
 
 export class Overlay {
   private readonly context: CanvasRenderingContext2D | null;
+  /** What the text on the picture depends on, when it was drawn last. */
+  private drawn = "";
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -22,6 +24,18 @@ export class Overlay {
   draw(width: number, height: number, ratio: number, pointer: Pointer | null): void {
     const pen = this.context;
     if (pen === null) return;
+    const { camera } = this.eye;
+    const key = [
+      width,
+      height,
+      ratio,
+      themeColour("text"),
+      pointer?.label,
+      camera.zoom,
+      ...camera.matrixWorld.elements,
+    ].join();
+    if (key === this.drawn) return;
+    this.drawn = key;
     const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
     if (this.canvas.width !== w) this.canvas.width = w;
     if (this.canvas.height !== h) this.canvas.height = h;

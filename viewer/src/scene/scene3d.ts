@@ -20,8 +20,9 @@ import { PlySurface } from "./surface";
 
 /** More pixels of the device in one CSS pixel are not drawn. */
 const MOST_PIXELS = 2;
-/** Slower frames (ms) make the moving picture coarser. */
-const SLOW = 45;
+/** A moving picture with slower frames (ms) gets coarser; one that rests this long (ms) is drawn finely again. */
+const SLOW = 40;
+const REST = 300;
 
 export class Scene3d {
   readonly surface: PlySurface;
@@ -36,6 +37,9 @@ export class Scene3d {
   private readonly overlay: Overlay;
   private waiting = false;
   private coarse = false;
+  private lastDrawn = 0;
+  private slowFrames = 0;
+  private resting = 0;
   private width = 1;
   private height = 1;
 
@@ -58,7 +62,7 @@ export class Scene3d {
 
     this.surface = new PlySurface(motion, 0.003 * size);
     this.catenaries = new Catenaries(motion, 0.0005 * size, 0.02 * size);
-    this.grippers = new Grippers(motion, 0.1 * motion.spacing(), -0.004 * size);
+    this.grippers = new Grippers(motion, 0.1 * motion.spacing, -0.004 * size);
     this.contacts = new Contacts(motion, -0.003 * size);
     this.mold = mold === null ? null : new Mold(mold, 0.008 * size);
     this.box = new AxesBox(bounds, 0.012 * size);
@@ -104,10 +108,6 @@ export class Scene3d {
     this.catenaries.showDiagonals(now.diagonals);
     if (this.mold !== null) this.mold.group.visible = now.mold;
     if (now.pointer !== null && now.pointer !== before.pointer) this.eye.lookAt(now.pointer.place);
-    if (before.playing && !now.playing && this.coarse) {
-      this.coarse = false;
-      this.resize();
-    }
     this.draw();
   }
 
@@ -124,7 +124,7 @@ export class Scene3d {
   private resize(): void {
     this.width = Math.max(1, this.host.clientWidth);
     this.height = Math.max(1, this.host.clientHeight);
-    this.setPixels(this.coarse ? 0.75 : Math.min(devicePixelRatio, MOST_PIXELS));
+    this.setPixels(this.ratio);
     this.eye.resize(this.width, this.height);
   }
 
@@ -135,29 +135,48 @@ export class Scene3d {
     resolution.set(this.width * ratio, this.height * ratio);
   }
 
-  /** A moving picture that is too slow gets fewer pixels until it stops. */
-  report(frame: number): void {
-    if (frame > SLOW && !this.coarse) {
-      this.coarse = true;
-      this.resize();
-    }
-  }
-
   /** Draws before the next repaint. */
   draw(): void {
     if (this.waiting) return;
     this.waiting = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now) => {
       this.waiting = false;
+      this.adapt(now);
       this.drawNow();
     });
   }
 
-  drawNow(): void {
+  private drawNow(): void {
+    const { zoom } = this.eye.camera;
+    this.surface.showThreads((zoom * this.motion.spacing) / this.motion.data.divisions);
+    this.grippers.showWalls(zoom);
     this.box.turn(this.eye);
     this.renderer.render(this.scene, this.eye.camera);
     const ratio = Math.min(devicePixelRatio, MOST_PIXELS);
     this.overlay.draw(this.width, this.height, ratio, this.state.now.pointer);
+  }
+
+  /** Fewer triangles and pixels while a moving picture is too slow for this machine. */
+  private adapt(now: number): void {
+    const passed = now - this.lastDrawn;
+    this.lastDrawn = now;
+    this.slowFrames = passed > SLOW && passed < REST ? this.slowFrames + 1 : 0;
+    if (this.slowFrames >= 3 && !this.coarse) this.setCoarse(true);
+    clearTimeout(this.resting);
+    if (this.coarse) this.resting = setTimeout(() => this.setCoarse(false), REST);
+  }
+
+  private setCoarse(coarse: boolean): void {
+    this.coarse = coarse;
+    this.slowFrames = 0;
+    this.surface.thin(coarse);
+    this.catenaries.thin(coarse);
+    this.setPixels(this.ratio);
+    if (!coarse) this.draw();
+  }
+
+  private get ratio(): number {
+    return Math.min(devicePixelRatio, this.coarse ? 1 : MOST_PIXELS);
   }
 
   /** The picture of now as PNG, twice as fine, with its labels. */

@@ -16,7 +16,7 @@ export const PROJECT = /* glsl */ `
   }
 `;
 
-/** Light from the upper left behind the eye, on both sides of a surface. */
+/** Light from the upper left behind the eye, on both sides of a surface; computed at vertices, which is cheap. */
 export const SHADE = /* glsl */ `
   float shade(vec3 normal) {
     vec3 n = normalize(normal);

@@ -26,30 +26,34 @@ const VERTEX = /* glsl */ `
   attribute vec2 thread;
   varying float vShare;
   varying vec2 vThread;
-  varying vec3 vNormal;
+  varying float vShade;
   ${PROJECT}
+  ${SHADE}
   void main() {
     vShare = share;
     vThread = thread;
-    vNormal = normalMatrix * normal;
+    vShade = shade(normalMatrix * normal);
     gl_Position = project(position);
   }
 `;
 
 const FRAGMENT = /* glsl */ `
   uniform sampler2D map;
+  uniform bool threads;
   varying float vShare;
   varying vec2 vThread;
-  varying vec3 vNormal;
-  ${SHADE}
+  varying float vShade;
   void main() {
-    vec3 colour = texture2D(map, vec2(vShare * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb * shade(vNormal);
+    vec3 colour = texture2D(map, vec2(vShare * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb * vShade;
     // Threads of the fabric, where they are far enough apart to be seen.
-    vec2 width = fwidth(vThread);
-    vec2 away = abs(fract(vThread - 0.5) - 0.5) / width;
-    float line = 1.0 - min(min(away.x, away.y), 1.0);
-    float room = clamp(0.36 - 1.1 * max(width.x, width.y), 0.0, 0.26);
-    gl_FragColor = vec4(mix(colour, vec3(1.0), line * room), 1.0);
+    if (threads) {
+      vec2 width = fwidth(vThread);
+      vec2 away = abs(fract(vThread - 0.5) - 0.5) / width;
+      float line = 1.0 - min(min(away.x, away.y), 1.0);
+      float room = clamp(0.36 - 1.1 * max(width.x, width.y), 0.0, 0.26);
+      colour = mix(colour, vec3(1.0), line * room);
+    }
+    gl_FragColor = vec4(colour, 1.0);
   }
 `;
 
@@ -62,6 +66,8 @@ export class PlySurface {
   private readonly cell: Uint32Array;
   private readonly first: Int32Array;
   private readonly normals: Float32Array;
+  private readonly every: BufferAttribute;
+  private second: BufferAttribute | null = null;
   private readonly position: BufferAttribute;
   private readonly normal: BufferAttribute;
   private readonly share: BufferAttribute;
@@ -80,7 +86,8 @@ export class PlySurface {
     this.first = new Int32Array(this.columns * this.rows).fill(-1);
     this.normals = new Float32Array(3 * this.columns * this.rows);
     const threads = new Float32Array(2 * total);
-    const index = this.layOut(nu, nv, n, threads);
+    this.layOut(nu, nv, n, threads);
+    this.every = new BufferAttribute(triangles((nu - 1) * (nv - 1), n, 1), 1);
 
     const dynamic = (size: number) =>
       new BufferAttribute(new Float32Array(size * total), size).setUsage(DynamicDrawUsage);
@@ -88,7 +95,7 @@ export class PlySurface {
     this.normal = dynamic(3);
     this.share = dynamic(1);
     const geometry = new BufferGeometry();
-    geometry.setIndex(new BufferAttribute(index, 1));
+    geometry.setIndex(this.every);
     geometry.setAttribute("position", this.position);
     geometry.setAttribute("normal", this.normal);
     geometry.setAttribute("share", this.share);
@@ -97,15 +104,14 @@ export class PlySurface {
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
       side: DoubleSide,
-      uniforms: { map: { value: null }, push: { value: push } },
+      uniforms: { map: { value: null }, push: { value: push }, threads: { value: true } },
     });
     this.mesh = new Mesh(geometry, material);
     this.mesh.frustumCulled = false;
   }
 
-  /** Lists the vertices and triangles cell by cell. */
-  private layOut(nu: number, nv: number, n: number, threads: Float32Array): Uint32Array {
-    const index: number[] = [];
+  /** Lists the vertices cell by cell. */
+  private layOut(nu: number, nv: number, n: number, threads: Float32Array): void {
     let k = 0;
     for (let cj = 0; cj < nv - 1; cj++) {
       for (let ci = 0; ci < nu - 1; ci++) {
@@ -117,13 +123,18 @@ export class PlySurface {
             this.cell[k] = cj * (nu - 1) + ci;
             if (this.first[at]! < 0) this.first[at] = k;
             threads.set([column, row], 2 * k);
-            if (a < n && b < n) index.push(k, k + 1, k + n + 2, k, k + n + 2, k + n + 1);
             k++;
           }
         }
       }
     }
-    return Uint32Array.from(index);
+  }
+
+  /** Draws every second vertex of each cell only, which is less work, or all. */
+  thin(thin: boolean): void {
+    const n = this.motion.data.divisions;
+    if (thin) this.second ??= new BufferAttribute(triangles(this.source.length / (n + 1) ** 2, n, 2), 1);
+    this.mesh.geometry.setIndex(thin ? this.second : this.every);
   }
 
   /** Moves the surface to a step. */
@@ -166,6 +177,11 @@ export class PlySurface {
     uniform.value = texture;
   }
 
+  /** Draws the threads where two of them are so many CSS pixels apart that they can be told apart. */
+  showThreads(apart: number): void {
+    this.mesh.material.uniforms.threads!.value = apart > 5.5;
+  }
+
   /** A vertex of the shared grid as it is drawn now (m). */
   vertex(at: number): [number, number, number] {
     const k = 3 * (this.first[at] ?? -1);
@@ -198,4 +214,21 @@ export class PlySurface {
       }
     }
   }
+}
+
+/** Two triangles for each square of `stride` intervals in each cell; the last ones end at the cell's side. */
+function triangles(cells: number, n: number, stride: number): Uint32Array {
+  const index: number[] = [];
+  const stops: number[] = [];
+  for (let a = 0; a < n; a += stride) stops.push(a);
+  for (let cell = 0; cell < cells; cell++) {
+    const at = (a: number, b: number) => cell * (n + 1) ** 2 + b * (n + 1) + a;
+    for (const b of stops) {
+      for (const a of stops) {
+        const [east, north] = [Math.min(a + stride, n), Math.min(b + stride, n)];
+        index.push(at(a, b), at(east, b), at(east, north), at(a, b), at(east, north), at(a, north));
+      }
+    }
+  }
+  return Uint32Array.from(index);
 }
