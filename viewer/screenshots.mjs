@@ -4,7 +4,7 @@
 import { execFileSync } from "node:child_process";
 import { mkdir } from "node:fs/promises";
 import { basename, dirname, join, resolve } from "node:path";
-import { openReport, startBrowser } from "./test/browser.mjs";
+import { openReport, startBrowser } from "./browser.mjs";
 
 const [out, ...reports] = process.argv.slice(2);
 if (out === undefined || reports.length === 0) {

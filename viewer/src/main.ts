@@ -63,12 +63,14 @@ function draw(motion: Motion, state: State, data: PageData): Scene3d | null {
   const view = byId("view");
   view.setAttribute("aria-label", `3D picture of ${data.title}: ply, catenaries, grippers and mold`);
   try {
-    return new Scene3d(view, motion, state);
+    if (document.createElement("canvas").getContext("webgl2") !== null)
+      return new Scene3d(view, motion, state);
   } catch {
-    view.classList.add("no-picture");
-    byId("no-webgl").hidden = false;
-    return null;
+    // Said below.
   }
+  view.classList.add("no-picture");
+  byId("no-webgl").hidden = false;
+  return null;
 }
 
 function fail(error: unknown): void {

@@ -12,7 +12,7 @@ import {
   DataTexture,
   DoubleSide,
   DynamicDrawUsage,
-  LinearFilter,
+  NearestFilter,
   Mesh,
   ShaderMaterial,
 } from "three";
@@ -44,7 +44,7 @@ const FRAGMENT = /* glsl */ `
   varying vec2 vThread;
   varying float vShade;
   void main() {
-    vec3 colour = texture2D(map, vec2(vShare * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb * vShade;
+    vec3 colour = texture2D(map, vec2(clamp(vShare, 0.0, 0.9999), 0.5)).rgb * vShade;
     // Threads of the fabric, where they are far enough apart to be seen.
     if (threads) {
       vec2 width = fwidth(vThread);
@@ -56,6 +56,9 @@ const FRAGMENT = /* glsl */ `
     gl_FragColor = vec4(colour, 1.0);
   }
 `;
+
+/** Colours in the map: so many that none need be mixed, which is dear in software. */
+const TEXELS = 512;
 
 export class PlySurface {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
@@ -167,10 +170,10 @@ export class PlySurface {
   /** Loads the colour map of a field. */
   useMap(field: Field): void {
     const map = mapOf(field);
-    const texels = new Uint8Array(4 * 256);
-    for (let k = 0; k < 256; k++) texels.set([...colourAt(map, k / 255), 255], 4 * k);
-    const texture = new DataTexture(texels, 256, 1);
-    texture.magFilter = texture.minFilter = LinearFilter;
+    const texels = new Uint8Array(4 * TEXELS);
+    for (let k = 0; k < TEXELS; k++) texels.set([...colourAt(map, k / (TEXELS - 1)), 255], 4 * k);
+    const texture = new DataTexture(texels, TEXELS, 1);
+    texture.magFilter = texture.minFilter = NearestFilter;
     texture.needsUpdate = true;
     const uniform = this.mesh.material.uniforms.map!;
     (uniform.value as DataTexture | null)?.dispose();
