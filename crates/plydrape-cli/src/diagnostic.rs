@@ -51,6 +51,9 @@ pub enum Failure {
     /// The results could not be written.
     #[error(transparent)]
     Results(#[from] plydrape::output::OutputError),
+    /// A result file was refused.
+    #[error(transparent)]
+    Read(#[from] plydrape::output::read::ReadError),
     /// Standard output could not be written.
     #[error("the output cannot be written: {0}")]
     Stdout(#[from] io::Error),
@@ -100,6 +103,7 @@ impl Diagnostic for Failure {
             Failure::Argument { help, .. }
             | Failure::NoSolution { help, .. }
             | Failure::Output { help, .. } => Some(Box::new(help)),
+            Failure::Read(refused) => Some(Box::new(refused.remedy())),
             Failure::Plan(_) | Failure::Results(_) | Failure::Stdout(_) => None,
         }
     }

@@ -3,11 +3,13 @@
 mod check;
 mod complete;
 mod diagnostic;
+mod export;
 mod net;
 mod new;
 mod numbers;
 mod outcome;
 mod plan;
+mod report;
 mod results;
 mod schema;
 mod simulate;
@@ -44,6 +46,8 @@ enum Command {
     Plan(plan::Arguments),
     Net(net::Arguments),
     Check(check::Arguments),
+    Report(report::Arguments),
+    Export(export::Arguments),
     Span(span::Arguments),
     New(new::Arguments),
     Schema(schema::Arguments),
@@ -58,6 +62,8 @@ fn main() -> ExitCode {
         Command::Plan(arguments) => plan::run(&arguments, quiet),
         Command::Net(arguments) => net::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),
+        Command::Report(arguments) => report::run(&arguments, quiet),
+        Command::Export(arguments) => export::run(&arguments, quiet),
         Command::Span(arguments) => span::run(&arguments),
         Command::New(arguments) => new::run(&arguments, quiet),
         Command::Schema(arguments) => schema::run(&arguments),

@@ -23,9 +23,9 @@ start where they start in `simulate`: of a motion from a file only the first ste
 plan can keep is said first. The best plan found is written even if it is not accepted. Ctrl-C ends
 the search and writes the best plan so far.
 
-Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg and plan.json to the scene's
-name with `.plan`. A file in the folder that plydrape did not write, or that was edited since, is
-never overwritten.")]
+Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json to
+the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited
+since, is never overwritten.")]
 pub struct Arguments {
     #[command(flatten)]
     results: Results,
@@ -132,7 +132,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     bar.finish_and_clear();
     let planned = planned?;
 
-    let files = write_all(&planned, scene.plan.rate, &results.folder("plan"))?;
+    let files = write_all(&planned, &results.folder("plan"))?;
     let printed = Printed {
         method: planned.method,
         plan_time_s,

@@ -6,6 +6,12 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
+/// Prints the files that were written.
+pub fn list(files: &[PathBuf]) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    files.iter().try_for_each(|file| writeln!(out, "wrote {}", file.display()))
+}
+
 /// The scene, and where its results go.
 #[derive(Debug, clap::Args)]
 pub struct Results {

@@ -110,7 +110,7 @@ fn row(result: &ResultFile, time: f64) -> String {
     let verdict = match table::limiting(&result.summary.limits) {
         None => "yes".into(),
         Some(worst) => {
-            format!("no: {} {}", worst.name.replace('_', " "), amount(worst.value, worst.unit))
+            format!("no: {} {}", worst.name.replace('_', " "), amount(worst.value, &worst.unit))
         }
     };
     format!(

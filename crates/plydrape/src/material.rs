@@ -1,9 +1,9 @@
 //! What the ply is made of: mass, flexural rigidity, shear curve and locking angle.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A woven ply, as the catenaries see it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// Name for reports.
     pub name: String,
@@ -18,7 +18,7 @@ pub struct Material {
 }
 
 /// Mass and flexural rigidity of the ply.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Section {
     /// The same for every catenary, as in the paper.
@@ -49,7 +49,7 @@ pub struct Line {
 }
 
 /// Picture-frame shear force per length over the shear angle.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum ShearCurve {
     /// Measured points (γ in rad ascending from 0, τ in N/m), joined by a monotone cubic.

@@ -1,5 +1,6 @@
 //! Contact on curved molds: what rolls on lies where it belongs, troughs are bridged, and drapes converge.
 
+use plydrape::draping::record::CatenaryKind;
 use plydrape::draping::record::ResultFile;
 use plydrape::draping::simulate;
 use plydrape::mold::{
@@ -236,7 +237,7 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
         };
         let result = drape(&scene);
         let last = result.steps.last().expect("steps");
-        let edges = last.catenaries.iter().filter(|c| c.kind == "edge");
+        let edges = last.catenaries.iter().filter(|c| c.kind == CatenaryKind::Edge);
         let contacts = edges.filter_map(|c| c.contact.as_ref());
         let errors = contacts.flat_map(|c| c.landing_error_mm.iter().flatten().flatten());
         let error = errors.copied().fold(0.0, f64::max);

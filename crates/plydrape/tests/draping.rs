@@ -1,6 +1,7 @@
 //! The drape: the paper's example as printed, bookkeeping of fabric, convergence, rigid motions, and
 //! scenes that nobody would write.
 
+use plydrape::draping::record::{CatenaryDirection, CatenaryKind, Hold};
 use plydrape::draping::record::{CatenaryState, ResultFile};
 use plydrape::draping::simulate;
 use plydrape::mold::{Mold, Plane};
@@ -51,10 +52,14 @@ fn the_paper_example_touches_first_in_iteration_26_on_its_short_diagonals() {
     assert_eq!(summary.first_contact_step, Some(26));
     let touched: Vec<_> = summary.first_contact.iter().map(|c| (c.kind, c.from, c.to)).collect();
     let short = [([1, 0], [0, 1]), ([2, 0], [1, 1]), ([3, 0], [2, 1])];
-    assert_eq!(touched, short.map(|(a, b)| ("diagonal", a, b)));
+    assert_eq!(touched, short.map(|(a, b)| (CatenaryKind::Diagonal, a, b)));
     assert_eq!(summary.first_shear_step, Some(5));
     for step in &result.steps {
-        let sheared = step.cells.iter().filter(|cell| cell.shearing == Some("rising")).count();
+        let sheared = step
+            .cells
+            .iter()
+            .filter(|cell| cell.shearing == Some(CatenaryDirection::Rising))
+            .count();
         assert_eq!(sheared, if step.step < 5 { 0 } else { 3 }, "step {}", step.step);
     }
     // 100 mm sides sheared by 20°
@@ -80,7 +85,7 @@ fn the_first_contact_does_not_hang_on_the_start_height() {
         let scene = in_steps(&scene, 30);
         let summary = drape(&scene).summary;
         assert_eq!(summary.first_contact_step, Some(26), "{height}");
-        assert!(summary.first_contact.iter().all(|c| c.kind == "diagonal"));
+        assert!(summary.first_contact.iter().all(|c| c.kind == CatenaryKind::Diagonal));
         assert_eq!(summary.first_contact.len(), 3, "{height}");
     }
 }
@@ -88,7 +93,7 @@ fn the_first_contact_does_not_hang_on_the_start_height() {
 /// Fabric of a catenary that is free, in contact or lying (m).
 fn accounted(c: &CatenaryState) -> f64 {
     let spans: f64 = c.spans.iter().map(|span| span.length).sum();
-    let whole = c.spans.iter().any(|span| span.state == "lying" && span.length == c.length);
+    let whole = c.spans.iter().any(|span| span.state == Hold::Lying && span.length == c.length);
     spans
         + c.contact
             .as_ref()
@@ -108,8 +113,12 @@ fn check_record(result: &ResultFile) {
                 accounted(c),
                 c.length
             );
-            if c.kind == "edge" {
-                assert_eq!(c.length, result.scene.cell[usize::from(c.direction == "v")], "{place}");
+            if c.kind == CatenaryKind::Edge {
+                assert_eq!(
+                    c.length,
+                    result.scene.cell[usize::from(c.direction == CatenaryDirection::V)],
+                    "{place}"
+                );
             }
             if let (Some(contact), Some(mold)) = (&c.contact, &result.scene.mold) {
                 for p in &contact.points {
@@ -119,7 +128,8 @@ fn check_record(result: &ResultFile) {
                 let [a, b] = [contact.points[0], contact.points[1]];
                 let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
                 let arc = contact.arc[1] - contact.arc[0];
-                let whole = c.spans.iter().any(|s| s.state == "lying" && s.arc == [0.0, c.length]);
+                let whole =
+                    c.spans.iter().any(|s| s.state == Hold::Lying && s.arc == [0.0, c.length]);
                 // both ends of a run may have grown in planes of their own
                 assert!(whole || length <= arc + 1e-9, "{place}: {length} {arc}");
             }

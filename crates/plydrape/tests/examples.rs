@@ -2,6 +2,7 @@
 //! earlier trial of the model.
 
 use plydrape::draping::record::ResultFile;
+use plydrape::draping::record::{CatenaryDirection, CatenaryKind, Hold};
 use plydrape::draping::simulate;
 use plydrape::mold::{Formula, Graph, Mold, Pose, Surface};
 use plydrape::net::Net;
@@ -35,8 +36,11 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// Worst landing error of the edges at the end (mm).
 fn edges_off(result: &ResultFile) -> f64 {
     let last = result.steps.last().expect("steps");
-    let contacts =
-        last.catenaries.iter().filter(|c| c.kind == "edge").filter_map(|c| c.contact.as_ref());
+    let contacts = last
+        .catenaries
+        .iter()
+        .filter(|c| c.kind == CatenaryKind::Edge)
+        .filter_map(|c| c.contact.as_ref());
     let errors = contacts.flat_map(|c| c.landing_error_mm.iter().flatten().flatten());
     errors.copied().fold(0.0, f64::max)
 }
@@ -62,7 +66,7 @@ fn straight_paths_leave_wrinkles(scene: &Scene, off: f64) -> ResultFile {
         let whole = catenary
             .spans
             .iter()
-            .any(|span| span.state == "lying" && span.arc == [0.0, catenary.length]);
+            .any(|span| span.state == Hold::Lying && span.arc == [0.0, catenary.length]);
         let Some(contact) = &catenary.contact else { continue };
         let laid = if whole { 0.0 } else { contact.arc[1] - contact.arc[0] };
         let total = lengths.sum::<f64>() + laid;
@@ -122,12 +126,20 @@ fn a_saddle_by_straight_paths_is_bridged_along_its_hollow() {
     let result = straight_paths_leave_wrinkles(&scene, 1e-9);
     let off = edges_off(&result);
     assert!((off - 1.04).abs() < 0.15, "{off} mm");
-    let lies = |direction: &str| -> f64 {
+    let lies = |direction: CatenaryDirection| -> f64 {
         let last = result.steps.last().expect("steps");
-        let edges = last.catenaries.iter().filter(|c| c.kind == "edge" && c.direction == direction);
+        let edges = last
+            .catenaries
+            .iter()
+            .filter(|c| c.kind == CatenaryKind::Edge && c.direction == direction);
         edges.filter_map(|c| c.contact.as_ref()).map(|c| c.arc[1] - c.arc[0]).sum()
     };
-    assert!(lies("u") > 1.5 * lies("v"), "{} {}", lies("u"), lies("v"));
+    assert!(
+        lies(CatenaryDirection::U) > 1.5 * lies(CatenaryDirection::V),
+        "{} {}",
+        lies(CatenaryDirection::U),
+        lies(CatenaryDirection::V)
+    );
 }
 
 /// Krogh et al. 2021 give the mold as a cubic; every node of the net lies on it, as worked out here.

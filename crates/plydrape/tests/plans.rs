@@ -1,8 +1,10 @@
 //! What a plan must reach: every solved mold of the examples, from two heights, judged by draping the ply once more
 //! along the files that were written. Limits are the defaults of `[limits]`, repeated here as numbers.
 
+use plydrape::draping::record::CatenaryKind;
 use plydrape::draping::record::{CatenaryState, ResultFile, Step, Verdict};
 use plydrape::draping::simulate;
+use plydrape::equilibrium::Status;
 use plydrape::output::{csv, plan, table};
 use plydrape::planner::{self, Planned};
 use plydrape::scene::{self, Scene};
@@ -105,15 +107,16 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     let limiting = table::limiting(&summary.limits);
     assert!(summary.accepted && limiting.is_none(), "{what}: {limiting:?}");
     assert_eq!(summary.steps, summary.steps_planned, "{what}");
-    assert!(result.steps.iter().all(|step| step.solver.status == "converged"), "{what}");
+    assert!(result.steps.iter().all(|step| step.solver.status == Status::Converged), "{what}");
 
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-    let edges = |step: usize| result.steps[step].catenaries.iter().filter(|c| c.kind == "edge");
+    let edges =
+        |step: usize| result.steps[step].catenaries.iter().filter(|c| c.kind == CatenaryKind::Edge);
     let last = result.steps.last().expect("steps");
     let contacts = || last.catenaries.iter().filter_map(|line| line.contact.as_ref());
 
     // what all rests of a line keep of slack, as a share of the line; rests may be as short as one likes
-    for kind in ["edge", "diagonal"] {
+    for kind in [CatenaryKind::Edge, CatenaryKind::Diagonal] {
         let lines = last.catenaries.iter().filter(|line| line.kind == kind);
         let share = |line: &CatenaryState| {
             1e-3 * line.spans.iter().map(|span| span.slack_mm).sum::<f64>() / line.length

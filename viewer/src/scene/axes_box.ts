@@ -32,7 +32,7 @@ export class AxesBox {
     const largest = Math.max(...[0, 1, 2].map((c) => this.high[c]! - this.low[c]!));
     this.ticks = [0, 1, 2].map((c) => {
       const span = this.high[c]! - this.low[c]!;
-      return ticks(this.low[c]! * MM, this.high[c]! * MM, Math.max(1.5, (5 * span) / largest)).map(
+      return ticks(this.low[c]! * MM, this.high[c]! * MM, Math.max(2.4, (5 * span) / largest)).map(
         (t) => t / MM,
       );
     });

@@ -43,6 +43,13 @@ export class Catenaries {
     this.diagonals.ink(colour, 0.9);
   }
 
+  /** Draws finer lines where neighbouring grippers are less than so many CSS pixels apart. */
+  suit(apart: number): void {
+    const weight = Math.min(Math.max(apart / 55, 0.5), 1);
+    this.edges.weight = weight;
+    this.diagonals.weight = weight;
+  }
+
   thin(thin: boolean): void {
     this.edges.thin(thin);
     this.diagonals.thin(thin);

@@ -60,6 +60,8 @@ export class Lines {
   private readonly position: BufferAttribute;
   private readonly every: BufferAttribute;
   private second: BufferAttribute | null = null;
+  /** Share of the full width, for pictures in which there is little room between lines. */
+  weight = 1;
   private readonly tangent: BufferAttribute;
 
   /** Curves with so many points each, `width` CSS pixels wide, pushed back by `push` metres. */
@@ -96,7 +98,7 @@ export class Lines {
     this.mesh = new Mesh(geometry, material);
     this.mesh.frustumCulled = false;
     this.mesh.onBeforeRender = () => {
-      material.uniforms.width!.value = this.width * pixelRatio.value;
+      material.uniforms.width!.value = this.width * this.weight * pixelRatio.value;
       material.uniformsNeedUpdate = true;
     };
   }

@@ -8,6 +8,9 @@ import type { Eye } from "./camera";
 
 const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', Arial, sans-serif";
 
+/** Room that the legend takes on the right (CSS pixels). */
+const LEGEND = 126;
+
 export class Overlay {
   private readonly context: CanvasRenderingContext2D | null;
   /** What the text on the picture depends on, when it was drawn last. */
@@ -73,7 +76,7 @@ export class Overlay {
     const lines = label.split("\n");
     const plate = Math.max(...lines.map((line) => pen.measureText(line).width)) + 18;
     const tall = 17 * lines.length + 9;
-    const left = Math.min(Math.max(x + 22, 6), width - plate - 6);
+    const left = Math.min(Math.max(x + 22, 6), width - plate - LEGEND);
     const top = Math.min(Math.max(y - tall - 18, 6), height - tall - 6);
     pen.fillStyle = themeColour("surface");
     pen.strokeStyle = themeColour("accent");

@@ -148,7 +148,9 @@ export class Scene3d {
 
   private drawNow(): void {
     const { zoom } = this.eye.camera;
-    this.surface.showThreads((zoom * this.motion.spacing) / this.motion.data.divisions);
+    const apart = zoom * this.motion.spacing;
+    this.surface.showThreads(apart / this.motion.data.divisions);
+    this.catenaries.suit(apart);
     this.grippers.showWalls(zoom);
     this.box.turn(this.eye);
     this.renderer.render(this.scene, this.eye.camera);

@@ -5,7 +5,7 @@ use super::Snapshot;
 use super::attitude::Attitude;
 use super::landing::Landing;
 use super::reach::{self, closest, outside};
-use super::record::{Measures, Worst};
+use super::record::{CatenaryDirection, CatenaryKind, Measures, Worst};
 use super::spans::{FreeSpan, Point};
 use crate::mold::{Mold, Strand, distance};
 use crate::ply::{Kind, Laid};
@@ -292,12 +292,12 @@ fn shear(scene: &Scene, snapshot: &Snapshot) -> Most<usize> {
     most
 }
 
-/// The kind of a catenary in words: (kind, direction).
-pub fn words(kind: Kind) -> (&'static str, &'static str) {
+/// The kind of a catenary as the record says it.
+pub fn described(kind: Kind) -> (CatenaryKind, CatenaryDirection) {
     match kind {
-        Kind::EdgeU => ("edge", "u"),
-        Kind::EdgeV => ("edge", "v"),
-        Kind::Rising => ("diagonal", "rising"),
-        Kind::Falling => ("diagonal", "falling"),
+        Kind::EdgeU => (CatenaryKind::Edge, CatenaryDirection::U),
+        Kind::EdgeV => (CatenaryKind::Edge, CatenaryDirection::V),
+        Kind::Rising => (CatenaryKind::Diagonal, CatenaryDirection::Rising),
+        Kind::Falling => (CatenaryKind::Diagonal, CatenaryDirection::Falling),
     }
 }

@@ -3,30 +3,39 @@
 //! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise. All other
 //! outputs can be made from it.
 
+use crate::equilibrium::Status;
 use crate::material::Material;
 use crate::mold::Mold;
+use crate::motion::{Attitudes, Bounds, MotionError, TimedMotion};
 use crate::net::Net;
 use crate::ply::{Direction, Grid, GripperId};
-use crate::scene::{Limits, Settings};
-use serde::Serialize;
+use crate::scene::{Limits, PlanMethod, Settings};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::fmt;
 use std::sync::Arc;
 
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// A whole result file.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ResultFile {
     /// [`FORMAT`].
-    pub format: &'static str,
+    pub format: Cow<'static, str>,
     /// [`VERSION`].
     pub version: u32,
+    /// Check sum of the whole file with nothing here; empty until it is written.
+    pub checksum: String,
     /// Version of the program that wrote it.
     pub program: String,
     /// The scene, as it was understood.
     pub scene: SceneEcho,
+    /// The plan that the drape follows, if it was planned.
+    pub plan: Option<PlanRecord>,
     /// One entry a step, the start being step 1.
     pub steps: Vec<Step>,
     /// The outcome.
@@ -34,10 +43,13 @@ pub struct ResultFile {
 }
 
 /// The scene, as it was understood.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SceneEcho {
     /// Its title.
     pub title: String,
+    /// The scene file; none of a scene that was made in a program.
+    pub input: Option<Arc<str>>,
     /// Grippers along u and v.
     pub grid: Grid,
     /// Fabric length of a cell along u and v (m).
@@ -58,8 +70,47 @@ pub struct SceneEcho {
     pub limits: Limits,
 }
 
+/// A plan: what a motion is made from again, see [`ResultFile::motion`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlanRecord {
+    /// The planner.
+    pub method: PlanMethod,
+    /// Drapes that the search took.
+    pub evaluations: usize,
+    /// Samples a second of the motion as it is written (Hz).
+    pub rate: f64,
+    /// Planned positions of all grippers (m): control points of the smooth path, one list a step.
+    pub path: Vec<Vec<[f64; 3]>>,
+}
+
+impl ResultFile {
+    /// The motion of a planned drape at any time, and the orientations along it; none of a simulated one.
+    ///
+    /// # Errors
+    /// [`MotionError`] if plan and steps are none that a planner has written.
+    pub fn motion(&self) -> Result<Option<(TimedMotion, Attitudes)>, MotionError> {
+        let Some(plan) = &self.plan else { return Ok(None) };
+        let motion = TimedMotion::new(&plan.path, &Bounds::from(&self.scene.limits))?;
+        Ok(Some((motion, self.attitudes()?)))
+    }
+
+    /// Orientations of the grippers between the steps.
+    ///
+    /// # Errors
+    /// [`MotionError`] if there are no steps.
+    pub fn attitudes(&self) -> Result<Attitudes, MotionError> {
+        let times: Vec<f64> = self.steps.iter().map(|step| step.time).collect();
+        let quaternions: Vec<Vec<[f64; 4]>> = (self.steps.iter())
+            .map(|step| step.grippers.iter().map(|gripper| gripper.quaternion).collect())
+            .collect();
+        Attitudes::new(&times, &quaternions)
+    }
+}
+
 /// The ply in one step.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Step {
     /// Counts from 1, the start.
     pub step: usize,
@@ -78,7 +129,8 @@ pub struct Step {
 }
 
 /// A gripper in one step.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Gripper {
     /// Grid indices.
     pub id: GripperId,
@@ -97,10 +149,11 @@ pub struct Gripper {
 }
 
 /// How the equilibrium of a step was found.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Solver {
     /// `converged`, or what stopped it.
-    pub status: &'static str,
+    pub status: Status,
     /// Iterations of the last equilibrium.
     pub iterations: usize,
     /// Its optimality residual.
@@ -109,13 +162,67 @@ pub struct Solver {
     pub equilibria: usize,
 }
 
+/// Whether a catenary bounds cells or crosses one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CatenaryKind {
+    /// Along a fibre direction, between two cells or at the ply's border.
+    Edge,
+    /// Across a cell.
+    Diagonal,
+}
+
+/// Where a catenary leads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CatenaryDirection {
+    /// Along the first gripper index.
+    U,
+    /// Along the second gripper index.
+    V,
+    /// From `[i, j]` to `[i+1, j+1]`.
+    Rising,
+    /// From `[i+1, j]` to `[i, j+1]`.
+    Falling,
+}
+
+/// What holds a span in its shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Hold {
+    /// It hangs freely.
+    Hanging,
+    /// It is pulled straight beyond its length.
+    Overstretched,
+    /// It is straight: shearing, or taut without a force.
+    Straight,
+    /// It lies on the mold.
+    Lying,
+}
+
+/// The word of the file.
+macro_rules! words {
+    ($name:ident: $($variant:ident $word:literal),*) => {
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(match self { $($name::$variant => $word),* })
+            }
+        }
+    };
+}
+
+words!(CatenaryKind: Edge "edge", Diagonal "diagonal");
+words!(CatenaryDirection: U "u", V "v", Rising "rising", Falling "falling");
+words!(Hold: Hanging "hanging", Overstretched "overstretched", Straight "straight", Lying "lying");
+
 /// One catenary in one step.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CatenaryState {
     /// `edge` or `diagonal`.
-    pub kind: &'static str,
+    pub kind: CatenaryKind,
     /// `u`, `v`, `rising` or `falling`.
-    pub direction: &'static str,
+    pub direction: CatenaryDirection,
     /// Gripper at its first end.
     pub from: GripperId,
     /// Gripper at its second end.
@@ -135,7 +242,8 @@ pub struct CatenaryState {
 }
 
 /// One free span in one step.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SpanState {
     /// Fabric arc length of its ends from the first gripper (m).
     pub arc: [f64; 2],
@@ -145,8 +253,8 @@ pub struct SpanState {
     pub run: f64,
     /// Height of its second end above its first (m).
     pub rise: f64,
-    /// `hanging`, `overstretched`, `straight` (shearing, or taut without a force) or `lying`.
-    pub state: &'static str,
+    /// Whether it hangs, is pulled or lies.
+    pub state: Hold,
     /// Horizontal force (N); null where the model gives none.
     #[serde(rename = "H_N")]
     pub force: Option<f64>,
@@ -169,7 +277,8 @@ pub struct SpanState {
 }
 
 /// The segment of a catenary that the mold has caught; rests beside it may lie there too.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ContactState {
     /// Fabric arc length of its ends from the first gripper (m).
     pub arc: [f64; 2],
@@ -183,7 +292,8 @@ pub struct ContactState {
 }
 
 /// A touch away from the contact segment, which the model does not follow.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Bridging {
     /// Place of the largest gap between segment and touch (m).
     pub place: [f64; 3],
@@ -194,18 +304,20 @@ pub struct Bridging {
 }
 
 /// A cell in one step.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Cell {
     /// Its lowest gripper.
     pub cell: GripperId,
     /// Shear angle (°), 0 where no diagonal shears.
     pub shear_deg: f64,
     /// The shearing diagonal, `rising` or `falling`.
-    pub shearing: Option<&'static str>,
+    pub shearing: Option<CatenaryDirection>,
 }
 
 /// A worst value and where it is.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Worst {
     /// The value, in the unit that the measure names.
     pub value: f64,
@@ -217,7 +329,8 @@ pub struct Worst {
 }
 
 /// Worst values of one step; null where a measure has no meaning.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Measures {
     /// Slack (mm).
     pub slack_mm: Option<Worst>,
@@ -252,7 +365,8 @@ pub struct Measures {
 }
 
 /// The worst values as plain numbers.
-#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Numbers {
     /// Slack (mm).
     pub slack_mm: Option<f64>,
@@ -273,16 +387,17 @@ pub struct Numbers {
 }
 
 /// A limit and whether it holds.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Verdict {
     /// Key of the limit in the scene.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Worst value, in the unit of the limit as reported.
     pub value: f64,
     /// The limit, in the same unit: the least allowed of `contact_share` and `gripper_distance`, else the most.
     pub limit: f64,
     /// Unit of both.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// Whether it holds.
     pub ok: bool,
     /// Step of the worst value; none where it belongs to no step, as the speed of a motion.
@@ -290,13 +405,16 @@ pub struct Verdict {
     /// Place of the worst value, in words.
     #[serde(rename = "where")]
     pub at: String,
+    /// Place of the worst value in space (m), where it has one.
+    pub place: Option<[f64; 3]>,
 }
 
 /// A catenary by its ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CatenaryId {
     /// `edge` or `diagonal`.
-    pub kind: &'static str,
+    pub kind: CatenaryKind,
     /// Gripper at its first end.
     pub from: GripperId,
     /// Gripper at its second end.
@@ -304,7 +422,8 @@ pub struct CatenaryId {
 }
 
 /// The outcome of a drape: what `plydrape simulate --json` prints, but for its timing.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Summary {
     /// Every limit holds.
     pub accepted: bool,

@@ -4,15 +4,15 @@ use super::Snapshot;
 use super::attitude::{Attitude, attitude};
 use super::crossing::{STATIONS, hanging, lowered};
 use super::landing::{Landing, landing};
-use super::measures::{self, LyingRest, fit, name, words};
+use super::measures::{self, LyingRest, described, fit, name};
 use super::record::{
-    Bridging, CatenaryId, CatenaryState, Cell, ContactState, FORMAT, Gripper, Measures, Numbers,
-    ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step, Summary, VERSION, Verdict,
-    Worst,
+    Bridging, CatenaryDirection, CatenaryId, CatenaryState, Cell, ContactState, FORMAT, Gripper,
+    Hold, Measures, Numbers, ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step,
+    Summary, VERSION, Verdict, Worst,
 };
 use super::spans::{FreeSpan, Point};
 use crate::catenary;
-use crate::equilibrium::Solver;
+use crate::equilibrium::{Solver, Status};
 use crate::mold::vector::along;
 use crate::mold::{Mold, distance};
 use crate::ply::{Laid, shear};
@@ -70,7 +70,7 @@ impl<'a> Report<'a> {
             time: snapshot.time,
             grippers,
             solver: SolverRecord {
-                status: equilibrium.status.name(),
+                status: equilibrium.status,
                 iterations: equilibrium.iterations,
                 residual: equilibrium.residual,
                 equilibria: snapshot.equilibria,
@@ -92,12 +92,12 @@ impl<'a> Report<'a> {
         let mut out = Vec::with_capacity(grid.catenaries());
         for n in 0..grid.catenaries() {
             let c = grid.catenary(n);
-            let (kind, direction) = words(c.kind);
+            let (kind, direction) = described(c.kind);
             let laid = snapshot.laid[n].as_ref();
             let shear = (n >= grid.edges())
                 .then(|| snapshot.shear[(n - grid.edges()) / 2])
                 .flatten()
-                .filter(|shear| shear.falling == (direction == "falling"));
+                .filter(|shear| shear.falling == (direction == CatenaryDirection::Falling));
             let mut state = CatenaryState {
                 kind,
                 direction,
@@ -155,7 +155,10 @@ impl<'a> Report<'a> {
         let cell = |(n, shear): (usize, &Option<super::CellShear>)| Cell {
             cell: [n % across, n / across],
             shear_deg: shear.map_or(0.0, |shear| shear.angle.to_degrees()),
-            shearing: shear.map(|shear| if shear.falling { "falling" } else { "rising" }),
+            shearing: shear.map(|shear| match shear.falling {
+                true => CatenaryDirection::Falling,
+                false => CatenaryDirection::Rising,
+            }),
         };
         snapshot.shear.iter().enumerate().map(cell).collect()
     }
@@ -165,6 +168,7 @@ impl<'a> Report<'a> {
         let scene = self.scene;
         let echo = SceneEcho {
             title: scene.title.clone(),
+            input: scene.input.clone(),
             grid: scene.ply.grid,
             cell: scene.ply.cell,
             material: scene.ply.material.clone(),
@@ -177,10 +181,12 @@ impl<'a> Report<'a> {
         };
         let summary = self.summary();
         ResultFile {
-            format: FORMAT,
+            format: FORMAT.into(),
             version: VERSION,
-            program: concat!("plydrape ", env!("CARGO_PKG_VERSION")).into(),
+            checksum: String::new(),
+            program: crate::PROGRAM.into(),
             scene: echo,
+            plan: None,
             steps: self.steps,
             summary,
         }
@@ -242,13 +248,19 @@ impl<'a> Report<'a> {
     fn verdicts(&self) -> Vec<Verdict> {
         let (limits, settings) = (&self.scene.limits, &self.scene.settings);
         let mut out = Vec::new();
-        let mut judge = |name, unit, scale: f64, limit: f64, found: Option<(usize, &Worst)>| {
+        let mut judge = |name: &'static str,
+                         unit: &'static str,
+                         scale: f64,
+                         limit: f64,
+                         found: Option<(usize, &Worst)>| {
             let Some((step, worst)) = found else { return };
             let value = worst.value * scale;
             // a bound that holds a slope exactly at its limit is no breach
             let ok = value <= limit * (1.0 + 1e-9);
             let (step, at) = (Some(step), worst.at.clone());
-            out.push(Verdict { name, value, limit, unit, ok, step, at });
+            let place = Some(worst.place);
+            let (name, unit) = (name.into(), unit.into());
+            out.push(Verdict { name, value, limit, unit, ok, step, at, place });
         };
         let last = self.steps.last();
         let at_end = |pick: fn(&Measures) -> &Option<Worst>| {
@@ -301,13 +313,14 @@ impl<'a> Report<'a> {
             judge("fibre_angle", "°", 1.0, limits.fibre_angle.to_degrees(), fibre);
             if let Some(share) = step.measures.contact_share {
                 out.push(Verdict {
-                    name: "contact_share",
+                    name: "contact_share".into(),
                     value: share * 1e2,
                     limit: limits.contact_share * 1e2,
-                    unit: "%",
+                    unit: "%".into(),
                     ok: share >= limits.contact_share,
                     step: Some(step.step),
                     at: "all edges".into(),
+                    place: None,
                 });
             }
         }
@@ -315,29 +328,31 @@ impl<'a> Report<'a> {
         if let Some((step, worst)) = closest {
             let limit = limits.gripper_distance * 1e3;
             out.push(Verdict {
-                name: "gripper_distance",
+                name: "gripper_distance".into(),
                 value: worst.value,
                 limit,
-                unit: "mm",
+                unit: "mm".into(),
                 // as above
                 ok: worst.value >= limit * (1.0 - 1e-9),
                 step: Some(step),
                 at: worst.at.clone(),
+                place: Some(worst.place),
             });
         }
-        if let Some(step) = self.steps.iter().find(|step| step.solver.status != "converged") {
+        if let Some(step) = self.steps.iter().find(|step| step.solver.status != Status::Converged) {
             out.push(Verdict {
-                name: "equilibrium",
+                name: "equilibrium".into(),
                 value: step.solver.residual,
                 limit: 1e-6,
-                unit: "slope",
+                unit: "slope".into(),
                 ok: false,
                 step: Some(step.step),
                 at: format!(
                     "solver {} with max_tilt {:.1}°",
-                    step.solver.status,
+                    step.solver.status.name(),
                     settings.max_tilt.to_degrees()
                 ),
+                place: None,
             });
         }
         out
@@ -365,10 +380,10 @@ fn span_state(span: &FreeSpan, points: Vec<Point>, whole: f64) -> SpanState {
         run: span.run(),
         rise: span.ends[1][2] - span.ends[0][2],
         state: match span.state {
-            _ if span.shearing => "straight",
-            catenary::SpanState::Hanging => "hanging",
-            catenary::SpanState::Overstretched => "overstretched",
-            catenary::SpanState::Straight => "straight",
+            _ if span.shearing => Hold::Straight,
+            catenary::SpanState::Hanging => Hold::Hanging,
+            catenary::SpanState::Overstretched => Hold::Overstretched,
+            catenary::SpanState::Straight => Hold::Straight,
         },
         force: span.force,
         slopes: span.slopes,
@@ -410,7 +425,7 @@ fn lying_state(laid: &Laid, rest: &LyingRest, mold: &Mold) -> SpanState {
         length: fit.length,
         run,
         rise: b[2] - a[2],
-        state: "lying",
+        state: Hold::Lying,
         force: None,
         slopes: [slope; 2],
         prescribed: [false; 2],

@@ -10,9 +10,11 @@ use super::{min_force, moment_balance};
 use crate::catenary::SpanState;
 use crate::ply::{Laid, Ply};
 use crate::scene::{Settings, SlopeRule};
+use serde::{Deserialize, Serialize};
 
 /// How a solve ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// The slopes satisfy their rule to rounding.
     Converged,

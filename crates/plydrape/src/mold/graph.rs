@@ -8,10 +8,10 @@ use super::pose::Pose;
 use super::saddle::Saddle;
 use super::vector::{distance, dot, sub, unit};
 use super::{Curvatures, Foot};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A height over the local xy plane.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Graph {
     /// Where it stands.
     pub pose: Pose,
@@ -22,7 +22,7 @@ pub struct Graph {
 }
 
 /// What gives the height of a [`Graph`].
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "surface", rename_all = "kebab-case")]
 pub enum Surface {
     /// Curved down along one axis and up along the other.

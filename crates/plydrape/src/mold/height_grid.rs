@@ -10,10 +10,11 @@
 //! and the m are the solution of a tridiagonal system.
 
 use super::height::Height;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A smooth surface through heights on a rectangular grid.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Heights")]
 pub struct HeightGrid {
     /// Places of the nodes along x (m), ascending.
     x: Vec<f64>,
@@ -24,6 +25,23 @@ pub struct HeightGrid {
     /// At every node z, ∂²z/∂x², ∂²z/∂y² and ∂⁴z/∂x²∂y² of the surface.
     #[serde(skip)]
     nodes: Vec<[f64; 4]>,
+}
+
+/// A [`HeightGrid`] as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Heights {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    z: Vec<f64>,
+}
+
+impl TryFrom<Heights> for HeightGrid {
+    type Error = HeightGridError;
+
+    fn try_from(Heights { x, y, z }: Heights) -> Result<Self, HeightGridError> {
+        HeightGrid::new(x, y, z)
+    }
 }
 
 /// Why heights are no grid.

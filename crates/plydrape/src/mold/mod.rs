@@ -10,6 +10,7 @@ mod height;
 mod height_grid;
 mod lifted;
 pub mod mesh;
+pub mod patch;
 mod plane;
 mod pose;
 mod round;
@@ -30,12 +31,12 @@ pub use saddle::Saddle;
 pub(crate) use vector::distance;
 
 use section::{Until, trace};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use vector::{along, dot};
 
 /// A mold.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Mold {
     /// Flat, of any position and tilt.

@@ -3,10 +3,10 @@
 use super::pose::Pose;
 use super::vector::dot;
 use super::{Curvatures, Foot};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Which side of a round mold the ply lies on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Face {
     /// On the whole of it, from outside.
@@ -16,7 +16,7 @@ pub enum Face {
 }
 
 /// A cylinder about the local x axis, of any length.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Cylinder {
     /// Its axis is the local x axis.
     pub pose: Pose,
@@ -27,7 +27,7 @@ pub struct Cylinder {
 }
 
 /// A sphere about the local origin.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Sphere {
     /// Its centre is the local origin.
     pub pose: Pose,
@@ -38,7 +38,7 @@ pub struct Sphere {
 }
 
 /// A torus about the local z axis.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Torus {
     /// Its ring lies in the local xy plane.
     pub pose: Pose,

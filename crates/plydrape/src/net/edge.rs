@@ -13,10 +13,10 @@
 
 use super::spot::Spot;
 use crate::mold::vector::{along, cross, dot, norm, sub, unit};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How the fabric between two neighbouring nodes is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EdgeRule {
     /// Along the mold.

@@ -1,10 +1,10 @@
 //! Nodes that have no place on the mold, and why.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Why a node has no place on the mold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Reason {
     /// It lies beyond the mold's border.
@@ -17,7 +17,7 @@ pub enum Reason {
 }
 
 /// A node without a place.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Missing {
     /// Which node.
     pub node: [usize; 2],

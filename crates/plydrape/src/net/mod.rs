@@ -30,11 +30,11 @@ pub use shear::CellShear;
 
 use crate::mold::Mold;
 use build::Build;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use spot::{Ground, Spot};
 
 /// A ply draped as a pin-jointed net.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Net {
     /// What was asked for.
     pub layup: Layup,

@@ -4,31 +4,11 @@
 //! a step leaves its cells empty.
 
 use super::OutputError;
-use crate::draping::record::{Measures, ResultFile, Step, Worst};
+use super::measures::MEASURES;
+use crate::draping::record::{ResultFile, Step};
 use crate::motion::{Attitudes, MotionError, TimedMotion};
 use crate::ply::{Grid, GripperId};
 use ::csv::{Error, Writer};
-
-/// Column of a measure, and how to find it.
-type Column = (&'static str, &'static str, fn(&Measures) -> Option<&Worst>);
-
-/// Every measure with a place: header of the value, header of the place, the field.
-const MEASURES: [Column; 14] = [
-    ("slack (mm)", "slack at", |m| m.slack_mm.as_ref()),
-    ("slack ratio (1)", "slack ratio at", |m| m.slack_ratio.as_ref()),
-    ("wrinkle amplitude (mm)", "wrinkle amplitude at", |m| m.wrinkle_mm.as_ref()),
-    ("overstretch (1)", "overstretch at", |m| m.overstretch.as_ref()),
-    ("overstretch (mm)", "overstretch length at", |m| m.overstretch_mm.as_ref()),
-    ("bridging (mm)", "bridging at", |m| m.bridging_mm.as_ref()),
-    ("shear (deg)", "shear at", |m| m.shear_deg.as_ref()),
-    ("tilt (deg)", "tilt at", |m| m.tilt_deg.as_ref()),
-    ("horizontal force (N)", "horizontal force at", |m| m.force_n.as_ref()),
-    ("landing error (mm)", "landing error at", |m| m.landing_error_mm.as_ref()),
-    ("fibre angle (deg)", "fibre angle at", |m| m.fibre_angle_deg.as_ref()),
-    ("gap (mm)", "gap at", |m| m.gap_mm.as_ref()),
-    ("gripper distance (mm)", "gripper distance at", |m| m.gripper_distance_mm.as_ref()),
-    ("outside workspace (mm)", "outside workspace at", |m| m.workspace_mm.as_ref()),
-];
 
 /// One row a step: time (s), every measure and where it is, share in contact, how the solver ended.
 ///
@@ -37,7 +17,9 @@ const MEASURES: [Column; 14] = [
 pub fn steps(result: &ResultFile) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
     let mut header = vec!["step", "t (s)"];
-    header.extend(MEASURES.iter().flat_map(|(value, at, _)| [*value, *at]));
+    let columns = MEASURES.iter().map(|m| [m.header(), format!("{} at", m.place)]);
+    let columns: Vec<String> = columns.flatten().collect();
+    header.extend(columns.iter().map(String::as_str));
     header.extend(["contact share (1)", "solver status", "iterations", "residual", "equilibria"]);
     table.write_record(&header)?;
     for step in &result.steps {
@@ -48,13 +30,13 @@ pub fn steps(result: &ResultFile) -> Result<String, Error> {
 
 fn step_row(step: &Step) -> Vec<String> {
     let mut row = vec![step.step.to_string(), number(step.time)];
-    for (_, _, find) in &MEASURES {
-        let worst = find(&step.measures);
+    for measure in &MEASURES {
+        let worst = (measure.find)(&step.measures);
         row.push(worst.map(|w| number(w.value)).unwrap_or_default());
         row.push(worst.map(|w| w.at.clone()).unwrap_or_default());
     }
     row.push(step.measures.contact_share.map(number).unwrap_or_default());
-    row.push(step.solver.status.to_owned());
+    row.push(step.solver.status.name().to_owned());
     row.push(step.solver.iterations.to_string());
     row.push(number(step.solver.residual));
     row.push(step.solver.equilibria.to_string());
@@ -79,6 +61,19 @@ pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
         }
     }
     text(table)
+}
+
+/// The table of [`motion`] for a plan at its rate; none of a simulated drape.
+///
+/// # Errors
+/// As [`motion`], if plan and steps do not belong together.
+pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError> {
+    match (&result.plan, result.motion()?) {
+        (Some(plan), Some((timed, attitudes))) => {
+            motion(&timed, &attitudes, result.scene.grid, plan.rate).map(Some)
+        }
+        _ => Ok(None),
+    }
 }
 
 /// The table of [`trajectory`] for a timed motion, sampled at a rate (Hz), the last sample at its end.
@@ -133,6 +128,7 @@ pub(super) fn text(table: Writer<Vec<u8>>) -> Result<String, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::draping::record::Worst;
     use crate::output::sample;
 
     fn rows(text: &str) -> Vec<Vec<String>> {

@@ -22,8 +22,20 @@ use tempfile::TempDir;
 /// [`OutputError::Foreign`] if a file in the way was not written by plydrape or was changed since;
 /// the other variants where the folder or the disk refuses.
 pub fn write(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
+    put(dir, files, true)
+}
+
+/// The same, but files of an earlier run that are not written now stay.
+///
+/// # Errors
+/// As [`write`].
+pub fn add(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
+    put(dir, files, false)
+}
+
+fn put(dir: &Path, files: &[(&str, &[u8])], alone: bool) -> Result<Vec<PathBuf>, OutputError> {
     let made = make(dir)?;
-    let written = replace(dir, files);
+    let written = replace(dir, files, alone);
     if made && written.is_err() {
         // Only an empty folder goes, and only the one made here.
         let _ = fs::remove_dir(dir);
@@ -46,7 +58,7 @@ fn make(dir: &Path) -> Result<bool, OutputError> {
     }
 }
 
-fn replace(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
+fn replace(dir: &Path, files: &[(&str, &[u8])], alone: bool) -> Result<Vec<PathBuf>, OutputError> {
     // Nothing is touched before every name is known to be free or our own.
     let earlier = Manifest::read(dir)?;
     for (name, _) in files {
@@ -60,7 +72,9 @@ fn replace(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputEr
     }
     let stale: Vec<String> = earlier
         .names()
-        .filter(|name| files.iter().all(|(new, _)| new != name) && earlier.holds(dir, name))
+        .filter(|name| {
+            alone && files.iter().all(|(new, _)| new != name) && earlier.holds(dir, name)
+        })
         .map(str::to_owned)
         .collect();
 
@@ -70,12 +84,12 @@ fn replace(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputEr
         .tempdir_in(dir)
         .map_err(|e| OutputError::io("write into", dir, e))?;
     let new = Manifest::of(files);
-    let (both, alone) = (earlier.with(&new).text()?, new.text()?);
+    let (both, own) = (earlier.with(&new).text()?, new.text()?);
     for (name, content) in files {
         stage_file(&stage, dir, name, content)?;
     }
     stage_file(&stage, dir, "both", both.as_bytes())?;
-    stage_file(&stage, dir, "alone", alone.as_bytes())?;
+    stage_file(&stage, dir, "alone", own.as_bytes())?;
 
     // Move in, the list first: a cut in power from here on leaves only files that it knows.
     let mut moves = Moves::new(dir, stage);
@@ -88,8 +102,10 @@ fn replace(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputEr
     if let Err(fault) = moved {
         return Err(moves.undo(fault));
     }
-    // The list with old names too is valid, so a failure to shorten it loses nothing.
-    let _ = moves.put("alone", MANIFEST);
+    if alone {
+        // The list with old names too is valid, so a failure to shorten it loses nothing.
+        let _ = moves.put("alone", MANIFEST);
+    }
     let _ = File::open(dir).and_then(|folder| folder.sync_all());
     Ok(files.iter().map(|(name, _)| dir.join(name)).collect())
 }

@@ -192,3 +192,20 @@ proptest! {
         }
     }
 }
+
+/// Files that are added leave those of an earlier run in place, and both stay plydrape's own.
+#[test]
+fn added_files_stand_beside_earlier_ones() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path();
+    write(dir, &[("a.csv", b"1"), ("b.csv", b"2")]).unwrap();
+    add(dir, &[("c.csv", b"3"), ("b.csv", b"4")]).unwrap();
+    let read = |name: &str| std::fs::read(dir.join(name)).unwrap();
+    assert_eq!([read("a.csv"), read("b.csv"), read("c.csv")], [b"1", b"4", b"3"]);
+    std::fs::write(dir.join("c.csv"), "mine").unwrap();
+    assert!(matches!(add(dir, &[("c.csv", b"5")]), Err(OutputError::Foreign { .. })));
+    add(dir, &[("b.csv", b"6")]).unwrap();
+    write(dir, &[("d.csv", b"7")]).unwrap();
+    assert!(!dir.join("a.csv").exists() && !dir.join("b.csv").exists());
+    assert_eq!(read("c.csv"), b"mine");
+}

@@ -28,10 +28,28 @@ pub enum JsonError {
 
 /// The whole result file as one line of JSON with a line feed; numbers in their shortest exact form.
 ///
+/// Its check sum is that of the same text with no check sum in it.
+///
 /// # Errors
 /// [`JsonError::NotFinite`] if any number is NaN or infinite.
 pub fn text(result: &ResultFile) -> Result<String, JsonError> {
-    of(result)
+    let text = of(result)?;
+    let written = format!("{CHECKSUM}\"{}\"", result.checksum);
+    let Some((head, tail)) = text.split_once(&written) else { return Ok(text) };
+    let sum = checksum(head, tail);
+    Ok([head, CHECKSUM, "\"", &sum, "\"", tail].concat())
+}
+
+/// The key of the check sum, as it is written.
+pub(super) const CHECKSUM: &str = "\"checksum\":";
+
+/// The check sum of a result file, from the text before its key and the text behind its value.
+pub(super) fn checksum(head: &str, tail: &str) -> String {
+    let mut sum = crc32fast::Hasher::new();
+    for part in [head, CHECKSUM, "\"\"", tail.trim_end()] {
+        sum.update(part.as_bytes());
+    }
+    format!("crc32:{:08x}", sum.finalize())
 }
 
 /// JSON text of any value whose numbers are all finite, with a line feed.

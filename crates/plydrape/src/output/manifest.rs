@@ -56,7 +56,9 @@ impl Manifest {
     pub(super) fn with(&self, other: &Manifest) -> Manifest {
         let mut both = self.clone();
         for (name, stamps) in &other.files {
-            both.files.entry(name.clone()).or_default().extend(stamps);
+            let known = both.files.entry(name.clone()).or_default();
+            known.retain(|stamp| !stamps.contains(stamp));
+            known.extend(stamps);
         }
         both
     }

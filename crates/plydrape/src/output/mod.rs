@@ -12,13 +12,18 @@
 
 pub mod csv;
 mod error;
+pub mod export;
 pub mod figure;
 mod finite;
 pub mod folder;
 pub mod json;
 mod manifest;
+mod measures;
 pub mod net;
+pub mod page;
 pub mod plan;
+pub mod read;
+pub mod surface;
 pub mod table;
 
 #[cfg(test)]
@@ -29,9 +34,10 @@ pub use error::OutputError;
 use crate::draping::record::ResultFile;
 use std::path::{Path, PathBuf};
 
-/// Writes `result.json`, `steps.csv`, `trajectory.csv` and `figure.svg` into a folder, all or none.
+/// Writes `result.json`, `steps.csv`, `trajectory.csv`, for a plan `motion.csv`, `figure.svg` and
+/// `report.html` into a folder, all or none.
 ///
-/// The figure shows [`figure::default_steps`]. Returns the four paths. Same result, same bytes.
+/// The figure shows [`figure::default_steps`]. Returns the paths. Same result, same bytes.
 ///
 /// # Errors
 /// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
@@ -50,13 +56,17 @@ fn write_with(
     let json = json::text(result)?;
     let steps = csv::steps(result)?;
     let trajectory = csv::trajectory(result)?;
+    let motion = csv::planned_motion(result)?;
     let figure = figure::svg(result, &figure::default_steps(result))?;
+    let page = page::html(result)?;
     let mut files = vec![
         ("result.json", json.as_bytes()),
         ("steps.csv", steps.as_bytes()),
         ("trajectory.csv", trajectory.as_bytes()),
-        ("figure.svg", figure.as_bytes()),
     ];
+    files.extend(motion.as_ref().map(|motion| ("motion.csv", motion.as_bytes())));
+    files.push(("figure.svg", figure.as_bytes()));
+    files.push(("report.html", page.as_bytes()));
     files.extend(more);
     folder::write(dir, &files)
 }
@@ -65,14 +75,17 @@ fn write_with(
 mod tests {
     use super::*;
 
-    /// Four files, and the same bytes again from the same result.
+    /// Five files, and the same bytes again from the same result.
     #[test]
     fn write_all_is_complete_and_repeats_itself() {
         let dir = tempfile::tempdir().unwrap();
         let result = sample::draped(4, 2, 30);
         let paths = write_all(&result, dir.path()).unwrap();
         let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
-        assert_eq!(names, ["result.json", "steps.csv", "trajectory.csv", "figure.svg"]);
+        assert_eq!(
+            names,
+            ["result.json", "steps.csv", "trajectory.csv", "figure.svg", "report.html"]
+        );
         let read = || -> Vec<Vec<u8>> { paths.iter().map(|p| std::fs::read(p).unwrap()).collect() };
         let first = read();
         write_all(&result, dir.path()).unwrap();

@@ -2,6 +2,7 @@
 //! target, cut off where they meet the mold. They look like a drape and solve nothing.
 
 use crate::draping::record::*;
+use crate::equilibrium::Status;
 use crate::material::{Material, Section};
 use crate::mold::{Mold, Plane};
 use crate::ply::{Catenary, Direction, Grid, Kind};
@@ -68,7 +69,7 @@ fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) 
         step,
         time,
         grippers,
-        solver: Solver { status: "converged", iterations: 3, residual: 1e-12, equilibria: 1 },
+        solver: Solver { status: Status::Converged, iterations: 3, residual: 1e-12, equilibria: 1 },
         catenaries,
         cells: Vec::new(),
         measures: Measures {
@@ -142,7 +143,7 @@ fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) 
         length: arc(b) - arc(a),
         run: distance(shape[a], shape[b]),
         rise: shape[b][2] - shape[a][2],
-        state: "hanging",
+        state: Hold::Hanging,
         force: Some(0.37),
         slopes: [-0.3, 0.3],
         prescribed: [false; 2],
@@ -168,12 +169,12 @@ fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) 
         }
     };
     CatenaryState {
-        kind: if edge { "edge" } else { "diagonal" },
+        kind: if edge { CatenaryKind::Edge } else { CatenaryKind::Diagonal },
         direction: match line.kind {
-            Kind::EdgeU => "u",
-            Kind::EdgeV => "v",
-            Kind::Rising => "rising",
-            Kind::Falling => "falling",
+            Kind::EdgeU => CatenaryDirection::U,
+            Kind::EdgeV => CatenaryDirection::V,
+            Kind::Rising => CatenaryDirection::Rising,
+            Kind::Falling => CatenaryDirection::Falling,
         },
         from: line.from,
         to: line.to,
@@ -223,11 +224,13 @@ fn summarize(result: &mut ResultFile) {
 
 fn frame(grid: Grid) -> ResultFile {
     ResultFile {
-        format: FORMAT,
+        format: FORMAT.into(),
         version: VERSION,
+        checksum: String::new(),
         program: "test".into(),
         scene: SceneEcho {
             title: "Flat sheared mold".into(),
+            input: None,
             grid,
             cell: [CELL, CELL],
             material: Material {
@@ -270,6 +273,7 @@ fn frame(grid: Grid) -> ResultFile {
                 jerk: 10.0,
             },
         },
+        plan: None,
         steps: Vec::new(),
         summary: Summary {
             accepted: true,
@@ -283,13 +287,14 @@ fn frame(grid: Grid) -> ResultFile {
             last: Numbers::default(),
             contact_share: None,
             limits: vec![Verdict {
-                name: "tilt",
+                name: "tilt".into(),
                 value: 19.2,
                 limit: 40.0,
-                unit: "°",
+                unit: "°".into(),
                 ok: true,
                 step: Some(1),
                 at: "gripper [0, 0]".into(),
+                place: None,
             }],
             equilibria: 30,
         },

@@ -1,6 +1,7 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
 use crate::draping::record::{ResultFile, Step, Verdict, Worst};
+use crate::equilibrium::Status;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -91,11 +92,11 @@ fn chosen(result: &ResultFile) -> BTreeSet<usize> {
 /// A line for equilibria that did not converge, if any.
 fn failed_solves(result: &ResultFile) -> String {
     let failed: Vec<&Step> =
-        result.steps.iter().filter(|step| step.solver.status != "converged").collect();
+        result.steps.iter().filter(|step| step.solver.status != Status::Converged).collect();
     let Some(first) = failed.first() else {
         return String::new();
     };
-    let (status, step) = (first.solver.status, first.step);
+    let (status, step) = (first.solver.status.name(), first.step);
     match failed.len() {
         1 => format!("step {step} did not converge: {status}\n"),
         more => format!("{more} steps did not converge, the first in step {step}: {status}\n"),
@@ -115,7 +116,7 @@ pub fn verdict(result: &ResultFile) -> String {
                 v.name.replace('_', " "),
                 significant(v.value),
                 significant(v.limit),
-                v.unit.into(),
+                v.unit.to_string(),
                 if v.ok { "pass" } else { "FAIL" }.into(),
                 v.step.map_or_else(|| "–".into(), |step| step.to_string()),
                 v.at.clone(),
@@ -154,7 +155,7 @@ pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
 /// A verdict in words: name, value, limit, step and place.
 #[must_use]
 pub fn in_words(v: &Verdict) -> String {
-    let (name, unit) = (v.name.replace('_', " "), unit(v.unit));
+    let (name, unit) = (v.name.replace('_', " "), unit(&v.unit));
     let (value, limit) = (significant(v.value), significant(v.limit));
     let step = v.step.map(|step| format!(" in step {step}")).unwrap_or_default();
     let at = if v.at.is_empty() { String::new() } else { format!(", {}", v.at) };
@@ -270,14 +271,15 @@ mod tests {
     #[test]
     fn verdict_names_the_worst_limit() {
         let mut result = sample::draped(4, 2, 30);
-        let limit = |name, value, limit, ok| Verdict {
-            name,
+        let limit = |name: &'static str, value, limit, ok| Verdict {
+            name: name.into(),
             value,
             limit,
-            unit: "mm",
+            unit: "mm".into(),
             ok,
             step: Some(30),
             at: "edge [1, 0]–[2, 0]".into(),
+            place: None,
         };
         result.summary.accepted = false;
         result.summary.limits = vec![
@@ -301,14 +303,15 @@ mod tests {
     /// 38° of 40° is nearer to its limit than 60 mm, where 50 mm is the least; a limit of zero is never near.
     #[test]
     fn the_closest_limit_is_the_one_with_the_smallest_margin() {
-        let limit = |name, value, limit, ok| Verdict {
-            name,
+        let limit = |name: &'static str, value, limit, ok| Verdict {
+            name: name.into(),
             value,
             limit,
-            unit: "mm",
+            unit: "mm".into(),
             ok,
             step: None,
             at: "gripper [0,0]".into(),
+            place: None,
         };
         let limits = [
             limit("gripper_distance", 60.0, 50.0, true),
@@ -316,8 +319,8 @@ mod tests {
             limit("workspace", 0.0, 0.0, true),
             limit("slack_ratio", 0.05, 0.05, false),
         ];
-        assert_eq!(closest(&limits).map(|v| v.name), Some("tilt"));
-        assert_eq!(limiting(&limits).map(|v| v.name), Some("slack_ratio"));
+        assert_eq!(closest(&limits).map(|v| &*v.name), Some("tilt"));
+        assert_eq!(limiting(&limits).map(|v| &*v.name), Some("slack_ratio"));
         assert_eq!(in_words(&limits[1]), "tilt 38 mm against 40 mm, gripper [0,0]");
         assert_eq!(
             obstacles(&limits[3..]),

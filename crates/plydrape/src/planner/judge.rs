@@ -2,6 +2,7 @@
 
 use crate::draping::record::{ResultFile, Verdict};
 use crate::draping::{Drape, simulate_within};
+use crate::equilibrium::Status;
 use crate::planner::board::Board;
 use crate::scene::{Motion, Scene, Stepping};
 
@@ -85,7 +86,7 @@ pub fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
 #[must_use]
 pub fn ratio(verdict: &Verdict) -> f64 {
     let Verdict { name, value, limit, .. } = verdict;
-    let ratio = match *name {
+    let ratio = match &**name {
         // lower bounds: what is missing to the whole, and the limit as a multiple of the distance
         "contact_share" => (100.0 - value) / (100.0 - limit).max(1e-3),
         "gripper_distance" => limit / value.max(1e-9),
@@ -100,7 +101,7 @@ pub fn ratio(verdict: &Verdict) -> f64 {
 /// spare; less of what spoils the ply is always better.
 fn weight(verdict: &Verdict) -> f64 {
     let ratio = ratio(verdict);
-    match verdict.name {
+    match &*verdict.name {
         "tilt" | "shear" | "force" | "gripper_distance" | "workspace" if ratio <= 1.0 => {
             ((ratio - SPARE) / (1.0 - SPARE)).max(0.0)
         }
@@ -114,7 +115,7 @@ pub fn score(result: &ResultFile) -> f64 {
     let limits = &result.summary.limits;
     let ratios: Vec<f64> = limits.iter().map(weight).collect();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
-    let unsolved = result.steps.iter().filter(|s| s.solver.status != "converged").count();
+    let unsolved = result.steps.iter().filter(|s| s.solver.status != Status::Converged).count();
     let mean = ratios.iter().map(|r| r.min(10.0)).sum::<f64>() / ratios.len().max(1) as f64;
     // one that was broken off is worse than any that was not, the less of it there is
     let summary = &result.summary;

@@ -48,7 +48,8 @@ fn beyond(
     let (value, at) = found?;
     // what rounding puts beyond a limit is within it
     let ok = value <= limit * (1.0 + 1e-9);
-    (!ok).then_some(Verdict { name, value, limit, unit, ok, step: None, at })
+    let (name, unit) = (name.into(), unit.into());
+    (!ok).then_some(Verdict { name, value, limit, unit, ok, step: None, at, place: None })
 }
 
 /// The largest value, the first of several that are equal.
@@ -71,13 +72,14 @@ fn places(
     let apart = closest(grid, positions).and_then(|worst| {
         let limit = limits.gripper_distance * 1e3;
         (worst.value < limit * (1.0 - 1e-9)).then(|| Verdict {
-            name: "gripper_distance",
+            name: "gripper_distance".into(),
             value: worst.value,
             limit,
-            unit: "mm",
+            unit: "mm".into(),
             ok: false,
             step: None,
             at: format!("{} {when}", worst.at),
+            place: Some(worst.place),
         })
     });
     workspace.into_iter().chain(apart).map(move |verdict| Verdict { step, ..verdict })

@@ -7,7 +7,7 @@ use super::memory::Memory;
 use super::obstacles::obstacles;
 use super::path::{self, Strategy};
 use super::stepwise::{Outcome, stepwise};
-use crate::draping::record::{ResultFile, Verdict};
+use crate::draping::record::{PlanRecord, Verdict};
 use crate::draping::spans::Point;
 use crate::draping::{Drape, simulate};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
@@ -126,7 +126,13 @@ pub fn plan(
     summary.judge_also(obstacles(scene));
     summary.limits.extend(judged);
     summary.judge_also(found.limits.into_iter().chain(rates(&motion, &bounds, scene)));
-    let attitudes = attitudes(&drape.result)?;
+    drape.result.plan = Some(PlanRecord {
+        method: scene.plan.method,
+        evaluations: found.evaluations,
+        rate: scene.plan.rate,
+        path: found.positions.clone(),
+    });
+    let attitudes = drape.result.attitudes()?;
     let before = memory.map_or(0, |memory| memory.evaluations);
     let memory = Memory::new(scene, before + found.evaluations, found.strategy, found.positions);
     let (method, evaluations) = (scene.plan.method, found.evaluations);
@@ -151,13 +157,14 @@ fn by_steps(scene: &Scene, board: &Board) -> Found {
     });
     let limits = match plan.outcome {
         Outcome::OutOfSteps(stray) | Outcome::OutOfReach(stray) => vec![Verdict {
-            name: "steps",
+            name: "steps".into(),
             value: stray.distance * 1e3,
             limit: 0.0,
-            unit: "mm",
+            unit: "mm".into(),
             ok: false,
             step: Some(plan.positions.len()),
             at: format!("gripper [{},{}], short of its target", stray.gripper[0], stray.gripper[1]),
+            place: plan.positions.last().map(|step| step[scene.ply.grid.index(stray.gripper)]),
         }],
         Outcome::Arrived | Outcome::Interrupted | Outcome::NoTarget => Vec::new(),
     };
@@ -167,17 +174,18 @@ fn by_steps(scene: &Scene, board: &Board) -> Found {
 /// Largest speed, acceleration and jerk of the motion against their limits.
 fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
     let peaks = motion.peaks();
-    let verdict = |name, unit, peak: Peak, limit: f64| {
+    let verdict = |name: &'static str, unit: &'static str, peak: Peak, limit: f64| {
         let [i, j] = scene.ply.grid.id(peak.gripper);
         let step = motion.times().partition_point(|t| *t < peak.time) + 1;
         Verdict {
-            name,
+            name: name.into(),
             value: peak.value,
             limit,
-            unit,
+            unit: unit.into(),
             ok: peak.value <= limit * (1.0 + 1e-9),
             step: Some(step.min(motion.times().len())),
             at: format!("gripper [{i},{j}]"),
+            place: Some(motion.at(peak.time)[peak.gripper]),
         }
     };
     vec![
@@ -185,13 +193,4 @@ fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
         verdict("acceleration", "m/s²", peaks.acceleration, bounds.acceleration),
         verdict("jerk", "m/s³", peaks.jerk, bounds.jerk),
     ]
-}
-
-/// The attitudes of a drape's grippers over its time.
-fn attitudes(result: &ResultFile) -> Result<Attitudes, MotionError> {
-    let times: Vec<f64> = result.steps.iter().map(|step| step.time).collect();
-    let turned: Vec<Vec<[f64; 4]>> = (result.steps.iter())
-        .map(|step| step.grippers.iter().map(|gripper| gripper.quaternion).collect())
-        .collect();
-    Attitudes::new(&times, &turned)
 }

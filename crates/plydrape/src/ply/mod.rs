@@ -8,7 +8,7 @@ pub use grid::{Catenary, Grid, GripperId, Kind};
 pub use laid::Laid;
 
 use crate::material::{Line, Material, Section};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A rectangular woven ply held by a grid of grippers.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Ply {
 }
 
 /// A direction of the gripper grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
     /// Along the first gripper index.

@@ -57,6 +57,7 @@ pub(super) fn scene(
     let plan = plan(&file.plan, ply.grid, document)?;
     Ok(Scene {
         title: file.title.clone().unwrap_or_else(|| title(document, base)),
+        input: Some(document.text.clone()),
         ply,
         mold,
         mesh,

@@ -46,7 +46,7 @@ pub use schema::schema;
 use crate::mold::{MeshReport, Mold};
 use crate::net::Net;
 use crate::ply::Ply;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -111,6 +111,8 @@ fn keys(document: &error::Document) -> Result<file::SceneFile, SceneError> {
 pub struct Scene {
     /// Name for reports: the file's stem or the `title` key.
     pub title: String,
+    /// The scene file; none of a scene that was made in a program.
+    pub input: Option<Arc<str>>,
     /// What hangs between the grippers.
     pub ply: Ply,
     /// What it is laid on; a ply may also just hang.
@@ -130,7 +132,7 @@ pub struct Scene {
 }
 
 /// How gripper trajectories are planned.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// The planner.
     pub method: PlanMethod,
@@ -155,7 +157,7 @@ impl Default for Plan {
 }
 
 /// The planner of a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PlanMethod {
     /// Whole trajectories, judged by complete drapes.
@@ -183,12 +185,12 @@ pub struct Target {
 }
 
 /// Rules of the model that a scene may choose.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// How shared slopes are found.
     pub slopes: SlopeRule,
     /// Axial stiffness EA (N); infinite for an inextensible ply (written as null).
-    #[serde(serialize_with = "infinite_as_null")]
+    #[serde(serialize_with = "infinite_as_null", deserialize_with = "null_as_infinite")]
     pub axial_stiffness: f64,
     /// Acceleration of gravity g (m/s²).
     pub gravity: f64,
@@ -204,8 +206,13 @@ fn infinite_as_null<S: serde::Serializer>(value: &f64, to: S) -> Result<S::Ok, S
     finite.serialize(to)
 }
 
+/// The inverse of [`infinite_as_null`].
+fn null_as_infinite<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+}
+
 /// How shared slopes are found, eqs. (9) and (10) of `docs/theory.md`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SlopeRule {
     /// The paper's: smallest norm of the horizontal forces.
@@ -215,7 +222,7 @@ pub enum SlopeRule {
 }
 
 /// How contact between ply and mold is found.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// Distance that counts as touching (m).
     pub tolerance: f64,
@@ -226,7 +233,7 @@ pub struct Contact {
 }
 
 /// When contact is evaluated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stepping {
     /// Once per step, as in the paper.
@@ -236,7 +243,7 @@ pub enum Stepping {
 }
 
 /// The slope of a span at the end of a contact segment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactEnd {
     /// Free, as in the paper.
@@ -249,9 +256,9 @@ pub enum ContactEnd {
 ///
 /// Overstretch, tilt, shear and force are judged in every step of every scene; slack, bridging,
 /// landing errors and contact share at the end of scenes with a [`Target`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
-    /// Slack of any span as a share of its free length.
+    /// Slack of a catenary, all its rests, as a share of its length.
     pub slack_ratio: f64,
     /// Bridging gap (m).
     pub bridging: f64,

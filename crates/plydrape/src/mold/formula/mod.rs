@@ -14,7 +14,7 @@ pub use error::{FormulaError, FormulaFault};
 
 use super::height::Height;
 use operation::Operation;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
 
 /// A height z = f(x, y) written as a formula.
@@ -105,5 +105,11 @@ impl fmt::Debug for Formula {
 impl Serialize for Formula {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         self.text.serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Formula {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Formula::new(&String::deserialize(from)?).map_err(de::Error::custom)
     }
 }

@@ -31,12 +31,13 @@ pub use border::Border;
 pub use error::MeshError;
 pub use report::{Finding, MeshReport};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::OnceLock;
 
 /// A triangle mesh in its place. It never changes; share it behind an `Arc`.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "read::Triangles")]
 pub struct Mesh {
     /// Places of the vertices (m).
     vertices: Vec<[f64; 3]>,

@@ -7,6 +7,7 @@ use super::soup::Soup;
 use super::{Mesh, MeshError, border, bounds, fan, inp, join, normals, obj, stl};
 use crate::mold::Pose;
 use crate::mold::vector::distance;
+use serde::Deserialize;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -52,6 +53,32 @@ impl Mesh {
             }
         };
         build(soup, file, scale, pose)
+    }
+}
+
+/// A [`Mesh`] as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Triangles {
+    vertices: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl TryFrom<Triangles> for Mesh {
+    type Error = MeshError;
+
+    fn try_from(written: Triangles) -> Result<Self, MeshError> {
+        let (file, mut soup) = ("the mold", Soup::new("triangle"));
+        let most = written.vertices.len();
+        if written.triangles.as_flattened().iter().any(|n| *n as usize >= most) {
+            let others = " of the vertices it has".to_owned();
+            return Err(MeshError::Empty { file: file.into(), noun: "triangle", others });
+        }
+        soup.points = written.vertices;
+        for (n, corners) in written.triangles.iter().enumerate() {
+            soup.push(corners, n as u64 + 1);
+        }
+        build(soup, file, 1.0, &Pose::new([0.0; 3], [0.0; 3])).map(|(mesh, _)| mesh)
     }
 }
 

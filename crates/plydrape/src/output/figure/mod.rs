@@ -17,7 +17,6 @@ mod projection;
 mod relief;
 pub mod shear_map;
 mod shorten;
-mod surface;
 
 use crate::draping::record::{ResultFile, Step};
 

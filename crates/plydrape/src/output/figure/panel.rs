@@ -8,9 +8,9 @@ use super::layout::bounds;
 use super::piece::{self, Form, Piece, grown, thread};
 use super::projection::{Point, View, turned};
 use super::relief::Relief;
-use super::surface;
-use crate::draping::record::{Gripper, ResultFile, SpanState, Step};
+use crate::draping::record::{Gripper, Hold, ResultFile, SpanState, Step};
 use crate::mold::Mold;
+use crate::output::surface;
 
 /// Radius of a gripper as a share of the shorter side of a cell.
 const GRIPPER: f64 = 0.12;
@@ -277,7 +277,7 @@ impl Stage<'_> {
         let count = self.drawn(detail);
         let lines = step.catenaries.iter().take(count);
         // a rest that lies flat touches as its segment does; one with slack is a wrinkle
-        let flat = |span: &&SpanState| span.state == "lying" && span.slack_ratio < FLAT;
+        let flat = |span: &&SpanState| span.state == Hold::Lying && span.slack_ratio < FLAT;
         let touching = lines.flat_map(|c| {
             let segment = c.contact.iter().map(|contact| &contact.points);
             segment.chain(c.spans.iter().filter(flat).map(|span| &span.points))

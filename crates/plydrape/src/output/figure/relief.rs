@@ -11,6 +11,7 @@ use super::colour::{MOLD_DARK, MOLD_EDGE, MOLD_LIGHT};
 use super::piece::{Form, Piece, grown, paint};
 use super::projection::{Point, View};
 use crate::mold::Mold;
+use crate::mold::patch::border;
 
 /// Quads along the longer side of the plan.
 const QUADS: usize = 30;
@@ -201,23 +202,6 @@ impl Quad {
         }
         (quad.outline.len() > 2).then_some(quad)
     }
-}
-
-/// The last point of the mold on the way from a place with one to a place without.
-fn border(
-    mut last: Point,
-    mut with: [f64; 2],
-    mut without: [f64; 2],
-    on: &dyn Fn(f64, f64) -> Option<Point>,
-) -> Point {
-    for _ in 0..20 {
-        let [x, y] = [0, 1].map(|c| 0.5 * (with[c] + without[c]));
-        match on(x, y) {
-            Some(point) => (last, with) = (point, [x, y]),
-            None => without = [x, y],
-        }
-    }
-    last
 }
 
 /// Grey of a quad and how much it covers: lighter towards the light, thin where its back is seen.

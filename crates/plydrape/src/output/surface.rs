@@ -16,16 +16,60 @@
 //!
 //! If the diagonals miss each other, e₀ is the lower of both, so that the surface holds the higher.
 
-use super::projection::Point;
-use crate::draping::record::{CatenaryState, Step};
+use crate::draping::record::{CatenaryState, ResultFile, Step};
 use crate::ply::Grid;
+
+type Point = [f64; 3];
+
+/// The ply of one step as a structured grid of points, every catenary along its lines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    /// Points along u and along v: the gripper `[i, j]` is point `[i n, j n]` with n intervals a cell.
+    pub size: [usize; 2],
+    /// Points (m), u running fastest.
+    pub vertices: Vec<[f64; 3]>,
+    /// Distance of each point from the mold (m), negative inside it; none without a mold. The model follows
+    /// the catenaries alone: between them the ply may be drawn a little inside.
+    pub gap: Option<Vec<f64>>,
+}
+
+impl Surface {
+    /// The ply of a step of a result with so many intervals along each side of a cell, at least one. A strip
+    /// is one row of points.
+    #[must_use]
+    pub fn new(result: &ResultFile, step: &Step, intervals: usize) -> Self {
+        let (grid, n) = (result.scene.grid, intervals.max(1));
+        let size = [(grid.nu - 1) * n + 1, (grid.nv - 1) * n + 1];
+        let lines = lines(grid, step, n);
+        let mut vertices = vec![[0.0; 3]; size[0] * size[1]];
+        let mut put = |i: usize, j: usize, p: Point| vertices[j * size[0] + i] = p;
+        for j in 0..grid.nv - 1 {
+            for i in 0..grid.nu - 1 {
+                for (k, p) in cell(grid, &lines, [i, j], n).into_iter().enumerate() {
+                    put(i * n + k % (n + 1), j * n + k / (n + 1), p);
+                }
+            }
+        }
+        // the edges last: exact, and all there is of a strip
+        for edge in 0..grid.edges() {
+            let [i, j] = grid.catenary(edge).from;
+            let along = usize::from(edge >= grid.edges_u());
+            for (k, p) in lines[edge].iter().enumerate() {
+                put(i * n + k * (1 - along), j * n + k * along, *p);
+            }
+        }
+        let gap = result.scene.mold.as_ref();
+        let gap = gap.map(|mold| vertices.iter().map(|p| mold.signed_distance(*p)).collect());
+        Surface { size, vertices, gap }
+    }
+}
 
 fn mix(a: Point, b: Point, t: f64) -> Point {
     [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]))
 }
 
 /// The whole shape of a catenary, free spans and contact in their order, from gripper to gripper.
-pub(super) fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
+pub(crate) fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
     let spans = line.spans.iter().map(|s| (s.arc, &s.points));
     let contact = line.contact.iter().map(|c| (c.arc, &c.points));
     let mut pieces: Vec<_> = spans.chain(contact).collect();
@@ -37,7 +81,7 @@ pub(super) fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
 }
 
 /// Points of a polyline at equal shares of its horizontal way (of its length, if it is upright).
-pub(super) fn stations(line: &[Point], count: usize) -> Vec<Point> {
+pub(crate) fn stations(line: &[Point], count: usize) -> Vec<Point> {
     if line.len() < 2 {
         return line.to_vec();
     }
@@ -70,7 +114,7 @@ pub(super) fn stations(line: &[Point], count: usize) -> Vec<Point> {
 
 /// All catenaries of a step, each at `count + 1` stations, in the grid's order; a catenary that is
 /// missing in the result is straight.
-pub(super) fn lines(grid: Grid, step: &Step, count: usize) -> Vec<Vec<Point>> {
+pub(crate) fn lines(grid: Grid, step: &Step, count: usize) -> Vec<Vec<Point>> {
     let at = |id| step.grippers[grid.index(id)].position;
     (0..grid.catenaries())
         .map(|k| {
@@ -86,7 +130,7 @@ pub(super) fn lines(grid: Grid, step: &Step, count: usize) -> Vec<Vec<Point>> {
 }
 
 /// One cell: `(n + 1)²` points, s running fastest, from its six lines at `n + 1` stations.
-pub(super) fn cell(grid: Grid, lines: &[Vec<Point>], [i, j]: [usize; 2], n: usize) -> Vec<Point> {
+pub(crate) fn cell(grid: Grid, lines: &[Vec<Point>], [i, j]: [usize; 2], n: usize) -> Vec<Point> {
     let (c0, c1) = (&lines[grid.edge_u([i, j])], &lines[grid.edge_u([i, j + 1])]);
     let (d0, d1) = (&lines[grid.edge_v([i, j])], &lines[grid.edge_v([i + 1, j])]);
     let [rising, falling] = grid.diagonals([i, j]).map(|k| &lines[k]);

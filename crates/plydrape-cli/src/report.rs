@@ -1,0 +1,37 @@
+//! `plydrape report`: the page of a result once more.
+
+use crate::diagnostic::Done;
+use crate::results;
+use plydrape::output::{folder, page, read};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Make the page report.html again from a result.json.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The page is one file that any browser opens, without a network. The result must be as `plydrape
+simulate` or `plydrape plan` wrote it, by this version.")]
+pub struct Arguments {
+    /// The result.json of an earlier run.
+    result: PathBuf,
+
+    /// Folder of the page; that of the result unless given.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+/// Reads the result and writes the page.
+pub fn run(arguments: &Arguments, quiet: bool) -> Done {
+    let result = read::read(&arguments.result)?;
+    let html = page::html(&result)?;
+    let beside = || match arguments.result.parent() {
+        Some(folder) if folder != Path::new("") => folder.to_path_buf(),
+        _ => PathBuf::from("."),
+    };
+    let folder = arguments.output.clone().unwrap_or_else(beside);
+    let files = folder::add(&folder, &[("report.html", html.as_bytes())])?;
+    if !quiet {
+        results::list(&files)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
