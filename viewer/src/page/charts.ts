@@ -117,7 +117,7 @@ class Chart {
           splits: (u) => stepTicks(first, last, u.width),
           values: (_, v) => v.map(String),
         },
-        { ...axis, size: 46, splits: () => ticks(low, high, 3), values: (_, v) => v.map(short) },
+        { ...axis, size: 46, splits: () => ticks(low, high, 2.6), values: (_, v) => v.map(short) },
       ],
       series: [
         {},
