@@ -109,10 +109,7 @@ async function sliderMoves(report) {
   const result = readResult(report);
   if (result === null) return;
   const { page, context } = await openReport(browser, report.file);
-  const given = await page.evaluate(() => {
-    const { grid, divisions } = JSON.parse(document.getElementById("plydrape-data").textContent);
-    return { grid, divisions };
-  });
+  const given = await pageData(page);
   const n = given.divisions;
   const columns = (given.grid[0] - 1) * n + 1;
   const at = (i, j) => i * n + j * n * columns;
@@ -157,6 +154,11 @@ async function sliderMoves(report) {
     assert.equal(await page.evaluate(() => window.plydrape.step), number);
   }
   await context.close();
+}
+
+/** What the page was given. */
+async function pageData(page) {
+  return page.evaluate(() => JSON.parse(document.getElementById("plydrape-data").textContent));
 }
 
 /** Puts the slider on an index, as a hand does. */
@@ -218,6 +220,7 @@ async function coloursHaveLegends(report) {
     await page.keyboard.press(String(k + 1));
     assert.equal(await page.evaluate(() => window.plydrape.colour), colour);
     const legend = await page.evaluate(() => window.plydrape.legend());
+    if (!(await page.locator("#legend").isVisible())) continue; // a strip, which has no cells to colour
     const text = await page.locator("#legend").innerText();
     assert.ok(
       text.toLowerCase().includes(legend.title.toLowerCase()),
@@ -229,16 +232,16 @@ async function coloursHaveLegends(report) {
     );
     titles.add(await page.locator(".legend-title").innerText());
   }
-  assert.equal(titles.size, order.length, "no two legends are alike");
+  const { grid } = await pageData(page);
+  assert.equal(titles.size, grid.includes(1) ? 0 : order.length, "no two legends are alike");
   await context.close();
 }
 
 async function limitsLead(report) {
   const result = readResult(report);
   const { page, context } = await openReport(browser, report.file);
-  const given = await page.evaluate(
-    () => JSON.parse(document.getElementById("plydrape-data").textContent).limits,
-  );
+  const data = await pageData(page);
+  const given = data.limits;
   assert.equal(await page.locator(".limits tbody tr").count(), given.length);
   if (result !== null) {
     assert.deepEqual(
@@ -275,7 +278,7 @@ async function limitsLead(report) {
     step: window.plydrape.step,
     pointer: window.plydrape.pointer,
   }));
-  assert.equal(step, limit.step);
+  if (data.steps.includes(limit.step)) assert.equal(step, limit.step);
   if (limit.place !== null) {
     assert.deepEqual(pointer.place, limit.place);
     assert.ok(pointer.label.startsWith(limit.name));
@@ -295,6 +298,7 @@ async function limitsLead(report) {
 async function chartsHold(report) {
   const { page, context } = await openReport(browser, report.file);
   const measures = await page.evaluate(() => window.plydrape.measures);
+  const steps = await page.evaluate(() => window.plydrape.steps);
   const columns = readColumns(report);
   if (columns !== null) {
     assert.ok(measures.length > 0);
@@ -302,8 +306,14 @@ async function chartsHold(report) {
       const unit = measure.unit === "°" ? "deg" : measure.unit;
       const column = columns[`${measure.label} (${unit})`];
       assert.ok(column, `steps.csv has a column “${measure.label} (${unit})”`);
-      const numbers = column.map((text) => (text === "" ? null : Number(text)));
-      assert.deepEqual(measure.values, numbers, measure.key);
+      const numbers = new Map(
+        columns.step.map((step, k) => [Number(step), column[k] === "" ? null : Number(column[k])]),
+      );
+      assert.deepEqual(
+        measure.values,
+        steps.map((step) => numbers.get(step)),
+        measure.key,
+      );
     }
   }
   const charted = measures.filter(({ values }) => values.some((value) => value !== null));
@@ -311,7 +321,6 @@ async function chartsHold(report) {
   if (charted.length === 0) return context.close();
 
   // The number in a chart's head is that of the step in view, in full in its title.
-  const steps = await page.evaluate(() => window.plydrape.steps);
   for (const number of [steps[0], steps[steps.length - 1]]) {
     await page.evaluate((step) => window.plydrape.goto(step), number);
     const index = steps.indexOf(number);
@@ -348,22 +357,11 @@ async function prints(report) {
   for (const selector of ["#theme", "#help-open", ".toolbar", "#play", "#slider", "#speed", "#picture"]) {
     assert.ok(!(await page.locator(selector).isVisible()), `${selector} is not printed`);
   }
-  for (const selector of [
-    "#title",
-    "#verdict",
-    "#snapshot",
-    "#legend",
-    "#step",
-    "#limits",
-    "#charts",
-    "#program",
-  ]) {
+  for (const selector of ["#title", "#verdict", "#snapshot", "#step", "#limits", "#charts", "#program"]) {
     assert.ok(await page.locator(selector).isVisible(), `${selector} is printed`);
   }
   assert.notEqual(await paper(), dark, "print is light");
-  const input = await page.evaluate(
-    () => JSON.parse(document.getElementById("plydrape-data").textContent).input,
-  );
+  const { input } = await pageData(page);
   if (input !== null) assert.ok(await page.locator("#input-text").isVisible(), "the input is printed");
   await page.emulateMedia({ media: "screen", colorScheme: "dark" });
   await page.waitForFunction(() => !document.documentElement.classList.contains("printing"));

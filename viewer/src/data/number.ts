@@ -24,12 +24,12 @@ export function full(value: number): string {
 /** A value with its unit; the unit 1 is silent and a degree stands close. */
 export function withUnit(text: string, unit: string): string {
   if (unit === "" || unit === "1") return text;
-  return unit === "°" ? `${text}°` : `${text}\u00a0${unit}`;
+  return unit === "°" || unit === "deg" ? `${text}°` : `${text}\u00a0${unit}`;
 }
 
 /** A unit behind a name, in brackets; nothing for the unit 1. */
 export function bracketed(unit: string): string {
-  return unit === "" || unit === "1" ? "" : ` (${unit})`;
+  return unit === "" || unit === "1" ? "" : ` (${unit === "deg" ? "°" : unit})`;
 }
 
 function minus(text: string): string {

@@ -72,7 +72,7 @@ export function handle(
     colours: data.fields.map((field) => field.key),
     legend: () => legendOf(data.fields.find((field) => field.key === state.now.colour)!),
     measures: data.measures,
-    vertex: (index) => scene?.surface.vertex(index) ?? stored(motion, state.now.index, index),
+    vertex: (index) => scene?.vertex(index) ?? stored(motion, state.now.index, index),
     get pointer() {
       const { pointer } = state.now;
       return pointer && { step: data.steps[pointer.index]!, place: pointer.place, label: pointer.label };

@@ -27,7 +27,8 @@ export function linkLegend(state: State, data: PageData): void {
   state.listen((now, before) => {
     if (now !== before && now.colour === before.colour) return;
     const field = data.fields.find(({ key }) => key === now.colour);
-    host.hidden = field === undefined;
+    // A strip of ply has no cells, so nothing is coloured.
+    host.hidden = field === undefined || data.grid.includes(1);
     if (field !== undefined) host.replaceChildren(...draw(field));
   });
 }

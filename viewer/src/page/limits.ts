@@ -61,7 +61,7 @@ export function showLimits(state: State, data: PageData): void {
 function row(state: State, data: PageData, limit: Limit): HTMLTableRowElement {
   const value = withUnit(short(limit.value), limit.unit);
   const bound = `${limit.least ? "≥" : "≤"}\u202f${withUnit(short(limit.limit), limit.unit)}`;
-  const index = limit.step === null ? -1 : data.steps.indexOf(limit.step);
+  const index = nearest(data.steps, limit.step);
   const word = limit.ok ? "pass" : "fail";
   const cells = [
     make("th", { scope: "row" }, limit.name),
@@ -91,4 +91,11 @@ function row(state: State, data: PageData, limit: Limit): HTMLTableRowElement {
     if (now.index !== index) tr.removeAttribute("aria-current");
   });
   return tr;
+}
+
+/** Index of a step, or of the one nearest to it if it was left out; -1 for none. */
+export function nearest(steps: number[], step: number | null): number {
+  if (step === null) return -1;
+  const away = steps.map((number) => Math.abs(number - step));
+  return away.indexOf(Math.min(...away));
 }

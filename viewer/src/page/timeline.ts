@@ -3,6 +3,7 @@
 import type { Motion } from "../data/motion";
 import { full, short } from "../data/number";
 import { byId, make } from "./dom";
+import { nearest } from "./limits";
 import type { Player } from "./player";
 import type { State } from "./state";
 
@@ -68,7 +69,7 @@ function addMarks(state: State, motion: Motion): void {
   }
   const failed = new Map<number, string[]>();
   for (const limit of data.limits) {
-    const index = limit.step === null ? -1 : data.steps.indexOf(limit.step);
+    const index = nearest(data.steps, limit.step);
     if (!limit.ok && index >= 0) failed.set(index, [...(failed.get(index) ?? []), limit.name]);
   }
   for (const [index, names] of failed) {

@@ -25,6 +25,7 @@ export function modes(data: PageData): [FieldKey, string][] {
 
 export function linkToolbar(state: State, data: PageData, eye: Eye | null): void {
   const colours = byId("colours");
+  colours.hidden = data.grid.includes(1);
   modes(data).forEach(([key, name], k) => {
     const input = make("input", { type: "radio", name: "colour", value: key });
     colours.append(

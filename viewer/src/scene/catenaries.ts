@@ -64,6 +64,13 @@ export class Catenaries {
     this.diagonals.mesh.renderOrder = order;
   }
 
+  /** A vertex of the surface's grid as its edge is drawn now (m), or null inside a cell. */
+  vertex(at: number): [number, number, number] | null {
+    const k = 3 * this.under.indexOf(at);
+    const { points } = this.edges;
+    return k < 0 ? null : [points[k]!, points[k + 1]!, points[k + 2]!];
+  }
+
   moveTo(step: number): void {
     const grid = this.motion.surface.at(step);
     const edges = this.edges.points;

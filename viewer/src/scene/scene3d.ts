@@ -5,7 +5,7 @@
 
 import { Box3, Color, Scene, Vector3, WebGLRenderer } from "three";
 import type { Motion } from "../data/motion";
-import type { Field } from "../data/page_data";
+import type { Field, Place } from "../data/page_data";
 import { themeColour } from "../page/dom";
 import type { Choice, State } from "../page/state";
 import { AxesBox } from "./axes_box";
@@ -25,7 +25,7 @@ const SLOW = 40;
 const REST = 300;
 
 export class Scene3d {
-  readonly surface: PlySurface;
+  private readonly surface: PlySurface;
   readonly eye: Eye;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -135,6 +135,11 @@ export class Scene3d {
     resolution.set(this.width * ratio, this.height * ratio);
   }
 
+  /** A vertex of the ply as it is drawn now (m). */
+  vertex(at: number): Place | null {
+    return this.surface.vertex(at) ?? this.catenaries.vertex(at);
+  }
+
   /** Draws before the next repaint. */
   draw(): void {
     if (this.waiting) return;
@@ -215,7 +220,8 @@ function sceneBox(motion: Motion): Box3 {
     point.set(vertices[k]!, vertices[k + 1]!, vertices[k + 2]);
     box.expandByPoint(near.clampPoint(point, point));
   }
+  // A flat or narrow scene still has a box that can be seen.
   const least = 0.08 * Math.max(size.x, size.y, 1e-3);
-  if (box.max.z - box.min.z < least) box.max.z = box.min.z + least;
-  return box;
+  const lacking = box.getSize(size).multiplyScalar(-1).addScalar(least).max(new Vector3());
+  return box.expandByVector(lacking.multiplyScalar(0.5));
 }

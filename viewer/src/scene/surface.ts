@@ -185,11 +185,11 @@ export class PlySurface {
     this.mesh.material.uniforms.threads!.value = apart > 5.5;
   }
 
-  /** A vertex of the shared grid as it is drawn now (m). */
-  vertex(at: number): [number, number, number] {
+  /** A vertex of the shared grid as it is drawn now (m); null for a strip of ply, which has no cells. */
+  vertex(at: number): [number, number, number] | null {
     const k = 3 * (this.first[at] ?? -1);
     const { array } = this.position;
-    return [array[k]!, array[k + 1]!, array[k + 2]!];
+    return k < 0 ? null : [array[k]!, array[k + 1]!, array[k + 2]!];
   }
 
   /** Normals from the two diagonals through the neighbours of every vertex (their scale does not matter). */
