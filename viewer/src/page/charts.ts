@@ -18,6 +18,7 @@ const HEIGHT = 104;
 export class Charts {
   private readonly charts: Chart[];
   private readonly host = byId("charts");
+  private width: number | null = null;
 
   constructor(state: State, data: PageData) {
     const rank = (m: Measure) => {
@@ -40,9 +41,10 @@ export class Charts {
     for (const chart of this.charts) chart.plot.redraw(false);
   }
 
-  /** Fits all charts to the room they have. */
-  resize(): void {
-    for (const chart of this.charts) chart.fit();
+  /** Gives all charts this width (CSS pixels), or fits them to the room they have. */
+  resize(width: number | null = this.width): void {
+    this.width = width;
+    for (const chart of this.charts) chart.fit(width);
   }
 }
 
@@ -69,10 +71,8 @@ class Chart {
     const head = make(
       "figcaption",
       {},
-      make("span", { class: "chart-name" }, label),
-      this.value,
-      bound,
-      this.where,
+      make("p", {}, make("span", { class: "chart-name" }, label), this.value),
+      make("p", {}, bound, this.where),
     );
     this.card.dataset.measure = measure.key;
     this.card.append(head, this.room);
@@ -207,8 +207,8 @@ class Chart {
     this.card.classList.toggle("hovered", hovered);
   }
 
-  fit(): void {
-    const width = this.room.clientWidth;
+  fit(given: number | null): void {
+    const width = given ?? this.room.clientWidth;
     if (width > 0 && width !== this.plot.width) {
       this.plot.setSize({ width, height: HEIGHT });
       this.mark(this.index);

@@ -9,6 +9,9 @@ import { byId } from "./dom";
 import type { State } from "./state";
 import { applyTheme } from "./theme";
 
+/** Width of a chart on paper (CSS pixels): three stand side by side on A4 and on US Letter. */
+const PAPER = 214;
+
 export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): void {
   const image = byId<HTMLImageElement>("snapshot");
   const input = document.querySelector<HTMLDetailsElement>("#input");
@@ -27,7 +30,7 @@ export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): 
     document.documentElement.classList.add("printing");
     opened = input?.open ?? false;
     if (input !== null) input.open = true;
-    charts.resize();
+    charts.resize(PAPER);
   };
   const end = () => {
     if (!printing) return;
@@ -36,7 +39,7 @@ export function linkPrint(state: State, charts: Charts, scene: Scene3d | null): 
     image.removeAttribute("src");
     if (input !== null) input.open = opened;
     recolour(state.now.dark);
-    charts.resize();
+    charts.resize(null);
     scene?.draw();
   };
   addEventListener("beforeprint", begin);

@@ -19,7 +19,7 @@ const DIRECTIONS: Record<StandardView, Place> = {
 };
 
 /** Room kept free around the fitted box (CSS pixels): the legend stands on the right, labels below. */
-const MARGIN = { left: 76, right: 156, top: 30, bottom: 48 };
+const MARGIN = { left: 84, right: 156, top: 30, bottom: 48 };
 
 const stillness = matchMedia("(prefers-reduced-motion: reduce)");
 
