@@ -1,0 +1,51 @@
+/**
+ * Numbers as text: short, with a true minus sign, and round ticks for axes.
+ */
+
+/** A number with four digits; the full one belongs in a title beside it. */
+export function short(value: number): string {
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  const text =
+    size < 1e-4 || size >= 1e6
+      ? value
+          .toExponential(2)
+          .replace(/\.?0+e/, "e")
+          .replace("e+", "e")
+      : String(Number(value.toPrecision(4)));
+  return minus(text);
+}
+
+/** The same number with every digit it was given with. */
+export function full(value: number): string {
+  return minus(String(value));
+}
+
+/** A value with its unit; the unit 1 is silent and a degree stands close. */
+export function withUnit(text: string, unit: string): string {
+  if (unit === "" || unit === "1") return text;
+  return unit === "°" || unit === "deg" ? `${text}°` : `${text}\u00a0${unit}`;
+}
+
+/** A unit behind a name, in brackets; nothing for the unit 1. */
+export function bracketed(unit: string): string {
+  return unit === "" || unit === "1" ? "" : ` (${unit === "deg" ? "°" : unit})`;
+}
+
+function minus(text: string): string {
+  return text.replace(/-/g, "\u2212");
+}
+
+/** Round numbers inside a range, about `count` of them: steps of 1, 2 or 5 times a power of ten. */
+export function ticks(low: number, high: number, count: number): number[] {
+  const span = high - low;
+  if (!(span > 0)) return [low];
+  const rough = span / Math.max(1, count);
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * (rough / power > 7 ? 10 : rough / power > 3.5 ? 5 : rough / power > 1.5 ? 2 : 1);
+  const found: number[] = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * span; k++) {
+    found.push(Number((k * step).toPrecision(12)));
+  }
+  return found;
+}

@@ -1,0 +1,159 @@
+/**
+ * What the page is given: one JSON object, written by the program.
+ *
+ * The page shows these numbers and computes no mechanics. Everything that belongs to a step is a list with
+ * one entry a step; positions over the steps are packed in blocks (`block.ts`).
+ */
+
+export type Place = [number, number, number];
+export type FieldKey = "height" | "gap" | "shear" | "direction";
+
+/** Integers [steps][count][components], packed; see `block.ts`. */
+export interface Block {
+  steps: number;
+  count: number;
+  components: number;
+  data: string;
+}
+
+/** One line of the table of limits. */
+export interface Limit {
+  name: string;
+  value: number;
+  limit: number;
+  unit: string;
+  /** The limit is the least allowed, not the most. */
+  least: boolean;
+  ok: boolean;
+  step: number | null;
+  where: string;
+  place: Place | null;
+  /** Key of the measure that it limits, where there is one. */
+  measure: string | null;
+}
+
+/** One quantity with a value in every step: a column of steps.csv. */
+export interface Measure {
+  key: string;
+  label: string;
+  unit: string;
+  values: (number | null)[];
+  where: (string | null)[];
+  places: (Place | null)[];
+  limit: number | null;
+  least: boolean;
+}
+
+/** A colour mode: what it shows, on vertices or on cells, and its range over all steps. */
+export interface Field {
+  key: FieldKey;
+  label: string;
+  unit: string;
+  on: "vertex" | "cell";
+  low: number;
+  high: number;
+  limit: number | null;
+}
+
+export interface Geometry {
+  surface: Block;
+  gap: Block | null;
+  diagonals: Block;
+  grippers: Block;
+  normals: Block;
+  shear: Block;
+  direction: Block;
+  contacts: { counts: number[]; points: Block };
+  mold: { vertices: number[]; triangles: number[] } | null;
+}
+
+export interface PageData {
+  format: string;
+  version: number;
+  program: string;
+  title: string;
+  input: string | null;
+  facts: { label: string; value: string }[];
+  accepted: boolean;
+  interrupted: boolean;
+  steps: number[];
+  times: number[];
+  grid: [number, number];
+  divisions: number;
+  limits: Limit[];
+  measures: Measure[];
+  fields: Field[];
+  geometry: Geometry;
+  left_out: string[];
+}
+
+/** Data that cannot be shown; the message completes the sentence "This page cannot be shown: …". */
+export class BrokenData extends Error {}
+
+const LISTS = ["facts", "steps", "times", "grid", "limits", "measures", "fields", "left_out"] as const;
+const BLOCKS = ["surface", "diagonals", "grippers", "normals", "shear", "direction"] as const;
+
+/** The page's data from its text, checked as far as a wrong file would show. */
+export function readPageData(text: string): PageData {
+  let data: PageData;
+  try {
+    data = JSON.parse(text) as PageData;
+  } catch {
+    throw new BrokenData("its data is cut off or damaged");
+  }
+  const found = data as Partial<PageData> | null;
+  if (typeof found !== "object" || found?.format !== "plydrape-page") {
+    throw new BrokenData("its data is not that of a results page");
+  }
+  if (found.version !== 1) {
+    throw new BrokenData(`its data has version ${String(found.version)}, and this page reads version 1`);
+  }
+  for (const key of LISTS) {
+    if (!Array.isArray(found[key])) throw new BrokenData(`the list “${key}” is missing in its data`);
+  }
+  checkLengths(data);
+  checkGeometry(data);
+  return data;
+}
+
+function checkLengths(data: PageData): void {
+  const count = data.steps.length;
+  if (count === 0) throw new BrokenData("its data has no step");
+  if (data.times.length !== count)
+    throw new BrokenData(`it has ${count} steps but ${data.times.length} times`);
+  for (const { key, values } of data.measures) {
+    if (!Array.isArray(values) || values.length !== count) {
+      throw new BrokenData(`measure “${key}” does not have one value for each of ${count} steps`);
+    }
+  }
+}
+
+function checkGeometry(data: PageData): void {
+  const geometry = data.geometry as Partial<Geometry> | undefined;
+  if (typeof geometry !== "object") throw new BrokenData("its geometry is missing");
+  for (const name of BLOCKS) {
+    if (typeof geometry[name]?.data !== "string")
+      throw new BrokenData(`the ${name} of its geometry is missing`);
+  }
+  if (!Array.isArray(geometry.contacts?.counts))
+    throw new BrokenData("the contacts of its geometry are missing");
+  const [nu, nv] = data.grid;
+  const n = data.divisions;
+  const cells = (nu - 1) * (nv - 1);
+  const expected: Record<(typeof BLOCKS)[number], number> = {
+    surface: ((nu - 1) * n + 1) * ((nv - 1) * n + 1),
+    diagonals: 2 * cells * (n + 1),
+    grippers: nu * nv,
+    normals: nu * nv,
+    shear: cells,
+    direction: cells,
+  };
+  for (const name of BLOCKS) {
+    const block = data.geometry[name];
+    if (block.count !== expected[name] || block.steps !== data.steps.length) {
+      throw new BrokenData(
+        `the ${name} of its geometry do not fit ${nu} × ${nv} grippers and ${data.steps.length} steps`,
+      );
+    }
+  }
+}

@@ -1,0 +1,226 @@
+/**
+ * One small chart for each measure over the steps: its line, its limit dashed, and the step in view.
+ *
+ * A click or drag goes to a step. The marker of the step is an element over the drawing, so that moving it
+ * draws nothing anew.
+ */
+
+import uPlot from "uplot";
+import { full, short, ticks, withUnit } from "../data/number";
+import type { Measure, PageData } from "../data/page_data";
+import { byId, make, themeColour } from "./dom";
+import type { State } from "./state";
+
+/** What a reader looks for first; the others follow in the order given. */
+const FIRST = ["slack", "gap", "shear", "tilt", "force"];
+const HEIGHT = 104;
+
+export class Charts {
+  private readonly charts: Chart[];
+  private readonly host = byId("charts");
+  private width: number | null = null;
+
+  constructor(state: State, data: PageData) {
+    const rank = (m: Measure) => {
+      const place = FIRST.findIndex((word) => m.key === word || m.key.startsWith(`${word}_`));
+      return m.key === "slack_ratio" || place < 0 ? FIRST.length : place;
+    };
+    const measures = data.measures
+      .filter((m) => m.values.some((value) => value !== null))
+      .sort((a, b) => rank(a) - rank(b));
+    this.charts = measures.map((measure) => new Chart(this.host, measure, data.steps, state));
+    if (measures.length === 0) this.host.append(make("p", { class: "quiet" }, "There is nothing to chart."));
+    new ResizeObserver(() => this.resize()).observe(this.host);
+    state.listen((now, before) => {
+      if (now.dark !== before.dark) this.redraw();
+      for (const chart of this.charts) chart.mark(now.index);
+    });
+  }
+
+  redraw(): void {
+    for (const chart of this.charts) chart.plot.redraw(false);
+  }
+
+  /** Gives all charts this width (CSS pixels), or fits them to the room they have. */
+  resize(width: number | null = this.width): void {
+    this.width = width;
+    for (const chart of this.charts) chart.fit(width);
+  }
+}
+
+class Chart {
+  readonly plot: uPlot;
+  private readonly card = make("figure", { class: "chart" });
+  private readonly room = make("div", { class: "plot" });
+  private readonly value = make("output", { class: "chart-value" });
+  private readonly where = make("span", { class: "chart-where" });
+  private readonly line = make("div", { class: "chart-marker" });
+  private readonly dot = make("div", { class: "chart-dot" });
+  private index = 0;
+
+  constructor(
+    host: HTMLElement,
+    private readonly measure: Measure,
+    private readonly steps: number[],
+    private readonly state: State,
+  ) {
+    const { label, unit, limit, least } = measure;
+    const allowed = limit === null ? "" : `limit ${least ? "≥" : "≤"}\u202f${withUnit(short(limit), unit)}`;
+    const bound = make("span", { class: "chart-limit" }, allowed);
+    if (limit !== null) bound.title = `${least ? "at least" : "at most"} ${withUnit(full(limit), unit)}`;
+    const head = make(
+      "figcaption",
+      {},
+      make("p", {}, make("span", { class: "chart-name" }, label), this.value),
+      make("p", {}, bound, this.where),
+    );
+    this.card.dataset.measure = measure.key;
+    this.card.append(head, this.room);
+    host.append(this.card);
+    this.plot = new uPlot(this.options(), [steps, measure.values], this.room);
+    this.plot.over.append(this.line, this.dot);
+    this.plot.over.setAttribute("role", "img");
+    this.plot.over.setAttribute(
+      "aria-label",
+      `${label} over the steps${allowed === "" ? "" : `, ${allowed}`}`,
+    );
+    this.listen();
+  }
+
+  private options(): uPlot.Options {
+    const { low, high } = this.range();
+    const axis: uPlot.Axis = {
+      stroke: () => themeColour("text-quiet"),
+      grid: { stroke: () => themeColour("chart-grid"), width: 1 },
+      ticks: { show: false },
+      font: "11px system-ui, 'Liberation Sans', Arial, sans-serif",
+      gap: 4,
+    };
+    const first = this.steps[0]!;
+    const last = this.steps[this.steps.length - 1]!;
+    const single = first === last;
+    return {
+      width: 200,
+      height: HEIGHT,
+      padding: [6, 10, 0, 0],
+      legend: { show: false },
+      cursor: { x: true, y: false, drag: { x: false, y: false }, points: { show: false } },
+      scales: {
+        x: { time: false, range: () => (single ? [first - 1, last + 1] : [first, last]) },
+        y: { range: () => [low, high] },
+      },
+      axes: [
+        {
+          ...axis,
+          size: 20,
+          space: 34,
+          splits: (u) => stepTicks(first, last, u.width),
+          values: (_, v) => v.map(String),
+        },
+        { ...axis, size: 46, splits: () => ticks(low, high, 2.6), values: (_, v) => v.map(short) },
+      ],
+      series: [
+        {},
+        {
+          stroke: () => themeColour("chart-line"),
+          width: 1.6,
+          spanGaps: false,
+          points: { show: this.steps.length === 1, size: 5 },
+        },
+      ],
+      hooks: { drawAxes: [(u) => this.drawLimit(u)] },
+    };
+  }
+
+  /** From zero where that is near, and wide enough to show the limit. */
+  private range(): { low: number; high: number } {
+    const values = this.measure.values.filter((v): v is number => v !== null);
+    if (this.measure.limit !== null) values.push(this.measure.limit);
+    let low = Math.min(...values);
+    const high = Math.max(...values);
+    if (low > 0 && low < 0.6 * high) low = 0;
+    const span = high - low;
+    if (span <= 1e-12 * Math.max(Math.abs(high), 1e-300)) {
+      return high === 0 ? { low: 0, high: 1 } : { low: Math.min(0, 2 * high), high: Math.max(0, 2 * high) };
+    }
+    return { low: low === 0 ? 0 : low - 0.06 * span, high: high + 0.08 * span };
+  }
+
+  private drawLimit(u: uPlot): void {
+    const { limit } = this.measure;
+    if (limit === null) return;
+    const { ctx, bbox } = u;
+    const y = Math.round(u.valToPos(limit, "y", true)) + 0.5;
+    ctx.save();
+    ctx.strokeStyle = themeColour("red");
+    ctx.lineWidth = 1.25 * devicePixelRatio;
+    ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
+    ctx.beginPath();
+    ctx.moveTo(bbox.left, y);
+    ctx.lineTo(bbox.left + bbox.width, y);
+    ctx.stroke();
+    ctx.restore();
+  }
+
+  private listen(): void {
+    const { over } = this.plot;
+    const under = (event: PointerEvent) =>
+      this.plot.posToIdx(event.clientX - over.getBoundingClientRect().left);
+    let held = false;
+    over.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      held = true;
+      over.setPointerCapture(event.pointerId);
+      this.state.goto(under(event));
+    });
+    over.addEventListener("pointermove", (event) => {
+      if (held) this.state.goto(under(event));
+      else this.show(under(event), true);
+    });
+    over.addEventListener("pointerup", () => (held = false));
+    over.addEventListener("pointerleave", () => this.show(this.index, false));
+  }
+
+  /** Moves the marker to a step. */
+  mark(index: number): void {
+    this.index = index;
+    const value = this.measure.values[index] ?? null;
+    this.line.style.transform = `translateX(${this.plot.valToPos(this.steps[index]!, "x")}px)`;
+    this.dot.hidden = value === null;
+    if (value !== null) {
+      const [x, y] = [this.plot.valToPos(this.steps[index]!, "x"), this.plot.valToPos(value, "y")];
+      this.dot.style.transform = `translate(${x}px, ${y}px)`;
+    }
+    this.show(index, false);
+  }
+
+  /** Says the value of a step in the chart's head. */
+  private show(index: number, hovered: boolean): void {
+    const { values, where, unit } = this.measure;
+    const value = values[index] ?? null;
+    this.value.textContent = value === null ? "–" : withUnit(short(value), unit);
+    this.value.title = value === null ? "no value in this step" : withUnit(full(value), unit);
+    const place = where[index] ?? "";
+    this.where.textContent = hovered
+      ? `step ${this.steps[index]!}${place === "" ? "" : `: ${place}`}`
+      : place || "\u00a0";
+    this.card.classList.toggle("hovered", hovered);
+  }
+
+  fit(given: number | null): void {
+    const width = given ?? this.room.clientWidth;
+    if (width > 0 && width !== this.plot.width) {
+      this.plot.setSize({ width, height: HEIGHT });
+      this.mark(this.index);
+    }
+  }
+}
+
+/** Whole steps along the axis: the first, round ones, the last. */
+function stepTicks(first: number, last: number, width: number): number[] {
+  const round = ticks(first, last, Math.max(2, width / 60)).filter((t) => Number.isInteger(t));
+  const apart = (last - first) / Math.max(3, width / 34);
+  return [first, ...round.filter((t) => t - first > apart && last - t > apart), last].filter(
+    (t, k, all) => k === 0 || t !== all[k - 1],
+  );
+}

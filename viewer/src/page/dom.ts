@@ -1,0 +1,28 @@
+/** Small helpers to make and find elements. */
+
+type Child = Node | string;
+
+/** An element with attributes and children. `class`, `text` and ARIA attributes are given by their names. */
+export function make<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Record<string, string> = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+
+/** The element with an id; the template holds it. */
+// eslint-disable-next-line @typescript-eslint/no-unnecessary-type-parameters -- the template holds the type
+export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
+  const element = document.getElementById(id);
+  if (element === null) throw new Error(`the page has no element “${id}”`);
+  return element as T;
+}
+
+/** A CSS colour variable of the theme in force. */
+export function themeColour(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}

@@ -1,0 +1,87 @@
+/**
+ * `window.plydrape`: the page for scripts and tests. Steps are numbered as in the result.
+ */
+
+import { MICRO, type Motion } from "../data/motion";
+import type { FieldKey, Measure, Place } from "../data/page_data";
+import type { Scene3d } from "../scene/scene3d";
+import { legendOf, type LegendFacts } from "./legend";
+import type { Player } from "./player";
+import type { State } from "./state";
+
+export interface Handle {
+  /** Resolves when everything is drawn; rejects if the data is broken. */
+  readonly ready: Promise<void>;
+}
+
+export interface FullHandle extends Handle {
+  /** The number of the step in view. */
+  readonly step: number;
+  readonly steps: number[];
+  /** Goes to the step with this number. */
+  goto(step: number): void;
+  play(speed?: number): void;
+  pause(): void;
+  readonly playing: boolean;
+  /** Milliseconds between the frames while playing. */
+  readonly frames: number[];
+  /** Colour mode; can be set. */
+  colour: FieldKey;
+  readonly colours: FieldKey[];
+  legend(): LegendFacts;
+  /** The charts' numbers. */
+  readonly measures: Measure[];
+  /** Vertex of the surface as drawn (m); u runs fastest. */
+  vertex(index: number): Place;
+  /** The place that is pointed at, or null. */
+  readonly pointer: { step: number; place: Place; label: string } | null;
+  /** Whether there is a 3D picture. */
+  readonly webgl: boolean;
+}
+
+export function handle(
+  ready: Promise<void>,
+  state: State,
+  player: Player,
+  motion: Motion,
+  scene: Scene3d | null,
+): FullHandle {
+  const { data } = motion;
+  return {
+    ready,
+    get step() {
+      return data.steps[state.now.index]!;
+    },
+    steps: data.steps,
+    goto: (step) => state.goto(data.steps.indexOf(step)),
+    play: (speed = 1) => {
+      player.speed = speed;
+      player.play();
+    },
+    pause: () => player.pause(),
+    get playing() {
+      return state.now.playing;
+    },
+    frames: player.frames,
+    get colour() {
+      return state.now.colour;
+    },
+    set colour(colour) {
+      state.set({ colour });
+    },
+    colours: data.fields.map((field) => field.key),
+    legend: () => legendOf(data.fields.find((field) => field.key === state.now.colour)!),
+    measures: data.measures,
+    vertex: (index) => scene?.vertex(index) ?? stored(motion, state.now.index, index),
+    get pointer() {
+      const { pointer } = state.now;
+      return pointer && { step: data.steps[pointer.index]!, place: pointer.place, label: pointer.label };
+    },
+    webgl: scene !== null,
+  };
+}
+
+function stored(motion: Motion, step: number, index: number): Place {
+  const points = motion.surface.at(step);
+  return [0, 1, 2].map((c) => points[3 * index + c]! * MICRO) as Place;
+}

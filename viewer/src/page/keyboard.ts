@@ -1,0 +1,101 @@
+/** Keys for everything, and the list of them. */
+
+import type { PageData } from "../data/page_data";
+import type { Eye, StandardView } from "../scene/camera";
+import { byId, make } from "./dom";
+import type { Player } from "./player";
+import type { State } from "./state";
+import { modes } from "./toolbar";
+
+const HELP: [string, string][] = [
+  ["← →", "step back, step on"],
+  ["Page up, Page down", "ten steps back, on"],
+  ["Home, End", "first step, last step"],
+  ["Space", "play, pause"],
+  ["1 – 4", "colour by height, gap, shear, fibre direction"],
+  ["T F S I", "view from top, front, side, iso"],
+  ["0", "fit into the picture"],
+  ["+ −", "nearer, farther"],
+  ["Shift + arrows", "turn the view"],
+  ["D, M", "diagonals, mold on or off"],
+  ["L", "light or dark"],
+  ["Escape", "take the marker away"],
+  ["?", "this list"],
+];
+const VIEWS: Record<string, StandardView> = { t: "top", f: "front", s: "side", i: "iso" };
+const TURN = Math.PI / 24;
+
+export function linkKeyboard(state: State, player: Player, data: PageData, eye: Eye | null): void {
+  linkHelp();
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    if (byId<HTMLDialogElement>("help").open) return;
+    if (ownKeys(event)) return;
+    const act = event.shiftKey && event.key.startsWith("Arrow") ? turn(event.key, eye) : find(event.key);
+    if (act === undefined) return;
+    event.preventDefault();
+    act();
+  });
+
+  const find = (key: string): (() => void) | undefined => {
+    const { index, diagonals, mold } = state.now;
+    const mode = modes(data)[Number(key) - 1];
+    if (mode !== undefined) return () => state.set({ colour: mode[0] });
+    const view = VIEWS[key.toLowerCase()];
+    if (view !== undefined) return () => eye?.look(view);
+    const acts: Record<string, () => void> = {
+      ArrowLeft: () => state.goto(index - 1),
+      ArrowRight: () => state.goto(index + 1),
+      PageUp: () => state.goto(index - 10),
+      PageDown: () => state.goto(index + 10),
+      Home: () => state.goto(0),
+      End: () => state.goto(state.count - 1),
+      " ": () => player.toggle(),
+      "0": () => eye?.fit(),
+      "+": () => eye?.zoomBy(1.2),
+      "=": () => eye?.zoomBy(1.2),
+      "-": () => eye?.zoomBy(1 / 1.2),
+      d: () => state.set({ diagonals: !diagonals }),
+      m: () => state.set({ mold: !mold }),
+      l: () => byId("theme").click(),
+      Escape: () => state.set({ pointer: null }),
+      "?": () => byId<HTMLDialogElement>("help").showModal(),
+    };
+    return acts[key.length === 1 ? key.toLowerCase() : key];
+  };
+}
+
+function turn(key: string, eye: Eye | null): (() => void) | undefined {
+  if (eye === null) return undefined;
+  const turns: Record<string, () => void> = {
+    ArrowLeft: () => eye.turnBy(-TURN, 0),
+    ArrowRight: () => eye.turnBy(TURN, 0),
+    ArrowUp: () => eye.turnBy(0, -TURN),
+    ArrowDown: () => eye.turnBy(0, TURN),
+  };
+  return turns[key];
+}
+
+/** Whether the element in focus uses this key itself. */
+function ownKeys(event: KeyboardEvent): boolean {
+  const at = event.target;
+  if (!(at instanceof HTMLElement)) return false;
+  if (at instanceof HTMLSelectElement) return event.key !== "?" && event.key !== "Escape";
+  if (at instanceof HTMLButtonElement || at.tagName === "SUMMARY")
+    return event.key === " " && at.id !== "play";
+  if (at instanceof HTMLInputElement && at.type === "checkbox") return event.key === " ";
+  if (at instanceof HTMLInputElement && at.type === "radio")
+    return event.key.startsWith("Arrow") && !event.shiftKey;
+  return false;
+}
+
+function linkHelp(): void {
+  const dialog = byId<HTMLDialogElement>("help");
+  const list = make("dl");
+  for (const [keys, act] of HELP) list.append(make("dt", {}, make("kbd", {}, keys)), make("dd", {}, act));
+  dialog.querySelector("h2")!.after(list);
+  byId("help-open").addEventListener("click", () => dialog.showModal());
+  dialog.addEventListener("click", (event) => {
+    if (event.target === dialog) dialog.close();
+  });
+}

@@ -1,0 +1,61 @@
+/**
+ * What the reader has chosen: the step, the colour mode, what is shown, and a place that is pointed at.
+ * Every part of the page listens here, so that none needs to know another.
+ */
+
+import type { FieldKey, Place } from "../data/page_data";
+
+/** A place on the ply that the view points at, in one step only. */
+export interface Pointer {
+  index: number;
+  place: Place;
+  label: string;
+}
+
+export interface Choice {
+  /** Index of the step, from 0. */
+  index: number;
+  colour: FieldKey;
+  diagonals: boolean;
+  mold: boolean;
+  playing: boolean;
+  dark: boolean;
+  pointer: Pointer | null;
+}
+
+type Listener = (now: Choice, before: Choice) => void;
+
+export class State {
+  private readonly listeners: Listener[] = [];
+
+  constructor(
+    private choice: Choice,
+    readonly count: number,
+  ) {}
+
+  get now(): Readonly<Choice> {
+    return this.choice;
+  }
+
+  /** Calls the listener now and after every change. */
+  listen(listener: Listener): void {
+    this.listeners.push(listener);
+    listener(this.choice, this.choice);
+  }
+
+  set(change: Partial<Choice>): void {
+    const before = this.choice;
+    const now = { ...before, ...change };
+    now.index = Math.min(Math.max(Math.round(now.index), 0), this.count - 1);
+    if (now.pointer !== null && now.pointer.index !== now.index) now.pointer = null;
+    const same = (Object.keys(now) as (keyof Choice)[]).every((key) => now[key] === before[key]);
+    if (same) return;
+    this.choice = now;
+    for (const listener of this.listeners) listener(now, before);
+  }
+
+  /** Goes to a step by index, and stops playing. */
+  goto(index: number): void {
+    this.set({ index, playing: false });
+  }
+}

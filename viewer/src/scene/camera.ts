@@ -1,0 +1,181 @@
+/**
+ * The eye: parallel projection, z up, orbit, pan and zoom, standard views, and fitting a box into the picture.
+ *
+ * The frustum is measured in CSS pixels, so the camera's zoom is pixels per metre.
+ */
+
+import { Box3, OrthographicCamera, Vector3 } from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Place } from "../data/page_data";
+
+export type StandardView = "top" | "front" | "side" | "iso";
+
+/** From where each standard view looks. Top is a hair off the z axis, so that x stays to the right. */
+const DIRECTIONS: Record<StandardView, Place> = {
+  top: [0, -1e-4, 1],
+  front: [0, -1, 0],
+  side: [1, 0, 0],
+  iso: [0.38, -1, 0.72],
+};
+
+/** Room kept free around the fitted box (CSS pixels): the legend stands on the right, labels below. */
+const MARGIN = { left: 84, right: 156, top: 30, bottom: 48 };
+
+const stillness = matchMedia("(prefers-reduced-motion: reduce)");
+
+export class Eye {
+  readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
+  private readonly controls: OrbitControls;
+  private readonly reach: number;
+  private view: StandardView | null = "iso";
+  private flight = 0;
+
+  constructor(
+    element: HTMLElement,
+    private readonly box: Box3,
+    private readonly changed: () => void,
+  ) {
+    this.reach = 4 * box.getSize(new Vector3()).length();
+    this.camera.up.set(0, 0, 1);
+    this.camera.near = 0;
+    this.camera.far = 2 * this.reach;
+    this.controls = new OrbitControls(this.camera, element);
+    this.controls.enableDamping = false;
+    this.controls.zoomToCursor = true;
+    this.controls.zoomSpeed = 1.4;
+    this.controls.addEventListener("start", () => {
+      this.view = null;
+      this.flight++;
+    });
+    this.controls.addEventListener("change", changed);
+  }
+
+  resize(width: number, height: number): void {
+    Object.assign(this.camera, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });
+    this.camera.updateProjectionMatrix();
+    if (this.view !== null) this.look(this.view, false);
+    this.changed();
+  }
+
+  /** Shows the whole box from a standard direction. */
+  look(view: StandardView, smooth = true): void {
+    const direction = new Vector3(...DIRECTIONS[view]).normalize();
+    this.flyTo(direction, ...this.fitted(direction), smooth);
+    this.view = view;
+  }
+
+  /** Shows the whole box from where the eye is. */
+  fit(): void {
+    const direction = this.direction();
+    this.flyTo(direction, ...this.fitted(direction), true);
+  }
+
+  /** Brings a place to the middle, nearer if it was far. */
+  lookAt(place: Place): void {
+    const direction = this.direction();
+    if (Math.abs(direction.z) < 0.3) direction.setZ(0.5).normalize();
+    const [, whole] = this.fitted(direction);
+    this.view = null;
+    this.flyTo(direction, new Vector3(...place), Math.max(this.camera.zoom, 2 * whole), true);
+  }
+
+  zoomBy(factor: number): void {
+    this.view = null;
+    this.camera.zoom = Math.min(
+      Math.max(this.camera.zoom * factor, this.controls.minZoom),
+      this.controls.maxZoom,
+    );
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.changed();
+  }
+
+  /** Turns around the z axis and over the horizon (rad). */
+  turnBy(around: number, over: number): void {
+    this.view = null;
+    const offset = this.direction();
+    const polar = Math.min(Math.max(Math.acos(offset.z) + over, 1e-4), Math.PI - 1e-4);
+    const azimuth = Math.atan2(offset.y, offset.x) + around;
+    offset.set(Math.sin(polar) * Math.cos(azimuth), Math.sin(polar) * Math.sin(azimuth), Math.cos(polar));
+    this.place(offset, this.controls.target, this.camera.zoom);
+  }
+
+  /** Direction from the target to the eye. */
+  direction(): Vector3 {
+    return this.camera.position.clone().sub(this.controls.target).normalize();
+  }
+
+  /** Where on the picture a point is (CSS pixels from its top left). */
+  project(point: Vector3): [number, number] {
+    const p = point.clone().project(this.camera);
+    const [w, h] = [this.camera.right - this.camera.left, this.camera.top - this.camera.bottom];
+    return [((p.x + 1) / 2) * w, ((1 - p.y) / 2) * h];
+  }
+
+  /** Target and zoom that show the whole box inside the margins. */
+  private fitted(direction: Vector3): [Vector3, number] {
+    const right = new Vector3(0, 0, 1).cross(direction).normalize();
+    const up = direction.clone().cross(right);
+    const [x, y] = [new Box3(), new Box3()];
+    for (let k = 0; k < 8; k++) {
+      const { min, max } = this.box;
+      const p = new Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z);
+      x.expandByPoint(new Vector3(p.dot(right), 0, 0));
+      y.expandByPoint(new Vector3(p.dot(up), 0, 0));
+    }
+    const width = this.camera.right - this.camera.left - MARGIN.left - MARGIN.right;
+    const height = this.camera.top - this.camera.bottom - MARGIN.top - MARGIN.bottom;
+    const zoom = Math.max(
+      Math.min(width / Math.max(x.max.x - x.min.x, 1e-9), height / Math.max(y.max.x - y.min.x, 1e-9)),
+      1e-3,
+    );
+    this.controls.minZoom = 0.2 * zoom;
+    this.controls.maxZoom = 60 * zoom;
+    const shiftRight = (MARGIN.right - MARGIN.left) / 2 / zoom;
+    const shiftUp = (MARGIN.top - MARGIN.bottom) / 2 / zoom;
+    const target = right
+      .clone()
+      .multiplyScalar((x.min.x + x.max.x) / 2 + shiftRight)
+      .addScaledVector(up, (y.min.x + y.max.x) / 2 + shiftUp)
+      .addScaledVector(direction, this.box.getCenter(new Vector3()).dot(direction));
+    return [target, zoom];
+  }
+
+  private place(direction: Vector3, target: Vector3, zoom: number): void {
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(direction, this.reach);
+    this.camera.zoom = zoom;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.changed();
+  }
+
+  /** Moves the eye in a third of a second, or at once where less motion is asked for. */
+  private flyTo(direction: Vector3, target: Vector3, zoom: number, smooth: boolean): void {
+    const flight = ++this.flight;
+    if (!smooth || stillness.matches || this.camera.position.lengthSq() === 0) {
+      this.place(direction, target, zoom);
+      return;
+    }
+    const from = {
+      direction: this.direction(),
+      target: this.controls.target.clone(),
+      zoom: this.camera.zoom,
+    };
+    const start = performance.now();
+    const frame = (now: number) => {
+      if (flight !== this.flight) return;
+      const share = Math.min(Math.max((now - start) / 330, 0), 1);
+      const eased = share * share * (3 - 2 * share);
+      const between = from.direction.clone().lerp(direction, eased);
+      if (between.lengthSq() < 1e-6) between.copy(direction);
+      this.place(
+        between.normalize(),
+        from.target.clone().lerp(target, eased),
+        from.zoom * (zoom / from.zoom) ** eased,
+      );
+      if (share < 1) requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+}

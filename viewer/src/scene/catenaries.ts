@@ -1,0 +1,88 @@
+/**
+ * The catenaries: edges between neighbouring grippers, which are lines of the surface's grid, and the two
+ * diagonals of every cell. Diagonals hang below the surface drawn between the edges; they are pulled towards
+ * the eye by as much as that, so that they are seen through it.
+ */
+
+import { Group } from "three";
+import { MICRO, type Motion } from "../data/motion";
+import { Lines } from "./lines";
+
+export class Catenaries {
+  readonly group = new Group();
+  private readonly edges: Lines;
+  private readonly diagonals: Lines;
+  /** Vertices of the surface's grid under the edges, edge line after edge line. */
+  private readonly under: Uint32Array;
+
+  constructor(
+    private readonly motion: Motion,
+    push: number,
+    pull: number,
+  ) {
+    const [nu, nv] = motion.data.grid;
+    const n = motion.data.divisions;
+    const columns = (nu - 1) * n + 1;
+    const rows = (nv - 1) * n + 1;
+    const under: number[] = [];
+    for (let row = 0; row < rows; row += n) {
+      for (let k = 0; k < columns; k++) under.push(row * columns + k);
+    }
+    for (let column = 0; column < columns; column += n) {
+      for (let k = 0; k < rows; k++) under.push(k * columns + column);
+    }
+    this.under = Uint32Array.from(under);
+    const along = (count: number, length: number) => new Array<number>(count).fill(length);
+    this.edges = new Lines([...along(nv, columns), ...along(nu, rows)], 1.9, push);
+    this.diagonals = new Lines(along(2 * (nu - 1) * (nv - 1), n + 1), 1.2, -pull);
+    this.group.add(this.diagonals.mesh, this.edges.mesh);
+  }
+
+  ink(colour: string): void {
+    this.edges.ink(colour);
+    this.diagonals.ink(colour, 0.9);
+  }
+
+  /** Draws finer lines where neighbouring grippers are less than so many CSS pixels apart. */
+  suit(apart: number): void {
+    const weight = Math.min(Math.max(apart / 55, 0.5), 1);
+    this.edges.weight = weight;
+    this.diagonals.weight = weight;
+  }
+
+  thin(thin: boolean): void {
+    this.edges.thin(thin);
+    this.diagonals.thin(thin);
+  }
+
+  showDiagonals(shown: boolean): void {
+    this.diagonals.mesh.visible = shown;
+  }
+
+  set order(order: number) {
+    this.edges.mesh.renderOrder = order;
+    this.diagonals.mesh.renderOrder = order;
+  }
+
+  /** A vertex of the surface's grid as its edge is drawn now (m), or null inside a cell. */
+  vertex(at: number): [number, number, number] | null {
+    const k = 3 * this.under.indexOf(at);
+    const { points } = this.edges;
+    return k < 0 ? null : [points[k]!, points[k + 1]!, points[k + 2]!];
+  }
+
+  moveTo(step: number): void {
+    const grid = this.motion.surface.at(step);
+    const edges = this.edges.points;
+    for (let k = 0; k < this.under.length; k++) {
+      const from = 3 * this.under[k]!;
+      for (let c = 0; c < 3; c++) edges[3 * k + c] = grid[from + c]! * MICRO;
+    }
+    this.edges.changed();
+
+    const given = this.motion.diagonals.at(step);
+    const diagonals = this.diagonals.points;
+    for (let k = 0; k < given.length; k++) diagonals[k] = given[k]! * MICRO;
+    this.diagonals.changed();
+  }
+}

@@ -1,0 +1,78 @@
+/** Contact points: open red circles of one size on the screen, as in the paper's figure. */
+
+import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, ShaderMaterial } from "three";
+import { MICRO, type Motion } from "../data/motion";
+import { pixelRatio, screenColour } from "./lines";
+import { PROJECT } from "./shade";
+
+const VERTEX = /* glsl */ `
+  uniform float size;
+  ${PROJECT}
+  void main() {
+    gl_Position = project(position);
+    gl_PointSize = size;
+  }
+`;
+
+const FRAGMENT = /* glsl */ `
+  uniform vec3 colour;
+  uniform float size;
+  uniform float line;
+  void main() {
+    float r = length(gl_PointCoord - 0.5) * size;
+    float away = abs(r - (0.5 * size - line));
+    float inside = clamp(0.5 * line + 0.5 - away, 0.0, 1.0);
+    if (inside < 0.02) discard;
+    gl_FragColor = vec4(colour, inside);
+  }
+`;
+
+/** Diameter and line (CSS pixels). */
+const SIZE = 9;
+const LINE = 1.5;
+
+export class Contacts {
+  readonly points: Points<BufferGeometry, ShaderMaterial>;
+  private readonly position: BufferAttribute;
+
+  constructor(
+    private readonly motion: Motion,
+    push: number,
+  ) {
+    const room = Math.max(1, motion.mostContacts);
+    this.position = new BufferAttribute(new Float32Array(3 * room), 3).setUsage(DynamicDrawUsage);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", this.position);
+    const material = new ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      transparent: true,
+      depthWrite: false,
+      uniforms: {
+        colour: { value: new Color() },
+        size: { value: SIZE },
+        line: { value: LINE },
+        push: { value: push },
+      },
+    });
+    this.points = new Points(geometry, material);
+    this.points.frustumCulled = false;
+    this.points.onBeforeRender = () => {
+      material.uniforms.size!.value = SIZE * pixelRatio.value;
+      material.uniforms.line!.value = LINE * pixelRatio.value;
+      material.uniformsNeedUpdate = true;
+    };
+  }
+
+  ink(colour: string): void {
+    (this.points.material.uniforms.colour!.value as Color).copy(screenColour(colour));
+  }
+
+  moveTo(step: number): void {
+    const points = this.motion.contacts(step);
+    const { array } = this.position;
+    for (let k = 0; k < points.length; k++) array[k] = points[k]! * MICRO;
+    this.position.needsUpdate = true;
+    this.points.geometry.setDrawRange(0, points.length / 3);
+  }
+}

@@ -1,0 +1,227 @@
+/**
+ * The 3D picture: what is drawn, in which order, and when. It draws on demand only: after a change of the
+ * step, the eye, the size or the theme.
+ */
+
+import { Box3, Color, Scene, Vector3, WebGLRenderer } from "three";
+import type { Motion } from "../data/motion";
+import type { Field, Place } from "../data/page_data";
+import { themeColour } from "../page/dom";
+import type { Choice, State } from "../page/state";
+import { AxesBox } from "./axes_box";
+import { Eye } from "./camera";
+import { Catenaries } from "./catenaries";
+import { Contacts } from "./contacts";
+import { Grippers } from "./grippers";
+import { pixelRatio, resolution } from "./lines";
+import { Mold } from "./mold";
+import { Overlay } from "./overlay";
+import { PlySurface } from "./surface";
+
+/** More pixels of the device in one CSS pixel are not drawn. */
+const MOST_PIXELS = 2;
+/** A moving picture with slower frames (ms) gets coarser; one that rests this long (ms) is drawn finely again. */
+const SLOW = 40;
+const REST = 300;
+
+export class Scene3d {
+  private readonly surface: PlySurface;
+  readonly eye: Eye;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly catenaries: Catenaries;
+  private readonly grippers: Grippers;
+  private readonly contacts: Contacts;
+  private readonly mold: Mold | null;
+  private readonly box: AxesBox;
+  private readonly overlay: Overlay;
+  private waiting = false;
+  private coarse = false;
+  private lastDrawn = 0;
+  private slowFrames = 0;
+  private resting = 0;
+  private width = 1;
+  private height = 1;
+
+  /** Throws where WebGL is missing. */
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly motion: Motion,
+    private readonly state: State,
+  ) {
+    const canvas = host.querySelector<HTMLCanvasElement>("#picture")!;
+    this.renderer = new WebGLRenderer({
+      canvas,
+      alpha: true,
+      antialias: false,
+      powerPreference: "high-performance",
+    });
+    const bounds = sceneBox(motion);
+    const size = bounds.getSize(new Vector3()).length();
+    const { mold } = motion.data.geometry;
+
+    this.surface = new PlySurface(motion, 0.003 * size);
+    this.catenaries = new Catenaries(motion, 0.0005 * size, 0.02 * size);
+    this.grippers = new Grippers(motion, 0.1 * motion.spacing, -0.004 * size);
+    this.contacts = new Contacts(motion, -0.003 * size);
+    this.mold = mold === null ? null : new Mold(mold, 0.008 * size);
+    this.box = new AxesBox(bounds, 0.012 * size);
+    this.catenaries.order = 3;
+    this.contacts.points.renderOrder = 4;
+    this.grippers.mesh.renderOrder = 5;
+    this.scene.add(
+      this.box.group,
+      this.surface.mesh,
+      this.catenaries.group,
+      this.contacts.points,
+      this.grippers.mesh,
+    );
+    if (this.mold !== null) this.scene.add(this.mold.group);
+
+    const overlay = host.querySelector<HTMLCanvasElement>("#labels")!;
+    this.eye = new Eye(canvas, bounds, () => this.draw());
+    this.overlay = new Overlay(overlay, this.box, this.eye);
+    new ResizeObserver(() => this.resize()).observe(host);
+    canvas.addEventListener("webglcontextrestored", () => this.draw());
+    this.resize();
+    this.eye.look("iso", false);
+    state.listen((now, before) => this.follow(now, before));
+  }
+
+  private field(key: string): Field {
+    return this.motion.data.fields.find((field) => field.key === key) ?? this.motion.data.fields[0]!;
+  }
+
+  private follow(now: Choice, before: Choice): void {
+    const first = now === before;
+    const stepped = first || now.index !== before.index;
+    const field = this.field(now.colour);
+    if (first || now.dark !== before.dark) this.ink();
+    if (first || now.colour !== before.colour) this.surface.useMap(field);
+    if (stepped) {
+      this.surface.moveTo(now.index);
+      this.catenaries.moveTo(now.index);
+      this.grippers.moveTo(now.index);
+      this.contacts.moveTo(now.index);
+    }
+    if (stepped || now.colour !== before.colour) this.surface.colour(field, now.index);
+    this.catenaries.showDiagonals(now.diagonals);
+    if (this.mold !== null) this.mold.group.visible = now.mold;
+    if (now.pointer !== null && now.pointer !== before.pointer) this.eye.lookAt(now.pointer.place);
+    this.draw();
+  }
+
+  /** Takes the colours of the theme in force. */
+  ink(): void {
+    this.catenaries.ink(themeColour("red"));
+    this.contacts.ink(themeColour("red"));
+    this.grippers.ink(themeColour("disc"), themeColour("disc-rim"));
+    this.mold?.ink(themeColour("mold"), themeColour("mold-line"));
+    this.box.ink(themeColour("box-line"));
+    this.renderer.setClearColor(new Color(themeColour("surface")));
+  }
+
+  private resize(): void {
+    this.width = Math.max(1, this.host.clientWidth);
+    this.height = Math.max(1, this.host.clientHeight);
+    this.setPixels(this.ratio);
+    this.eye.resize(this.width, this.height);
+  }
+
+  private setPixels(ratio: number): void {
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(this.width, this.height, false);
+    pixelRatio.value = ratio;
+    resolution.set(this.width * ratio, this.height * ratio);
+  }
+
+  /** A vertex of the ply as it is drawn now (m). */
+  vertex(at: number): Place | null {
+    return this.surface.vertex(at) ?? this.catenaries.vertex(at);
+  }
+
+  /** Draws before the next repaint. */
+  draw(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame((now) => {
+      this.waiting = false;
+      this.adapt(now);
+      this.drawNow();
+    });
+  }
+
+  private drawNow(): void {
+    const { zoom } = this.eye.camera;
+    const apart = zoom * this.motion.spacing;
+    this.surface.showThreads(apart / this.motion.data.divisions);
+    this.catenaries.suit(apart);
+    this.grippers.showWalls(zoom);
+    this.box.turn(this.eye);
+    this.renderer.render(this.scene, this.eye.camera);
+    const ratio = Math.min(devicePixelRatio, MOST_PIXELS);
+    this.overlay.draw(this.width, this.height, ratio, this.state.now.pointer);
+  }
+
+  /** Fewer triangles and pixels while a moving picture is too slow for this machine. */
+  private adapt(now: number): void {
+    const passed = now - this.lastDrawn;
+    this.lastDrawn = now;
+    this.slowFrames = passed > SLOW && passed < REST ? this.slowFrames + 1 : 0;
+    if (this.slowFrames >= 3 && !this.coarse) this.setCoarse(true);
+    clearTimeout(this.resting);
+    if (this.coarse) this.resting = setTimeout(() => this.setCoarse(false), REST);
+  }
+
+  private setCoarse(coarse: boolean): void {
+    this.coarse = coarse;
+    this.slowFrames = 0;
+    this.surface.thin(coarse);
+    this.catenaries.thin(coarse);
+    this.setPixels(this.ratio);
+    if (!coarse) this.draw();
+  }
+
+  private get ratio(): number {
+    return Math.min(devicePixelRatio, this.coarse ? 1 : MOST_PIXELS);
+  }
+
+  /** The picture of now as PNG, twice as fine, with its labels. */
+  snapshot(): string {
+    const ratio = 2;
+    const before = this.renderer.getPixelRatio();
+    this.setPixels(ratio);
+    this.box.turn(this.eye);
+    this.renderer.render(this.scene, this.eye.camera);
+    const sheet = document.createElement("canvas");
+    sheet.width = this.width * ratio;
+    sheet.height = this.height * ratio;
+    const pen = sheet.getContext("2d");
+    pen?.drawImage(this.renderer.domElement, 0, 0, sheet.width, sheet.height);
+    this.overlay.draw(this.width, this.height, ratio, this.state.now.pointer);
+    pen?.drawImage(this.overlay.canvas, 0, 0, sheet.width, sheet.height);
+    this.setPixels(before);
+    this.drawNow();
+    return sheet.toDataURL("image/png");
+  }
+}
+
+/** The box around the ply over all steps, and as much of the mold as lies near it. */
+function sceneBox(motion: Motion): Box3 {
+  const { low, high } = motion.bounds();
+  const ply = new Box3(new Vector3(...low), new Vector3(...high));
+  const size = ply.getSize(new Vector3());
+  const room = 0.35 * Math.max(size.x, size.y);
+  const box = ply.clone();
+  const near = ply.clone().expandByScalar(room);
+  const vertices = motion.data.geometry.mold?.vertices ?? [];
+  const point = new Vector3();
+  for (let k = 0; k + 2 < vertices.length; k += 3) {
+    point.set(vertices[k]!, vertices[k + 1]!, vertices[k + 2]);
+    box.expandByPoint(near.clampPoint(point, point));
+  }
+  // A flat or narrow scene still has a box that can be seen.
+  const least = 0.08 * Math.max(size.x, size.y, 1e-3);
+  const lacking = box.getSize(size).multiplyScalar(-1).addScalar(least).max(new Vector3());
+  return box.expandByVector(lacking.multiplyScalar(0.5));
+}

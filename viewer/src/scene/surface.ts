@@ -1,0 +1,237 @@
+/**
+ * The ply surface, coloured by the chosen field.
+ *
+ * Each cell has its own (n+1)² vertices, so that a field given on cells has sharp borders. Positions and
+ * normals are computed once a step on the shared grid and copied to the cells; all buffers are written in
+ * place. The value goes to the shader as a share of its range and is looked up in the colour map there.
+ */
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DataTexture,
+  DoubleSide,
+  DynamicDrawUsage,
+  NearestFilter,
+  Mesh,
+  ShaderMaterial,
+} from "three";
+import { colourAt, mapOf, shareOf } from "../data/colour_map";
+import { MICRO, type Motion } from "../data/motion";
+import type { Field } from "../data/page_data";
+import { PROJECT, SHADE } from "./shade";
+
+const VERTEX = /* glsl */ `
+  attribute float share;
+  attribute vec2 thread;
+  varying float vShare;
+  varying vec2 vThread;
+  varying float vShade;
+  ${PROJECT}
+  ${SHADE}
+  void main() {
+    vShare = share;
+    vThread = thread;
+    vShade = shade(normalMatrix * normal);
+    gl_Position = project(position);
+  }
+`;
+
+const FRAGMENT = /* glsl */ `
+  uniform sampler2D map;
+  uniform bool threads;
+  varying float vShare;
+  varying vec2 vThread;
+  varying float vShade;
+  void main() {
+    vec3 colour = texture2D(map, vec2(clamp(vShare, 0.0, 0.9999), 0.5)).rgb * vShade;
+    // Threads of the fabric, where they are far enough apart to be seen.
+    if (threads) {
+      vec2 width = fwidth(vThread);
+      vec2 away = abs(fract(vThread - 0.5) - 0.5) / width;
+      float line = 1.0 - min(min(away.x, away.y), 1.0);
+      float room = clamp(0.36 - 1.1 * max(width.x, width.y), 0.0, 0.26);
+      colour = mix(colour, vec3(1.0), line * room);
+    }
+    gl_FragColor = vec4(colour, 1.0);
+  }
+`;
+
+/** Colours in the map: so many that none need be mixed, which is dear in software. */
+const TEXELS = 512;
+
+export class PlySurface {
+  readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
+  private readonly columns: number;
+  private readonly rows: number;
+  /** For each drawn vertex, the vertex of the shared grid, and its cell. */
+  private readonly source: Uint32Array;
+  private readonly cell: Uint32Array;
+  private readonly first: Int32Array;
+  private readonly normals: Float32Array;
+  private readonly every: BufferAttribute;
+  private second: BufferAttribute | null = null;
+  private readonly position: BufferAttribute;
+  private readonly normal: BufferAttribute;
+  private readonly share: BufferAttribute;
+
+  constructor(
+    private readonly motion: Motion,
+    push: number,
+  ) {
+    const [nu, nv] = motion.data.grid;
+    const n = motion.data.divisions;
+    this.columns = (nu - 1) * n + 1;
+    this.rows = (nv - 1) * n + 1;
+    const total = (nu - 1) * (nv - 1) * (n + 1) ** 2;
+    this.source = new Uint32Array(total);
+    this.cell = new Uint32Array(total);
+    this.first = new Int32Array(this.columns * this.rows).fill(-1);
+    this.normals = new Float32Array(3 * this.columns * this.rows);
+    const threads = new Float32Array(2 * total);
+    this.layOut(nu, nv, n, threads);
+    this.every = new BufferAttribute(triangles((nu - 1) * (nv - 1), n, 1), 1);
+
+    const dynamic = (size: number) =>
+      new BufferAttribute(new Float32Array(size * total), size).setUsage(DynamicDrawUsage);
+    this.position = dynamic(3);
+    this.normal = dynamic(3);
+    this.share = dynamic(1);
+    const geometry = new BufferGeometry();
+    geometry.setIndex(this.every);
+    geometry.setAttribute("position", this.position);
+    geometry.setAttribute("normal", this.normal);
+    geometry.setAttribute("share", this.share);
+    geometry.setAttribute("thread", new BufferAttribute(threads, 2));
+    const material = new ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      side: DoubleSide,
+      uniforms: { map: { value: null }, push: { value: push }, threads: { value: true } },
+    });
+    this.mesh = new Mesh(geometry, material);
+    this.mesh.frustumCulled = false;
+  }
+
+  /** Lists the vertices cell by cell. */
+  private layOut(nu: number, nv: number, n: number, threads: Float32Array): void {
+    let k = 0;
+    for (let cj = 0; cj < nv - 1; cj++) {
+      for (let ci = 0; ci < nu - 1; ci++) {
+        for (let b = 0; b <= n; b++) {
+          for (let a = 0; a <= n; a++) {
+            const [column, row] = [ci * n + a, cj * n + b];
+            const at = row * this.columns + column;
+            this.source[k] = at;
+            this.cell[k] = cj * (nu - 1) + ci;
+            if (this.first[at]! < 0) this.first[at] = k;
+            threads.set([column, row], 2 * k);
+            k++;
+          }
+        }
+      }
+    }
+  }
+
+  /** Draws every second vertex of each cell only, which is less work, or all. */
+  thin(thin: boolean): void {
+    const n = this.motion.data.divisions;
+    if (thin) this.second ??= new BufferAttribute(triangles(this.source.length / (n + 1) ** 2, n, 2), 1);
+    this.mesh.geometry.setIndex(thin ? this.second : this.every);
+  }
+
+  /** Moves the surface to a step. */
+  moveTo(step: number): void {
+    const points = this.motion.surface.at(step);
+    this.findNormals(points);
+    const position = this.position.array;
+    const normal = this.normal.array;
+    for (let k = 0; k < this.source.length; k++) {
+      const from = 3 * this.source[k]!;
+      for (let c = 0; c < 3; c++) {
+        position[3 * k + c] = points[from + c]! * MICRO;
+        normal[3 * k + c] = this.normals[from + c]!;
+      }
+    }
+    this.position.needsUpdate = true;
+    this.normal.needsUpdate = true;
+  }
+
+  /** Colours the surface by a field in a step. */
+  colour(field: Field, step: number): void {
+    const item = field.on === "cell" ? this.cell : this.source;
+    const share = this.share.array;
+    for (let k = 0; k < item.length; k++) {
+      share[k] = shareOf(field, this.motion.value(field, step, item[k]!));
+    }
+    this.share.needsUpdate = true;
+  }
+
+  /** Loads the colour map of a field. */
+  useMap(field: Field): void {
+    const map = mapOf(field);
+    const texels = new Uint8Array(4 * TEXELS);
+    for (let k = 0; k < TEXELS; k++) texels.set([...colourAt(map, k / (TEXELS - 1)), 255], 4 * k);
+    const texture = new DataTexture(texels, TEXELS, 1);
+    texture.magFilter = texture.minFilter = NearestFilter;
+    texture.needsUpdate = true;
+    const uniform = this.mesh.material.uniforms.map!;
+    (uniform.value as DataTexture | null)?.dispose();
+    uniform.value = texture;
+  }
+
+  /** Draws the threads where two of them are so many CSS pixels apart that they can be told apart. */
+  showThreads(apart: number): void {
+    this.mesh.material.uniforms.threads!.value = apart > 5.5;
+  }
+
+  /** A vertex of the shared grid as it is drawn now (m); null for a strip of ply, which has no cells. */
+  vertex(at: number): [number, number, number] | null {
+    const k = 3 * (this.first[at] ?? -1);
+    const { array } = this.position;
+    return k < 0 ? null : [array[k]!, array[k + 1]!, array[k + 2]!];
+  }
+
+  /** Normals from the two diagonals through the neighbours of every vertex (their scale does not matter). */
+  private findNormals(points: Int32Array): void {
+    const { columns, rows, normals } = this;
+    for (let row = 0; row < rows; row++) {
+      const below = Math.max(row - 1, 0) * columns;
+      const above = Math.min(row + 1, rows - 1) * columns;
+      for (let column = 0; column < columns; column++) {
+        const here = row * columns;
+        const west = 3 * (here + Math.max(column - 1, 0));
+        const east = 3 * (here + Math.min(column + 1, columns - 1));
+        const south = 3 * (below + column);
+        const north = 3 * (above + column);
+        const ux = (points[east]! - points[west]!) * 1e-3;
+        const uy = (points[east + 1]! - points[west + 1]!) * 1e-3;
+        const uz = (points[east + 2]! - points[west + 2]!) * 1e-3;
+        const vx = (points[north]! - points[south]!) * 1e-3;
+        const vy = (points[north + 1]! - points[south + 1]!) * 1e-3;
+        const vz = (points[north + 2]! - points[south + 2]!) * 1e-3;
+        const k = 3 * (here + column);
+        normals[k] = uy * vz - uz * vy;
+        normals[k + 1] = uz * vx - ux * vz;
+        normals[k + 2] = ux * vy - uy * vx;
+      }
+    }
+  }
+}
+
+/** Two triangles for each square of `stride` intervals in each cell; the last ones end at the cell's side. */
+function triangles(cells: number, n: number, stride: number): Uint32Array {
+  const index: number[] = [];
+  const stops: number[] = [];
+  for (let a = 0; a < n; a += stride) stops.push(a);
+  for (let cell = 0; cell < cells; cell++) {
+    const at = (a: number, b: number) => cell * (n + 1) ** 2 + b * (n + 1) + a;
+    for (const b of stops) {
+      for (const a of stops) {
+        const [east, north] = [Math.min(a + stride, n), Math.min(b + stride, n)];
+        index.push(at(a, b), at(east, b), at(east, north), at(a, b), at(east, north), at(a, north));
+      }
+    }
+  }
+  return Uint32Array.from(index);
+}

@@ -1,0 +1,517 @@
+// The results page in a real browser, opened from disk without a network: what it shows is what the result says.
+//
+// PLYDRAPE_REPORTS names the folder of pages (scripts/test makes one from every example). Without it or without
+// a browser the tests are skipped, loudly; where CI is set that is an error.
+
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { availableParallelism, loadavg, tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { CHROMIUM, openReport, startBrowser } from "../browser.mjs";
+import { distance, findReports, polyline, readColumns, readResult } from "./reports.mjs";
+
+const MICROMETRE = 1e-6;
+const reports = findReports();
+const missing =
+  CHROMIUM === ""
+    ? "there is no Chromium (install it or set CHROMIUM)"
+    : reports.length === 0
+      ? "PLYDRAPE_REPORTS names no folder with report.html in its folders"
+      : null;
+
+if (missing !== null) {
+  if (process.env.CI) throw new Error(`the page cannot be tested: ${missing}`);
+  console.error(`\n*** THE PAGE IS NOT TESTED: ${missing} ***\n`);
+}
+
+let browser;
+let scratch;
+
+describe("results page", { skip: missing ?? false }, () => {
+  before(async () => {
+    browser = await startBrowser();
+    scratch = mkdtempSync(join(tmpdir(), "plydrape-page-"));
+  });
+  after(async () => {
+    await browser?.close();
+    rmSync(scratch, { recursive: true, force: true });
+  });
+
+  for (const report of reports) {
+    describe(report.name, () => {
+      test("opens without a complaint and asks for nothing", () => opens(report));
+      test("the slider moves the ply to the result's positions", () => sliderMoves(report));
+      test("plays, stops, and steps by keyboard", () => playsAndSteps(report));
+      test("every colour mode has its own legend", () => coloursHaveLegends(report));
+      test("a limit leads to its step and place", () => limitsLead(report));
+      test("charts hold the numbers of steps.csv, and a click goes to a step", () => chartsHold(report));
+      test("prints without controls, in light", () => prints(report));
+    });
+  }
+
+  test("light and dark differ, by the system and by the button", () => themesDiffer(reports[0]));
+  test("views look from elsewhere, and the list of keys opens", () => viewsDiffer(reports[0]));
+  test("damaged data gives one sentence", () => damagedDataIsSaid(reports[0]));
+  test("without WebGL everything else works", () => worksWithoutWebgl(reports[0]));
+
+  const large = reports.find(({ name }) => name === "large");
+  test(
+    "a page of 20 × 20 grippers and 100 steps moves at 20 frames a second",
+    { skip: large ? false : "no folder “large”" },
+    (t) => movesSmoothly(large, t),
+  );
+});
+
+async function opens(report) {
+  for (const [width, height] of [
+    [1280, 720],
+    [1920, 1080],
+  ]) {
+    const { page, context, complaints, requests } = await openReport(browser, report.file, { width, height });
+    await page.waitForTimeout(200);
+    assert.deepEqual(complaints, []);
+    assert.deepEqual(
+      requests.filter((url) => !url.startsWith("data:")).map((url) => decodeURI(url)),
+      [`file://${report.file}`],
+    );
+    assert.ok(await page.evaluate(() => window.plydrape.webgl), "there is a 3D picture");
+    // Title, verdict and picture are in view, and nothing is wider than the window.
+    for (const selector of ["#title", "#verdict", "#picture", "#slider"]) {
+      const box = await page.locator(selector).boundingBox();
+      assert.ok(
+        box.y >= 0 && box.y + box.height <= height && box.x + box.width <= width,
+        `${selector} is in view`,
+      );
+    }
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(overflow <= 0, `wider than the window by ${overflow}`);
+    const nameless = await page.evaluate(() =>
+      [...document.querySelectorAll("button, input, select")]
+        .filter(
+          (e) =>
+            !(
+              e.getAttribute("aria-label") ||
+              e.textContent.trim() ||
+              e.closest("label")?.textContent.trim() ||
+              e.ariaHidden
+            ),
+        )
+        .map((e) => e.outerHTML),
+    );
+    assert.deepEqual(nameless, []);
+    await context.close();
+  }
+  assert.ok(statSync(report.file).size <= 20e6, "at most 20 MB");
+}
+
+async function sliderMoves(report) {
+  const result = readResult(report);
+  if (result === null) return;
+  const { page, context } = await openReport(browser, report.file);
+  const given = await pageData(page);
+  const n = given.divisions;
+  const columns = (given.grid[0] - 1) * n + 1;
+  const at = (i, j) => i * n + j * n * columns;
+  const shown = new Map(
+    (await page.evaluate(() => window.plydrape.steps)).map((number, index) => [number, index]),
+  );
+  const numbers = [...shown.keys()];
+  const some = new Set([0, Math.floor(numbers.length / 2), numbers.length - 1].map((k) => numbers[k]));
+  let moved = null;
+  for (const number of some) {
+    const step = result.steps.find((s) => s.step === number);
+    await setSlider(page, shown.get(number));
+    const positions = Object.fromEntries(step.grippers.map((g) => [g.id.join(), g.position]));
+    const lines = step.catenaries.filter((c) => c.kind === "edge");
+    const wanted = step.grippers.map((g) => at(...g.id));
+    const between = lines.map((c) => {
+      const [a, b] = [at(...c.from), at(...c.to)];
+      return Array.from({ length: n - 1 }, (_, k) => a + ((b - a) / n) * (k + 1));
+    });
+    const vertices = await page.evaluate(
+      (list) => list.map((k) => window.plydrape.vertex(k)),
+      [...wanted, ...between.flat()],
+    );
+    step.grippers.forEach((g, k) => {
+      const off = Math.hypot(...vertices[k].map((x, c) => x - g.position[c]));
+      assert.ok(off <= MICROMETRE, `step ${number}: gripper ${g.id} is off by ${off} m`);
+    });
+    let k = wanted.length;
+    for (const line of lines) {
+      const points = polyline(line, positions);
+      for (let piece = 1; piece < n; piece++, k++) {
+        const off = distance(vertices[k], points);
+        assert.ok(
+          off <= 2 * MICROMETRE,
+          `step ${number}: edge ${line.from}–${line.to} is off by ${off} m at ${piece}/${n}`,
+        );
+      }
+    }
+    const now = JSON.stringify(vertices);
+    assert.notEqual(now, moved, "the ply moved");
+    moved = now;
+    assert.equal(await page.evaluate(() => window.plydrape.step), number);
+  }
+  await context.close();
+}
+
+/** What the page was given. */
+async function pageData(page) {
+  return page.evaluate(() => JSON.parse(document.getElementById("plydrape-data").textContent));
+}
+
+/** Puts the slider on an index, as a hand does. */
+async function setSlider(page, index) {
+  await page.locator("#slider").evaluate((slider, value) => {
+    slider.value = String(value);
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+  }, index);
+}
+
+async function playsAndSteps(report) {
+  const { page, context } = await openReport(browser, report.file);
+  const steps = await page.evaluate(() => window.plydrape.steps);
+  const now = () => page.evaluate(() => window.plydrape.step);
+  const last = steps.length - 1;
+  if (last === 0) {
+    assert.ok(await page.locator("#play").isDisabled(), "one step cannot be played");
+    await context.close();
+    return;
+  }
+  await page.keyboard.press("Home");
+  assert.equal(await now(), steps[0]);
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await now(), steps[1]);
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await now(), steps[0]);
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await now(), steps[0], "before the first step there is none");
+  await page.keyboard.press("PageDown");
+  assert.equal(await now(), steps[Math.min(10, last)]);
+  await page.keyboard.press("End");
+  assert.equal(await now(), steps[last]);
+
+  await page.keyboard.press("Home");
+  await page.keyboard.press("Space");
+  assert.ok(await page.evaluate(() => window.plydrape.playing));
+  await page.waitForFunction((first) => window.plydrape.step > first, steps[0], { timeout: 10_000 });
+  await page.keyboard.press("Space");
+  assert.ok(!(await page.evaluate(() => window.plydrape.playing)));
+  const stopped = await now();
+  await page.waitForTimeout(400);
+  assert.equal(await now(), stopped, "it stands still");
+
+  await page.keyboard.press("Home");
+  await page.locator("#speed").selectOption("4");
+  await page.locator("#play").click();
+  await page.waitForFunction((end) => window.plydrape.step === end && !window.plydrape.playing, steps[last], {
+    timeout: 20_000,
+  });
+  await context.close();
+}
+
+async function coloursHaveLegends(report) {
+  const { page, context } = await openReport(browser, report.file);
+  const colours = await page.evaluate(() => window.plydrape.colours);
+  const order = ["height", "gap", "shear", "direction"].filter((key) => colours.includes(key));
+  const titles = new Set();
+  for (const [k, colour] of order.entries()) {
+    await page.keyboard.press(String(k + 1));
+    assert.equal(await page.evaluate(() => window.plydrape.colour), colour);
+    const legend = await page.evaluate(() => window.plydrape.legend());
+    if (!(await page.locator("#legend").isVisible())) continue; // a strip, which has no cells to colour
+    const text = await page.locator("#legend").innerText();
+    assert.ok(
+      text.toLowerCase().includes(legend.title.toLowerCase()),
+      `the legend “${text}” says ${legend.title}`,
+    );
+    assert.ok(text.includes(legend.unit));
+    assert.ok(
+      legend.ticks.length > 0 && legend.ticks.every((t) => t >= legend.low - 1e-9 && t <= legend.high + 1e-9),
+    );
+    titles.add(await page.locator(".legend-title").innerText());
+  }
+  const { grid } = await pageData(page);
+  assert.equal(titles.size, grid.includes(1) ? 0 : order.length, "no two legends are alike");
+  await context.close();
+}
+
+async function limitsLead(report) {
+  const result = readResult(report);
+  const { page, context } = await openReport(browser, report.file);
+  const data = await pageData(page);
+  const given = data.limits;
+  assert.equal(await page.locator(".limits tbody tr").count(), given.length);
+  if (result !== null) {
+    assert.deepEqual(
+      given.map(({ value, limit, ok, step, where }) => ({ value, limit, ok, step, where })),
+      result.summary.limits.map(({ value, limit, ok, step, where }) => ({
+        value,
+        limit,
+        ok,
+        step: step ?? null,
+        where,
+      })),
+    );
+  }
+  const words = await page.locator(".limits tbody .word").allInnerTexts();
+  given.forEach(({ ok }, k) => assert.match(words[k], ok ? /✓\s*pass/ : /✗\s*fail/));
+  const verdict = await page.locator("#verdict").innerText();
+  const failed = given.filter(({ ok }) => !ok).length;
+  assert.match(verdict, failed === 0 ? /Accepted/ : new RegExp(`Not accepted: ${failed} of ${given.length}`));
+
+  const row = Math.max(
+    0,
+    given.findIndex(({ ok, place }) => !ok && place !== null),
+  );
+  const limit = given[row];
+  if (limit?.step == null) {
+    await context.close();
+    return;
+  }
+  await page.keyboard.press("Home");
+  const button = page.locator(".limits tbody tr").nth(row).locator("button");
+  await button.focus();
+  await page.keyboard.press("Enter");
+  const { step, pointer } = await page.evaluate(() => ({
+    step: window.plydrape.step,
+    pointer: window.plydrape.pointer,
+  }));
+  if (data.steps.includes(limit.step)) assert.equal(step, limit.step);
+  if (limit.place !== null) {
+    assert.deepEqual(pointer.place, limit.place);
+    assert.ok(pointer.label.startsWith(limit.name));
+  }
+  if (result !== null && limit.place !== null) {
+    // The place lies on the ply of that step.
+    const shown = result.steps.find((s) => s.step === step);
+    const positions = Object.fromEntries(shown.grippers.map((g) => [g.id.join(), g.position]));
+    const off = Math.min(...shown.catenaries.map((c) => distance(limit.place, polyline(c, positions))));
+    assert.ok(off < 0.02, `the place is ${off} m away from the ply`);
+  }
+  await page.keyboard.press("Escape");
+  assert.equal(await page.evaluate(() => window.plydrape.pointer), null);
+  await context.close();
+}
+
+async function chartsHold(report) {
+  const { page, context } = await openReport(browser, report.file);
+  const measures = await page.evaluate(() => window.plydrape.measures);
+  const steps = await page.evaluate(() => window.plydrape.steps);
+  const columns = readColumns(report);
+  if (columns !== null) {
+    assert.ok(measures.length > 0);
+    for (const measure of measures) {
+      const unit = measure.unit === "°" ? "deg" : measure.unit;
+      const column = columns[`${measure.label} (${unit})`];
+      assert.ok(column, `steps.csv has a column “${measure.label} (${unit})”`);
+      const numbers = new Map(
+        columns.step.map((step, k) => [Number(step), column[k] === "" ? null : Number(column[k])]),
+      );
+      assert.deepEqual(
+        measure.values,
+        steps.map((step) => numbers.get(step)),
+        measure.key,
+      );
+    }
+  }
+  const charted = measures.filter(({ values }) => values.some((value) => value !== null));
+  assert.equal(await page.locator(".chart").count(), charted.length);
+  if (charted.length === 0) return context.close();
+
+  // The number in a chart's head is that of the step in view, in full in its title.
+  for (const number of [steps[0], steps[steps.length - 1]]) {
+    await page.evaluate((step) => window.plydrape.goto(step), number);
+    const index = steps.indexOf(number);
+    for (const { key, values } of charted) {
+      const title = await page.locator(`.chart[data-measure="${key}"] .chart-value`).getAttribute("title");
+      if (values[index] === null) assert.match(title, /no value/);
+      else assert.equal(parseFloat(title.replaceAll("−", "-")), values[index], key);
+    }
+  }
+
+  // A click in the middle of a chart goes to the step in the middle, and the marker follows.
+  if (steps.length > 2) {
+    const over = page.locator(".chart .u-over").first();
+    const box = await over.boundingBox();
+    await over.click({ position: { x: box.width / 2, y: box.height / 2 } });
+    const step = await page.evaluate(() => window.plydrape.step);
+    const middle = (steps[0] + steps[steps.length - 1]) / 2;
+    assert.ok(Math.abs(step - middle) <= 1, `step ${step}, the middle is ${middle}`);
+    assert.equal(await page.locator("#slider").inputValue(), String(steps.indexOf(step)));
+    const marker = await page.locator(".chart .chart-marker").first().boundingBox();
+    const expected = box.x + (box.width * (step - steps[0])) / (steps[steps.length - 1] - steps[0]);
+    assert.ok(Math.abs(marker.x + marker.width / 2 - expected) <= 1.5, "the marker stands on the step");
+  }
+  await context.close();
+}
+
+async function prints(report) {
+  const { page, context } = await openReport(browser, report.file, { dark: true });
+  const paper = () =>
+    page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--surface").trim());
+  const dark = await paper();
+  await page.emulateMedia({ media: "print", colorScheme: "dark" });
+  await page.waitForFunction(() => document.getElementById("snapshot").src.startsWith("data:image/png"));
+  for (const selector of ["#theme", "#help-open", ".toolbar", "#play", "#slider", "#speed", "#picture"]) {
+    assert.ok(!(await page.locator(selector).isVisible()), `${selector} is not printed`);
+  }
+  for (const selector of ["#title", "#verdict", "#snapshot", "#step", "#limits", "#charts", "#program"]) {
+    assert.ok(await page.locator(selector).isVisible(), `${selector} is printed`);
+  }
+  assert.notEqual(await paper(), dark, "print is light");
+  const { input } = await pageData(page);
+  if (input !== null) assert.ok(await page.locator("#input-text").isVisible(), "the input is printed");
+  await page.emulateMedia({ media: "screen", colorScheme: "dark" });
+  await page.waitForFunction(() => !document.documentElement.classList.contains("printing"));
+  assert.ok(await page.locator("#play").isVisible(), "and afterwards the controls are back");
+  assert.equal(await paper(), dark);
+  await context.close();
+}
+
+async function themesDiffer(report) {
+  const look = async (dark) => {
+    const { page, context } = await openReport(browser, report.file, { dark });
+    const system = await ground(page);
+    await page.locator("#theme").click();
+    const other = await ground(page);
+    await context.close();
+    return [system, other];
+  };
+  const light = await look(false);
+  const dark = await look(true);
+  assert.ok(light[0] > 200 && dark[0] < 60, `light ${light[0]}, dark ${dark[0]}`);
+  assert.deepEqual(light, dark.toReversed(), "the button changes one into the other");
+}
+
+/** Brightness of the corner of the 3D picture as it is on the screen. */
+async function ground(page) {
+  await page.waitForTimeout(200);
+  const { x, y } = await page.locator("#picture").boundingBox();
+  const shot = (await page.screenshot({ clip: { x: x + 2, y: y + 2, width: 1, height: 1 } })).toString(
+    "base64",
+  );
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const pen = new OffscreenCanvas(1, 1).getContext("2d");
+    pen.drawImage(image, 0, 0);
+    return pen.getImageData(0, 0, 1, 1).data[0];
+  }, shot);
+}
+
+async function viewsDiffer(report) {
+  const { page, context } = await openReport(browser, report.file);
+  const pictures = new Set();
+  for (const key of ["t", "f", "s", "i"]) {
+    await page.keyboard.press(key);
+    await page.waitForTimeout(150);
+    pictures.add((await page.locator("#view").screenshot()).toString("base64"));
+  }
+  assert.equal(pictures.size, 4, "four views, four pictures");
+  await page.keyboard.press("?");
+  assert.ok(await page.locator("#help").isVisible());
+  await page.keyboard.press("Escape");
+  assert.ok(!(await page.locator("#help").isVisible()));
+  await context.close();
+}
+
+async function damagedDataIsSaid(report) {
+  const text = readFileSync(report.file, "utf8");
+  const mark = '<script type="application/json" id="plydrape-data">';
+  const start = text.indexOf(mark) + mark.length;
+  const end = text.indexOf("</script>", start);
+  const data = text.slice(start, end);
+  const damaged = {
+    cut: [data.slice(0, data.length / 2), /cut off or damaged/],
+    newer: [data.replace(/"version"\s*:\s*1/, '"version":99'), /version 99/],
+    short: [data.replace(/("surface"\s*:\s*\{[^}]*"data"\s*:\s*")[^"]{40}/, "$1"), /surface of its geometry/],
+    foreign: ["[]", /not that of a results page/],
+  };
+  for (const [name, [broken, reason]] of Object.entries(damaged)) {
+    assert.notEqual(broken, data);
+    const file = join(scratch, `${name}.html`);
+    writeFileSync(file, text.slice(0, start) + broken + text.slice(end));
+    const { page, context, complaints } = await openReport(browser, file, { wait: false });
+    await page.locator("#failure").waitFor({ state: "visible", timeout: 10_000 });
+    const sentence = await page.locator("#failure").innerText();
+    assert.match(sentence, reason);
+    assert.match(sentence, /plydrape report/);
+    assert.ok(!(await page.locator("#page").isVisible()));
+    assert.deepEqual(complaints, []);
+    await context.close();
+  }
+}
+
+async function worksWithoutWebgl(report) {
+  const plain = await startBrowser({ webgl: false });
+  const { page, complaints } = await openReport(plain, report.file);
+  assert.equal(await page.evaluate(() => window.plydrape.webgl), false);
+  assert.match(await page.locator("#no-webgl").innerText(), /cannot draw in 3D/);
+  assert.ok(await page.locator(".limits").isVisible());
+  assert.ok((await page.locator(".chart").count()) > 0);
+  const steps = await page.evaluate(() => window.plydrape.steps);
+  await page.keyboard.press("Home");
+  assert.equal(await page.evaluate(() => window.plydrape.step), steps[0]);
+  assert.deepEqual(complaints, []);
+  await plain.close();
+}
+
+/** Milliseconds of processor time that all processes below this one have used so far (Linux). */
+function processorTime() {
+  const rows = readdirSync("/proc")
+    .filter((name) => /^\d+$/.test(name))
+    .flatMap((pid) => {
+      try {
+        const stat = readFileSync(`/proc/${pid}/stat`, "utf8");
+        const fields = stat.slice(stat.lastIndexOf(")") + 2).split(" ");
+        // In ticks of 10 ms.
+        return [
+          {
+            pid: Number(pid),
+            parent: Number(fields[1]),
+            time: 10 * (Number(fields[11]) + Number(fields[12])),
+          },
+        ];
+      } catch {
+        return [];
+      }
+    });
+  const below = new Set([process.pid]);
+  for (let before = 0; before < below.size;) {
+    before = below.size;
+    for (const { pid, parent } of rows) if (below.has(parent)) below.add(pid);
+  }
+  below.delete(process.pid);
+  return rows.filter(({ pid }) => below.has(pid)).reduce((sum, { time }) => sum + time, 0);
+}
+
+async function movesSmoothly(report, t) {
+  const busy = loadavg()[0] / availableParallelism();
+  const { page, context } = await openReport(browser, report.file);
+  await page.waitForTimeout(500);
+  const run = (frames) =>
+    page.evaluate(async (count) => {
+      const { plydrape } = window;
+      const start = performance.now();
+      for (let k = 0; k < count; k++) {
+        plydrape.goto(plydrape.steps[k % plydrape.steps.length]);
+        await new Promise(requestAnimationFrame);
+      }
+      return (1000 * count) / (performance.now() - start);
+    }, frames);
+  await run(20);
+  const before = processorTime();
+  const rates = [await run(60), await run(60)];
+  const each = (processorTime() - before) / 120;
+  const best = Math.max(...rates);
+  t.diagnostic(
+    `${best.toFixed(1)} frames a second, ${each.toFixed(0)} ms of processor time a frame, load ${busy.toFixed(2)} a core`,
+  );
+  await context.close();
+  assert.ok(each <= 100, `${each} ms of processor time a frame: two cores cannot do 20 frames a second`);
+  if (busy > 0.3) console.error(`*** frame rate ${best.toFixed(1)}, not judged: the machine is busy ***`);
+  else assert.ok(best >= 20, `${best.toFixed(1)} frames a second`);
+}
