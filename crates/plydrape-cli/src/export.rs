@@ -33,6 +33,8 @@ enum Format {
     Csv,
     /// The figure: figure.svg.
     Svg,
+    /// A deck for CalculiX and Abaqus: ply.inp.
+    Inp,
 }
 
 impl Format {
@@ -40,6 +42,7 @@ impl Format {
         match self {
             Format::Csv => export::Format::Csv,
             Format::Svg => export::Format::Svg,
+            Format::Inp => export::Format::Inp,
         }
     }
 
@@ -47,6 +50,7 @@ impl Format {
         match self {
             Format::Csv => "csv",
             Format::Svg => "svg",
+            Format::Inp => "inp",
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Files for other programs, all made from a result alone.
 
-use super::{OutputError, csv, figure, folder};
+use super::{OutputError, csv, figure, folder, inp};
 use crate::draping::record::ResultFile;
 use std::path::{Path, PathBuf};
 
@@ -11,6 +11,8 @@ pub enum Format {
     Csv,
     /// The figure: `figure.svg`.
     Svg,
+    /// A deck for CalculiX and Abaqus: `ply.inp`.
+    Inp,
 }
 
 /// Files by plain name, with their contents.
@@ -34,6 +36,7 @@ pub fn files(result: &ResultFile, format: Format) -> Result<Files, OutputError> 
         Format::Svg => {
             vec![text("figure.svg", figure::svg(result, &figure::default_steps(result))?)]
         }
+        Format::Inp => vec![text("ply.inp", inp::text(result)?)],
     })
 }
 
