@@ -2,15 +2,15 @@
 //!
 //! | files | what |
 //! |---|---|
-//! | `ply.pvd`, `ply_0001.vtp` … | the ply's surface in quads ([`ply`]); none of a strip |
-//! | `catenaries.pvd`, `catenaries_0001.vtp` … | every catenary in its pieces ([`catenaries`]) |
-//! | `grippers.pvd`, `grippers_0001.vtp` … | a point for each gripper ([`grippers`]) |
-//! | `mold.vtp` | the mold under the drape ([`mold`]), if there is one |
+//! | `ply.pvd`, `ply_0001.vtp` … | the ply's surface in quads (`ply`); none of a strip |
+//! | `catenaries.pvd`, `catenaries_0001.vtp` … | every catenary in its pieces (`catenaries`) |
+//! | `grippers.pvd`, `grippers_0001.vtp` … | a point for each gripper (`grippers`) |
+//! | `mold.vtp` | the mold under the drape (`mold`), if there is one |
 //! | `drape.pvd` | all of them as parts of one series |
 //!
 //! A number in a file's name is that of its step. Points are in metres, z up; arrays say their unit in their
 //! names (`slack_mm`). No array holds NaN: what is not known is 0, and an array beside it says so
-//! (`has_force`). [`polydata`] and [`collection`] write the formats.
+//! (`has_force`). `polydata` and `collection` write the formats.
 
 mod catenaries;
 mod collection;
