@@ -46,13 +46,14 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
                 _ => grippers::grippers(step),
             };
             let file = format!("{name}_{:0digits$}.vtp", step.step);
-            let own = Part { time: step.time, part, file: file.clone() };
+            let own = Part { time: step.time, part, name, file: file.clone() };
             collection.parts.push(Part { part: 0, ..own.clone() });
             all.parts.push(own);
             files.push((file, data.at(step.time).bytes()));
         }
         if mold.is_some() {
-            all.parts.push(Part { time: step.time, part: series.len(), file: "mold.vtp".into() });
+            let (part, name) = (series.len(), "mold");
+            all.parts.push(Part { time: step.time, part, name, file: "mold.vtp".into() });
         }
     }
     files.extend(mold.map(|data| ("mold.vtp".to_owned(), data.bytes())));
