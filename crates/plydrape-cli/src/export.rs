@@ -33,20 +33,32 @@ enum Format {
     Csv,
     /// The figure: figure.svg.
     Svg,
+    /// Abaqus and CalculiX: ply.inp, shells, gripper motion and a rigid mold.
+    Inp,
+    /// ROS 2: trajectory.yaml, and trajectory.mcap, a bag with the ply's shape in it.
+    Ros2,
+    /// ParaView: drape.pvd and its parts.
+    Vtk,
 }
 
 impl Format {
     fn of(self) -> export::Format {
         match self {
             Format::Csv => export::Format::Csv,
+            Format::Inp => export::Format::Inp,
             Format::Svg => export::Format::Svg,
+            Format::Ros2 => export::Format::Ros2,
+            Format::Vtk => export::Format::Vtk,
         }
     }
 
     fn folder(self) -> &'static str {
         match self {
             Format::Csv => "csv",
+            Format::Inp => "inp",
             Format::Svg => "svg",
+            Format::Ros2 => "ros2",
+            Format::Vtk => "vtk",
         }
     }
 }

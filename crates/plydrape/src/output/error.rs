@@ -1,7 +1,9 @@
 //! Why results could not be written, and what to do about it.
 
 use super::figure::FigureError;
+use super::inp::InpError;
 use super::json::JsonError;
+use super::ros2::Ros2Error;
 use crate::motion::MotionError;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -58,9 +60,15 @@ pub enum OutputError {
     /// A motion cannot be sampled as asked for.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// The result has no ROS 2 messages.
+    #[error(transparent)]
+    Ros2(#[from] Ros2Error),
     /// The figure could not be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// The result cannot be an input deck.
+    #[error(transparent)]
+    Inp(#[from] InpError),
 }
 
 impl OutputError {

@@ -1,6 +1,6 @@
 //! Files for other programs, all made from a result alone.
 
-use super::{OutputError, csv, figure, folder};
+use super::{OutputError, csv, figure, folder, inp, ros2, vtk};
 use crate::draping::record::ResultFile;
 use std::path::{Path, PathBuf};
 
@@ -11,6 +11,12 @@ pub enum Format {
     Csv,
     /// The figure: `figure.svg`.
     Svg,
+    /// Abaqus and CalculiX: `ply.inp`, shells, gripper motion and a rigid mold.
+    Inp,
+    /// ROS 2: the trajectory as YAML, and a bag of it with the ply's markers.
+    Ros2,
+    /// VTK: series of ply, catenaries and grippers, and the mold.
+    Vtk,
 }
 
 /// Files by plain name, with their contents.
@@ -31,6 +37,9 @@ pub fn files(result: &ResultFile, format: Format) -> Result<Files, OutputError> 
             files.extend(csv::planned_motion(result)?.map(|motion| text("motion.csv", motion)));
             files
         }
+        Format::Ros2 => ros2::files(result)?,
+        Format::Vtk => vtk::files(result)?,
+        Format::Inp => vec![text("ply.inp", inp::text(result)?)],
         Format::Svg => {
             vec![text("figure.svg", figure::svg(result, &figure::default_steps(result))?)]
         }

@@ -8,7 +8,7 @@
 //! - `figure.svg`, three chosen steps in 3D ([`figure`]).
 //!
 //! [`plan`] puts the motion and the search's memory beside them, [`net`] does the same for a net, the ideal
-//! drape. [`table`] prints steps and verdict for people, [`folder`] writes files whole or not at all.
+//! drape. [`inp`] makes a deck for CalculiX and Abaqus. [`table`] prints steps and verdict for people, [`folder`] writes files whole or not at all.
 
 pub mod csv;
 mod error;
@@ -16,6 +16,8 @@ pub mod export;
 pub mod figure;
 mod finite;
 pub mod folder;
+mod ground;
+pub mod inp;
 pub mod json;
 mod manifest;
 mod measures;
@@ -23,8 +25,10 @@ pub mod net;
 pub mod page;
 pub mod plan;
 pub mod read;
+pub mod ros2;
 pub mod surface;
 pub mod table;
+pub mod vtk;
 
 #[cfg(test)]
 mod sample;

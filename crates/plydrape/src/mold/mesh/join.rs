@@ -52,6 +52,24 @@ pub(super) fn join(soup: &Soup, size: f64, report: &mut MeshReport) -> Joined {
     joined
 }
 
+impl Joined {
+    /// Numbers the vertices in the order in which the triangles, as they are turned now, use them: a mold that is
+    /// written and read again is numbered the same.
+    pub fn renumber(&mut self) {
+        let mut index = vec![u32::MAX; self.vertices.len()];
+        let mut vertices = Vec::with_capacity(self.vertices.len());
+        for corner in self.triangles.as_flattened_mut() {
+            let new = &mut index[*corner as usize];
+            if *new == u32::MAX {
+                *new = vertices.len() as u32;
+                vertices.push(self.vertices[*corner as usize]);
+            }
+            *corner = *new;
+        }
+        self.vertices = vertices;
+    }
+}
+
 fn has_area([a, b, c]: [u32; 3], [p, q, r]: [[f64; 3]; 3]) -> bool {
     let longest = distance(p, q).max(distance(q, r)).max(distance(r, p));
     let double_area = norm(cross(sub(q, p), sub(r, p)));

@@ -124,6 +124,7 @@ fn build(
     drop(soup);
     let mut neighbours = neighbours(&joined, file, noun)?;
     let (component, components) = orient(&mut joined, &mut neighbours, file, noun, &mut report)?;
+    joined.renumber();
     let fans = fan::split(&mut joined, &neighbours);
 
     let join::Joined { vertices, triangles, .. } = joined;

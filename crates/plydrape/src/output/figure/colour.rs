@@ -63,6 +63,11 @@ pub(super) fn viridis(share: f64) -> Ink {
     Ink([mix(0), mix(1), mix(2)], 1.0)
 }
 
+/// The same colour as red, green and blue.
+pub(in crate::output) fn viridis_rgb(share: f64) -> [u8; 3] {
+    viridis(share).0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -18,6 +18,9 @@ mod relief;
 pub mod shear_map;
 mod shorten;
 
+pub(super) use colour::viridis_rgb;
+pub(super) use panel::{colour_value, gripper_radius};
+
 use crate::draping::record::{ResultFile, Step};
 
 /// The most steps that one figure shows.

@@ -88,12 +88,12 @@ pub(super) fn curved(result: &ResultFile) -> Option<&Mold> {
 }
 
 /// What the ply's colour tells at a place (m): its gap to a curved mold, else its height.
-pub(super) fn colour_value(result: &ResultFile, p: Point) -> f64 {
+pub(in crate::output) fn colour_value(result: &ResultFile, p: Point) -> f64 {
     curved(result).map_or(p[2], |mold| mold.signed_distance(p).max(0.0))
 }
 
 /// Radius of a gripper's disc (m).
-pub(super) fn gripper_radius(result: &ResultFile) -> f64 {
+pub(in crate::output) fn gripper_radius(result: &ResultFile) -> f64 {
     let [a, b] = result.scene.cell;
     let side = if result.scene.grid.nv > 1 { a.min(b) } else { a };
     GRIPPER * side

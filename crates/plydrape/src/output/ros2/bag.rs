@@ -1,0 +1,95 @@
+//! The bag: an MCAP file of the `ros2` profile, as `rosbag2` writes it.
+//!
+//! Times in it count from the start of the drape, so that the same result gives the same bytes.
+
+use super::{Ros2Error, cdr, schema::Schema};
+use mcap::records::MessageHeader;
+use mcap::{WriteOptions, Writer};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::io::Cursor;
+
+/// Durability of a topic whose last message is kept for who comes later, and of one whose is not.
+const TRANSIENT_LOCAL: u8 = 1;
+pub(super) const VOLATILE: u8 = 2;
+
+/// A bag under way.
+pub(super) struct Bag {
+    writer: Writer<Cursor<Vec<u8>>>,
+    channels: BTreeMap<&'static str, Channel>,
+}
+
+struct Channel {
+    id: u16,
+    messages: u32,
+}
+
+impl Bag {
+    /// An empty bag.
+    pub fn new() -> Result<Self, Ros2Error> {
+        let options = WriteOptions::new().profile("ros2").library(crate::PROGRAM).compression(None);
+        let writer = options.create(Cursor::new(Vec::new()))?;
+        Ok(Bag { writer, channels: BTreeMap::new() })
+    }
+
+    /// Adds a topic of a durability.
+    pub fn channel(
+        &mut self,
+        topic: &'static str,
+        schema: Schema,
+        durability: u8,
+    ) -> Result<(), Ros2Error> {
+        let known = self.writer.add_schema(schema.name, "ros2msg", schema.text.as_bytes())?;
+        let offered = [("offered_qos_profiles".to_owned(), quality(durability))];
+        let id = self.writer.add_channel(known, topic, "cdr", &offered.into())?;
+        self.channels.insert(topic, Channel { id, messages: 0 });
+        Ok(())
+    }
+
+    /// Adds a topic and its one message, at the start, which late subscribers get too.
+    pub fn latched<T: Serialize>(
+        &mut self,
+        topic: &'static str,
+        schema: Schema,
+        message: &T,
+    ) -> Result<(), Ros2Error> {
+        self.channel(topic, schema, TRANSIENT_LOCAL)?;
+        self.write(topic, 0, message)
+    }
+
+    /// Adds a message to a topic at a time (ns).
+    pub fn write<T: Serialize>(
+        &mut self,
+        topic: &'static str,
+        time: u64,
+        message: &T,
+    ) -> Result<(), Ros2Error> {
+        let channel = self.channels.get_mut(topic).ok_or(Ros2Error::Topic(topic))?;
+        let header = MessageHeader {
+            channel_id: channel.id,
+            sequence: channel.messages,
+            log_time: time,
+            publish_time: time,
+        };
+        channel.messages += 1;
+        Ok(self.writer.write_to_known_channel(&header, &cdr::bytes(message)?)?)
+    }
+
+    /// The whole file.
+    pub fn finish(mut self) -> Result<Vec<u8>, Ros2Error> {
+        self.writer.finish()?;
+        Ok(self.writer.into_inner().into_inner())
+    }
+}
+
+/// How a publisher offers a topic, in the words of `rosbag2`: reliable, the last message kept, no deadline.
+///
+/// Numbers are those of `rmw`, which every version of `rosbag2` reads.
+fn quality(durability: u8) -> String {
+    let forever = "\n    sec: 9223372036\n    nsec: 854775807";
+    format!(
+        "- history: 1\n  depth: 1\n  reliability: 1\n  durability: {durability}\n  \
+         deadline:{forever}\n  lifespan:{forever}\n  liveliness: 1\n  \
+         liveliness_lease_duration:{forever}\n  avoid_ros_namespace_conventions: false\n"
+    )
+}

@@ -1,0 +1,39 @@
+//! Times as ROS 2 says them: whole nanoseconds.
+
+use super::Ros2Error;
+use super::message::Duration;
+
+const NANO: u64 = 1_000_000_000;
+
+/// The nanosecond nearest to a time (s) of a point.
+///
+/// # Errors
+/// [`Ros2Error::Time`] if it is before 0 or beyond what a message can say.
+pub(super) fn nanoseconds(point: usize, time: f64) -> Result<u64, Ros2Error> {
+    let whole = (time * NANO as f64).round();
+    if !(0.0..i32::MAX as f64 * NANO as f64).contains(&whole) {
+        return Err(Ros2Error::Time { point, time });
+    }
+    Ok(whole as u64)
+}
+
+/// The same time as a field of a message.
+pub(super) fn duration(nanoseconds: u64) -> Duration {
+    // checked above: below 2³¹ s
+    Duration { sec: (nanoseconds / NANO) as i32, nanosec: (nanoseconds % NANO) as u32 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 0.1 + 0.2 s is a little more than 0.3 s, by far less than a nanosecond.
+    #[test]
+    fn a_time_is_rounded_to_its_nearest_nanosecond() {
+        assert_eq!(nanoseconds(1, 0.1 + 0.2).unwrap(), 300_000_000);
+        assert_eq!(duration(12_000_000_034), Duration { sec: 12, nanosec: 34 });
+        for time in [-1e-9, 3e9, f64::NAN, f64::INFINITY] {
+            assert!(nanoseconds(1, time).is_err());
+        }
+    }
+}

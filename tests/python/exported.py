@@ -1,0 +1,100 @@
+"""Small drapes on a ball, simulated and planned, and what `plydrape export` makes of them."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from program import run
+
+RADIUS = 0.5
+SCENE = f"""
+title = "A ply on a ball"
+[ply]
+grippers = [4, 3]
+cell = ["100 mm", "80 mm"]
+material = "krogh2018"
+[mold]
+kind = "sphere"
+radius = {RADIUS}
+position = [0, 0, {-RADIUS}]
+[grippers]
+spacing = ["98 mm", "78 mm"]
+height = "50 mm"
+origin = "centred"
+direction = "20 deg"
+[target]
+seed = "middle"
+direction = "20 deg"
+[motion]
+kind = "straight"
+steps = 12
+duration = 3.3
+[plan]
+steps = 10
+evaluations = 2
+"""
+
+Numbers = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Result:
+    """A folder of results and what its result file says."""
+
+    folder: Path
+    content: dict[str, Any]
+
+    @property
+    def steps(self) -> list[dict[str, Any]]:
+        """Every step of the drape."""
+        steps: list[dict[str, Any]] = self.content["steps"]
+        return steps
+
+    @property
+    def ids(self) -> list[tuple[int, int]]:
+        """Grid indices of all grippers, in the order of the file."""
+        return [tuple(gripper["id"]) for gripper in self.steps[0]["grippers"]]
+
+    def table(self, name: str) -> tuple[Numbers, Numbers]:
+        """Times of a table of poses; x, y, z, qx, qy, qz, qw of all grippers at each."""
+        with (self.folder / name).open(newline="") as file:
+            rows = list(csv.reader(file))[1:]
+        count = len(self.ids)
+        assert [row[1] for row in rows[:count]] == [f"{i}-{j}" for i, j in self.ids]
+        numbers = np.array([[float(row[0]), *map(float, row[2:])] for row in rows])
+        numbers = numbers.reshape(-1, count, 8)
+        return numbers[:, 0, 0], numbers[:, :, 1:]
+
+    def export(self, kind: str) -> Path:
+        """The files of one kind, made from the result file alone."""
+        home = self.folder.parent / f"alone_{self.folder.name}_{kind}"
+        home.mkdir()
+        (home / "result.json").write_bytes((self.folder / "result.json").read_bytes())
+        run("export", str(home / "result.json"), "--to", kind, "-o", str(home / kind))
+        return home / kind
+
+
+def made(command: str, home: Path, text: str = SCENE) -> Result:
+    """The results of a scene by `simulate` or `plan`."""
+    (home / "scene.toml").write_text(text)
+    run(command, str(home / "scene.toml"), "-o", str(home / command), "--quiet")
+    content = json.loads((home / command / "result.json").read_text())
+    return Result(home / command, content)
+
+
+def stations(step: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str, list[list[float]]]]:
+    """Every drawn piece of every catenary: the catenary, `span` or `contact`, its points."""
+    for line in step["catenaries"]:
+        for span in line["spans"]:
+            # a rest of no length has no points
+            if span["points"]:
+                yield line, "span", span["points"]
+        if line["contact"]:
+            yield line, "contact", line["contact"]["points"]

@@ -1,0 +1,339 @@
+"""What ROS 2's own formats say of a drape: read by PyYAML, rosbags and mcap-ros2-support."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+from exported import RADIUS, SCENE, Numbers, Result, made, stations
+from mcap.reader import make_reader
+from mcap_ros2.decoder import DecoderFactory
+from rosbags.interfaces import QosDurability, QosReliability
+from rosbags.rosbag2 import Reader
+from rosbags.typesys import Stores, get_typestore
+from scipy.spatial.transform import Rotation
+
+TRAJECTORY = "trajectory_msgs/msg/MultiDOFJointTrajectory"
+MARKERS = "visualization_msgs/msg/MarkerArray"
+TOPICS = {
+    "/plydrape/trajectory": TRAJECTORY,
+    "/plydrape/mold": MARKERS,
+    "/plydrape/ply": MARKERS,
+}
+LATCHED = ["/plydrape/trajectory", "/plydrape/mold"]
+
+
+@dataclass(frozen=True)
+class Exported:
+    """A result and its files for ROS 2."""
+
+    result: Result
+    folder: Path
+
+    @property
+    def bag(self) -> Path:
+        """The bag."""
+        return self.folder / "trajectory.mcap"
+
+    def message(self) -> dict[str, Any]:
+        """The trajectory of the YAML file."""
+        message: dict[str, Any] = yaml.safe_load((self.folder / "trajectory.yaml").read_text())
+        return message
+
+    def decoded(self, topic: str) -> list[tuple[int, Any]]:
+        """Times (ns) and messages of a topic, by rosbags."""
+        store = get_typestore(Stores.ROS2_HUMBLE)
+        with Reader(self.bag) as reader:
+            chosen = [c for c in reader.connections if c.topic == topic]
+            return [
+                (time, store.deserialize_cdr(raw, connection.msgtype))
+                for connection, time, raw in reader.messages(connections=chosen)
+            ]
+
+
+def exported(command: str, home: Path) -> Exported:
+    """The results of the scene, and their files."""
+    result = made(command, home)
+    return Exported(result, result.export("ros2"))
+
+
+@pytest.fixture(scope="module")
+def simulated(tmp_path_factory: pytest.TempPathFactory) -> Exported:
+    """A drape along straight paths: only its steps are known."""
+    return exported("simulate", tmp_path_factory.mktemp("simulated"))
+
+
+@pytest.fixture(scope="module")
+def planned(tmp_path_factory: pytest.TempPathFactory) -> Exported:
+    """A plan: its motion is known at all times."""
+    return exported("plan", tmp_path_factory.mktemp("planned"))
+
+
+@pytest.fixture(params=["simulated", "planned"])
+def either(request: pytest.FixtureRequest) -> Exported:
+    """One after the other."""
+    found: Exported = request.getfixturevalue(request.param)
+    return found
+
+
+def table(export: Exported) -> tuple[Numbers, Numbers]:
+    """The poses that the trajectory shall hold: a plan's samples, a drape's steps."""
+    motion = export.result.folder / "motion.csv"
+    return export.result.table("motion.csv" if motion.exists() else "trajectory.csv")
+
+
+def pose(transform: Any) -> list[float]:
+    """A transform of either reader in the order of the tables."""
+    place, turn = transform.translation, transform.rotation
+    return [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
+
+
+def nanoseconds(duration: Any) -> int:
+    """A duration in nanoseconds."""
+    return int(duration.sec) * 1_000_000_000 + int(duration.nanosec)
+
+
+def test_the_yaml_holds_the_numbers_of_the_table(either: Exported) -> None:
+    """Every pose to the last bit, times to the nanosecond, one joint a gripper in order."""
+    message = either.message()
+    times, poses = table(either)
+    assert list(message) == ["header", "joint_names", "points"]
+    assert message["header"] == {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "mold"}
+    assert message["joint_names"] == [f"gripper_{i}_{j}" for i, j in either.result.ids]
+    found = [
+        [[*t["translation"].values(), *t["rotation"].values()] for t in point["transforms"]]
+        for point in message["points"]
+    ]
+    assert np.array_equal(np.array(found), poses)
+    clock = [p["time_from_start"] for p in message["points"]]
+    seconds = np.array([t["sec"] + 1e-9 * t["nanosec"] for t in clock])
+    assert np.abs(seconds - times).max() < 0.6e-9
+    assert seconds[0] == 0.0 and (np.diff(seconds) > 0).all()
+
+
+def test_rosbags_decodes_the_numbers_of_the_table(either: Exported) -> None:
+    """The message of the bag is that of the YAML file."""
+    [(time, message)] = either.decoded("/plydrape/trajectory")
+    times, poses = table(either)
+    assert time == 0 and message.header.frame_id == "mold"
+    assert message.joint_names == [f"gripper_{i}_{j}" for i, j in either.result.ids]
+    found = np.array([[pose(t) for t in point.transforms] for point in message.points])
+    assert np.array_equal(found, poses)
+    clock = [nanoseconds(point.time_from_start) for point in message.points]
+    assert clock == [round(t * 1e9) for t in times]
+    assert clock[0] == 0 and (np.diff(clock) > 0).all()
+
+    def vector(v: Any) -> dict[str, float]:
+        return {"x": v.x, "y": v.y, "z": v.z}
+
+    for found_point, written in zip(message.points, either.message()["points"], strict=True):
+        for name in ["velocities", "accelerations"]:
+            assert written[name] == [
+                {"linear": vector(twist.linear), "angular": vector(twist.angular)}
+                for twist in getattr(found_point, name)
+            ]
+
+
+def test_mcap_ros2_support_decodes_the_same_by_the_schemas_in_the_bag(either: Exported) -> None:
+    """A second reader, which knows the messages only from the bag."""
+    steps, seen = len(either.result.steps), dict.fromkeys(TOPICS, 0)
+    with either.bag.open("rb") as file:
+        reader = make_reader(file, decoder_factories=[DecoderFactory()])
+        assert reader.get_header().profile == "ros2"
+        for schema, channel, _, message in reader.iter_decoded_messages():
+            assert schema is not None and schema.name == TOPICS[channel.topic]
+            assert (schema.encoding, channel.message_encoding) == ("ros2msg", "cdr")
+            seen[channel.topic] += 1
+            if channel.topic == "/plydrape/trajectory":
+                found = np.array([[pose(t) for t in p.transforms] for p in message.points])
+                assert np.array_equal(found, table(either)[1])
+            if channel.topic == "/plydrape/ply":
+                discs = [m for m in message.markers if m.ns == "grippers"]
+                places = [[m.pose.position.x, m.pose.position.y, m.pose.position.z] for m in discs]
+                step = either.result.steps[seen[channel.topic] - 1]
+                assert places == [g["position"] for g in step["grippers"]]
+    assert seen == {"/plydrape/trajectory": 1, "/plydrape/mold": 1, "/plydrape/ply": steps}
+
+
+@pytest.mark.parametrize("distribution", ["HUMBLE", "JAZZY", "KILTED"])
+def test_another_encoder_writes_the_same_bytes(planned: Exported, distribution: str) -> None:
+    """Decoded and encoded again by rosbags' own definitions, a message is what it was.
+
+    What stands in the padding is nobody's business; both write zeros.
+    """
+    store = get_typestore(Stores[f"ROS2_{distribution}"])
+    with Reader(planned.bag) as reader:
+        assert {c.topic: c.msgtype for c in reader.connections} == TOPICS
+        for connection, _, raw in reader.messages():
+            message = store.deserialize_cdr(raw, connection.msgtype)
+            again = bytes(store.serialize_cdr(message, connection.msgtype))
+            assert again == bytes(raw), connection.topic
+
+
+def test_late_subscribers_get_what_is_sent_once(planned: Exported) -> None:
+    """Trajectory and mold are kept for them, shapes of the ply are not; none is lost."""
+    with Reader(planned.bag) as reader:
+        for connection in reader.connections:
+            [offered] = connection.ext.offered_qos_profiles  # type: ignore[union-attr]
+            latched = connection.topic in LATCHED
+            kept = QosDurability.TRANSIENT_LOCAL if latched else QosDurability.VOLATILE
+            assert offered.durability == kept
+            assert offered.reliability == QosReliability.RELIABLE
+
+
+def test_a_simulated_drape_has_no_velocities(simulated: Exported) -> None:
+    """Between its steps nothing is known."""
+    for point in simulated.message()["points"]:
+        assert point["velocities"] == [] and point["accelerations"] == []
+
+
+def linear(points: list[dict[str, Any]], name: str) -> Numbers:
+    """Linear vectors of all points and grippers."""
+    return np.array([[list(t["linear"].values()) for t in point[name]] for point in points])
+
+
+def angular(points: list[dict[str, Any]], name: str) -> Numbers:
+    """Angular vectors of all points and grippers."""
+    return np.array([[list(t["angular"].values()) for t in point[name]] for point in points])
+
+
+def test_velocities_are_the_differences_of_positions(planned: Exported) -> None:
+    """Central differences are off by h²/6 of the third derivative, the jerk, which has a limit.
+
+    The last sample is nearer than the others, so it is left out.
+    """
+    points = planned.message()["points"]
+    times, poses = table(planned)
+    h = times[1]
+    jerk = planned.result.content["scene"]["limits"]["jerk"]
+    places = poses[:, :, :3]
+    velocities, accelerations = linear(points, "velocities"), linear(points, "accelerations")
+    assert (velocities[[0, -1]] == 0).all() and (accelerations[0] == 0).all()
+    inner = slice(1, -2)
+    differences = (places[2:-1] - places[:-3]) / (2 * h)
+    error = np.linalg.norm(velocities[inner] - differences, axis=2).max()
+    # rounding of times to multiples of h: ten digits are left
+    assert error < jerk * h**2 / 6 * 1.01 + 1e-9
+    assert np.linalg.norm(velocities, axis=2).max() > 100 * error
+    differences = (velocities[2:-1] - velocities[:-3]) / (2 * h)
+    error = np.linalg.norm(accelerations[inner] - differences, axis=2).max()
+    # the jerk may jump by twice its bound between the samples
+    assert error < jerk * h / 2 * 1.01 + 1e-9
+    assert np.linalg.norm(accelerations, axis=2).max() > 3 * error
+
+
+def test_angular_velocities_are_the_differences_of_orientations(planned: Exported) -> None:
+    """SciPy's rotation vectors from sample to sample, in the fixed frame; at rest nothing turns."""
+    points = planned.message()["points"]
+    times, poses = table(planned)
+    velocities, accelerations = angular(points, "velocities"), angular(points, "accelerations")
+    for gripper in range(poses.shape[1]):
+        rotations = Rotation.from_quat(poses[:, gripper, 3:])
+        turns = (rotations[1:] * rotations[:-1].inv()).as_rotvec()
+        rates = turns / np.diff(times)[:, None]
+        spans = (times[2:] - times[:-2])[:, None]
+        mean = (turns[1:] + turns[:-1]) / spans
+        # quaternions are good to 1e-16, times apart by 1e-2 s
+        assert np.abs(velocities[1:-1, gripper] - mean).max() < 1e-12
+        change = 2 * np.diff(rates, axis=0) / spans
+        assert np.abs(accelerations[1:-1, gripper] - change).max() < 1e-9
+    assert np.abs(velocities).max() > 1e-3
+    for found in [velocities, accelerations]:
+        assert (found[[0, -1]] == 0).all()
+
+
+def by_name(message: Any) -> dict[tuple[str, int], Any]:
+    """Markers by namespace and number: no two have the same."""
+    markers = {(marker.ns, marker.id): marker for marker in message.markers}
+    assert len(markers) == len(message.markers)
+    return markers
+
+
+def coordinates(points: Any) -> Numbers:
+    """Points of a marker."""
+    return np.array([[p.x, p.y, p.z] for p in points]).reshape(-1, 3)
+
+
+def test_markers_are_the_shape_of_the_step_at_its_time(either: Exported) -> None:
+    """Discs, catenaries and contact lie where the result has them; the surface joins them."""
+    messages = either.decoded("/plydrape/ply")
+    steps = either.result.steps
+    assert [time for time, _ in messages] == [round(step["time"] * 1e9) for step in steps]
+    touched = False
+    for (_, message), step in zip(messages, steps, strict=True):
+        markers = by_name(message)
+        for number, gripper in enumerate(step["grippers"]):
+            disc = markers["grippers", number]
+            place, turn = disc.pose.position, disc.pose.orientation
+            assert [place.x, place.y, place.z] == gripper["position"]
+            assert [turn.x, turn.y, turn.z, turn.w] == gripper["quaternion"]
+            assert disc.type == 3 and disc.scale.z < 0.2 * disc.scale.x
+
+        pieces: dict[tuple[str, int], list[list[float]]] = {
+            ("catenaries", 0): [],
+            ("catenaries", 1): [],
+            ("contact", 0): [],
+        }
+        for line, kind, points in stations(step):
+            key = ("contact", 0)
+            if kind == "span":
+                key = ("catenaries", int(line["kind"] == "diagonal"))
+            for pair in pairwise(points):
+                pieces[key].extend(pair)
+        touches = [points[0] for _, _, points in stations(step) if len(points) == 1]
+        spots = markers["contact", 1]
+        assert spots.type == 7 and spots.action == (0 if touches else 2)
+        assert np.array_equal(coordinates(spots.points), np.array(touches).reshape(-1, 3))
+        touched |= bool(pieces["contact", 0])
+        for key, expected in pieces.items():
+            assert markers[key].type == 5
+            assert markers[key].action == (0 if expected else 2)
+            assert np.array_equal(
+                coordinates(markers[key].points), np.array(expected).reshape(-1, 3)
+            )
+
+        sheet = markers["ply", 0]
+        corners = coordinates(sheet.points)
+        assert sheet.type == 11 and len(corners) % 3 == 0 and len(sheet.colors) == len(corners)
+        # where the mold has caught the ply it lies on the mold, its gripper as near as that counts
+        near = either.result.content["scene"]["settings"]["contact"]["tolerance"]
+        for gripper in step["grippers"]:
+            assert np.linalg.norm(corners - gripper["position"], axis=1).min() <= near
+        a, b, c = corners.reshape(-1, 3, 3).swapaxes(0, 1)
+        assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+        assert all(marker.header.frame_id == "mold" for marker in message.markers)
+    assert touched
+
+
+def test_the_mold_is_in_the_bag_once(planned: Exported) -> None:
+    """Its corners lie on the sphere of the scene, and its triangles face the ply."""
+    [(time, message)] = planned.decoded("/plydrape/mold")
+    [mold] = message.markers
+    assert time == 0 and mold.type == 11
+    a, b, c = coordinates(mold.points).reshape(-1, 3, 3).swapaxes(0, 1)
+    for corner in [a, b, c]:
+        distance = np.linalg.norm(corner - [0, 0, -RADIUS], axis=1)
+        assert np.abs(distance - RADIUS).max() < 1e-9
+    assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+
+
+def test_a_strip_without_a_mold_has_neither_surface_nor_mold(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    """One strip between two grippers at rest: one point at time 0."""
+    home = tmp_path_factory.mktemp("strip")
+    text = SCENE.replace("[4, 3]", "[2, 1]").split("[mold]")[0]
+    text += '[grippers]\nspacing = ["98 mm", "98 mm"]\nheight = 0\n[motion]\nkind = "hold"\n'
+    result = made("simulate", home, text)
+    strip = Exported(result, result.export("ros2"))
+    with Reader(strip.bag) as reader:
+        assert {c.topic for c in reader.connections} == {"/plydrape/trajectory", "/plydrape/ply"}
+    [(_, message)] = strip.decoded("/plydrape/ply")
+    assert {marker.ns for marker in message.markers} == {"catenaries", "contact", "grippers"}
+    [(_, trajectory)] = strip.decoded("/plydrape/trajectory")
+    assert [nanoseconds(point.time_from_start) for point in trajectory.points] == [0]
