@@ -341,6 +341,7 @@ async function chartsHold(report, page) {
 
 async function prints(page) {
   await page.emulateMedia({ colorScheme: "dark" });
+  await page.waitForFunction(() => document.documentElement.dataset.theme === "dark");
   const paper = () =>
     page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue("--surface").trim());
   const dark = await paper();
