@@ -70,15 +70,16 @@ mod tests {
     use super::*;
     use crate::output::sample;
 
-    /// Three files a step, four collections and no mold; the same bytes again from the same result.
+    /// Three files a step, the mold and four collections; the same bytes again from the same result.
     #[test]
     fn the_same_result_gives_the_same_bytes() {
         let result = sample::draped(3, 2, 4);
         let first = files(&result).unwrap();
         let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names.len(), 3 * 4 + 4);
+        assert_eq!(names.len(), 3 * 4 + 1 + 4);
         assert_eq!(names[..3], ["ply_0001.vtp", "catenaries_0001.vtp", "grippers_0001.vtp"]);
-        assert_eq!(names[12..], ["ply.pvd", "catenaries.pvd", "grippers.pvd", "drape.pvd"]);
+        let rest = ["mold.vtp", "ply.pvd", "catenaries.pvd", "grippers.pvd", "drape.pvd"];
+        assert_eq!(names[12..], rest);
         assert!(first == files(&result).unwrap());
     }
 
