@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -167,7 +168,7 @@ def test_a_clamped_strip_bends_as_its_rigidity_says(strip: Drape, tmp_path: Path
 
 
 def test_the_section_has_the_ply_s_numbers(ply: Drape) -> None:
-    """E h³/12 is the rigidity, E h the axial stiffness per width, density times h the areal mass."""
+    """E h³/12 is the rigidity, E h the axial stiffness, density times h the mass, all per area."""
     moduli, density, h = ply.deck.section()
     assert moduli[:2] * h**3 / 12 == pytest.approx(RIGIDITY, rel=1e-8)
     assert moduli[:2] * h == pytest.approx(1e4 / 0.1, rel=1e-8)
@@ -206,7 +207,7 @@ def test_tables_lead_the_grippers_through_every_step(
 
 @pytest.mark.parametrize("name", ["ply", "strip", "dome"])
 def test_meshio_reads_the_deck(name: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
-    """Quadrilaterals of eight nodes cover the flat ply: as many as due, their areas add up to it."""
+    """Quadrilaterals of eight nodes cover the flat ply: as many as due, and no gap."""
     drape: Drape = request.getfixturevalue(name)
     (tmp_path / "ply.inp").write_text(drape.deck.text)
     mesh = meshio.read(tmp_path / "ply.inp")
@@ -229,18 +230,29 @@ def test_meshio_reads_the_deck(name: str, request: pytest.FixtureRequest, tmp_pa
 
 
 def test_calculix_takes_a_deck_with_a_mold(dome: Drape, tmp_path: Path) -> None:
-    """CalculiX reads all of the deck, and solves the first hundred thousandth of each step."""
+    """CalculiX reads all of the deck, and solves the first hundred thousandth of each step.
+
+    The grippers are then where their tables have them at that time.
+    """
     text, share = dome.deck.text, 1e-5
     assert text.count("*STEP") == 2 and "*CONTACT PAIR" in text
     lines = text.splitlines()
+    end = 0.0
     for k, line in enumerate(lines):
         if line.startswith("*STATIC"):
             period = share * float(lines[k + 1].split(",")[1])
             lines[k + 1] = f"{period}, {period}"
+            end += period
         if line.startswith("PLY, GRAV"):
             lines[k] = f"PLY, GRAV, {share * GRAVITY}, 0, 0, -1"
     found = ccx("\n".join([*lines, ""]), tmp_path)
-    assert np.isfinite(found["GRIPPERS U"]).all() and len(found["GRIPPERS U"]) == 16
+    moved = {int(row[0]): row[1:] for row in found["GRIPPERS U"]}
+    assert len(moved) == 16
+    for (i, j), (axis, letter) in product(product(range(4), repeat=2), enumerate("XYZ")):
+        (node,) = dome.deck.node_set(f"GRIPPER_{i}_{j}")
+        table = dome.deck.numbers("AMPLITUDE", NAME=f"MOVE_{i}_{j}_{letter}")
+        due = np.interp(end, table[0::2], table[1::2])
+        assert moved[node][axis] == pytest.approx(due, rel=1e-5, abs=1e-15)
 
 
 def test_a_sheet_rests_on_the_mold(tmp_path: Path) -> None:
