@@ -29,8 +29,15 @@ steps = 12
 evaluations = 2
 ";
 
-const FILES: [&str; 7] =
-    ["figure.svg", "motion.csv", "plan.json", "report.html", "result.json", "steps.csv", "trajectory.csv"];
+const FILES: [&str; 7] = [
+    "figure.svg",
+    "motion.csv",
+    "plan.json",
+    "report.html",
+    "result.json",
+    "steps.csv",
+    "trajectory.csv",
+];
 
 /// A scene in a folder of its own.
 fn scene(folder: &Path, text: &str) -> PathBuf {

@@ -28,7 +28,8 @@ fn result(folder: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(folder.join("result.json")).unwrap()).unwrap()
 }
 
-const FILES: [&str; 5] = ["figure.svg", "report.html", "result.json", "steps.csv", "trajectory.csv"];
+const FILES: [&str; 5] =
+    ["figure.svg", "report.html", "result.json", "steps.csv", "trajectory.csv"];
 
 #[test]
 fn exit_code_is_the_verdict() {

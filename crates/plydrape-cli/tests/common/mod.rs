@@ -1,5 +1,7 @@
 //! What tests of several commands share.
 
+#![allow(dead_code, reason = "each test uses its part")]
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 

@@ -9,7 +9,10 @@ use serde::{Deserialize, Serialize};
 /// Name of the format, the first key of every file of it.
 const FORMAT: &str = "plydrape-plan";
 /// Version of the format.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
+
+/// Positions (m) of all grippers, step by step.
+type Positions = Vec<Vec<[f64; 3]>>;
 
 /// The best of a search and how long it has searched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
