@@ -441,6 +441,7 @@ async function worksWithoutWebgl(report) {
   const plain = await startBrowser({ webgl: false });
   const { page, complaints } = await openReport(plain, report.file);
   assert.equal(await page.evaluate(() => window.plydrape.webgl), false);
+  assert.ok(await page.locator("#no-webgl").isVisible());
   assert.match(await page.locator("#no-webgl").innerText(), /cannot draw in 3D/);
   assert.ok(await page.locator(".limits").isVisible());
   assert.ok((await page.locator(".chart").count()) > 0);
