@@ -1,0 +1,82 @@
+"""Settings of the user guide: Sphinx with MyST Markdown; `scripts/guide` builds it."""
+
+from __future__ import annotations
+
+import html
+import re
+from typing import TYPE_CHECKING
+
+from docutils.nodes import SkipNode
+from docutils.utils.math import MathError
+from docutils.utils.math.latex2mathml import tex2mathml
+from sphinx.util import logging
+
+if TYPE_CHECKING:
+    from docutils import nodes
+    from sphinx.application import Sphinx
+    from sphinx.writers.html5 import HTML5Translator
+
+project = "plydrape"
+extensions = ["myst_parser"]
+include_patterns = ["index.md", "guide/*.md", "theory.md"]
+
+# Formulas between dollars, as GitHub shows them, and anchors at headings.
+myst_enable_extensions = ["dollarmath", "deflist"]
+myst_heading_anchors = 3
+
+html_theme = "furo"
+html_title = "plydrape"
+html_static_path = ["guide.css"]
+html_css_files = ["guide.css"]
+html_show_sphinx = False
+html_show_copyright = False
+html_copy_source = False
+html_math_renderer = "mathml"
+pygments_style = "a11y-high-contrast-light"
+pygments_dark_style = "a11y-high-contrast-dark"
+
+TAG = re.compile(r"\\tag\{(.*?)\}")
+
+# What `tex2mathml` does not know, in words that it does.
+SPELLINGS = [
+    (re.compile(r"\\tfrac(\d)(\d)"), r"\\frac{\1}{\2}"),
+    (re.compile(r"\\dots"), r"\\ldots"),
+    (re.compile(r"\\(?:[bB]ig|textstyle)(?![a-zA-Z])"), ""),
+]
+
+
+def setup(app: Sphinx) -> None:
+    """Formulas become MathML, which browsers draw without a script from elsewhere."""
+    app.add_html_math_renderer("mathml", (inline_formula, None), (formula, None))
+    app.connect("source-read", without_outer_links)
+
+
+def without_outer_links(_app: Sphinx, _page: str, source: list[str]) -> None:
+    """Names DESIGN.md instead of linking it: right on GitHub, but no page of the guide."""
+    source[0] = source[0].replace("[DESIGN.md](../DESIGN.md)", "`DESIGN.md`")
+
+
+def inline_formula(page: HTML5Translator, node: nodes.math) -> None:
+    """A formula within a line."""
+    page.body.append(mathml(node, block=False))
+    raise SkipNode
+
+
+def formula(page: HTML5Translator, node: nodes.math_block) -> None:
+    """A formula in a line of its own, its number at the right."""
+    number = TAG.search(node.astext())
+    shown = f'<span class="number">({html.escape(number[1])})</span>' if number else ""
+    page.body.append(f'<div class="formula">{mathml(node, block=True)}{shown}</div>\n')
+    raise SkipNode
+
+
+def mathml(node: nodes.Element, *, block: bool) -> str:
+    """The formula of a node; one that cannot be read is a warning, hence an error."""
+    text = TAG.sub("", node.astext())
+    for pattern, known in SPELLINGS:
+        text = pattern.sub(known, text)
+    try:
+        return str(tex2mathml(text, as_block=block))
+    except MathError as error:
+        logging.getLogger(__name__).warning("formula: %s", error, location=node)
+        return f"<code>{html.escape(text)}</code>"
