@@ -1,12 +1,13 @@
 """Reads the chapters of the user guide: commands, what they show, the files they write.
 
-- A block `console` holds commands behind `$ ` (a backslash continues a line) and below each what it
-  prints. `# exit 2` behind a command is the exit code it has to have; 0 if absent.
-- What is shown stands for all that is printed. A line `…` stands for any lines, `…` within a line for
-  any text. A command with nothing below it may print what it likes.
+- A block `console` holds commands behind `$ ` (a backslash continues a line) and below each what
+  it prints. `# exit 2` behind a command is the exit code it has to have; 0 if absent.
+- What is shown stands for all that is printed. A line `…` stands for any lines, `…` within a line
+  for any text. A command with nothing below it may print what it likes.
 - A block `{code-block}` with a `:caption:` is a file of that name.
-- Commands that are not run stand in a block `sh` below a comment `<!-- not run: why -->`. Those that
-  need a program which may be missing stand in a block `console` below `<!-- needs: program -->`.
+- Commands that are not run stand in a block `sh` below a comment `<!-- not run: why -->`. Those
+  that need a program which may be missing stand in a `console` block below
+  `<!-- needs: program -->`.
 """
 
 from __future__ import annotations
