@@ -7,7 +7,7 @@
 - A block `{code-block}` with a `:caption:` is a file of that name.
 - Commands that are not run stand in a block `sh` below a comment `<!-- not run: why -->`. Those
   that need a program which may be missing stand in a `console` block below
-  `<!-- needs: program -->`.
+  `<!-- needs: program program … -->`.
 """
 
 from __future__ import annotations
@@ -107,9 +107,9 @@ def take_caption(block: Block) -> None:
         block.line += 1
 
 
-def absent(block: Block) -> bool:
-    """Whether the program that the block needs is not on this machine."""
-    return block.needs is not None and shutil.which(block.needs) is None
+def absent(block: Block) -> list[str]:
+    """Programs that the block needs and that are not on this machine."""
+    return [name for name in (block.needs or "").split() if shutil.which(name) is None]
 
 
 def matches(shown: list[str], printed: str) -> bool:
