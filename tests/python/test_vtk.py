@@ -75,6 +75,8 @@ def collection(path: Path) -> list[tuple[float, int, str]]:
     """Times, parts and files of a series."""
     root = ET.parse(path).getroot()
     assert root.get("type") == "Collection"
+    for entry in root.iter("DataSet"):
+        assert entry.attrib["file"].startswith(entry.attrib["name"])
     return [
         (float(entry.attrib["timestep"]), int(entry.attrib["part"]), entry.attrib["file"])
         for entry in root.findall("./Collection/DataSet")

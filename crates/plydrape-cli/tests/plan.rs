@@ -1,5 +1,8 @@
 //! `plydrape plan` as a user calls it: what it takes, what it refuses, what it prints and writes.
 
+mod common;
+
+use common::{command, files, text, words};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -26,8 +29,15 @@ steps = 12
 evaluations = 2
 ";
 
-const FILES: [&str; 6] =
-    ["figure.svg", "motion.csv", "plan.json", "result.json", "steps.csv", "trajectory.csv"];
+const FILES: [&str; 7] = [
+    "figure.svg",
+    "motion.csv",
+    "plan.json",
+    "report.html",
+    "result.json",
+    "steps.csv",
+    "trajectory.csv",
+];
 
 /// A scene in a folder of its own.
 fn scene(folder: &Path, text: &str) -> PathBuf {
@@ -37,29 +47,7 @@ fn scene(folder: &Path, text: &str) -> PathBuf {
 }
 
 fn plan(scene: &Path, flags: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_plydrape"));
-    command.env("NO_COLOR", "1").stdin(Stdio::null()).arg("plan").arg(scene);
-    command.args(flags).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-/// A message without the line breaks that depend on the length of a path.
-fn words(bytes: &[u8]) -> String {
-    text(bytes).replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// Names of the files in a folder that are not hidden, sorted.
-fn files(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .filter(|name| !name.starts_with('.'))
-        .collect();
-    names.sort();
-    names
+    command().arg("plan").arg(scene).args(flags).output().unwrap()
 }
 
 #[test]
@@ -316,8 +304,8 @@ fn an_interrupt_leaves_complete_files_of_the_best_plan() {
     let limits = "\n[limits]\nworkspace = [[-1, 1], [-1, 1], [-1, \"60 mm\"]]\n";
     let long = SCENE.replace("evaluations = 2", "evaluations = 1000000");
     let scene = scene(folder.path(), &format!("{long}{limits}"));
-    let mut command = Command::new(env!("CARGO_BIN_EXE_plydrape"));
-    command.arg("plan").arg(&scene).arg("--json").stdin(Stdio::null());
+    let mut command = command();
+    command.arg("plan").arg(&scene).arg("--json");
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_millis(700));
     let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();

@@ -251,7 +251,7 @@ fn is_draped(example: &Example, what: &str) {
     let plan = planned(&scene);
     keeps_every_limit(&plan.drape.result, what);
     let folder = tempfile::tempdir().unwrap();
-    plan::write_all(&plan, 50.0, folder.path()).unwrap();
+    plan::write_all(&plan, folder.path()).unwrap();
     let followed = example.along(&folder.path().join("trajectory.csv")).scene();
     let result = drape(&followed);
     keeps_every_limit(&result, &format!("{what}, trajectory.csv"));
@@ -325,7 +325,7 @@ fn one_thread_and_two_write_the_same_bytes() {
         let plan = pool.install(|| planned(&scene));
         assert!(plan.evaluations > 10, "{} drapes: no evolution", plan.evaluations);
         let folder = tempfile::tempdir().unwrap();
-        let files = plan::write_all(&plan, 100.0, folder.path()).unwrap();
+        let files = plan::write_all(&plan, folder.path()).unwrap();
         files.iter().map(|file| std::fs::read(file).unwrap()).collect::<Vec<_>>()
     });
     assert!(one.len() == 6 && one == two);
@@ -338,7 +338,7 @@ fn is_explained(scene: &Scene) -> (Planned, Verdict) {
     assert!(!result.summary.accepted);
     assert_eq!(result.summary.steps, result.summary.steps_planned);
     let folder = tempfile::tempdir().unwrap();
-    let files = plan::write_all(&plan, scene.plan.rate, folder.path()).unwrap();
+    let files = plan::write_all(&plan, folder.path()).unwrap();
     assert!(files.len() == 6 && files.iter().all(|f| f.metadata().unwrap().len() > 100));
     let limiting = table::limiting(&result.summary.limits).expect("a limit").clone();
     assert!(!limiting.at.is_empty() && limiting.value.is_finite());

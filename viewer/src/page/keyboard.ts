@@ -9,7 +9,6 @@ import { modes } from "./toolbar";
 
 const HELP: [string, string][] = [
   ["← →", "step back, step on"],
-  ["Page up, Page down", "ten steps back, on"],
   ["Home, End", "first step, last step"],
   ["Space", "play, pause"],
   ["1 – 4", "colour by height, gap, shear, fibre direction"],
@@ -46,8 +45,6 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
     const acts: Record<string, () => void> = {
       ArrowLeft: () => state.goto(index - 1),
       ArrowRight: () => state.goto(index + 1),
-      PageUp: () => state.goto(index - 10),
-      PageDown: () => state.goto(index + 10),
       Home: () => state.goto(0),
       End: () => state.goto(state.count - 1),
       " ": () => player.toggle(),
@@ -80,6 +77,7 @@ function turn(key: string, eye: Eye | null): (() => void) | undefined {
 function ownKeys(event: KeyboardEvent): boolean {
   const at = event.target;
   if (!(at instanceof HTMLElement)) return false;
+  if (at instanceof HTMLPreElement) return event.key.startsWith("Arrow");
   if (at instanceof HTMLSelectElement) return event.key !== "?" && event.key !== "Escape";
   if (at instanceof HTMLButtonElement || at.tagName === "SUMMARY")
     return event.key === " " && at.id !== "play";

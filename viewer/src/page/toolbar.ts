@@ -51,6 +51,7 @@ export function linkToolbar(state: State, data: PageData, eye: Eye | null): void
 
   linkCheck(state, "diagonals");
   linkCheck(state, "mold");
+  byId("show-diagonals").parentElement!.hidden = data.geometry.diagonals.count === 0;
   byId("show-mold").parentElement!.hidden = data.geometry.mold === null;
 }
 

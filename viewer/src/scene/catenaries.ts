@@ -34,7 +34,7 @@ export class Catenaries {
     this.under = Uint32Array.from(under);
     const along = (count: number, length: number) => new Array<number>(count).fill(length);
     this.edges = new Lines([...along(nv, columns), ...along(nu, rows)], 1.9, push);
-    this.diagonals = new Lines(along(2 * (nu - 1) * (nv - 1), n + 1), 1.2, -pull);
+    this.diagonals = new Lines(along(motion.diagonals.count / (n + 1), n + 1), 1.2, -pull);
     this.group.add(this.diagonals.mesh, this.edges.mesh);
   }
 

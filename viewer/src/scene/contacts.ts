@@ -27,13 +27,15 @@ const FRAGMENT = /* glsl */ `
   }
 `;
 
-/** Diameter and line (CSS pixels). */
-const SIZE = 9;
-const LINE = 1.5;
+/** Diameter at most and at least, and line (CSS pixels). */
+const LARGEST = 9;
+const SMALLEST = 4;
+const LINE = 1.3;
 
 export class Contacts {
   readonly points: Points<BufferGeometry, ShaderMaterial>;
   private readonly position: BufferAttribute;
+  private size = LARGEST;
 
   constructor(
     private readonly motion: Motion,
@@ -50,7 +52,7 @@ export class Contacts {
       depthWrite: false,
       uniforms: {
         colour: { value: new Color() },
-        size: { value: SIZE },
+        size: { value: LARGEST },
         line: { value: LINE },
         push: { value: push },
       },
@@ -58,7 +60,7 @@ export class Contacts {
     this.points = new Points(geometry, material);
     this.points.frustumCulled = false;
     this.points.onBeforeRender = () => {
-      material.uniforms.size!.value = SIZE * pixelRatio.value;
+      material.uniforms.size!.value = this.size * pixelRatio.value;
       material.uniforms.line!.value = LINE * pixelRatio.value;
       material.uniformsNeedUpdate = true;
     };
@@ -66,6 +68,11 @@ export class Contacts {
 
   ink(colour: string): void {
     (this.points.material.uniforms.colour!.value as Color).copy(screenColour(colour));
+  }
+
+  /** Smaller circles where neighbouring grippers are less than so many CSS pixels apart. */
+  suit(apart: number): void {
+    this.size = Math.min(Math.max(apart / 15, SMALLEST), LARGEST);
   }
 
   moveTo(step: number): void {

@@ -18,6 +18,11 @@ import { MICRO, type Motion } from "../data/motion";
 import { screenColour } from "./lines";
 import { PROJECT } from "./shade";
 
+/** Thickness of a disc over its radius, one half. */
+const HALF = 0.06;
+/** Faces of the wall. */
+const FACES = 14;
+
 const VERTEX = /* glsl */ `
   attribute vec3 local;
   attribute vec3 axis;
@@ -41,7 +46,7 @@ const FRAGMENT = /* glsl */ `
   varying float vTowards;
   void main() {
     // The wall is dark, and so is the face that looks away.
-    if (abs(vLocal.z) < 0.0799 || vTowards < 0.0) {
+    if (abs(vLocal.z) < ${(0.999 * HALF).toFixed(5)} || vTowards < 0.0) {
       if (length(vLocal.xy) > 0.941) discard;
       gl_FragColor = vec4(colour, 1.0);
       return;
@@ -50,14 +55,9 @@ const FRAGMENT = /* glsl */ `
     float soft = clamp(fwidth(r), 0.001, 0.5);
     float inside = clamp((1.0 - r) / soft + 0.5, 0.0, 1.0);
     if (inside < 0.02) discard;
-    gl_FragColor = vec4(mix(colour, rim, clamp((r - 0.87) / soft + 0.5, 0.0, 1.0)), inside);
+    gl_FragColor = vec4(mix(colour, rim, clamp((r - 0.89) / soft + 0.5, 0.0, 1.0)), inside);
   }
 `;
-
-/** Thickness of a disc over its radius, one half. */
-const HALF = 0.08;
-/** Faces of the wall. */
-const FACES = 14;
 
 export class Grippers {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;

@@ -49,7 +49,8 @@ export class Overlay {
     for (const label of this.box.labels(this.eye)) {
       pen.font = label.name ? `12px ${FONT}` : `11px ${FONT}`;
       pen.fillStyle = themeColour(label.name ? "text" : "text-quiet");
-      pen.fillText(label.text, label.x, label.y);
+      const half = pen.measureText(label.text).width / 2 + 4;
+      pen.fillText(label.text, Math.min(Math.max(label.x, half), width - half), label.y);
     }
     if (pointer !== null) this.point(pen, pointer, width, height);
   }

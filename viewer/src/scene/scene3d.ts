@@ -62,10 +62,10 @@ export class Scene3d {
 
     this.surface = new PlySurface(motion, 0.003 * size);
     this.catenaries = new Catenaries(motion, 0.0005 * size, 0.02 * size);
-    this.grippers = new Grippers(motion, 0.1 * motion.spacing, -0.004 * size);
+    this.grippers = new Grippers(motion, Math.min(0.1 * motion.spacing, 0.03 * size), -0.004 * size);
     this.contacts = new Contacts(motion, -0.003 * size);
-    this.mold = mold === null ? null : new Mold(mold, 0.008 * size);
-    this.box = new AxesBox(bounds, 0.012 * size);
+    this.mold = mold === null ? null : new Mold(mold, 0.02 * size);
+    this.box = new AxesBox(bounds, 0.03 * size);
     this.catenaries.order = 3;
     this.contacts.points.renderOrder = 4;
     this.grippers.mesh.renderOrder = 5;
@@ -156,6 +156,7 @@ export class Scene3d {
     const apart = zoom * this.motion.spacing;
     this.surface.showThreads(apart / this.motion.data.divisions);
     this.catenaries.suit(apart);
+    this.contacts.suit(apart);
     this.grippers.showWalls(zoom);
     this.box.turn(this.eye);
     this.renderer.render(this.scene, this.eye.camera);

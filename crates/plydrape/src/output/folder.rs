@@ -28,7 +28,7 @@ pub fn write(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, Output
 /// The same, but files of an earlier run that are not written now stay.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn add(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
     put(dir, files, false)
 }

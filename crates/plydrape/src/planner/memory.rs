@@ -9,7 +9,10 @@ use serde::{Deserialize, Serialize};
 /// Name of the format, the first key of every file of it.
 const FORMAT: &str = "plydrape-plan";
 /// Version of the format.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
+
+/// Positions (m) of all grippers, step by step.
+type Positions = Vec<Vec<[f64; 3]>>;
 
 /// The best of a search and how long it has searched.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,7 +30,7 @@ pub struct Memory {
     pub strategy: Option<Strategy>,
     /// What the best plan has, positions (m) of all grippers step by step: its strategy's, single grippers
     /// refined.
-    positions: Vec<Vec<[f64; 3]>>,
+    positions: Positions,
 }
 
 impl Memory {
@@ -37,7 +40,7 @@ impl Memory {
         scene: &Scene,
         evaluations: usize,
         strategy: Option<Strategy>,
-        positions: Vec<Vec<[f64; 3]>>,
+        positions: Positions,
     ) -> Self {
         let Grid { nu, nv } = scene.ply.grid;
         Memory {
@@ -52,7 +55,7 @@ impl Memory {
     }
 
     /// The strategy to go on from, and its positions if they lead from the scene's start to its target.
-    pub(super) fn path(&self, scene: &Scene) -> Option<(Strategy, Option<Vec<Vec<[f64; 3]>>>)> {
+    pub(super) fn path(&self, scene: &Scene) -> Option<(Strategy, Option<Positions>)> {
         let (start, target) = (scene.motion.positions.first()?, &scene.target.as_ref()?.grippers);
         let ends = [self.positions.first(), self.positions.last()] == [Some(start), Some(target)];
         let steps = self.positions.len() == scene.plan.steps;

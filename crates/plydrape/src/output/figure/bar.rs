@@ -4,6 +4,7 @@ use super::FigureError;
 use super::axes::{self, plain};
 use super::canvas::{Canvas, Px};
 use super::colour::{FRAME, viridis};
+use super::scale::Scale;
 
 /// Greatest length (picture points).
 const LENGTH: f64 = 340.0;
@@ -14,7 +15,7 @@ const WIDTH: f64 = 16.0;
 pub(super) fn bar(
     canvas: &mut Canvas,
     name: &str,
-    [low, high]: [f64; 2],
+    scale: Scale,
     left: f64,
     [top, bottom]: Px,
 ) -> Result<(), FigureError> {
@@ -28,8 +29,8 @@ pub(super) fn bar(
         let slice = [[left, y], [right, y], [right, top], [left, top]];
         canvas.polygon(&slice, viridis((f64::from(k) + 0.5) / f64::from(slices)))?;
     }
-    for tick in axes::round(low, high, length / 42.0) {
-        let y = top + length * (high - tick) / (high - low);
+    for tick in scale.ticks(length / 42.0) {
+        let y = top + length * (1.0 - scale.share(tick));
         canvas.line(&[[right, y], [right + 4.0, y]], FRAME, 1.0)?;
         canvas.text(&axes::label(tick), [right + 8.0, y], plain(axes::TICK, -1))?;
     }

@@ -7,6 +7,7 @@ use super::colour::{BLACK, DARK, RED, TARGET};
 use super::panel::{Ground, MOST_MARK, Stage, colour_value, curved, gripper_radius};
 use super::projection::{Point, View};
 use super::relief::Relief;
+use super::scale::Scale;
 use super::{FigureError, points};
 use crate::draping::record::{ResultFile, Step};
 use crate::mold::Mold;
@@ -24,6 +25,8 @@ const LEGEND: f64 = 42.0;
 /// How far a curved mold is drawn beyond the ply, and at most below and above it, as shares of the width.
 const MARGIN: f64 = 0.1;
 const DEEP: f64 = 0.35;
+/// Gap up to which the ply counts as touching in a picture (m): the low end of its colours.
+const TOUCHING: f64 = 1e-4;
 
 /// Draws the whole sheet.
 pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, FigureError> {
@@ -41,7 +44,12 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
 
     let mut text = String::new();
     let mut canvas = Canvas::new(&mut text, size)?;
-    canvas.text(&title(&result.scene.title), [28.0, 26.0], heading(17.0))?;
+    let planned = if result.plan.is_some() { ", planned" } else { "" };
+    canvas.text(
+        &title(&format!("{}{planned}", result.scene.title)),
+        [28.0, 26.0],
+        heading(17.0),
+    )?;
     let free = PANELS - ROOM[0] - ROOM[2] - wide * scale;
     for (k, step) in steps.iter().enumerate() {
         let top = HEAD + panel * k as f64;
@@ -54,7 +62,7 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
     if result.scene.grid.cells() > 0 {
         let name = if curved(result).is_some() { "gap (mm)" } else { "z (mm)" };
         let between = [HEAD + 40.0, size[1] - LEGEND - 24.0];
-        bar(&mut canvas, name, stage.scale.map(|v| v * 1e3), PANELS + 24.0, between)?;
+        bar(&mut canvas, name, stage.scale.times(1e3), PANELS + 24.0, between)?;
     }
     legend(&mut canvas, &stage, steps, size[1] - LEGEND / 2.0 - 4.0)?;
     canvas.finish()?;
@@ -73,7 +81,7 @@ pub(super) fn title(title: &str) -> String {
     title.chars().take(79).chain(['…']).collect()
 }
 
-/// `iteration 26 — first contact`.
+/// `Step 26 — first contact`.
 fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
     let number = step.step;
     let what = if result.summary.first_contact_step == Some(number) {
@@ -93,21 +101,22 @@ fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
         (Some(_), Some(gap)) => format!("  (gap to the mold up to {:.1} mm)", gap.value),
         _ => String::new(),
     };
-    format!("iteration {number}{what}{note}{gap}")
+    format!("Step {number}{what}{note}{gap}")
 }
 
 /// Box, colour scale and mold patch that hold all shown steps.
 fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
     let shown: Vec<Point> = steps.iter().flat_map(|s| points(s)).collect();
     let [bottom, top] = bounds(&shown);
-    let mut scale = match curved(result) {
-        None => [bottom[2], top[2]],
-        // a gap scale begins where the ply lies on the mold
-        Some(_) => [0.0, shown.iter().map(|p| colour_value(result, *p)).fold(1e-4, f64::max)],
+    let scale = match curved(result) {
+        None if top[2] - bottom[2] < 1e-5 => Scale::Even([bottom[2] - 5e-4, top[2] + 5e-4]),
+        None => Scale::Even([bottom[2], top[2]]),
+        Some(_) => {
+            let most =
+                shown.iter().map(|p| colour_value(result, *p)).fold(10.0 * TOUCHING, f64::max);
+            Scale::Orders([TOUCHING, most])
+        }
     };
-    if scale[1] - scale[0] < 1e-5 {
-        scale = [scale[0] - 5e-4, scale[1] + 5e-4];
-    }
     let finite = |p: &&Point| p.iter().all(|c| c.is_finite() && c.abs() < 1e6);
     let target = result.scene.target_grippers.iter().flatten().filter(finite);
     let all: Vec<Point> = shown.iter().chain(target).copied().collect();
@@ -135,7 +144,7 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
         high[2] = low[2] + least;
     }
     let stretch = match curved(result) {
-        None => exaggeration(high[2] - low[2], across, scale[1] - scale[0]),
+        None => exaggeration(high[2] - low[2], across, top[2] - bottom[2]),
         Some(_) => 1.0,
     };
     Stage { result, frame: Frame { low, high, stretch }, panels: steps.len(), scale, mold }

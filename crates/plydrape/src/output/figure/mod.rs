@@ -15,6 +15,7 @@ mod panel;
 mod piece;
 mod projection;
 mod relief;
+mod scale;
 pub mod shear_map;
 mod shorten;
 

@@ -8,6 +8,7 @@ use super::layout::bounds;
 use super::piece::{self, Form, Piece, grown, thread};
 use super::projection::{Point, View, turned};
 use super::relief::Relief;
+use super::scale::Scale;
 use crate::draping::record::{Gripper, Hold, ResultFile, SpanState, Step};
 use crate::mold::Mold;
 use crate::output::surface;
@@ -58,8 +59,8 @@ pub(super) struct Stage<'a> {
     pub frame: Frame,
     /// Panels on the sheet.
     pub panels: usize,
-    /// Values of the colour scale's ends (m).
-    pub scale: [f64; 2],
+    /// What the ply's colours stand for (m).
+    pub scale: Scale,
     /// The patch of mold that is shown.
     pub mold: Option<Ground>,
 }
@@ -234,13 +235,12 @@ impl Stage<'_> {
     /// A piece of surface in the colour of its middle, grown by a hair so that no seam shows.
     fn square(&self, view: &View, corners: [Point; 4]) -> Piece {
         let mean = |of: &dyn Fn(Point) -> f64| corners.iter().map(|p| of(*p)).sum::<f64>() / 4.0;
-        let [low, high] = self.scale;
         let place = [0, 1, 2].map(|c| mean(&|p| p[c]));
         Piece {
             depth: mean(&|p| view.depth(p)),
             place,
             points: grown(&corners.map(|p| view.at(p))),
-            ink: viridis((colour_value(self.result, place) - low) / (high - low)),
+            ink: viridis(self.scale.share(colour_value(self.result, place))),
             form: Form::Area,
         }
     }

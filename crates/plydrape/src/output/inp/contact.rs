@@ -1,6 +1,7 @@
 //! The mold as a rigid surface of triangles, and its contact with the ply.
 //!
-//! The mold is taken over the rectangle in which the grippers move and half a cell around it. Contact is without friction
+//! It is rigid because every node of it is held. (CalculiX knows no R3D3, and its `*RIGID BODY` ends in a crash on some
+//! thousand shells.) The mold is taken over the rectangle in which the grippers move and half a cell around it. Contact is without friction
 //! and, as a penalty, linear: the ply lying on the mold under its own weight is pressed in by a tenth of the model's
 //! contact tolerance.
 
@@ -15,7 +16,7 @@ const TRIANGLES: usize = 2000;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RigidMold {
     surface: Triangles,
-    /// Thickness (m) of its shells, half of which stands out of the surface; the contact takes it off again.
+    /// Thickness (m) of its shells, half of which stands out of the surface.
     thickness: f64,
     /// Pressure per depth (Pa/m).
     stiffness: f64,
@@ -41,21 +42,22 @@ impl RigidMold {
         self.surface.triangles.len()
     }
 
-    /// Nodes and elements, numbered on from those of the ply; the reference node is the last one.
-    pub fn mesh(&self, nodes: usize, elements: usize, deck: &mut Deck) {
-        deck.line("*NODE, NSET=MOLD_NODES");
+    /// Node lines, numbered on from the ply's.
+    pub fn nodes(&self, nodes: usize, deck: &mut Deck) {
         for (k, vertex) in self.surface.vertices.iter().enumerate() {
             deck.node(nodes + 1 + k, *vertex);
         }
+    }
+
+    /// Elements, numbered on from those of the ply, and what makes them rigid: every node is held.
+    pub fn elements(&self, nodes: usize, elements: usize, deck: &mut Deck) {
         deck.line("*ELEMENT, TYPE=S3, ELSET=MOLD");
         for (k, corners) in self.surface.triangles.iter().enumerate() {
             let [a, b, c] = corners.map(|n| nodes + 1 + n as usize);
             deck.list(&[elements + 1 + k, a, b, c]);
         }
-        let reference = nodes + 1 + self.surface.vertices.len();
-        deck.line("*NODE, NSET=MOLD_REFERENCE");
-        let first = self.surface.vertices.first().copied().unwrap_or_default();
-        deck.node(reference, first);
+        deck.line("*NSET, NSET=MOLD_NODES, GENERATE");
+        deck.list(&[nodes + 1, nodes + self.surface.vertices.len()]);
         deck.line("*MATERIAL, NAME=RIGID");
         deck.line("*ELASTIC");
         deck.line("2.1e11, 0.3");
@@ -63,9 +65,8 @@ impl RigidMold {
         deck.line("7850.0");
         deck.line("*SHELL SECTION, ELSET=MOLD, MATERIAL=RIGID");
         deck.line(&number(self.thickness));
-        deck.line(&format!("*RIGID BODY, ELSET=MOLD, REF NODE={reference}"));
         deck.line("*BOUNDARY");
-        deck.line(&format!("{reference}, 1, 6"));
+        deck.line("MOLD_NODES, 1, 3");
     }
 
     /// Surfaces, their interaction and the pair: the ply's lower side is the slave of the mold's upper one.

@@ -21,7 +21,7 @@ pub(super) fn write(
 ) {
     let scene = &result.scene;
     paragraph(deck, &format!("Ply between grippers: {}", scene.title));
-    paragraph(deck, &format!("Written by plydrape {} from its result file.", result.program));
+    paragraph(deck, &format!("Written from the result file of {}.", result.program));
     paragraph(deck, "For CalculiX (ccx) and Abaqus/Standard. Units: m, kg, s, N, Pa. z is up.");
 
     heading(deck, "What the deck carries");
@@ -69,7 +69,7 @@ pub(super) fn write(
         Some(mold) => paragraph(
             deck,
             &format!(
-                "Mold: {} triangles, rigid, around the grippers' motion; contact without friction.",
+                "Mold: {} triangles around the grippers' motion, held in every node; contact without friction. In Abaqus a *RIGID BODY of the set MOLD does the same faster.",
                 mold.triangles()
             ),
         ),

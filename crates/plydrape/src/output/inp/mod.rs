@@ -10,7 +10,7 @@
 //! - `header`: what the deck carries and what not, in words and numbers, as comments.
 //!
 //! Every keyword is one that both programs know. Where they differ, the deck writes what both take: the mold is made of
-//! S3 shells in a `*RIGID BODY` (CalculiX has no R3D3), the orthotropic stiffness is given as `ENGINEERING CONSTANTS`,
+//! S3 shells held in every node (CalculiX has no R3D3), the orthotropic stiffness is given as `ENGINEERING CONSTANTS`,
 //! increments are controlled by `*CONTROLS` and not by `STABILIZE`. CalculiX makes a brick of 20 nodes of each shell.
 //!
 //! **Sag beside the model's.** The paper's ply, 4 × 2 grippers 98 mm apart on cells of 100 mm, sags by 9.2 mm at the mid
@@ -69,35 +69,43 @@ pub fn text(result: &ResultFile) -> Result<String, OutputError> {
     header::write(result, &mesh, &section, mold.as_ref(), &mut deck);
     deck.line("*HEADING");
     deck.line("Ply between grippers, by plydrape");
-    ply(&mesh, &pose, &mut deck);
+    nodes(&mesh, &pose, mold.as_ref(), &mut deck);
+    elements(&mesh, &mut deck);
     tracks.node_sets(&mesh, &mut deck);
     middles(result, &mesh, &mut deck);
     material(&section, scene.warp, &pose, &mut deck);
     if let Some(mold) = &mold {
-        mold.mesh(mesh.nodes(), mesh.count[0] * mesh.count[1], &mut deck);
+        mold.elements(mesh.nodes(), mesh.count[0] * mesh.count[1], &mut deck);
         mold.pair(&mut deck);
     }
     tracks.amplitudes(&mut deck);
 
     let gravity = format!("PLY, GRAV, {}, 0.0, 0.0, -1.0", number(scene.settings.gravity));
-    step("HANG", HANG, &mut deck);
+    step("HANG", HANG, 1e-3, &mut deck);
     deck.line("*DLOAD");
     deck.line(&gravity);
     tracks.boundary(&mut deck);
     output(&mut deck);
     if let Some(time) = tracks.lay_time() {
-        step("LAY", time, &mut deck);
+        step("LAY", time, 1e-2, &mut deck);
         output(&mut deck);
     }
     Ok(deck.text)
 }
 
-/// Nodes and elements of the flat ply in its first place.
-fn ply(mesh: &Mesh, pose: &Pose, deck: &mut Deck) {
-    deck.line("*NODE, NSET=PLY");
+/// Nodes of the flat ply in its first place and, in the same block, which some readers ask for, of the mold.
+fn nodes(mesh: &Mesh, pose: &Pose, mold: Option<&RigidMold>, deck: &mut Deck) {
+    deck.line("*NODE");
     for (k, place) in mesh.places().enumerate() {
         deck.node(k + 1, pose.place(place));
     }
+    if let Some(mold) = mold {
+        mold.nodes(mesh.nodes(), deck);
+    }
+}
+
+/// Elements of the ply.
+fn elements(mesh: &Mesh, deck: &mut Deck) {
     deck.line("*ELEMENT, TYPE=S8R, ELSET=PLY");
     for (k, nodes) in mesh.elements().enumerate() {
         let mut ids = vec![k + 1];
@@ -133,13 +141,14 @@ fn material(section: &ShellSection, warp: crate::ply::Direction, pose: &Pose, de
     deck.numbers([section.thickness]);
 }
 
-/// Opens a step of a given time (s): increments may shrink to a millionth of it, and take more iterations than usual,
-/// since a slack sheet is hard to bring to rest.
-fn step(name: &str, time: f64, deck: &mut Deck) {
+/// Opens a step of a given time (s) whose `first` increment is a share of it: increments may shrink to 10⁻⁷ of it and
+/// take more iterations than usual, since a slack sheet is hard to bring to rest. A flat one has no stiffness against its
+/// weight but its bending, so that hanging begins with a thousandth.
+fn step(name: &str, time: f64, first: f64, deck: &mut Deck) {
     deck.comment(name);
     deck.line("*STEP, NLGEOM, INC=10000");
     deck.line("*STATIC");
-    deck.numbers([0.01, 1.0, 1e-7, 0.1].map(|share| share * time));
+    deck.numbers([first, 1.0, 1e-7, 0.1].map(|share| share * time));
     deck.line("*CONTROLS, PARAMETERS=TIME INCREMENTATION");
     deck.line("10, 20, 9, 30, 10, 4, , 10");
     deck.line("0.25, 0.5, 0.75, 0.85, , , 1.5");

@@ -183,13 +183,12 @@ fn normal(gripper: &Gripper) -> [f64; 3] {
 /// warp. A fibre has no sign; angles stay within 90° of the warp at the first gripper of the first step.
 fn directions(result: &ResultFile, step: &Step) -> Vec<f64> {
     let grid = result.scene.grid;
-    let [along, beside] = match result.scene.warp {
+    let [[a, b], [c, d]] = match result.scene.warp {
         Direction::U => [[1, 0], [0, 1]],
         Direction::V => [[0, 1], [1, 0]],
     };
     let angle = |step: &Step, [i, j]: [usize; 2]| {
         let at = |di: usize, dj: usize| step.grippers[grid.index([i + di, j + dj])].position;
-        let ([a, b], [c, d]) = (along.into(), beside.into());
         let edges = [[at(0, 0), at(a, b)], [at(c, d), at(a + c, b + d)]];
         let sum = |n: usize| edges.iter().map(|[from, to]| to[n] - from[n]).sum::<f64>();
         sum(1).atan2(sum(0)).to_degrees()

@@ -10,9 +10,9 @@
 //! | [`MOLD`] | `visualization_msgs/msg/MarkerArray`, the mold | once, at the start, if there is a mold |
 //! | [`PLY`] | `visualization_msgs/msg/MarkerArray`: surface, catenaries, contact, grippers | every step, at its time |
 //!
-//! Metres, seconds, radians; z up; the frame [`FRAME`] is that of the scene. [`message`] holds the messages as
-//! Rust types, [`cdr`] and [`bag`] their bytes, [`schema`] their definitions, [`trajectory`] and [`markers`] fill
-//! them from a result.
+//! Metres, seconds, radians; z up; the frame [`FRAME`] is that of the scene. `message` holds the messages as
+//! Rust types, `cdr` and `bag` their bytes, `schema` their definitions; `trajectory` and `markers` fill them from a
+//! result.
 
 mod bag;
 mod cdr;

@@ -15,6 +15,8 @@ pub(super) struct Part {
     pub time: f64,
     /// Number of the part, of those that share a time.
     pub part: usize,
+    /// Its name, as ParaView lists it.
+    pub name: &'static str,
     /// Name of the file, beside the collection.
     pub file: String,
 }
@@ -26,10 +28,10 @@ impl Collection {
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" \
              byte_order=\"LittleEndian\">\n<Collection>\n",
         );
-        for Part { time, part, file } in &self.parts {
+        for Part { time, part, name, file } in &self.parts {
             let _ = writeln!(
                 text,
-                "<DataSet timestep=\"{time:?}\" group=\"\" part=\"{part}\" file=\"{file}\"/>"
+                "<DataSet timestep=\"{time:?}\" group=\"\" part=\"{part}\" name=\"{name}\" file=\"{file}\"/>"
             );
         }
         text.push_str("</Collection>\n</VTKFile>\n");

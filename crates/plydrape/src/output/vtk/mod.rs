@@ -2,15 +2,15 @@
 //!
 //! | files | what |
 //! |---|---|
-//! | `ply.pvd`, `ply_0001.vtp` … | the ply's surface in quads ([`ply`]); none of a strip |
-//! | `catenaries.pvd`, `catenaries_0001.vtp` … | every catenary in its pieces ([`catenaries`]) |
-//! | `grippers.pvd`, `grippers_0001.vtp` … | a point for each gripper ([`grippers`]) |
-//! | `mold.vtp` | the mold under the drape ([`mold`]), if there is one |
+//! | `ply.pvd`, `ply_0001.vtp` … | the ply's surface in quads (`ply`); none of a strip |
+//! | `catenaries.pvd`, `catenaries_0001.vtp` … | every catenary in its pieces (`catenaries`) |
+//! | `grippers.pvd`, `grippers_0001.vtp` … | a point for each gripper (`grippers`) |
+//! | `mold.vtp` | the mold under the drape (`mold`), if there is one |
 //! | `drape.pvd` | all of them as parts of one series |
 //!
 //! A number in a file's name is that of its step. Points are in metres, z up; arrays say their unit in their
 //! names (`slack_mm`). No array holds NaN: what is not known is 0, and an array beside it says so
-//! (`has_force`). [`polydata`] and [`collection`] write the formats.
+//! (`has_force`). `polydata` and `collection` write the formats.
 
 mod catenaries;
 mod collection;
@@ -46,13 +46,14 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
                 _ => grippers::grippers(step),
             };
             let file = format!("{name}_{:0digits$}.vtp", step.step);
-            let own = Part { time: step.time, part, file: file.clone() };
+            let own = Part { time: step.time, part, name, file: file.clone() };
             collection.parts.push(Part { part: 0, ..own.clone() });
             all.parts.push(own);
             files.push((file, data.at(step.time).bytes()));
         }
         if mold.is_some() {
-            all.parts.push(Part { time: step.time, part: series.len(), file: "mold.vtp".into() });
+            let (part, name) = (series.len(), "mold");
+            all.parts.push(Part { time: step.time, part, name, file: "mold.vtp".into() });
         }
     }
     files.extend(mold.map(|data| ("mold.vtp".to_owned(), data.bytes())));
@@ -69,15 +70,16 @@ mod tests {
     use super::*;
     use crate::output::sample;
 
-    /// Three files a step, four collections and no mold; the same bytes again from the same result.
+    /// Three files a step, the mold and four collections; the same bytes again from the same result.
     #[test]
     fn the_same_result_gives_the_same_bytes() {
         let result = sample::draped(3, 2, 4);
         let first = files(&result).unwrap();
         let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names.len(), 3 * 4 + 4);
+        assert_eq!(names.len(), 3 * 4 + 1 + 4);
         assert_eq!(names[..3], ["ply_0001.vtp", "catenaries_0001.vtp", "grippers_0001.vtp"]);
-        assert_eq!(names[12..], ["ply.pvd", "catenaries.pvd", "grippers.pvd", "drape.pvd"]);
+        let rest = ["mold.vtp", "ply.pvd", "catenaries.pvd", "grippers.pvd", "drape.pvd"];
+        assert_eq!(names[12..], rest);
         assert!(first == files(&result).unwrap());
     }
 

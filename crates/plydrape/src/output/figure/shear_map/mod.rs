@@ -16,6 +16,7 @@ use super::colour::{FRAME, RED};
 use super::layout::{heading, title};
 use super::panel::Ground;
 use super::projection::{Point, View};
+use super::scale::Scale;
 use crate::mold::Mold;
 use crate::net::Net;
 use blocks::Blocks;
@@ -83,7 +84,7 @@ pub fn svg(net: &Net, mold: &Mold, name: &str) -> Result<String, FigureError> {
             Flat { left, bottom: y + TITLE + ROOM[1] + fabric[1] * flat, scale: flat, fabric };
         map.draw(&mut canvas, &blocks)?;
         let between = [head + 40.0, size[1] - LEGEND - 24.0];
-        bar(&mut canvas, "shear (deg)", [0.0, top], PANELS + 24.0, between)?;
+        bar(&mut canvas, "shear (deg)", Scale::Even([0.0, top]), PANELS + 24.0, between)?;
     }
     legend(&mut canvas, net, size[1] - LEGEND / 2.0 - 4.0)?;
     canvas.finish()?;

@@ -1,0 +1,270 @@
+"""Decks of `plydrape export --to inp`, solved by CalculiX and read by meshio and a reader of ours.
+
+CalculiX knows nothing of catenaries: it hangs a sheet of shells from the same grippers.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+import pytest
+from calculix import Array, Deck, ccx
+from program import ROOT, run
+
+AREAL_MASS, RIGIDITY, GRAVITY = 3.143, 9e-5, 9.8
+"""The paper's ply, as strips of 100 mm: kg/m², N m, m/s²."""
+
+HANGING = """
+title = "A ply that hangs"
+[ply]
+grippers = [{nu}, {nv}]
+cell = ["100 mm", "100 mm"]
+material = "krogh2018"
+[grippers]
+spacing = ["98 mm", "98 mm"]
+height = "75 mm"
+[motion]
+kind = "hold"
+[model]
+gravity = 9.8
+# A tenth of the usual EA strains less than 1e-4 and takes CalculiX half the time.
+axial_stiffness = 1e4
+"""
+
+
+@dataclass
+class Drape:
+    """A result and the deck made from it."""
+
+    result: Any
+    deck: Deck
+
+
+def drape(scene: Path, home: Path) -> Drape:
+    """Simulates a scene and exports its deck from the result alone."""
+    run("simulate", str(scene), "-o", str(home / "out"), "--quiet")
+    result = home / "out" / "result.json"
+    run("export", str(result), "--to", "inp", "-o", str(home / "deck"), "--quiet")
+    deck = Deck((home / "deck" / "ply.inp").read_text())
+    return Drape(json.loads(result.read_text()), deck)
+
+
+def hanging(nu: int, nv: int, home: Path) -> Drape:
+    """The paper's ply, hung 98 mm apart, without a mold."""
+    (home / "scene.toml").write_text(HANGING.format(nu=nu, nv=nv))
+    return drape(home / "scene.toml", home)
+
+
+@pytest.fixture(scope="module")
+def ply(tmp_path_factory: pytest.TempPathFactory) -> Drape:
+    """4 by 2 grippers."""
+    return hanging(4, 2, tmp_path_factory.mktemp("ply"))
+
+
+@pytest.fixture(scope="module")
+def strip(tmp_path_factory: pytest.TempPathFactory) -> Drape:
+    """Two grippers."""
+    return hanging(2, 1, tmp_path_factory.mktemp("strip"))
+
+
+@pytest.fixture(scope="module")
+def dome(tmp_path_factory: pytest.TempPathFactory) -> Drape:
+    """4 by 4 grippers lay a ply on a dome."""
+    return drape(ROOT / "examples" / "04_dome" / "scene.toml", tmp_path_factory.mktemp("dome"))
+
+
+@pytest.fixture(scope="module")
+def solved(ply: Drape, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Array]:
+    """The hanging ply by CalculiX, to the end of the deck."""
+    return ccx(ply.deck.text, tmp_path_factory.mktemp("ccx"))
+
+
+def sag_of_model(drape: Drape, cell: int, row: int) -> float:
+    """Depth (m) of the model's catenary along u below its grippers, in the last step."""
+    (edge,) = [
+        c
+        for c in drape.result["steps"][-1]["catenaries"]
+        if c["kind"] == "edge" and c["from"] == [cell, row] and c["to"] == [cell + 1, row]
+    ]
+    heights = np.array([p[2] for span in edge["spans"] for p in span["points"]])
+    return float(heights[0] - heights.min())
+
+
+def sag_of_sheet(drape: Drape, found: dict[str, Array], cell: int, row: int) -> float:
+    """Depth (m) of the sheet in the middle of that edge."""
+    nu = drape.result["scene"]["grid"]["nu"]
+    node = drape.deck.node_set("MIDDLE_U")[row * (nu - 1) + cell]
+    rows = found["MIDDLE_U U"]
+    (moved,) = rows[rows[:, 0] == node]
+    return float(-moved[3])
+
+
+def test_a_sheet_sags_at_its_long_edges_as_the_catenaries_do(
+    ply: Drape, solved: dict[str, Array]
+) -> None:
+    """Within 12 %, and deeper, since the sheet loads the middle of its edges.
+
+    It cannot be much deeper than two straight halves of the fabric, half of 100 mm over half of
+    98 mm; 2 % are left for its strain beside the grippers.
+    """
+    for row in (0, 1):
+        ours, theirs = sag_of_model(ply, 1, row), sag_of_sheet(ply, solved, 1, row)
+        assert abs(theirs / ours - 1) < 0.12, f"{ours * 1e3:.2f} mm, CalculiX {theirs * 1e3:.2f} mm"
+        assert ours < theirs < 1.02 * np.sqrt(0.05**2 - 0.049**2)
+
+
+def test_the_grippers_carry_the_weight(ply: Drape, solved: dict[str, Array]) -> None:
+    """Reactions add up to the ply's weight: areal mass times g times its area.
+
+    CalculiX prints the forces inside the sheet at the held nodes, so without the weight that acts
+    on these nodes themselves. A corner of an element of eight nodes has -1/12 of the element's
+    weight; the grippers hold 4 corners of one element and 4 of two.
+    """
+    weight = AREAL_MASS * GRAVITY * 0.3 * 0.1
+    own = -(4 * 1 + 4 * 2) / 12 * weight / len(ply.deck.elements("S8R"))
+    force = solved["GRIPPERS RF total"][0]
+    assert force[2] + own == pytest.approx(weight, rel=1e-4)
+    assert np.abs(force[:2]).max() < 1e-6 * weight
+
+
+def test_the_mesh_is_fine_enough(ply: Drape, solved: dict[str, Array], tmp_path: Path) -> None:
+    """Elements of twice the side change the sag by less than 5 %; those of half by less still."""
+    coarse = ccx(ply.deck.coarser(), tmp_path)
+    fine = sag_of_sheet(ply, solved, 1, 0)
+    assert sag_of_sheet(ply, coarse, 1, 0) == pytest.approx(fine, rel=0.05)
+
+
+def test_a_strip_of_shells_is_a_span(strip: Drape, tmp_path: Path) -> None:
+    """Held along whole lines a strip has no width to differ by: shells and span agree.
+
+    The small-sag span sags by a few tenths of a per cent more than the exact elastica.
+    """
+    found = ccx(strip.deck.text, tmp_path)
+    assert sag_of_sheet(strip, found, 0, 0) == pytest.approx(sag_of_model(strip, 0, 0), rel=0.015)
+
+
+def test_a_clamped_strip_bends_as_its_rigidity_says(strip: Drape, tmp_path: Path) -> None:
+    """The tip of a cantilever sinks by q L^4/(8 D), in linear theory."""
+    model = strip.deck.text[: strip.deck.text.index("*AMPLITUDE")]
+    load = [
+        "*STEP",
+        "*STATIC",
+        "*BOUNDARY",
+        "GRIPPER_0_0, 1, 6",
+        "*DLOAD",
+        f"PLY, GRAV, {GRAVITY}, 0, 0, -1",
+        "*NODE PRINT, NSET=GRIPPER_1_0",
+        "U",
+        "*END STEP",
+    ]
+    tip = -ccx(model + "\n".join([*load, ""]), tmp_path)["GRIPPER_1_0 U"][:, 3]
+    assert tip == pytest.approx(AREAL_MASS * GRAVITY * 0.1**4 / (8 * RIGIDITY), rel=0.01)
+
+
+def test_the_section_has_the_ply_s_numbers(ply: Drape) -> None:
+    """E h³/12 is the rigidity, E h the axial stiffness, density times h the mass, all per area."""
+    moduli, density, h = ply.deck.section()
+    assert moduli[:2] * h**3 / 12 == pytest.approx(RIGIDITY, rel=1e-8)
+    assert moduli[:2] * h == pytest.approx(1e4 / 0.1, rel=1e-8)
+    assert density * h == pytest.approx(AREAL_MASS, rel=1e-8)
+    assert "ASSUMED" in ply.deck.text, "the paper's material has no shear curve"
+
+
+@pytest.mark.parametrize("name", ["ply", "dome"])
+def test_tables_lead_the_grippers_through_every_step(
+    name: str, request: pytest.FixtureRequest
+) -> None:
+    """Flat node plus table is the result's gripper in every step, a second later in time."""
+    drape: Drape = request.getfixturevalue(name)
+    places = drape.deck.nodes()
+    moves = {
+        (data[0][0], int(data[0][1])): has["AMPLITUDE"]
+        for has, data in drape.deck.find("BOUNDARY")
+        if "AMPLITUDE" in has
+    }
+    assert moves
+    for k, first in enumerate(drape.result["steps"][0]["grippers"]):
+        gripper = "GRIPPER_{}_{}".format(*first["id"])
+        (node,) = drape.deck.node_set(gripper)
+        for axis in range(3):
+            due = [step["grippers"][k]["position"][axis] for step in drape.result["steps"]]
+            table = moves.get((gripper, axis + 1))
+            if table is None:
+                assert due == pytest.approx([places[node][axis]] * len(due), abs=1e-9)
+                continue
+            pairs = np.array(drape.deck.numbers("AMPLITUDE", NAME=table)).reshape(-1, 2)
+            assert pairs[0].tolist() == [0.0, 0.0]
+            times = [1.0 + step["time"] for step in drape.result["steps"]]
+            assert pairs[1:, 0] == pytest.approx(times)
+            assert places[node][axis] + pairs[1:, 1] == pytest.approx(due, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["ply", "strip", "dome"])
+def test_meshio_reads_the_deck(name: str, request: pytest.FixtureRequest, tmp_path: Path) -> None:
+    """Quadrilaterals of eight nodes cover the flat ply: as many as due, and no gap."""
+    drape: Drape = request.getfixturevalue(name)
+    (tmp_path / "ply.inp").write_text(drape.deck.text)
+    mesh = meshio.read(tmp_path / "ply.inp")
+    cells = {block.type: block.data for block in mesh.cells}
+    grid = drape.result["scene"]["grid"]
+    along, across = grid["nu"] - 1, max(grid["nv"] - 1, 1)
+    n, m = 10 * along, 10 * across
+    quads = cells["quad8"]
+    assert len(quads) == n * m
+    assert len(np.unique(quads)) == (n + 1) * (m + 1) + n * (m + 1) + m * (n + 1)
+    corners = mesh.points[quads[:, :4]]
+    twice = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    assert np.linalg.norm(twice, axis=1).sum() / 2 == pytest.approx(along * across * 0.01)
+    if name == "dome":
+        triangles = mesh.points[cells["triangle"]]
+        ball = np.linalg.norm(triangles - [0, 0, -0.6], axis=2)
+        assert ball == pytest.approx(0.6, abs=1e-9), "the mold's corners are on the dome"
+        normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        assert (normals[:, 2] > 0).all(), "its upper side is the one that touches"
+
+
+def test_calculix_takes_a_deck_with_a_mold(dome: Drape, tmp_path: Path) -> None:
+    """CalculiX reads all of the deck, and solves the first hundred thousandth of each step.
+
+    The grippers are then where their tables have them at that time.
+    """
+    text, share = dome.deck.text, 1e-5
+    assert text.count("*STEP") == 2 and "*CONTACT PAIR" in text
+    lines = text.splitlines()
+    end = 0.0
+    for k, line in enumerate(lines):
+        if line.startswith("*STATIC"):
+            period = share * float(lines[k + 1].split(",")[1])
+            lines[k + 1] = f"{period}, {period}"
+            end += period
+        if line.startswith("PLY, GRAV"):
+            lines[k] = f"PLY, GRAV, {share * GRAVITY}, 0, 0, -1"
+    found = ccx("\n".join([*lines, ""]), tmp_path)
+    moved = {int(row[0]): row[1:] for row in found["GRIPPERS U"]}
+    assert len(moved) == 16
+    for (i, j), (axis, letter) in product(product(range(4), repeat=2), enumerate("XYZ")):
+        (node,) = dome.deck.node_set(f"GRIPPER_{i}_{j}")
+        table = dome.deck.numbers("AMPLITUDE", NAME=f"MOVE_{i}_{j}_{letter}")
+        due = np.interp(end, table[0::2], table[1::2])
+        assert moved[node][axis] == pytest.approx(due, rel=1e-5, abs=1e-15)
+
+
+def test_a_sheet_rests_on_the_mold(tmp_path: Path) -> None:
+    """Held 5 mm above a plane, a ply that would sag by 9 mm touches it and is carried by it.
+
+    It stays above the plane but for the depth of the penalty, and no gripper feels all its weight.
+    """
+    scene = HANGING.format(nu=2, nv=2).replace("75 mm", "5 mm")
+    (tmp_path / "scene.toml").write_text(scene + '[mold]\nkind = "plane"\n')
+    plane = drape(tmp_path / "scene.toml", tmp_path)
+    found = ccx(plane.deck.text, tmp_path)
+    heights = 0.005 + found["MIDDLE_U U"][:, 3]
+    assert (heights > -2e-4).all()
+    weight = AREAL_MASS * GRAVITY * 0.01
+    assert 0.05 * weight < found["GRIPPERS RF total"][0][2] < 0.9 * weight
