@@ -1,12 +1,13 @@
 """Reads the chapters of the user guide: commands, what they show, the files they write.
 
-- A block `console` holds commands behind `$ ` (a backslash continues a line) and below each what it
-  prints. `# exit 2` behind a command is the exit code it has to have; 0 if absent.
-- What is shown stands for all that is printed. A line `…` stands for any lines, `…` within a line for
-  any text. A command with nothing below it may print what it likes.
+- A block `console` holds commands behind `$ ` (a backslash continues a line) and below each what
+  it prints. `# exit 2` behind a command is the exit code it has to have; 0 if absent.
+- What is shown stands for all that is printed. A line `…` stands for any lines, `…` within a line
+  for any text. A command with nothing below it may print what it likes.
 - A block `{code-block}` with a `:caption:` is a file of that name.
-- Commands that are not run stand in a block `sh` below a comment `<!-- not run: why -->`. Those that
-  need a program which may be missing stand in a block `console` below `<!-- needs: program -->`.
+- Commands that are not run stand in a block `sh` below a comment `<!-- not run: why -->`. Those
+  that need a program which may be missing stand in a `console` block below
+  `<!-- needs: program program … -->`.
 """
 
 from __future__ import annotations
@@ -106,9 +107,9 @@ def take_caption(block: Block) -> None:
         block.line += 1
 
 
-def absent(block: Block) -> bool:
-    """Whether the program that the block needs is not on this machine."""
-    return block.needs is not None and shutil.which(block.needs) is None
+def absent(block: Block) -> list[str]:
+    """Programs that the block needs and that are not on this machine."""
+    return [name for name in (block.needs or "").split() if shutil.which(name) is None]
 
 
 def matches(shown: list[str], printed: str) -> bool:

@@ -83,7 +83,7 @@ def test_no_command_escapes_the_test(chapter: Path) -> None:
 def test_commands_that_are_not_run_here(name: str, block: Block) -> None:
     """Lists them with the reason."""
     commands = block.body if block.info == "sh" else [c.text for c in block.commands()]
-    why = block.not_run or f"there is no {block.needs} here"
+    why = block.not_run or f"there is no {' '.join(absent(block))} here"
     pytest.skip(f"NOT RUN, {name}: {'; '.join(commands)} ({why})")
 
 
