@@ -75,9 +75,12 @@ pub(crate) fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
     let mut pieces: Vec<_> = spans.chain(contact).collect();
     pieces.sort_by(|a, b| (a.0[0] + a.0[1]).total_cmp(&(b.0[0] + b.0[1])));
     let mut points: Vec<Point> = pieces.iter().flat_map(|(_, p)| p.iter().copied()).collect();
+    // Fabric that lies begins at the gripper's foot on the mold; the line begins at the gripper itself. A line
+    // without stations still has its two grippers.
+    points.insert(0, ends[0]);
+    points.push(ends[1]);
     points.dedup();
-    // A line without stations still has its two grippers.
-    if points.len() < 2 { ends.to_vec() } else { points }
+    points
 }
 
 /// Points of a polyline at equal shares of its horizontal way (of its length, if it is upright).

@@ -35,7 +35,8 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
             shown(last.map_or(0.0, |step| step.time)),
         ),
         (None, Some(last)) => {
-            format!("as the scene says, {} steps, {} s", result.steps.len(), shown(last.time))
+            let steps = if result.steps.len() == 1 { "step" } else { "steps" };
+            format!("as the scene says, {} {steps}, {} s", result.steps.len(), shown(last.time))
         }
         (None, None) => "none".into(),
     };
@@ -66,7 +67,8 @@ fn material(result: &ResultFile) -> String {
     let material = &result.scene.material;
     let section = match material.section {
         Section::Line { mass, flexural_rigidity } => {
-            format!("{} kg/m, {} N m² a catenary", shown(mass), shown(flexural_rigidity))
+            let [mass, rigidity] = [mass * 1e3, flexural_rigidity * 1e6].map(shown);
+            format!("{mass} g/m, flexural rigidity {rigidity} N mm² a catenary")
         }
         Section::Areal { mass, warp_rigidity, weft_rigidity } => format!(
             "{} g/m², flexural rigidity {} N mm warp, {} N mm weft",
