@@ -17,8 +17,8 @@ fn examples() -> impl Iterator<Item = Scene> {
     folders.into_iter().filter_map(|folder| {
         let file = folder.join("scene.toml");
         let scene = file.exists().then(|| scene::read(&file))?;
-        if scene.is_err() {
-            eprintln!("SKIPPED {}: {}", file.display(), scene.as_ref().unwrap_err());
+        if let Err(refused) = &scene {
+            eprintln!("SKIPPED {}: {refused}", file.display());
         }
         scene.ok()
     })
@@ -29,7 +29,8 @@ fn short(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     let from = scene.motion.times.len().saturating_sub(3);
     let Motion { times, positions } = &mut scene.motion;
-    (times.drain(..from), positions.drain(..from));
+    times.drain(..from);
+    positions.drain(..from);
     scene
 }
 

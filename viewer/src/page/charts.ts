@@ -14,11 +14,15 @@ import type { State } from "./state";
 /** What a reader looks for first; the others follow in the order given. */
 const FIRST = ["slack", "gap", "shear", "tilt", "force"];
 const HEIGHT = 104;
+/** Least time between two moves of the markers (ms). */
+const PAUSE = 90;
 
 export class Charts {
   private readonly charts: Chart[];
   private readonly host = byId("charts");
   private width: number | null = null;
+  private last = -Infinity;
+  private later = 0;
 
   constructor(state: State, data: PageData) {
     const rank = (m: Measure) => {
@@ -33,8 +37,20 @@ export class Charts {
     new ResizeObserver(() => this.resize()).observe(this.host);
     state.listen((now, before) => {
       if (now.dark !== before.dark) this.redraw();
-      for (const chart of this.charts) chart.mark(now.index);
+      if (now.index !== before.index || now === before) this.follow(now.index);
     });
+  }
+
+  /** Moves the markers, at most so often that drawing them does not slow the picture down. */
+  private follow(index: number): void {
+    clearTimeout(this.later);
+    const wait = this.last + PAUSE - performance.now();
+    if (wait > 0) {
+      this.later = setTimeout(() => this.follow(index), wait);
+      return;
+    }
+    this.last = performance.now();
+    for (const chart of this.charts) chart.mark(index);
   }
 
   redraw(): void {

@@ -81,7 +81,9 @@ function row(state: State, data: PageData, limit: Limit): HTMLTableRowElement {
   cells[5]!.replaceChildren(button);
   tr.classList.add("linked");
   tr.addEventListener("click", () => {
-    const label = `${limit.name}: ${value}\n${limit.ok ? "pass" : "exceeded"}, ${limit.least ? "least" : "most"} ${withUnit(short(limit.limit), limit.unit)} allowed\n${limit.where}`;
+    const name = limit.name.charAt(0).toUpperCase() + limit.name.slice(1);
+    const allowed = `at ${limit.least ? "least" : "most"} ${withUnit(short(limit.limit), limit.unit)} allowed`;
+    const label = `${name}: ${value}\n${limit.ok ? "pass" : "exceeded"}, ${allowed}\n${limit.where}`;
     state.goto(index);
     if (limit.place !== null) state.set({ pointer: { index, place: limit.place, label } });
     for (const other of tr.parentElement?.children ?? []) other.removeAttribute("aria-current");

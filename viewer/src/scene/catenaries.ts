@@ -50,9 +50,9 @@ export class Catenaries {
     this.diagonals.weight = weight;
   }
 
-  thin(thin: boolean): void {
-    this.edges.thin(thin);
-    this.diagonals.thin(thin);
+  thin(stride: number): void {
+    this.edges.thin(stride);
+    this.diagonals.thin(stride);
   }
 
   showDiagonals(shown: boolean): void {

@@ -59,7 +59,7 @@ export class Lines {
   readonly points: Float32Array;
   private readonly position: BufferAttribute;
   private readonly every: BufferAttribute;
-  private second: BufferAttribute | null = null;
+  private stride = 1;
   /** Share of the full width, for pictures in which there is little room between lines. */
   weight = 1;
   private readonly tangent: BufferAttribute;
@@ -103,10 +103,12 @@ export class Lines {
     };
   }
 
-  /** Draws through every second point of each curve only, which is less work, or through all. */
-  thin(thin: boolean): void {
-    if (thin) this.second ??= new BufferAttribute(quads(this.lengths, 2), 1);
-    this.mesh.geometry.setIndex(thin ? this.second : this.every);
+  /** Draws through every point of each curve, or, which is less work, through some: one in `stride`. */
+  thin(stride: number): void {
+    if (stride === this.stride) return;
+    this.stride = stride;
+    const { geometry } = this.mesh;
+    geometry.setIndex(stride === 1 ? this.every : new BufferAttribute(quads(this.lengths, stride), 1));
   }
 
   /** The points were written. */

@@ -50,7 +50,9 @@ export class Overlay {
       pen.font = label.name ? `12px ${FONT}` : `11px ${FONT}`;
       pen.fillStyle = themeColour(label.name ? "text" : "text-quiet");
       const half = pen.measureText(label.text).width / 2 + 4;
-      pen.fillText(label.text, Math.min(Math.max(label.x, half), width - half), label.y);
+      const inside = Math.min(Math.max(label.x, half), width - half);
+      // Moved in if it is cut off by a little; one that is far outside stays there.
+      pen.fillText(label.text, Math.abs(inside - label.x) < 24 ? inside : label.x, label.y);
     }
     if (pointer !== null) this.point(pen, pointer, width, height);
   }

@@ -177,10 +177,19 @@ export class Scene3d {
   private setCoarse(coarse: boolean): void {
     this.coarse = coarse;
     this.slowFrames = 0;
-    this.surface.thin(coarse);
-    this.catenaries.thin(coarse);
+    const stride = coarse ? this.stride() : 1;
+    this.surface.thin(stride);
+    this.catenaries.thin(stride);
     this.setPixels(this.ratio);
     if (!coarse) this.draw();
+  }
+
+  /** Every second vertex is left out; where cells are small on the screen, all but two or three pieces a side. */
+  private stride(): number {
+    const n = this.motion.data.divisions;
+    if (n % 2 !== 0) return 1;
+    const small = this.eye.camera.zoom * this.motion.spacing < 60;
+    return small ? (n % 3 === 0 ? n / 3 : n / 2) : 2;
   }
 
   private get ratio(): number {

@@ -70,7 +70,7 @@ export class PlySurface {
   private readonly first: Int32Array;
   private readonly normals: Float32Array;
   private readonly every: BufferAttribute;
-  private second: BufferAttribute | null = null;
+  private stride = 1;
   private readonly position: BufferAttribute;
   private readonly normal: BufferAttribute;
   private readonly share: BufferAttribute;
@@ -133,11 +133,14 @@ export class PlySurface {
     }
   }
 
-  /** Draws every second vertex of each cell only, which is less work, or all. */
-  thin(thin: boolean): void {
+  /** Draws every vertex of each cell, or, which is less work, some along each side: one in `stride`. */
+  thin(stride: number): void {
+    if (stride === this.stride) return;
+    this.stride = stride;
     const n = this.motion.data.divisions;
-    if (thin) this.second ??= new BufferAttribute(triangles(this.source.length / (n + 1) ** 2, n, 2), 1);
-    this.mesh.geometry.setIndex(thin ? this.second : this.every);
+    const cells = this.source.length / (n + 1) ** 2;
+    const index = stride === 1 ? this.every : new BufferAttribute(triangles(cells, n, stride), 1);
+    this.mesh.geometry.setIndex(index);
   }
 
   /** Moves the surface to a step. */

@@ -56,8 +56,8 @@ impl RigidMold {
             let [a, b, c] = corners.map(|n| nodes + 1 + n as usize);
             deck.list(&[elements + 1 + k, a, b, c]);
         }
-        deck.line("*NSET, NSET=MOLD_NODES, GENERATE");
-        deck.list(&[nodes + 1, nodes + self.surface.vertices.len()]);
+        let all: Vec<usize> = (1..=self.surface.vertices.len()).map(|k| nodes + k).collect();
+        deck.node_set("MOLD_NODES", &all);
         deck.line("*MATERIAL, NAME=RIGID");
         deck.line("*ELASTIC");
         deck.line("2.1e11, 0.3");

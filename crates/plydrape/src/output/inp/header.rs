@@ -2,7 +2,7 @@
 
 use super::contact::RigidMold;
 use super::mesh::Mesh;
-use super::motion::HANG;
+use super::motion::{HANG, LOAD};
 use super::section::ShellSection;
 use super::text::Deck;
 use crate::draping::record::ResultFile;
@@ -62,7 +62,7 @@ pub(super) fn write(
     paragraph(
         deck,
         &format!(
-            "Grippers: sets GRIPPER_i_j, {held} each, moved by tables, free to turn. Step HANG ({HANG} s) takes them from the flat ply to step 1 of the result while gravity grows; step LAY follows the result's steps in its own time, {HANG} s later."
+            "Grippers: sets GRIPPER_i_j, {held} each, moved by tables, free to turn. Step HANG ({HANG} s): gravity grows for {LOAD} s, then they go from the flat ply to step 1 of the result; step LAY follows the result's steps in its own time, {HANG} s later."
         ),
     );
     match mold {

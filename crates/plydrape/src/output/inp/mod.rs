@@ -81,8 +81,8 @@ pub fn text(result: &ResultFile) -> Result<String, OutputError> {
     tracks.amplitudes(&mut deck);
 
     let gravity = format!("PLY, GRAV, {}, 0.0, 0.0, -1.0", number(scene.settings.gravity));
-    step("HANG", HANG, 1e-3, &mut deck);
-    deck.line("*DLOAD");
+    step("HANG", HANG, 1e-4, &mut deck);
+    deck.line("*DLOAD, AMPLITUDE=GRAVITY");
     deck.line(&gravity);
     tracks.boundary(&mut deck);
     output(&mut deck);
@@ -143,7 +143,7 @@ fn material(section: &ShellSection, warp: crate::ply::Direction, pose: &Pose, de
 
 /// Opens a step of a given time (s) whose `first` increment is a share of it: increments may shrink to 10⁻⁷ of it and
 /// take more iterations than usual, since a slack sheet is hard to bring to rest. A flat one has no stiffness against its
-/// weight but its bending, so that hanging begins with a thousandth.
+/// weight but its bending, so that hanging begins slowly.
 fn step(name: &str, time: f64, first: f64, deck: &mut Deck) {
     deck.comment(name);
     deck.line("*STEP, NLGEOM, INC=10000");

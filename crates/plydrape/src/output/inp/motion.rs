@@ -1,7 +1,9 @@
 //! The grippers' motion: displacements from the flat ply, over the time of the deck.
 //!
-//! The deck has two steps. In the first, [`HANG`] seconds long, gravity grows and the grippers go from the flat ply to
-//! where the result begins: the ply comes to hang. In the second they follow the result's steps in its own time. Each
+//! The deck has two steps. In the first, [`HANG`] seconds long, the ply comes to hang: gravity grows for [`LOAD`] while
+//! the grippers hold the flat ply, then they go to where the result begins. In this order the ply is in tension
+//! throughout. Were both to begin at once, the first push would find a ply still flat, and a solver may then follow it
+//! straight into compression, which is an equilibrium but none that lasts. In the second step they follow the result's steps in its own time. Each
 //! gripper has a table (`*AMPLITUDE`) for each direction in which it moves, in metres over the total time, and its
 //! node set is moved by it: `x = flat place + table`. Rotations are free, as in the ball joints of the grippers.
 
@@ -14,6 +16,9 @@ use crate::ply::GripperId;
 /// Time in which the ply comes to hang (s).
 pub(super) const HANG: f64 = 1.0;
 
+/// Time in which gravity grows (s), before the grippers move.
+pub(super) const LOAD: f64 = 0.1;
+
 /// A gripper's way.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Track {
@@ -25,7 +30,7 @@ pub(super) struct Track {
 /// All grippers' ways over the total time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tracks {
-    /// Total times (s), ascending: 0, then the result's steps.
+    /// Total times (s), ascending: 0 and [`LOAD`] for the flat ply, then the result's steps.
     pub times: Vec<f64>,
     /// One for each gripper, i running fastest.
     pub tracks: Vec<Track>,
@@ -35,15 +40,15 @@ impl Tracks {
     /// From the flat ply through all steps of a result; a step at the time of the one before it takes its place.
     pub fn new(result: &ResultFile, pose: &Pose) -> Tracks {
         let cell = result.scene.cell;
-        let mut times = vec![0.0];
+        let mut times = vec![0.0, LOAD];
         let mut tracks: Vec<Track> = (result.steps.first().into_iter())
             .flat_map(|step| &step.grippers)
-            .map(|gripper| Track { id: gripper.id, moves: vec![[0.0; 3]] })
+            .map(|gripper| Track { id: gripper.id, moves: vec![[0.0; 3]; 2] })
             .collect();
         let start = result.steps.first().map_or(0.0, |step| step.time);
         for step in &result.steps {
             let time = HANG + step.time - start;
-            let again = times.len() > 1 && times.last().is_some_and(|last| time <= *last);
+            let again = times.len() > 2 && times.last().is_some_and(|last| time <= *last);
             if !again {
                 times.push(time);
             }
@@ -74,8 +79,11 @@ impl Tracks {
         deck.node_set("GRIPPERS", &all);
     }
 
-    /// The tables.
+    /// The tables, and gravity's: a share of it over the total time.
     pub fn amplitudes(&self, deck: &mut Deck) {
+        deck.line("*AMPLITUDE, NAME=GRAVITY, TIME=TOTAL TIME");
+        let end = self.times.last().copied().unwrap_or_default();
+        deck.numbers([0.0, 0.0, LOAD, 1.0, 1.0 + end, 1.0]);
         for track in &self.tracks {
             for c in (0..3).filter(|c| track.goes(*c)) {
                 deck.line(&format!("*AMPLITUDE, NAME={}, TIME=TOTAL TIME", table(track.id, c)));
@@ -138,17 +146,17 @@ mod tests {
         Pose::fit(&flat, &places).unwrap()
     }
 
-    /// Flat place and table add up to the gripper's position in every step; the first entry is the flat ply.
+    /// Flat place and table add up to the gripper's position in every step; before them is the flat ply.
     #[test]
     fn tables_lead_from_the_flat_ply_through_all_steps() {
         let result = sample::draped(4, 2, 7);
         let pose = pose(&result);
         let tracks = Tracks::new(&result, &pose);
-        assert_eq!(tracks.times.len(), 8);
+        assert_eq!(tracks.times.len(), 9);
         for (k, track) in tracks.tracks.iter().enumerate() {
-            assert_eq!(track.moves[0], [0.0; 3]);
+            assert_eq!(track.moves[..2], [[0.0; 3]; 2]);
             let flat = pose.place(fabric(track.id, result.scene.cell));
-            for (step, moved) in result.steps.iter().zip(&track.moves[1..]) {
+            for (step, moved) in result.steps.iter().zip(&track.moves[2..]) {
                 let due = step.grippers[k].position;
                 assert!((0..3).all(|c| (flat[c] + moved[c] - due[c]).abs() < 1e-15));
             }
@@ -165,7 +173,7 @@ mod tests {
         for track in &tracks.tracks {
             let [i, j] = track.id.map(|n| n as f64);
             let due = [-0.002 * (i - 1.5), -0.002 * (j - 0.5), 0.0];
-            assert!((0..3).all(|c| (track.moves[1][c] - due[c]).abs() < 1e-15), "{track:?}");
+            assert!((0..3).all(|c| (track.moves[2][c] - due[c]).abs() < 1e-15), "{track:?}");
         }
     }
 
@@ -179,6 +187,6 @@ mod tests {
         assert!(tracks.times.windows(2).all(|pair| pair[0] < pair[1]));
         assert!(tracks.tracks.iter().all(|track| track.moves.len() == tracks.times.len()));
         let flat = pose.place([0.0, 0.0]);
-        assert_eq!(tracks.tracks[0].moves[2][2], result.steps[2].grippers[0].position[2] - flat[2]);
+        assert_eq!(tracks.tracks[0].moves[3][2], result.steps[2].grippers[0].position[2] - flat[2]);
     }
 }
