@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import sys
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 from guide import Block, Command, Reader, absent, blocks, matches
@@ -85,6 +87,14 @@ def test_commands_that_are_not_run_here(name: str, block: Block) -> None:
     commands = block.body if block.info == "sh" else [c.text for c in block.commands()]
     why = block.not_run or f"there is no {' '.join(absent(block))} here"
     pytest.skip(f"NOT RUN, {name}: {'; '.join(commands)} ({why})")
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=NAMES)
+def test_links_to_other_sites_are_well_formed(chapter: Path) -> None:
+    """They are not fetched: the tests need no network. Links within the guide are Sphinx's part."""
+    for link in re.findall(r"\]\(([a-z]+:[^)]*)\)", chapter.read_text(encoding="utf-8")):
+        parts = urlsplit(link)
+        assert parts.scheme == "https" and "." in parts.netloc and " " not in link, link
 
 
 def test_a_wrong_exit_code_and_wrong_output_are_found(tmp_path: Path) -> None:
