@@ -328,7 +328,7 @@ fn one_thread_and_two_write_the_same_bytes() {
         let files = plan::write_all(&plan, folder.path()).unwrap();
         files.iter().map(|file| std::fs::read(file).unwrap()).collect::<Vec<_>>()
     });
-    assert!(one.len() == 6 && one == two);
+    assert!(one.len() == 7 && one == two);
 }
 
 /// A plan that is not accepted: whole, written whole, and the measure that it fails by is named.
@@ -339,7 +339,7 @@ fn is_explained(scene: &Scene) -> (Planned, Verdict) {
     assert_eq!(result.summary.steps, result.summary.steps_planned);
     let folder = tempfile::tempdir().unwrap();
     let files = plan::write_all(&plan, folder.path()).unwrap();
-    assert!(files.len() == 6 && files.iter().all(|f| f.metadata().unwrap().len() > 100));
+    assert!(files.len() == 7 && files.iter().all(|f| f.metadata().unwrap().len() > 100));
     let limiting = table::limiting(&result.summary.limits).expect("a limit").clone();
     assert!(!limiting.at.is_empty() && limiting.value.is_finite());
     (plan, limiting)
@@ -406,4 +406,19 @@ fn a_start_beyond_the_fabric_is_no_scene() {
         .with("[\"98 mm\", \"98 mm\"]", "[\"101 mm\", \"98 mm\"]");
     let refused = scene::parse(&wide.text, &wide.folder, "scene.toml").expect_err("overstretched");
     assert!(refused.message.contains("101") && !refused.help.is_empty(), "{refused:?}");
+}
+
+/// A search that goes on begins with the plan as it was refined, not with the strategy behind it: with one drape
+/// to spend it ends where the earlier one did.
+#[test]
+fn a_search_goes_on_from_the_refined_plan() {
+    let few = "steps = 30\nevaluations = 8\n";
+    let mut scene = Example::of("01_flat_sheared_mold").with_table("plan", |_| None, few).scene();
+    let first = planned(&scene);
+    scene.plan.evaluations = 1;
+    let on = |memory| planner::plan(&scene, memory, &mut |_| ControlFlow::Continue(())).unwrap();
+    let path = |plan: &Planned| plan.drape.result.plan.as_ref().unwrap().path.clone();
+    let (next, anew) = (on(Some(&first.memory)), on(None));
+    assert_eq!(path(&next), path(&first));
+    assert_ne!(path(&anew), path(&first), "the search found nothing: the test shows nothing");
 }
