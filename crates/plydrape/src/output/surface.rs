@@ -104,6 +104,10 @@ pub(crate) fn stations(line: &[Point], count: usize) -> Vec<Point> {
     let mut k = 0;
     (0..=count)
         .map(|n| {
+            if n == count {
+                // also where the line ends upright
+                return line[line.len() - 1];
+            }
             let goal = total * n as f64 / count as f64;
             while k + 2 < way.len() && way[k + 1] < goal {
                 k += 1;
@@ -229,6 +233,9 @@ mod tests {
         for (k, p) in stations(&line, 10).iter().enumerate() {
             assert!((p[0] - 0.1 * k as f64).abs() < 1e-15);
         }
+        // both ends are met, also from a foot straight below them
+        let feet = [[0.0, 0.0, 1.0], [0.0; 3], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0]];
+        assert_eq!([stations(&feet, 4)[0], stations(&feet, 4)[4]], [feet[0], feet[3]]);
         let upright = [[0.0; 3], [0.0, 0.0, 2.0]];
         assert_eq!(stations(&upright, 2)[1], [0.0, 0.0, 1.0]);
     }
