@@ -34,6 +34,7 @@ async function open(): Promise<void> {
     {
       index: data.steps.length - 1,
       colour: modes(data)[0]?.[0] ?? "height",
+      stepRange: false,
       diagonals: true,
       mold: true,
       playing: false,
@@ -48,7 +49,7 @@ async function open(): Promise<void> {
   const scene = draw(motion, state, data);
   const player = new Player(state, data.times);
   linkToolbar(state, data, scene?.eye ?? null);
-  linkLegend(state, data);
+  linkLegend(state, motion);
   linkTimeline(state, player, motion);
   showLimits(state, data);
   const charts = new Charts(state, data);

@@ -229,9 +229,33 @@ async function coloursHaveLegends(page) {
       legend.ticks.length > 0 && legend.ticks.every((t) => t >= legend.low - 1e-9 && t <= legend.high + 1e-9),
     );
     titles.add(await page.locator(".legend-title").innerText());
+    await rangesNarrow(page, legend);
   }
   const { grid } = await pageData(page);
   assert.equal(titles.size, grid.includes(1) ? 0 : order.length, "no two legends are alike");
+}
+
+/** By R the legend spans the values of the step in view, which are among those of all steps. */
+async function rangesNarrow(page, all) {
+  await page.keyboard.press("r");
+  const own = await page.evaluate(() => window.plydrape.legend());
+  assert.ok(await page.locator("#step-range").isChecked());
+  assert.ok(own.low >= all.low - 1e-9 && own.high <= all.high + 1e-9, `${own.low} to ${own.high}`);
+  if (all.key === "height") {
+    const heights = await page.evaluate(() => {
+      const { grid, divisions } = JSON.parse(document.getElementById("plydrape-data").textContent);
+      const count = grid.reduce((product, side) => product * ((side - 1) * divisions + 1), 1);
+      return Array.from({ length: count }, (_, k) => window.plydrape.vertex(k)[2] * 1e3);
+    });
+    for (const [end, found] of [
+      [own.low, Math.min(...heights)],
+      [own.high, Math.max(...heights)],
+    ]) {
+      assert.ok(Math.abs(end - found) < 2e-3, `${end} mm is not ${found} mm`);
+    }
+  }
+  await page.keyboard.press("r");
+  assert.deepEqual(await page.evaluate(() => window.plydrape.legend()), all);
 }
 
 async function limitsLead(report, page) {

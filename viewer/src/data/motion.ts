@@ -79,6 +79,19 @@ export class Motion {
     }
   }
 
+  /** A colour mode with the range of its values in one step alone. */
+  within(field: Field, index: number): Field {
+    const frames = { height: this.surface, gap: this.gap, shear: this.shear, direction: this.direction };
+    const { count } = frames[field.key] ?? { count: 0 };
+    let [low, high] = [Infinity, -Infinity];
+    for (let item = 0; item < count; item++) {
+      const value = this.value(field, index, item);
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+    return low <= high ? { ...field, low, high } : field;
+  }
+
   /** The box around the ply and its grippers over all steps (m). */
   bounds(): { low: Place; high: Place } {
     const low: Place = [Infinity, Infinity, Infinity];

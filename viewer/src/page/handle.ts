@@ -5,7 +5,7 @@
 import { MICRO, type Motion } from "../data/motion";
 import type { FieldKey, Measure, Place } from "../data/page_data";
 import type { Scene3d } from "../scene/scene3d";
-import { legendOf, type LegendFacts } from "./legend";
+import { fieldOf, legendOf, type LegendFacts } from "./legend";
 import type { Player } from "./player";
 import type { State } from "./state";
 
@@ -70,7 +70,7 @@ export function handle(
       state.set({ colour });
     },
     colours: data.fields.map((field) => field.key),
-    legend: () => legendOf(data.fields.find((field) => field.key === state.now.colour)!),
+    legend: () => legendOf(fieldOf(motion, state.now)!),
     measures: data.measures,
     vertex: (index) => scene?.vertex(index) ?? stored(motion, state.now.index, index),
     get pointer() {

@@ -16,6 +16,7 @@ const HELP: [string, string][] = [
   ["0", "fit into the picture"],
   ["+ −", "nearer, farther"],
   ["Shift + arrows", "turn the view"],
+  ["R", "colours over the range of this step, or of all steps"],
   ["D, M", "diagonals, mold on or off"],
   ["L", "light or dark"],
   ["Escape", "take the marker away"],
@@ -37,7 +38,7 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
   });
 
   const find = (key: string): (() => void) | undefined => {
-    const { index, diagonals, mold } = state.now;
+    const { index, stepRange, diagonals, mold } = state.now;
     const mode = modes(data)[Number(key) - 1];
     if (mode !== undefined) return () => state.set({ colour: mode[0] });
     const view = VIEWS[key.toLowerCase()];
@@ -52,6 +53,7 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
       "+": () => eye?.zoomBy(1.2),
       "=": () => eye?.zoomBy(1.2),
       "-": () => eye?.zoomBy(1 / 1.2),
+      r: () => state.set({ stepRange: !stepRange }),
       d: () => state.set({ diagonals: !diagonals }),
       m: () => state.set({ mold: !mold }),
       l: () => byId("theme").click(),

@@ -2,9 +2,10 @@
 
 import { gradient, mapOf, shareOf } from "../data/colour_map";
 import { bracketed, full, short, ticks } from "../data/number";
-import type { Field, PageData } from "../data/page_data";
+import type { Motion } from "../data/motion";
+import type { Field } from "../data/page_data";
 import { byId, make } from "./dom";
-import type { State } from "./state";
+import type { Choice, State } from "./state";
 
 /** What the legend says, for scripts. */
 export interface LegendFacts {
@@ -22,14 +23,25 @@ export function legendOf(field: Field): LegendFacts {
   return { key, title: label, unit, low, high, ticks: ticks(low, high, 6), limit };
 }
 
-export function linkLegend(state: State, data: PageData): void {
+/** The colour mode in force, with the range in force. */
+export function fieldOf(motion: Motion, now: Choice): Field | undefined {
+  const field = motion.data.fields.find(({ key }) => key === now.colour);
+  return field !== undefined && now.stepRange ? motion.within(field, now.index) : field;
+}
+
+export function linkLegend(state: State, motion: Motion): void {
   const host = byId("legend");
+  const bar = byId("legend-bar");
+  const check = byId<HTMLInputElement>("step-range");
+  check.addEventListener("change", () => state.set({ stepRange: check.checked }));
   state.listen((now, before) => {
-    if (now !== before && now.colour === before.colour) return;
-    const field = data.fields.find(({ key }) => key === now.colour);
+    const ranged = now.stepRange !== before.stepRange || (now.stepRange && now.index !== before.index);
+    if (now !== before && now.colour === before.colour && !ranged) return;
+    const field = fieldOf(motion, now);
     // A strip of ply has no cells, so nothing is coloured.
-    host.hidden = field === undefined || data.grid.includes(1);
-    if (field !== undefined) host.replaceChildren(...draw(field));
+    host.hidden = field === undefined || motion.data.grid.includes(1);
+    check.checked = now.stepRange;
+    if (field !== undefined) bar.replaceChildren(...draw(field));
   });
 }
 

@@ -16,6 +16,8 @@ export interface Choice {
   /** Index of the step, from 0. */
   index: number;
   colour: FieldKey;
+  /** Colours span the values of the step in view, not those of all steps. */
+  stepRange: boolean;
   diagonals: boolean;
   mold: boolean;
   playing: boolean;

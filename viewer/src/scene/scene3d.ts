@@ -104,7 +104,10 @@ export class Scene3d {
       this.grippers.moveTo(now.index);
       this.contacts.moveTo(now.index);
     }
-    if (stepped || now.colour !== before.colour) this.surface.colour(field, now.index);
+    const ranged = now.stepRange !== before.stepRange;
+    if (stepped || ranged || now.colour !== before.colour) {
+      this.surface.colour(now.stepRange ? this.motion.within(field, now.index) : field, now.index);
+    }
     this.catenaries.showDiagonals(now.diagonals);
     if (this.mold !== null) this.mold.group.visible = now.mold;
     if (now.pointer !== null && now.pointer !== before.pointer) this.eye.lookAt(now.pointer.place);
