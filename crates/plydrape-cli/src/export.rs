@@ -10,8 +10,8 @@ use std::process::ExitCode;
 /// Make files for other programs from a result.json.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The result must be as `plydrape simulate` or `plydrape plan` wrote it, by this version. Files of the
-same name in the folder that plydrape did not write, or that were edited since, are never
+The result must be as `plydrape simulate` or `plydrape plan` wrote it, by this version. Files of the \
+same name in the folder that plydrape did not write, or that were edited since, are never \
 overwritten; all others stay.")]
 pub struct Arguments {
     /// The result.json of an earlier run.

@@ -18,13 +18,13 @@ use std::time::Instant;
 /// Find trajectories that lay the ply on its mold, and drape along them; verdict, files.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The scene needs [mold] and [target]; [plan] and [limits] say how to look and what to keep. Grippers
-start where they start in `simulate`: of a motion from a file only the first step is used. What no
-plan can keep is said first. The best plan found is written even if it is not accepted. Ctrl-C ends
+The scene needs [mold] and [target]; [plan] and [limits] say how to look and what to keep. Grippers \
+start where they start in `simulate`: of a motion from a file only the first step is used. What no \
+plan can keep is said first. The best plan found is written even if it is not accepted. Ctrl-C ends \
 the search and writes the best plan so far.
 
-Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json to
-the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited
+Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json to \
+the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
 since, is never overwritten.")]
 pub struct Arguments {
     #[command(flatten)]

@@ -9,7 +9,7 @@ use std::process::ExitCode;
 /// Make the page report.html again from a result.json.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The page is one file that any browser opens, without a network. The result must be as `plydrape
+The page is one file that any browser opens, without a network. The result must be as `plydrape \
 simulate` or `plydrape plan` wrote it, by this version.")]
 pub struct Arguments {
     /// The result.json of an earlier run.

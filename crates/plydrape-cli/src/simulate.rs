@@ -9,9 +9,9 @@ use plydrape::output::{table, write_all};
 /// Drape the ply along the trajectories of a scene; table of steps, verdict, files.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Writes result.json, steps.csv, trajectory.csv, figure.svg and report.html to the scene's name with
-`.results`; the last one is a page for any browser. A file in the folder that plydrape did not write,
-or that was edited since, is never overwritten.
+Writes result.json, steps.csv, trajectory.csv, figure.svg and report.html to the scene's name with \
+`.results`; the last one is a page for any browser. A file in the folder that plydrape did not write, \
+or that was edited since, is never overwritten. \
 Ctrl-C ends after the step under way and writes the steps done.")]
 pub struct Arguments {
     #[command(flatten)]

@@ -14,7 +14,7 @@ use std::process::ExitCode;
 /// Solve one span of ply between two ends: its force, sag, slopes and shape.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Plain numbers are in SI units, others carry a unit: 0.098 and \"98 mm\" are the same. A slope is rise
+Plain numbers are in SI units, others carry a unit: 0.098 and \"98 mm\" are the same. A slope is rise \
 over run. A negative force is compression. The shape is that of small-sag theory.")]
 pub struct Arguments {
     /// Horizontal distance of the ends.
