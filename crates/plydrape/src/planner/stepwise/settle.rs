@@ -25,6 +25,9 @@ const STRETCH: f64 = 0.8;
 /// Weight of a rest's length over that of a gripper's way.
 const FIRM: f64 = 1e3;
 
+/// Rests shorter than this share of their edge have no slack worth a name.
+const CRUMB: f64 = 1e-2;
+
 /// Rounds in which rests that have become slack are added.
 const ROUNDS: usize = 6;
 
@@ -34,13 +37,19 @@ struct Rest {
     pull: f64,
     /// What it should be (m).
     wanted: f64,
-    /// Fabric length of the whole edge (m).
+    /// Fabric length (m), and that of the whole edge.
+    length: f64,
     whole: f64,
     /// Its grippers, each with the direction in which it pulls.
     grippers: Vec<(usize, [f64; 3])>,
 }
 
 impl Rest {
+    /// Whether slack here counts.
+    fn counts(&self) -> bool {
+        self.length > CRUMB * self.whole
+    }
+
     fn pull_after(&self, moves: &[f64]) -> f64 {
         let pull = |(gripper, way): &(usize, [f64; 3])| {
             (0..3).map(|n| way[n] * moves[3 * gripper + n] / MM).sum::<f64>()
@@ -78,6 +87,7 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
             out.push(Rest {
                 pull: rest.fit.path - rest.fit.length,
                 wanted: PULL * ply.flat_length(c.kind),
+                length: rest.fit.length,
                 whole: ply.flat_length(c.kind),
                 grippers: held
                     .iter()
@@ -101,6 +111,7 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
         out.push(Rest {
             pull: span.chord() - span.length,
             wanted: wanted_stretch(scene, span),
+            length: span.length,
             whole: ply.flat_length(c.kind),
             grippers: vec![(gripper, way)],
         });
@@ -117,7 +128,8 @@ pub fn settled(
 ) -> Option<Vec<Point>> {
     let (mold, limits) = (scene.mold.as_ref()?, &scene.limits);
     let rests = rests(scene, draping, shape);
-    let slack = |rest: &Rest| -rest.pull > SHARE * limits.slack_ratio * rest.whole;
+    let slack =
+        |rest: &Rest| rest.counts() && -rest.pull > SHARE * limits.slack_ratio * rest.length;
     if !rests.iter().any(slack) {
         return None;
     }
@@ -150,7 +162,7 @@ pub fn settled(
         moves = program.solve()?;
         let mut changed = false;
         for (rest, active) in rests.iter().zip(&mut active) {
-            let slack = rest.pull_after(&moves) < 0.0;
+            let slack = rest.counts() && rest.pull_after(&moves) < 0.0;
             changed |= slack && !*active;
             *active |= slack;
         }
