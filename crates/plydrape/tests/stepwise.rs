@@ -304,6 +304,16 @@ fn the_plan_of_the_flat_sheared_mold_is_accepted() {
     }
 }
 
+/// Molds that bend little: the same limits as on the flat one, as the table in README.md says.
+#[test]
+fn plans_of_gently_curved_molds_are_accepted() {
+    for name in ["04_dome", "05_cylinder", "06_saddle"] {
+        let scene = cut(name);
+        let summary = drape(&scene, &plan(&scene)).summary;
+        assert!(summary.accepted, "{name}: {:?}", summary.limits);
+    }
+}
+
 /// Straight paths leave 0.9–1.2 mm of slack in edges of these molds (simulated here too), the plan less than
 /// a tenth of it, without pulling an edge beyond its limit.
 #[test]
