@@ -15,6 +15,7 @@ mod error;
 mod law;
 mod path;
 mod peaks;
+mod recorded;
 mod spacing;
 mod timing;
 

@@ -1,0 +1,166 @@
+//! The result file: every force, slope, shape, contact and measure of every step.
+//!
+//! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise. All other
+//! outputs can be made from it.
+
+mod catenary;
+mod outcome;
+
+pub use catenary::{
+    Bridging, CatenaryDirection, CatenaryKind, CatenaryState, ContactState, Hold, SpanState,
+};
+pub use outcome::{CatenaryId, Measures, Numbers, Summary, Verdict, Worst};
+
+use crate::equilibrium::Status;
+use crate::material::Material;
+use crate::mold::Mold;
+use crate::net::Net;
+use crate::ply::{Direction, Grid, GripperId};
+use crate::scene::{Limits, PlanMethod, Settings};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// Name of the format, the first key of every result file.
+pub const FORMAT: &str = "plydrape-result";
+/// Version of the format; it grows when a key changes its meaning.
+pub const VERSION: u32 = 4;
+
+/// A whole result file.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResultFile {
+    /// [`FORMAT`].
+    pub format: Cow<'static, str>,
+    /// [`VERSION`].
+    pub version: u32,
+    /// Check sum of the whole file with nothing here; empty until it is written.
+    pub checksum: String,
+    /// Version of the program that wrote it.
+    pub program: String,
+    /// The scene, as it was understood.
+    pub scene: SceneEcho,
+    /// The plan that the drape follows, if it was planned.
+    pub plan: Option<PlanRecord>,
+    /// One entry a step, the start being step 1.
+    pub steps: Vec<Step>,
+    /// The outcome.
+    pub summary: Summary,
+}
+
+/// The scene, as it was understood.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneEcho {
+    /// Its title.
+    pub title: String,
+    /// The scene file; none of a scene that was made in a program.
+    pub input: Option<Arc<str>>,
+    /// Grippers along u and v.
+    pub grid: Grid,
+    /// Fabric length of a cell along u and v (m).
+    pub cell: [f64; 2],
+    /// The ply's material.
+    pub material: Material,
+    /// The grid direction of the warp.
+    pub warp: Direction,
+    /// The mold, if any.
+    pub mold: Option<Mold>,
+    /// Final gripper positions of the ideal drape (m), if the ply is to be draped.
+    pub target_grippers: Option<Vec<[f64; 3]>>,
+    /// The ideal drape, a net, where it is known.
+    pub ideal_drape: Option<Arc<Net>>,
+    /// Rules of the model.
+    pub settings: Settings,
+    /// Limits of an accepted drape.
+    pub limits: Limits,
+}
+
+/// A plan: what a motion is made from again, see [`ResultFile::motion`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlanRecord {
+    /// The planner.
+    pub method: PlanMethod,
+    /// Drapes that the search took.
+    pub evaluations: usize,
+    /// Samples a second of the motion as it is written (Hz).
+    pub rate: f64,
+    /// Planned positions of all grippers (m): control points of the smooth path, one list a step.
+    pub path: Vec<Vec<[f64; 3]>>,
+}
+
+/// The ply in one step.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Step {
+    /// Counts from 1, the start.
+    pub step: usize,
+    /// Time (s).
+    pub time: f64,
+    /// Grippers, i running fastest.
+    pub grippers: Vec<Gripper>,
+    /// How the equilibrium was found.
+    pub solver: Solver,
+    /// Edges along u, edges along v, then two diagonals per cell.
+    pub catenaries: Vec<CatenaryState>,
+    /// Cells, i running fastest.
+    pub cells: Vec<Cell>,
+    /// Worst values of this step, each with its place.
+    pub measures: Measures,
+}
+
+/// A gripper in one step.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gripper {
+    /// Grid indices.
+    pub id: GripperId,
+    /// Position (m).
+    pub position: [f64; 3],
+    /// Slope of the ply along u, where there is one.
+    pub slope_u: Option<f64>,
+    /// Slope of the ply along v, where there is one.
+    pub slope_v: Option<f64>,
+    /// Angle between the ply's normal and the vertical (°).
+    pub tilt_deg: f64,
+    /// Orientation (x, y, z, w): z axis along the ply's normal, x axis along u.
+    pub quaternion: [f64; 4],
+    /// Distance from where the ideal drape puts it (mm), where that is known.
+    pub target_distance_mm: Option<f64>,
+}
+
+impl Gripper {
+    /// Unit normal of the ply there: the z axis of the orientation.
+    #[must_use]
+    pub fn normal(&self) -> [f64; 3] {
+        let [x, y, z, w] = self.quaternion;
+        [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)]
+    }
+}
+
+/// How the equilibrium of a step was found.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Solver {
+    /// `converged`, or what stopped it.
+    pub status: Status,
+    /// Iterations of the last equilibrium.
+    pub iterations: usize,
+    /// Its optimality residual.
+    pub residual: f64,
+    /// Equilibria solved in this step.
+    pub equilibria: usize,
+}
+
+/// A cell in one step.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cell {
+    /// Its lowest gripper.
+    pub cell: GripperId,
+    /// Shear angle (°), 0 where no diagonal shears.
+    pub shear_deg: f64,
+    /// The shearing diagonal, `rising` or `falling`.
+    pub shearing: Option<CatenaryDirection>,
+}
