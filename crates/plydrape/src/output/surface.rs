@@ -16,7 +16,7 @@
 //!
 //! If the diagonals miss each other, e₀ is the lower of both, so that the surface holds the higher.
 
-use crate::draping::record::{CatenaryState, ResultFile, Step};
+use crate::draping::record::{CatenaryState, Hold, ResultFile, SpanState, Step};
 use crate::ply::Grid;
 
 type Point = [f64; 3];
@@ -81,6 +81,16 @@ pub(crate) fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
     points.push(ends[1]);
     points.dedup();
     points
+}
+
+/// Slack ratio below which a lying rest counts as contact, not as a wrinkle.
+const FLAT: f64 = 5e-4;
+
+/// The lines in which a catenary touches the mold: its segment, and rests that lie flat beside it.
+pub(crate) fn touching(line: &CatenaryState) -> impl Iterator<Item = &[Point]> {
+    let flat = |span: &&SpanState| span.state == Hold::Lying && span.slack_ratio < FLAT;
+    let segment = line.contact.iter().map(|contact| contact.points.as_slice());
+    segment.chain(line.spans.iter().filter(flat).map(|span| span.points.as_slice()))
 }
 
 /// Points of a polyline at equal shares of its horizontal way (of its length, if it is upright).

@@ -9,7 +9,7 @@ use super::piece::{self, Form, Piece, grown, thread};
 use super::projection::{Point, View, turned};
 use super::relief::Relief;
 use super::scale::Scale;
-use crate::draping::record::{Gripper, Hold, ResultFile, SpanState, Step};
+use crate::draping::record::{Gripper, ResultFile, Step};
 use crate::mold::Mold;
 use crate::output::surface;
 
@@ -17,8 +17,6 @@ use crate::output::surface;
 const GRIPPER: f64 = 0.12;
 /// Largest radius of a contact mark (picture points).
 pub(super) const MOST_MARK: f64 = 3.6;
-/// Slack ratio below which a lying rest is drawn as contact, not as a wrinkle.
-const FLAT: f64 = 5e-4;
 /// Distance of contact marks as a share of the cell.
 const MARKS_APART: f64 = 0.125;
 
@@ -276,13 +274,7 @@ impl Stage<'_> {
         let apart = (MARKS_APART * cell).max(5.0 * radius / view.scale());
         let count = self.drawn(detail);
         let lines = step.catenaries.iter().take(count);
-        // a rest that lies flat touches as its segment does; one with slack is a wrinkle
-        let flat = |span: &&SpanState| span.state == Hold::Lying && span.slack_ratio < FLAT;
-        let touching = lines.flat_map(|c| {
-            let segment = c.contact.iter().map(|contact| &contact.points);
-            segment.chain(c.spans.iter().filter(flat).map(|span| &span.points))
-        });
-        for line in touching {
+        for line in lines.flat_map(surface::touching) {
             let [Some(first), Some(last)] = [line.first(), line.last()] else {
                 continue;
             };

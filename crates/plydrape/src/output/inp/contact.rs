@@ -8,6 +8,7 @@
 use super::text::{Deck, number};
 use crate::draping::record::ResultFile;
 use crate::mold::patch::{Triangles, patch};
+use crate::output::ground::extent;
 
 /// Most triangles of the mold.
 const TRIANGLES: usize = 2000;
@@ -28,10 +29,8 @@ impl RigidMold {
     pub fn new(result: &ResultFile, weight: f64, thickness: f64) -> Option<RigidMold> {
         let mold = result.scene.mold.as_ref()?;
         let margin = 0.5 * result.scene.cell[0].max(result.scene.cell[1]);
-        let places = || result.steps.iter().flat_map(|s| s.grippers.iter().map(|g| g.position));
-        let low = [0, 1].map(|c| places().map(|p| p[c]).fold(f64::INFINITY, f64::min) - margin);
-        let high = [0, 1].map(|c| places().map(|p| p[c]).fold(-f64::INFINITY, f64::max) + margin);
-        let surface = patch(mold, low, high, TRIANGLES);
+        let [low, high] = extent(result)?;
+        let surface = patch(mold, low.map(|c| c - margin), high.map(|c| c + margin), TRIANGLES);
         let depth = 0.1 * result.scene.settings.contact.tolerance;
         let stiffness = weight / depth;
         (!surface.triangles.is_empty()).then_some(RigidMold { surface, thickness, stiffness })

@@ -1,9 +1,9 @@
 //! What the page draws: ply, grippers, contact and mold, in micrometres and hundredths of a degree.
 
 use super::block::Block;
-use crate::draping::record::{CatenaryState, Gripper, Hold, ResultFile, SpanState, Step};
-use crate::mold::patch::patch;
-use crate::output::surface::{Surface, lines, stations};
+use crate::draping::record::{ResultFile, Step};
+use crate::output::ground::ground;
+use crate::output::surface::{Surface, lines, stations, touching};
 use crate::ply::Direction;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -14,10 +14,6 @@ const MOST_POINTS: usize = 3_000_000;
 const INTERVALS: [usize; 6] = [12, 10, 8, 6, 4, 2];
 /// Triangles of the mold at most.
 const MOST_TRIANGLES: usize = 8000;
-/// How far the mold is shown beyond the ply, as a share of its width.
-const MARGIN: f64 = 0.12;
-/// Slack ratio below which a lying rest is shown as contact.
-const FLAT: f64 = 5e-4;
 /// Contact marks along a cell of a small array.
 const MARKS: f64 = 8.0;
 /// Cells up to which an array is small.
@@ -142,7 +138,7 @@ impl Geometry {
         let hands = || steps.iter().flat_map(|step| &step.grippers);
         let grippers = points(&mut hands().map(|gripper| gripper.position));
         let normals: Vec<i32> =
-            hands().flat_map(|g| normal(g).map(|c| (c * 1e4).round() as i32)).collect();
+            hands().flat_map(|g| g.normal().map(|c| (c * 1e4).round() as i32)).collect();
         let cells = || steps.iter().flat_map(|step| &step.cells);
         let shear: Vec<i32> = cells().map(|cell| hundredths(cell.shear_deg)).collect();
         let direction: Vec<i32> =
@@ -167,16 +163,10 @@ impl Geometry {
                 counts: marks.iter().map(Vec::len).collect(),
                 points: Block::new(1, 3, &points(&mut marks.into_iter().flatten())),
             },
-            mold: mold(result, &surfaces),
+            mold: mold(result),
         };
         (geometry, ranges)
     }
-}
-
-/// The ply's normal at a gripper: the z axis of its orientation.
-fn normal(gripper: &Gripper) -> [f64; 3] {
-    let [x, y, z, w] = gripper.quaternion;
-    [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)]
 }
 
 /// Angle of the warp in each cell from the x axis, as seen from above (°): the mean of its two edges along the
@@ -209,33 +199,20 @@ fn contacts(result: &ResultFile, step: &Step) -> Vec<[f64; 3]> {
     let [a, b] = result.scene.cell;
     let marks = if result.scene.grid.cells() <= SMALL { MARKS } else { 1.0 };
     let apart = a.min(b) / marks;
-    let flat = |span: &&SpanState| span.state == Hold::Lying && span.slack_ratio < FLAT;
-    let touching = |c: &CatenaryState| -> Vec<Vec<[f64; 3]>> {
-        let segment = c.contact.iter().map(|contact| contact.points.clone());
-        segment.chain(c.spans.iter().filter(flat).map(|span| span.points.clone())).collect()
-    };
     let mut out = Vec::new();
     for line in step.catenaries.iter().flat_map(touching) {
         let (Some(first), Some(last)) = (line.first(), line.last()) else { continue };
         match (crate::mold::distance(*first, *last) / apart).round() as usize {
             0 => out.push(line[line.len() / 2]),
-            count => out.extend(stations(&line, count)),
+            count => out.extend(stations(line, count)),
         }
     }
     out
 }
 
 /// The mold around the ply.
-fn mold(result: &ResultFile, surfaces: &[Surface]) -> Option<Mold> {
-    let mold = result.scene.mold.as_ref()?;
-    let [mut low, mut high] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-    let target = result.scene.target_grippers.iter().flatten();
-    for p in surfaces.iter().flat_map(|s| &s.vertices).chain(target) {
-        low = [0, 1].map(|c| low[c].min(p[c]));
-        high = [0, 1].map(|c| high[c].max(p[c]));
-    }
-    let margin = MARGIN * (high[0] - low[0]).max(high[1] - low[1]);
-    let found = patch(mold, low.map(|c| c - margin), high.map(|c| c + margin), MOST_TRIANGLES);
+fn mold(result: &ResultFile) -> Option<Mold> {
+    let found = ground(result, MOST_TRIANGLES)?;
     // the nearest micrometre in the fewest digits
     let short = |c: &f64| (c * MICRO).round() / MICRO;
     Some(Mold {

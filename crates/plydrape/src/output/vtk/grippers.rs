@@ -16,7 +16,7 @@ pub(super) fn grippers(step: &Step) -> PolyData {
     let grippers = &step.grippers;
     let numbers =
         |name, of: fn(&Gripper) -> f64| Array::new(name, grippers.iter().map(of).collect());
-    let normals: Vec<[f64; 3]> = grippers.iter().map(|g| normal(g.quaternion)).collect();
+    let normals: Vec<[f64; 3]> = grippers.iter().map(|g| g.normal()).collect();
     let quaternions: Vec<[f64; 4]> = grippers.iter().map(|g| g.quaternion).collect();
     let known = grippers.iter().map(|g| g.target_distance_mm.is_some().into()).collect();
     PolyData {
@@ -35,9 +35,4 @@ pub(super) fn grippers(step: &Step) -> PolyData {
         in_cells: Vec::new(),
         fields: Vec::new(),
     }
-}
-
-/// Where a unit quaternion turns the z axis.
-fn normal([x, y, z, w]: [f64; 4]) -> [f64; 3] {
-    [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)]
 }
