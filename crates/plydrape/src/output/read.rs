@@ -154,6 +154,9 @@ pub fn parse(bytes: &[u8], path: &Path) -> Result<ResultFile, ReadError> {
     }
     let result: ResultFile = serde_json::from_str(text)
         .map_err(|error| ReadError::Changed { path: path.clone(), reason: format!(": {error}") })?;
+    if let Some(what) = gap(&result) {
+        return Err(ReadError::Changed { path, reason: format!(": {what}") });
+    }
     let value = format!("{CHECKSUM}\"{}\"", result.checksum);
     match text.split_once(&value) {
         Some((head, tail)) if checksum(head, tail) == result.checksum => Ok(result),
@@ -162,6 +165,24 @@ pub fn parse(bytes: &[u8], path: &Path) -> Result<ResultFile, ReadError> {
             reason: ": its check sum does not match its contents".into(),
         }),
     }
+}
+
+/// What a result lacks for its own grid, in words; everything made of it relies on nothing being missing.
+fn gap(result: &ResultFile) -> Option<String> {
+    let grid = result.scene.grid;
+    if grid.nu < 2 || grid.nv < 1 {
+        return Some(format!("there is no ply of {} × {} grippers", grid.nu, grid.nv));
+    }
+    result.steps.iter().find_map(|step| {
+        let counts = [
+            ("grippers", step.grippers.len(), grid.grippers()),
+            ("catenaries", step.catenaries.len(), grid.catenaries()),
+            ("cells", step.cells.len(), grid.cells()),
+        ];
+        let (what, found, wanted) =
+            counts.into_iter().find(|(_, found, wanted)| found != wanted)?;
+        Some(format!("step {} has {found} {what}, not {wanted}", step.step))
+    })
 }
 
 /// Whether a text that is no JSON begins as a result file does.

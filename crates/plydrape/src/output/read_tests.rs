@@ -55,6 +55,23 @@ fn only_white_space_at_the_end_may_change() {
     assert!(matches!(read(&without), Err(ReadError::Changed { .. })));
 }
 
+/// A forged check sum does not help a result that lacks a gripper, a cell or its grid.
+#[test]
+fn a_result_must_have_all_of_its_ply() {
+    let spoilt: [fn(&mut ResultFile); 4] = [
+        |r| r.steps[1].grippers.truncate(1),
+        |r| r.steps[0].cells.truncate(1),
+        |r| r.steps[2].catenaries.truncate(1),
+        |r| r.scene.grid.nu = 0,
+    ];
+    for spoil in spoilt {
+        let mut result = sample::draped(3, 2, 3);
+        spoil(&mut result);
+        let refused = read(&json::text(&result).unwrap()).unwrap_err();
+        assert!(matches!(refused, ReadError::Changed { .. }), "{refused}");
+    }
+}
+
 /// The version decides before anything else does: a later file may hold keys that are unknown today.
 #[test]
 fn other_versions_are_named() {

@@ -71,7 +71,10 @@ fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) 
         grippers,
         solver: Solver { status: Status::Converged, iterations: 3, residual: 1e-12, equilibria: 1 },
         catenaries,
-        cells: Vec::new(),
+        cells: (0..grid.cells())
+            .map(|k| grid.catenary(grid.edges() + 2 * k).from)
+            .map(|cell| Cell { cell, shear_deg: 0.0, shearing: None })
+            .collect(),
         measures: Measures {
             slack_mm: worst(2.0 - time),
             overstretch: worst(0.01 * time),
