@@ -13,17 +13,23 @@ Example:
 
 from plydrape import batch
 from plydrape._plydrape import (
+    Equilibrium,
     Foot,
+    Jacobian,
     Material,
     Mold,
     Net,
+    Outcome,
     Plan,
     Ply,
     Result,
     Scene,
+    Solver,
+    Span,
     Surface,
     __version__,
     materials,
+    outcome,
     plan,
     simulate,
 )
@@ -37,10 +43,13 @@ from plydrape.errors import (
 )
 
 __all__ = [
+    "Equilibrium",
     "Foot",
+    "Jacobian",
     "Material",
     "Mold",
     "Net",
+    "Outcome",
     "OutputError",
     "Plan",
     "PlanError",
@@ -51,10 +60,13 @@ __all__ = [
     "Scene",
     "SceneError",
     "SolveError",
+    "Solver",
+    "Span",
     "Surface",
     "__version__",
     "batch",
     "materials",
+    "outcome",
     "plan",
     "simulate",
 ]
