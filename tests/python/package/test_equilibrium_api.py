@@ -47,7 +47,7 @@ def solve(
 
 def compare(
     jacobian: plydrape.Jacobian,
-    column: tuple[int, ...],
+    column: int,
     low: plydrape.Equilibrium,
     high: plydrape.Equilibrium,
     step: float,
@@ -61,7 +61,7 @@ def compare(
     }
     for name, (exact, below, above) in parts.items():
         difference = (above - below) / step
-        exact = exact[(..., *column)]
+        exact = exact.reshape(*difference.shape, -1)[..., column]
         assert np.array_equal(np.isnan(exact), np.isnan(difference)), name
         # the error of the difference is of its second order and of rounding over the step
         scale = np.nanmax(np.abs(difference)) + 1e-9
@@ -86,7 +86,7 @@ def test_jacobians_agree_with_central_differences(
         high[n, k] += h
         compare(
             grippers,
-            (n, k),
+            3 * n + k,
             solve(base, low, rule),
             solve(base, high, rule),
             high[n, k] - low[n, k],
@@ -101,7 +101,7 @@ def test_jacobians_agree_with_central_differences(
         high_ply = ply((high_cell[0], high_cell[1]), areal=areal)
         compare(
             lengths,
-            (k,),
+            k,
             solve(low_ply, positions, rule),
             solve(high_ply, positions, rule),
             high_cell[k] - low_cell[k],
@@ -116,7 +116,7 @@ def test_jacobians_agree_with_central_differences(
         low_ply, high_ply = (ply(scale={name: 1 + s * 1e-5}, areal=areal) for s in (-1, 1))
         compare(
             material,
-            (k,),
+            k,
             solve(low_ply, positions, rule),
             solve(high_ply, positions, rule),
             2e-5 * values[name],
@@ -152,7 +152,9 @@ def test_a_batch_is_its_equilibria_one_by_one(rule: Literal["moment-balance", "m
 def test_a_batch_of_drapes_is_its_drapes_one_by_one() -> None:
     """The same text of result.json."""
     scene = plydrape.Scene.read(FLAT)
-    scenes = [scene.with_motion(scene.times, scene.positions + [0, 0, h]) for h in (0, 1e-3)]
+    scenes = [
+        scene.with_motion(scene.times, scene.positions + np.array([0, 0, h])) for h in (0, 1e-3)
+    ]
     for scene, result in zip(scenes, plydrape.batch.simulate(scenes), strict=True):
         assert plydrape.simulate(scene).to_json() == result.to_json()
 
@@ -163,14 +165,14 @@ def test_an_equilibrium_that_is_not_found_says_so() -> None:
         grippers=[3, 1], cell=[0.1, 0.1], material={"mass": 0.3, "flexural_rigidity": 0.0}
     )
     solver = plydrape.Solver(base)
-    equilibrium = solver.solve([[0, 0, 0], [0.098, 0, 0], [0.196, 0, 0]])
+    equilibrium = solver.solve(np.array([[0, 0, 0], [0.098, 0, 0], [0.196, 0, 0]]))
     with pytest.raises(plydrape.SolveError, match="rigidity of the material is zero"):
         equilibrium.jacobian(wrt="material")
     assert equilibrium.jacobian(wrt="lengths").names == ["u", "v"]
 
 
 def test_a_span_agrees_with_the_command_line_and_the_limp_limit() -> None:
-    """Sag of a limp span is that of the catenary, z = (H/w)(cosh(wx/H) − 1)."""
+    """Sag of a limp span is that of the catenary, z = (H/w)(cosh(wx/H) - 1)."""
     span = plydrape.Span(
         run=0.1, length=0.1002, weight=3.0, flexural_rigidity=0.0, axial_stiffness=np.inf
     )
@@ -198,8 +200,8 @@ def outcome_at(scene: plydrape.Scene, n: int, k: int, h: float) -> plydrape.Outc
 def test_an_outcome_changes_with_its_targets_as_it_says() -> None:
     """Against central differences of whole drapes, hanging and sheared at the end."""
     scene = plydrape.Scene(
-        ply={"grippers": [4, 2], "cell": [0.1, 0.1], "material": "krogh2018"},
-        grippers={"spacing": ["98 mm", "98 mm"], "height": "75 mm"},
+        ply={"grippers": [4, 2], "cell": [0.1, 0.09], "material": "krogh2018"},
+        grippers={"spacing": ["98 mm", "88 mm"], "height": "75 mm"},
         target={"positions": places(3)[4:].reshape(2, 4, 3)},
     )
     middle = plydrape.outcome(scene)

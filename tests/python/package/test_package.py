@@ -21,7 +21,8 @@ SLOW = ROOT / "examples" / "07_cubic" / "scene.toml"
 
 def test_a_drape_is_the_command_lines(tmp_path: Path) -> None:
     """Same scene, same bytes of result.json and of every other file."""
-    subprocess.run([binary(), "simulate", EXAMPLE, "-o", tmp_path / "cli", "--quiet"], check=False)
+    command = [str(binary()), "simulate", str(EXAMPLE), "-o", str(tmp_path / "cli"), "--quiet"]
+    subprocess.run(command, check=False)
     result = plydrape.simulate(plydrape.Scene.read(EXAMPLE))
     written = result.write(tmp_path / "python")
     assert len(written) >= 5
@@ -179,7 +180,7 @@ def test_an_output_that_is_in_the_way_stays(tmp_path: Path) -> None:
 
 
 def test_another_thread_runs_while_a_drape_is_computed() -> None:
-    """A long drape leaves the interpreter free: a counter beside it runs on at the speed it has alone."""
+    """A long drape leaves the interpreter free: a loop beside it is never kept waiting."""
     scene = plydrape.Scene.read(SLOW)
     drape = threading.Thread(target=lambda: plydrape.simulate(scene))
     gaps = []
