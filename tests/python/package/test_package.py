@@ -32,7 +32,8 @@ def test_a_drape_is_the_command_lines(tmp_path: Path) -> None:
 
 def test_a_plan_is_the_command_lines(tmp_path: Path) -> None:
     """Same scene and seed, same plan."""
-    cli = [binary(), "plan", EXAMPLE, "-o", tmp_path / "cli", "--quiet", "--seed", "3"]
+    folder = str(tmp_path / "cli")
+    cli = [str(binary()), "plan", str(EXAMPLE), "-o", folder, "--quiet", "--seed", "3"]
     subprocess.run(cli, check=True)
     plan = plydrape.plan(plydrape.Scene.read(EXAMPLE), seed=3)
     assert plan.accepted
