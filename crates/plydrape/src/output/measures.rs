@@ -4,7 +4,7 @@ use crate::draping::record::{Measures, Worst};
 use crate::scene::Limits;
 
 /// A measure with a place.
-pub(super) struct Measure {
+pub struct Measure {
     /// Its key in the result file.
     pub key: &'static str,
     /// What it is called.
@@ -21,18 +21,20 @@ pub(super) struct Measure {
 
 impl Measure {
     /// Its column in a table.
+    #[must_use]
     pub fn header(&self) -> String {
         format!("{} ({})", self.label, self.unit)
     }
 
     /// Whether the limit is the least that is allowed.
+    #[must_use]
     pub fn is_least(&self) -> bool {
         self.key == "gripper_distance_mm"
     }
 }
 
 /// Every measure with a place.
-pub(super) const MEASURES: [Measure; 14] = [
+pub const MEASURES: [Measure; 14] = [
     Measure {
         key: "slack_mm",
         label: "slack",

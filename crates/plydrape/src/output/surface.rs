@@ -62,6 +62,23 @@ impl Surface {
         let gap = gap.map(|mold| vertices.iter().map(|p| mold.signed_distance(*p)).collect());
         Surface { size, vertices, gap }
     }
+
+    /// Corners of two triangles a quad of the grid, counterclockwise from above where the ply is not turned over; none
+    /// of a strip.
+    #[must_use]
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let [nu, nv] = self.size;
+        let mut out = Vec::with_capacity(2 * (nu - 1) * (nv - 1));
+        for j in 0..nv - 1 {
+            for i in 0..nu - 1 {
+                let [a, b, c, d] =
+                    [j * nu + i, j * nu + i + 1, (j + 1) * nu + i + 1, (j + 1) * nu + i]
+                        .map(|n| n as u32);
+                out.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        out
+    }
 }
 
 fn mix(a: Point, b: Point, t: f64) -> Point {
@@ -69,7 +86,8 @@ fn mix(a: Point, b: Point, t: f64) -> Point {
 }
 
 /// The whole shape of a catenary, free spans and contact in their order, from gripper to gripper.
-pub(crate) fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
+#[must_use]
+pub fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
     let spans = line.spans.iter().map(|s| (s.arc, &s.points));
     let contact = line.contact.iter().map(|c| (c.arc, &c.points));
     let mut pieces: Vec<_> = spans.chain(contact).collect();

@@ -22,9 +22,10 @@ const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
 /// Smallest and largest gravity (m/s²).
 const GRAVITY: [f64; 2] = [1e-3, 1e3];
 
-/// Checks a scene file; other files it names are relative to `base`.
+/// Checks a scene file, on a mold of its own or on a `given` one; other files it names are relative to `base`.
 pub(super) fn scene(
     file: &SceneFile,
+    given: Option<Mold>,
     document: &Document,
     base: &Path,
 ) -> Result<Scene, SceneError> {
@@ -34,7 +35,7 @@ pub(super) fn scene(
             let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
             (Some(mold), report)
         }
-        None => (None, None),
+        None => (given, None),
     };
     let max_tilt = match file.grippers.as_ref().map(|g| &g.value.max_tilt) {
         Some(Some(tilt)) => acute(tilt, document)?,

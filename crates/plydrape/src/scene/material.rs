@@ -25,6 +25,12 @@ pub fn shipped_materials() -> impl Iterator<Item = &'static str> {
     SHIPPED.iter().map(|(name, _)| *name)
 }
 
+/// The file of a material that comes with the program, by its name.
+#[must_use]
+pub fn shipped_material(name: &str) -> Option<&'static str> {
+    SHIPPED.iter().find(|(shipped, _)| *shipped == name).map(|(_, text)| *text)
+}
+
 /// The material that a scene chose; files are relative to `base`.
 pub(super) fn material(
     choice: &Located<MaterialChoice>,
@@ -44,7 +50,7 @@ fn named(
     base: &Path,
 ) -> Result<Material, SceneError> {
     // A shipped name.
-    if let Some((_, text)) = SHIPPED.iter().find(|(shipped, _)| *shipped == name) {
+    if let Some(text) = shipped_material(name) {
         let document = Document::new(format!("materials/{name}.toml"), text);
         return from_file(&document, name);
     }

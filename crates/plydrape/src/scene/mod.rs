@@ -39,7 +39,7 @@ mod units;
 pub use argument::{Measured, quantity};
 pub use error::SceneError;
 pub use ideal::IdealDrape;
-pub use material::shipped_materials;
+pub use material::{shipped_material, shipped_materials};
 pub(crate) use motion::{MOST_POSITIONS, MOST_STEPS};
 pub use schema::schema;
 
@@ -92,8 +92,34 @@ pub fn parse(text: &str, base: &Path, name: &str) -> Result<Scene, SceneError> {
     scene(&error::Document::new(name, text), base)
 }
 
+/// Reads and checks the table `[ply]` of a scene's text alone; a material file is relative to `base`.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy.
+pub fn parse_ply(text: &str, base: &Path, name: &str) -> Result<Ply, SceneError> {
+    let document = error::Document::new(name, text);
+    check::ply(&keys(&document)?.ply, &document, base)
+}
+
+/// As [`parse`], on a mold that a program has made; the text has no `[mold]` then.
+///
+/// # Errors
+/// As [`parse`], and if the text has a mold of its own.
+pub fn parse_on(mold: Mold, text: &str, base: &Path, name: &str) -> Result<Scene, SceneError> {
+    let document = error::Document::new(name, text);
+    let mut file = keys(&document)?;
+    match file.mold.take() {
+        None => check::scene(&file, Some(mold), &document, base),
+        Some(table) => Err(document.error(
+            table.span,
+            "the scene has two molds",
+            "leave out [mold], or give no other mold",
+        )),
+    }
+}
+
 fn scene(document: &error::Document, base: &Path) -> Result<Scene, SceneError> {
-    check::scene(&keys(document)?, document, base)
+    check::scene(&keys(document)?, None, document, base)
 }
 
 fn keys(document: &error::Document) -> Result<file::SceneFile, SceneError> {

@@ -28,6 +28,27 @@ impl Mesh {
         Self::parse(&file, &bytes, scale, pose)
     }
 
+    /// A mold of triangles that a program has made: corners (m), and the three of each triangle.
+    ///
+    /// # Errors
+    /// If the triangles are no mold: see [`MeshError`].
+    pub fn of_triangles(
+        vertices: Vec<[f64; 3]>,
+        triangles: &[[u32; 3]],
+    ) -> Result<(Self, MeshReport), MeshError> {
+        let (file, mut soup) = ("the mold", Soup::new("triangle"));
+        let most = vertices.len();
+        if triangles.as_flattened().iter().any(|n| *n as usize >= most) {
+            let others = " of the vertices it has".to_owned();
+            return Err(MeshError::Empty { file: file.into(), noun: "triangle", others });
+        }
+        soup.points = vertices;
+        for (n, corners) in triangles.iter().enumerate() {
+            soup.push(corners, n as u64 + 1);
+        }
+        build(soup, file, 1.0, &Pose::new([0.0; 3], [0.0; 3]))
+    }
+
     /// The same from the contents of a file; its name tells the format and stands in messages.
     ///
     /// # Errors
@@ -68,17 +89,7 @@ impl TryFrom<Triangles> for Mesh {
     type Error = MeshError;
 
     fn try_from(written: Triangles) -> Result<Self, MeshError> {
-        let (file, mut soup) = ("the mold", Soup::new("triangle"));
-        let most = written.vertices.len();
-        if written.triangles.as_flattened().iter().any(|n| *n as usize >= most) {
-            let others = " of the vertices it has".to_owned();
-            return Err(MeshError::Empty { file: file.into(), noun: "triangle", others });
-        }
-        soup.points = written.vertices;
-        for (n, corners) in written.triangles.iter().enumerate() {
-            soup.push(corners, n as u64 + 1);
-        }
-        build(soup, file, 1.0, &Pose::new([0.0; 3], [0.0; 3])).map(|(mesh, _)| mesh)
+        Mesh::of_triangles(written.vertices, &written.triangles).map(|(mesh, _)| mesh)
     }
 }
 

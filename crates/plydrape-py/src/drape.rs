@@ -1,0 +1,214 @@
+//! `plydrape.simulate` and `plydrape.plan`.
+
+use crate::arrays::{Array, Numbers};
+use crate::error;
+use crate::result::Result;
+use crate::scene::{Scene, blocks};
+use crate::work::run;
+use numpy::Ix1;
+use plydrape::draping;
+use plydrape::output::{json, plan::write_all};
+use plydrape::planner::{self, Memory, Planned};
+use plydrape::scene::PlanMethod;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Drapes the ply of a scene along its motion, as `plydrape simulate` does.
+///
+/// Other threads of Python run on meanwhile, and Ctrl-C ends it.
+///
+/// Args:
+///     scene: The scene.
+///     progress: Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
+///
+/// Returns:
+///     The result; a drape that breaks limits is a result all the same.
+///
+/// Example:
+///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+///     >>> plydrape.simulate(scene).accepted
+///     True
+#[pyfunction]
+#[pyo3(signature = (
+    scene, *, progress: "typing.Callable[[int, int, str], object] | None" = None
+))]
+pub fn simulate(
+    py: Python<'_>,
+    scene: &Bound<'_, Scene>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Result> {
+    let scene = Arc::clone(&scene.get().0);
+    let steps = scene.motion.positions.len();
+    let drape = run(py, progress, move |watch| {
+        draping::simulate(&scene, |done| watch.tell(done, steps, "draping"))
+    })?;
+    Ok(Result(Arc::new(drape.result)))
+}
+
+/// Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
+///
+/// Other threads of Python run on meanwhile. Ctrl-C raises KeyboardInterrupt at once; to stop early and keep the
+/// best so far, give the search fewer `evaluations` in the scene's `plan`.
+///
+/// Args:
+///     scene: The scene, with mold and target.
+///     method: "path" or "stepwise", instead of the scene's.
+///     seed: Seed of the search, instead of the scene's: the same seed, the same plan.
+///     memory: Text of the plan.json of an earlier search, to go on from: see `Plan.memory`.
+///     progress: Called with (drapes done, most, what is done), some 50 times a second.
+///
+/// Returns:
+///     The best plan found, whether or not it is accepted.
+///
+/// Raises:
+///     PlanError: If the scene has no mold or target, or `memory` is not of its ply.
+///     ValueError: If there is no such method, or `memory` is no plan.json.
+#[pyfunction]
+#[pyo3(signature = (
+    scene, *, method: "typing.Literal['path', 'stepwise'] | None" = None, seed = None, memory = None,
+    progress: "typing.Callable[[int, int, str], object] | None" = None
+))]
+pub fn plan(
+    py: Python<'_>,
+    scene: &Bound<'_, Scene>,
+    method: Option<&str>,
+    seed: Option<u64>,
+    memory: Option<&str>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Plan> {
+    let mut scene = (*scene.get().0).clone();
+    match method {
+        None => {}
+        Some("path") => scene.plan.method = PlanMethod::Path,
+        Some("stepwise") => scene.plan.method = PlanMethod::Stepwise,
+        Some(other) => {
+            let text = format!("method is {other:?}; \"path\" or \"stepwise\" is wanted");
+            return Err(PyValueError::new_err(text));
+        }
+    }
+    scene.plan.seed = seed.unwrap_or(scene.plan.seed);
+    let memory: Option<Memory> = memory.map(serde_json::from_str).transpose().map_err(|fault| {
+        PyValueError::new_err(format!("memory is no plan.json of this version: {fault}; plan anew"))
+    })?;
+    let planned = run(py, progress, move |watch| {
+        planner::plan(&scene, memory.as_ref(), &mut |progress| {
+            watch.tell(progress.evaluations, progress.most, progress.stage)
+        })
+    })?;
+    planned.map(Plan::from).map_err(|fault| error::plan(&fault))
+}
+
+/// A planned motion, and the drape along it.
+#[pyclass(frozen, module = "plydrape")]
+pub struct Plan {
+    planned: Arc<Planned>,
+    result: Arc<draping::record::ResultFile>,
+}
+
+impl From<Planned> for Plan {
+    fn from(planned: Planned) -> Self {
+        let result = Arc::new(planned.drape.result.clone());
+        Plan { planned: Arc::new(planned), result }
+    }
+}
+
+#[pymethods]
+impl Plan {
+    /// The drape along the planned motion, with all limits judged.
+    #[getter]
+    fn result(&self) -> Result {
+        Result(Arc::clone(&self.result))
+    }
+
+    /// The planner: "path" or "stepwise".
+    #[getter]
+    fn method(&self) -> &'static str {
+        match self.planned.method {
+            PlanMethod::Path => "path",
+            PlanMethod::Stepwise => "stepwise",
+        }
+    }
+
+    /// Complete drapes that the search tried; of the stepwise planner, steps.
+    #[getter]
+    fn evaluations(&self) -> usize {
+        self.planned.evaluations
+    }
+
+    /// Whether every limit is kept.
+    #[getter]
+    fn accepted(&self) -> bool {
+        self.result.summary.accepted
+    }
+
+    /// How long the motion takes (s).
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.planned.motion.duration()
+    }
+
+    /// Time of each planned step (s), shape (steps,).
+    #[getter]
+    fn times(&self) -> Array<f64> {
+        let times = self.planned.motion.times().to_vec();
+        Array::new(&[times.len()], times)
+    }
+
+    /// Planned positions of the grippers (m), shape (steps, grippers, 3): control points of the smooth motion.
+    #[getter]
+    fn positions(&self) -> Array<f64> {
+        blocks(self.planned.motion.positions(), self.planned.motion.grippers())
+    }
+
+    /// Positions of the grippers at any times of the motion.
+    ///
+    /// Args:
+    ///     times: Times (s), shape (n,).
+    ///
+    /// Returns:
+    ///     Positions, velocities, accelerations and jerks (m, s), each of shape (n, grippers, 3).
+    fn motion(
+        &self,
+        times: Numbers<'_, Ix1>,
+    ) -> PyResult<(Array<f64>, Array<f64>, Array<f64>, Array<f64>)> {
+        let times = crate::arrays::list(&times, "times")?;
+        let motion = &self.planned.motion;
+        let every = |at: &dyn Fn(f64) -> Vec<[f64; 3]>| {
+            let steps: Vec<_> = times.iter().map(|t| at(*t)).collect();
+            blocks(&steps, motion.grippers())
+        };
+        Ok((
+            every(&|t| motion.at(t)),
+            every(&|t| motion.velocity(t)),
+            every(&|t| motion.acceleration(t)),
+            every(&|t| motion.jerk(t)),
+        ))
+    }
+
+    /// What a later search can go on from: the text of plan.json.
+    #[getter]
+    fn memory(&self) -> PyResult<String> {
+        json::of(&self.planned.memory).map_err(|fault| error::output(&fault.into()))
+    }
+
+    /// Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json into a
+    /// folder, all or none, and returns their paths.
+    ///
+    /// Raises:
+    ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+    fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
+        let planned = Arc::clone(&self.planned);
+        py.detach(|| write_all(&planned, &folder)).map_err(|fault| error::output(&fault))
+    }
+
+    fn __repr__(&self) -> String {
+        let verdict = if self.accepted() { "accepted" } else { "not accepted" };
+        format!(
+            "<plydrape.Plan of {:?}, {verdict}, {:.1} s>",
+            self.result.scene.title,
+            self.duration()
+        )
+    }
+}

@@ -1,0 +1,43 @@
+//! The Python package `plydrape`: the library's nouns as classes, its arrays as NumPy's.
+//!
+//! The binding converts and computes nothing. A file here is a noun of the library; what is plain Python, such as
+//! plots and studies, is in `python/plydrape`.
+
+mod arrays;
+mod batch;
+mod drape;
+mod error;
+mod json;
+mod mold;
+mod net;
+mod ply;
+mod result;
+mod scene;
+mod table;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The compiled part of `plydrape`.
+#[pymodule]
+mod _plydrape {
+    #[pymodule_export]
+    use crate::batch::simulate_all;
+    #[pymodule_export]
+    use crate::drape::{Plan, plan, simulate};
+    #[pymodule_export]
+    use crate::mold::{Foot, Mold};
+    #[pymodule_export]
+    use crate::net::Net;
+    #[pymodule_export]
+    use crate::ply::{Material, Ply};
+    #[pymodule_export]
+    use crate::result::{Result, Surface};
+    #[pymodule_export]
+    use crate::scene::{Scene, materials};
+
+    /// Version of the package and of the library in it.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

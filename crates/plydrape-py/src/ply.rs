@@ -1,0 +1,223 @@
+//! `plydrape.Ply` and `plydrape.Material`.
+
+use crate::arrays::{Array, List};
+use crate::scene::text_of;
+use crate::{error, table};
+use plydrape::material::{self, Section};
+use plydrape::ply::{self, Direction};
+use plydrape::scene;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use toml::Value;
+use toml::map::Map;
+
+/// A rectangular woven ply held by a grid of grippers.
+///
+/// Grippers are counted with i, along u, running fastest. Catenaries are counted: edges along u, edges along
+/// v, then two diagonals a cell, the one from `[i, j]` to `[i + 1, j + 1]` first.
+///
+/// Args:
+///     grippers: How many there are along u and v; `[n, 1]` is a strip.
+///     cell: Fabric length between neighbours along u and v, in m or as str with a unit.
+///     material: Name of a shipped material, path of a .toml file, or a dict of its keys.
+///     warp: Grid direction of the warp, "u" or "v".
+///     base: Folder of a material file.
+///
+/// Raises:
+///     SceneError: If a value makes no sense.
+///
+/// Example:
+///     >>> ply = plydrape.Ply(grippers=[4, 2], cell=["100 mm", "100 mm"], material="krogh2018")
+///     >>> len(ply.catenaries)
+///     16
+#[pyclass(frozen, module = "plydrape")]
+#[derive(Clone)]
+pub struct Ply(pub ply::Ply);
+
+#[pymethods]
+impl Ply {
+    #[new]
+    #[pyo3(signature = (
+        *, grippers: "typing.Sequence[int]", cell: "typing.Sequence[float | str]",
+        material: "str | dict[str, typing.Any]", warp = "u", base = PathBuf::new()
+    ))]
+    fn new(
+        py: Python<'_>,
+        grippers: &Bound<'_, PyAny>,
+        cell: &Bound<'_, PyAny>,
+        material: &Bound<'_, PyAny>,
+        warp: &str,
+        base: PathBuf,
+    ) -> PyResult<Self> {
+        let keys = PyDict::new(py);
+        keys.set_item("grippers", grippers)?;
+        keys.set_item("cell", cell)?;
+        keys.set_item("material", material)?;
+        keys.set_item("warp", warp)?;
+        let mut file = Map::new();
+        file.insert("ply".into(), Value::Table(table::table(&keys, "ply")?));
+        let ply = scene::parse_ply(&text_of(&file)?, &base, "ply");
+        ply.map(Ply).map_err(|refused| error::scene(&refused))
+    }
+
+    /// Grippers along u and v.
+    #[getter]
+    fn grippers(&self) -> (usize, usize) {
+        (self.0.grid.nu, self.0.grid.nv)
+    }
+
+    /// Fabric length of a cell along u and v (m).
+    #[getter]
+    fn cell(&self) -> (f64, f64) {
+        self.0.cell.into()
+    }
+
+    /// What it is made of.
+    #[getter]
+    fn material(&self) -> Material {
+        Material(self.0.material.clone())
+    }
+
+    /// Grid direction of the warp: "u" or "v".
+    #[getter]
+    fn warp(&self) -> &'static str {
+        match self.0.warp {
+            Direction::U => "u",
+            Direction::V => "v",
+        }
+    }
+
+    /// Grippers at the ends of each catenary, shape (catenaries, 2).
+    #[getter]
+    fn catenaries(&self) -> Array<i64> {
+        let grid = self.0.grid;
+        let ends = (0..grid.catenaries()).map(|n| {
+            let c = grid.catenary(n);
+            [c.from, c.to].map(|g| grid.index(g) as i64)
+        });
+        Array::rows(&[grid.catenaries(), 2], ends)
+    }
+
+    /// Fabric length of each catenary of the flat ply (m), shape (catenaries,).
+    #[getter]
+    fn lengths(&self) -> Array<f64> {
+        let grid = self.0.grid;
+        let lengths = (0..grid.catenaries()).map(|n| self.0.flat_length(grid.catenary(n).kind));
+        Array::new(&[grid.catenaries()], lengths.collect())
+    }
+
+    fn __repr__(&self) -> String {
+        let ply = &self.0;
+        let [a, b] = ply.cell.map(|side| side * 1e3);
+        let (grid, name) = (ply.grid, &ply.material.name);
+        format!(
+            "<plydrape.Ply {} × {} grippers, cells of {a} × {b} mm, {name:?}>",
+            grid.nu, grid.nv
+        )
+    }
+}
+
+/// What a ply is made of: mass, flexural rigidity, shear curve and locking angle.
+///
+/// Example:
+///     >>> material = plydrape.Material.shipped("krogh2018")
+///     >>> material.mass, material.flexural_rigidity
+///     (0.3143, 9e-06)
+#[pyclass(frozen, module = "plydrape")]
+#[derive(Clone)]
+pub struct Material(pub material::Material);
+
+#[pymethods]
+impl Material {
+    /// A material that comes with plydrape, see `materials`.
+    ///
+    /// Raises:
+    ///     ValueError: If there is none of that name.
+    #[staticmethod]
+    fn shipped(name: &str) -> PyResult<Self> {
+        Material::text(name)?;
+        let scene = format!("[ply]\ngrippers = [2, 1]\ncell = [1, 1]\nmaterial = {name:?}\n");
+        let ply = scene::parse_ply(&scene, "".as_ref(), name);
+        ply.map(|ply| Material(ply.material)).map_err(|refused| error::scene(&refused))
+    }
+
+    /// The file of a material that comes with plydrape: TOML.
+    ///
+    /// Raises:
+    ///     ValueError: If there is none of that name.
+    #[staticmethod]
+    fn text(name: &str) -> PyResult<&'static str> {
+        scene::shipped_material(name).ok_or_else(|| {
+            let names: Vec<_> = scene::shipped_materials().collect();
+            PyValueError::new_err(format!(
+                "there is no material {name:?}; plydrape comes with {}",
+                names.join(", ")
+            ))
+        })
+    }
+
+    /// Its name for reports.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// Where its numbers come from.
+    #[getter]
+    fn source(&self) -> &str {
+        &self.0.source
+    }
+
+    /// Whether its numbers are per area; else they belong to each catenary, as in Krogh et al. 2018.
+    #[getter]
+    fn areal(&self) -> bool {
+        matches!(self.0.section, Section::Areal { .. })
+    }
+
+    /// Mass per length (kg/m), or per area (kg/m²) if `areal`.
+    #[getter]
+    fn mass(&self) -> f64 {
+        match self.0.section {
+            Section::Line { mass, .. } | Section::Areal { mass, .. } => mass,
+        }
+    }
+
+    /// Flexural rigidity EI of a catenary (N·m²); None if `areal`.
+    #[getter]
+    fn flexural_rigidity(&self) -> Option<f64> {
+        match self.0.section {
+            Section::Line { flexural_rigidity, .. } => Some(flexural_rigidity),
+            Section::Areal { .. } => None,
+        }
+    }
+
+    /// Bending rigidity per width along warp and weft (N·m); None unless `areal`.
+    #[getter]
+    fn bending_rigidity(&self) -> Option<(f64, f64)> {
+        match self.0.section {
+            Section::Line { .. } => None,
+            Section::Areal { warp_rigidity, weft_rigidity, .. } => {
+                Some((warp_rigidity, weft_rigidity))
+            }
+        }
+    }
+
+    /// Shear angle at which the weave locks (rad), where it is known.
+    #[getter]
+    fn locking_angle(&self) -> Option<f64> {
+        self.0.locking_angle
+    }
+
+    /// Shear force per length (N/m) at shear angles (rad), shape (n,); None if the material has no shear curve.
+    fn shear_force(&self, angles: List<'_>) -> Option<Array<f64>> {
+        let curve = self.0.shear_curve.as_ref()?;
+        let forces: Vec<f64> = angles.0.as_array().iter().map(|a| curve.force(*a).0).collect();
+        Some(Array::new(&[forces.len()], forces))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<plydrape.Material {:?}>", self.0.name)
+    }
+}

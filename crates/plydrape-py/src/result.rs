@@ -1,0 +1,405 @@
+//! `plydrape.Result`: the result file, read by arrays.
+
+use crate::arrays::{Array, Named, or_nan};
+use crate::error;
+use crate::json::Json;
+use crate::mold::{Mold, triangles};
+use crate::net::Net;
+use plydrape::draping::record::{CatenaryState, ResultFile, Step};
+use plydrape::equilibrium::Status;
+use plydrape::output::{self, export, figure, folder, json, page, read};
+use plydrape::output::{ground::ground, measures::MEASURES, surface};
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A drape: every force, shape, contact and measure of every step, and the verdict.
+///
+/// Arrays are in m, N, s unless the name says otherwise. Grippers are counted with i running fastest,
+/// catenaries as in `Ply`. Steps count from 1, the start; −1 is the last.
+///
+/// Example:
+///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+///     >>> result = plydrape.simulate(scene)
+///     >>> result.positions.shape, result.summary["first_contact_step"]
+///     ((30, 8, 3), 26)
+#[pyclass(frozen, module = "plydrape")]
+#[derive(Clone)]
+pub struct Result(pub Arc<ResultFile>);
+
+/// The ply of one step as a surface.
+#[pyclass(frozen, module = "plydrape")]
+pub struct Surface(surface::Surface);
+
+impl Result {
+    /// A step by its number, from 1; negative ones count from the end.
+    fn step(&self, step: isize) -> PyResult<&Step> {
+        let steps = &self.0.steps;
+        let index = match step {
+            1.. => step.unsigned_abs().checked_sub(1),
+            0 => None,
+            _ => steps.len().checked_sub(step.unsigned_abs()),
+        };
+        index.and_then(|n| steps.get(n)).ok_or_else(|| {
+            PyIndexError::new_err(format!(
+                "there is no step {step}; the result has steps 1 to {}, and -1 is the last",
+                steps.len()
+            ))
+        })
+    }
+
+    /// A number of each gripper in each step.
+    fn grippers<const N: usize>(
+        &self,
+        find: impl Fn(&plydrape::draping::record::Gripper) -> [f64; N],
+    ) -> Array<f64> {
+        let shape = [self.0.steps.len(), self.0.scene.grid.grippers(), N];
+        let axes = if N == 1 { 2 } else { 3 };
+        Array::rows(&shape[..axes], self.0.steps.iter().flat_map(|s| &s.grippers).map(find))
+    }
+
+    /// A number of each catenary in each step.
+    fn catenaries(&self, find: impl Fn(&CatenaryState) -> f64) -> Array<f64> {
+        let shape = [self.0.steps.len(), self.0.scene.grid.catenaries()];
+        Array::new(&shape, self.0.steps.iter().flat_map(|s| &s.catenaries).map(find).collect())
+    }
+}
+
+#[pymethods]
+impl Result {
+    /// Reads a result.json.
+    ///
+    /// Raises:
+    ///     ResultError: If it cannot be read, or is not, to the last byte, what this version writes.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let result = py.detach(|| read::read(&path));
+        result.map(|result| Result(Arc::new(result))).map_err(|fault| error::read(&fault))
+    }
+
+    /// Reads the text of a result.json.
+    ///
+    /// Raises:
+    ///     ResultError: As `read`.
+    #[staticmethod]
+    fn parse(py: Python<'_>, text: &str) -> PyResult<Self> {
+        let result = py.detach(|| read::parse(text.as_bytes(), "result.json".as_ref()));
+        result.map(|result| Result(Arc::new(result))).map_err(|fault| error::read(&fault))
+    }
+
+    /// Title of its scene.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.0.scene.title
+    }
+
+    /// Name and version of the program that made it.
+    #[getter]
+    fn program(&self) -> &str {
+        &self.0.program
+    }
+
+    /// The text of its scene, where it had one.
+    #[getter]
+    fn scene_text(&self) -> Option<&str> {
+        self.0.scene.input.as_deref()
+    }
+
+    /// Grippers along u and v.
+    #[getter]
+    fn grid(&self) -> (usize, usize) {
+        (self.0.scene.grid.nu, self.0.scene.grid.nv)
+    }
+
+    /// Its mold, if any.
+    #[getter]
+    fn mold(&self) -> Option<Mold> {
+        self.0.scene.mold.clone().map(Mold)
+    }
+
+    /// The ideal drape, where it is known.
+    #[getter]
+    fn net(&self) -> Option<Net> {
+        self.0.scene.ideal_drape.clone().map(Net)
+    }
+
+    /// Whether every limit holds.
+    #[getter]
+    fn accepted(&self) -> bool {
+        self.0.summary.accepted
+    }
+
+    /// Whether every equilibrium was found.
+    #[getter]
+    fn converged(&self) -> bool {
+        self.0.steps.iter().all(|step| step.solver.status == Status::Converged)
+    }
+
+    /// The outcome: the `summary` of result.json.
+    #[getter]
+    fn summary(&self) -> PyResult<Json> {
+        Json::of(&self.0.summary)
+    }
+
+    /// Every limit, judged: dicts with name, value, limit, unit, ok, step, where and place.
+    #[getter]
+    fn limits(&self) -> PyResult<Vec<Json>> {
+        self.0.summary.limits.iter().map(Json::of).collect()
+    }
+
+    /// The whole result.json as dicts and lists.
+    fn to_dict(&self) -> PyResult<Json> {
+        Json::of(&*self.0)
+    }
+
+    /// The text of result.json, with its check sum.
+    fn to_json(&self, py: Python<'_>) -> PyResult<String> {
+        py.detach(|| json::text(&self.0)).map_err(|fault| error::output(&fault.into()))
+    }
+
+    /// Time of each step (s), shape (steps,).
+    #[getter]
+    fn times(&self) -> Array<f64> {
+        let times: Vec<f64> = self.0.steps.iter().map(|step| step.time).collect();
+        Array::new(&[times.len()], times)
+    }
+
+    /// Positions of the grippers (m), shape (steps, grippers, 3).
+    #[getter]
+    fn positions(&self) -> Array<f64> {
+        self.grippers(|gripper| gripper.position)
+    }
+
+    /// Orientations of the grippers as quaternions x, y, z, w, shape (steps, grippers, 4): z along the ply's
+    /// normal, x along u.
+    #[getter]
+    fn quaternions(&self) -> Array<f64> {
+        self.grippers(|gripper| gripper.quaternion)
+    }
+
+    /// Angles between the ply's normal at the grippers and the vertical (°), shape (steps, grippers).
+    #[getter]
+    fn tilts_deg(&self) -> Array<f64> {
+        self.grippers(|gripper| [gripper.tilt_deg])
+    }
+
+    /// Horizontal force of each catenary (N), shape (steps, catenaries): of its rest that pulls or pushes most; of
+    /// a stretched diagonal its shear force. nan where the model gives none.
+    #[getter]
+    fn forces(&self) -> Array<f64> {
+        self.catenaries(|c| {
+            let forces = c.spans.iter().filter_map(|span| span.force);
+            let most = forces.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+            or_nan(most.or(c.shear_force_n))
+        })
+    }
+
+    /// Slack of each catenary (mm), shape (steps, catenaries): all of its rests.
+    #[getter]
+    fn slack_mm(&self) -> Array<f64> {
+        self.catenaries(|c| c.spans.iter().map(|span| span.slack_mm).sum())
+    }
+
+    /// Fabric length of each catenary that the mold has caught (m), shape (steps, catenaries).
+    #[getter]
+    fn contact(&self) -> Array<f64> {
+        self.catenaries(|c| c.contact.as_ref().map_or(0.0, |seen| seen.arc[1] - seen.arc[0]))
+    }
+
+    /// Shear angle of each cell (°), shape (steps, cells along v, cells along u); 0 where no diagonal shears.
+    #[getter]
+    fn shear_deg(&self) -> Array<f64> {
+        let grid = self.0.scene.grid;
+        let shape = [self.0.steps.len(), grid.nv - 1, grid.nu - 1];
+        let cells = self.0.steps.iter().flat_map(|step| &step.cells);
+        Array::new(&shape, cells.map(|cell| cell.shear_deg).collect())
+    }
+
+    /// The worst value of every measure in each step, by name, each of shape (steps,); nan where it has no
+    /// meaning. The unit is part of the name, ratios have none.
+    #[getter]
+    fn measures(&self) -> Named {
+        let shape = [self.0.steps.len()];
+        let every = |value: &dyn Fn(&Step) -> Option<f64>| {
+            Array::new(&shape, self.0.steps.iter().map(|step| or_nan(value(step))).collect())
+        };
+        let worst = MEASURES.iter().map(|measure| {
+            (measure.key, every(&|step| (measure.find)(&step.measures).map(|worst| worst.value)))
+        });
+        let share = ("contact_share", every(&|step| step.measures.contact_share));
+        Named(worst.chain([share]).collect())
+    }
+
+    /// Each catenary of a step as a line from gripper to gripper (m), arrays of shape (n, 3).
+    fn lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
+        let (grid, step) = (self.0.scene.grid, self.step(step)?);
+        let line = |c: &CatenaryState| {
+            let ends = [c.from, c.to].map(|id| step.grippers[grid.index(id)].position);
+            let points = surface::shape(c, ends);
+            Array::rows(&[points.len(), 3], points)
+        };
+        Ok(step.catenaries.iter().map(line).collect())
+    }
+
+    /// The ply of a step as a surface with so many intervals along each side of a cell.
+    #[pyo3(signature = (step, *, intervals = 8))]
+    fn surface(&self, py: Python<'_>, step: isize, intervals: usize) -> PyResult<Surface> {
+        if !(1..=1000).contains(&intervals) {
+            let text = format!("intervals is {intervals}; 1 to 1000 are possible");
+            return Err(PyValueError::new_err(text));
+        }
+        let step = self.step(step)?;
+        Ok(Surface(py.detach(|| surface::Surface::new(&self.0, step, intervals))))
+    }
+
+    /// The mold under all steps and the target in about `most` triangles: points (m), shape (n, 3), and corners,
+    /// shape (m, 3). None without a mold there.
+    #[pyo3(signature = (*, most = 20_000))]
+    fn mold_surface(&self, py: Python<'_>, most: usize) -> Option<(Array<f64>, Array<u32>)> {
+        py.detach(|| ground(&self.0, most)).map(triangles)
+    }
+
+    /// Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, and of a plan motion.csv, into a
+    /// folder, all or none, and returns their paths.
+    ///
+    /// Raises:
+    ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+    fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
+        py.detach(|| output::write_all(&self.0, &folder)).map_err(|fault| error::output(&fault))
+    }
+
+    /// Writes files for another program into a folder, all or none, and returns their paths.
+    ///
+    /// Args:
+    ///     to: "vtk", "inp", "ros2", "csv" or "svg".
+    ///     folder: Where they go; other files there stay.
+    ///
+    /// Raises:
+    ///     OutputError: If that cannot be done.
+    ///     ValueError: If there is no such format.
+    #[pyo3(signature = (to: "typing.Literal['vtk', 'inp', 'ros2', 'csv', 'svg']", folder))]
+    fn export(&self, py: Python<'_>, to: &str, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
+        let format = match to {
+            "vtk" => export::Format::Vtk,
+            "inp" => export::Format::Inp,
+            "ros2" => export::Format::Ros2,
+            "csv" => export::Format::Csv,
+            "svg" => export::Format::Svg,
+            other => {
+                let text = format!(
+                    "there is no export to {other:?}: vtk, inp, ros2, csv and svg are possible"
+                );
+                return Err(PyValueError::new_err(text));
+            }
+        };
+        py.detach(|| export::write(&self.0, format, &folder)).map_err(|fault| error::output(&fault))
+    }
+
+    /// The page of `plydrape report`: one HTML file for any browser.
+    fn html(&self, py: Python<'_>) -> PyResult<String> {
+        py.detach(|| page::html(&self.0)).map_err(|fault| error::output(&fault))
+    }
+
+    /// Writes the page into a file and returns its path.
+    ///
+    /// Raises:
+    ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+    fn report(&self, py: Python<'_>, path: PathBuf) -> PyResult<PathBuf> {
+        let Some(name) = path.file_name().and_then(|name| name.to_str()) else {
+            return Err(PyValueError::new_err(format!("{} names no file", path.display())));
+        };
+        let text = self.html(py)?;
+        let place = path.parent().filter(|dir| !dir.as_os_str().is_empty());
+        let place = place.map_or_else(|| PathBuf::from("."), PathBuf::from);
+        folder::add(&place, &[(name, text.as_bytes())]).map_err(|fault| error::output(&fault))?;
+        Ok(path)
+    }
+
+    /// The figure of chosen steps as SVG, unless given of those that figure.svg shows.
+    #[pyo3(signature = (steps = None))]
+    fn svg(&self, py: Python<'_>, steps: Option<Vec<isize>>) -> PyResult<String> {
+        let steps: Vec<usize> = match steps {
+            None => figure::default_steps(&self.0),
+            Some(steps) => steps
+                .into_iter()
+                .map(|step| self.step(step).map(|step| step.step))
+                .collect::<PyResult<_>>()?,
+        };
+        py.detach(|| figure::svg(&self.0, &steps)).map_err(|fault| error::output(&fault.into()))
+    }
+
+    /// A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs `plydrape[plot]`.
+    ///
+    /// Args:
+    ///     kind: "steps", "measures" or "shear".
+    ///     options: Those of the function of that name in `plydrape.plot`.
+    #[pyo3(signature = (
+        kind: "typing.Literal['steps', 'measures', 'shear']" = "steps", **options: "typing.Any"
+    ) -> "matplotlib.figure.Figure")]
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        kind: &str,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape.plot")?.getattr("plot")?.call((slf, kind), options)
+    }
+
+    /// The page of the result inside a notebook.
+    ///
+    /// Args:
+    ///     height: Height of the frame (pixels).
+    #[pyo3(signature = (*, height = 640) -> "plydrape.notebook.Page")]
+    fn show<'py>(slf: &Bound<'py, Self>, height: usize) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape.notebook")?.getattr("show")?.call1((slf, height))
+    }
+
+    /// A scene of PyVista: see `plydrape.view`. Needs `plydrape[plot]`.
+    ///
+    /// Args:
+    ///     step: Which step.
+    ///     options: Those of `plydrape.view.scene3d`.
+    #[pyo3(signature = (step = -1, **options: "typing.Any") -> "pyvista.Plotter")]
+    fn scene3d<'py>(
+        slf: &Bound<'py, Self>,
+        step: isize,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape.view")?.getattr("scene3d")?.call((slf, step), options)
+    }
+
+    fn __repr__(&self) -> String {
+        let verdict = if self.accepted() { "accepted" } else { "not accepted" };
+        format!("<plydrape.Result of {:?}, {} steps, {verdict}>", self.title(), self.0.steps.len())
+    }
+}
+
+#[pymethods]
+impl Surface {
+    /// Points along u and along v.
+    #[getter]
+    fn size(&self) -> (usize, usize) {
+        self.0.size.into()
+    }
+
+    /// Points (m), shape (points, 3), u running fastest.
+    #[getter]
+    fn points(&self) -> Array<f64> {
+        Array::rows(&[self.0.vertices.len(), 3], self.0.vertices.iter().copied())
+    }
+
+    /// Corners of its triangles, shape (triangles, 3); none of a strip.
+    #[getter]
+    fn triangles(&self) -> Array<u32> {
+        let corners = self.0.triangles();
+        Array::rows(&[corners.len(), 3], corners)
+    }
+
+    /// Distance of each point from the mold (m), negative inside it, shape (points,); nan without a mold.
+    #[getter]
+    fn gap(&self) -> Array<f64> {
+        let points = self.0.vertices.len();
+        Array::new(&[points], self.0.gap.clone().unwrap_or_else(|| vec![f64::NAN; points]))
+    }
+}

@@ -1,0 +1,288 @@
+//! `plydrape.Scene`.
+
+use crate::arrays::{Array, Block, List, list, steps};
+use crate::mold::Mold;
+use crate::net::Net;
+use crate::ply::Ply;
+use crate::{error, table};
+use plydrape::scene::{self, Motion};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::sync::Arc;
+use toml::Value;
+use toml::map::Map;
+
+/// A checked scene: the ply, its grippers, the mold, and where all of it goes.
+///
+/// Every argument is a dict with the keys of the table of that name in a scene file; plain numbers are in SI
+/// units, a str carries its unit. Arrays may stand for lists. `mold` may also be a `Mold`.
+///
+/// Args:
+///     ply: What hangs between the grippers: `grippers`, `cell`, `material`, `warp`.
+///     mold: What the ply is laid on.
+///     grippers: Where the grippers start.
+///     target: Where the ply shall end.
+///     motion: How the grippers move.
+///     model: Rules of the model.
+///     contact: How contact is found.
+///     limits: What an accepted drape keeps to.
+///     plan: How a motion is planned.
+///     title: Name for reports.
+///     base: Folder of files that the tables name.
+///
+/// Raises:
+///     SceneError: If the scene makes no sense; it names the place, the fault and a remedy.
+///
+/// Example:
+///     >>> scene = plydrape.Scene(
+///     ...     ply=dict(grippers=[4, 2], cell=[0.1, 0.1], material="krogh2018"),
+///     ...     mold=dict(kind="plane"),
+///     ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
+///     ...     target=dict(origin=[0, 0], direction="20 deg", shear="20 deg"),
+///     ... )
+///     >>> scene.positions.shape
+///     (30, 8, 3)
+#[pyclass(frozen, module = "plydrape")]
+pub struct Scene(pub Arc<scene::Scene>);
+
+/// The tables of a scene, as keyword arguments.
+type Table<'a, 'py> = Option<&'a Bound<'py, PyDict>>;
+
+#[pymethods]
+impl Scene {
+    #[new]
+    #[pyo3(signature = (
+        *, ply: "dict[str, typing.Any]", mold: "dict[str, typing.Any] | Mold | None" = None,
+        grippers: "dict[str, typing.Any] | None" = None, target: "dict[str, typing.Any] | None" = None,
+        motion: "dict[str, typing.Any] | None" = None, model: "dict[str, typing.Any] | None" = None,
+        contact: "dict[str, typing.Any] | None" = None, limits: "dict[str, typing.Any] | None" = None,
+        plan: "dict[str, typing.Any] | None" = None, title = None, base = PathBuf::new()
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "the tables of a scene file")]
+    fn new(
+        py: Python<'_>,
+        ply: &Bound<'_, PyDict>,
+        mold: Option<&Bound<'_, PyAny>>,
+        grippers: Table<'_, '_>,
+        target: Table<'_, '_>,
+        motion: Table<'_, '_>,
+        model: Table<'_, '_>,
+        contact: Table<'_, '_>,
+        limits: Table<'_, '_>,
+        plan: Table<'_, '_>,
+        title: Option<String>,
+        base: PathBuf,
+    ) -> PyResult<Self> {
+        let mut keys = Map::new();
+        if let Some(title) = title {
+            keys.insert("title".into(), Value::String(title));
+        }
+        keys.insert("ply".into(), Value::Table(table::table(ply, "ply")?));
+        let mut given = None;
+        match mold {
+            None => {}
+            Some(mold) => match (mold.cast::<PyDict>(), mold.cast::<Mold>()) {
+                (Ok(dict), _) => {
+                    keys.insert("mold".into(), Value::Table(table::table(dict, "mold")?));
+                }
+                (_, Ok(mold)) => given = Some(mold.get().0.clone()),
+                _ => {
+                    return Err(PyTypeError::new_err("mold is neither a dict nor a plydrape.Mold"));
+                }
+            },
+        }
+        let others = [
+            ("grippers", grippers),
+            ("target", target),
+            ("motion", motion),
+            ("model", model),
+            ("contact", contact),
+            ("limits", limits),
+            ("plan", plan),
+        ];
+        for (name, dict) in others {
+            if let Some(dict) = dict {
+                keys.insert(name.into(), Value::Table(table::table(dict, name)?));
+            }
+        }
+        let text = text_of(&keys)?;
+        let scene = py.detach(|| match given {
+            None => scene::parse(&text, &base, "scene"),
+            Some(mold) => scene::parse_on(mold, &text, &base, "scene"),
+        });
+        scene.map(Scene::from).map_err(|refused| error::scene(&refused))
+    }
+
+    /// Reads and checks a scene file; files it names are relative to its folder.
+    ///
+    /// Raises:
+    ///     SceneError: If it cannot be read or makes no sense.
+    ///
+    /// Example:
+    ///     >>> plydrape.Scene.read("examples/02_hanging_strip/scene.toml").title
+    ///     'Strip of four grippers, hanging'
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let scene = py.detach(|| scene::read(&path));
+        scene.map(Scene::from).map_err(|refused| error::scene(&refused))
+    }
+
+    /// Reads and checks the text of a scene file.
+    ///
+    /// Args:
+    ///     text: TOML, see the guide and docs/scene.schema.json.
+    ///     base: Folder of the files that it names.
+    ///     name: What it is called in errors.
+    ///
+    /// Raises:
+    ///     SceneError: If it makes no sense.
+    ///
+    /// Example:
+    ///     >>> plydrape.Scene.parse(plydrape.Scene.template()).ply.grippers
+    ///     (4, 2)
+    #[staticmethod]
+    #[pyo3(signature = (text, *, base = PathBuf::new(), name = "scene.toml"))]
+    fn parse(py: Python<'_>, text: &str, base: PathBuf, name: &str) -> PyResult<Self> {
+        let scene = py.detach(|| scene::parse(text, &base, name));
+        scene.map(Scene::from).map_err(|refused| error::scene(&refused))
+    }
+
+    /// The text of a commented scene to start from, as `plydrape new` writes it.
+    #[staticmethod]
+    fn template() -> &'static str {
+        scene::TEMPLATE
+    }
+
+    /// Its name for reports.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.0.title
+    }
+
+    /// The text of its file, or the one that its keyword arguments stand for; None if it was made otherwise.
+    #[getter]
+    fn text(&self) -> Option<&str> {
+        self.0.input.as_deref()
+    }
+
+    /// What hangs between the grippers.
+    #[getter]
+    fn ply(&self) -> Ply {
+        Ply(self.0.ply.clone())
+    }
+
+    /// What it is laid on, if anything.
+    #[getter]
+    fn mold(&self) -> Option<Mold> {
+        self.0.mold.clone().map(Mold)
+    }
+
+    /// The ideal drape that its target is taken from, where there is one.
+    #[getter]
+    fn net(&self) -> Option<Net> {
+        let drape = self.0.target.as_ref()?.drape.clone()?;
+        Some(Net(drape))
+    }
+
+    /// Time of each step (s), shape (steps,).
+    #[getter]
+    fn times(&self) -> Array<f64> {
+        let times = self.0.motion.times.clone();
+        Array::new(&[times.len()], times)
+    }
+
+    /// Positions of the grippers in each step (m), shape (steps, grippers, 3), i running fastest.
+    #[getter]
+    fn positions(&self) -> Array<f64> {
+        blocks(&self.0.motion.positions, self.0.ply.grid.grippers())
+    }
+
+    /// Where the ideal drape puts the grippers (m), shape (grippers, 3), if the ply is to be draped.
+    #[getter]
+    fn target(&self) -> Option<Array<f64>> {
+        let grippers = &self.0.target.as_ref()?.grippers;
+        Some(Array::rows(&[grippers.len(), 3], grippers.iter().copied()))
+    }
+
+    /// The same scene along another motion. It has no `text`, as no scene file says it.
+    ///
+    /// Args:
+    ///     times: Time of each step (s), ascending, shape (steps,).
+    ///     positions: Positions of the grippers (m), shape (steps, grippers, 3).
+    ///     title: Name for reports, unless it stays.
+    ///
+    /// Raises:
+    ///     ValueError: If the shapes do not fit, a number is not finite, or times do not ascend.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> higher = scene.with_motion(scene.times, scene.positions + [0, 0, 0.01])
+    ///     >>> float(higher.positions[0, 0, 2] - scene.positions[0, 0, 2])
+    ///     0.01...
+    #[pyo3(signature = (times, positions, *, title = None))]
+    fn with_motion(
+        &self,
+        times: List<'_>,
+        positions: Block<'_>,
+        title: Option<String>,
+    ) -> PyResult<Scene> {
+        let times = list(&times, "times")?;
+        let positions = steps(&positions, "positions", self.0.ply.grid.grippers())?;
+        if times.len() != positions.len() || times.is_empty() {
+            return Err(PyValueError::new_err(format!(
+                "there are {} times and {} steps of positions; as many of both are wanted, at least one",
+                times.len(),
+                positions.len()
+            )));
+        }
+        if let Some(n) = (1..times.len()).find(|n| times[*n] <= times[n - 1]) {
+            return Err(PyValueError::new_err(format!(
+                "times[{n}] is {} s, not after {} s before it; times ascend",
+                times[n],
+                times[n - 1]
+            )));
+        }
+        let mut scene = (*self.0).clone();
+        scene.input = None;
+        scene.title = title.unwrap_or(scene.title);
+        scene.motion = Motion { times, positions };
+        Ok(scene.into())
+    }
+
+    fn __repr__(&self) -> String {
+        let grid = self.0.ply.grid;
+        let steps = self.0.motion.positions.len();
+        format!(
+            "<plydrape.Scene {:?}, {} × {} grippers, {steps} steps>",
+            self.0.title, grid.nu, grid.nv
+        )
+    }
+}
+
+impl From<scene::Scene> for Scene {
+    fn from(scene: scene::Scene) -> Self {
+        Scene(Arc::new(scene))
+    }
+}
+
+/// Steps of points as one block, `(steps, points, 3)`.
+pub fn blocks(steps: &[Vec<[f64; 3]>], count: usize) -> Array<f64> {
+    Array::rows(&[steps.len(), count, 3], steps.iter().flatten().copied())
+}
+
+/// The text of tables.
+pub fn text_of(keys: &Map<String, Value>) -> PyResult<String> {
+    toml::to_string(keys).map_err(|fault| PyValueError::new_err(fault.to_string()))
+}
+
+/// Names of the materials that come with plydrape.
+///
+/// Example:
+///     >>> plydrape.materials()
+///     ['krogh2018']
+#[pyfunction]
+pub fn materials() -> Vec<&'static str> {
+    scene::shipped_materials().collect()
+}

@@ -1,0 +1,71 @@
+//! Keyword arguments as the scene file that a user would have written.
+//!
+//! So a scene from Python is checked by the same rules, refused in the same words, and kept in its results.
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
+use toml::Value;
+use toml::map::Map;
+
+/// Deepest nesting of dicts and lists.
+const DEEPEST: usize = 16;
+
+/// A dict as a TOML table; keys that are `None` are left out. `place` names it in errors.
+pub fn table(dict: &Bound<'_, PyDict>, place: &str) -> PyResult<Map<String, Value>> {
+    dict_at(dict, place, DEEPEST)
+}
+
+fn dict_at(dict: &Bound<'_, PyDict>, place: &str, depth: usize) -> PyResult<Map<String, Value>> {
+    let mut out = Map::new();
+    for (key, value) in dict {
+        let Ok(key) = key.extract::<String>() else {
+            return Err(PyTypeError::new_err(format!(
+                "{place} has the key {key}; a str is wanted"
+            )));
+        };
+        if !value.is_none() {
+            let value = value_at(&value, &format!("{place}[{key:?}]"), depth)?;
+            out.insert(key, value);
+        }
+    }
+    Ok(out)
+}
+
+fn value_at(value: &Bound<'_, PyAny>, place: &str, depth: usize) -> PyResult<Value> {
+    let Some(deeper) = depth.checked_sub(1) else {
+        return Err(PyValueError::new_err(format!("{place} is nested too deeply for a scene")));
+    };
+    if let Ok(dict) = value.cast::<PyDict>() {
+        return Ok(Value::Table(dict_at(dict, place, deeper)?));
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        return Ok(Value::String(text.to_str()?.to_owned()));
+    }
+    if value.is_instance_of::<PyBool>() {
+        return Ok(Value::Boolean(value.extract()?));
+    }
+    if value.is_instance_of::<PyInt>() {
+        return Ok(Value::Integer(value.extract()?));
+    }
+    if value.is_instance_of::<PyFloat>() {
+        return Ok(Value::Float(value.extract()?));
+    }
+    // arrays and numbers of NumPy say themselves what they are
+    if value.hasattr("tolist")? {
+        return value_at(&value.call_method0("tolist")?, place, deeper);
+    }
+    // paths
+    if value.hasattr("__fspath__")? {
+        return value_at(&value.call_method0("__fspath__")?, place, deeper);
+    }
+    let Ok(items) = value.try_iter() else {
+        return Err(PyTypeError::new_err(format!(
+            "{place} is of type {}; a number, str, bool, dict, list or array is wanted",
+            value.get_type().name()?
+        )));
+    };
+    let items =
+        items.enumerate().map(|(n, item)| value_at(&item?, &format!("{place}[{n}]"), deeper));
+    Ok(Value::Array(items.collect::<PyResult<_>>()?))
+}

@@ -1,0 +1,99 @@
+//! Long work beside the interpreter: other Python threads run on, Ctrl-C ends it, a callback is told.
+//!
+//! The work has a thread of its own, and the caller's waits for it without the interpreter's lock. It wakes
+//! [`OFTEN`] to let Python handle signals, so an interrupt does not wait for the work to notice.
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// How often signals are looked for.
+const OFTEN: Duration = Duration::from_millis(20);
+
+/// What the work says and hears.
+#[derive(Default)]
+pub struct Watch {
+    stopped: AtomicBool,
+    done: AtomicUsize,
+    most: AtomicUsize,
+    stage: Mutex<&'static str>,
+}
+
+impl Watch {
+    /// Says how far the work is; breaks if it shall end.
+    pub fn tell(&self, done: usize, most: usize, stage: &'static str) -> ControlFlow<()> {
+        self.done.store(done, Ordering::Relaxed);
+        self.most.store(most, Ordering::Relaxed);
+        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+        self.flow()
+    }
+
+    /// Counts one more of `most`; breaks if the work shall end.
+    pub fn count(&self, most: usize, stage: &'static str) -> ControlFlow<()> {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        self.tell(done, most, stage)
+    }
+
+    /// Breaks if the work shall end.
+    pub fn flow(&self) -> ControlFlow<()> {
+        match self.stopped.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+
+    fn state(&self) -> (usize, usize, &'static str) {
+        let stage = *self.stage.lock().unwrap_or_else(PoisonError::into_inner);
+        (self.done.load(Ordering::Relaxed), self.most.load(Ordering::Relaxed), stage)
+    }
+}
+
+/// Does the work and returns what it found; `progress(done, most, stage)` is called when that has changed.
+///
+/// # Errors
+/// What a signal handler or `progress` raises, at once; the work is told to end and left to do so by itself.
+pub fn run<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Watch) -> T + Send + 'static,
+) -> PyResult<T> {
+    let watch = Arc::new(Watch::default());
+    let (send, receive) = sync_channel(1);
+    let watched = Arc::clone(&watch);
+    std::thread::Builder::new()
+        .name("plydrape".into())
+        .spawn(move || {
+            // nobody listens any more where the caller was interrupted
+            let _ = send.send(work(&watched));
+        })
+        .map_err(|error| PyRuntimeError::new_err(format!("cannot start a thread: {error}")))?;
+
+    let mut told = (0, 0, "");
+    let receive = Mutex::new(receive);
+    loop {
+        let found = py
+            .detach(|| receive.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(OFTEN));
+        let state = watch.state();
+        let call = progress.filter(|_| state != told && state.1 > 0);
+        told = state;
+        let heard =
+            py.check_signals().and_then(|()| call.map_or(Ok(()), |f| f.call1(state).map(drop)));
+        if let Err(error) = heard {
+            watch.stopped.store(true, Ordering::Relaxed);
+            return Err(error);
+        }
+        match found {
+            Ok(found) => return Ok(found),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err(
+                    "plydrape has failed in a way that it should not: please report the scene",
+                ));
+            }
+        }
+    }
+}

@@ -1,0 +1,60 @@
+"""How an array of grippers must move to lay a carbon-fibre ply on a curved mold without wrinkles.
+
+The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh, Jakobsen and
+Sherwood 2018. SI units throughout, z up; arrays are NumPy's.
+
+Example:
+    >>> import plydrape
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene)
+    >>> result.summary["first_contact_step"]
+    26
+"""
+
+from plydrape import batch
+from plydrape._plydrape import (
+    Foot,
+    Material,
+    Mold,
+    Net,
+    Plan,
+    Ply,
+    Result,
+    Scene,
+    Surface,
+    __version__,
+    materials,
+    plan,
+    simulate,
+)
+from plydrape.errors import (
+    OutputError,
+    PlanError,
+    PlydrapeError,
+    ResultError,
+    SceneError,
+    SolveError,
+)
+
+__all__ = [
+    "Foot",
+    "Material",
+    "Mold",
+    "Net",
+    "OutputError",
+    "Plan",
+    "PlanError",
+    "Ply",
+    "PlydrapeError",
+    "Result",
+    "ResultError",
+    "Scene",
+    "SceneError",
+    "SolveError",
+    "Surface",
+    "__version__",
+    "batch",
+    "materials",
+    "plan",
+    "simulate",
+]

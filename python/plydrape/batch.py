@@ -1,0 +1,5 @@
+"""Many drapes or equilibria in one call, on all cores."""
+
+from plydrape._plydrape import simulate_all as simulate
+
+__all__ = ["simulate"]
