@@ -1,11 +1,11 @@
-"""What comes with an extra: Matplotlib, PyVista and OpenCASCADE, asked for only when they are used."""
+"""What comes with an extra: Matplotlib, PyVista, OpenCASCADE; asked for only when used."""
 
 from __future__ import annotations
 
 from importlib import import_module
 from types import ModuleType
 
-from plydrape._plydrape import PlydrapeError
+from plydrape.errors import PlydrapeError
 
 
 class CadError(PlydrapeError, ValueError):
@@ -21,6 +21,7 @@ def load(module: str, *, extra: str, name: str) -> ModuleType:
         >>> load("no_such_module", extra="plot", name="Matplotlib")
         Traceback (most recent call last):
         ImportError: Matplotlib is missing; install it with: pip install "plydrape[plot]"
+
     """
     try:
         return import_module(module)

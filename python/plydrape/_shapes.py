@@ -1,4 +1,4 @@
-"""Shapes of a result that pictures share: discs of the grippers, touching parts, the target's outline, shear."""
+"""Shapes of a result that pictures share: grippers, touching parts, target, sheared ply."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ GRIPPER = 0.12
 
 FLAT = 5e-4
 """Slack ratio up to which a span that lies on the mold counts as touching it along its length."""
+
 
 class Ply(NamedTuple):
     """The ply's surface of one step, with a value for its colour at every triangle or point."""
@@ -41,7 +42,7 @@ def ply(result: Result, step: int, intervals: int) -> Ply | None:
     across = (nu - 1) * intervals + 1
     i = np.floor((triangles % across).mean(axis=1) / intervals).astype(np.int64)
     j = np.floor((triangles // across).mean(axis=1) / intervals).astype(np.int64)
-    shear = np.asarray(result.shear_deg[step - 1], float)[i + (nu - 1) * j]
+    shear = np.asarray(result.shear_deg[step - 1], float)[j, i]
     gap = surface.gap
     held = np.full(len(surface.points), np.nan) if gap is None else np.asarray(gap, float)
     return Ply(np.asarray(surface.points, float), triangles, held, shear)
@@ -68,15 +69,16 @@ def turned(quaternions: NDArray[np.float64], points: NDArray[np.float64]) -> NDA
 
 
 def touching(record: dict[str, Any], step: int) -> list[NDArray[np.float64]]:
-    """The parts of catenaries that touch the mold at a step, each a polyline (N, 3) in m from end to end."""
+    """The parts of catenaries that touch the mold at a step, each a polyline (N, 3) in m."""
     out = []
     for line in record["steps"][step - 1]["catenaries"]:
-        parts = []
+        parts = [
+            (span["arc"], span["points"])
+            for span in line["spans"]
+            if span["state"] == "lying" and (span["slack_ratio"] or 0.0) < FLAT
+        ]
         if line.get("contact"):
             parts.append((line["contact"]["arc"], line["contact"]["points"]))
-        for span in line["spans"]:
-            if span["state"] == "lying" and (span["slack_ratio"] or 0.0) < FLAT:
-                parts.append((span["arc"], span["points"]))
         # parts that follow one another along the fabric are one
         parts.sort(key=lambda part: sum(part[0]))
         joined: list[list[Any]] = []
@@ -91,7 +93,7 @@ def touching(record: dict[str, Any], step: int) -> list[NDArray[np.float64]]:
 
 
 def outline(net: Any) -> list[NDArray[np.float64]]:
-    """The four sides of the ideal drape on the mold, each a polyline (N, 3) in m without its missing nodes."""
+    """The sides of the ideal drape on the mold, polylines (N, 3) in m of the nodes it has."""
     if net is None:
         return []
     nodes = np.asarray(net.nodes, float)

@@ -4,9 +4,10 @@
     measures   slack, overstretch, shear, force and the others over the steps, each with its limit
     shear_map  the shear angle of every cell of the ideal drape
 
-Each function makes a new `matplotlib.figure.Figure` and touches nothing else: no figure of `pyplot`, no setting.
-A notebook shows it as the last value of a cell; `figure.savefig("steps.pdf")` writes it. Widths are those of a
-column of print, text is 8 pt. Matplotlib comes with the extra: `pip install "plydrape[plot]"`.
+Each function makes a new `matplotlib.figure.Figure` and touches nothing else: no figure of
+`pyplot`, no setting. A notebook shows it as the last value of a cell; `figure.savefig("steps.pdf")`
+writes it. Widths are those of a column of print, text is 8 pt. Matplotlib comes with the extra:
+`pip install "plydrape[plot]"`.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ Width = Literal["single", "double"] | float
 """Width of a figure: "single" is 89 mm, "double" 183 mm; a number is a width in mm."""
 
 Surface = Literal["gap", "height", "shear"]
-"""What the colour of the ply tells: its gap to the mold, its height z, the shear angle of its cells."""
+"""What the colour of the ply tells: gap to the mold, height z, shear angle of its cells."""
 
 
 def plot(
@@ -41,6 +42,7 @@ def plot(
     Example:
         >>> figure = plot(result, "measures", width="single")
         >>> figure.savefig("measures.pdf")
+
     """
     if kind == "steps":
         return steps(result, **options)
@@ -64,14 +66,15 @@ def steps(
 ) -> Figure:
     """Chosen steps in 3D, one panel each, all in one frame and one scale.
 
-    Red lines are the catenaries, thick where they touch the mold, with a ring in the middle of each touching part;
-    black discs are the grippers, tilted with the ply; the grey line on the mold is the outline of the ideal drape.
-    What the mold hides from this view is left out, so choose the view here and not by turning the axes later.
+    Red lines are the catenaries, thick where they touch the mold, with a ring in the middle of each
+    touching part; black discs are the grippers, tilted with the ply; the grey line on the mold is
+    the outline of the ideal drape. What the mold hides from this view is left out, so choose the
+    view here and not by turning the axes later.
 
     Args:
         result: The result.
-        steps: Steps to show, counted from 1. If None: the start, the first contact, the first shear, the end,
-            and one in the middle of the longest stretch between them.
+        steps: Steps to show, counted from 1. If None: the start, the first contact, the first
+            shear, the end, and one in the middle of the longest stretch between them.
         colour: What the colour of the ply tells; if None the gap to a curved mold, else the height.
         elev: Angle of the view above the xy plane (deg), -90 to 90.
         azim: Angle of the view about z (deg).
@@ -85,8 +88,9 @@ def steps(
 
     Example:
         >>> figure = steps(result, [1, 26, 30], width="single")
-        >>> [axes.get_title(loc="left") for axes in figure.axes[:3]]
+        >>> [text.get_text() for text in figure.texts]
         ['a  step 1, start', 'b  step 26, first contact', 'c  step 30, end']
+
     """
     _need()
     from plydrape.plot import _steps
@@ -105,13 +109,14 @@ def measures(
 ) -> Figure:
     """The worst value of each measure over the steps, one small panel each.
 
-    A limit is a dashed line, with its value beside the name. Some limits hold only at the end of the motion and say
-    so. The worst step is marked: by a dot, by a cross where the limit is exceeded. A dotted line is the first contact.
+    A limit is a dashed line, with its value beside the name; "end" says that it holds at the last
+    step only. A dot marks the step that the limit judges, or the largest value where there is no
+    limit; a cross where the limit is exceeded. The dotted line is the first contact.
 
     Args:
         result: The result.
-        names: Names of `result.measures` in the order wanted; if None all that have a value at some step, without
-            `overstretch_mm`, which is `overstretch` in another unit.
+        names: Names of `result.measures` in the order wanted; if None all that have a value at some
+            step, without `overstretch_mm`, which is `overstretch` in another unit.
         against: What runs to the right, the number of the step or its time (s).
         columns: Panels side by side; if None 3 on a double column, 2 on a single one.
         width: "single" (89 mm), "double" (183 mm) or a width in mm.
@@ -124,7 +129,8 @@ def measures(
     Example:
         >>> figure = measures(result, ["tilt_deg", "slack_ratio"])
         >>> [axes.get_ylabel() for axes in figure.axes]
-        ['tilt (°)', 'slack ratio (%)']
+        ['deg', '%']
+
     """
     _need()
     from plydrape.plot import _measures
@@ -143,15 +149,16 @@ def shear_map(
 ) -> Figure:
     """The shear angle of every cell of the ideal drape's net.
 
-    Left on the flat fabric with the coordinates u and v of the net, right on the mold seen from above. The largest
-    angle is ringed. Cells with a missing node stay white.
+    Left on the flat fabric with the coordinates u and v of the net, right on the mold seen from
+    above. The largest angle is ringed. Cells with a missing node stay white.
 
     Args:
         net: A net, or a result whose ideal drape has one.
         view: Which of both to draw.
-        signed: False colours the amount from 0 on, which is what a locking angle limits; True the angle with its
-            sign, in two hues from a white zero.
-        most: End of the colours (deg); if None the largest amount. For maps that are to be compared.
+        signed: False colours the amount from 0 on, which is what a locking angle limits; True the
+            angle with its sign, in two hues from a white zero.
+        most: End of the colours (deg); if None the largest amount. For maps that are to be
+            compared.
         width: "single" (89 mm), "double" (183 mm) or a width in mm.
         title: A line above the panels; none by default.
 
@@ -163,6 +170,7 @@ def shear_map(
         >>> figure = shear_map(result, view="fabric")
         >>> figure.axes[0].get_xlabel()
         'u (mm)'
+
     """
     _need()
     from plydrape.plot import _shear

@@ -1,7 +1,7 @@
 """What of a picture the mold hides, seen from infinitely far away.
 
-Matplotlib draws whole collections over one another. The mold is therefore drawn first and everything else over it,
-without what lies behind the mold.
+Matplotlib draws whole collections over one another. The mold is therefore drawn first and
+everything else over it, without what lies behind the mold.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Screen:
         view: NDArray[np.float64],
         depth: float,
     ) -> None:
-        """A surface seen along `view`; what is less than `depth` (m) behind it lies on it and is seen."""
+        """A surface seen along `view`; what is less than `depth` (m) behind it is seen."""
         self.view, self.depth = view, depth
         a, b, c = (points[triangles[:, k]] @ view.T for k in range(3))
         twice = _cross(b[:, :2] - a[:, :2], c[:, :2] - a[:, :2])

@@ -141,11 +141,13 @@ def _draw(
     panel.set_axisbelow(True)
     panel.spines[["top", "right"]].set_visible(False)
     # a value between two steps without one has no line
-    alone = np.isfinite(y) & ~np.isfinite(np.r_[np.nan, y[:-1]]) & ~np.isfinite(np.r_[y[1:], np.nan])
+    alone = (
+        np.isfinite(y) & ~np.isfinite(np.r_[np.nan, y[:-1]]) & ~np.isfinite(np.r_[y[1:], np.nan])
+    )
     marks = [int(k) for k in np.flatnonzero(alone)]
     panel.plot(x, y, color=LINE, lw=1.0, marker=".", ms=3, markevery=marks, zorder=3, gid="values")
     panel.set_title(shown.label, loc="left", pad=3)
-    panel.set_ylabel(shown.unit, labelpad=2)
+    panel.set_ylabel("deg" if shown.unit == "°" else shown.unit, labelpad=2)
 
     # The worst is what the limit judges; without a limit it is the largest value.
     exceeded = limit is not None and not limit["ok"]
@@ -156,13 +158,17 @@ def _draw(
     if np.isfinite(y[worst]):
         mark = {"marker": "X", "ms": 5.0, "mew": 0.5} if exceeded else {"marker": "o", "ms": 3.5}
         ink = RED if exceeded else DARK
-        panel.plot(x[worst], y[worst], ls="", color=ink, zorder=5, gid="worst", clip_on=False, **mark)
+        panel.plot(
+            x[worst], y[worst], ls="", color=ink, zorder=5, gid="worst", clip_on=False, **mark
+        )
 
     values = [*y[np.isfinite(y)]]
     if limit is not None:
         bound = float(limit["limit"])
         values.append(bound)
-        panel.axhline(bound, color=RED if exceeded else QUIET, lw=0.9, dashes=(4, 2.5), zorder=2, gid="limit")
+        panel.axhline(
+            bound, color=RED if exceeded else QUIET, lw=0.9, dashes=(4, 2.5), zorder=2, gid="limit"
+        )
         sign = "≥" if shown.least else "≤"
         when = "end: " if shown.at_end else ""
         text = f"{when}{sign}\u2009{bound:g}{'' if shown.unit == '°' else chr(0x2009)}{shown.unit}"
@@ -183,17 +189,32 @@ def _legend(sheet: Sheet, room: Axes | None, *, contact: bool) -> None:
     marks = [
         Line2D([], [], color=LINE, label="worst of each step"),
         Line2D([], [], color=QUIET, lw=0.9, dashes=(4, 2.5), label="limit (end: at the last step)"),
-        Line2D([], [], color=DARK, ls="", marker="o", ms=3.5, label="what the limit judges"),
-        Line2D([], [], color=RED, ls="", marker="X", ms=5, mew=0.5, label="the same, limit exceeded"),
+        Line2D(
+            [],
+            [],
+            color=DARK,
+            ls="",
+            marker="o",
+            ms=3.5,
+            label="judged by the limit, else the largest",
+        ),
+        Line2D([], [], color=RED, ls="", marker="X", ms=5, mew=0.5, label="limit exceeded"),
     ]
     if contact:
         marks.append(Line2D([], [], color=QUIET, lw=0.7, ls=":", label="first contact"))
     if room is not None:
-        box = room.legend(handles=marks, loc="center left", frameon=False, handlelength=2.4, borderpad=0)
+        box = room.legend(
+            handles=marks, loc="center left", frameon=False, handlelength=2.4, borderpad=0
+        )
     else:
         columns = 3 if sheet.get_figwidth() > 120 * MM else 2
         box = sheet.legend(
-            handles=marks, loc="lower center", ncols=columns, frameon=False, handlelength=2.4, borderpad=0.1
+            handles=marks,
+            loc="lower center",
+            ncols=columns,
+            frameon=False,
+            handlelength=2.4,
+            borderpad=0.1,
         )
     box.set_in_layout(False)
 

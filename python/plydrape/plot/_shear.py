@@ -44,7 +44,7 @@ def figure(
     panels = [("fabric", flat, "u", "v"), ("plan", above, "x", "y")]
     panels = [panel for panel in panels if view in ("both", panel[0])]
 
-    # Panels side by side, as high as the flatter of both allows; one below the other on a narrow sheet.
+    # Panels side by side, on a narrow sheet one below the other.
     wide = breadth(width)
     side = len(panels) == 1 or wide > 120.0
     sizes = [np.nanmax(p[1], axis=(0, 1)) - np.nanmin(p[1], axis=(0, 1)) for p in panels]
@@ -58,18 +58,26 @@ def figure(
         shape = (1, len(panels)) if side else (len(panels), 1)
         engine = sheet.get_layout_engine()
         assert engine is not None
-        engine.set(h_pad=0.06, rect=(0, 0, 1, 1 - (5.0 if title else 0.0) / high))  # type: ignore[call-arg]
+        rect = (0, 0, 1, 1 - (5.0 if title else 0.0) / high)
+        engine.set(h_pad=0.06, rect=rect)  # type: ignore[call-arg]
         axes = sheet.subplots(*shape, squeeze=False).ravel()
         names = {"fabric": "on the flat fabric", "plan": "on the mold, from above"}
         for letter, axis, (name, corners, right, up) in zip("ab", axes, panels, strict=False):
             _cells(axis, corners, value, scale, colours)
             _largest(axis, corners, shear, signed)
             tag = f"{letter}  " if len(panels) > 1 else ""
-            axis.set_title(f"{tag}{names[name]}", loc="left", pad=4)
+            even = (
+                f": {np.nanmax(value):.1f}° everywhere" if _even(shear) and name == "fabric" else ""
+            )
+            axis.set_title(f"{tag}{names[name]}{even}", loc="left", pad=4)
             axis.set_xlabel(f"{right} (mm)")
             axis.set_ylabel(f"{up} (mm)")
         bar = sheet.colorbar(
-            ScalarMappable(scale, colours), ax=list(axes), aspect=22, shrink=0.92, pad=0.02,
+            ScalarMappable(scale, colours),
+            ax=list(axes),
+            aspect=22,
+            shrink=0.92,
+            pad=0.02,
         )
         bar.set_label("shear, signed (°)" if signed else "shear (°)")
         bar.locator = MaxNLocator(6, steps=ROUND)
@@ -82,12 +90,16 @@ def figure(
 
 def _arrays(net: Any) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Nodes (nu, nv, 3) in m, shear (nu - 1, nv - 1) in deg, mesh (2,) in m."""
-    held = net if hasattr(net, "nodes") else getattr(net, "net", None)
+    held = net if hasattr(net, "nodes") else net.net
     if held is None:
-        raise ValueError("this result has no ideal drape, so there is no net to map; give its scene a [target]")
+        raise ValueError(
+            "this result has no ideal drape, so there is no net to map; give its scene a [target]"
+        )
     nodes, shear = np.asarray(held.nodes, float), np.asarray(held.shear_deg, float)
     if shear.size == 0 or not np.isfinite(shear).any():
-        raise ValueError("no cell of the net has all its nodes on the mold, so there is no shear to map")
+        raise ValueError(
+            "no cell of the net has all its nodes on the mold, so there is no shear to map"
+        )
     return nodes, shear, np.asarray(held.mesh, float)
 
 
@@ -99,12 +111,16 @@ def _cells(
     colours: str,
 ) -> None:
     """The cells as quadrilaterals in the colour of their shear."""
-    quads = np.stack([corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]], axis=2)
+    quads = np.stack(
+        [corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]], axis=2
+    )
     whole = np.isfinite(value) & np.isfinite(quads).all(axis=(2, 3))
-    cells = PolyCollection(list(quads[whole]), cmap=colours, norm=scale, edgecolors="face", linewidths=0.5)
+    cells = PolyCollection(
+        list(quads[whole]), cmap=colours, norm=scale, edgecolors="face", linewidths=0.5
+    )
     cells.set_array(value[whole])
     axis.add_collection(cells)
-    axis.set_aspect("equal", adjustable="box")
+    axis.set_aspect("equal", adjustable="box", anchor="N")
     low, high = np.nanmin(corners, axis=(0, 1)), np.nanmax(corners, axis=(0, 1))
     edge = 0.02 * (high - low).max()
     axis.set_xlim(low[0] - edge, high[0] + edge)
@@ -114,16 +130,18 @@ def _cells(
     axis.spines[["top", "right"]].set_visible(False)
     slim = (high - low).min() < 0.4 * (high - low).max()
     axis.xaxis.set_major_locator(MaxNLocator(5, steps=ROUND))
-    axis.yaxis.set_major_locator(MaxNLocator(3 if slim and high[1] - low[1] < high[0] - low[0] else 5, steps=ROUND))
+    axis.yaxis.set_major_locator(
+        MaxNLocator(3 if slim and high[1] - low[1] < high[0] - low[0] else 5, steps=ROUND)
+    )
 
 
 def _largest(
     axis: Axes, corners: NDArray[np.float64], shear: NDArray[np.float64], signed: bool
 ) -> None:
     """A ring where the shear is largest, with its value; none where it is the same everywhere."""
-    amount = np.abs(shear)
-    if np.nanmax(amount) - np.nanmin(amount) < 1e-6 * max(1.0, float(np.nanmax(amount))):
+    if _even(shear):
         return
+    amount = np.abs(shear)
     i, j = np.unravel_index(int(np.nanargmax(amount)), shear.shape)
     x, y = corners[i : i + 2, j : j + 2].mean(axis=(0, 1))
     axis.plot(x, y, "o", ms=6, mfc="none", mec="white", mew=2.2, zorder=4)
@@ -132,7 +150,20 @@ def _largest(
     right, up = (-1 if at > mean else 1 for at, mean in zip((x, y), (low + high) / 2, strict=True))
     number = shear[i, j] if signed else amount[i, j]
     axis.annotate(
-        f"{number:.1f}°".replace("-", "−"), (x, y), (9 * right, 5 * up), textcoords="offset points",
-        ha="left" if right > 0 else "right", va="center", fontsize=7, color=BLACK, zorder=6,
+        f"{number:.1f}°".replace("-", "\u2212"),
+        (x, y),
+        (9 * right, 5 * up),
+        textcoords="offset points",
+        ha="left" if right > 0 else "right",
+        va="center",
+        fontsize=7,
+        color=BLACK,
+        zorder=6,
         bbox={"boxstyle": "round,pad=0.2", "fc": "white", "ec": "none", "alpha": 0.85},
     )
+
+
+def _even(shear: NDArray[np.float64]) -> bool:
+    """Whether the amount of shear is the same in all cells, but for rounding."""
+    amount = np.abs(shear)
+    return bool(np.nanmax(amount) - np.nanmin(amount) < 1e-6 * max(1.0, float(np.nanmax(amount))))

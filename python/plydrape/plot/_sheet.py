@@ -1,7 +1,8 @@
 """The sheet that the figures share: its size, its type and its colours.
 
-Colours are those of the report and of `figure.svg`. Viridis grows evenly lighter, also for colour-blind eyes and in
-grey print; the scale with a sign is ColorBrewer's PuOr, safe for colour-blind eyes.
+Colours are those of the report and of `figure.svg`. Viridis grows evenly lighter, also for
+colour-blind eyes and in grey print; the scale with a sign is ColorBrewer's PuOr, safe for
+colour-blind eyes.
 """
 
 from __future__ import annotations
@@ -75,7 +76,7 @@ class Sheet(Figure):
 
 @contextmanager
 def style() -> Iterator[None]:
-    """Matplotlib's own settings with ours, while a figure is made; the user's come back afterwards."""
+    """Matplotlib's own settings with ours while a figure is made; then the user's again."""
     with style_context(["default", SETTINGS]):
         yield
 
