@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from plydrape.plot._stage import Stage
 
 
-def frame(axes: Axes3D, stage: Stage, *, named: bool) -> None:
-    """The box; its names and numbers stand in the first panel, the others are alike."""
+def frame(axes: Axes3D, stage: Stage, wide: float, *, named: bool) -> None:
+    """The box, this wide as a share of the axes, with names and numbers if it is to be named."""
     span = stage.high - stage.low
     axes.set_xlim(stage.low[0], stage.high[0])
     axes.set_ylim(stage.low[1], stage.high[1])
@@ -34,13 +34,14 @@ def frame(axes: Axes3D, stage: Stage, *, named: bool) -> None:
         axis._axinfo["grid"].update(color=GRID, linewidth=0.5)
         axis._axinfo["tick"].update(inward_factor=0.0, outward_factor=0.0)
         axis.line.set_visible(False)
+    _fit(axes, stage, wide)
     for k, edge in enumerate(_edges(stage)):
         axes.plot(*edge.T, color=FRAME, lw=0.6, zorder=-1, gid="frame")
         if named:
             _names(axes, stage, k, edge)
 
 
-def fit(axes: Axes3D, stage: Stage, wide: float) -> None:
+def _fit(axes: Axes3D, stage: Stage, wide: float) -> None:
     """Makes the projected box this wide, as a share of the axes' width."""
     span = stage.high - stage.low
     axes.set_box_aspect(tuple(span))
@@ -91,11 +92,12 @@ def _names(axes: Axes3D, stage: Stage, k: int, edge: NDArray[np.float64]) -> Non
             text = f"{tick:g}".replace("-", "\u2212")
             longest = max(longest, len(text))
             axes.annotate(text, _flat(axes, at), reach * away, fontsize=6.5, gid="tick", **style)
-    beyond = reach + (9.0 if side == "center" else 3.0 + 4.2 * longest * abs(away[0]) + 3.0)
+    # the name of z stands on top of its edge, where no other panel is
+    beyond = reach + (9.0 if side == "center" else 5.0 + 3.6 * longest * abs(away[0]))
+    place, shift = (edge[1], np.array([0.0, 7.0])) if k == 2 else (edge.mean(axis=0), beyond * away)
+    style["ha"] = "center" if k == 2 else side
     name = f"{'xyz'[k]} (mm)"
-    axes.annotate(
-        name, _flat(axes, edge.mean(axis=0)), beyond * away, fontsize=7, gid="name", **style
-    )
+    axes.annotate(name, _flat(axes, place), shift, fontsize=7, gid="name", **style)
 
 
 def _flat(axes: Axes3D, point: NDArray[np.float64]) -> tuple[float, float]:

@@ -82,13 +82,14 @@ def figure(
     with style():
         # what the marks mean stands in the free cells of the last row, else in a strip below
         free = rows * across - len(chosen)
-        inside = free * wide / across > 36.0
-        head, foot = 6.0 if title else 1.0, 4.0 if inside else 9.0 if wide > 120.0 else 13.0
-        high = head + ROW * rows + foot
+        inside = free * wide / across > 60.0
+        narrow = wide / across < 50.0
+        head, foot = 6.0 if title else 1.0, 0.0 if inside else 9.0 if wide > 120.0 else 19.0
+        high = head + (ROW + 2.0 * narrow) * rows + foot
         sheet = Sheet(figsize=(wide * MM, high * MM), layout="constrained")
         engine = sheet.get_layout_engine()
         assert engine is not None
-        rect = (0, (foot - 4.0) / high, 1, 1 - (foot + head - 4.0) / high)
+        rect = (0, foot / high, 1, 1 - (foot + head) / high)
         engine.set(w_pad=0.05, h_pad=0.03, rect=rect)  # type: ignore[call-arg]
         axes = sheet.subplots(rows, across, sharex=True, squeeze=False).ravel()
         first = result.summary["first_contact_step"]
@@ -101,12 +102,13 @@ def figure(
             if first is not None:
                 panel.axvline(x[first - 1], color=QUIET, lw=0.7, ls=":", zorder=1)
             limit = limits.get(shown.limit) if shown.limit else None
-            _draw(panel, x, result.measures[name] * shown.factor, shown, limit)
+            _draw(panel, x, result.measures[name] * shown.factor, shown, limit, narrow=narrow)
             if k + across >= len(chosen):
                 panel.tick_params(labelbottom=True)
+            if k // across == rows - 1:
+                panel.set_xlabel("step" if against == "step" else "time (s)")
             if against == "step":
                 panel.xaxis.set_major_locator(MaxNLocator(5, integer=True, steps=[1, 2, 5, 10]))
-        sheet.supxlabel("step" if against == "step" else "time (s)", fontsize=8)
         _legend(sheet, axes[len(chosen)] if inside else None, contact=first is not None)
         if title:
             sheet.suptitle(title, x=2.0 / wide, y=1.0 - 1.5 / high, ha="left", va="top")
@@ -135,6 +137,8 @@ def _draw(
     y: NDArray[np.float64],
     shown: Measure,
     limit: dict[str, Any] | None,
+    *,
+    narrow: bool,
 ) -> None:
     """One measure: its line, its limit, its worst step."""
     panel.grid(color=GRID, lw=0.5)
@@ -146,7 +150,7 @@ def _draw(
     )
     marks = [int(k) for k in np.flatnonzero(alone)]
     panel.plot(x, y, color=LINE, lw=1.0, marker=".", ms=3, markevery=marks, zorder=3, gid="values")
-    panel.set_title(shown.label, loc="left", pad=3)
+    panel.set_title(shown.label, loc="left", pad=11 if narrow else 3)
     panel.set_ylabel("deg" if shown.unit == "°" else shown.unit, labelpad=2)
 
     # The worst is what the limit judges; without a limit it is the largest value.
@@ -172,7 +176,10 @@ def _draw(
         sign = "≥" if shown.least else "≤"
         when = "end: " if shown.at_end else ""
         text = f"{when}{sign}\u2009{bound:g}{'' if shown.unit == '°' else chr(0x2009)}{shown.unit}"
-        panel.set_title(text, loc="right", fontsize=7, color=RED if exceeded else QUIET, pad=3)
+        ink = RED if exceeded else QUIET
+        place: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points"}
+        place |= {"ha": "right", "va": "bottom", "fontsize": 7, "color": ink, "gid": "bound"}
+        panel.annotate(text, (1, 1), (0, 3), **place)
 
     # From zero where that is near, with room for the line at both ends.
     low, high = min(values), max(values)
@@ -207,7 +214,7 @@ def _legend(sheet: Sheet, room: Axes | None, *, contact: bool) -> None:
             handles=marks, loc="center left", frameon=False, handlelength=2.4, borderpad=0
         )
     else:
-        columns = 3 if sheet.get_figwidth() > 120 * MM else 2
+        columns = 3 if sheet.get_figwidth() > 120 * MM else 1
         box = sheet.legend(
             handles=marks,
             loc="lower center",

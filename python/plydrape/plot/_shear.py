@@ -54,12 +54,12 @@ def figure(
     high += 8.0 if title else 2.0
 
     with style():
-        sheet = Sheet(figsize=(wide * MM, high * MM), layout="constrained")
+        sheet = Sheet(figsize=(wide * MM, high * MM), layout="compressed")
         shape = (1, len(panels)) if side else (len(panels), 1)
         engine = sheet.get_layout_engine()
         assert engine is not None
         rect = (0, 0, 1, 1 - (5.0 if title else 0.0) / high)
-        engine.set(h_pad=0.06, rect=rect)  # type: ignore[call-arg]
+        engine.set(w_pad=0.08, h_pad=0.06, rect=rect)  # type: ignore[call-arg]
         axes = sheet.subplots(*shape, squeeze=False).ravel()
         names = {"fabric": "on the flat fabric", "plan": "on the mold, from above"}
         for letter, axis, (name, corners, right, up) in zip("ab", axes, panels, strict=False):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 
-from plydrape.plot._frame import fit, frame
+from plydrape.plot._frame import frame
 from plydrape.plot._key import key
 from plydrape.plot._panel import panel as draw
 from plydrape.plot._sheet import MM, Sheet, breadth, style
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from plydrape.plot import Surface, Width
 
 MOST_STEPS = 12
+CAPTION = 5.0
+"""Height of the line above a panel (mm)."""
+LEFT_RIGHT, TOP_BOTTOM = (9.5, 8.0), (1.0, 8.0)
+"""Room around the box for its numbers and names (mm)."""
 
 
 def figure(
@@ -47,11 +51,9 @@ def figure(
     # One frame for all panels: its projected size says how high a panel is.
     box = wide / across
     unit = projected(stage)
-    margin = np.array([5.0, 5.5])
-    scale = (box - 2.0 * margin[0]) / unit[0]
-    scale = min(scale, 75.0 / unit[1])
-    panel = scale * unit[1] + 2.0 * margin[1] + 5.0
-    side = max(box, panel - 5.0)
+    scale = min((box - sum(LEFT_RIGHT)) / unit[0], 75.0 / unit[1])
+    panel = CAPTION + scale * unit[1] + sum(TOP_BOTTOM)
+    side = max(box, panel)
     free = rows * across - len(chosen)
     strip = 0.0 if free and across > 1 else 13.0 if wide >= 120.0 else 21.0
     head = 6.0 if title else 0.0
@@ -63,7 +65,10 @@ def figure(
             row, column = divmod(k, across)
             bottom = high - head - (row + 1) * panel
             # a square as large as the panel at least, for Matplotlib cuts off what leaves it
-            middle = ((column + 0.5) * box, bottom + (panel - 5.0) / 2.0)
+            middle = (
+                column * box + (box + LEFT_RIGHT[0] - LEFT_RIGHT[1]) / 2.0,
+                bottom + TOP_BOTTOM[1] + scale * unit[1] / 2.0,
+            )
             at = (
                 (middle[0] - side / 2.0) / wide,
                 (middle[1] - side / 2.0) / high,
@@ -72,8 +77,7 @@ def figure(
             )
             axes = sheet.add_axes(at, projection="3d", proj_type="ortho", computed_zorder=False)
             assert isinstance(axes, Axes3D)
-            frame(axes, stage, named=k == 0)
-            fit(axes, stage, scale * unit[0] / side)
+            frame(axes, stage, scale * unit[0] / side, named=k == 0)
             draw(axes, stage, step)
             letter = f"{chr(97 + k)}  " if len(chosen) > 1 else ""
             corner = ((column * box + 2.0) / wide, (bottom + panel - 1.0) / high)
