@@ -48,6 +48,12 @@ def ply(result: Result, step: int, intervals: int) -> Ply | None:
     return Ply(np.asarray(surface.points, float), triangles, held, shear)
 
 
+def edges(grid: tuple[int, int]) -> int:
+    """How many of the catenaries are edges; they come first, then the diagonals."""
+    nu, nv = grid
+    return (nu - 1) * nv + nu * (nv - 1)
+
+
 def radius(record: dict[str, Any]) -> float:
     """Radius of a gripper's disc (m)."""
     u, v = record["scene"]["cell"]

@@ -59,7 +59,7 @@ def panel(axes: Axes3D, stage: Stage, step: int) -> None:
         axes.add_collection3d(surface, autolim=False)
 
     lines = result.lines(step)
-    edges = _edges(result.grid)
+    edges = _shapes.edges(result.grid)
     _lines(axes, stage, lines[:edges], RED, 1.0, 3, "edges")
     _lines(axes, stage, lines[edges:], RED, 0.5, 3, "diagonals")
     parts, spots = _touching(stage, step)
@@ -88,12 +88,6 @@ def _touching(stage: Stage, step: int) -> tuple[list[NDArray[np.float64]], NDArr
     short = SHORT * min(stage.record["scene"]["cell"])
     spots = [_shapes.middle(part) for part in parts if _shapes.length(part) < short]
     return [part for part in parts if len(part) > 1], np.array(spots).reshape(-1, 3)
-
-
-def _edges(grid: tuple[int, int]) -> int:
-    """How many of the catenaries are edges; they come first."""
-    nu, nv = grid
-    return (nu - 1) * nv + nu * (nv - 1)
 
 
 def _lines(
