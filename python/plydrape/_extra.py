@@ -16,9 +16,9 @@ def load(module: str, *, extra: str, name: str) -> ModuleType:
     """The module, or an `ImportError` that says which extra brings it.
 
     Example:
-        >>> load("json", extra="plot", name="JSON").__name__
+        >>> plydrape._extra.load("json", extra="plot", name="JSON").__name__
         'json'
-        >>> load("no_such_module", extra="plot", name="Matplotlib")
+        >>> plydrape._extra.load("no_such_module", extra="plot", name="Matplotlib")
         Traceback (most recent call last):
         ImportError: Matplotlib is missing; install it with: pip install "plydrape[plot]"
 

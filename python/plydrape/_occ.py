@@ -192,7 +192,7 @@ def merged(
 
     Example:
         >>> square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0.0]])
-        >>> points, triangles = merged(
+        >>> points, triangles = plydrape._occ.merged(
         ...     square, np.array([[0, 1, 2], [3, 4, 5]]), np.array([[0, 3], [2, 4]])
         ... )
         >>> len(points), triangles.tolist()

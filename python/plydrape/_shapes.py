@@ -57,14 +57,15 @@ def edges(grid: tuple[int, int]) -> int:
 def radius(record: dict[str, Any]) -> float:
     """Radius of a gripper's disc (m)."""
     u, v = record["scene"]["cell"]
-    return GRIPPER * (min(u, v) if record["scene"]["grid"]["nv"] > 1 else u)
+    return GRIPPER * float(min(u, v) if record["scene"]["grid"]["nv"] > 1 else u)
 
 
 def discs(result: Result, step: int, size: float, corners: int = 28) -> NDArray[np.float64]:
     """The rims of the grippers' discs at a step (G, corners, 3) in m, tilted with the ply."""
     angle = np.linspace(0.0, 2.0 * np.pi, corners, endpoint=False)
     arm = size * np.stack([np.cos(angle), np.sin(angle), np.zeros(corners)], axis=-1)
-    return result.positions[step - 1][:, None, :] + turned(result.quaternions[step - 1], arm)
+    middle = result.positions[step - 1][:, None, :]
+    return np.asarray(middle + turned(result.quaternions[step - 1], arm))
 
 
 def turned(quaternions: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -78,8 +78,10 @@ def read(
         ImportError: OpenCASCADE is not installed.
 
     Example:
-        >>> from plydrape import cad
-        >>> points, triangles = cad.read("mold.step", tolerance="0.1 mm")  # doctest: +SKIP
+        >>> points, triangles = plydrape.cad.read("mold.step")  # doctest: +SKIP
+        >>> plydrape.cad.read("mold.dwg")
+        Traceback (most recent call last):
+        plydrape...CadError: mold.dwg: expected a file that ends in .step, .stp, .iges or .igs
 
     """
     where = Path(path)
@@ -124,8 +126,8 @@ def mold(
         ValueError: The faces are no mold: they overlap, or more than two meet at one edge.
 
     Example:
-        >>> from plydrape import cad
-        >>> scene = plydrape.Scene(mold=cad.mold("mold.step"), ply=ply)  # doctest: +SKIP
+        >>> mold = plydrape.cad.mold("mold.step", tolerance="0.1 mm")  # doctest: +SKIP
+        >>> scene = plydrape.Scene(mold=mold, ply=ply, target={})  # doctest: +SKIP
 
     """
     from plydrape import Mold
@@ -161,8 +163,10 @@ def convert(
         CadError: As of `read`, or the ending of `out` is another, or it cannot be written.
 
     Example:
-        >>> from plydrape import cad
-        >>> cad.convert("mold.step", "mold.stl", tolerance="0.1 mm")  # doctest: +SKIP
+        >>> plydrape.cad.convert("mold.step", "mold.stl")  # doctest: +SKIP
+        >>> plydrape.cad.convert("mold.step", "mold.ply")
+        Traceback (most recent call last):
+        plydrape...CadError: mold.ply: expected a name that ends in .stl or .obj
 
     """
     target = Path(out)
@@ -239,7 +243,7 @@ def _stl(found: Triangles) -> bytes:
     facets["normal"] = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
     facets["corners"] = corners
     head = b"plydrape: binary STL, millimetres".ljust(80)
-    return head + np.uint32(len(facets)).astype("<u4").tobytes() + facets.tobytes()
+    return head + len(facets).to_bytes(4, "little") + facets.tobytes()
 
 
 def _obj(found: Triangles) -> bytes:

@@ -53,7 +53,9 @@ def show(result: Result, height: int = 640) -> Page:
         ValueError: No frame is that high.
 
     Example:
-        >>> show(result)
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> plydrape.notebook.show(result)
         <plydrape.Page of "Flat mold, ply sheared by 20 deg": a notebook shows it; ...>
 
     """

@@ -72,7 +72,9 @@ def scene3d(
     Example:
         >>> import pyvista
         >>> pyvista.OFF_SCREEN = True
-        >>> plotter = scene3d(result, 26, colour="height")
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> plotter = plydrape.view.scene3d(result, 26, colour="height")
         >>> plotter.actors["ply"].mapper.dataset.n_points
         225
         >>> plotter.close()
@@ -113,14 +115,15 @@ def scene3d(
     out.add_mesh(discs, color=BLACK, name="grippers")
     if new:
         _look(out, f"{result.title}: step {chosen} of {last}")
-    return out
+    shown: pyvista.Plotter = out
+    return shown
 
 
 def _mold(pv: Any, out: Any, result: Result, radius: float) -> None:
     """The mold under and around the ply, and where the ply should end on it."""
     surface = result.mold_surface()
     if surface is not None and len(surface[1]) > 0:
-        mesh = _triangles(pv, *surface)
+        mesh = _triangles(pv, surface[0], surface[1].astype(np.int64))
         out.add_mesh(mesh, color=MOLD, smooth_shading=True, ambient=0.12, diffuse=0.95, name="mold")
         # the mold is drawn as if it were a hair farther away, so that a ply on it covers it
         mapper = out.actors["mold"].mapper

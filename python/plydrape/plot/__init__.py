@@ -40,8 +40,11 @@ def plot(
         ValueError: There is no such kind.
 
     Example:
-        >>> figure = plot(result, "measures", width="single")
-        >>> figure.savefig("measures.pdf")
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> figure = plydrape.plot.plot(result, "measures", width="single")
+        >>> round(25.4 * figure.get_figwidth())
+        89
 
     """
     if kind == "steps":
@@ -87,7 +90,9 @@ def steps(
         ValueError: No such step, none at all, or a view or width that cannot be.
 
     Example:
-        >>> figure = steps(result, [1, 26, 30], width="single")
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> figure = plydrape.plot.steps(result, [1, 26, 30], width="single")
         >>> [text.get_text() for text in figure.texts]
         ['a  step 1, start', 'b  step 26, first contact', 'c  step 30, end']
 
@@ -127,7 +132,9 @@ def measures(
         ValueError: No such measure, or one without a value at any step.
 
     Example:
-        >>> figure = measures(result, ["tilt_deg", "slack_ratio"])
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> figure = plydrape.plot.measures(result, ["tilt_deg", "slack_ratio"])
         >>> [axes.get_ylabel() for axes in figure.axes]
         ['deg', '%']
 
@@ -167,7 +174,9 @@ def shear_map(
         ValueError: The result has no ideal drape, or the net has no cell with all its nodes.
 
     Example:
-        >>> figure = shear_map(result, view="fabric")
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> figure = plydrape.plot.shear_map(result, view="fabric")
         >>> figure.axes[0].get_xlabel()
         'u (mm)'
 

@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator
 
 from plydrape import _shapes
-from plydrape.plot._sheet import BLACK, MM, RED, TARGET
+from plydrape.plot._sheet import BLACK, MM, RED, TARGET, plain
 from plydrape.plot._stage import TOUCHING
 
 NAMES = {"gap": "gap to the mold (mm)", "height": "height z (mm)", "shear": "shear (°)"}
@@ -76,6 +76,6 @@ def _bar(sheet: Sheet, stage: Stage, rect: tuple[float, float, float, float]) ->
         bar.minorticks_off()
     else:
         bar.locator = MaxNLocator(5, steps=[1, 2, 5, 10])
-    bar.outline.set_linewidth(0.4)  # type: ignore[operator]
+    plain(bar)
     bar.update_ticks()
     axes.tick_params(labelsize=6.5, length=2, pad=1.5)

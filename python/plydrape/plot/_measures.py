@@ -31,8 +31,8 @@ class Measure:
     unit: str
     factor: float = 1.0
     """From the unit of `result.measures` to the unit shown, which is the unit of its limit."""
-    limit: str | None = None
-    """The name of its limit in `result.limits`."""
+    limit: str = ""
+    """The name of its limit in `result.limits`, where it has one."""
     least: bool = False
     """Whether the limit is the least that is allowed."""
     at_end: bool = False
@@ -150,7 +150,7 @@ def _draw(
     )
     marks = [int(k) for k in np.flatnonzero(alone)]
     panel.plot(x, y, color=LINE, lw=1.0, marker=".", ms=3, markevery=marks, zorder=3, gid="values")
-    panel.set_title(shown.label, loc="left", pad=11 if narrow else 3)
+    panel.set_title(shown.label, loc="left", pad=13 if narrow else 3)
     panel.set_ylabel("deg" if shown.unit == "°" else shown.unit, labelpad=2)
 
     # The worst is what the limit judges; without a limit it is the largest value.
@@ -160,7 +160,9 @@ def _draw(
     else:
         worst = int(np.nanargmax(y))
     if np.isfinite(y[worst]):
-        mark = {"marker": "X", "ms": 5.0, "mew": 0.5} if exceeded else {"marker": "o", "ms": 3.5}
+        mark: dict[str, Any] = {"marker": "o", "ms": 3.5}
+        if exceeded:
+            mark = {"marker": "X", "ms": 5.0, "mew": 0.5}
         ink = RED if exceeded else DARK
         panel.plot(
             x[worst], y[worst], ls="", color=ink, zorder=5, gid="worst", clip_on=False, **mark

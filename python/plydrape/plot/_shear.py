@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.ticker import MaxNLocator
 
-from plydrape.plot._sheet import BLACK, GRID, MM, RED, Sheet, breadth, style
+from plydrape.plot._sheet import BLACK, GRID, MM, RED, Sheet, breadth, plain, style
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -81,7 +81,7 @@ def figure(
         )
         bar.set_label("shear, signed (°)" if signed else "shear (°)")
         bar.locator = MaxNLocator(6, steps=ROUND)
-        bar.outline.set_linewidth(0.4)  # type: ignore[operator]
+        plain(bar)
         bar.update_ticks()
         if title:
             sheet.suptitle(title, x=2.0 / wide, y=1.0 - 1.5 / high, ha="left", va="top")

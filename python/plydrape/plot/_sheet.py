@@ -12,11 +12,13 @@ from contextlib import contextmanager
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-import matplotlib as mpl
+from cycler import cycler
 from matplotlib.figure import Figure
 from matplotlib.style import context as style_context
 
 if TYPE_CHECKING:
+    from matplotlib.colorbar import Colorbar
+
     from plydrape.plot import Width
 
 MM = 1.0 / 25.4
@@ -60,7 +62,7 @@ SETTINGS: dict[str, Any] = {
     "savefig.facecolor": "white",
     "axes.formatter.useoffset": False,
     "axes.unicode_minus": True,
-    "axes.prop_cycle": mpl.cycler(color=[LINE]),
+    "axes.prop_cycle": cycler(color=[LINE]),
     "text.usetex": False,
 }
 
@@ -90,3 +92,9 @@ def breadth(width: Width) -> float:
     if not 40.0 <= width <= 1000.0:
         raise ValueError(f"a figure can be 40 to 1000 mm wide, not {width:g} mm")
     return float(width)
+
+
+def plain(bar: Colorbar) -> None:
+    """A colour bar with a thin frame, made of shapes and not of dots."""
+    bar.outline.set_linewidth(0.4)
+    bar.solids.set(rasterized=False, edgecolor="face")
