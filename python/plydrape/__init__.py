@@ -9,6 +9,7 @@ Example:
     >>> result = plydrape.simulate(scene)
     >>> result.summary["first_contact_step"]
     26
+
 """
 
 from plydrape import batch

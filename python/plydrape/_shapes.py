@@ -1,0 +1,120 @@
+"""Shapes of a result that pictures share: grippers, touching parts, target, sheared ply."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from plydrape import Result
+
+GRIPPER = 0.12
+"""Radius of a gripper as a share of the shorter side of a cell; it is drawn, not modelled."""
+
+FLAT = 5e-4
+"""Slack ratio up to which a span that lies on the mold counts as touching it along its length."""
+
+
+class Ply(NamedTuple):
+    """The ply's surface of one step, with a value for its colour at every triangle or point."""
+
+    points: NDArray[np.float64]
+    """Points (P, 3) in m."""
+    triangles: NDArray[np.int64]
+    """Indices (T, 3) of points."""
+    gap: NDArray[np.float64]
+    """Gap to the mold (P,) in m; nan without a mold."""
+    shear_deg: NDArray[np.float64]
+    """Shear angle of the cell that each triangle is in (T,) in deg."""
+
+
+def ply(result: Result, step: int, intervals: int) -> Ply | None:
+    """The ply of a step (from 1); None for a strip, which has no surface."""
+    nu, nv = result.grid
+    if nu < 2 or nv < 2:
+        return None
+    surface = result.surface(step, intervals=intervals)
+    triangles = np.asarray(surface.triangles, np.int64)
+    # Points run along u first; the cell of a triangle follows from the middle of its corners.
+    across = (nu - 1) * intervals + 1
+    i = np.floor((triangles % across).mean(axis=1) / intervals).astype(np.int64)
+    j = np.floor((triangles // across).mean(axis=1) / intervals).astype(np.int64)
+    shear = np.asarray(result.shear_deg[step - 1], float)[j, i]
+    gap = surface.gap
+    held = np.full(len(surface.points), np.nan) if gap is None else np.asarray(gap, float)
+    return Ply(np.asarray(surface.points, float), triangles, held, shear)
+
+
+def edges(grid: tuple[int, int]) -> int:
+    """How many of the catenaries are edges; they come first, then the diagonals."""
+    nu, nv = grid
+    return (nu - 1) * nv + nu * (nv - 1)
+
+
+def radius(record: dict[str, Any]) -> float:
+    """Radius of a gripper's disc (m)."""
+    u, v = record["scene"]["cell"]
+    return GRIPPER * float(min(u, v) if record["scene"]["grid"]["nv"] > 1 else u)
+
+
+def discs(result: Result, step: int, size: float, corners: int = 28) -> NDArray[np.float64]:
+    """The rims of the grippers' discs at a step (G, corners, 3) in m, tilted with the ply."""
+    angle = np.linspace(0.0, 2.0 * np.pi, corners, endpoint=False)
+    arm = size * np.stack([np.cos(angle), np.sin(angle), np.zeros(corners)], axis=-1)
+    middle = result.positions[step - 1][:, None, :]
+    return np.asarray(middle + turned(result.quaternions[step - 1], arm))
+
+
+def turned(quaternions: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points (N, 3) turned by each quaternion (G, 4) x, y, z, w: (G, N, 3)."""
+    axis, w = quaternions[:, None, :3], quaternions[:, None, 3:]
+    once = 2.0 * np.cross(axis, points[None, :, :])
+    return np.asarray(points[None, :, :] + w * once + np.cross(axis, once))
+
+
+def touching(record: dict[str, Any], step: int) -> list[NDArray[np.float64]]:
+    """The parts of catenaries that touch the mold at a step, each a polyline (N, 3) in m."""
+    out = []
+    for line in record["steps"][step - 1]["catenaries"]:
+        parts = [
+            (span["arc"], span["points"])
+            for span in line["spans"]
+            if span["state"] == "lying" and (span["slack_ratio"] or 0.0) < FLAT
+        ]
+        if line.get("contact"):
+            parts.append((line["contact"]["arc"], line["contact"]["points"]))
+        # parts that follow one another along the fabric are one
+        parts.sort(key=lambda part: sum(part[0]))
+        joined: list[list[Any]] = []
+        end = -np.inf
+        for arc, points in parts:
+            if arc[0] > end + 1e-9 or not joined:
+                joined.append([])
+            joined[-1] += points
+            end = arc[1]
+        out += [np.asarray(points, float) for points in joined if points]
+    return out
+
+
+def outline(net: Any) -> list[NDArray[np.float64]]:
+    """The sides of the ideal drape on the mold, polylines (N, 3) in m of the nodes it has."""
+    if net is None:
+        return []
+    nodes = np.asarray(net.nodes, float)
+    sides = [nodes[:, 0], nodes[-1], nodes[::-1, -1], nodes[0, ::-1]]
+    whole = [side[np.isfinite(side).all(axis=1)] for side in sides]
+    return [side for side in whole if len(side) > 1]
+
+
+def length(line: NDArray[np.float64]) -> float:
+    """The length of a polyline (N, 3)."""
+    return float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
+
+
+def middle(line: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The point halfway along a polyline (N, 3)."""
+    along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))]
+    return np.array([np.interp(along[-1] / 2.0, along, line[:, c]) for c in range(3)])

@@ -1,0 +1,191 @@
+"""Figures of a result for a paper, drawn by Matplotlib.
+
+    steps      chosen steps in 3D, after the figure of Krogh et al. 2018
+    measures   slack, overstretch, shear, force and the others over the steps, each with its limit
+    shear_map  the shear angle of every cell of the ideal drape
+
+Each function makes a new `matplotlib.figure.Figure` and touches nothing else: no figure of
+`pyplot`, no setting. A notebook shows it as the last value of a cell; `figure.savefig("steps.pdf")`
+writes it. Widths are those of a column of print, text is 8 pt. Matplotlib comes with the extra:
+`pip install "plydrape[plot]"`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+from plydrape import _extra
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from plydrape import Net, Result
+
+__all__ = ["measures", "plot", "shear_map", "steps"]
+
+Width = Literal["single", "double"] | float
+"""Width of a figure: "single" is 89 mm, "double" 183 mm; a number is a width in mm."""
+
+Surface = Literal["gap", "height", "shear"]
+"""What the colour of the ply tells: gap to the mold, height z, shear angle of its cells."""
+
+
+def plot(
+    result: Result, kind: Literal["steps", "measures", "shear"] = "steps", **options: Any
+) -> Figure:
+    """The figure of this kind; `options` are those of `steps`, `measures` or `shear_map`.
+
+    Raises:
+        ValueError: There is no such kind.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> figure = plydrape.plot.plot(result, "measures", width="single")
+        >>> round(25.4 * figure.get_figwidth())
+        89
+
+    """
+    if kind == "steps":
+        return steps(result, **options)
+    if kind == "measures":
+        return measures(result, **options)
+    if kind == "shear":
+        return shear_map(result, **options)
+    raise ValueError(f'there is no plot "{kind}"; choose "steps", "measures" or "shear"')
+
+
+def steps(
+    result: Result,
+    steps: Sequence[int] | None = None,
+    *,
+    colour: Surface | None = None,
+    elev: float = 28.0,
+    azim: float = -62.0,
+    columns: int | None = None,
+    width: Width = "double",
+    title: str | None = None,
+) -> Figure:
+    """Chosen steps in 3D, one panel each, all in one frame and one scale.
+
+    Red lines are the catenaries, thick where they touch the mold, with a ring in the middle of each
+    touching part; black discs are the grippers, tilted with the ply; the grey line on the mold is
+    the outline of the ideal drape. What the mold hides from this view is left out, so choose the
+    view here and not by turning the axes later.
+
+    Args:
+        result: The result.
+        steps: Steps to show, counted from 1. If None: the start, the first contact, the first
+            shear, the end, and one in the middle of the longest stretch between them.
+        colour: What the colour of the ply tells; if None the gap to a curved mold, else the height.
+        elev: Angle of the view above the xy plane (deg), -90 to 90.
+        azim: Angle of the view about z (deg).
+        columns: Panels side by side; if None as many as fit the width, at most 3.
+        width: "single" (89 mm), "double" (183 mm) or a width in mm.
+        title: A line above the panels; none by default, a paper has a caption.
+
+    Raises:
+        ImportError: Matplotlib is not installed.
+        ValueError: No such step, none at all, or a view or width that cannot be.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> figure = plydrape.plot.steps(result, [1, 26, 30], width="single")
+        >>> [text.get_text() for text in figure.texts]
+        ['a  step 1, start', 'b  step 26, first contact', 'c  step 30, end']
+
+    """
+    _need()
+    from plydrape.plot import _steps
+
+    return _steps.figure(result, steps, colour, (elev, azim), columns, width, title)
+
+
+def measures(
+    result: Result,
+    names: Sequence[str] | None = None,
+    *,
+    against: Literal["step", "time"] = "step",
+    columns: int | None = None,
+    width: Width = "double",
+    title: str | None = None,
+) -> Figure:
+    """The worst value of each measure over the steps, one small panel each.
+
+    A limit is a dashed line, with its value beside the name; "end" says that it holds at the last
+    step only. A dot marks the step that the limit judges, or the largest value where there is no
+    limit; a cross where the limit is exceeded. The dotted line is the first contact.
+
+    Args:
+        result: The result.
+        names: Names of `result.measures` in the order wanted; if None all that have a value at some
+            step, without `overstretch_mm`, which is `overstretch` in another unit.
+        against: What runs to the right, the number of the step or its time (s).
+        columns: Panels side by side; if None 3 on a double column, 2 on a single one.
+        width: "single" (89 mm), "double" (183 mm) or a width in mm.
+        title: A line above the panels; none by default.
+
+    Raises:
+        ImportError: Matplotlib is not installed.
+        ValueError: No such measure, or one without a value at any step.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> figure = plydrape.plot.measures(result, ["tilt_deg", "slack_ratio"])
+        >>> [axes.get_ylabel() for axes in figure.axes]
+        ['deg', '%']
+
+    """
+    _need()
+    from plydrape.plot import _measures
+
+    return _measures.figure(result, names, against, columns, width, title)
+
+
+def shear_map(
+    net: Net | Result,
+    *,
+    view: Literal["both", "fabric", "plan"] = "both",
+    signed: bool = False,
+    most: float | None = None,
+    width: Width = "double",
+    title: str | None = None,
+) -> Figure:
+    """The shear angle of every cell of the ideal drape's net.
+
+    Left on the flat fabric with the coordinates u and v of the net, right on the mold seen from
+    above. The largest angle is ringed. Cells with a missing node stay white.
+
+    Args:
+        net: A net, or a result whose ideal drape has one.
+        view: Which of both to draw.
+        signed: False colours the amount from 0 on, which is what a locking angle limits; True the
+            angle with its sign, in two hues from a white zero.
+        most: End of the colours (deg); if None the largest amount. For maps that are to be
+            compared.
+        width: "single" (89 mm), "double" (183 mm) or a width in mm.
+        title: A line above the panels; none by default.
+
+    Raises:
+        ImportError: Matplotlib is not installed.
+        ValueError: The result has no ideal drape, or the net has no cell with all its nodes.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> figure = plydrape.plot.shear_map(result, view="fabric")
+        >>> figure.axes[0].get_xlabel()
+        'u (mm)'
+
+    """
+    _need()
+    from plydrape.plot import _shear
+
+    return _shear.figure(net, view, signed, most, width, title)
+
+
+def _need() -> None:
+    _extra.load("matplotlib", extra="plot", name="Matplotlib")

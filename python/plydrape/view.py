@@ -1,0 +1,220 @@
+"""A step of a result as a scene of PyVista: to turn, to cut, to add to, to take pictures of.
+
+PyVista comes with the extra: `pip install "plydrape[plot]"`. Without a display set
+`pyvista.OFF_SCREEN = True` first; VTK 9.4 and later then draws by EGL or OSMesa, without X. VTK has
+one setting for all plotters of how it draws faces in one place; a scene sets it to polygon offset.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from plydrape import _shapes
+from plydrape._extra import load
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import pyvista
+    from numpy.typing import NDArray
+
+    from plydrape import Result
+
+__all__ = ["scene3d"]
+
+RED, BLACK, MOLD, TARGET, DARK = "#d61921", "#14161a", "#d6dce4", "#586270", "#2d323a"
+TOUCHING = 0.1
+"""Gap up to which the ply counts as touching in a picture (mm): the low end of its colours."""
+SIDES = 10
+"""Sides of a tube."""
+NAMES = {"gap": "gap to the mold (mm)", "height": "height z (mm)", "shear": "shear (deg)"}
+
+
+def scene3d(
+    result: Result,
+    step: int = -1,
+    *,
+    colour: Literal["gap", "height", "shear"] | None = None,
+    limits: tuple[float, float] | None = None,
+    mold: bool = True,
+    diagonals: bool = True,
+    intervals: int = 8,
+    plotter: pyvista.Plotter | None = None,
+) -> pyvista.Plotter:
+    """Mold, ply, catenaries, touching parts and grippers of a step, in m.
+
+    Each is an actor of the plotter by its name: "mold", "ply", "edges", "diagonals", "touching",
+    "target", "grippers". Lines are tubes and grippers plates, only to be seen well. The ply holds
+    "gap_mm" and "height_mm" at its points and "shear_deg" in its triangles.
+
+    Args:
+        result: The result.
+        step: The step, from 1; -1 is the last, -2 the one before.
+        colour: What the ply's colour tells; if None the gap to a curved mold, else the height. The
+            gap has a logarithmic scale from 0.1 mm on.
+        limits: Ends of the colours in the unit of the bar; if None those of this step. For pictures
+            that are to be compared.
+        mold: Whether to show the mold.
+        diagonals: Whether to show the diagonals.
+        intervals: Pieces of a cell along each side, 1 or more.
+        plotter: Where to add them; if None a new plotter that looks at them from the front left.
+
+    Returns:
+        The plotter: `.show()` opens it, `.screenshot("step.png")` writes it.
+
+    Raises:
+        ImportError: PyVista is not installed.
+        ValueError: No such step, or a colour that the result cannot have.
+
+    Example:
+        >>> import pyvista
+        >>> pyvista.OFF_SCREEN = True
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> plotter = plydrape.view.scene3d(result, 26, colour="height")
+        >>> plotter.actors["ply"].mapper.dataset.n_points
+        225
+        >>> plotter.close()
+
+    """
+    pv = load("pyvista", extra="plot", name="PyVista")
+    last = len(result.times)
+    chosen = step if step > 0 else last + 1 + step
+    if step == 0 or not 1 <= chosen <= last:
+        raise ValueError(f"the result has no step {step}; its steps are 1 to {last}")
+    if intervals < 1:
+        raise ValueError(f"{intervals} intervals in a cell; 1 or more make a surface")
+    record = result.to_dict()
+    curved = result.mold is not None and result.mold.kind != "plane"
+    kind = colour or ("gap" if curved else "height")
+    if kind not in NAMES:
+        raise ValueError(
+            f'the ply can have the colour of its "gap", "height" or "shear", not "{kind}"'
+        )
+    if kind == "gap" and result.mold is None:
+        raise ValueError('without a mold there is no gap; choose colour="height" or "shear"')
+
+    new = plotter is None
+    out: Any = pv.Plotter() if plotter is None else plotter
+    if mold:
+        _mold(pv, out, result, 0.05 * _shapes.radius(record))
+    ply = _shapes.ply(result, chosen, intervals)
+    if ply is not None:
+        _ply(pv, out, ply, kind, limits)
+    lines = result.lines(chosen)
+    edges = _shapes.edges(result.grid)
+    radius = _shapes.radius(record)
+    _lines(pv, out, lines[:edges], "edges", RED, 0.07 * radius)
+    if diagonals:
+        _lines(pv, out, lines[edges:], "diagonals", RED, 0.04 * radius)
+    _lines(pv, out, _shapes.touching(record, chosen), "touching", RED, 0.13 * radius)
+    discs = _prisms(pv, _shapes.discs(result, chosen, radius), 0.28 * radius)
+    out.add_mesh(discs, color=BLACK, name="grippers")
+    if new:
+        _look(out, f"{result.title}: step {chosen} of {last}")
+    shown: pyvista.Plotter = out
+    return shown
+
+
+def _mold(pv: Any, out: Any, result: Result, radius: float) -> None:
+    """The mold under and around the ply, and where the ply should end on it."""
+    surface = result.mold_surface()
+    if surface is not None and len(surface[1]) > 0:
+        mesh = _triangles(pv, surface[0], surface[1].astype(np.int64))
+        out.add_mesh(mesh, color=MOLD, smooth_shading=True, ambient=0.12, diffuse=0.95, name="mold")
+        # the mold is drawn as if it were a hair farther away, so that a ply on it covers it
+        mapper = out.actors["mold"].mapper
+        mapper.SetResolveCoincidentTopologyToPolygonOffset()
+        mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 60.0)
+        _lines(pv, out, _shapes.outline(result.net), "target", TARGET, radius)
+
+
+def _ply(
+    pv: Any, out: Any, ply: _shapes.Ply, kind: str, limits: tuple[float, float] | None
+) -> None:
+    """The ply with its values and a bar of its colours."""
+    mesh = _triangles(pv, ply.points, ply.triangles)
+    mesh.point_data["gap_mm"] = ply.gap * 1e3
+    mesh.point_data["height_mm"] = ply.points[:, 2] * 1e3
+    mesh.cell_data["shear_deg"] = ply.shear_deg
+    name = {"gap": "gap_mm", "height": "height_mm", "shear": "shear_deg"}[kind]
+    values = mesh[name]
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    if kind == "gap":
+        low, high = TOUCHING, max(10.0 ** np.ceil(np.log10(max(high, TOUCHING))), 10.0 * TOUCHING)
+    elif kind == "shear":
+        low, high = 0.0, max(high, 1e-3)
+    elif high - low < 1.0:
+        low, high = (low + high - 1.0) / 2.0, (low + high + 1.0) / 2.0
+    low, high = limits or (low, high)
+    bar: dict[str, Any] = {"title": NAMES[kind] + "\n", "color": DARK, "fmt": "%.3g"}
+    bar |= {"title_font_size": 20, "label_font_size": 18, "n_labels": 5}
+    bar |= {"width": 0.4, "height": 0.08, "position_x": 0.55, "position_y": 0.03}
+    if kind == "gap":
+        # between whole powers of ten the labels are those powers
+        bar["n_labels"] = max(2, 1 + round(float(np.log10(high / low))))
+    out.add_mesh(
+        mesh,
+        scalars=name,
+        cmap="viridis",
+        clim=(low, high),
+        log_scale=kind == "gap",
+        lighting=False,
+        show_scalar_bar=True,
+        scalar_bar_args=bar,
+        name="ply",
+    )
+
+
+def _lines(
+    pv: Any, out: Any, lines: Sequence[NDArray[np.float64]], name: str, ink: str, radius: float
+) -> None:
+    """Polylines (N, 3) as tubes, so that they stand out of the surface that they lie in."""
+    kept = [line for one in lines if len(line := _apart(one)) > 1]
+    if not kept:
+        return
+    ends = np.cumsum([0, *(len(line) for line in kept)])
+    cells = [np.r_[b - a, np.arange(a, b)] for a, b in pairwise(ends)]
+    mesh = pv.PolyData(np.concatenate(kept), lines=np.concatenate(cells))
+    tubes = mesh.tube(radius=radius, n_sides=SIDES)
+    out.add_mesh(tubes, color=ink, lighting=False, name=name)
+
+
+def _apart(line: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A polyline without points on the one before."""
+    far = np.linalg.norm(np.diff(line, axis=0), axis=1) > 1e-7
+    return line[np.r_[True, far]]
+
+
+def _triangles(pv: Any, points: NDArray[np.float64], triangles: NDArray[np.int64]) -> Any:
+    faces = np.column_stack([np.full(len(triangles), 3), triangles])
+    return pv.PolyData(np.asarray(points, float), faces.ravel())
+
+
+def _prisms(pv: Any, rims: NDArray[np.float64], thick: float) -> Any:
+    """Flat polygons (G, N, 3) as plates of a thickness."""
+    count, corners = rims.shape[:2]
+    normal = np.cross(rims[:, 1] - rims[:, 0], rims[:, 2] - rims[:, 1])
+    normal *= 0.5 * thick / np.linalg.norm(normal, axis=1, keepdims=True)
+    points = np.stack([rims - normal[:, None], rims + normal[:, None]], axis=1)
+    number = np.arange(count * 2 * corners).reshape(count, 2, corners)
+    low, high = number[:, 0], number[:, 1]
+    walls = np.stack([low, np.roll(low, -1, 1), np.roll(high, -1, 1), high], axis=-1)
+    plates = np.concatenate([low[:, ::-1], high])
+    faces = [np.column_stack([np.full(len(plates), corners), plates]).ravel()]
+    faces.append(np.insert(walls.reshape(-1, 4), 0, 4, axis=1).ravel())
+    return pv.PolyData(points.reshape(-1, 3), np.concatenate(faces))
+
+
+def _look(out: Any, title: str) -> None:
+    """White ground, axes, a title, and the view of the report."""
+    out.set_background("white")
+    out.add_text(title, position="upper_left", font_size=10, color=DARK, name="title")
+    out.add_axes(color=DARK, line_width=3)
+    out.enable_parallel_projection()
+    out.camera_position = [(0.42, -0.78, 0.48), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
+    out.reset_camera()
+    out.camera.zoom(1.25)

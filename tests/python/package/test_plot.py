@@ -1,0 +1,410 @@
+"""What the figures draw is what the result holds."""
+
+from __future__ import annotations
+
+import sys
+from io import BytesIO
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, cast
+
+import matplotlib as mpl
+import numpy as np
+import plydrape
+import pytest
+from matplotlib import colormaps
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+from plydrape import plot
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+    from plydrape import Net
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
+
+
+@pytest.fixture(scope="module")
+def flat() -> plydrape.Result:
+    """The paper's example: limits are exceeded, the mold is a plane."""
+    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold/scene.toml"))
+
+
+@pytest.fixture(scope="module")
+def dome() -> plydrape.Result:
+    """A dome, draped straight."""
+    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "04_dome/scene.toml"))
+
+
+@pytest.fixture(scope="module")
+def strip() -> plydrape.Result:
+    """One row of grippers, no mold."""
+    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "02_hanging_strip/scene.toml"))
+
+
+def named(figure: Any, gid: str, panel: int = 0) -> Any:
+    """The artist of this name in a panel, or None."""
+    found = [artist for artist in figure.axes[panel].get_children() if artist.get_gid() == gid]
+    assert len(found) < 2, f"{len(found)} artists are named {gid}"
+    return found[0] if found else None
+
+
+def segments(figure: Any, gid: str, panel: int = 0) -> list[NDArray[np.float64]]:
+    """The polylines (N, 3) of a name, in mm."""
+    lines = named(figure, gid, panel)
+    assert isinstance(lines, Line3DCollection)
+    return [np.asarray(line) for line in lines._segments3d]
+
+
+def corners(figure: Any, gid: str, panel: int = 0) -> NDArray[np.float64]:
+    """The polygons (N, corners, 3) of a name, in mm."""
+    faces = named(figure, gid, panel)
+    assert isinstance(faces, Poly3DCollection)
+    return np.asarray(faces._faces)
+
+
+def drawn(figure: Figure) -> bytes:
+    """The figure as PNG: it can be drawn without a display."""
+    page = BytesIO()
+    figure.savefig(page, format="png", dpi=60)
+    return page.getvalue()
+
+
+def texts(figure: Figure) -> list[str]:
+    """What is written above the panels."""
+    return [text.get_text() for text in figure.texts]
+
+
+def test_catenaries_are_drawn_where_they_hang(flat: plydrape.Result) -> None:
+    """Every point of every line, in mm; edges first, then diagonals."""
+    figure = plot.steps(flat, [1, 26], elev=60.0)
+    for panel, step in enumerate((1, 26)):
+        lines = flat.lines(step)
+        shown = segments(figure, "edges", panel) + segments(figure, "diagonals", panel)
+        assert len(lines) == len(shown) == 16
+        for line, drawing in zip(lines, shown, strict=True):
+            assert drawing == pytest.approx(line * 1e3)
+
+
+def test_grippers_are_discs_about_their_places(flat: plydrape.Result) -> None:
+    """The middle is the position, the normal makes the tilt with the vertical."""
+    figure = plot.steps(flat, [4], elev=60.0)
+    discs = corners(figure, "grippers")
+    assert discs.mean(axis=1) == pytest.approx(flat.positions[3] * 1e3)
+    radius = np.linalg.norm(discs - discs.mean(axis=1, keepdims=True), axis=2)
+    assert radius == pytest.approx(np.full(radius.shape, 12.0))
+    normal = np.cross(discs[:, 0] - discs.mean(axis=1), discs[:, 7] - discs.mean(axis=1))
+    up = normal[:, 2] / np.linalg.norm(normal, axis=1)
+    assert np.rad2deg(np.arccos(up)) == pytest.approx(flat.tilts_deg[3], abs=1e-4)
+    assert flat.tilts_deg[3].max() > 30.0
+
+
+@pytest.mark.parametrize("colour", ["height", "gap", "shear"])
+def test_the_ply_has_the_colour_of_its_values(dome: plydrape.Result, colour: str) -> None:
+    """Triangles are the surface's; their colours are viridis of what the colour bar says."""
+    kind = cast(Any, colour)
+    figure = plot.steps(dome, [27], colour=kind, elev=89.0)
+    faces, surface = corners(figure, "ply"), dome.surface(27, intervals=8)
+    assert faces == pytest.approx(surface.points[surface.triangles] * 1e3)
+    low, high = figure.axes[-1].get_xlim()
+    middles = surface.points[surface.triangles].mean(axis=1)
+    if colour == "shear":
+        # the cell that a triangle is in, by its number along u and v
+        j, i = np.divmod(surface.triangles.astype(int), surface.size[0])
+        i, j = (np.floor(n.mean(axis=1) / 8).astype(int) for n in (i, j))
+        share = np.abs(dome.shear_deg[26][j, i]) / high
+        assert low == 0.0 and high == pytest.approx(np.abs(dome.shear_deg[26]).max())
+    elif colour == "height":
+        share = (middles[:, 2] * 1e3 - low) / (high - low)
+    else:
+        gap = np.maximum(surface.gap[surface.triangles].mean(axis=1) * 1e3, 0.1)
+        share = np.log(gap / low) / np.log(high / low)
+        assert low == pytest.approx(0.1) and high == pytest.approx(gap.max())
+    assert share.std() > 0.05
+    inks = named(figure, "ply")._facecolor3d
+    assert inks == pytest.approx(colormaps["viridis"](share), abs=0.02)
+
+
+def test_contact_is_marked(flat: plydrape.Result) -> None:
+    """None at the start; at the first contact rings at the diagonals of summary.first_contact."""
+    figure = plot.steps(flat, [1, 26, 30])
+    assert named(figure, "contact", 0) is None and not segments(figure, "touching", 0)
+    rings = np.stack(named(figure, "contact", 1).get_data_3d(), axis=-1)
+    ends = [
+        [flat.positions[25, i + 4 * j] for i, j in (line["from"], line["to"])]
+        for line in flat.summary["first_contact"]
+    ]
+    middles = np.mean(ends, axis=1) * 1e3
+    assert len(rings) == len(middles) == 3
+    assert rings[:, 2] == pytest.approx(0.0, abs=1e-9)
+    assert np.linalg.norm((rings - middles)[:, :2], axis=1).max() < 20.0
+    along = sum(
+        np.linalg.norm(np.diff(line, axis=0), axis=1).sum()
+        for line in segments(figure, "touching", 2)
+    )
+    assert along > 0.9 * flat.contact[29].sum() * 1e3 > 0.0
+
+
+def test_the_mold_hides_what_is_behind_it() -> None:
+    """A hemisphere seen from the front: what is behind is hidden, what is on it or above is not."""
+    from plydrape.plot._hidden import Screen, axes
+
+    angle, height = np.meshgrid(np.linspace(0, 2 * np.pi, 49), np.linspace(0, np.pi / 2, 13))
+    points = np.stack(
+        [np.cos(angle) * np.cos(height), np.sin(angle) * np.cos(height), np.sin(height)], axis=-1
+    )
+    k = np.arange(12)[:, None] * 49 + np.arange(48)
+    halves = [np.stack([k, k + 1, k + 50], -1), np.stack([k, k + 50, k + 49], -1)]
+    triangles = np.concatenate(halves).reshape(-1, 3)
+    view = axes(20.0, -90.0)
+    assert view @ view.T == pytest.approx(np.eye(3))
+    screen = Screen(points.reshape(-1, 3), triangles, view, 0.05)
+    places = np.array([[0, -1, 0], [0, 1, 0], [0, 0, 1], [0, 1, 1.5], [2, 0, 0], [0, 1.5, 0.1]])
+    assert screen.hides(places.astype(float)).tolist() == [False, True, False, False, False, True]
+
+
+def test_telling_steps_are_chosen(flat: plydrape.Result, dome: plydrape.Result) -> None:
+    """Start, first shear, first contact, end, and the middle of the longest stretch."""
+    assert texts(plot.steps(flat)) == [
+        "a  step 1, start",
+        "b  step 5, first shear",
+        "c  step 15",
+        "d  step 26, first contact",
+        "e  step 30, end",
+    ]
+    words = texts(plot.steps(dome, width="single"))
+    assert any("first contact" in word for word in words) and words[0] == "a  step 1, start"
+
+
+def test_panels_share_frame_and_scale(dome: plydrape.Result) -> None:
+    """Equal aspect: the box has the ratios of its limits, the same in each panel."""
+    figure = plot.steps(dome, [1, 20, 30])
+    panels = cast(Any, figure.axes[:3])
+    limits = [(p.get_xlim3d(), p.get_ylim3d(), p.get_zlim3d()) for p in panels]
+    assert limits[0] == limits[1] == limits[2]
+    spans = np.ptp(np.array(limits[0]), axis=1)
+    for panel in panels:
+        box = (
+            panel.get_box_aspect()
+            if hasattr(panel, "get_box_aspect") and False
+            else panel._box_aspect
+        )
+        assert box / box[0] == pytest.approx(spans / spans[0])
+
+
+@pytest.mark.parametrize("elev", [5.0, 28.0, 75.0])
+@pytest.mark.parametrize("width", ["single", "double", 120.0])
+def test_nothing_leaves_the_sheet(dome: plydrape.Result, elev: float, width: Any) -> None:
+    """Every text and every panel's box is inside; texts of the first panel do not overlap."""
+    figure = plot.steps(dome, [1, 15, 30], elev=elev, width=width)
+    drawn(figure)
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    sheet = figure.bbox
+    for text in [*figure.texts, *figure.axes[0].texts]:
+        box = text.get_window_extent(renderer)
+        assert box.x0 >= sheet.x0 - 1 and box.x1 <= sheet.x1 + 1, text.get_text()
+        assert box.y0 >= sheet.y0 - 1 and box.y1 <= sheet.y1 + 1, text.get_text()
+    legend = figure.legends[0].get_window_extent(renderer)
+    for text in figure.axes[0].texts:
+        assert not legend.overlaps(text.get_window_extent(renderer)), text.get_text()
+
+
+@pytest.mark.parametrize(("width", "mm"), [("single", 89.0), ("double", 183.0), (120.0, 120.0)])
+def test_widths_are_those_of_print(flat: plydrape.Result, width: Any, mm: float) -> None:
+    """Of each kind of figure; the text is 8 pt or a little smaller."""
+    for kind in ("steps", "measures", "shear"):
+        figure = plot.plot(flat, cast(Any, kind), width=width)
+        assert figure.get_figwidth() * 25.4 == pytest.approx(mm)
+        assert figure.get_figheight() * 25.4 < 300.0
+        sizes = {text.get_fontsize() for text in figure.findobj(mpl.text.Text) if text.get_text()}
+        assert min(sizes) >= 6.5 and max(sizes) <= 8.0
+
+
+def test_measures_are_those_of_the_result(flat: plydrape.Result) -> None:
+    """Values, limits and judged steps of all that have a meaning, in the unit of the limit."""
+    figure = plot.measures(flat)
+    limits = {limit["name"]: limit for limit in flat.limits}
+    panels = {axes.get_title(loc="left"): k for k, axes in enumerate(figure.axes)}
+    assert "outside workspace" not in panels and "force" not in panels
+    cases = [
+        ("slack", "slack_mm", 1.0, None, "mm"),
+        ("slack ratio", "slack_ratio", 100.0, "slack_ratio", "%"),
+        ("overstretch", "overstretch", 100.0, "overstretch", "%"),
+        ("tilt", "tilt_deg", 1.0, "tilt", "deg"),
+        ("landing error", "landing_error_mm", 1.0, "landing_contact", "mm"),
+        ("horizontal force", "force_n", 1.0, None, "N"),
+        ("contact share", "contact_share", 100.0, "contact_share", "%"),
+        ("gripper distance", "gripper_distance_mm", 1.0, "gripper_distance", "mm"),
+    ]
+    for title, name, factor, limit, unit in cases:
+        panel = panels[title]
+        x, y = named(figure, "values", panel).get_data()
+        assert x == pytest.approx(np.arange(1, 31))
+        assert y == pytest.approx(flat.measures[name] * factor, nan_ok=True)
+        assert figure.axes[panel].get_ylabel() == unit
+        at, value = named(figure, "worst", panel).get_data()
+        if limit is None:
+            assert value[0] == np.nanmax(y) and named(figure, "limit", panel) is None
+            continue
+        judged = limits[limit]
+        assert (at[0], value[0]) == (judged["step"], pytest.approx(judged["value"]))
+        assert named(figure, "limit", panel).get_ydata() == [judged["limit"]] * 2
+        marker = named(figure, "worst", panel).get_marker()
+        assert marker == ("o" if judged["ok"] else "X")
+        low, high = figure.axes[panel].get_ylim()
+        assert low <= min(judged["limit"], np.nanmin(y)) and high >= max(
+            judged["limit"], np.nanmax(y)
+        )
+    assert not limits["overstretch"]["ok"] and limits["tilt"]["ok"]
+
+
+def test_measures_run_over_time(dome: plydrape.Result) -> None:
+    """The times of the steps, and the first contact at its time."""
+    figure = plot.measures(dome, ["tilt_deg"], against="time")
+    assert named(figure, "values").get_xdata() == pytest.approx(dome.times)
+    assert figure.axes[0].get_xlabel() == "time (s)"
+    first = dome.summary["first_contact_step"]
+    dotted = [line for line in figure.axes[0].lines if line.get_linestyle() == ":"]
+    assert dotted[0].get_xdata() == pytest.approx([dome.times[first - 1]] * 2)
+
+
+def test_measure_titles_do_not_overlap(flat: plydrape.Result) -> None:
+    """Name and limit stand beside each other, or above each other on a narrow sheet."""
+    for width in ("single", "double"):
+        figure = plot.measures(flat, width=cast(Any, width))
+        drawn(figure)
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        for panel, axes in enumerate(figure.axes):
+            bound = named(figure, "bound", panel)
+            if bound is not None:
+                name = cast(Any, axes)._left_title.get_window_extent(renderer)
+                assert not name.overlaps(bound.get_window_extent(renderer)), bound.get_text()
+
+
+def test_the_shear_map_colours_each_cell(dome: plydrape.Result) -> None:
+    """On the fabric at its u and v, from above at x and y; the ring is at the largest amount."""
+    net = dome.net
+    assert net is not None
+    figure = plot.shear_map(dome)
+    for panel in (0, 1):
+        cells = figure.axes[panel].collections[0]
+        assert np.asarray(cells.get_array()) == pytest.approx(np.abs(net.shear_deg).ravel())
+        assert cells.get_clim() == (0.0, pytest.approx(np.abs(net.shear_deg).max()))
+    paths = [path.vertices for path in figure.axes[0].collections[0].get_paths()]
+    step = np.array(net.mesh) * 1e3
+    assert paths[1][0] == pytest.approx([0.0, step[1]]) and paths[1][2] == pytest.approx(
+        [step[0], 2 * step[1]]
+    )
+    above = [path.vertices for path in figure.axes[1].collections[0].get_paths()]
+    assert above[1][1] == pytest.approx(net.nodes[1, 1, :2] * 1e3)
+    i, j = np.unravel_index(np.abs(net.shear_deg).argmax(), net.shear_deg.shape)
+    x, y = named(figure, "largest").get_data()
+    assert (x[0], y[0]) == pytest.approx(((i + 0.5) * step[0], (j + 0.5) * step[1]))
+
+
+def test_a_signed_shear_map_has_white_at_zero(dome: plydrape.Result) -> None:
+    """Both ends at the same amount, the values with their sign."""
+    net = dome.net
+    assert net is not None
+    cells = plot.shear_map(net, signed=True, view="plan", most=5.0).axes[0].collections[0]
+    assert np.asarray(cells.get_array()) == pytest.approx(net.shear_deg.ravel())
+    assert net.shear_deg.min() < 0.0 < net.shear_deg.max()
+    assert cells.get_clim() == (-5.0, 5.0)
+    assert cells.get_cmap()(0.5)[:3] == pytest.approx((0.97, 0.97, 0.97), abs=0.02)
+
+
+def test_cells_without_a_node_stay_white() -> None:
+    """A net with a missing corner: its cell is left out, the others keep their colours."""
+    u, v = np.meshgrid(np.arange(4) * 0.1, np.arange(3) * 0.2, indexing="ij")
+    nodes = np.stack([u, v, 0 * u], axis=-1)
+    nodes[3, 2] = np.nan
+    shear = np.arange(6, dtype=float).reshape(3, 2)
+    shear[2, 1] = np.nan
+    net = cast("Net", SimpleNamespace(nodes=nodes, shear_deg=shear, mesh=np.array([0.1, 0.2])))
+    cells = plot.shear_map(net).axes[1].collections[0]
+    assert np.asarray(cells.get_array()) == pytest.approx([0, 1, 2, 3, 4])
+
+
+def test_a_strip_without_mold_is_drawn(strip: plydrape.Result) -> None:
+    """Lines and grippers; no surface, no colours, no shear to map."""
+    figure = plot.steps(strip)
+    assert named(figure, "ply") is None and named(figure, "mold") is None
+    assert len(segments(figure, "edges")) == strip.grid[0] - 1
+    drawn(figure)
+    drawn(plot.measures(strip))
+    with pytest.raises(ValueError, match="without a mold there is no gap"):
+        plot.steps(strip, colour="gap")
+    with pytest.raises(ValueError, match="no ideal drape"):
+        plot.shear_map(strip)
+
+
+def test_bad_wishes_are_refused(flat: plydrape.Result) -> None:
+    """With what there is instead."""
+    wishes: list[tuple[str, dict[str, Any], str]] = [
+        ("steps", {"steps": [0]}, "no step 0; its steps are 1 to 30"),
+        ("steps", {"steps": [31]}, "no step 31"),
+        ("steps", {"steps": []}, "at least one step"),
+        ("steps", {"steps": list(range(1, 20))}, "too many"),
+        ("steps", {"colour": "speed"}, '"gap", "height" or "shear"'),
+        ("steps", {"elev": 91.0}, "no view"),
+        ("steps", {"columns": 0}, "columns"),
+        ("steps", {"width": "triple"}, '"single", "double"'),
+        ("measures", {"width": 3.0}, "40 to 1000 mm"),
+        ("measures", {"names": ["slck_mm"]}, 'no measure "slck_mm"; there are slack_mm'),
+        ("measures", {"names": ["workspace_mm"]}, "no value at any step"),
+        ("measures", {"names": []}, "at least one measure"),
+        ("measures", {"against": "speed"}, '"step" or "time"'),
+        ("shear", {"view": "side"}, '"fabric", "plan" and "both"'),
+        ("shear", {"most": -1.0}, "cannot end"),
+        ("movie", {}, '"steps", "measures" or "shear"'),
+    ]
+    for kind, options, message in wishes:
+        with pytest.raises(ValueError, match=message):
+            plot.plot(flat, cast(Any, kind), **options)
+
+
+def test_nothing_of_the_users_is_touched(flat: plydrape.Result) -> None:
+    """Settings and figures of pyplot stay; the user's style does not reach our figure."""
+    import matplotlib.pyplot as plt
+
+    plt.switch_backend("Agg")
+    plt.close("all")
+    own = plt.figure()
+    with mpl.rc_context({"font.size": 30.0, "axes.facecolor": "red", "lines.linewidth": 9.0}):
+        before = dict(mpl.rcParams)
+        figures = [flat.plot(kind) for kind in ("steps", "measures", "shear")]
+        assert dict(mpl.rcParams) == before
+    assert plt.get_fignums() == [own.number]
+    assert plt.gcf() is own
+    for figure in figures:
+        assert mpl.colors.to_hex(figure.axes[0].get_facecolor()) != "#ff0000"
+        drawn(figure)
+    plt.close("all")
+
+
+def test_figures_are_vectors(dome: plydrape.Result) -> None:
+    """PDF and SVG hold no picture of dots, and are small enough for a paper."""
+    cases: list[tuple[Any, str, bytes]] = [
+        ("steps", "pdf", b"/Subtype /Image"),
+        ("measures", "svg", b"<image"),
+        ("shear", "svg", b"<image"),
+    ]
+    for kind, form, dots in cases:
+        page = BytesIO()
+        dome.plot(kind).savefig(page, format=form)
+        assert dots not in page.getvalue(), (kind, form)
+        assert len(page.getvalue()) < 2_000_000, (kind, form, len(page.getvalue()))
+
+
+def test_the_extra_is_named_where_it_is_missing(
+    flat: plydrape.Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One line that says what to install."""
+    gone = ("matplotlib", "mpl_toolkits", "plydrape.plot._")
+    for name in [name for name in sys.modules if name.startswith(gone)]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    for kind in ("steps", "measures", "shear"):
+        with pytest.raises(ImportError, match=r'Matplotlib is missing.*"plydrape\[plot\]"'):
+            flat.plot(kind)
