@@ -1,0 +1,2 @@
+"""placeholder"""
+def html(outcome, study): return ""
