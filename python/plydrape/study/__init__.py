@@ -29,6 +29,7 @@ Example:
     >>> outcome = plydrape.study.run(study, workers=1, progress=False)
     >>> outcome.table().num_rows
     8
+
 """
 
 from .definition import Study

@@ -37,7 +37,10 @@ def parser() -> argparse.ArgumentParser:
         "--scheduler", metavar="ADDRESS", help="a Dask scheduler; processes here unless given"
     )
     parser.add_argument(
-        "--workers", metavar="N", type=int, help="processes on this machine; one a core unless given"
+        "--workers",
+        metavar="N",
+        type=int,
+        help="processes on this machine; one a core unless given",
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
     return parser
@@ -73,9 +76,9 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def refuse(message: str, help: str) -> int:
+def refuse(message: str, remedy: str) -> int:
     """Says what is wrong, as the other commands do."""
-    print(f"  × {message}" + (f"\n  help: {help}" if help else ""), file=sys.stderr)
+    print(f"  × {message}" + (f"\n  help: {remedy}" if remedy else ""), file=sys.stderr)
     return 2
 
 
@@ -89,7 +92,7 @@ def told(outcome: Outcome, study: Study) -> str:
         f"{about['failed']} failed",
         "",
         f"{'measure':<17}{'median':>10}{'5 %':>10}{'95 %':>10}{'limit':>9}  "
-        f"{'unit':<6}{'exceeded':>9}  driven by",
+        f"{'unit':<6}{'not kept':>9}  driven by",
     ]
     for key, entry in about["measures"].items():
         if not key.startswith("value_"):

@@ -21,6 +21,8 @@ from .scenario import Batch, Task, failed
 TRIES = 3
 # Most scenarios of a chunk: a part file of rows should not grow without bound.
 LARGEST = 2000
+# Most scenarios of a lost chunk that is divided into single ones at once.
+SMALL = 60
 
 
 @dataclass(frozen=True)
@@ -36,8 +38,8 @@ class Chunk:
         return self.stop - self.first
 
     def divided(self) -> list[Chunk]:
-        """In about the square root of its number of pieces: three steps to the single one."""
-        size = max(1, math.isqrt(len(self) - 1))
+        """In pieces of about the square root of its size, a small one in single scenarios."""
+        size = math.isqrt(len(self)) if len(self) > SMALL else 1
         starts = range(self.first, self.stop, size)
         return [Chunk(start, min(start + size, self.stop)) for start in starts]
 
@@ -71,8 +73,9 @@ class Executor(Protocol):
     def wait(self) -> Done | Lost:
         """The next chunk that ended, either way.
 
-        Errors:
+        Raises:
             StudyError: no chunk can be run any more.
+
         """
 
     def close(self) -> None:
@@ -97,8 +100,9 @@ def carry_out(
         keep: takes the rows.
         every: seconds that a chunk should take.
 
-    Errors:
+    Raises:
         StudyError: from the executor.
+
     """
     ranges = deque(Chunk(first, stop) for first, stop in todo if first < stop)
     again: deque[Chunk] = deque()

@@ -11,7 +11,7 @@ import os
 import pickle
 import time
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .carry import TRIES, Chunk, Done, Lost
 from .error import StudyError
@@ -31,13 +31,15 @@ class Cluster:
 
     Example:
         >>> executor = Cluster(task, "tcp://10.0.0.1:8786")  # doctest: +SKIP
+
     """
 
     def __init__(self, task: Task, address: str) -> None:
         """Connects.
 
-        Errors:
+        Raises:
             StudyError: there is no scheduler at the address, or it has no workers.
+
         """
         from distributed import Client, as_completed
 
@@ -46,7 +48,8 @@ class Cluster:
         except (OSError, ValueError) as error:
             raise StudyError(
                 f"there is no Dask scheduler at {address!r}: {error}",
-                help='start one with `dask scheduler` and give the address that it prints, as in "tcp://10.0.0.1:8786"',
+                help="start one with `dask scheduler` and give the address that it prints, "
+                "as in tcp://10.0.0.1:8786",
             ) from error
         try:
             self._client.wait_for_workers(1, timeout=PATIENCE)
@@ -58,7 +61,7 @@ class Cluster:
             ) from error
         self._address = address
         self._task = pickle.dumps(task)
-        self._chunks: dict[str, Chunk] = {}
+        self._chunks: dict[object, Chunk] = {}
         self._ended = as_completed([])
         self._threads = (0, -1.0)
 
@@ -80,7 +83,7 @@ class Cluster:
         """The next chunk that ended."""
         from distributed import KilledWorker
 
-        future: Future = next(self._ended)
+        future: Future[Batch] = next(self._ended)
         chunk = self._chunks.pop(future.key)
         if future.status == "finished":
             return Done(chunk, future.result())
@@ -113,5 +116,6 @@ def work(task: bytes, first: int, values: list[Row]) -> Batch:
 
 
 @lru_cache(maxsize=2)
-def _loaded(task: bytes) -> Any:
-    return pickle.loads(task)
+def _loaded(task: bytes) -> Task:
+    loaded: Task = pickle.loads(task)
+    return loaded

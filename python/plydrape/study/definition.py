@@ -17,12 +17,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-
 import plydrape
 
 from . import sample, source
 from .error import StudyError
-from .keys import nearest, put
+from .keys import Value, nearest, put
 from .law import Input
 from .placement import COLUMNS, Placement
 from .scenario import Motion, Task, build
@@ -70,6 +69,7 @@ class Study:
         ... )
         >>> len(study), study.names
         (8, ['ply.material.flexural_rigidity'])
+
     """
 
     title: str
@@ -89,9 +89,10 @@ class Study:
     def read(cls, path: str | os.PathLike[str]) -> Study:
         """Reads a study file; its paths are relative to it.
 
-        Errors:
+        Raises:
             StudyError: the file cannot be read or says what cannot be.
             SceneError: the scene is refused.
+
         """
         path = Path(path)
         table = source.document(path, "study")
@@ -103,8 +104,9 @@ class Study:
 
         `scene` may be a path, the tables of a scene as a dict, or a `plydrape.Scene` with text.
 
-        Errors:
+        Raises:
             As `read`.
+
         """
         return _study(table, Path(base), None)
 
@@ -139,9 +141,10 @@ class Study:
     def scene(self, scenario: int) -> plydrape.Scene:
         """The scene of one scenario, to look at it on its own: `plydrape.simulate(it)`.
 
-        Errors:
+        Raises:
             SceneError: the scene is refused, as it was in the study.
             IndexError: there is no such scenario.
+
         """
         return self.task.scene(range(len(self))[scenario], self.values[scenario])
 
@@ -229,7 +232,7 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
         inputs=laws,
         placement=errs,
         motion=motion,
-        files=source.files(tables, home),
+        files=source.files(tables, home, laws),
         file=file,
     )
     _probe(study)
@@ -286,7 +289,7 @@ def _motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None
         if given is None:
             return None
         raise StudyError(
-            f"`plan` = {given!r} goes with command = \"follow\" only, and this is {command!r}",
+            f'`plan` = {given!r} goes with command = "follow" only, and this is {command!r}',
             help="remove it, or follow the plan",
             key="plan",
         )
@@ -309,21 +312,31 @@ def _probe(study: Study) -> None:
     Values that no scene takes are failures of a scenario; a key with none that it takes is a
     mistake in the study.
     """
-    mold = build(study.tables, study.base).mold
+    scene = build(study.tables, study.base)
+    if study.motion is not None:
+        try:
+            scene.with_motion(study.motion.times, study.motion.positions)
+        except (plydrape.PlydrapeError, ValueError) as error:
+            raise StudyError(
+                f"the scene cannot follow this plan: {error}",
+                help="give the plan of this scene, or of one with the same array",
+                key="plan",
+            ) from error
+    mold = scene.mold
     for x in study.inputs:
-        faults = []
+        faults: list[tuple[Value, plydrape.PlydrapeError]] = []
         for value in x.probes():
             try:
                 tables = put(study.tables, x.key, x.written(value))
                 build(tables, study.base, None if x.key.startswith("mold.") else mold)
                 break
-            except plydrape.PlydrapeError as error:
-                faults.append((x.written(value), error))
+            except plydrape.PlydrapeError as fault:
+                faults.append((x.written(value), fault))
         else:
-            value, error = faults[0]
+            refused, why = faults[0]
             raise StudyError(
-                f"`{x.key}` cannot vary like this: with {value!r} the scene is refused",
-                help=str(error),
+                f"`{x.key}` cannot vary like this: with {refused!r} the scene is refused",
+                help=f"{getattr(why, 'message', why)}; {getattr(why, 'help', '')}".rstrip("; "),
                 key=x.key,
             )
 
@@ -341,4 +354,3 @@ def plain(value: Any) -> Any:
     if isinstance(value, str | int | float | bool) or value is None:
         return value
     return str(value)
-

@@ -23,10 +23,16 @@ class StudyError(PlydrapeError, ValueError):
         Traceback (most recent call last):
         ...
         plydrape.study.error.StudyError: `samples` = 0 is no number of scenarios; write 1 or more
+
     """
 
     def __init__(
-        self, message: str, *, help: str = "", file: str | None = None, key: str | None = None
+        self,
+        message: str,
+        *,
+        help: str = "",  # noqa: A002  as in SceneError
+        file: str | None = None,
+        key: str | None = None,
     ) -> None:
         """Keeps the parts; `str()` of the error is all of them in one line."""
         where = f"{file}: " if file else ""
@@ -40,8 +46,9 @@ class StudyError(PlydrapeError, ValueError):
 def toml() -> ModuleType:
     """The reader of TOML: the standard library's, before Python 3.11 the package tomli.
 
-    Errors:
+    Raises:
         StudyError: Python is older than 3.11 and tomli is not installed.
+
     """
     try:
         import tomllib as reader
@@ -56,11 +63,12 @@ def toml() -> ModuleType:
 def require(*modules: str) -> None:
     """Tells at the start, not after an hour, that a package of the extra is missing.
 
-    Errors:
+    Raises:
         StudyError: one of the modules cannot be imported.
 
     Example:
         >>> require("json")
+
     """
     for module in modules:
         try:

@@ -19,6 +19,7 @@ import json
 import os
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import IO, Any
 
@@ -44,16 +45,16 @@ class Folder:
     def begin(self, study: Study) -> None:
         """Makes the folder, or takes it up again.
 
-        Errors:
+        Raises:
             StudyError: it holds another study, or something else, or is in use.
+
         """
         manifest = self.path / NAME
         try:
-            if self.path.is_dir() and any(self.path.iterdir()) and not manifest.is_file():
-                if {entry.name for entry in self.path.iterdir()} != {LOCK}:
-                    raise StudyError(
-                        f"`{self.path}` is not empty, and no study's folder", help=OTHER
-                    )
+            found = {entry.name for entry in self.path.iterdir()} if self.path.is_dir() else set()
+            # A study that was cut off before its first file leaves these.
+            if not manifest.is_file() and found - {LOCK, "rows", f".{NAME}.tmp"}:
+                raise StudyError(f"`{self.path}` is not empty, and no study's folder", help=OTHER)
             self.rows.mkdir(parents=True, exist_ok=True)
             self._hold()
             if manifest.is_file():
@@ -93,20 +94,23 @@ class Folder:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
             raise StudyError(
-                f"another process is running a study in `{self.path}`", help="wait for it, or end it"
+                f"another process is running a study in `{self.path}`",
+                help="wait for it, or end it",
             ) from error
 
     def parts(self) -> list[tuple[int, int, Path]]:
         """Finished runs of scenarios: first, stop and file, in order.
 
-        Errors:
+        Raises:
             StudyError: two of them hold the same scenario.
+
         """
         found = sorted(_parts(self.rows))
-        for (_, stop, path), (first, _, other) in zip(found, found[1:], strict=False):
+        for (_, stop, path), (first, _, other) in pairwise(found):
             if first < stop:
                 raise StudyError(
-                    f"`{path}` and `{other.name}` hold the same scenarios", help="remove one of them"
+                    f"`{path}` and `{other.name}` hold the same scenarios",
+                    help="remove one of them",
                 )
         return found
 
@@ -140,6 +144,7 @@ def missing(parts: list[tuple[int, int, Path]], total: int) -> list[tuple[int, i
     Example:
         >>> missing([(2, 4, Path("a"))], 6)
         [(0, 2), (4, 6)]
+
     """
     gaps, at = [], 0
     for first, stop, _ in parts:
@@ -163,8 +168,9 @@ def described(study: Study) -> dict[str, Any]:
 def read_manifest(path: Path) -> dict[str, Any]:
     """The content of a folder's study.json.
 
-    Errors:
+    Raises:
         StudyError: there is none, or it is none of plydrape.
+
     """
     try:
         manifest = json.loads((path / NAME).read_text(encoding="utf-8"))
@@ -181,6 +187,7 @@ def differing(earlier: Any, now: Any, path: str = "") -> list[str]:
     Example:
         >>> differing({"seed": 1, "scene": {"a": 1}}, {"seed": 2, "scene": {"a": 1}})
         ['`seed`']
+
     """
     if isinstance(earlier, dict) and isinstance(now, dict):
         found: list[str] = []

@@ -64,6 +64,7 @@ def quantity(value: object) -> tuple[float, str] | None:
     Example:
         >>> quantity("98 mm"), quantity(0.5), quantity("path")
         ((98.0, 'mm'), (0.5, ''), None)
+
     """
     if isinstance(value, bool):
         return None
@@ -77,12 +78,13 @@ def quantity(value: object) -> tuple[float, str] | None:
 def look(tables: Tables, key: str) -> Any:
     """What the scene has at a path, or ABSENT where a table lacks its last key.
 
-    Errors:
+    Raises:
         StudyError: the path leads through something that is not there, with what is.
 
     Example:
         >>> look({"ply": {"cell": ["100 mm", 0.1]}}, "ply.cell.0")
         '100 mm'
+
     """
     parts = key.split(".")
     if parts[0] not in SCENE:
@@ -126,6 +128,7 @@ def put(tables: Tables, key: str, value: Value) -> dict[str, Any]:
     Example:
         >>> put({"ply": {"cell": [1, 2]}}, "ply.cell.1", 3)
         {'ply': {'cell': [1, 3]}}
+
     """
     return _put(tables, key.split("."), value)  # type: ignore[no-any-return]
 

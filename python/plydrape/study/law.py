@@ -29,6 +29,7 @@ class Uniform:
         Example:
             >>> Uniform(60.0, 90.0).at(0.5)
             75.0
+
         """
         return self.lower + (self.upper - self.lower) * u
 
@@ -38,6 +39,7 @@ class Uniform:
         Example:
             >>> Uniform(60.0, 90.0).grid(3)
             [60.0, 75.0, 90.0]
+
         """
         if points == 1:
             return [self.at(0.5)]
@@ -57,6 +59,7 @@ class Whole:
         Example:
             >>> Whole(1, 3).at(0.5)
             2
+
         """
         count = self.upper - self.lower + 1
         return self.lower + min(int(u * count), count - 1)
@@ -67,9 +70,10 @@ class Whole:
         Example:
             >>> Whole(1, 10).grid(4)
             [1, 4, 7, 10]
+
         """
         even = Uniform(self.lower, self.upper).grid(points)
-        return list(dict.fromkeys(round(x) for x in even))
+        return list(dict.fromkeys(round(float(x)) for x in even))
 
 
 @dataclass(frozen=True)
@@ -85,6 +89,7 @@ class Normal:
         Example:
             >>> Normal(75.0, 2.0).at(0.5)
             75.0
+
         """
         return NormalDist(self.mean, self.deviation).inv_cdf(min(max(u, 1.0 - EDGE), EDGE))
 
@@ -101,6 +106,7 @@ class Choice:
         Example:
             >>> Choice(("once", "cut")).at(0.7)
             'cut'
+
         """
         return self.values[min(int(u * len(self.values)), len(self.values) - 1)]
 
@@ -117,6 +123,7 @@ class Input:
         law: how it varies, in `unit`.
         unit: unit of its numbers as the scene writes it; empty for plain numbers, which are SI.
         points: on a grid, into how many numbers a range is divided.
+
     """
 
     key: str
@@ -154,6 +161,7 @@ class Input:
         Example:
             >>> Input("grippers.height", Uniform(60.0, 90.0), "mm").written(75.25)
             '75.25 mm'
+
         """
         if isinstance(value, str | bool) or not self.unit:
             return value

@@ -26,6 +26,7 @@ class Local:
 
     Example:
         >>> executor = Local(task, workers=2)  # doctest: +SKIP
+
     """
 
     def __init__(self, task: Task, workers: int) -> None:
@@ -105,8 +106,9 @@ class Local:
     def _begin(self) -> subprocess.Popen[bytes]:
         """A process that is ready to work.
 
-        Errors:
+        Raises:
             StudyError: it ends before that, twice.
+
         """
         for _ in range(2):
             process = subprocess.Popen(

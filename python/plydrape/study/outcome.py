@@ -23,6 +23,7 @@ class Outcome:
     Example:
         >>> outcome = plydrape.study.read("study.results")  # doctest: +SKIP
         >>> outcome.table().to_pandas()  # doctest: +SKIP
+
     """
 
     def __init__(
@@ -68,7 +69,10 @@ class Outcome:
 
     @property
     def correlations(self) -> dict[str, dict[str, float | None]]:
-        """Spearman's rank correlation of each measure with each input; None where either is constant."""
+        """Spearman's rank correlation of each measure with each input.
+
+        None where either is constant.
+        """
         return {name: entry["correlations"] for name, entry in self.summary["measures"].items()}
 
 
@@ -78,8 +82,9 @@ LAST = ("seed", "version", "error", "error_kind")
 def read(folder: str | os.PathLike[str]) -> Outcome:
     """The rows of a study's folder, also of a study that is not finished.
 
-    Errors:
+    Raises:
         StudyError: it is no study's folder, or has no rows yet.
+
     """
     require("scipy", "pyarrow")
     from . import table

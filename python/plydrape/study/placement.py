@@ -28,6 +28,7 @@ class Placement:
         numbers: the deviation; or the lower and the upper end; in `unit`.
         unit: a unit of length; empty for metres.
         axes: the coordinates that err, such as "xyz" or "xy".
+
     """
 
     kind: str
@@ -41,6 +42,7 @@ class Placement:
         Example:
             >>> Placement("normal", (1.0,), "mm", "xy").errors(1, 0, 8)[:, 2].any()
             np.False_
+
         """
         generator = np.random.default_rng([seed, scenario])
         shape = (grippers, len(self.axes))

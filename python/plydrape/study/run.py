@@ -42,7 +42,7 @@ def run(
     Returns:
         All rows, with their summary.
 
-    Errors:
+    Raises:
         StudyError: the definition, the folder or the cluster is refused.
         SceneError: the scene is refused.
         KeyboardInterrupt: on Ctrl-C. Finished rows are in the folder; the same call goes on.
@@ -50,6 +50,7 @@ def run(
     Example:
         >>> import plydrape.study
         >>> plydrape.study.run("study.toml", output="rows")  # doctest: +SKIP
+
     """
     require("scipy", "pyarrow", *(["distributed"] if scheduler else []))
     if not isinstance(study, Study):
@@ -113,8 +114,9 @@ def _run(
 def read_part(path: Path) -> Any:
     """The rows of a part file.
 
-    Errors:
+    Raises:
         StudyError: it is damaged.
+
     """
     from . import table
 

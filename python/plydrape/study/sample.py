@@ -42,6 +42,7 @@ def cube(sampling: str, dimensions: int, samples: int, seed: int) -> np.ndarray:
     Example:
         >>> sorted(int(u * 4) for (u,) in cube("latin-hypercube", 1, 4, seed=1))
         [0, 1, 2, 3]
+
     """
     from scipy.stats import qmc
 

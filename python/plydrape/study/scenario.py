@@ -14,13 +14,14 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-
 import plydrape
 
 from .error import StudyError
 from .keys import SCENE, Tables, Value, put
 from .law import Input
 from .placement import Placement
+
+Numbers = np.ndarray[Any, Any]
 
 # What a row may hold; None is an empty field.
 Cell = float | int | str | bool | None
@@ -34,8 +35,8 @@ AT_LEAST = ("contact_share", "gripper_distance")
 class Motion:
     """Where grippers go: times (S,) in s, positions (S, G, 3) in m."""
 
-    times: np.ndarray[Any, Any]
-    positions: np.ndarray[Any, Any]
+    times: Numbers
+    positions: Numbers
 
     @property
     def checksum(self) -> str:
@@ -53,6 +54,7 @@ class Batch:
         rows: one for each.
         units: of those columns that have one.
         seconds: time that the rows took.
+
     """
 
     first: int
@@ -77,8 +79,9 @@ class Task:
     def batch(self, first: int, values: Sequence[Sequence[Value]]) -> Batch:
         """The rows of the scenarios `first`, `first + 1`, …, given their inputs.
 
-        Errors:
+        Raises:
             StudyError: this process has another version of plydrape than the study's.
+
         """
         if plydrape.__version__ != self.version:
             raise StudyError(
@@ -102,7 +105,9 @@ class Task:
             errors = self.errors(scenario, scene)
             if self.placement is not None and errors is not None:
                 row.update(self.placement.columns(errors))
-                units.update(dict.fromkeys(self.placement.columns(errors), self.placement.unit or "m"))
+                units.update(
+                    dict.fromkeys(self.placement.columns(errors), self.placement.unit or "m")
+                )
             row.update(self.measured(self.moved(scene, errors), units))
         except (KeyboardInterrupt, SystemExit):
             raise
@@ -125,8 +130,9 @@ class Task:
     def scene(self, scenario: int, values: Sequence[Value]) -> plydrape.Scene:
         """The scene of one scenario.
 
-        Errors:
+        Raises:
             SceneError: it is refused.
+
         """
         scene = self.with_values(values)
         return self.moved(scene, self.errors(scenario, scene))
@@ -145,16 +151,14 @@ class Task:
             return None
         return build(self.tables, self.base).mold
 
-    def errors(self, scenario: int, scene: plydrape.Scene) -> np.ndarray[Any, Any] | None:
+    def errors(self, scenario: int, scene: plydrape.Scene) -> Numbers | None:
         """The placement errors, shape (G, 3), in m; None where grippers do not err."""
         if self.placement is None:
             return None
         positions = scene.positions if self.motion is None else self.motion.positions
         return self.placement.errors(self.seed, scenario, np.shape(positions)[1])
 
-    def moved(
-        self, scene: plydrape.Scene, errors: np.ndarray[Any, Any] | None
-    ) -> plydrape.Scene:
+    def moved(self, scene: plydrape.Scene, errors: Numbers | None) -> plydrape.Scene:
         """The scene along the motion that is followed, off by the errors."""
         if self.motion is None and errors is None:
             return scene
@@ -175,8 +179,9 @@ class Task:
 def build(tables: Tables, base: str, mold: plydrape.Mold | None = None) -> plydrape.Scene:
     """The scene of its tables, on the mold if one is given.
 
-    Errors:
+    Raises:
         SceneError: it is refused.
+
     """
     known = {key: tables[key] for key in SCENE if key in tables}
     if mold is not None:

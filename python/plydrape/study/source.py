@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-
 import plydrape
 
 from .error import StudyError, toml
 from .keys import SCENE, Tables, nearest
+from .law import Choice, Input
 
 SCENE_KEY = 'name one: scene = "scene.toml"'
 
@@ -21,8 +21,9 @@ SCENE_KEY = 'name one: scene = "scene.toml"'
 def document(path: Path, kind: str) -> dict[str, Any]:
     """A TOML file as tables.
 
-    Errors:
+    Raises:
         StudyError: it is absent, or no TOML; the message has line and column.
+
     """
     reader = toml()
     try:
@@ -40,9 +41,10 @@ def document(path: Path, kind: str) -> dict[str, Any]:
 def scene(given: object, base: Path) -> tuple[dict[str, Any], Path]:
     """The tables of the scene, and the folder that its paths are relative to.
 
-    Errors:
+    Raises:
         StudyError: there is no scene, or no way to vary it.
         SceneError: the scene file is refused.
+
     """
     if isinstance(given, Mapping):
         tables, home = dict(native(given)), base
@@ -91,8 +93,9 @@ def native(value: Any) -> Any:
 def expanded(tables: Tables, home: Path, varied: Mapping[str, Any]) -> dict[str, Any]:
     """The scene with its material in place of the material's name, if a number of it varies.
 
-    Errors:
+    Raises:
         StudyError: the material is neither shipped nor a file that can be read.
+
     """
     name = tables.get("ply", {}).get("material")
     if not isinstance(name, str) or not any(key.startswith("ply.material.") for key in varied):
@@ -104,9 +107,14 @@ def expanded(tables: Tables, home: Path, varied: Mapping[str, Any]) -> dict[str,
     return {**tables, "ply": {**tables["ply"], "material": material}}
 
 
-def files(tables: Tables, home: Path) -> dict[str, str]:
+def files(tables: Tables, home: Path, inputs: Iterable[Input]) -> dict[str, str]:
     """Check sums of the files that a scene names: molds, motions, positions, a material."""
-    return {name: _checksum(home / name) for name in sorted(set(_named(tables, "")))}
+    names = set(_named(tables, ""))
+    for x in inputs:
+        if isinstance(x.law, Choice):
+            words = (value for value in x.law.values if isinstance(value, str))
+            names |= {word for word in words if (home / word).is_file()}
+    return {name: _checksum(home / name) for name in sorted(names)}
 
 
 def _named(value: Any, key: str) -> Iterator[str]:

@@ -30,6 +30,7 @@ def wilson(hits: int, of: int) -> tuple[float, float] | None:
     Example:
         >>> [round(x, 4) for x in wilson(5, 10)]
         [0.2366, 0.7634]
+
     """
     if of == 0:
         return None
@@ -46,6 +47,7 @@ def summary(rows: pa.Table, inputs: list[str]) -> dict[str, Any]:
     Args:
         rows: rows of a study.
         inputs: its columns that are inputs.
+
     """
     count = rows.num_rows
     draped = rows.filter(pc.is_null(rows["error"]))
@@ -110,11 +112,12 @@ def measure(
 
 
 def correlation(x: np.ndarray[Any, Any], y: np.ndarray[Any, Any]) -> float | None:
-    """Spearman's rank correlation of two columns; None where one is constant or has under 3 numbers.
+    """Spearman's rank correlation; None where a column is constant or has under 3 numbers.
 
     Example:
         >>> correlation(np.array([1.0, 2.0, 3.0]), np.array([1.0, 8.0, 27.0]))
         1.0
+
     """
     from scipy.stats import spearmanr
 
@@ -163,6 +166,7 @@ def pattern(text: str) -> str:
     Example:
         >>> pattern("grippers [0, 1] are 100.2 mm apart")
         'grippers [·, ·] are · mm apart'
+
     """
     import re
 

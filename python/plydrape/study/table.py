@@ -34,6 +34,7 @@ def column_type(name: str, inputs: Iterable[Input]) -> pa.DataType:
     Example:
         >>> column_type("accepted", ()), column_type("worst_slack_mm", ())
         (DataType(bool), DataType(double))
+
     """
     for x in inputs:
         if x.key == name:
@@ -95,8 +96,9 @@ def content(rows: pa.Table) -> bytes:
 def read(path: Any) -> pa.Table:
     """A table of a Parquet file.
 
-    Errors:
+    Raises:
         OSError: it cannot be read.
         pyarrow.ArrowInvalid: it is no Parquet.
+
     """
     return pq.ParquetFile(path).read()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,9 +15,7 @@ FORMS = (
     'write { from = "60 mm", to = "90 mm" }, { values = [...] }, { deviation = "1 mm" }, '
     "or { relative = [0.8, 1.2] }"
 )
-RELATIVE = (
-    "write relative = [0.8, 1.2], or the same with { from, to }, { values } or { deviation }"
-)
+RELATIVE = "write relative = [0.8, 1.2], or the same with { from, to }, { values } or { deviation }"
 PLACEMENT = 'write placement = { deviation = "1 mm" }, or { from = "-1 mm", to = "1 mm" }'
 
 
@@ -25,22 +24,23 @@ def inputs(
 ) -> tuple[Input, ...]:
     """The inputs of a study, in the order in which they are written.
 
-    Errors:
+    Raises:
         StudyError: a key that the scene has not, or a law that cannot be.
+
     """
     found = []
+    for key, other in itertools.permutations(varied, 2):
+        if key.startswith(f"{other}."):
+            raise StudyError(
+                f"`{key}` varies within `{other}`, which varies itself",
+                help="vary one of them",
+                key=key,
+            )
     for key, spec in varied.items():
         if key == "placement":
             continue
         if (why := idle(command, key)) is not None:
             raise StudyError(f"`{key}` changes nothing: {why}", help="remove it", key=key)
-        for other in varied:
-            if key.startswith(f"{other}."):
-                raise StudyError(
-                    f"`{key}` varies within `{other}`, which varies itself",
-                    help="vary one of them",
-                    key=key,
-                )
         found.append(_Spec(key, spec, look(tables, key), sampling).input())
     return tuple(found)
 
@@ -48,8 +48,9 @@ def inputs(
 def placement(varied: Mapping[str, Any], command: str, sampling: str) -> Placement | None:
     """How grippers err, or None where nothing is said of it.
 
-    Errors:
+    Raises:
         StudyError: it cannot be, or not with this command or sampling.
+
     """
     if "placement" not in varied:
         return None
@@ -62,7 +63,7 @@ def placement(varied: Mapping[str, Any], command: str, sampling: str) -> Placeme
         )
     if command == "plan":
         raise StudyError(
-            "`placement` does not go with command = \"plan\": a plan knows where its grippers are",
+            '`placement` does not go with command = "plan": a plan knows where its grippers are',
             help='plan once, then vary placement with command = "follow"',
             key="placement",
         )
@@ -81,7 +82,9 @@ def placement(varied: Mapping[str, Any], command: str, sampling: str) -> Placeme
     elif keys == {"from", "to"}:
         kind, given = "uniform", [spec["from"], spec["to"]]
     else:
-        raise StudyError(f"`placement` = {dict(spec)!r} says no law", help=PLACEMENT, key="placement")
+        raise StudyError(
+            f"`placement` = {dict(spec)!r} says no law", help=PLACEMENT, key="placement"
+        )
     numbers, unit = _numbers("placement", given)
     if unit not in LENGTHS:
         raise StudyError(
@@ -102,7 +105,9 @@ class _Spec:
         self.own = own
         self.sampling = sampling
         if isinstance(own, Mapping | list):
-            inside = [f"{key}.{name}" for name in (own if isinstance(own, Mapping) else range(len(own)))]
+            inside = [
+                f"{key}.{name}" for name in (own if isinstance(own, Mapping) else range(len(own)))
+            ]
             raise StudyError(
                 f"`{key}` is no number but {'a table' if isinstance(own, Mapping) else 'a list'}",
                 help=f"vary one of {', '.join(inside)}",
@@ -112,9 +117,9 @@ class _Spec:
             raise StudyError(f"`{key}` = {spec!r} is no law", help=FORMS, key=key)
         self.spec = dict(spec)
 
-    def complain(self, what: str, help: str) -> StudyError:
+    def complain(self, what: str, remedy: str) -> StudyError:
         """The error for this line."""
-        return StudyError(f"`{self.key}` = {self.spec!r} {what}", help=help, key=self.key)
+        return StudyError(f"`{self.key}` = {self.spec!r} {what}", help=remedy, key=self.key)
 
     def input(self) -> Input:
         """The input that the line describes."""
@@ -144,7 +149,9 @@ class _Spec:
         if isinstance(points, bool) or not isinstance(points, int) or points < 1:
             raise self.complain("has no whole number of points", "write points = 5")
         if self.sampling != "grid" or "values" in spec:
-            raise self.complain("has points", 'they divide a range of sampling = "grid"; remove them')
+            raise self.complain(
+                "has points", 'they divide a range of sampling = "grid"; remove them'
+            )
         return points
 
     def _law(self, spec: dict[str, Any], own: Any) -> tuple[Law, str]:
@@ -170,11 +177,8 @@ class _Spec:
     def _choice(self, values: Any) -> tuple[Law, str]:
         if not isinstance(values, list | tuple) or not values:
             raise self.complain("has no values", 'write values = ["60 mm", "75 mm"]')
-        if all(isinstance(value, str) and quantity(value) is None for value in values) or all(
-            isinstance(value, bool) for value in values
-        ):
-            law, unit = Choice(tuple(values)), ""
-        elif all(type(value) is int for value in values):
+        words = all(isinstance(value, str) and quantity(value) is None for value in values)
+        if words or (len(kinds := {type(value) for value in values}) == 1 and kinds <= {bool, int}):
             law, unit = Choice(tuple(values)), ""
         else:
             numbers, unit = _numbers(self.key, list(values))

@@ -18,6 +18,7 @@ def amount(x: float) -> str:
     Example:
         >>> amount(0.0305123), amount(879.4521), amount(0.0), amount(9e-06)
         ('0.03051', '879.5', '0', '9e-06')
+
     """
     if x == 0 or not math.isfinite(x):
         return "0" if x == 0 else str(x)
@@ -32,6 +33,7 @@ def name(key: str) -> str:
     Example:
         >>> name("value_slack_ratio"), name("worst_slack_mm")
         ('slack ratio', 'worst slack mm')
+
     """
     key = key.removeprefix("value_")
     return NAMES.get(key, key if "." in key else key.replace("_", " "))

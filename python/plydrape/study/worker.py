@@ -16,15 +16,9 @@ from typing import Any
 READY = "ready"
 
 # One thread for each process, whatever is inside.
-THREADS = {
-    name: "1"
-    for name in (
-        "RAYON_NUM_THREADS",
-        "OMP_NUM_THREADS",
-        "OPENBLAS_NUM_THREADS",
-        "MKL_NUM_THREADS",
-    )
-}
+THREADS = dict.fromkeys(
+    ("RAYON_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"
+)
 
 # How the client starts a worker; behind it stand the folders of `sys.path`.
 START = "import sys; sys.path[:] = sys.argv[1:]; from plydrape.study.worker import main; main()"
