@@ -7,9 +7,11 @@ otherwise; only then does it count as lost here.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import pickle
 import time
+from collections.abc import Iterator
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -62,20 +64,22 @@ class Cluster:
         self._address = address
         self._task = pickle.dumps(task)
         self._chunks: dict[object, Chunk] = {}
-        self._ended = as_completed([])
+        self._ended = as_completed([], loop=self._client.loop)
         self._threads = (0, -1.0)
 
     def slots(self) -> int:
         """One chunk under way and one waiting for each thread; workers may come and go."""
         threads, since = self._threads
         if since < 0 or time.monotonic() - since > 2.0:
-            threads = sum(self._client.nthreads().values())
+            with self._connected():
+                threads = sum(self._client.nthreads().values())
             self._threads = (threads, time.monotonic())
         return max(2 * threads, 2)
 
     def start(self, chunk: Chunk, values: list[Row]) -> None:
         """Gives a chunk to the scheduler."""
-        future = self._client.submit(work, self._task, chunk.first, values, pure=False)
+        with self._connected():
+            future = self._client.submit(work, self._task, chunk.first, values, pure=False)
         self._chunks[future.key] = chunk
         self._ended.add(future)
 
@@ -83,15 +87,14 @@ class Cluster:
         """The next chunk that ended."""
         from distributed import KilledWorker
 
-        future: Future[Batch] = next(self._ended)
-        chunk = self._chunks.pop(future.key)
-        if future.status == "finished":
-            return Done(chunk, future.result())
-        if future.status != "error":
-            raise StudyError(
-                f"the Dask scheduler at {self._address} is gone ({future.status})", help=AGAIN
-            )
-        error = future.exception()
+        with self._connected():
+            future: Future[Batch] = next(self._ended)
+            chunk = self._chunks.pop(future.key)
+            if future.status == "finished":
+                return Done(chunk, future.result())
+            if future.status != "error":
+                raise ConnectionError(f"a chunk is {future.status}")
+            error = future.exception()
         if isinstance(error, KilledWorker):
             return Lost(chunk, "killed on the Dask cluster", TRIES)
         if isinstance(error, StudyError):
@@ -102,6 +105,16 @@ class Cluster:
                 help="install the same version of plydrape on every worker",
             )
         raise StudyError(f"a Dask worker failed: {type(error).__name__}: {error}", help=AGAIN)
+
+    @contextlib.contextmanager
+    def _connected(self) -> Iterator[None]:
+        """Says in plain words that the scheduler cannot be reached."""
+        try:
+            yield
+        except OSError as error:
+            raise StudyError(
+                f"the Dask scheduler at {self._address} is gone: {error}", help=AGAIN
+            ) from error
 
     def close(self) -> None:
         """Withdraws what is under way and leaves the cluster as it was."""

@@ -17,6 +17,7 @@ from deadly import Deadly
 from plydrape.study import StudyError, cluster
 from plydrape.study.carry import carry_out
 from plydrape.study.cluster import Cluster
+from plydrape.study.folder import Folder
 from plydrape.study.run import run
 from plydrape.study.scenario import Batch
 from studies import study
@@ -65,7 +66,9 @@ def processes(tmp_path: Path) -> Iterator[Processes]:
             process.wait()
 
 
-def test_a_killed_dask_worker_costs_no_row(processes: Processes, tmp_path: Path) -> None:
+def test_a_killed_dask_worker_costs_no_row(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """`kill -9` of one of two in the middle: the rows are those of a local run, byte for byte."""
     client = Cluster(study(2).task, processes.address)
     client._client.wait_for_workers(2, timeout=30)
@@ -73,21 +76,17 @@ def test_a_killed_dask_worker_costs_no_row(processes: Processes, tmp_path: Path)
 
     made = study(400)
     seen: list[int] = []
-    from plydrape.study import folder
+    keep = Folder.keep
 
-    keep = folder.Folder.keep
-
-    def keeping(self: folder.Folder, first: int, rows: int, content: bytes) -> None:
+    def keeping(self: Folder, first: int, rows: int, content: bytes) -> None:
         keep(self, first, rows, content)
         seen.append(first)
         if len(seen) == 4:
             processes.workers[0].send_signal(signal.SIGKILL)
 
-    folder.Folder.keep = keeping  # type: ignore[method-assign]
-    try:
-        run(made, output=tmp_path / "dask", scheduler=processes.address, every=0.1)
-    finally:
-        folder.Folder.keep = keep  # type: ignore[method-assign]
+    monkeypatch.setattr(Folder, "keep", keeping)
+    run(made, output=tmp_path / "dask", scheduler=processes.address, every=0.1)
+    monkeypatch.undo()
     assert processes.workers[0].wait(10) == -signal.SIGKILL
     assert processes.workers[1].poll() is None
     assert len(seen) == len(set(seen)) > 5
@@ -98,20 +97,11 @@ def test_a_killed_dask_worker_costs_no_row(processes: Processes, tmp_path: Path)
 
 
 def test_a_scenario_that_kills_dask_workers_is_a_row(processes: Processes) -> None:
-    """As workers die others come, as with a nanny; the rows beside it are as ever."""
+    """It kills four, and there are more; the rows beside it are as ever."""
     made = study(3)
     task = Deadly(**vars(made.task) | {"victim": 1})
     kept: list[Batch] = []
     executor = Cluster(task, processes.address)
-    seen = 0
-
-    def slots() -> int:
-        """Replaces the dead, here where the client looks in."""
-        nonlocal seen
-        seen += 1
-        return 3
-
-    executor.slots = slots  # type: ignore[method-assign]
     for _ in range(6):
         processes.add_worker()
     try:
@@ -123,23 +113,21 @@ def test_a_scenario_that_kills_dask_workers_is_a_row(processes: Processes) -> No
     assert rows[0] == made.task.row(0, made.values[0], {}) and rows[2]["error"] is None
 
 
-def test_a_scheduler_that_goes_away_ends_the_study(processes: Processes, tmp_path: Path) -> None:
+def test_a_scheduler_that_goes_away_ends_the_study(
+    processes: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """With a message; what was finished is kept and the study goes on without it."""
     made = study(400)
-    from plydrape.study import folder
+    keep = Folder.keep
 
-    keep = folder.Folder.keep
-
-    def keeping(self: folder.Folder, first: int, rows: int, content: bytes) -> None:
+    def keeping(self: Folder, first: int, rows: int, content: bytes) -> None:
         keep(self, first, rows, content)
         processes.scheduler.kill()
 
-    folder.Folder.keep = keeping  # type: ignore[method-assign]
-    try:
-        with pytest.raises(StudyError, match="is gone.*finished rows are kept"):
-            run(made, output=tmp_path / "out", scheduler=processes.address, every=0.1)
-    finally:
-        folder.Folder.keep = keep  # type: ignore[method-assign]
+    monkeypatch.setattr(Folder, "keep", keeping)
+    with pytest.raises(StudyError, match="is gone.*finished rows are kept"):
+        run(made, output=tmp_path / "out", scheduler=processes.address, every=0.1)
+    monkeypatch.undo()
     assert list((tmp_path / "out" / "rows").glob("part-*"))
     assert run(made, output=tmp_path / "out", workers=2).table().num_rows == 400
 

@@ -105,8 +105,7 @@ def test_a_histogram_divides_at_the_limit() -> None:
     assert min(abs(mark - 3.0) for mark in marks) < 1e-9
     assert marks[0] <= low and marks[-1] >= high - 1e-12
     assert np.histogram(values, marks)[0].sum() == ((values >= low) & (values <= high)).sum() == 500
-    assert all(Axis(-3.7e-6, 9.1e-6, 0, 1).ticks()) is False
-    assert len(Axis(-3.7e-6, 9.1e-6, 0, 1).ticks()) in (3, 4, 5, 6)
+    assert Axis(-3.7e-6, 9.1e-6, 0, 1).ticks() == [0.0, 5e-6]
 
 
 class Page(HTMLParser):
