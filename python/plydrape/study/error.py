@@ -19,10 +19,11 @@ class StudyError(PlydrapeError, ValueError):
         key: the key at fault as a dotted path, or None.
 
     Example:
-        >>> raise StudyError("`samples` = 0 is no number of scenarios", help="write 1 or more")
-        Traceback (most recent call last):
-        ...
-        plydrape.study.error.StudyError: `samples` = 0 is no number of scenarios; write 1 or more
+        >>> try:
+        ...     raise StudyError("`samples` = 0 does not count", help="write 1 or more")
+        ... except StudyError as error:
+        ...     print(error)
+        `samples` = 0 does not count; write 1 or more
 
     """
 

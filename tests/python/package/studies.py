@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[3]
 PAPER = ROOT / "examples" / "01_flat_sheared_mold" / "scene.toml"
 
 # Three inputs and errors of all grippers: none of the rows is accepted, all differ.
-VARIED = {
+VARIED: dict[str, dict[str, Any]] = {
     "ply.material.flexural_rigidity": {"relative": [0.8, 1.2]},
     "grippers.height": {"from": "60 mm", "to": "90 mm"},
     "placement": {"from": "-1 mm", "to": "1 mm"},

@@ -74,7 +74,7 @@ def test_a_killed_dask_worker_costs_no_row(
     client._client.wait_for_workers(2, timeout=30)
     client.close()
 
-    made = study(400)
+    made = study(240)
     seen: list[int] = []
     keep = Folder.keep
 
@@ -109,7 +109,7 @@ def test_a_scenario_that_kills_dask_workers_is_a_row(processes: Processes) -> No
     finally:
         executor.close()
     rows = {row["scenario"]: row for batch in kept for row in batch.rows}
-    assert sorted(rows) == [0, 1, 2] and rows[1]["error_kind"] == "WorkerDied"
+    assert set(rows) == {0, 1, 2} and rows[1]["error_kind"] == "WorkerDied"
     assert rows[0] == made.task.row(0, made.values[0], {}) and rows[2]["error"] is None
 
 
@@ -125,7 +125,7 @@ def test_a_scheduler_that_goes_away_ends_the_study(
         processes.scheduler.kill()
 
     monkeypatch.setattr(Folder, "keep", keeping)
-    with pytest.raises(StudyError, match="is gone.*finished rows are kept"):
+    with pytest.raises(StudyError, match=r"is gone.*finished rows are kept"):
         run(made, output=tmp_path / "out", scheduler=processes.address, every=0.1)
     monkeypatch.undo()
     assert list((tmp_path / "out" / "rows").glob("part-*"))
@@ -135,5 +135,5 @@ def test_a_scheduler_that_goes_away_ends_the_study(
 def test_no_scheduler_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """With how to start one."""
     monkeypatch.setattr(cluster, "PATIENCE", 1)
-    with pytest.raises(StudyError, match="no Dask scheduler at.*`dask scheduler`"):
+    with pytest.raises(StudyError, match=r"no Dask scheduler at.*`dask scheduler`"):
         run(study(2), scheduler="tcp://127.0.0.1:9")

@@ -142,7 +142,7 @@ def test_the_check_sum_is_of_what_rows_depend_on(tmp_path: Path) -> None:
     (tmp_path / "a" / "ply.toml").write_text(plydrape.Material.text("krogh2018"))
     scene = tmp_path / "a" / "scene.toml"
     scene.write_text(PAPER.read_text().replace('"krogh2018"', '"ply.toml"'))
-    heights = {"vary": {"grippers.height": HEIGHT}}
+    heights: dict[str, Any] = {"vary": {"grippers.height": HEIGHT}}
     first = study(scene=str(scene), **heights).checksum
     scene.write_text("# a comment\n" + scene.read_text())
     assert study(scene=str(scene), **heights).checksum == first

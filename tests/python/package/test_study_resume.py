@@ -18,7 +18,7 @@ from plydrape.study.folder import Folder
 from plydrape.study.run import run
 from studies import study, write
 
-SAMPLES = 400
+SAMPLES = 240
 RUN = "import sys, plydrape.study as s; s.run(sys.argv[1], workers=2, every=0.05, progress=False)"
 
 

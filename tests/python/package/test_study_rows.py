@@ -21,9 +21,8 @@ def test_a_relative_rigidity_is_the_scene_with_that_number() -> None:
     outcome = run(made, workers=1)
     for row, wanted in zip(rows(outcome.table()), (0.8 * 9e-6, 9e-6, 1.2 * 9e-6), strict=True):
         assert row["ply.material.flexural_rigidity"] == pytest.approx(wanted, rel=1e-14)
-        material = '{ mass = "0.3143 kg/m", flexural_rigidity = "%r N m^2" }' % (
-            row["ply.material.flexural_rigidity"]
-        )
+        rigidity = f"{row['ply.material.flexural_rigidity']!r} N m^2"
+        material = f'{{ mass = "0.3143 kg/m", flexural_rigidity = "{rigidity}" }}'
         text = PAPER.read_text().replace('"krogh2018"', material)
         by_hand = judged(plydrape.simulate(plydrape.Scene.parse(text)))
         assert {key: row[key] for key in by_hand} == by_hand
@@ -46,7 +45,7 @@ def test_placement_errors_move_each_gripper_all_along() -> None:
 
 
 def test_a_followed_plan_is_the_motion_of_its_result(tmp_path: Path) -> None:
-    """Under the conditions it was made for it drapes as it did; under others it drapes otherwise."""
+    """Under the conditions it was made for it drapes as it did, under others otherwise."""
     plan = plydrape.plan(plydrape.Scene.read(PAPER), method="stepwise")
     plan.write(tmp_path)
     made = Study.of(

@@ -114,6 +114,7 @@ class Page(HTMLParser):
     VOID = ("meta", "br", "line", "rect", "circle", "wbr")
 
     def __init__(self) -> None:
+        """Nothing is read yet."""
         super().__init__()
         self.outside: list[str] = []
         self.seen: list[str] = []

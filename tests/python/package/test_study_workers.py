@@ -59,7 +59,7 @@ def test_each_scenario_is_kept_once_whatever_is_lost(seed: int) -> None:
     kept: list[Batch] = []
     todo = [(0, 40), (60, 61), (100, 300)]
     carry_out(executor, made.task, made.values, todo, kept.append, every=0.5)
-    rows = sorted((row for batch in kept for row in batch.rows), key=lambda row: row["scenario"])
+    rows = [row for batch in sorted(kept, key=lambda batch: batch.first) for row in batch.rows]
     assert [row["scenario"] for row in rows] == [k for a, b in todo for k in range(a, b)]
     assert {row["scenario"] for row in rows if row["error"]} == {5, 177, 299}
     for batch in kept:
@@ -87,7 +87,7 @@ def test_a_scenario_that_kills_its_worker_is_a_row() -> None:
     finally:
         executor.close()
     rows = {row["scenario"]: row for batch in kept for row in batch.rows}
-    assert sorted(rows) == list(range(30)) and sum(len(b.rows) for b in kept) == 30
+    assert set(rows) == set(range(30)) and sum(len(b.rows) for b in kept) == 30
     assert rows[11]["error_kind"] == "WorkerDied" and "SIGKILL" in str(rows[11]["error"])
     assert rows[11]["grippers.height"] == made.values[11][1]
     wanted = {k: made.task.row(k, made.values[k], {}) for k in range(30) if k != 11}
@@ -114,9 +114,8 @@ def test_a_killed_worker_costs_no_row() -> None:
         assert len(executor.pids) <= 2
     finally:
         executor.close()
-    rows = sorted((row for b in kept for row in b.rows), key=lambda row: str(row["scenario"]))
-    wanted = [made.task.row(k, made.values[k], {}) for k in range(120)]
-    assert rows == sorted(wanted, key=lambda row: str(row["scenario"]))
+    rows = [row for batch in sorted(kept, key=lambda batch: batch.first) for row in batch.rows]
+    assert rows == [made.task.row(k, made.values[k], {}) for k in range(120)]
     assert not executor.pids
 
 
