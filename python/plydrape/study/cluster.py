@@ -7,11 +7,13 @@ otherwise; only then does it count as lost here.
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import os
 import pickle
 import time
 from collections.abc import Iterator
+from concurrent import futures
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -89,6 +91,10 @@ class Cluster:
 
         with self._connected():
             future: Future[Batch] = next(self._ended)
+            while future.status in ("lost", "pending"):
+                # Its worker died before the rows were fetched: Dask runs it again.
+                self._ended.add(future)
+                future = next(self._ended)
             chunk = self._chunks.pop(future.key)
             if future.status == "finished":
                 return Done(chunk, future.result())
@@ -111,7 +117,7 @@ class Cluster:
         """Says in plain words that the scheduler cannot be reached."""
         try:
             yield
-        except OSError as error:
+        except (OSError, asyncio.CancelledError, futures.CancelledError) as error:
             raise StudyError(
                 f"the Dask scheduler at {self._address} is gone: {error}", help=AGAIN
             ) from error
