@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
 import plydrape
 
 from . import sample, source
@@ -24,7 +25,7 @@ from .error import StudyError
 from .keys import Value, nearest, put
 from .law import Input
 from .placement import COLUMNS, Placement
-from .scenario import Motion, Task, build
+from .scenario import Motion, Task, build, said
 from .varied import inputs, placement
 
 if TYPE_CHECKING:
@@ -336,7 +337,7 @@ def _probe(study: Study) -> None:
             refused, why = faults[0]
             raise StudyError(
                 f"`{x.key}` cannot vary like this: with {refused!r} the scene is refused",
-                help=f"{getattr(why, 'message', why)}; {getattr(why, 'help', '')}".rstrip("; "),
+                help=said(why),
                 key=x.key,
             )
 

@@ -12,6 +12,7 @@ from importlib import resources
 from typing import Any
 
 import numpy as np
+
 import plydrape
 
 from . import figures
@@ -172,12 +173,17 @@ def causes(about: dict[str, Any], outcome: Outcome) -> str:
             f'<td class="unit">{escape(x["unit"])}</td>'
             f'<td class="rho">{bar(rho, about["chance"])}</td></tr>'
         )
+    note = (
+        "Rank correlations run from −1 to +1. Grey bars, up to "
+        f"±{about['chance']:.2f}, are what independent numbers show by chance."
+    )
+    if all(accepted.get(key) is None for key in about["inputs"]):
+        note = "Every drape has the same verdict, so no input goes with it."
     return (
         '<section class="inputs"><h2>What varied</h2><table><thead><tr><th>input</th>'
         '<th>range</th><th class="unit"></th><th class="rho">rank correlation with acceptance</th>'
         f"</tr></thead><tbody>{''.join(rows)}</tbody></table>"
-        '<p class="quiet">Rank correlations run from −1 to +1. Grey bars, up to '
-        f"±{about['chance']:.2f}, are what independent numbers show by chance.</p></section>"
+        f'<p class="quiet">{note}</p></section>'
     )
 
 

@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+
 import plydrape
 
 from .error import StudyError
@@ -112,7 +113,7 @@ class Task:
         except (KeyboardInterrupt, SystemExit):
             raise
         except BaseException as error:  # A panic of the extension is no Exception.
-            row.update(failed(type(error).__name__, str(error)))
+            row.update(failed(type(error).__name__, said(error)))
         return row
 
     def begun(self, scenario: int, values: Sequence[Value]) -> Line:
@@ -212,6 +213,13 @@ def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
         row[f"margin_{name}"] = left / allowed if allowed else None
         units[f"value_{name}"] = units[f"limit_{name}"] = str(limit["unit"])
     return row
+
+
+def said(error: BaseException) -> str:
+    """An error's text; a refused scene without its line, which is none of a file's."""
+    if isinstance(error, plydrape.SceneError):
+        return f"{error.message}; {error.help}" if error.help else error.message
+    return str(error)
 
 
 def failed(kind: str, text: str) -> Line:
