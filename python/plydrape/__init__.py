@@ -1,7 +1,7 @@
 """How an array of grippers must move to lay a carbon-fibre ply on a curved mold without wrinkles.
 
-The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh, Jakobsen and
-Sherwood 2018. SI units throughout, z up; arrays are NumPy's.
+The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh,
+Jakobsen and Sherwood 2018. SI units throughout, z up; arrays are NumPy's.
 
 Example:
     >>> import plydrape
