@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from plydrape import PlydrapeError
+from plydrape.errors import PlydrapeError
 
 INSTALL = "pip install 'plydrape[study]'"
 
