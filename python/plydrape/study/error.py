@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from types import ModuleType
 
 from plydrape.errors import PlydrapeError
@@ -72,10 +73,8 @@ def require(*modules: str) -> None:
 
     """
     for module in modules:
-        try:
-            __import__(module)
-        except ImportError as error:
-            raise missing(error) from error
+        if find_spec(module) is None:
+            raise missing(ModuleNotFoundError(name=module))
 
 
 def missing(error: ImportError) -> StudyError:
