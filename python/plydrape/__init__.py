@@ -1,7 +1,7 @@
 """How an array of grippers must move to lay a carbon-fibre ply on a curved mold without wrinkles.
 
-The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh, Jakobsen and
-Sherwood 2018. SI units throughout, z up; arrays are NumPy's.
+The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh,
+Jakobsen and Sherwood 2018. SI units throughout, z up; arrays are NumPy's.
 
 Example:
     >>> import plydrape
@@ -14,17 +14,23 @@ Example:
 
 from plydrape import batch
 from plydrape._plydrape import (
+    Equilibrium,
     Foot,
+    Jacobian,
     Material,
     Mold,
     Net,
+    Outcome,
     Plan,
     Ply,
     Result,
     Scene,
+    Solver,
+    Span,
     Surface,
     __version__,
     materials,
+    outcome,
     plan,
     simulate,
 )
@@ -38,10 +44,13 @@ from plydrape.errors import (
 )
 
 __all__ = [
+    "Equilibrium",
     "Foot",
+    "Jacobian",
     "Material",
     "Mold",
     "Net",
+    "Outcome",
     "OutputError",
     "Plan",
     "PlanError",
@@ -52,10 +61,13 @@ __all__ = [
     "Scene",
     "SceneError",
     "SolveError",
+    "Solver",
+    "Span",
     "Surface",
     "__version__",
     "batch",
     "materials",
+    "outcome",
     "plan",
     "simulate",
 ]

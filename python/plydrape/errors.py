@@ -8,7 +8,7 @@ class PlydrapeError(Exception):
 
 
 class SceneError(PlydrapeError, ValueError):
-    """A refused scene: where it is at fault, what is wrong there, and what would be right.
+    r"""A refused scene: where it is at fault, what is wrong there, and what would be right.
 
     Attributes:
         file: The file at fault, as it was named.
@@ -20,7 +20,7 @@ class SceneError(PlydrapeError, ValueError):
     Example:
         >>> import plydrape
         >>> try:
-        ...     plydrape.Scene.parse("[ply]\\ngripers = [4, 2]")
+        ...     plydrape.Scene.parse("[ply]\ngripers = [4, 2]")
         ... except plydrape.SceneError as error:
         ...     print(error.line, error.column, error.message)
         2 1 `gripers` is no key here

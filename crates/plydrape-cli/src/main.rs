@@ -14,6 +14,7 @@ mod results;
 mod schema;
 mod simulate;
 mod span;
+mod study;
 mod watch;
 
 use clap::{Parser, Subcommand};
@@ -45,6 +46,7 @@ enum Command {
     Simulate(simulate::Arguments),
     Plan(plan::Arguments),
     Net(net::Arguments),
+    Study(study::Arguments),
     Check(check::Arguments),
     Report(report::Arguments),
     Export(export::Arguments),
@@ -61,6 +63,7 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::run(&arguments, quiet),
         Command::Plan(arguments) => plan::run(&arguments, quiet),
         Command::Net(arguments) => net::run(&arguments, quiet),
+        Command::Study(arguments) => study::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Report(arguments) => report::run(&arguments, quiet),
         Command::Export(arguments) => export::run(&arguments, quiet),

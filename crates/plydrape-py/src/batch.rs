@@ -1,9 +1,13 @@
 //! Many at once, on all cores: `plydrape.batch`.
 
+use crate::arrays::{Array, Block, steps};
+use crate::equilibrium::{Solver, shear_angles};
 use crate::result::Result;
 use crate::scene::Scene;
 use crate::work::run;
 use plydrape::draping;
+use plydrape::equilibrium::Status;
+use plydrape::ply::Grid;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -53,9 +57,171 @@ pub fn simulate_all(
     run(py, progress, move |watch| {
         let drape = |scene: &Arc<_>| {
             let drape = draping::simulate(scene, |_| watch.flow());
-            let _ = watch.count(scenes.len(), "draping");
+            let _ = watch.count(1, scenes.len(), "draping");
             Result(Arc::new(drape.result))
         };
         pool.install(|| scenes.par_iter().map(drape).collect())
     })
+}
+
+/// What is kept of one equilibrium of many.
+struct Found {
+    status: Status,
+    iterations: usize,
+    forces: Vec<f64>,
+    slopes: Vec<[f64; 2]>,
+    shear: Vec<f64>,
+}
+
+/// Many equilibria of one ply. Catenaries are counted as in `Ply`.
+#[pyclass(frozen, module = "plydrape")]
+pub struct Equilibria {
+    grid: Grid,
+    found: Vec<Found>,
+}
+
+impl Equilibria {
+    fn array<const N: usize>(
+        &self,
+        count: usize,
+        of: impl Fn(&Found) -> &[[f64; N]],
+        axes: &[usize],
+    ) -> Array<f64> {
+        let shape = [&[self.found.len(), count], axes].concat();
+        Array::rows(&shape, self.found.iter().flat_map(|found| of(found).iter().copied()))
+    }
+}
+
+#[pymethods]
+impl Equilibria {
+    /// Whether each was found, shape (n,).
+    #[getter]
+    fn converged(&self) -> Array<bool> {
+        let converged = self.found.iter().map(|found| found.status == Status::Converged);
+        Array::new(&[self.found.len()], converged.collect())
+    }
+
+    /// Iterations on the shared slopes, shape (n,).
+    #[getter]
+    fn iterations(&self) -> Array<i64> {
+        let iterations = self.found.iter().map(|found| found.iterations as i64);
+        Array::new(&[self.found.len()], iterations.collect())
+    }
+
+    /// Horizontal forces (N), shape (n, catenaries); nan of stretched diagonals and straight catenaries.
+    #[getter]
+    fn forces(&self) -> Array<f64> {
+        self.array(self.grid.catenaries(), |found| found.forces.as_chunks::<1>().0, &[])
+    }
+
+    /// Slopes at the ends of each catenary, shape (n, catenaries, 2).
+    #[getter]
+    fn slopes(&self) -> Array<f64> {
+        self.array(self.grid.catenaries(), |found| &found.slopes, &[2])
+    }
+
+    /// Shear angles (rad), shape (n, cells); 0 where no diagonal is stretched.
+    #[getter]
+    fn shear(&self) -> Array<f64> {
+        self.array(self.grid.cells(), |found| found.shear.as_chunks::<1>().0, &[])
+    }
+
+    fn __len__(&self) -> usize {
+        self.found.len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "<plydrape.Equilibria, {} of {} × {} grippers>",
+            self.found.len(),
+            self.grid.nu,
+            self.grid.nv
+        )
+    }
+}
+
+/// Solves for many places of the grippers, on all cores; each from nothing, so that none depends on another.
+///
+/// Args:
+///     solver: The ply and its rules.
+///     positions: Positions of the grippers (m), shape (n, grippers, 3).
+///     threads: How many at once; one a core unless given. The results do not depend on it.
+///     progress: Called with (equilibria done, equilibria, what is done), some 50 times a second.
+///
+/// Returns:
+///     One equilibrium a row; those not found say so in `converged`.
+///
+/// Raises:
+///     ValueError: If the shape does not fit or a number is not finite.
+///
+/// Example:
+///     >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
+///     >>> level = np.array([[0.098 * i, 0, 0] for i in range(4)])
+///     >>> batch = plydrape.batch.equilibria(plydrape.Solver(ply), [level, 1.01 * level])
+///     >>> batch.forces.shape, batch.converged.all()
+///     ((2, 3), np.True_)
+#[pyfunction]
+#[pyo3(signature = (
+    solver, positions, *, threads = None,
+    progress: "typing.Callable[[int, int, str], object] | None" = None
+))]
+pub fn equilibria(
+    py: Python<'_>,
+    solver: &Solver,
+    positions: Block<'_>,
+    threads: Option<usize>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Equilibria> {
+    let (fresh, ply) = (solver.fresh(), solver.ply());
+    let positions = steps(&positions, "positions", ply.grid.grippers())?;
+    let pool = pool(threads)?;
+    let grid = ply.grid;
+    let found = run(py, progress, move |watch| {
+        let laid = vec![None; grid.catenaries()];
+        let solve = |solver: &mut plydrape::equilibrium::Solver, positions: &Vec<[f64; 3]>| {
+            solver.forget();
+            let equilibrium = solver.solve(positions, &laid);
+            let mut found = Found {
+                status: equilibrium.status,
+                iterations: equilibrium.iterations,
+                forces: vec![f64::NAN; grid.catenaries()],
+                slopes: (0..grid.catenaries()).map(|n| [straight(grid, positions, n); 2]).collect(),
+                shear: shear_angles(&ply, solver),
+            };
+            for (n, element) in solver.assembly().elements.iter().enumerate() {
+                if let Some(force) = solver.force(n) {
+                    found.forces[element.catenary] = force;
+                    found.slopes[element.catenary] = solver.end_slopes(n);
+                }
+            }
+            found
+        };
+        // told and asked once a stretch: a single equilibrium takes microseconds
+        const STRETCH: usize = 256;
+        let most = positions.len();
+        pool.install(|| {
+            let stretches = positions.par_chunks(STRETCH).map_init(
+                || fresh.clone(),
+                |solver, stretch| {
+                    let found: Vec<Found> = stretch
+                        .iter()
+                        .take_while(|_| watch.flow().is_continue())
+                        .map(|p| solve(solver, p))
+                        .collect();
+                    let _ = watch.count(stretch.len(), most, "solving");
+                    found
+                },
+            );
+            stretches.flatten_iter().collect()
+        })
+    })?;
+    Ok(Equilibria { grid, found })
+}
+
+/// Slope of the straight line between the ends of a catenary; 0 where they are above each other.
+fn straight(grid: Grid, positions: &[[f64; 3]], catenary: usize) -> f64 {
+    let c = grid.catenary(catenary);
+    let [a, b] = [c.from, c.to].map(|g| positions[grid.index(g)]);
+    let run = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
+    if run > 0.0 { (b[2] - a[2]) / run } else { 0.0 }
 }

@@ -1,11 +1,10 @@
 //! `plydrape.simulate` and `plydrape.plan`.
 
-use crate::arrays::{Array, Numbers};
+use crate::arrays::{Array, List, Named, list};
 use crate::error;
 use crate::result::Result;
 use crate::scene::{Scene, blocks};
 use crate::work::run;
-use numpy::Ix1;
 use plydrape::draping;
 use plydrape::output::{json, plan::write_all};
 use plydrape::planner::{self, Memory, Planned};
@@ -162,29 +161,26 @@ impl Plan {
         blocks(self.planned.motion.positions(), self.planned.motion.grippers())
     }
 
-    /// Positions of the grippers at any times of the motion.
+    /// The grippers at any times of the motion.
     ///
     /// Args:
     ///     times: Times (s), shape (n,).
     ///
     /// Returns:
-    ///     Positions, velocities, accelerations and jerks (m, s), each of shape (n, grippers, 3).
-    fn motion(
-        &self,
-        times: Numbers<'_, Ix1>,
-    ) -> PyResult<(Array<f64>, Array<f64>, Array<f64>, Array<f64>)> {
-        let times = crate::arrays::list(&times, "times")?;
+    ///     "positions", "velocities", "accelerations" and "jerks" (m, s), each of shape (n, grippers, 3).
+    fn motion(&self, times: List<'_>) -> PyResult<Named> {
+        let times = list(&times, "times")?;
         let motion = &self.planned.motion;
         let every = |at: &dyn Fn(f64) -> Vec<[f64; 3]>| {
             let steps: Vec<_> = times.iter().map(|t| at(*t)).collect();
             blocks(&steps, motion.grippers())
         };
-        Ok((
-            every(&|t| motion.at(t)),
-            every(&|t| motion.velocity(t)),
-            every(&|t| motion.acceleration(t)),
-            every(&|t| motion.jerk(t)),
-        ))
+        Ok(Named(vec![
+            ("positions", every(&|t| motion.at(t))),
+            ("velocities", every(&|t| motion.velocity(t))),
+            ("accelerations", every(&|t| motion.acceleration(t))),
+            ("jerks", every(&|t| motion.jerk(t))),
+        ]))
     }
 
     /// What a later search can go on from: the text of plan.json.

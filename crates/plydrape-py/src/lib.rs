@@ -6,13 +6,16 @@
 mod arrays;
 mod batch;
 mod drape;
+mod equilibrium;
 mod error;
 mod json;
 mod mold;
 mod net;
+mod outcome;
 mod ply;
 mod result;
 mod scene;
+mod span;
 mod table;
 mod work;
 
@@ -22,19 +25,25 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _plydrape {
     #[pymodule_export]
-    use crate::batch::simulate_all;
+    use crate::batch::{Equilibria, equilibria, simulate_all};
     #[pymodule_export]
     use crate::drape::{Plan, plan, simulate};
+    #[pymodule_export]
+    use crate::equilibrium::{Equilibrium, Jacobian, Solver};
     #[pymodule_export]
     use crate::mold::{Foot, Mold};
     #[pymodule_export]
     use crate::net::Net;
+    #[pymodule_export]
+    use crate::outcome::{Outcome, outcome};
     #[pymodule_export]
     use crate::ply::{Material, Ply};
     #[pymodule_export]
     use crate::result::{Result, Surface};
     #[pymodule_export]
     use crate::scene::{Scene, materials};
+    #[pymodule_export]
+    use crate::span::Span;
 
     /// Version of the package and of the library in it.
     #[pymodule_export]

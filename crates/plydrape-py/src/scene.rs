@@ -121,8 +121,8 @@ impl Scene {
     ///     SceneError: If it cannot be read or makes no sense.
     ///
     /// Example:
-    ///     >>> plydrape.Scene.read("examples/02_hanging_strip/scene.toml").title
-    ///     'Strip of four grippers, hanging'
+    ///     >>> plydrape.Scene.read("examples/02_hanging_strip/scene.toml").ply.grippers
+    ///     (2, 1)
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let scene = py.detach(|| scene::read(&path));
@@ -140,8 +140,8 @@ impl Scene {
     ///     SceneError: If it makes no sense.
     ///
     /// Example:
-    ///     >>> plydrape.Scene.parse(plydrape.Scene.template()).ply.grippers
-    ///     (4, 2)
+    ///     >>> plydrape.Scene.parse(plydrape.Scene.template()).mold.kind
+    ///     'plane'
     #[staticmethod]
     #[pyo3(signature = (text, *, base = PathBuf::new(), name = "scene.toml"))]
     fn parse(py: Python<'_>, text: &str, base: PathBuf, name: &str) -> PyResult<Self> {
@@ -219,8 +219,8 @@ impl Scene {
     /// Example:
     ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
     ///     >>> higher = scene.with_motion(scene.times, scene.positions + [0, 0, 0.01])
-    ///     >>> float(higher.positions[0, 0, 2] - scene.positions[0, 0, 2])
-    ///     0.01...
+    ///     >>> float((higher.positions - scene.positions).max().round(9))
+    ///     0.01
     #[pyo3(signature = (times, positions, *, title = None))]
     fn with_motion(
         &self,

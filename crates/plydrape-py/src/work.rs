@@ -32,10 +32,12 @@ impl Watch {
         self.flow()
     }
 
-    /// Counts one more of `most`; breaks if the work shall end.
-    pub fn count(&self, most: usize, stage: &'static str) -> ControlFlow<()> {
-        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        self.tell(done, most, stage)
+    /// Counts some more of `most`; breaks if the work shall end.
+    pub fn count(&self, more: usize, most: usize, stage: &'static str) -> ControlFlow<()> {
+        self.done.fetch_add(more, Ordering::Relaxed);
+        self.most.store(most, Ordering::Relaxed);
+        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+        self.flow()
     }
 
     /// Breaks if the work shall end.

@@ -2,7 +2,7 @@
 //! central differences.
 
 use plydrape::catenary::Profile;
-use plydrape::equilibrium::{Direction, End, Solver, Status};
+use plydrape::equilibrium::{Direction, End, Property, Solver, Status};
 use plydrape::material::{Material, Section};
 use plydrape::ply::{Direction as Along, Grid, Kind, Ply};
 use plydrape::scene::{Contact, ContactEnd, Settings, SlopeRule, Stepping};
@@ -233,23 +233,36 @@ proptest! {
         (ply, positions) in any_array(),
         settings in any_rule(),
         random in prop::collection::vec(-1.0..1.0, 3 * 30),
-        others in (-1.0..1.0, -1.0..1.0, -1.0..1.0),
+        others in (prop::array::uniform2(-1.0..1.0), prop::array::uniform3(-1.0..1.0)),
     ) {
         let laid = vec![None; ply.grid.catenaries()];
         let count = ply.grid.grippers();
-        let direction = Direction {
-            grippers: (0..count).map(|n| [0, 1, 2].map(|k| 0.01 * random[3 * n + k])).collect(),
-            length: 0.01 * others.0,
-            weight: others.1,
-            rigidity: others.2,
-        };
+        let ([mass, rigidity], [along_u, along_v, _]) = others;
+        let Section::Line { mass: m, flexural_rigidity: ei } = ply.material.section else { panic!() };
+        // a sum of directions, each with its own unit
+        let parts = [
+            (Direction::property(&ply, Property::Mass).unwrap(), mass * m),
+            (Direction::property(&ply, Property::FlexuralRigidity).unwrap(), rigidity * ei),
+            (Direction::cell(&ply, 0), 0.01 * along_u * ply.cell[0]),
+            (Direction::cell(&ply, 1), 0.01 * along_v * ply.cell[1]),
+        ];
+        let mut direction = Direction::none(count);
+        direction.grippers = (0..count).map(|n| [0, 1, 2].map(|k| 0.01 * random[3 * n + k])).collect();
+        for (part, factor) in &parts {
+            for n in 0..3 {
+                direction.length[n] += factor * part.length[n];
+                direction.weight[n] += factor * part.weight[n];
+                direction.rigidity[n] += factor * part.rigidity[n];
+            }
+        }
         let at = |h: f64| {
             let mut ply = ply.clone();
-            ply.cell = ply.cell.map(|side| side * (1.0 + h * direction.length));
-            if let Section::Line { mass, flexural_rigidity } = &mut ply.material.section {
-                *mass *= 1.0 + h * direction.weight;
-                *flexural_rigidity *= 1.0 + h * direction.rigidity;
-            }
+            ply.cell[0] *= 1.0 + h * 0.01 * along_u;
+            ply.cell[1] *= 1.0 + h * 0.01 * along_v;
+            ply.material.section = Section::Line {
+                mass: m * (1.0 + h * mass),
+                flexural_rigidity: ei * (1.0 + h * rigidity),
+            };
             let moved: Vec<_> = positions.iter().zip(&direction.grippers)
                 .map(|(p, v)| [0, 1, 2].map(|k| p[k] + h * v[k])).collect();
             let mut solver = Solver::new(&ply, &settings);

@@ -89,15 +89,8 @@ pub(crate) fn simulate_within(
     mut progress: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Drape {
     let mut draping = Draping { most, ..Draping::new(scene) };
-    let mut report = report::Report::new(scene);
-    for step in 0..scene.motion.positions.len() {
-        let snapshot = draping.advance(step);
-        report.add(&snapshot, &draping.solver);
-        if progress(step + 1).is_break() || draping.equilibria > most {
-            break;
-        }
-    }
-    Drape { result: report.finish(), solving: draping.solving }
+    let (result, _) = draping.run(&mut progress);
+    Drape { result, solving: draping.solving }
 }
 
 /// What the ideal drape knows of each diagonal, where the mold is curved and the drape is known.
@@ -155,6 +148,24 @@ impl<'a> Draping<'a> {
             most: usize::MAX,
             solving: Duration::ZERO,
         }
+    }
+
+    /// Drapes along the whole motion: the record, and the ply where it has come to.
+    pub(crate) fn run(
+        &mut self,
+        progress: &mut impl FnMut(usize) -> ControlFlow<()>,
+    ) -> (ResultFile, Option<Shape>) {
+        let mut report = report::Report::new(self.scene);
+        let mut last = None;
+        for step in 0..self.scene.motion.positions.len() {
+            let snapshot = self.advance(step);
+            report.add(&snapshot, &self.solver);
+            last = Some(snapshot.shape);
+            if progress(step + 1).is_break() || self.equilibria > self.most {
+                break;
+            }
+        }
+        (report.finish(), last)
     }
 
     /// Solves the equilibrium at gripper positions.

@@ -1,7 +1,7 @@
 //! The free spans of a solved ply as curves in space.
 
 use crate::catenary::{Profile, SpanState};
-use crate::equilibrium::{Equilibrium, Solver};
+use crate::equilibrium::{Equilibrium, Solver, StateTangent};
 use crate::mold::distance;
 use crate::ply::{Kind, Laid, Ply};
 
@@ -68,6 +68,23 @@ impl FreeSpan {
             Some(profile) => [line[0], line[1], a[2] + profile.station(t * self.run()).z],
             None => line,
         }
+    }
+
+    /// How its point at a fixed fraction `t` of its run changes (m) along a direction that moves its ends by
+    /// `ends` (m) and the solved state by `tangent`.
+    #[must_use]
+    pub fn point_tangent(&self, t: f64, ends: [Point; 2], tangent: &StateTangent) -> Point {
+        let [a, b] = ends;
+        let line = [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n]));
+        let (Some(profile), Some(element)) = (&self.profile, self.element) else { return line };
+        let ([first, second], [run, rise, length], [weight, rigidity]) =
+            (tangent.end_slopes[element], tangent.spans[element], tangent.loads[element]);
+        let force = tangent.force[element];
+        // in the order of the closed form's variables
+        let change = [force, first, second, run, rise, weight, rigidity, length];
+        let height = profile.stations().height(t);
+        let above: f64 = height.gradient.iter().zip(change).map(|(by, how)| by * how).sum();
+        [line[0], line[1], a[2] + above]
     }
 
     /// Slope at a fraction `t` of its run.

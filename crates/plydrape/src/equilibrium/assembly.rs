@@ -160,9 +160,28 @@ pub struct Build<'a, T> {
     pub positions: &'a [[T; 3]],
     /// What the mold has caught of each catenary.
     pub laid: &'a [Option<Laid>],
-    /// Factors on every fabric length, on the weight and on the flexural rigidity: 1, but for their
-    /// derivatives.
-    pub factors: [T; 3],
+    /// What multiplies the ply's numbers: 1, but for their derivatives.
+    pub factors: Factors<T>,
+}
+
+/// Factors on what a ply is, each for lines along u, lines along v and diagonals.
+#[derive(Debug, Clone, Copy)]
+pub struct Factors<T> {
+    /// On fabric lengths.
+    pub length: [T; 3],
+    /// On the weight.
+    pub weight: [T; 3],
+    /// On the flexural rigidity.
+    pub rigidity: [T; 3],
+}
+
+/// Which of three [`Factors`] is a catenary's.
+pub(super) fn class(kind: Kind) -> usize {
+    match kind {
+        Kind::EdgeU => 0,
+        Kind::EdgeV => 1,
+        Kind::Rising | Kind::Falling => 2,
+    }
 }
 
 impl<T: Number> Build<'_, T> {
@@ -213,7 +232,8 @@ impl<T: Number> Build<'_, T> {
             Some(laid) => {
                 let [a, b] = laid.point().map(constant);
                 let along = laid.line.length() + laid.arch[0] + laid.arch[1];
-                line(ends[0], a).chord + line(b, ends[1]).chord + self.factors[0] * along
+                let factor = self.factors.length[class(self.grid().catenary(catenary).kind)];
+                line(ends[0], a).chord + line(b, ends[1]).chord + factor * along
             }
         }
     }
@@ -278,15 +298,16 @@ impl<T: Number> Assembly<T> {
         line: &Line<T>,
         length: T,
     ) -> Element<T> {
-        let section = build.ply.line(build.grid().catenary(catenary).kind);
+        let kind = build.grid().catenary(catenary).kind;
+        let (section, class) = (build.ply.line(kind), class(kind));
         let mut element = Element {
             catenary,
             rest,
             run: line.run,
             rise: line.rise,
             length,
-            weight: build.factors[1] * (section.mass * build.settings.gravity),
-            rigidity: build.factors[2] * section.flexural_rigidity,
+            weight: build.factors.weight[class] * (section.mass * build.settings.gravity),
+            rigidity: build.factors.rigidity[class] * section.flexural_rigidity,
             ends: [End::Free; 2],
             state: SpanState::Straight,
         };
@@ -301,7 +322,8 @@ impl<T: Number> Assembly<T> {
         let grid = build.grid();
         let c = grid.catenary(catenary);
         let direction = usize::from(c.kind == Kind::EdgeV);
-        let flat = T::from(build.ply.flat_length(c.kind)) * build.factors[0];
+        let factor = build.factors.length[direction];
+        let flat = T::from(build.ply.flat_length(c.kind)) * factor;
         let mut directions = [[T::from(0.0); 2]; 2];
         let mut whole = None;
         for end in 0..2 {
@@ -311,7 +333,7 @@ impl<T: Number> Assembly<T> {
             let side = 1 - end;
             let (hangs, length) = match &build.laid[catenary] {
                 None => (true, flat),
-                Some(laid) => (laid.hangs(end), T::from(laid.rest(end)) * build.factors[0]),
+                Some(laid) => (laid.hangs(end), T::from(laid.rest(end)) * factor),
             };
             let mut seen = Side::Fixed(line.slope());
             if hangs {
@@ -350,11 +372,12 @@ impl<T: Number> Assembly<T> {
         if stretched.is_some_and(|(_, which)| which == falling) {
             return;
         }
-        let flat = T::from(build.ply.flat_length(c.kind)) * build.factors[0];
+        let [along_u, along_v, factor] = build.factors.length;
+        let flat = T::from(build.ply.flat_length(c.kind)) * factor;
         let length = match stretched {
             Some((path, _)) => {
-                let sides = build.ply.sides(cell, build.laid);
-                shear::partner_length(sides.map(|side| build.factors[0] * side), path)
+                let [a, b] = build.ply.sides(cell, build.laid);
+                shear::partner_length([along_u * a, along_v * b], path)
             }
             None => flat,
         };
@@ -369,7 +392,7 @@ impl<T: Number> Assembly<T> {
                     return;
                 }
                 Some(laid) if laid.hangs(rest) => {
-                    let length = T::from(laid.rest(rest)) * build.factors[0];
+                    let length = T::from(laid.rest(rest)) * factor;
                     let mut element = self.element(build, catenary, rest, &line, length);
                     element.ends[rest] = ends[rest];
                     element.ends[1 - rest] = contact_end(build, c.kind, laid, rest, &line);

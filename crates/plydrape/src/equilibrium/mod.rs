@@ -4,9 +4,10 @@
 //! slopes are solved for together. `assembly` states what hangs where, `slopes` what holds it,
 //! `element` differentiates one span,
 //! `min_force` and `moment_balance` are the two rules for the slopes, eqs. (9) and (10) of
-//! `docs/theory.md`, and `tangent` is the exact derivative of the solved state.
+//! `docs/theory.md`, and `tangent` is the exact derivative of the solved state along a `direction`.
 
 mod assembly;
+mod direction;
 mod element;
 mod hessian;
 mod min_force;
@@ -16,8 +17,9 @@ mod solver;
 mod tangent;
 
 pub use assembly::{Assembly, Element, End, Joint, PlaneSlope, Side, SlopeSource};
+pub use direction::{Direction, Property};
 pub use solver::{Equilibrium, Solver, Status};
-pub use tangent::{Direction, Linearized, StateTangent};
+pub use tangent::{Linearized, StateTangent};
 
 use num_dual::DualNum;
 

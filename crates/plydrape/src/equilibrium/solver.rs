@@ -4,7 +4,7 @@
 //! the two rules, read off the forces. Between calls it remembers forces and slopes by place, so an assembly
 //! that has gained or lost a span still starts warm. The iteration allocates nothing.
 
-use super::assembly::{Assembly, Build, Element, End, PlaneSlope, SlopeSource};
+use super::assembly::{Assembly, Build, Element, End, Factors, PlaneSlope, SlopeSource};
 use super::element::{Settled, Wanted, settle, settle_still};
 use super::{min_force, moment_balance};
 use crate::catenary::SpanState;
@@ -187,7 +187,7 @@ impl Solver {
             settings: &self.settings,
             positions,
             laid,
-            factors: [1.0, 1.0, stiffness],
+            factors: Factors { length: [1.0; 3], weight: [1.0; 3], rigidity: [stiffness; 3] },
         };
         self.assembly.rebuild(&build);
         self.recall();

@@ -5,7 +5,8 @@
 //! same assembly and the same rule; what it does to the rule's residual at fixed slopes gives the slopes'
 //! response through the matrix of the last Newton step, and a second pass gives every force.
 
-use super::assembly::{Assembly, Build, End, Side, SlopeSource};
+use super::assembly::{Assembly, Build, End, Factors, Side, SlopeSource};
+use super::direction::Direction;
 use super::element::{Settled, Wanted, settle};
 use super::hessian::assemble;
 use super::min_force::{self, Response};
@@ -15,27 +16,6 @@ use crate::catenary::{Jet, SpanState};
 use crate::ply::Laid;
 use crate::scene::SlopeRule;
 use num_dual::Dual64;
-
-/// A direction in which a ply's circumstances change.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Direction {
-    /// Velocity of each gripper (m), in the order of [`crate::ply::Grid::index`].
-    pub grippers: Vec<[f64; 3]>,
-    /// Relative change of all fabric lengths.
-    pub length: f64,
-    /// Relative change of the weight.
-    pub weight: f64,
-    /// Relative change of the flexural rigidity.
-    pub rigidity: f64,
-}
-
-impl Direction {
-    /// No change, for `grippers` grippers.
-    #[must_use]
-    pub fn none(grippers: usize) -> Direction {
-        Direction { grippers: vec![[0.0; 3]; grippers], length: 0.0, weight: 0.0, rigidity: 0.0 }
-    }
-}
 
 /// How the solved state changes along a [`Direction`].
 #[derive(Debug, Clone, PartialEq)]
@@ -48,6 +28,8 @@ pub struct StateTangent {
     pub end_slopes: Vec<[f64; 2]>,
     /// Change of each element's run, rise and fabric length (m).
     pub spans: Vec<[f64; 3]>,
+    /// Change of each element's weight per length (N/m) and flexural rigidity (N·m²).
+    pub loads: Vec<[f64; 2]>,
     /// Change of the taut path of each cell's stretched diagonal (m); 0 where none is.
     pub paths: Vec<f64>,
     /// Change of the slopes along u and v that a shearing diagonal governs at each gripper; 0 where none.
@@ -96,17 +78,17 @@ impl Linearized<'_> {
         self.moving.clear();
         let moved = self.positions.iter().zip(&direction.grippers);
         self.moving.extend(moved.map(|(p, v)| [0, 1, 2].map(|n| Dual64::new(p[n], v[n]))));
-        let factor = |change| Dual64::new(1.0, change);
+        let factors = |changes: [f64; 3]| changes.map(|change| Dual64::new(1.0, change));
         self.assembly.rebuild(&Build {
             ply: &self.solver.ply,
             settings: &self.solver.settings,
             positions: &self.moving,
             laid: self.laid,
-            factors: [
-                factor(direction.length),
-                factor(direction.weight),
-                factor(direction.rigidity),
-            ],
+            factors: Factors {
+                length: factors(direction.length),
+                weight: factors(direction.weight),
+                rigidity: factors(direction.rigidity),
+            },
         });
 
         // what the direction does to the rule at fixed slopes
@@ -146,6 +128,7 @@ impl Linearized<'_> {
             spans: (assembly.elements.iter())
                 .map(|e| [e.run.eps, e.rise.eps, e.length.eps])
                 .collect(),
+            loads: assembly.elements.iter().map(|e| [e.weight.eps, e.rigidity.eps]).collect(),
             paths: assembly.shearing.iter().map(|s| s.map_or(0.0, |(path, _)| path.eps)).collect(),
             governed: (assembly.governed.iter())
                 .map(|g| g.map(|slope| slope.map_or(0.0, |s| s.eps)))

@@ -20,6 +20,16 @@ pub fn angle([a, b]: [f64; 2], stretched: f64) -> f64 {
     sine.clamp(-1.0, 1.0).asin()
 }
 
+/// How the shear angle (rad) changes with the sides a, b and the stretched diagonal, each changing by so much (m);
+/// 0 where the cell has folded.
+#[must_use]
+pub fn angle_tangent(sides: [f64; 2], stretched: f64, change: [f64; 3]) -> f64 {
+    let ([a, b], [da, db, dd]) = (sides, change);
+    let (sine, cosine) = angle(sides, stretched).sin_cos();
+    let rate = (stretched * dd - a * da - b * db) / (a * b) - sine * (da / a + db / b);
+    if cosine > 1e-6 { rate / cosine } else { 0.0 }
+}
+
 /// Set length (m) of the diagonal across the stretched one: √(2(a²+b²) − d₁²).
 ///
 /// A stretched diagonal close to a + b has folded the cell; its partner keeps a millionth of a side.

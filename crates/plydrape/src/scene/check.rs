@@ -199,7 +199,7 @@ fn settings(file: &SceneFile, ply: &Ply, document: &Document) -> Result<Settings
             }
             value
         }
-        None => 2e-4,
+        None => Contact::default().tolerance,
     };
     Ok(Settings {
         slopes: match model.slopes {

@@ -258,6 +258,12 @@ pub struct Contact {
     pub end: ContactEnd,
 }
 
+impl Default for Contact {
+    fn default() -> Self {
+        Contact { tolerance: 2e-4, stepping: Stepping::Cut, end: ContactEnd::Free }
+    }
+}
+
 /// When contact is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -7,12 +7,14 @@
 //! just touches.
 //!
 //! `span` holds what one span has to say, `touch` what it and the mold have, `gripper` what belongs to
-//! grippers and cells.
+//! grippers and cells, `outcome` all of it where a drape has come to.
 
 mod gripper;
+mod outcome;
 mod span;
 mod touch;
 
+pub use outcome::{Outcome, outcome};
 pub use span::Place;
 
 use crate::draping::spans::{FreeSpan, Point, Shape};

@@ -1,0 +1,100 @@
+//! `plydrape study`: many scenes made of one, by the Python package.
+//!
+//! Sampling, Parquet and clusters are Python's; this command finds Python, hands its arguments over
+//! and passes the exit code on.
+
+use crate::diagnostic::{Done, Failure};
+use std::env;
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::{Command, ExitCode};
+
+/// Drape many scenes made of one: a grid or a random sample of its numbers.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The rows go to DIR/study.parquet, their distributions to DIR/summary.html. An interrupted study goes \
+on with the same command. It runs by the Python package: pip install 'plydrape[study]'; \
+PLYDRAPE_PYTHON names the Python that has it, python3 unless given. Exit codes: 0 done, 2 bad \
+input, 130 interrupted.")]
+pub struct Arguments {
+    /// The study file, TOML.
+    study: PathBuf,
+
+    /// Folder of the rows; NAME.results beside NAME.toml unless given.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+
+    /// Address of a Dask scheduler, as in tcp://10.0.0.1:8786; processes of this machine unless given.
+    #[arg(long, value_name = "ADDRESS")]
+    scheduler: Option<String>,
+
+    /// Number of processes on this machine; one a core unless given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    workers: Option<u32>,
+}
+
+/// Exit code of [`PROGRAM`] where there is no package.
+const MISSING: i32 = 97;
+
+/// What Python runs: the command of the package, by a way that takes no folder named `plydrape` in the
+/// current one for it.
+const PROGRAM: &str = "\
+import sys
+sys.path = [path for path in sys.path if path]
+try:
+    from plydrape.study.__main__ import main
+except ImportError as error:
+    if error.name not in ('plydrape', 'plydrape.study'):
+        print(error, file=sys.stderr)
+    sys.exit(97)
+sys.exit(main())
+";
+
+/// Runs the study in Python.
+pub fn run(arguments: &Arguments, quiet: bool) -> Done {
+    let python = env::var_os("PLYDRAPE_PYTHON").filter(|name| !name.is_empty());
+    let python = python.unwrap_or_else(|| "python3".into());
+
+    // Ctrl-C reaches both: Python keeps what is finished and says how to go on; here it is waited for.
+    let _ = ctrlc::set_handler(|| ());
+    let status = Command::new(&python)
+        .args(["-c", PROGRAM])
+        .args(words(arguments, quiet))
+        .status()
+        .map_err(|fault| Failure::Argument {
+            message: format!("Python cannot be run as `{}`: {fault}", python.display()),
+            help: "install Python 3.10 or newer, or name it in PLYDRAPE_PYTHON".into(),
+        })?;
+    match status.code() {
+        Some(MISSING) => Err(Failure::Argument {
+            message: format!("the Python `{}` has no package plydrape", python.display()),
+            help: "pip install 'plydrape[study]', or name a Python that has it in PLYDRAPE_PYTHON"
+                .into(),
+        }),
+        // Without a code it was ended by a signal.
+        code => Ok(ExitCode::from(code.and_then(|code| u8::try_from(code).ok()).unwrap_or(130))),
+    }
+}
+
+/// The arguments once more, for Python.
+fn words(arguments: &Arguments, quiet: bool) -> Vec<OsString> {
+    let mut words: Vec<OsString> = Vec::new();
+    let options = [
+        ("--output", arguments.output.clone().map(OsString::from)),
+        ("--scheduler", arguments.scheduler.clone().map(OsString::from)),
+        ("--workers", arguments.workers.map(|count| count.to_string().into())),
+    ];
+    for (name, value) in options {
+        if let Some(value) = value {
+            // In one word, so that a value may begin with a dash.
+            let mut word = OsString::from(format!("{name}="));
+            word.push(value);
+            words.push(word);
+        }
+    }
+    if quiet {
+        words.push("--quiet".into());
+    }
+    words.extend(["--".into(), arguments.study.clone().into()]);
+    words
+}

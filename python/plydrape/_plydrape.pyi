@@ -1,0 +1,1223 @@
+# Made by scripts/stubs from crates/plydrape-py.
+
+import typing
+
+import matplotlib.figure
+import numpy.typing
+import plydrape.notebook
+import pyvista
+
+"""
+The compiled part of `plydrape`.
+"""
+
+from os import PathLike
+from pathlib import Path
+from typing import Any, Final, SupportsFloat, SupportsIndex, final
+
+from _typeshed import SupportsGetItem, SupportsLenAndGetItem
+from numpy import bool_, float64, int64, uint32
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "__version__",
+    "Equilibria",
+    "Equilibrium",
+    "Foot",
+    "Jacobian",
+    "Material",
+    "Mold",
+    "Net",
+    "Outcome",
+    "Plan",
+    "Ply",
+    "Result",
+    "Scene",
+    "Solver",
+    "Span",
+    "Surface",
+    "equilibria",
+    "materials",
+    "outcome",
+    "plan",
+    "simulate",
+    "simulate_all",
+]
+
+__version__: Final[str]
+"""
+Version of the package and of the library in it.
+"""
+
+@final
+class Equilibria:
+    """
+    Many equilibria of one ply. Catenaries are counted as in `Ply`.
+    """
+    def __len__(self, /) -> int: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def converged(self, /) -> NDArray[bool_]:
+        """
+        Whether each was found, shape (n,).
+        """
+    @property
+    def forces(self, /) -> NDArray[float64]:
+        """
+        Horizontal forces (N), shape (n, catenaries); nan of stretched diagonals and straight catenaries.
+        """
+    @property
+    def iterations(self, /) -> NDArray[int64]:
+        """
+        Iterations on the shared slopes, shape (n,).
+        """
+    @property
+    def shear(self, /) -> NDArray[float64]:
+        """
+        Shear angles (rad), shape (n, cells); 0 where no diagonal is stretched.
+        """
+    @property
+    def slopes(self, /) -> NDArray[float64]:
+        """
+        Slopes at the ends of each catenary, shape (n, catenaries, 2).
+        """
+
+@final
+class Equilibrium:
+    """
+    A ply that hangs: forces, slopes, shape, and how they change.
+
+    Catenaries are counted as in `Ply`.
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def forces(self, /) -> NDArray[float64]:
+        """
+        Horizontal force of each catenary (N), shape (catenaries,); nan of a stretched diagonal or a straight one.
+        """
+    @property
+    def iterations(self, /) -> int:
+        """
+        Iterations on the shared slopes.
+        """
+    def jacobian(self, /, *, wrt: typing.Literal["grippers", "lengths", "material"]) -> Jacobian:
+        """
+        Exact derivatives of the equilibrium, by the implicit function theorem.
+
+        They hold where the equilibrium is smooth: not where a diagonal just begins to shear, or a slope just
+        reaches its limit.
+
+        Args:
+            wrt: To what: grippers, their positions (m), axes (grippers, 3); "lengths", the fabric of a cell along
+                u and v (m), axis (2,); "material", its `names`, axis (names,): mass and rigidities in SI units.
+
+        Raises:
+            ValueError: If there is no such `wrt`.
+            SolveError: If the equilibrium was not found, or a rigidity is zero: it has no neighbourhood.
+
+        Example:
+            >>> ply = plydrape.Ply(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018")
+            >>> equilibrium = plydrape.Solver(ply).solve([[0, 0, 0], [0.098, 0, 0]])
+            >>> jacobian = equilibrium.jacobian(wrt="grippers")
+            >>> jacobian.forces.shape, jacobian.points(5).shape
+            ((1, 2, 3), (1, 5, 3, 2, 3))
+        """
+    def points(self, /, stations: SupportsIndex = 17) -> NDArray[float64]:
+        """
+        Points along each catenary (m) at equal parts of its run, shape (catenaries, stations, 3).
+        """
+    @property
+    def positions(self, /) -> NDArray[float64]:
+        """
+        Positions of the grippers (m), shape (grippers, 3).
+        """
+    @property
+    def residual(self, /) -> float:
+        """
+        Newton step of the slopes still to go.
+        """
+    @property
+    def shear(self, /) -> NDArray[float64]:
+        """
+        Shear angle of each cell (rad), shape (cells,), those along u first; 0 where no diagonal is stretched.
+        """
+    @property
+    def slopes(self, /) -> NDArray[float64]:
+        """
+        Slopes at the ends of each catenary, shape (catenaries, 2).
+        """
+    @property
+    def status(self, /) -> str:
+        """
+        How the solve ended: converged, "stalled" or "iteration-limit".
+        """
+
+@final
+class Foot:
+    """
+    What lies closest to points.
+    """
+    @property
+    def beyond(self, /) -> NDArray[bool_]:
+        """
+        Where a point is off to the side of an open border: there is no mold, shape (n,).
+        """
+    @property
+    def distances(self, /) -> NDArray[float64]:
+        """
+        Distances (m), negative inside the mold, shape (n,).
+        """
+    @property
+    def normals(self, /) -> NDArray[float64]:
+        """
+        Smooth unit normals of the mold there, out of it, shape (n, 3).
+        """
+    @property
+    def points(self, /) -> NDArray[float64]:
+        """
+        The closest points of the mold (m), shape (n, 3).
+        """
+
+@final
+class Jacobian:
+    """
+    Derivatives of an `Equilibrium`: each array has the axes of what is differentiated, then those of `wrt`.
+    """
+    @property
+    def forces(self, /) -> NDArray[float64]:
+        """
+        Derivatives of the forces (N), shape (catenaries, …); nan where there is no force.
+        """
+    @property
+    def names(self, /) -> list[str]:
+        """
+        What the last axis stands for: x, "y", "z"; "u", "v"; or keys of the material.
+        """
+    def points(self, /, stations: SupportsIndex = 17) -> NDArray[float64]:
+        """
+        Derivatives of the points (m) at fixed parts of the runs, shape (catenaries, stations, 3, …).
+        """
+    @property
+    def shear(self, /) -> NDArray[float64]:
+        """
+        Derivatives of the shear angles (rad), shape (cells, …); 0 where no diagonal is stretched.
+        """
+    @property
+    def slopes(self, /) -> NDArray[float64]:
+        """
+        Derivatives of the end slopes, shape (catenaries, 2, …).
+        """
+
+@final
+class Material:
+    """
+    What a ply is made of: mass, flexural rigidity, shear curve and locking angle.
+
+    Example:
+        >>> material = plydrape.Material.shipped("krogh2018")
+        >>> material.mass, material.flexural_rigidity
+        (0.3143, 9e-06)
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def areal(self, /) -> bool:
+        """
+        Whether its numbers are per area; else they belong to each catenary, as in Krogh et al. 2018.
+        """
+    @property
+    def bending_rigidity(self, /) -> tuple[float, float] | None:
+        """
+        Bending rigidity per width along warp and weft (N·m); None unless `areal`.
+        """
+    @property
+    def flexural_rigidity(self, /) -> float | None:
+        """
+        Flexural rigidity EI of a catenary (N·m²); None if `areal`.
+        """
+    @property
+    def locking_angle(self, /) -> float | None:
+        """
+        Shear angle at which the weave locks (rad), where it is known.
+        """
+    @property
+    def mass(self, /) -> float:
+        """
+        Mass per length (kg/m), or per area (kg/m²) if `areal`.
+        """
+    @property
+    def name(self, /) -> str:
+        """
+        Its name for reports.
+        """
+    def shear_force(self, /, angles: ArrayLike) -> NDArray[float64] | None:
+        """
+        Shear force per length (N/m) at shear angles (rad), shape (n,); None if the material has no shear curve.
+        """
+    @staticmethod
+    def shipped(name: str) -> Material:
+        """
+        A material that comes with plydrape, see `materials`.
+
+        Raises:
+            ValueError: If there is none of that name.
+        """
+    @property
+    def source(self, /) -> str:
+        """
+        Where its numbers come from.
+        """
+    @staticmethod
+    def text(name: str) -> str:
+        """
+        The file of a material that comes with plydrape: TOML.
+
+        Raises:
+            ValueError: If there is none of that name.
+        """
+
+@final
+class Mold:
+    """
+    What a ply is laid on. Scenes have one; triangles of your own make one.
+
+    Example:
+        >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+        >>> mold.kind
+        'sphere'
+    """
+    def __repr__(self, /) -> str: ...
+    def foot(self, /, points: ArrayLike) -> Foot:
+        """
+        What lies closest to points (m), shape (n, 3).
+
+        Example:
+            >>> mold = plydrape.Scene.read("examples/03_tilted_plane/scene.toml").mold
+            >>> foot = mold.foot([[0, 0, 1]])
+            >>> foot.points.shape, foot.distances.shape
+            ((1, 3), (1,))
+        """
+    def heights(self, /, places: ArrayLike) -> NDArray[float64]:
+        """
+        Height of its highest point over places of the plan (m), nan where there is none.
+
+        Args:
+            places: x and y (m), shape (n, 2).
+        """
+    @property
+    def kind(self, /) -> str:
+        """
+        Its kind: plane, "cylinder", "sphere", "torus", "graph" or "mesh".
+        """
+    def patch(
+        self,
+        /,
+        low: SupportsLenAndGetItem[SupportsFloat | SupportsIndex],
+        high: SupportsLenAndGetItem[SupportsFloat | SupportsIndex],
+        *,
+        most: SupportsIndex = 20000,
+    ) -> tuple[NDArray[float64], NDArray[uint32]]:
+        """
+        The mold over a rectangle of the plan as triangles.
+
+        Args:
+            low: Lowest x and y (m).
+            high: Highest x and y (m).
+            most: About how many triangles at most.
+
+        Returns:
+            Points (m), shape (n, 3), and the indices of each triangle's corners, shape (m, 3).
+        """
+    @staticmethod
+    def triangles(points: ArrayLike, triangles: numpy.typing.ArrayLike) -> Mold:
+        """
+        A mold of triangles, such as a mesher or a CAD reader makes them; vertices at one place are merged and
+        triangles turned to one side.
+
+        Args:
+            points: Corners (m), shape (n, 3).
+            triangles: Indices of each triangle's corners, shape (m, 3).
+
+        Raises:
+            ValueError: If the triangles are no mold: empty, without area, or not a surface.
+
+        Example:
+            >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+            >>> mold = plydrape.Mold.triangles(square, [[0, 1, 2], [0, 2, 3]])
+            >>> mold.heights([[0.5, 0.25]])
+            array([0.])
+        """
+
+@final
+class Net:
+    """
+    The ideal drape: the fabric as a pin-jointed net on the mold.
+
+    Example:
+        >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
+        >>> net.nodes.shape
+        (24, 24, 3)
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def largest_edge_error(self, /) -> float:
+        """
+        Largest error of a length between neighbouring nodes (m).
+        """
+    @property
+    def mesh(self, /) -> tuple[float, float]:
+        """
+        Fabric between neighbouring nodes along u and v (m).
+        """
+    @property
+    def missing(self, /) -> list[tuple[tuple[int, int], str]]:
+        """
+        Why each node without a place has none, those closest to the seed first: indices and reason.
+        """
+    @property
+    def nodes(self, /) -> NDArray[float64]:
+        """
+        Places of the nodes (m), shape (along u, along v, 3); nan where a node has no place on the mold.
+        """
+    @staticmethod
+    def read(path: str | PathLike[str]) -> Net:
+        """
+        Lays the ply of a scene file on its mold, whether or not grippers could bring it there, as `plydrape net`
+        does.
+
+        Raises:
+            SceneError: If the file has no `[ply]`, `[mold]` and `[target]` that make sense.
+        """
+    @property
+    def shear_deg(self, /) -> NDArray[float64]:
+        """
+        Shear angle of each cell (°), shape (along u − 1, along v − 1); nan where a corner has no place.
+        """
+
+@final
+class Outcome:
+    """
+    The last step of a drape with its derivatives to where the grippers are in it.
+
+    What the mold has caught by then is held: the derivatives are those of the outcome to the grippers' targets as
+    long as a slightly different last step catches nothing more, and exact where the state is smooth.
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def forces(self, /) -> NDArray[float64]:
+        """
+        Horizontal force of each catenary (N), shape (catenaries,); nan where there is none.
+        """
+    @property
+    def forces_jacobian(self, /) -> NDArray[float64]:
+        """
+        Its derivatives to the grippers' positions (N/m), shape (catenaries, grippers, 3).
+        """
+    @property
+    def overstretch(self, /) -> NDArray[float64]:
+        """
+        Distance of the ends of each catenary's tightest free span beyond its fabric (m), negative where it is slack,
+        shape (catenaries,); nan where it lies from end to end.
+        """
+    @property
+    def overstretch_jacobian(self, /) -> NDArray[float64]:
+        """
+        Its derivatives to the grippers' positions, shape (catenaries, grippers, 3).
+        """
+    @property
+    def result(self, /) -> Result:
+        """
+        The drape.
+        """
+    @property
+    def shear(self, /) -> NDArray[float64]:
+        """
+        Shear angle of each cell (rad), shape (cells,), those along u first; nan where it does not shear.
+        """
+    @property
+    def shear_jacobian(self, /) -> NDArray[float64]:
+        """
+        Its derivatives to the grippers' positions (rad/m), shape (cells, grippers, 3).
+        """
+    @property
+    def tilts(self, /) -> NDArray[float64]:
+        """
+        Angle between the ply's normal at each gripper and the vertical (rad), shape (grippers,).
+        """
+    @property
+    def tilts_jacobian(self, /) -> NDArray[float64]:
+        """
+        Its derivatives to the grippers' positions (rad/m), shape (grippers, grippers, 3); 0 at a level gripper.
+        """
+
+@final
+class Plan:
+    """
+    A planned motion, and the drape along it.
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def accepted(self, /) -> bool:
+        """
+        Whether every limit is kept.
+        """
+    @property
+    def duration(self, /) -> float:
+        """
+        How long the motion takes (s).
+        """
+    @property
+    def evaluations(self, /) -> int:
+        """
+        Complete drapes that the search tried; of the stepwise planner, steps.
+        """
+    @property
+    def memory(self, /) -> str:
+        """
+        What a later search can go on from: the text of plan.json.
+        """
+    @property
+    def method(self, /) -> str:
+        """
+        The planner: "path" or "stepwise".
+        """
+    def motion(self, /, times: ArrayLike) -> dict[str, NDArray[float64]]:
+        """
+        The grippers at any times of the motion.
+
+        Args:
+            times: Times (s), shape (n,).
+
+        Returns:
+            "positions", "velocities", "accelerations" and "jerks" (m, s), each of shape (n, grippers, 3).
+        """
+    @property
+    def positions(self, /) -> NDArray[float64]:
+        """
+        Planned positions of the grippers (m), shape (steps, grippers, 3): control points of the smooth motion.
+        """
+    @property
+    def result(self, /) -> Result:
+        """
+        The drape along the planned motion, with all limits judged.
+        """
+    @property
+    def times(self, /) -> NDArray[float64]:
+        """
+        Time of each planned step (s), shape (steps,).
+        """
+    def write(self, /, folder: str | PathLike[str]) -> list[Path]:
+        """
+        Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json into a
+        folder, all or none, and returns their paths.
+
+        Raises:
+            OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+        """
+
+@final
+class Ply:
+    """
+    A rectangular woven ply held by a grid of grippers.
+
+    Grippers are counted with i, along u, running fastest. Catenaries are counted: edges along u, edges along
+    v, then two diagonals a cell, the one from `[i, j]` to `[i + 1, j + 1]` first.
+
+    Args:
+        grippers: How many there are along u and v; `[n, 1]` is a strip.
+        cell: Fabric length between neighbours along u and v, in m or as str with a unit.
+        material: Name of a shipped material, path of a .toml file, or a dict of its keys.
+        warp: Grid direction of the warp, "u" or "v".
+        base: Folder of a material file.
+
+    Raises:
+        SceneError: If a value makes no sense.
+
+    Example:
+        >>> ply = plydrape.Ply(grippers=[4, 2], cell=["100 mm", "100 mm"], material="krogh2018")
+        >>> len(ply.catenaries)
+        16
+    """
+    def __new__(
+        cls,
+        /,
+        *,
+        grippers: typing.Sequence[int],
+        cell: typing.Sequence[float | str],
+        material: str | dict[str, typing.Any],
+        warp: str = "u",
+        base: str | PathLike[str] = ...,
+    ) -> Ply: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def catenaries(self, /) -> NDArray[int64]:
+        """
+        Grippers at the ends of each catenary, shape (catenaries, 2).
+        """
+    @property
+    def cell(self, /) -> tuple[float, float]:
+        """
+        Fabric length of a cell along u and v (m).
+        """
+    @property
+    def grippers(self, /) -> tuple[int, int]:
+        """
+        Grippers along u and v.
+        """
+    @property
+    def lengths(self, /) -> NDArray[float64]:
+        """
+        Fabric length of each catenary of the flat ply (m), shape (catenaries,).
+        """
+    @property
+    def material(self, /) -> Material:
+        """
+        What it is made of.
+        """
+    @property
+    def warp(self, /) -> str:
+        """
+        Grid direction of the warp: "u" or "v".
+        """
+
+@final
+class Result:
+    """
+    A drape: every force, shape, contact and measure of every step, and the verdict.
+
+    Arrays are in m, N, s unless the name says otherwise. Grippers are counted with i running fastest,
+    catenaries as in `Ply`. Steps count from 1, the start; −1 is the last.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> result.positions.shape, result.summary["first_contact_step"]
+        ((30, 8, 3), 26)
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def accepted(self, /) -> bool:
+        """
+        Whether every limit holds.
+        """
+    @property
+    def contact(self, /) -> NDArray[float64]:
+        """
+        Fabric length of each catenary that the mold has caught (m), shape (steps, catenaries).
+        """
+    @property
+    def converged(self, /) -> bool:
+        """
+        Whether every equilibrium was found.
+        """
+    def export(
+        self, /, to: typing.Literal["vtk", "inp", "ros2", "csv", "svg"], folder: str | PathLike[str]
+    ) -> list[Path]:
+        """
+        Writes files for another program into a folder, all or none, and returns their paths.
+
+        Args:
+            to: vtk, "inp", "ros2", "csv" or "svg".
+            folder: Where they go; other files there stay.
+
+        Raises:
+            OutputError: If that cannot be done.
+            ValueError: If there is no such format.
+        """
+    @property
+    def forces(self, /) -> NDArray[float64]:
+        """
+        Horizontal force of each catenary (N), shape (steps, catenaries): of its rest that pulls or pushes most; of
+        a stretched diagonal its shear force. nan where the model gives none.
+        """
+    @property
+    def grid(self, /) -> tuple[int, int]:
+        """
+        Grippers along u and v.
+        """
+    def html(self, /) -> str:
+        """
+        The page of `plydrape report`: one HTML file for any browser.
+        """
+    @property
+    def limits(self, /) -> list[dict[str, Any]]:
+        """
+        Every limit, judged: dicts with name, value, limit, unit, ok, step, where and place.
+        """
+    def lines(self, /, step: SupportsIndex) -> list[NDArray[float64]]:
+        """
+        Each catenary of a step as a line from gripper to gripper (m), arrays of shape (n, 3).
+        """
+    @property
+    def measures(self, /) -> dict[str, NDArray[float64]]:
+        """
+        The worst value of every measure in each step, by name, each of shape (steps,); nan where it has no
+        meaning. The unit is part of the name, ratios have none.
+        """
+    @property
+    def mold(self, /) -> Mold | None:
+        """
+        Its mold, if any.
+        """
+    def mold_surface(
+        self, /, *, most: SupportsIndex = 20000
+    ) -> tuple[NDArray[float64], NDArray[uint32]] | None:
+        """
+        The mold under all steps and the target in about `most` triangles: points (m), shape (n, 3), and corners,
+        shape (m, 3). None without a mold there.
+        """
+    @property
+    def net(self, /) -> Net | None:
+        """
+        The ideal drape, where it is known.
+        """
+    @staticmethod
+    def parse(text: str) -> Result:
+        """
+        Reads the text of a result.json.
+
+        Raises:
+            ResultError: As `read`.
+        """
+    def plot(
+        self, /, kind: typing.Literal["steps", "measures", "shear"] = "steps", **options: typing.Any
+    ) -> matplotlib.figure.Figure:
+        """
+        A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs `plydrape[plot]`.
+
+        Args:
+            kind: steps, "measures" or "shear".
+            options: Those of the function of that name in `plydrape.plot`.
+        """
+    @property
+    def positions(self, /) -> NDArray[float64]:
+        """
+        Positions of the grippers (m), shape (steps, grippers, 3).
+        """
+    @property
+    def program(self, /) -> str:
+        """
+        Name and version of the program that made it.
+        """
+    @property
+    def quaternions(self, /) -> NDArray[float64]:
+        """
+        Orientations of the grippers as quaternions x, y, z, w, shape (steps, grippers, 4): z along the ply's
+        normal, x along u.
+        """
+    @staticmethod
+    def read(path: str | PathLike[str]) -> Result:
+        """
+        Reads a result.json.
+
+        Raises:
+            ResultError: If it cannot be read, or is not, to the last byte, what this version writes.
+        """
+    def report(self, /, path: str | PathLike[str]) -> Path:
+        """
+        Writes the page into a file and returns its path.
+
+        Raises:
+            OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+        """
+    def scene3d(self, /, step: SupportsIndex = ..., **options: typing.Any) -> pyvista.Plotter:
+        """
+        A scene of PyVista: see `plydrape.view`. Needs `plydrape[plot]`.
+
+        Args:
+            step: Which step.
+            options: Those of `plydrape.view.scene3d`.
+        """
+    @property
+    def scene_text(self, /) -> str | None:
+        """
+        The text of its scene, where it had one.
+        """
+    @property
+    def shear_deg(self, /) -> NDArray[float64]:
+        """
+        Shear angle of each cell (°), shape (steps, cells along v, cells along u); 0 where no diagonal shears.
+        """
+    def show(self, /, *, height: SupportsIndex = 640) -> plydrape.notebook.Page:
+        """
+        The page of the result inside a notebook.
+
+        Args:
+            height: Height of the frame (pixels).
+        """
+    @property
+    def slack_mm(self, /) -> NDArray[float64]:
+        """
+        Slack of each catenary (mm), shape (steps, catenaries): all of its rests.
+        """
+    @property
+    def summary(self, /) -> dict[str, Any]:
+        """
+        The outcome: the `summary` of result.json.
+        """
+    def surface(self, /, step: SupportsIndex, *, intervals: SupportsIndex = 8) -> Surface:
+        """
+        The ply of a step as a surface with so many intervals along each side of a cell.
+        """
+    def svg(self, /, steps: SupportsGetItem[int, SupportsIndex] | None = None) -> str:
+        """
+        The figure of chosen steps as SVG, unless given of those that figure.svg shows.
+        """
+    @property
+    def tilts_deg(self, /) -> NDArray[float64]:
+        """
+        Angles between the ply's normal at the grippers and the vertical (°), shape (steps, grippers).
+        """
+    @property
+    def times(self, /) -> NDArray[float64]:
+        """
+        Time of each step (s), shape (steps,).
+        """
+    @property
+    def title(self, /) -> str:
+        """
+        Title of its scene.
+        """
+    def to_dict(self, /) -> dict[str, Any]:
+        """
+        The whole result.json as dicts and lists.
+        """
+    def to_json(self, /) -> str:
+        """
+        The text of result.json, with its check sum.
+        """
+    def write(self, /, folder: str | PathLike[str]) -> list[Path]:
+        """
+        Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, and of a plan motion.csv, into a
+        folder, all or none, and returns their paths.
+
+        Raises:
+            OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+        """
+
+@final
+class Scene:
+    """
+    A checked scene: the ply, its grippers, the mold, and where all of it goes.
+
+    Every argument is a dict with the keys of the table of that name in a scene file; plain numbers are in SI
+    units, a str carries its unit. Arrays may stand for lists. `mold` may also be a `Mold`.
+
+    Args:
+        ply: What hangs between the grippers: `grippers`, `cell`, `material`, `warp`.
+        mold: What the ply is laid on.
+        grippers: Where the grippers start.
+        target: Where the ply shall end.
+        motion: How the grippers move.
+        model: Rules of the model.
+        contact: How contact is found.
+        limits: What an accepted drape keeps to.
+        plan: How a motion is planned.
+        title: Name for reports.
+        base: Folder of files that the tables name.
+
+    Raises:
+        SceneError: If the scene makes no sense; it names the place, the fault and a remedy.
+
+    Example:
+        >>> scene = plydrape.Scene(
+        ...     ply=dict(grippers=[4, 2], cell=[0.1, 0.1], material="krogh2018"),
+        ...     mold=dict(kind="plane"),
+        ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
+        ...     target=dict(origin=[0, 0], direction="20 deg", shear="20 deg"),
+        ... )
+        >>> scene.positions.shape
+        (30, 8, 3)
+    """
+    def __new__(
+        cls,
+        /,
+        *,
+        ply: dict[str, typing.Any],
+        mold: dict[str, typing.Any] | Mold | None = None,
+        grippers: dict[str, typing.Any] | None = None,
+        target: dict[str, typing.Any] | None = None,
+        motion: dict[str, typing.Any] | None = None,
+        model: dict[str, typing.Any] | None = None,
+        contact: dict[str, typing.Any] | None = None,
+        limits: dict[str, typing.Any] | None = None,
+        plan: dict[str, typing.Any] | None = None,
+        title: str | None = None,
+        base: str | PathLike[str] = ...,
+    ) -> Scene: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def mold(self, /) -> Mold | None:
+        """
+        What it is laid on, if anything.
+        """
+    @property
+    def net(self, /) -> Net | None:
+        """
+        The ideal drape that its target is taken from, where there is one.
+        """
+    @staticmethod
+    def parse(text: str, *, base: str | PathLike[str] = ..., name: str = "scene.toml") -> Scene:
+        """
+        Reads and checks the text of a scene file.
+
+        Args:
+            text: TOML, see the guide and docs/scene.schema.json.
+            base: Folder of the files that it names.
+            name: What it is called in errors.
+
+        Raises:
+            SceneError: If it makes no sense.
+
+        Example:
+            >>> plydrape.Scene.parse(plydrape.Scene.template()).mold.kind
+            'plane'
+        """
+    @property
+    def ply(self, /) -> Ply:
+        """
+        What hangs between the grippers.
+        """
+    @property
+    def positions(self, /) -> NDArray[float64]:
+        """
+        Positions of the grippers in each step (m), shape (steps, grippers, 3), i running fastest.
+        """
+    @staticmethod
+    def read(path: str | PathLike[str]) -> Scene:
+        """
+        Reads and checks a scene file; files it names are relative to its folder.
+
+        Raises:
+            SceneError: If it cannot be read or makes no sense.
+
+        Example:
+            >>> plydrape.Scene.read("examples/02_hanging_strip/scene.toml").ply.grippers
+            (2, 1)
+        """
+    @property
+    def target(self, /) -> NDArray[float64] | None:
+        """
+        Where the ideal drape puts the grippers (m), shape (grippers, 3), if the ply is to be draped.
+        """
+    @staticmethod
+    def template() -> str:
+        """
+        The text of a commented scene to start from, as `plydrape new` writes it.
+        """
+    @property
+    def text(self, /) -> str | None:
+        """
+        The text of its file, or the one that its keyword arguments stand for; None if it was made otherwise.
+        """
+    @property
+    def times(self, /) -> NDArray[float64]:
+        """
+        Time of each step (s), shape (steps,).
+        """
+    @property
+    def title(self, /) -> str:
+        """
+        Its name for reports.
+        """
+    def with_motion(
+        self, /, times: ArrayLike, positions: ArrayLike, *, title: str | None = None
+    ) -> Scene:
+        """
+        The same scene along another motion. It has no `text`, as no scene file says it.
+
+        Args:
+            times: Time of each step (s), ascending, shape (steps,).
+            positions: Positions of the grippers (m), shape (steps, grippers, 3).
+            title: Name for reports, unless it stays.
+
+        Raises:
+            ValueError: If the shapes do not fit, a number is not finite, or times do not ascend.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> higher = scene.with_motion(scene.times, scene.positions + [0, 0, 0.01])
+            >>> float((higher.positions - scene.positions).max().round(9))
+            0.01
+        """
+
+@final
+class Solver:
+    """
+    Finds equilibria of a hanging ply, one after another: each starts from the last one.
+
+    Args:
+        ply: What hangs.
+        slopes: How shared slopes are found: moment-balance, or "min-force" as in Krogh et al. 2018.
+        axial_stiffness: EA of a line of ply (N); infinite for an inextensible ply.
+        gravity: Acceleration of gravity (m/s²).
+        max_tilt: Limit of the ball joints (rad).
+
+    Raises:
+        ValueError: If a number makes no sense.
+
+    Example:
+        >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
+        >>> solver = plydrape.Solver(ply)
+        >>> equilibrium = solver.solve([[0.098 * i, 0, 0] for i in range(4)])
+        >>> equilibrium.status
+        'converged'
+        >>> bool((equilibrium.forces > 0).all())
+        True
+    """
+    def __new__(
+        cls,
+        /,
+        ply: Ply,
+        *,
+        slopes: typing.Literal["moment-balance", "min-force"] = "moment-balance",
+        axial_stiffness: SupportsFloat | SupportsIndex = 1e5,
+        gravity: SupportsFloat | SupportsIndex = 9.81,
+        max_tilt: SupportsFloat | SupportsIndex = ...,
+    ) -> Solver: ...
+    def forget(self, /) -> None:
+        """
+        Forgets the last equilibrium: the next one starts from nothing.
+        """
+    @staticmethod
+    def of(scene: Scene) -> Solver:
+        """
+        A solver for the ply of a scene, by its rules.
+        """
+    def solve(self, /, positions: ArrayLike, *, check: bool = True) -> Equilibrium:
+        """
+        Solves for the grippers where they are.
+
+        Args:
+            positions: Positions of the grippers (m), shape (grippers, 3), i running fastest.
+            check: Whether an equilibrium that was not found is an error, or just says so in its `status`.
+
+        Raises:
+            ValueError: If the shape does not fit or a number is not finite.
+            SolveError: If no equilibrium was found.
+        """
+
+@final
+class Span:
+    """
+    One free span of ply between two ends in a vertical plane, solved: a catenary with bending stiffness.
+
+    Args:
+        run: Horizontal distance of the ends (m).
+        rise: Height of the second end above the first (m).
+        length: Fabric length between them (m).
+        weight: Weight per length (N/m).
+        flexural_rigidity: EI (N·m²); slopes can be prescribed only if it is positive.
+        axial_stiffness: EA (N); infinite for an inextensible ply.
+        slopes: Prescribed slope at each end, None where it is free.
+
+    Raises:
+        ValueError: If a number makes no sense.
+        SolveError: If no force was found.
+
+    Example:
+        A limp span hangs as a parabola, whose sag is nearly run·√(3/8·(length/run − 1)):
+
+        >>> span = plydrape.Span(run=0.1, length=0.101, weight=3.0, flexural_rigidity=1e-9)
+        >>> round(span.sag * 1e3, 2), round(1e2 * (3 / 8 * 0.01) ** 0.5, 2)
+        (6.15, 6.12)
+    """
+    def __new__(
+        cls,
+        /,
+        *,
+        run: SupportsFloat | SupportsIndex,
+        length: SupportsFloat | SupportsIndex,
+        weight: SupportsFloat | SupportsIndex,
+        flexural_rigidity: SupportsFloat | SupportsIndex,
+        rise: SupportsFloat | SupportsIndex = 0.0,
+        axial_stiffness: SupportsFloat | SupportsIndex = 1e5,
+        slopes: tuple[
+            SupportsFloat | SupportsIndex | None, SupportsFloat | SupportsIndex | None
+        ] = ...,
+    ) -> Span: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def force(self, /) -> float | None:
+        """
+        Horizontal force H (N), negative in compression; None for a straight inextensible span.
+        """
+    def heights(self, /, x: ArrayLike) -> NDArray[float64]:
+        """
+        Height above the first end (m) at horizontal distances from it (m), shape (n,).
+
+        Raises:
+            ValueError: If a distance is not between 0 and `run`.
+        """
+    @property
+    def sag(self, /) -> float:
+        """
+        Largest vertical distance below its chord (m).
+        """
+    @property
+    def slopes(self, /) -> tuple[float, float]:
+        """
+        Slopes at both ends.
+        """
+    @property
+    def state(self, /) -> str:
+        """
+        How it holds its length: hanging, "overstretched" or "straight".
+        """
+
+@final
+class Surface:
+    """
+    The ply of one step as a surface.
+    """
+    @property
+    def gap(self, /) -> NDArray[float64]:
+        """
+        Distance of each point from the mold (m), negative inside it, shape (points,); nan without a mold.
+        """
+    @property
+    def points(self, /) -> NDArray[float64]:
+        """
+        Points (m), shape (points, 3), u running fastest.
+        """
+    @property
+    def size(self, /) -> tuple[int, int]:
+        """
+        Points along u and along v.
+        """
+    @property
+    def triangles(self, /) -> NDArray[uint32]:
+        """
+        Corners of its triangles, shape (triangles, 3); none of a strip.
+        """
+
+def equilibria(
+    solver: Solver,
+    positions: ArrayLike,
+    *,
+    threads: SupportsIndex | None = None,
+    progress: typing.Callable[[int, int, str], object] | None = None,
+) -> Equilibria:
+    """
+    Solves for many places of the grippers, on all cores; each from nothing, so that none depends on another.
+
+    Args:
+        solver: The ply and its rules.
+        positions: Positions of the grippers (m), shape (n, grippers, 3).
+        threads: How many at once; one a core unless given. The results do not depend on it.
+        progress: Called with (equilibria done, equilibria, what is done), some 50 times a second.
+
+    Returns:
+        One equilibrium a row; those not found say so in `converged`.
+
+    Raises:
+        ValueError: If the shape does not fit or a number is not finite.
+
+    Example:
+        >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
+        >>> level = np.array([[0.098 * i, 0, 0] for i in range(4)])
+        >>> batch = plydrape.batch.equilibria(plydrape.Solver(ply), [level, 1.01 * level])
+        >>> batch.forces.shape, batch.converged.all()
+        ((2, 3), np.True_)
+    """
+
+def materials() -> list[str]:
+    """
+    Names of the materials that come with plydrape.
+
+    Example:
+        >>> plydrape.materials()
+        ['krogh2018']
+    """
+
+def outcome(
+    scene: Scene, *, progress: typing.Callable[[int, int, str], object] | None = None
+) -> Outcome:
+    """
+    Drapes a scene along its motion and differentiates where the ply has come to.
+
+    Args:
+        scene: The scene.
+        progress: As that of `simulate`.
+
+    Raises:
+        ValueError: If the drape has no steps.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> outcome = plydrape.outcome(scene)
+        >>> outcome.overstretch.shape, outcome.overstretch_jacobian.shape
+        ((1,), (1, 2, 3))
+    """
+
+def plan(
+    scene: Scene,
+    *,
+    method: typing.Literal["path", "stepwise"] | None = None,
+    seed: SupportsIndex | None = None,
+    memory: str | None = None,
+    progress: typing.Callable[[int, int, str], object] | None = None,
+) -> Plan:
+    """
+    Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
+
+    Other threads of Python run on meanwhile. Ctrl-C raises KeyboardInterrupt at once; to stop early and keep the
+    best so far, give the search fewer `evaluations` in the scene's `plan`.
+
+    Args:
+        scene: The scene, with mold and target.
+        method: "path" or "stepwise", instead of the scene's.
+        seed: Seed of the search, instead of the scene's: the same seed, the same plan.
+        memory: Text of the plan.json of an earlier search, to go on from: see `Plan.memory`.
+        progress: Called with (drapes done, most, what is done), some 50 times a second.
+
+    Returns:
+        The best plan found, whether or not it is accepted.
+
+    Raises:
+        PlanError: If the scene has no mold or target, or `memory` is not of its ply.
+        ValueError: If there is no such method, or `memory` is no plan.json.
+    """
+
+def simulate(
+    scene: Scene, *, progress: typing.Callable[[int, int, str], object] | None = None
+) -> Result:
+    """
+    Drapes the ply of a scene along its motion, as `plydrape simulate` does.
+
+    Other threads of Python run on meanwhile, and Ctrl-C ends it.
+
+    Args:
+        scene: The scene.
+        progress: Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
+
+    Returns:
+        The result; a drape that breaks limits is a result all the same.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> plydrape.simulate(scene).accepted
+        True
+    """
+
+def simulate_all(
+    scenes: typing.Iterable[Scene],
+    *,
+    threads: SupportsIndex | None = None,
+    progress: typing.Callable[[int, int, str], object] | None = None,
+) -> list[Result]:
+    """
+    Drapes many scenes along their motions, on all cores.
+
+    Args:
+        scenes: The scenes.
+        threads: How many at once; one a core unless given. The results do not depend on it.
+        progress: Called with (drapes done, drapes, what is done), some 50 times a second.
+
+    Returns:
+        One result a scene, in their order.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> [result.accepted for result in plydrape.batch.simulate([scene, scene])]
+        [True, True]
+    """

@@ -1,0 +1,357 @@
+"""A study as it is written, checked: which scene, which numbers vary and how, and what is run.
+
+Everything is refused before anything runs, with file, key, value and remedy. The check ends with
+the scene's own: it must be sound, and each varied key must be one that it takes.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import plydrape
+
+from . import sample, source
+from .error import StudyError
+from .keys import Value, nearest, put
+from .law import Input
+from .placement import COLUMNS, Placement
+from .scenario import Motion, Task, build, said
+from .varied import inputs, placement
+
+if TYPE_CHECKING:
+    from .sample import Row
+
+COMMANDS = ("simulate", "plan", "follow")
+SAMPLINGS = ("latin-hypercube", "sobol", "grid")
+KEYS = ("title", "scene", "command", "plan", "sampling", "samples", "seed", "vary")
+# More scenarios than any machine here will drape; a slip of the pen is likelier.
+MOST = 10_000_000
+
+
+@dataclass(frozen=True)
+class Study:
+    """Many scenes made of one.
+
+    Attributes:
+        title: for the page; that of the scene unless given.
+        tables: the scene as plain dicts and lists, its material expanded where that is varied.
+        base: folder that the scene's paths are relative to.
+        command: "simulate", "plan" or "follow".
+        sampling: "latin-hypercube", "sobol" or "grid".
+        samples: number of scenarios; of a grid it follows from its numbers.
+        seed: of the sample and of the placement errors.
+        inputs: what varies.
+        placement: how grippers err, or None.
+        motion: of "follow": times (S,) in s and positions (S, G, 3) in m.
+        files: check sums of the files that the scene names.
+        file: the study file, or None.
+
+    Example:
+        >>> study = Study.of(
+        ...     {
+        ...         "scene": {
+        ...             "ply": {"grippers": [2, 1], "cell": [0.1, 0.1], "material": "krogh2018"},
+        ...             "grippers": {"spacing": ["98 mm", "98 mm"], "height": "75 mm"},
+        ...             "motion": {"kind": "hold"},
+        ...         },
+        ...         "samples": 8,
+        ...         "vary": {"ply.material.flexural_rigidity": {"relative": [0.8, 1.2]}},
+        ...     }
+        ... )
+        >>> len(study), study.names
+        (8, ['ply.material.flexural_rigidity'])
+
+    """
+
+    title: str
+    tables: dict[str, Any]
+    base: str
+    command: str
+    sampling: str
+    samples: int
+    seed: int
+    inputs: tuple[Input, ...]
+    placement: Placement | None = None
+    motion: Motion | None = None
+    files: Mapping[str, str] = field(default_factory=dict)
+    file: Path | None = None
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Study:
+        """Reads a study file; its paths are relative to it.
+
+        Raises:
+            StudyError: the file cannot be read or says what cannot be.
+            SceneError: the scene is refused.
+
+        """
+        path = Path(path)
+        table = source.document(path, "study")
+        return _study(table, path.parent, path)
+
+    @classmethod
+    def of(cls, table: Mapping[str, Any], base: str | os.PathLike[str] = ".") -> Study:
+        """A study of a dict with the keys of a study file.
+
+        `scene` may be a path, the tables of a scene as a dict, or a `plydrape.Scene` with text.
+
+        Raises:
+            As `read`.
+
+        """
+        return _study(table, Path(base), None)
+
+    def __len__(self) -> int:
+        """Number of scenarios."""
+        return len(self.values)
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the columns of inputs: the varied keys, and two of placement errors."""
+        return [x.key for x in self.inputs] + list(COLUMNS if self.placement else ())
+
+    @cached_property
+    def values(self) -> list[Row]:
+        """The inputs of each scenario: a tuple of numbers in the inputs' units."""
+        return sample.values(self)
+
+    @cached_property
+    def task(self) -> Task:
+        """What a worker needs to know to run any of the scenarios."""
+        return Task(
+            tables=self.tables,
+            base=self.base,
+            command=self.command,
+            inputs=self.inputs,
+            placement=self.placement,
+            motion=self.motion,
+            seed=self.seed,
+            version=plydrape.__version__,
+        )
+
+    def scene(self, scenario: int) -> plydrape.Scene:
+        """The scene of one scenario, to look at it on its own: `plydrape.simulate(it)`.
+
+        Raises:
+            SceneError: the scene is refused, as it was in the study.
+            IndexError: there is no such scenario.
+
+        """
+        return self.task.scene(range(len(self))[scenario], self.values[scenario])
+
+    @cached_property
+    def checksum(self) -> str:
+        """Of everything that the rows depend on, but for the version of plydrape."""
+        text = json.dumps([self.described(), self.values], sort_keys=True)
+        return "sha256:" + hashlib.sha256(text.encode()).hexdigest()
+
+    def described(self) -> dict[str, Any]:
+        """The definition as plain JSON values: strict JSON, infinite numbers as text."""
+        about = {
+            "title": self.title,
+            "command": self.command,
+            "sampling": self.sampling,
+            "scenarios": len(self),
+            "seed": self.seed,
+            "inputs": [
+                {
+                    "key": x.key,
+                    "unit": x.unit,
+                    "law": {"kind": type(x.law).__name__.lower(), **vars(x.law)},
+                    "points": x.points,
+                }
+                for x in self.inputs
+            ],
+            "placement": vars(self.placement) if self.placement else None,
+            "motion": self.motion.checksum if self.motion else None,
+            "scene": self.tables,
+            "files": dict(self.files),
+        }
+        return plain(about)  # type: ignore[no-any-return]
+
+
+def _study(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
+    """Checks a table; every complaint gets the name of the file."""
+    try:
+        return _checked(table, base, file)
+    except StudyError as error:
+        if error.file is None and file is not None:
+            raise StudyError(
+                error.message, help=error.help, file=str(file), key=error.key
+            ) from error
+        raise
+
+
+def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
+    # The keys themselves.
+    for key in table:
+        if key not in KEYS:
+            raise StudyError(
+                f"`{key}` is no key of a study",
+                help=f"its keys are {', '.join(KEYS)}{nearest(key, KEYS)}",
+                key=key,
+            )
+    command = _one_of(table, "command", COMMANDS, "simulate")
+    sampling = _one_of(table, "sampling", SAMPLINGS, "latin-hypercube")
+    seed = _whole(table, "seed", 0, least=0)
+    title = table.get("title")
+    if title is not None and not isinstance(title, str):
+        raise StudyError(f"`title` = {title!r} is no text", help="put it in quotes", key="title")
+
+    # The scene, sound as it stands.
+    tables, home = source.scene(table.get("scene"), base)
+    varied = table.get("vary", {})
+    if not isinstance(varied, Mapping):
+        raise StudyError(f"`vary` = {varied!r} is no table", help=VARY, key="vary")
+    tables = source.expanded(tables, home, varied)
+    motion = _motion(table, command, base)
+
+    # What varies.
+    laws = inputs(varied, tables, command, sampling)
+    errs = placement(varied, command, sampling)
+    if not laws and errs is None:
+        raise StudyError("`vary` names nothing that varies", help=VARY, key="vary")
+    samples = _samples(table, sampling, laws)
+    study = Study(
+        title=title or str(tables.get("title", "")) or (file.stem if file else "Study"),
+        tables=tables,
+        base=str(home.resolve()),
+        command=command,
+        sampling=sampling,
+        samples=samples,
+        seed=seed,
+        inputs=laws,
+        placement=errs,
+        motion=motion,
+        files=source.files(tables, home, laws),
+        file=file,
+    )
+    _probe(study)
+    return study
+
+
+VARY = 'as in [vary] "grippers.height" = { from = "60 mm", to = "90 mm" }'
+
+
+def _one_of(table: Mapping[str, Any], key: str, known: tuple[str, ...], usual: str) -> str:
+    value = table.get(key, usual)
+    if value not in known:
+        quoted = [f'"{name}"' for name in known]
+        raise StudyError(
+            f"`{key}` = {value!r} is not known",
+            help=f"it is one of {', '.join(quoted)}{nearest(str(value), known)}",
+            key=key,
+        )
+    return str(value)
+
+
+def _whole(table: Mapping[str, Any], key: str, usual: int | None, least: int) -> int:
+    value = table.get(key, usual)
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value < 2**63:
+        raise StudyError(
+            f"`{key}` is missing" if value is None else f"`{key}` = {value!r} does not count",
+            help=f"write a whole number of {least} or more, as in {key} = {max(least, 256)}",
+            key=key,
+        )
+    return value
+
+
+def _samples(table: Mapping[str, Any], sampling: str, laws: tuple[Input, ...]) -> int:
+    if sampling == "grid":
+        if "samples" in table:
+            raise StudyError(
+                f"`samples` = {table['samples']!r} says nothing to a grid",
+                help="remove it: a grid has every combination of its numbers",
+                key="samples",
+            )
+        samples = math.prod(len(x.grid()) for x in laws)
+    else:
+        samples = _whole(table, "samples", None, least=1)
+    if samples > MOST:
+        raise StudyError(
+            f"{samples} scenarios are more than {MOST}", help="split the study", key="samples"
+        )
+    return samples
+
+
+def _motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None:
+    given = table.get("plan")
+    if command != "follow":
+        if given is None:
+            return None
+        raise StudyError(
+            f'`plan` = {given!r} goes with command = "follow" only, and this is {command!r}',
+            help="remove it, or follow the plan",
+            key="plan",
+        )
+    if not isinstance(given, str | os.PathLike):
+        raise StudyError(
+            "`plan` is missing: what is to be followed?",
+            help='name a finished plan: plan = "scene.plan/result.json"',
+            key="plan",
+        )
+    path = base / given
+    if path.is_dir():
+        path = path / "result.json"
+    result = plydrape.Result.read(str(path))
+    return Motion(np.array(result.times), np.array(result.positions))
+
+
+def _probe(study: Study) -> None:
+    """Builds the scene with each varied key at its middle and its ends.
+
+    Values that no scene takes are failures of a scenario; a key with none that it takes is a
+    mistake in the study.
+    """
+    scene = build(study.tables, study.base)
+    if study.motion is not None:
+        try:
+            scene.with_motion(study.motion.times, study.motion.positions)
+        except (plydrape.PlydrapeError, ValueError) as error:
+            raise StudyError(
+                f"the scene cannot follow this plan: {error}",
+                help="give the plan of this scene, or of one with the same array",
+                key="plan",
+            ) from error
+    mold = scene.mold
+    for x in study.inputs:
+        faults: list[tuple[Value, plydrape.PlydrapeError]] = []
+        for value in x.probes():
+            try:
+                tables = put(study.tables, x.key, x.written(value))
+                build(tables, study.base, None if x.key.startswith("mold.") else mold)
+                break
+            except plydrape.PlydrapeError as fault:
+                faults.append((x.written(value), fault))
+        else:
+            refused, why = faults[0]
+            raise StudyError(
+                f"`{x.key}` cannot vary like this: with {refused!r} the scene is refused",
+                help=said(why),
+                key=x.key,
+            )
+
+
+def plain(value: Any) -> Any:
+    """Plain JSON: lists for tuples and arrays, text for what is infinite."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(inner) for key, inner in value.items()}
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(inner) for inner in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)
+    if isinstance(value, str | int | float | bool) or value is None:
+        return value
+    return str(value)

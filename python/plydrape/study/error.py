@@ -1,0 +1,84 @@
+"""What a study refuses, and the one word about what is not installed."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+from plydrape import PlydrapeError
+
+INSTALL = "pip install 'plydrape[study]'"
+
+
+class StudyError(PlydrapeError, ValueError):
+    """A study that cannot be run as it is written.
+
+    Attributes:
+        message: what is wrong, with the key and its value.
+        help: what would be right.
+        file: the study file, or None.
+        key: the key at fault as a dotted path, or None.
+
+    Example:
+        >>> try:
+        ...     raise StudyError("`samples` = 0 does not count", help="write 1 or more")
+        ... except StudyError as error:
+        ...     print(error)
+        `samples` = 0 does not count; write 1 or more
+
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        help: str = "",  # noqa: A002  as in SceneError
+        file: str | None = None,
+        key: str | None = None,
+    ) -> None:
+        """Keeps the parts; `str()` of the error is all of them in one line."""
+        where = f"{file}: " if file else ""
+        super().__init__(f"{where}{message}" + (f"; {help}" if help else ""))
+        self.message = message
+        self.help = help
+        self.file = file
+        self.key = key
+
+
+def toml() -> ModuleType:
+    """The reader of TOML: the standard library's, before Python 3.11 the package tomli.
+
+    Raises:
+        StudyError: Python is older than 3.11 and tomli is not installed.
+
+    """
+    try:
+        import tomllib as reader
+    except ImportError:
+        try:
+            import tomli as reader  # type: ignore[no-redef, import-not-found, unused-ignore]
+        except ImportError as error:
+            raise missing(error) from error
+    return reader
+
+
+def require(*modules: str) -> None:
+    """Tells at the start, not after an hour, that a package of the extra is missing.
+
+    Raises:
+        StudyError: one of the modules cannot be imported.
+
+    Example:
+        >>> require("json")
+
+    """
+    for module in modules:
+        try:
+            __import__(module)
+        except ImportError as error:
+            raise missing(error) from error
+
+
+def missing(error: ImportError) -> StudyError:
+    """The error for a package that is not installed."""
+    name = error.name or "a package"
+    return StudyError(f"studies need {name}, which is not installed", help=INSTALL)

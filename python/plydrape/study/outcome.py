@@ -1,0 +1,100 @@
+"""The rows of a study, and what can be said of them."""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .error import StudyError, require
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+
+class Outcome:
+    """Rows of a study.
+
+    Attributes:
+        title: of the study.
+        folder: where it stands, or None if it is in memory only.
+
+    Example:
+        >>> outcome = plydrape.study.read("study.results")  # doctest: +SKIP
+        >>> outcome.table().to_pandas()  # doctest: +SKIP
+
+    """
+
+    def __init__(
+        self, rows: pa.Table, title: str, folder: Path | None, inputs: list[str] | None = None
+    ) -> None:
+        """Takes rows in the order of their scenarios."""
+        self._rows = rows
+        self.title = title
+        self.folder = folder
+        self._inputs = inputs
+
+    def __repr__(self) -> str:
+        """In a line: `<plydrape.study.Outcome 256 rows, 12.5 % accepted>`."""
+        share = self.accepted_share
+        said = "none draped" if share is None else f"{100 * share:.1f} % accepted"
+        return f"<plydrape.study.Outcome {self._rows.num_rows} rows, {said}>"
+
+    def table(self) -> pa.Table:
+        """All rows, one a scenario. Units are in the fields' metadata: `table.units(rows)`."""
+        return self._rows
+
+    @property
+    def inputs(self) -> list[str]:
+        """Names of the columns of inputs."""
+        if self._inputs is not None:
+            return self._inputs
+        names = self._rows.column_names
+        end = next((i for i, name in enumerate(names) if name == "accepted"), len(names))
+        return [name for name in names[:end] if name not in ("scenario", *LAST)]
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """Counts, distributions and rank correlations, as in summary.json."""
+        from . import summary
+
+        return summary.summary(self._rows, self.inputs)
+
+    @property
+    def accepted_share(self) -> float | None:
+        """Accepted drapes as a share of those that were draped; None where none was."""
+        share = self.summary["accepted"]["share"]
+        return None if share is None else float(share)
+
+    @property
+    def correlations(self) -> dict[str, dict[str, float | None]]:
+        """Spearman's rank correlation of each measure with each input.
+
+        None where either is constant.
+        """
+        return {name: entry["correlations"] for name, entry in self.summary["measures"].items()}
+
+
+LAST = ("seed", "version", "error", "error_kind")
+
+
+def read(folder: str | os.PathLike[str]) -> Outcome:
+    """The rows of a study's folder, also of a study that is not finished.
+
+    Raises:
+        StudyError: it is no study's folder, or has no rows yet.
+
+    """
+    require("scipy", "pyarrow")
+    from . import table
+    from .folder import Folder, read_manifest
+    from .run import read_part
+
+    path = Path(folder)
+    definition = read_manifest(path)["definition"]
+    parts = Folder(path).parts()
+    if not parts:
+        raise StudyError(f"`{path}` has no rows yet", help="run the study")
+    rows = table.joined([read_part(part) for _, _, part in parts])
+    return Outcome(rows, definition["title"], path)

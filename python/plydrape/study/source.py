@@ -1,0 +1,135 @@
+"""Where a study's scene comes from, and the files that it depends on."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import plydrape
+
+from .error import StudyError, toml
+from .keys import SCENE, Tables, nearest
+from .law import Choice, Input
+
+SCENE_KEY = 'name one: scene = "scene.toml"'
+
+
+def document(path: Path, kind: str) -> dict[str, Any]:
+    """A TOML file as tables.
+
+    Raises:
+        StudyError: it is absent, or no TOML; the message has line and column.
+
+    """
+    reader = toml()
+    try:
+        return dict(reader.loads(path.read_text(encoding="utf-8")))
+    except FileNotFoundError as error:
+        raise StudyError(
+            f"there is no {kind} `{path}`", help="check its name and folder"
+        ) from error
+    except (OSError, UnicodeDecodeError) as error:
+        raise StudyError(f"the {kind} `{path}` cannot be read: {error}") from error
+    except reader.TOMLDecodeError as error:
+        raise StudyError(f"the {kind} `{path}` is no TOML: {error}") from error
+
+
+def scene(given: object, base: Path) -> tuple[dict[str, Any], Path]:
+    """The tables of the scene, and the folder that its paths are relative to.
+
+    Raises:
+        StudyError: there is no scene, or no way to vary it.
+        SceneError: the scene file is refused.
+
+    """
+    if isinstance(given, Mapping):
+        tables, home = dict(native(given)), base
+        for key in tables:
+            if key not in (*SCENE, "title"):
+                raise StudyError(
+                    f"`{key}` is no table of a scene",
+                    help=f"they are {', '.join(SCENE)}{nearest(key, SCENE)}",
+                    key="scene",
+                )
+        return tables, home
+    if isinstance(given, plydrape.Scene):
+        if given.text is None:
+            raise StudyError(
+                "this scene has no text whose numbers could vary",
+                help="give its file, or its tables as a dict",
+                key="scene",
+            )
+        return dict(toml().loads(given.text)), Path(getattr(given, "base", base))
+    if isinstance(given, str | os.PathLike):
+        path = base / given
+        if not path.is_file():
+            raise StudyError(
+                f"`scene` = {str(given)!r}: there is no such file",
+                help=f"the path is relative to {base.resolve()}",
+                key="scene",
+            )
+        # Read by plydrape first: its messages point at the line.
+        plydrape.Scene.read(str(path))
+        return document(path, "scene"), path.parent
+    what = "is missing" if given is None else f"= {given!r} is no scene"
+    raise StudyError(f"`scene` {what}", help=SCENE_KEY, key="scene")
+
+
+def native(value: Any) -> Any:
+    """Plain Python values, for a scene given with NumPy's."""
+    if isinstance(value, Mapping):
+        return {str(key): native(inner) for key, inner in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    if isinstance(value, list | tuple):
+        return [native(inner) for inner in value]
+    return value
+
+
+def expanded(tables: Tables, home: Path, varied: Mapping[str, Any]) -> dict[str, Any]:
+    """The scene with its material in place of the material's name, if a number of it varies.
+
+    Raises:
+        StudyError: the material is neither shipped nor a file that can be read.
+
+    """
+    name = tables.get("ply", {}).get("material")
+    if not isinstance(name, str) or not any(key.startswith("ply.material.") for key in varied):
+        return dict(tables)
+    if name in plydrape.materials():
+        material = toml().loads(plydrape.Material.text(name))
+    else:
+        material = document(home / name, "material")
+    return {**tables, "ply": {**tables["ply"], "material": material}}
+
+
+def files(tables: Tables, home: Path, inputs: Iterable[Input]) -> dict[str, str]:
+    """Check sums of the files that a scene names: molds, motions, positions, a material."""
+    names = set(_named(tables, ""))
+    for x in inputs:
+        if isinstance(x.law, Choice):
+            words = (value for value in x.law.values if isinstance(value, str))
+            names |= {word for word in words if (home / word).is_file()}
+    return {name: _checksum(home / name) for name in sorted(names)}
+
+
+def _named(value: Any, key: str) -> Iterator[str]:
+    if isinstance(value, Mapping):
+        for inner, below in value.items():
+            yield from _named(below, inner)
+    elif isinstance(value, str) and (
+        key in ("file", "positions") or (key == "material" and value.endswith(".toml"))
+    ):
+        yield value
+
+
+def _checksum(path: Path) -> str:
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError:
+        return "absent"

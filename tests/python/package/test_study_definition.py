@@ -1,0 +1,160 @@
+"""Studies that cannot be run are refused before anything runs, with key, value and remedy."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import plydrape
+import plydrape.study
+import pytest
+from plydrape.study import Study, StudyError
+from studies import PAPER, grid, study, table, write
+
+
+def vary(**more: Any) -> dict[str, Any]:
+    """Keys with two underscores for dots, as a change of the study."""
+    return {"vary": {key.replace("__", "."): spec for key, spec in more.items()}}
+
+
+HEIGHT = {"from": "60 mm", "to": "90 mm"}
+REFUSED: list[tuple[dict[str, Any], list[str]]] = [
+    ({"sample": 3}, ["`sample` is no key", "did you mean `samples`"]),
+    ({"samples": 0}, ["`samples` = 0", "whole number of 1 or more"]),
+    ({"samples": 2.5}, ["`samples` = 2.5"]),
+    ({"samples": 10**8}, ["100000000 scenarios"]),
+    ({"seed": -1}, ["`seed` = -1"]),
+    ({"sampling": "sobel"}, ["'sobel'", "did you mean `sobol`"]),
+    ({"command": "run"}, ["`command` = 'run'", '"simulate", "plan", "follow"']),
+    ({"command": "follow"}, ["`plan` is missing", "scene.plan/result.json"]),
+    ({"plan": "x"}, ["`plan` = 'x' goes with", "follow"]),
+    ({"scene": "none.toml"}, ["'none.toml'", "no such file"]),
+    ({"scene": 3}, ["`scene` = 3 is no scene"]),
+    ({"vary": {}}, ["names nothing that varies"]),
+    (vary(ply__materal__mass=HEIGHT), ["`ply` has no `materal`", "grippers, cell, material"]),
+    (vary(grippers__heigth=HEIGHT), ["`grippers.heigth` cannot vary", "height"]),
+    (vary(limit__tilt=HEIGHT), ["`limit.tilt` is no number of a scene", "mean `limits`"]),
+    (vary(ply__cell=HEIGHT), ["`ply.cell` is no number but a list", "ply.cell.0, ply.cell.1"]),
+    (vary(ply__cell__2=HEIGHT), ["list of 2", "`ply.cell.0` to `ply.cell.1`"]),
+    (vary(ply__material__mass={"relative": [1.2, 0.8]}), ["empty range"]),
+    (vary(grippers__height={"from": "6 cm", "to": "90 mm"}), ["different units"]),
+    (vary(grippers__height={"from": "60 deg", "to": "90 deg"}), ["cannot vary", "length"]),
+    (vary(grippers__height={"form": "60 mm", "to": "90 mm"}), ["is no law", "from"]),
+    (vary(grippers__height={"values": []}), ["no values"]),
+    (vary(grippers__height={"values": ["75 mm", "75 mm"]}), ["a value twice"]),
+    (vary(grippers__height={"deviation": "0 mm"}), ["does not vary"]),
+    (vary(grippers__height={"from": "sixty", "to": "90 mm"}), ["'sixty' is no number"]),
+    (vary(grippers__height=75), ["`grippers.height` = 75 is no law"]),
+    (vary(limits__tilt={"relative": [0.9, 1.1]}), ["the scene gives none"]),
+    (vary(limits__tilt={"deviation": "1 deg"}), ["no mean"]),
+    (vary(motion__kind={"relative": [0.9, 1.1]}), ["has 'straight'"]),
+    (vary(plan__seed={"from": 1, "to": 9}), ["`plan.seed` changes nothing"]),
+    (vary(motion__steps={"deviation": 3}), ["no law of whole numbers"]),
+    (vary(placement={"deviation": "1 s"}), ["`s`", "no length"]),
+    (vary(placement={"deviation": "1 mm", "axes": "yx"}), ["'yx' are no axes"]),
+    (vary(placement={"to": "1 mm"}), ["says no law"]),
+    (vary(placement={"from": "1 mm", "to": "-1 mm"}), ["is empty"]),
+    ({"command": "plan"} | vary(placement={"deviation": "1 mm"}), ["plan knows where", "follow"]),
+    (vary(ply__material={"values": ["krogh2018"]}, ply__material__mass=HEIGHT), ["within"]),
+]
+
+
+@pytest.mark.parametrize(("change", "words"), REFUSED, ids=[words[0] for _, words in REFUSED])
+def test_a_wrong_study_is_refused(change: dict[str, Any], words: list[str]) -> None:
+    """Each message has these words: the key, its value, and what would be right."""
+    with pytest.raises(StudyError) as refused:
+        study(**change)
+    for word in words:
+        assert word in str(refused.value)
+    assert isinstance(refused.value, plydrape.PlydrapeError | ValueError)
+
+
+def test_a_grid_says_what_it_needs() -> None:
+    """Points of a range; no number of samples, no errors that are drawn, nothing normal."""
+    for spec, words in (
+        (HEIGHT, "add points = 5"),
+        ({"deviation": "1 mm"}, "has no grid"),
+        (HEIGHT | {"points": 0}, "points"),
+        ({"values": ["60 mm"], "points": 2}, "has points"),
+    ):
+        with pytest.raises(StudyError, match=words):
+            grid(grippers__height=spec)
+    with pytest.raises(StudyError, match="`placement` has no grid"):
+        grid(placement={"deviation": "1 mm"})
+    with pytest.raises(StudyError, match="`samples` = 24 says nothing to a grid"):
+        study(sampling="grid", vary={"grippers.height": {"values": ["60 mm"]}})
+
+
+def test_a_message_names_its_file(tmp_path: Path) -> None:
+    """And the line, where the file is no TOML."""
+    path = write(tmp_path, 8, seed=-2)
+    with pytest.raises(StudyError, match=r"study\.toml: `seed` = -2"):
+        Study.read(path)
+    path.write_text("samples = \n")
+    with pytest.raises(StudyError, match="line 1"):
+        Study.read(path)
+    with pytest.raises(StudyError, match="no study"):
+        Study.read(tmp_path / "absent.toml")
+
+
+def test_a_wrong_scene_is_refused_with_its_own_message(tmp_path: Path) -> None:
+    """As `plydrape check` says it, with the line."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(PAPER.read_text().replace('height = "75 mm"', 'height = "75"'))
+    with pytest.raises(plydrape.SceneError, match="has no unit") as refused:
+        study(scene=str(scene))
+    assert refused.value.line == 16
+
+
+def test_scenes_come_as_files_tables_and_scenes() -> None:
+    """The three have the same rows."""
+    scene = plydrape.Scene.read(PAPER)
+    tables = {
+        "title": scene.title,
+        "ply": {"grippers": [4, 2], "cell": np.array([0.1, 0.1]), "material": "krogh2018"},
+        "mold": {"kind": "plane"},
+        "grippers": {"spacing": ["98 mm"] * 2, "height": "75 mm", "max_tilt": "40 deg"},
+        "target": {"shear": "20 deg"},
+        "motion": {"kind": "straight", "steps": 30, "duration": "29 s"},
+        "model": {"slopes": "min-force", "gravity": 9.8},
+        "contact": {"tolerance": "1 mm", "stepping": "once", "end": "free"},
+    }
+    made = [study(3, scene=given) for given in (str(PAPER), scene, tables)]
+    drapes = [plydrape.simulate(each.scene(2)).summary for each in made]
+    assert drapes[0] == drapes[1] == drapes[2]
+    with pytest.raises(StudyError, match="no text"):
+        study(scene=scene.with_motion(scene.times, scene.positions))
+
+
+def test_a_plan_of_another_array_cannot_be_followed(tmp_path: Path) -> None:
+    """It is seen before the first drape."""
+    other = plydrape.Scene.read(PAPER.parents[1] / "02_hanging_strip" / "scene.toml")
+    plydrape.simulate(other).write(tmp_path)
+    with pytest.raises(StudyError, match="cannot follow"):
+        study(command="follow", plan=str(tmp_path), vary={"model.gravity": {"values": [9.8, 1.6]}})
+
+
+def test_the_check_sum_is_of_what_rows_depend_on(tmp_path: Path) -> None:
+    """Not of a comment or the folder; but of a number, the seed, and a file of the scene."""
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "ply.toml").write_text(plydrape.Material.text("krogh2018"))
+    scene = tmp_path / "a" / "scene.toml"
+    scene.write_text(PAPER.read_text().replace('"krogh2018"', '"ply.toml"'))
+    heights: dict[str, Any] = {"vary": {"grippers.height": HEIGHT}}
+    first = study(scene=str(scene), **heights).checksum
+    scene.write_text("# a comment\n" + scene.read_text())
+    assert study(scene=str(scene), **heights).checksum == first
+    assert study(scene=str(scene), seed=2, **heights).checksum != first
+    (tmp_path / "a" / "ply.toml").write_text(
+        plydrape.Material.text("krogh2018").replace("0.3143", "0.3")
+    )
+    assert study(scene=str(scene), **heights).checksum != first
+
+
+def test_a_missing_package_is_told_before_anything_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In one message, with what to type."""
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(StudyError, match=r"need pyarrow.*pip install 'plydrape\[study\]'"):
+        plydrape.study.run(table(4))

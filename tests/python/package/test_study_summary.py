@@ -1,0 +1,164 @@
+"""Figures of the summary against SciPy and planted truths; the page shows them."""
+
+from __future__ import annotations
+
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from plydrape.study import Outcome, Study
+from plydrape.study.figures import Axis, edges, span
+from plydrape.study.run import run
+from plydrape.study.summary import correlation, pattern, wilson
+from scipy import stats
+from studies import PAPER, study, table
+
+
+def planted(count: int, seed: int) -> Outcome:
+    """Rows whose measure rises with `b` alone, steeply and not straight, under noise."""
+    random = np.random.default_rng(seed)
+    a, b, c = random.uniform(size=(3, count))
+    measure = np.exp(5.0 * b) + random.normal(0.0, 5.0, count)
+    columns: dict[str, object] = {"scenario": range(count), "a": a, "b": b, "c": c}
+    columns |= {"accepted": measure < 20.0, "value_slack": measure, "limit_slack": [20.0] * count}
+    columns |= {"ok_slack": measure < 20.0, "value_noise": random.normal(size=count)}
+    columns |= {"limit_noise": [9.0] * count, "ok_noise": [True] * count}
+    texts = {"version": "0", "error": None, "error_kind": None}
+    columns |= {"seed": [seed] * count}
+    columns |= {name: pa.array([text] * count, pa.string()) for name, text in texts.items()}
+    rows = pa.table({name: pa.array(list(x)) for name, x in columns.items()})  # type: ignore[call-overload]
+    return Outcome(rows, "planted", None)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_planted_driver_is_found(seed: int) -> None:
+    """And nothing is made of noise beyond what chance gives."""
+    outcome = planted(200, seed)
+    measures = outcome.summary["measures"]
+    assert measures["value_slack"]["driver"] == measures["accepted"]["driver"] == "b"
+    assert outcome.correlations["value_slack"]["b"] > 0.85  # type: ignore[operator]
+    assert outcome.correlations["accepted"]["b"] < -0.7  # type: ignore[operator]
+    assert abs(outcome.correlations["value_slack"]["a"]) < 0.2  # type: ignore[arg-type]
+    wanted = stats.spearmanr(outcome.table()["b"], outcome.table()["value_slack"]).statistic
+    assert outcome.correlations["value_slack"]["b"] == pytest.approx(wanted, abs=1e-11)
+
+
+def test_noise_has_a_driver_about_as_often_as_chance_has_it() -> None:
+    """Three inputs at 5 % each: in 60 studies of noise about 9; 25 would be no chance."""
+    named = sum(
+        planted(60, seed).summary["measures"]["value_noise"]["driver"] is not None
+        for seed in range(60)
+    )
+    assert named < 25
+
+
+def test_the_interval_is_wilsons() -> None:
+    """Against SciPy's, without continuity correction."""
+    for hits, of in ((0, 10), (3, 10), (10, 10), (512, 10000), (1, 1)):
+        wanted = stats.binomtest(hits, of).proportion_ci(method="wilson")
+        assert wilson(hits, of) == pytest.approx((wanted.low, wanted.high), abs=1e-12)
+    assert wilson(0, 0) is None
+
+
+def test_constant_columns_have_no_correlation() -> None:
+    """Nor have two numbers, nor a column that differs by rounding alone."""
+    x = np.arange(10.0)
+    assert correlation(x, np.full(10, 3.0)) is None
+    assert correlation(x, 3.0 + 1e-15 * x) is None
+    assert correlation(x[:2], x[:2]) is None
+    assert correlation(x, np.where(x < 4, np.nan, -x)) == -1.0
+
+
+def test_height_drives_the_landing_of_straight_paths() -> None:
+    """From higher up the paper's diagonals touch later, nearer to their place; the rigidity of a
+    ply this limp changes nothing that one could see.
+    """
+    varied = {
+        "grippers.height": {"from": "60 mm", "to": "90 mm"},
+        "ply.material.flexural_rigidity": {"relative": [0.8, 1.2]},
+    }
+    outcome = run(study(60, vary=varied), workers=2)
+    landing = outcome.summary["measures"]["value_landing_contact"]
+    assert landing["driver"] == "grippers.height"
+    assert landing["correlations"]["grippers.height"] < -0.7
+
+
+def test_equal_troubles_count_as_one() -> None:
+    """Whatever their numbers."""
+    made = Study.of(table(30, vary={"grippers.spacing.0": {"from": "95 mm", "to": "130 mm"}}))
+    outcome = run(made, workers=1)
+    (trouble,) = outcome.summary["errors"]
+    assert trouble["kind"] == "SceneError" and trouble["count"] == outcome.summary["failed"] > 15
+    assert pattern("H = -1.5e-3 N in step 12") == "H = · N in step ·"
+    # Accepted is a share of those that were draped.
+    assert outcome.summary["draped"] == 30 - trouble["count"]
+
+
+def test_a_histogram_divides_at_the_limit() -> None:
+    """No bar holds numbers of both sides, and every number is in a bar."""
+    values = np.random.default_rng(1).gamma(2.0, 1.0, 500)
+    low, high = span(values, 3.0)
+    marks = edges(values, low, high, 3.0)
+    assert min(abs(mark - 3.0) for mark in marks) < 1e-9
+    assert marks[0] <= low and marks[-1] >= high - 1e-12
+    assert np.histogram(values, marks)[0].sum() == ((values >= low) & (values <= high)).sum() == 500
+    assert Axis(-3.7e-6, 9.1e-6, 0, 1).ticks() == [0.0, 5e-6]
+
+
+class Page(HTMLParser):
+    """What a page asks for from elsewhere, its elements, and whether they are closed."""
+
+    VOID = ("meta", "br", "line", "rect", "circle", "wbr")
+
+    def __init__(self) -> None:
+        """Nothing is read yet."""
+        super().__init__()
+        self.outside: list[str] = []
+        self.seen: list[str] = []
+        self.open: list[str] = []
+        self.text = ""
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Notes links and the element."""
+        self.seen.append(tag)
+        self.outside += [v for k, v in attrs if v and re.search(r"//|url\(|\.(js|css)", v)]
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """An element without content."""
+        self.seen.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        """Closes the last that is open."""
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        """Collects what is read."""
+        self.text += data
+
+
+def test_the_page_is_one_file_without_script_or_network(tmp_path: Path) -> None:
+    """Its elements are closed, text is escaped, and it says what the summary says."""
+    made = study(30, title="Ply <b>& mold</b>")
+    outcome = run(made, output=tmp_path, workers=2)
+    text = (tmp_path / "summary.html").read_text()
+    page = Page()
+    page.feed(text)
+    assert page.open == [] and page.outside == []
+    assert "script" not in page.seen and "b>& mold</b" not in text.replace("&lt;b&gt;", "")
+    assert "@import" not in text and "http" not in text
+    assert "prefers-color-scheme: dark" in text
+    assert "Ply <b>& mold</b>" in page.text
+    # Each measure that moves has a histogram and a scatter; the limits are named.
+    for key, measure in outcome.summary["measures"].items():
+        if key.startswith("value_"):
+            assert key.removeprefix("value_").replace("_", " ") in page.text.lower()
+            if measure["driver"] is not None:
+                assert f'id="{key}"' in text
+    assert page.seen.count("svg") >= 12
+    assert f"{outcome.summary['accepted']['count']} of 30 drapes keep every limit" in page.text
+    assert str(PAPER.parent) not in page.text
