@@ -38,7 +38,7 @@ class Page:
     def __repr__(self) -> str:
         return (
             f'<plydrape.Page of "{self.title}": a notebook shows it; '
-            'elsewhere write it with result.report("folder") and open it in a browser>'
+            'elsewhere write it with result.report("page.html") and open it in a browser>'
         )
 
 

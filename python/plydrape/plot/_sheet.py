@@ -97,4 +97,5 @@ def breadth(width: Width) -> float:
 def plain(bar: Colorbar) -> None:
     """A colour bar with a thin frame, made of shapes and not of dots."""
     bar.outline.set_linewidth(0.4)
-    bar.solids.set(rasterized=False, edgecolor="face")
+    if bar.solids is not None:
+        bar.solids.set(rasterized=False, edgecolor="face")
