@@ -12,7 +12,7 @@ Example:
 
 """
 
-from plydrape import batch
+from plydrape import batch, study
 from plydrape._plydrape import (
     Equilibrium,
     Foot,
@@ -35,6 +35,7 @@ from plydrape._plydrape import (
     simulate,
 )
 from plydrape.errors import (
+    MissingExtra,
     OutputError,
     PlanError,
     PlydrapeError,
@@ -42,12 +43,14 @@ from plydrape.errors import (
     SceneError,
     SolveError,
 )
+from plydrape.study.error import StudyError
 
 __all__ = [
     "Equilibrium",
     "Foot",
     "Jacobian",
     "Material",
+    "MissingExtra",
     "Mold",
     "Net",
     "Outcome",
@@ -63,6 +66,7 @@ __all__ = [
     "SolveError",
     "Solver",
     "Span",
+    "StudyError",
     "Surface",
     "__version__",
     "batch",
@@ -70,4 +74,5 @@ __all__ = [
     "outcome",
     "plan",
     "simulate",
+    "study",
 ]

@@ -79,3 +79,12 @@ class ResultError(PlydrapeError, ValueError):
 
 class OutputError(PlydrapeError, OSError):
     """Files that could not be written; none was, then."""
+
+
+class MissingExtra(PlydrapeError, ImportError):
+    """A package that an extra of plydrape brings is not installed; the text says which extra."""
+
+    def __init__(self, package: str, extra: str) -> None:
+        """`package` is missing, which `plydrape[extra]` brings."""
+        super().__init__(f'{package} is missing; install it with: pip install "plydrape[{extra}]"')
+        self.name = package

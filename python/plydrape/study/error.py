@@ -5,9 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 from types import ModuleType
 
-from plydrape.errors import PlydrapeError
-
-INSTALL = "pip install 'plydrape[study]'"
+from plydrape.errors import MissingExtra, PlydrapeError
 
 
 class StudyError(PlydrapeError, ValueError):
@@ -49,7 +47,7 @@ def toml() -> ModuleType:
     """The reader of TOML: the standard library's, before Python 3.11 the package tomli.
 
     Raises:
-        StudyError: Python is older than 3.11 and tomli is not installed.
+        MissingExtra: Python is older than 3.11 and tomli is not installed.
 
     """
     try:
@@ -58,7 +56,7 @@ def toml() -> ModuleType:
         try:
             import tomli as reader  # type: ignore[no-redef, import-not-found, unused-ignore]
         except ImportError as error:
-            raise missing(error) from error
+            raise MissingExtra("tomli", "study") from error
     return reader
 
 
@@ -66,7 +64,7 @@ def require(*modules: str) -> None:
     """Tells at the start, not after an hour, that a package of the extra is missing.
 
     Raises:
-        StudyError: one of the modules cannot be imported.
+        MissingExtra: one of the modules is not installed.
 
     Example:
         >>> require("json")
@@ -74,10 +72,4 @@ def require(*modules: str) -> None:
     """
     for module in modules:
         if find_spec(module) is None:
-            raise missing(ModuleNotFoundError(name=module))
-
-
-def missing(error: ImportError) -> StudyError:
-    """The error for a package that is not installed."""
-    name = error.name or "a package"
-    return StudyError(f"studies need {name}, which is not installed", help=INSTALL)
+            raise MissingExtra(module, "study")
