@@ -35,7 +35,7 @@ from plydrape._plydrape import (
     simulate,
 )
 from plydrape.errors import (
-    MissingExtra,
+    ExtraError,
     OutputError,
     PlanError,
     PlydrapeError,
@@ -47,10 +47,10 @@ from plydrape.study.error import StudyError
 
 __all__ = [
     "Equilibrium",
+    "ExtraError",
     "Foot",
     "Jacobian",
     "Material",
-    "MissingExtra",
     "Mold",
     "Net",
     "Outcome",

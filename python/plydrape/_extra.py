@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from types import ModuleType
 
-from plydrape.errors import MissingExtra, PlydrapeError
+from plydrape.errors import ExtraError, PlydrapeError
 
 
 class CadError(PlydrapeError, ValueError):
@@ -13,14 +13,14 @@ class CadError(PlydrapeError, ValueError):
 
 
 def load(module: str, *, extra: str, name: str) -> ModuleType:
-    """The module, or a `MissingExtra` that says which extra brings it.
+    """The module, or a `ExtraError` that says which extra brings it.
 
     Example:
         >>> plydrape._extra.load("json", extra="plot", name="JSON").__name__
         'json'
         >>> plydrape._extra.load("no_such_module", extra="plot", name="Matplotlib")
         Traceback (most recent call last):
-        plydrape.errors.MissingExtra: Matplotlib is missing; install it with: pip install "plydrape[plot]"
+        plydrape.errors.ExtraError: Matplotlib is missing; install it with: pip install ...
 
     """
     try:
@@ -29,4 +29,4 @@ def load(module: str, *, extra: str, name: str) -> ModuleType:
         # a module that is there but lacks one of its own is another fault
         if missing.name is None or module.split(".")[0] != missing.name.split(".")[0]:
             raise
-        raise MissingExtra(name, extra) from missing
+        raise ExtraError(name, extra) from missing

@@ -81,7 +81,7 @@ class OutputError(PlydrapeError, OSError):
     """Files that could not be written; none was, then."""
 
 
-class MissingExtra(PlydrapeError, ImportError):
+class ExtraError(PlydrapeError, ImportError):
     """A package that an extra of plydrape brings is not installed; the text says which extra."""
 
     def __init__(self, package: str, extra: str) -> None:

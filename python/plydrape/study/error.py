@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 from types import ModuleType
 
-from plydrape.errors import MissingExtra, PlydrapeError
+from plydrape.errors import ExtraError, PlydrapeError
 
 
 class StudyError(PlydrapeError, ValueError):
@@ -47,7 +47,7 @@ def toml() -> ModuleType:
     """The reader of TOML: the standard library's, before Python 3.11 the package tomli.
 
     Raises:
-        MissingExtra: Python is older than 3.11 and tomli is not installed.
+        ExtraError: Python is older than 3.11 and tomli is not installed.
 
     """
     try:
@@ -56,7 +56,7 @@ def toml() -> ModuleType:
         try:
             import tomli as reader  # type: ignore[no-redef, import-not-found, unused-ignore]
         except ImportError as error:
-            raise MissingExtra("tomli", "study") from error
+            raise ExtraError("tomli", "study") from error
     return reader
 
 
@@ -64,7 +64,7 @@ def require(*modules: str) -> None:
     """Tells at the start, not after an hour, that a package of the extra is missing.
 
     Raises:
-        MissingExtra: one of the modules is not installed.
+        ExtraError: one of the modules is not installed.
 
     Example:
         >>> require("json")
@@ -72,4 +72,4 @@ def require(*modules: str) -> None:
     """
     for module in modules:
         if find_spec(module) is None:
-            raise MissingExtra(module, "study")
+            raise ExtraError(module, "study")

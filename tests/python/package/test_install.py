@@ -23,7 +23,7 @@ for use in (
 ):
     try:
         use()
-    except plydrape.MissingExtra as error:
+    except plydrape.ExtraError as error:
         print(error)
 """
 
