@@ -29,7 +29,7 @@ def test_there_are_notebooks() -> None:
 def test_a_notebook_is_kept_without_outputs(name: str) -> None:
     """Outputs are made by whoever runs it; a change of one number is a change of one line."""
     book = read(name)
-    nbformat.validate(book)  # type: ignore[no-untyped-call]
+    nbformat.validate(book)
     code = [cell for cell in book.cells if cell.cell_type == "code"]
     assert code and book.cells[0].cell_type == "markdown"
     assert not any(cell.outputs or cell.execution_count for cell in code)

@@ -392,7 +392,12 @@ def test_nothing_of_the_users_is_touched(flat: plydrape.Result) -> None:
     plt.switch_backend("Agg")
     plt.close("all")
     own = plt.figure()
-    wishes = {"font.size": 30.0, "font.weight": "bold", "axes.facecolor": "red", "grid.alpha": 0.1}
+    wishes: dict[Any, Any] = {
+        "font.size": 30.0,
+        "font.weight": "bold",
+        "axes.facecolor": "red",
+        "grid.alpha": 0.1,
+    }
     with mpl.rc_context(wishes):
         before = dict(mpl.rcParams)
         figures = [flat.plot(kind) for kind in ("steps", "measures", "shear")]
