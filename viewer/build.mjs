@@ -54,7 +54,9 @@ for (const mark of ["__PLYDRAPE_TITLE__", "__PLYDRAPE_DATA__"]) {
 }
 
 await mkdir(dirname(target), { recursive: true });
-await writeFile(target, page);
+// a file that stays as it is keeps its time, and what is built from it stays built
+const before = await readFile(target, "utf8").catch(() => "");
+if (page !== before) await writeFile(target, page);
 const kilobytes = (size) => `${(size / 1000).toFixed(0)} kB`;
 console.log(
   `report.html: ${kilobytes(Buffer.byteLength(page))}, script ${kilobytes(script.length)}, style ${kilobytes(style.length)}`,

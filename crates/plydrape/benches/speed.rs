@@ -74,6 +74,15 @@ fn equilibrium_4x2_cold(bencher: Bencher) {
     });
 }
 
+/// The same place once more: what `benches/python.py` asks of Python, without Python.
+#[divan::bench]
+fn equilibrium_4x2_again(bencher: Bencher) {
+    let scene = example();
+    let laid = vec![None; scene.ply.grid.catenaries()];
+    let mut solver = Solver::new(&scene.ply, &scene.settings);
+    bencher.bench_local(|| solver.solve(black_box(&scene.motion.positions[0]), &laid));
+}
+
 /// 24 equilibria, each from the step before: the example from step 2 to step 25, the last before contact.
 #[divan::bench]
 fn equilibria_4x2_warm_24_steps(bencher: Bencher) {

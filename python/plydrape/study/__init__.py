@@ -4,7 +4,8 @@ A study file (or a dict with the same keys) names a scene, what varies and how, 
 scenarios there are. `run` drapes them all, on the cores of this machine or on a Dask cluster, and
 gives one row a scenario: its inputs, its measures, its version and any error.
 
-    definition.py   what a study file says, checked       (keys.py, varied.py, law.py, source.py)
+    definition.py   what a study file says, checked       (given.py, source.py, varied.py,
+                                                           keys.py, law.py)
     sample.py       the inputs of every scenario          (placement.py)
     scenario.py     one scenario: its scene, its drape, its row
     carry.py        chunks of scenarios to workers        (local.py, worker.py, cluster.py)

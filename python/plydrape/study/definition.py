@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -16,11 +15,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 import plydrape
 
-from . import sample, source
+from . import given, sample, source
 from .error import StudyError
 from .keys import Value, nearest, put
 from .law import Input
@@ -34,8 +31,6 @@ if TYPE_CHECKING:
 COMMANDS = ("simulate", "plan", "follow")
 SAMPLINGS = ("latin-hypercube", "sobol", "grid")
 KEYS = ("title", "scene", "command", "plan", "sampling", "samples", "seed", "vary")
-# More scenarios than any machine here will drape; a slip of the pen is likelier.
-MOST = 10_000_000
 
 
 @dataclass(frozen=True)
@@ -177,7 +172,7 @@ class Study:
             "scene": self.tables,
             "files": dict(self.files),
         }
-        return plain(about)  # type: ignore[no-any-return]
+        return given.plain(about)  # type: ignore[no-any-return]
 
 
 def _study(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
@@ -201,9 +196,9 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
                 help=f"its keys are {', '.join(KEYS)}{nearest(key, KEYS)}",
                 key=key,
             )
-    command = _one_of(table, "command", COMMANDS, "simulate")
-    sampling = _one_of(table, "sampling", SAMPLINGS, "latin-hypercube")
-    seed = _whole(table, "seed", 0, least=0)
+    command = given.one_of(table, "command", COMMANDS, "simulate")
+    sampling = given.one_of(table, "sampling", SAMPLINGS, "latin-hypercube")
+    seed = given.whole(table, "seed", 0, least=0)
     title = table.get("title")
     if title is not None and not isinstance(title, str):
         raise StudyError(f"`title` = {title!r} is no text", help="put it in quotes", key="title")
@@ -214,14 +209,14 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
     if not isinstance(varied, Mapping):
         raise StudyError(f"`vary` = {varied!r} is no table", help=VARY, key="vary")
     tables = source.expanded(tables, home, varied)
-    motion = _motion(table, command, base)
+    motion = given.motion(table, command, base)
 
     # What varies.
     laws = inputs(varied, tables, command, sampling)
     errs = placement(varied, command, sampling)
     if not laws and errs is None:
         raise StudyError("`vary` names nothing that varies", help=VARY, key="vary")
-    samples = _samples(table, sampling, laws)
+    samples = given.scenarios(table, sampling, laws)
     study = Study(
         title=title or str(tables.get("title", "")) or (file.stem if file else "Study"),
         tables=tables,
@@ -241,70 +236,6 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
 
 
 VARY = 'as in [vary] "grippers.height" = { from = "60 mm", to = "90 mm" }'
-
-
-def _one_of(table: Mapping[str, Any], key: str, known: tuple[str, ...], usual: str) -> str:
-    value = table.get(key, usual)
-    if value not in known:
-        quoted = [f'"{name}"' for name in known]
-        raise StudyError(
-            f"`{key}` = {value!r} is not known",
-            help=f"it is one of {', '.join(quoted)}{nearest(str(value), known)}",
-            key=key,
-        )
-    return str(value)
-
-
-def _whole(table: Mapping[str, Any], key: str, usual: int | None, least: int) -> int:
-    value = table.get(key, usual)
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value < 2**63:
-        raise StudyError(
-            f"`{key}` is missing" if value is None else f"`{key}` = {value!r} does not count",
-            help=f"write a whole number of {least} or more, as in {key} = {max(least, 256)}",
-            key=key,
-        )
-    return value
-
-
-def _samples(table: Mapping[str, Any], sampling: str, laws: tuple[Input, ...]) -> int:
-    if sampling == "grid":
-        if "samples" in table:
-            raise StudyError(
-                f"`samples` = {table['samples']!r} says nothing to a grid",
-                help="remove it: a grid has every combination of its numbers",
-                key="samples",
-            )
-        samples = math.prod(len(x.grid()) for x in laws)
-    else:
-        samples = _whole(table, "samples", None, least=1)
-    if samples > MOST:
-        raise StudyError(
-            f"{samples} scenarios are more than {MOST}", help="split the study", key="samples"
-        )
-    return samples
-
-
-def _motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None:
-    given = table.get("plan")
-    if command != "follow":
-        if given is None:
-            return None
-        raise StudyError(
-            f'`plan` = {given!r} goes with command = "follow" only, and this is {command!r}',
-            help="remove it, or follow the plan",
-            key="plan",
-        )
-    if not isinstance(given, str | os.PathLike):
-        raise StudyError(
-            "`plan` is missing: what is to be followed?",
-            help='name a finished plan: plan = "scene.plan/result.json"',
-            key="plan",
-        )
-    path = base / given
-    if path.is_dir():
-        path = path / "result.json"
-    result = plydrape.Result.read(str(path))
-    return Motion(np.array(result.times), np.array(result.positions))
 
 
 def _probe(study: Study) -> None:
@@ -340,18 +271,3 @@ def _probe(study: Study) -> None:
                 help=said(why),
                 key=x.key,
             )
-
-
-def plain(value: Any) -> Any:
-    """Plain JSON: lists for tuples and arrays, text for what is infinite."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(inner) for key, inner in value.items()}
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [plain(inner) for inner in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return str(value)
-    if isinstance(value, str | int | float | bool) or value is None:
-        return value
-    return str(value)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from types import ModuleType
 
-from plydrape import PlydrapeError
+from plydrape.errors import PlydrapeError
 
 INSTALL = "pip install 'plydrape[study]'"
 
@@ -72,10 +73,8 @@ def require(*modules: str) -> None:
 
     """
     for module in modules:
-        try:
-            __import__(module)
-        except ImportError as error:
-            raise missing(error) from error
+        if find_spec(module) is None:
+            raise missing(ModuleNotFoundError(name=module))
 
 
 def missing(error: ImportError) -> StudyError:

@@ -35,32 +35,35 @@ def nouns(module: ModuleType) -> Iterator[tuple[str, Any]]:
         yield f"{module.__name__}.{name}", value
         if inspect.isclass(value):
             for key in vars(value):
-                if not key.startswith("_"):
-                    yield f"{module.__name__}.{name}.{key}", inspect.getattr_static(value, key)
+                part = inspect.getattr_static(value, key)
+                # what a field means is said by its class
+                if not key.startswith("_") and (callable(part) or hasattr(part, "__get__")):
+                    yield f"{module.__name__}.{name}.{key}", part
 
 
-def documented() -> dict[str, str]:
-    """Documentation by name; what stands in two modules is taken once."""
-    out: dict[str, str] = {}
+def documented() -> dict[str, tuple[str, ModuleType]]:
+    """Documentation by name, and where it stands; what stands in two modules is taken once."""
+    out: dict[str, tuple[str, ModuleType]] = {}
     seen = set()
     for module in modules():
         for name, value in nouns(module):
             text = inspect.getdoc(getattr(value, "__func__", value)) or ""
             if text and text not in seen:
                 seen.add(text)
-                out[name] = text
+                out[name] = (text, module)
     return out
 
 
-EXAMPLES = {name: text for name, text in documented().items() if ">>>" in text}
+EXAMPLES = {name: found for name, found in documented().items() if ">>>" in found[0]}
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_an_example_prints_what_it_says(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """As someone would type it in the folder of the project."""
     monkeypatch.chdir(ROOT)
-    scope = {"plydrape": plydrape, "np": np}
-    example = doctest.DocTestParser().get_doctest(EXAMPLES[name], scope, name, None, 0)
+    text, module = EXAMPLES[name]
+    scope = {**vars(module), "plydrape": plydrape, "np": np}
+    example = doctest.DocTestParser().get_doctest(text, scope, name, None, 0)
     printed: list[str] = []
     runner = doctest.DocTestRunner(optionflags=FLAGS)
     runner.run(example, out=printed.append)

@@ -37,6 +37,9 @@ def test_placement_errors_move_each_gripper_all_along() -> None:
     exact = plydrape.Scene.parse(text)
     off = made.scene(3).positions - exact.positions
     assert np.ptp(off, axis=0).max() < 1e-15 and 0 < np.abs(off).max() <= 1e-3
+    # As the guide says they are drawn.
+    drawn = np.random.default_rng([1, 3]).uniform(-1e-3, 1e-3, (8, 3))
+    assert off[0] == pytest.approx(drawn, abs=1e-15)
     distances = 1e3 * np.linalg.norm(off[0], axis=1)
     assert row["placement.largest"] == pytest.approx(distances.max(), rel=1e-9)
     assert row["placement.rms"] == pytest.approx(np.sqrt((distances**2).mean()), rel=1e-9)
