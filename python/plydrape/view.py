@@ -217,4 +217,4 @@ def _look(out: Any, title: str) -> None:
     out.enable_parallel_projection()
     out.camera_position = [(0.42, -0.78, 0.48), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
     out.reset_camera()
-    out.camera.zoom(1.25)
+    out.camera.zoom(1.15)

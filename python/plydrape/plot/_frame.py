@@ -17,18 +17,18 @@ if TYPE_CHECKING:
 
     from plydrape.plot._stage import Stage
 
+ROOM = (26.0, 26.0, 11.0)
+"""Length of an edge that a number needs (pt): along x, y and z."""
+
 
 def frame(axes: Axes3D, stage: Stage, wide: float, *, named: bool) -> None:
     """The box, this wide as a share of the axes, with names and numbers if it is to be named."""
-    span = stage.high - stage.low
     axes.set_xlim(stage.low[0], stage.high[0])
     axes.set_ylim(stage.low[1], stage.high[1])
     axes.set_zlim(stage.low[2], stage.high[2])
     axes.view_init(*stage.view)
     axes.set_facecolor("none")
-    for axis, length in zip((axes.xaxis, axes.yaxis, axes.zaxis), span, strict=True):
-        most = 2 if length < 0.5 * span.max() else 3
-        axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 5, 10]))
+    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
         axis.set_major_formatter("")
         axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
         axis._axinfo["grid"].update(color=GRID, linewidth=0.5)
@@ -36,6 +36,12 @@ def frame(axes: Axes3D, stage: Stage, wide: float, *, named: bool) -> None:
         axis.line.set_visible(False)
     _fit(axes, stage, wide)
     for k, edge in enumerate(_edges(stage)):
+        # as many numbers as there is room for along the edge, in points
+        ends = _screen(axes, edge)
+        room = float(np.linalg.norm(ends[1] - ends[0])) * 72.0 / axes.figure.dpi
+        most = int(np.clip(room / ROOM[k], 1, 4))
+        axis = (axes.xaxis, axes.yaxis, axes.zaxis)[k]
+        axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 5, 10]))
         axes.plot(*edge.T, color=FRAME, lw=0.6, zorder=-1, gid="frame")
         if named:
             _names(axes, stage, k, edge)

@@ -40,6 +40,9 @@ class Screen:
         a, b, c = (points[triangles[:, k]] @ view.T for k in range(3))
         twice = _cross(b[:, :2] - a[:, :2], c[:, :2] - a[:, :2])
         seen = np.abs(twice) > 1e-9 * np.abs(twice).max(initial=1e-300)
+        # a surface whose upper side is seen everywhere hides nothing that is above it
+        if (twice * (np.cross(b - a, c - a) @ view[:, 2]) > 0.0).all():
+            seen[:] = False
         self.corners = [corner[seen] for corner in (a, b, c)]
         self.twice = twice[seen]
 

@@ -60,13 +60,13 @@ def panel(axes: Axes3D, stage: Stage, step: int) -> None:
 
     lines = result.lines(step)
     edges = _shapes.edges(result.grid)
-    _lines(axes, stage, lines[:edges], RED, 1.0, 3, "edges")
-    _lines(axes, stage, lines[edges:], RED, 0.5, 3, "diagonals")
+    _lines(axes, stage, lines[:edges], RED, 1.0 * stage.fine, 3, "edges")
+    _lines(axes, stage, lines[edges:], RED, 0.5 * stage.fine, 3, "diagonals")
     parts, spots = _touching(stage, step)
-    _lines(axes, stage, parts, RED, 1.5, 4, "touching")
+    _lines(axes, stage, parts, RED, 1.5 * stage.fine, 4, "touching")
     if len(spots) > 0:
         x, y, z = spots[~stage.hides(spots)].T * 1e3
-        size = {"markersize": 2.8, "markeredgewidth": 0.7}
+        size = {"markersize": 2.8 * stage.fine, "markeredgewidth": 0.7 * stage.fine}
         axes.plot(x, y, z, "o", mfc="white", mec=RED, zorder=5, gid="contact", **size)
 
     discs = _shapes.discs(result, step, _shapes.radius(stage.record))
@@ -75,7 +75,7 @@ def panel(axes: Axes3D, stage: Stage, step: int) -> None:
         discs[seen] * 1e3,
         facecolors=BLACK,
         edgecolors="white",
-        linewidths=0.4,
+        linewidths=0.4 * stage.fine,
         zorder=6,
         gid="grippers",
     )

@@ -39,6 +39,8 @@ class Stage:
     scale: Normalize
     mold: tuple[NDArray[np.float64], NDArray[np.int64]] | None
     screen: _hidden.Screen | None
+    fine: float = 1.0
+    """Width of lines as a share of the usual one, less than 1 where cells are small."""
 
     def hides(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Whether the mold hides each of the points (N, 3) in m."""

@@ -90,6 +90,13 @@ def uses(found: cad.Triangles) -> Counter[int]:
     return Counter(np.unique(edges, axis=0, return_counts=True)[1].tolist())
 
 
+def ways(found: cad.Triangles) -> Counter[int]:
+    """The same with the way round: where all triangles face one side, each way is used once."""
+    t = found.triangles
+    edges = np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]])
+    return Counter(np.unique(edges, axis=0, return_counts=True)[1].tolist())
+
+
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 2e-5])
 def test_a_cap_from_step_lies_on_its_sphere_within_the_tolerance(
     tmp_path: Path, tolerance: float
@@ -157,10 +164,11 @@ def test_a_wrong_unit_can_be_replaced(tmp_path: Path) -> None:
 
 def test_faces_that_meet_share_their_corners(tmp_path: Path) -> None:
     """A solid box is closed: each edge has two triangles, and the outside is outside."""
-    box = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 100.0, 200.0, 300.0).Solid()
+    box = BRepPrimAPI_MakeBox(gp_Pnt(70, -20, 30), 100.0, 200.0, 300.0).Solid()
     found = cad.read(step(tmp_path / "box.step", box))
     assert len(found.points) == 8 and len(found.triangles) == 12
     assert uses(found) == {2: 18}
+    assert ways(found) == {1: 36}
     a, b, c = (found.points[found.triangles[:, k]] for k in range(3))
     assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(0.1 * 0.2 * 0.3)
 
@@ -172,7 +180,7 @@ def test_curved_faces_that_meet_have_no_crack(tmp_path: Path) -> None:
 
     ball = BRepPrimAPI_MakeSphere(gp_Pnt(0, 0, -RADIUS), RADIUS).Solid()
     found = cad.read(step(tmp_path / "fused.step", BRepAlgoAPI_Fuse(box, ball).Shape()))
-    assert set(uses(found)) == {2}
+    assert set(uses(found)) == {2} and set(ways(found)) == {1}
     assert found.points[:, 2].max() == pytest.approx(0.0, abs=1e-9)
 
 

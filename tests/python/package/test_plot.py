@@ -38,6 +38,12 @@ def dome() -> plydrape.Result:
 
 
 @pytest.fixture(scope="module")
+def shallow() -> plydrape.Result:
+    """A mold without symmetry, draped straight: no cell is like another."""
+    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "08_stl_mold/scene.toml"))
+
+
+@pytest.fixture(scope="module")
 def strip() -> plydrape.Result:
     """One row of grippers, no mold."""
     return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "02_hanging_strip/scene.toml"))
@@ -105,6 +111,12 @@ def test_grippers_are_discs_about_their_places(flat: plydrape.Result) -> None:
     assert discs.mean(axis=1) == pytest.approx(flat.positions[3] * 1e3)
     radius = np.linalg.norm(discs - discs.mean(axis=1, keepdims=True), axis=2)
     assert radius == pytest.approx(np.full(radius.shape, 12.0))
+    # columns of the rotation that a quaternion is: u along x, v along y
+    x, y, z, w = flat.quaternions[3].T
+    u = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)], axis=-1)
+    v = np.stack([2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)], axis=-1)
+    assert discs[:, 0] == pytest.approx(flat.positions[3] * 1e3 + 12.0 * u)
+    assert discs[:, 7] == pytest.approx(flat.positions[3] * 1e3 + 12.0 * v)
     normal = np.cross(discs[:, 0] - discs.mean(axis=1), discs[:, 7] - discs.mean(axis=1))
     up = normal[:, 2] / np.linalg.norm(normal, axis=1)
     assert np.rad2deg(np.arccos(up)) == pytest.approx(flat.tilts_deg[3], abs=1e-4)
@@ -112,11 +124,11 @@ def test_grippers_are_discs_about_their_places(flat: plydrape.Result) -> None:
 
 
 @pytest.mark.parametrize("colour", ["height", "gap", "shear"])
-def test_the_ply_has_the_colour_of_its_values(dome: plydrape.Result, colour: str) -> None:
+def test_the_ply_has_the_colour_of_its_values(shallow: plydrape.Result, colour: str) -> None:
     """Triangles are the surface's; their colours are viridis of what the colour bar says."""
-    kind = cast(Any, colour)
-    figure = plot.steps(dome, [27], colour=kind, elev=89.0)
-    faces, surface = corners(figure, "ply"), dome.surface(27, intervals=8)
+    kind, step = cast(Any, colour), 30 if colour == "shear" else 27
+    figure = plot.steps(shallow, [step], colour=kind, elev=89.0)
+    faces, surface = corners(figure, "ply"), shallow.surface(step, intervals=8)
     assert faces == pytest.approx(surface.points[surface.triangles] * 1e3)
     low, high = figure.axes[-1].get_xlim()
     middles = surface.points[surface.triangles].mean(axis=1)
@@ -124,8 +136,8 @@ def test_the_ply_has_the_colour_of_its_values(dome: plydrape.Result, colour: str
         # the cell that a triangle is in, by its number along u and v
         j, i = np.divmod(surface.triangles.astype(int), surface.size[0])
         i, j = (np.floor(n.mean(axis=1) / 8).astype(int) for n in (i, j))
-        share = np.abs(dome.shear_deg[26][j, i]) / high
-        assert low == 0.0 and high == pytest.approx(np.abs(dome.shear_deg[26]).max())
+        share = np.abs(shallow.shear_deg[step - 1][j, i]) / high
+        assert low == 0.0 and high == pytest.approx(np.abs(shallow.shear_deg[step - 1]).max())
     elif colour == "height":
         share = (middles[:, 2] * 1e3 - low) / (high - low)
     else:
@@ -291,11 +303,11 @@ def test_measure_titles_do_not_overlap(flat: plydrape.Result) -> None:
                 assert not name.overlaps(bound.get_window_extent(renderer)), bound.get_text()
 
 
-def test_the_shear_map_colours_each_cell(dome: plydrape.Result) -> None:
+def test_the_shear_map_colours_each_cell(shallow: plydrape.Result) -> None:
     """On the fabric at its u and v, from above at x and y; the ring is at the largest amount."""
-    net = dome.net
+    net = shallow.net
     assert net is not None
-    figure = plot.shear_map(dome)
+    figure = plot.shear_map(shallow)
     for panel in (0, 1):
         shown = cells(figure, panel)
         assert np.asarray(shown.get_array()) == pytest.approx(np.abs(net.shear_deg).ravel())
@@ -380,7 +392,13 @@ def test_nothing_of_the_users_is_touched(flat: plydrape.Result) -> None:
     plt.switch_backend("Agg")
     plt.close("all")
     own = plt.figure()
-    with mpl.rc_context({"font.size": 30.0, "axes.facecolor": "red", "lines.linewidth": 9.0}):
+    wishes: dict[Any, Any] = {
+        "font.size": 30.0,
+        "font.weight": "bold",
+        "axes.facecolor": "red",
+        "grid.alpha": 0.1,
+    }
+    with mpl.rc_context(wishes):
         before = dict(mpl.rcParams)
         figures = [flat.plot(kind) for kind in ("steps", "measures", "shear")]
         assert dict(mpl.rcParams) == before
@@ -388,6 +406,7 @@ def test_nothing_of_the_users_is_touched(flat: plydrape.Result) -> None:
     assert plt.gcf() is own
     for figure in figures:
         assert mpl.colors.to_hex(figure.axes[0].get_facecolor()) != "#ff0000"
+        assert {text.get_fontweight() for text in figure.findobj(mpl.text.Text)} == {"normal"}
         drawn(figure)
     plt.close("all")
 
