@@ -156,5 +156,5 @@ def test_the_check_sum_is_of_what_rows_depend_on(tmp_path: Path) -> None:
 def test_a_missing_package_is_told_before_anything_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     """In one message, with what to type."""
     monkeypatch.setitem(sys.modules, "pyarrow", None)
-    with pytest.raises(StudyError, match=r"need pyarrow.*pip install 'plydrape\[study\]'"):
+    with pytest.raises(plydrape.ExtraError, match=r'pyarrow is missing.*"plydrape\[study\]"'):
         plydrape.study.run(table(4))
