@@ -35,6 +35,7 @@ from plydrape._plydrape import (
     simulate,
 )
 from plydrape.errors import (
+    CadError,
     ExtraError,
     OutputError,
     PlanError,
@@ -46,6 +47,7 @@ from plydrape.errors import (
 from plydrape.study.error import StudyError
 
 __all__ = [
+    "CadError",
     "Equilibrium",
     "ExtraError",
     "Foot",

@@ -5,11 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from types import ModuleType
 
-from plydrape.errors import ExtraError, PlydrapeError
-
-
-class CadError(PlydrapeError, ValueError):
-    """A CAD file that cannot be read, or surfaces in it that cannot be turned into triangles."""
+from plydrape.errors import ExtraError
 
 
 def load(module: str, *, extra: str, name: str) -> ModuleType:

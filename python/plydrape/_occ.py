@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from plydrape._extra import CadError, load
+from plydrape._extra import load
+from plydrape.errors import CadError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -53,6 +53,12 @@ Version of the package and of the library in it.
 class Equilibria:
     """
     Many equilibria of one ply. Catenaries are counted as in `Ply`.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> batch = plydrape.batch.equilibria(plydrape.Solver.of(scene), scene.positions[:20])
+        >>> len(batch), batch.slopes.shape
+        (20, (20, 16, 2))
     """
     def __len__(self, /) -> int: ...
     def __repr__(self, /) -> str: ...
@@ -88,6 +94,12 @@ class Equilibrium:
     A ply that hangs: forces, slopes, shape, and how they change.
 
     Catenaries are counted as in `Ply`.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+        >>> equilibrium.forces.round(4)
+        array([0.4177])
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -125,6 +137,13 @@ class Equilibrium:
     def points(self, /, stations: SupportsIndex = 17) -> NDArray[float64]:
         """
         Points along each catenary (m) at equal parts of its run, shape (catenaries, stations, 3).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+            >>> lowest = equilibrium.points(5)[0, 2]
+            >>> (lowest * 1e3).round(1)
+            array([49. ,  0. , -8.7])
         """
     @property
     def positions(self, /) -> NDArray[float64]:
@@ -156,6 +175,12 @@ class Equilibrium:
 class Foot:
     """
     What lies closest to points.
+
+    Example:
+        >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+        >>> foot = mold.foot([[0, 0, 0.1]])
+        >>> bool(np.isclose(np.linalg.norm(foot.points - [0, 0, 0.1]), abs(foot.distances[0])))
+        True
     """
     @property
     def beyond(self, /) -> NDArray[bool_]:
@@ -182,6 +207,13 @@ class Foot:
 class Jacobian:
     """
     Derivatives of an `Equilibrium`: each array has the axes of what is differentiated, then those of `wrt`.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+        >>> jacobian = equilibrium.jacobian(wrt="lengths")
+        >>> jacobian.names, jacobian.forces.shape, jacobian.slopes.shape
+        (['u', 'v'], (1, 2), (1, 2, 2))
     """
     @property
     def forces(self, /) -> NDArray[float64]:
@@ -196,6 +228,12 @@ class Jacobian:
     def points(self, /, stations: SupportsIndex = 17) -> NDArray[float64]:
         """
         Derivatives of the points (m) at fixed parts of the runs, shape (catenaries, stations, 3, …).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+            >>> equilibrium.jacobian(wrt="material").points(5).shape
+            (1, 5, 3, 2)
         """
     @property
     def shear(self, /) -> NDArray[float64]:
@@ -252,6 +290,13 @@ class Material:
     def shear_force(self, /, angles: ArrayLike) -> NDArray[float64] | None:
         """
         Shear force per length (N/m) at shear angles (rad), shape (n,); None if the material has no shear curve.
+
+        Example:
+            >>> curve = {"angle": [0, "20 deg"], "force": [0, "10 N/m"]}
+            >>> material = {"mass": 0.3, "flexural_rigidity": 9e-6, "shear_curve": curve}
+            >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material=material)
+            >>> ply.material.shear_force(np.deg2rad([0, 10, 20]))
+            array([ 0.,  5., 10.])
         """
     @staticmethod
     def shipped(name: str) -> Material:
@@ -260,6 +305,10 @@ class Material:
 
         Raises:
             ValueError: If there is none of that name.
+
+        Example:
+            >>> plydrape.Material.shipped("krogh2018").name
+            'krogh2018'
         """
     @property
     def source(self, /) -> str:
@@ -273,6 +322,10 @@ class Material:
 
         Raises:
             ValueError: If there is none of that name.
+
+        Example:
+            >>> "source" in plydrape.Material.text("krogh2018")
+            True
         """
 
 @final
@@ -302,6 +355,11 @@ class Mold:
 
         Args:
             places: x and y (m), shape (n, 2).
+
+        Example:
+            >>> mold = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml").mold
+            >>> mold.heights([[0, 0], [0.3, 0.1]])
+            array([0., 0.])
         """
     @property
     def kind(self, /) -> str:
@@ -326,6 +384,12 @@ class Mold:
 
         Returns:
             Points (m), shape (n, 3), and the indices of each triangle's corners, shape (m, 3).
+
+        Example:
+            >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+            >>> points, triangles = mold.patch((-0.1, -0.1), (0.1, 0.1), most=200)
+            >>> points.shape[1], triangles.shape[1], len(triangles) <= 200
+            (3, 3, True)
         """
     @staticmethod
     def triangles(points: ArrayLike, triangles: numpy.typing.ArrayLike) -> Mold:
@@ -386,6 +450,11 @@ class Net:
 
         Raises:
             SceneError: If the file has no `[ply]`, `[mold]` and `[target]` that make sense.
+
+        Example:
+            >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
+            >>> float(net.shear_deg.max().round(3))
+            38.005
         """
     @property
     def shear_deg(self, /) -> NDArray[float64]:
@@ -400,6 +469,13 @@ class Outcome:
 
     What the mold has caught by then is held: the derivatives are those of the outcome to the grippers' targets as
     long as a slightly different last step catches nothing more, and exact where the state is smooth.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> outcome = plydrape.outcome(scene)
+        >>> worst = outcome.overstretch.argmax()
+        >>> outcome.overstretch_jacobian[worst].shape
+        (8, 3)
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -415,8 +491,8 @@ class Outcome:
     @property
     def overstretch(self, /) -> NDArray[float64]:
         """
-        Distance of the ends of each catenary's tightest free span beyond its fabric (m), negative where it is slack,
-        shape (catenaries,); nan where it lies from end to end.
+        Taut path of each catenary's tightest rest beyond its fabric (m), negative where it is slack, shape
+        (catenaries,): straight where it hangs, along the mold where it lies.
         """
     @property
     def overstretch_jacobian(self, /) -> NDArray[float64]:
@@ -453,6 +529,12 @@ class Outcome:
 class Plan:
     """
     A planned motion, and the drape along it.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plan = plydrape.plan(scene)
+        >>> plan.accepted, plan.positions.shape[1:]
+        (True, (8, 3))
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -489,6 +571,14 @@ class Plan:
 
         Returns:
             "positions", "velocities", "accelerations" and "jerks" (m, s), each of shape (n, grippers, 3).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> plan = plydrape.plan(scene)
+            >>> motion = plan.motion(np.linspace(0, plan.duration, 101))
+            >>> speeds = np.linalg.norm(motion["velocities"], axis=2)
+            >>> bool(speeds.max() < 0.25), bool(speeds[[0, -1]].max() < 1e-9)
+            (True, True)
         """
     @property
     def positions(self, /) -> NDArray[float64]:
@@ -512,6 +602,14 @@ class Plan:
 
         Raises:
             OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+
+        Example:
+            >>> import tempfile
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> plan = plydrape.plan(scene)
+            >>> with tempfile.TemporaryDirectory() as folder:
+            ...     sorted(path.name for path in plan.write(folder))
+            ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
         """
 
 @final
@@ -622,6 +720,14 @@ class Result:
         Raises:
             OutputError: If that cannot be done.
             ValueError: If there is no such format.
+
+        Example:
+            >>> import tempfile, pathlib
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> with tempfile.TemporaryDirectory() as folder:
+            ...     sorted(path.name for path in result.export("csv", folder))
+            ['steps.csv', 'trajectory.csv']
         """
     @property
     def forces(self, /) -> NDArray[float64]:
@@ -637,6 +743,12 @@ class Result:
     def html(self, /) -> str:
         """
         The page of `plydrape report`: one HTML file for any browser.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> result.html()[:15]
+            '<!doctype html>'
         """
     @property
     def limits(self, /) -> list[dict[str, Any]]:
@@ -646,6 +758,12 @@ class Result:
     def lines(self, /, step: SupportsIndex) -> list[NDArray[float64]]:
         """
         Each catenary of a step as a line from gripper to gripper (m), arrays of shape (n, 3).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
+            (16, 3)
         """
     @property
     def measures(self, /) -> dict[str, NDArray[float64]]:
@@ -664,6 +782,13 @@ class Result:
         """
         The mold under all steps and the target in about `most` triangles: points (m), shape (n, 3), and corners,
         shape (m, 3). None without a mold there.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> points, triangles = result.mold_surface(most=100)
+            >>> points.shape[1], len(triangles) <= 100
+            (3, True)
         """
     @property
     def net(self, /) -> Net | None:
@@ -677,6 +802,12 @@ class Result:
 
         Raises:
             ResultError: As `read`.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> plydrape.Result.parse(result.to_json()).accepted
+            True
         """
     def plot(
         self, /, kind: typing.Literal["steps", "measures", "shear"] = "steps", **options: typing.Any
@@ -687,6 +818,11 @@ class Result:
         Args:
             kind: steps, "measures" or "shear".
             options: Those of the function of that name in `plydrape.plot`.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> figure = result.plot("measures")
         """
     @property
     def positions(self, /) -> NDArray[float64]:
@@ -711,6 +847,16 @@ class Result:
 
         Raises:
             ResultError: If it cannot be read, or is not, to the last byte, what this version writes.
+
+        Example:
+            >>> import tempfile, pathlib
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> with tempfile.TemporaryDirectory() as folder:
+            ...     path = pathlib.Path(folder) / "result.json"
+            ...     _ = path.write_text(result.to_json())
+            ...     plydrape.Result.read(path).title == result.title
+            True
         """
     def report(self, /, path: str | PathLike[str]) -> Path:
         """
@@ -718,6 +864,14 @@ class Result:
 
         Raises:
             OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+
+        Example:
+            >>> import tempfile, pathlib
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> with tempfile.TemporaryDirectory() as folder:
+            ...     result.report(pathlib.Path(folder) / "page.html").name
+            'page.html'
         """
     def scene3d(self, /, step: SupportsIndex = ..., **options: typing.Any) -> pyvista.Plotter:
         """
@@ -726,6 +880,15 @@ class Result:
         Args:
             step: Which step.
             options: Those of `plydrape.view.scene3d`.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> import pyvista
+            >>> pyvista.OFF_SCREEN = True
+            >>> plotter = result.scene3d(-1)
+            >>> "ply" in plotter.actors
+            True
         """
     @property
     def scene_text(self, /) -> str | None:
@@ -743,6 +906,11 @@ class Result:
 
         Args:
             height: Height of the frame (pixels).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> page = result.show(height=400)
         """
     @property
     def slack_mm(self, /) -> NDArray[float64]:
@@ -757,10 +925,23 @@ class Result:
     def surface(self, /, step: SupportsIndex, *, intervals: SupportsIndex = 8) -> Surface:
         """
         The ply of a step as a surface with so many intervals along each side of a cell.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> surface = result.surface(1, intervals=4)
+            >>> surface.size, surface.points.shape, surface.triangles.shape
+            ((13, 5), (65, 3), (96, 3))
         """
     def svg(self, /, steps: SupportsGetItem[int, SupportsIndex] | None = None) -> str:
         """
         The figure of chosen steps as SVG, unless given of those that figure.svg shows.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> result.svg([1, 26, -1])[:4]
+            '<svg'
         """
     @property
     def tilts_deg(self, /) -> NDArray[float64]:
@@ -780,10 +961,22 @@ class Result:
     def to_dict(self, /) -> dict[str, Any]:
         """
         The whole result.json as dicts and lists.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> sorted(result.to_dict())
+            ['checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
         """
     def to_json(self, /) -> str:
         """
         The text of result.json, with its check sum.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> result.to_json()[:28]
+            '{"format":"plydrape-result",'
         """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
@@ -792,6 +985,14 @@ class Result:
 
         Raises:
             OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+
+        Example:
+            >>> import tempfile, pathlib
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> with tempfile.TemporaryDirectory() as folder:
+            ...     sorted(path.name for path in result.write(folder))
+            ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
         """
 
 @final
@@ -903,6 +1104,10 @@ class Scene:
     def template() -> str:
         """
         The text of a commented scene to start from, as `plydrape new` writes it.
+
+        Example:
+            >>> plydrape.Scene.template().startswith("# A scene for plydrape")
+            True
         """
     @property
     def text(self, /) -> str | None:
@@ -923,7 +1128,8 @@ class Scene:
         self, /, times: ArrayLike, positions: ArrayLike, *, title: str | None = None
     ) -> Scene:
         """
-        The same scene along another motion. It has no `text`, as no scene file says it.
+        The same scene along another motion. It has no `text`, as no scene file says it. Where a scene file is refused
+        if its start stretches the ply, this one is draped: its overstretch says by how much.
 
         Args:
             times: Time of each step (s), ascending, shape (steps,).
@@ -977,11 +1183,24 @@ class Solver:
     def forget(self, /) -> None:
         """
         Forgets the last equilibrium: the next one starts from nothing.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> solver = plydrape.Solver.of(scene)
+            >>> first = solver.solve(scene.positions[0]).forces
+            >>> solver.forget()
+            >>> bool((solver.solve(scene.positions[0]).forces == first).all())
+            True
         """
     @staticmethod
     def of(scene: Scene) -> Solver:
         """
         A solver for the ply of a scene, by its rules.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> plydrape.Solver.of(scene).solve(scene.positions[0]).forces.shape
+            (16,)
         """
     def solve(self, /, positions: ArrayLike, *, check: bool = True) -> Equilibrium:
         """
@@ -994,6 +1213,11 @@ class Solver:
         Raises:
             ValueError: If the shape does not fit or a number is not finite.
             SolveError: If no equilibrium was found.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]]).status
+            'converged'
         """
 
 @final
@@ -1047,6 +1271,11 @@ class Span:
 
         Raises:
             ValueError: If a distance is not between 0 and `run`.
+
+        Example:
+            >>> span = plydrape.Span(run=0.1, length=0.101, weight=3.0, flexural_rigidity=1e-5)
+            >>> (span.heights([0, 0.05, 0.1]) * 1e3).round(2) + 0.0
+            array([ 0.  , -6.18,  0.  ])
         """
     @property
     def sag(self, /) -> float:
@@ -1068,6 +1297,12 @@ class Span:
 class Surface:
     """
     The ply of one step as a surface.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> bool((plydrape.simulate(scene).surface(1).gap > 0).all())
+        True
     """
     @property
     def gap(self, /) -> NDArray[float64]:
@@ -1176,6 +1411,12 @@ def plan(
     Raises:
         PlanError: If the scene has no mold or target, or `memory` is not of its ply.
         ValueError: If there is no such method, or `memory` is no plan.json.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plan = plydrape.plan(scene)
+        >>> plan.method, plan.result.accepted
+        ('path', True)
     """
 
 def simulate(

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from plydrape import _occ
-from plydrape._extra import CadError
+from plydrape.errors import CadError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

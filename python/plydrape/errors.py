@@ -4,7 +4,12 @@ from __future__ import annotations
 
 
 class PlydrapeError(Exception):
-    """Any error of plydrape."""
+    """Any error of plydrape.
+
+    Example:
+        >>> issubclass(plydrape.SceneError, plydrape.PlydrapeError)
+        True
+    """
 
 
 class SceneError(PlydrapeError, ValueError):
@@ -52,6 +57,14 @@ class SolveError(PlydrapeError, ArithmeticError):
         status: How the solve ended: `stalled` or `iteration-limit`.
         iterations: Iterations on the slopes.
         residual: Newton step of the slopes still to go.
+
+    Example:
+        >>> limp = {"mass": 0.3, "flexural_rigidity": 0.0}
+        >>> ply = plydrape.Ply(grippers=[2, 1], cell=[0.1, 0.1], material=limp)
+        >>> equilibrium = plydrape.Solver(ply).solve([[0, 0, 0], [0.098, 0, 0]])
+        >>> equilibrium.jacobian(wrt="material")
+        Traceback (most recent call last):
+        plydrape.errors.SolveError: a rigidity of the material is zero: ...
     """
 
     def __init__(
@@ -70,19 +83,55 @@ class SolveError(PlydrapeError, ArithmeticError):
 
 
 class PlanError(PlydrapeError, ValueError):
-    """A scene that has nothing to plan, or an earlier plan that does not belong to it."""
+    """A scene that has nothing to plan, or an earlier plan that does not belong to it.
+
+    Example:
+        >>> plydrape.plan(plydrape.Scene.read("examples/02_hanging_strip/scene.toml"))
+        Traceback (most recent call last):
+        plydrape.errors.PlanError: the scene has no mold to lay the ply on
+    """
 
 
 class ResultError(PlydrapeError, ValueError):
-    """A file that is no result of this version: cut short, changed, older, newer, or foreign."""
+    """A file that is no result of this version: cut short, changed, older, newer, or foreign.
+
+    Example:
+        >>> plydrape.Result.parse("{}")
+        Traceback (most recent call last):
+        plydrape.errors.ResultError: `result.json` is not a result of plydrape: ...
+    """
 
 
 class OutputError(PlydrapeError, OSError):
-    """Files that could not be written; none was, then."""
+    """Files that could not be written; none was, then.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> plydrape.simulate(scene).write("README.md")
+        Traceback (most recent call last):
+        plydrape.errors.OutputError: README.md is not a folder: ...
+    """
+
+
+class CadError(PlydrapeError, ValueError):
+    """A CAD file that cannot be read, or surfaces in it that cannot be turned into triangles.
+
+    Example:
+        >>> import plydrape.cad
+        >>> plydrape.cad.read("mold.dwg")
+        Traceback (most recent call last):
+        plydrape.errors.CadError: mold.dwg: expected a file that ends in .step, ...
+    """
 
 
 class ExtraError(PlydrapeError, ImportError):
-    """A package that an extra of plydrape brings is not installed; the text says which extra."""
+    """A package that an extra of plydrape brings is not installed; the text says which extra.
+
+    Example:
+        >>> raise plydrape.ExtraError("Matplotlib", "plot")
+        Traceback (most recent call last):
+        plydrape.errors.ExtraError: Matplotlib is missing; install it with: pip install ...
+    """
 
     def __init__(self, package: str, extra: str) -> None:
         """`package` is missing, which `plydrape[extra]` brings."""

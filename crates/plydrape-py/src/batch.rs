@@ -74,6 +74,12 @@ struct Found {
 }
 
 /// Many equilibria of one ply. Catenaries are counted as in `Ply`.
+///
+/// Example:
+///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+///     >>> batch = plydrape.batch.equilibria(plydrape.Solver.of(scene), scene.positions[:20])
+///     >>> len(batch), batch.slopes.shape
+///     (20, (20, 16, 2))
 #[pyclass(frozen, module = "plydrape")]
 pub struct Equilibria {
     grid: Grid,

@@ -64,6 +64,12 @@ pub fn simulate(
 /// Raises:
 ///     PlanError: If the scene has no mold or target, or `memory` is not of its ply.
 ///     ValueError: If there is no such method, or `memory` is no plan.json.
+///
+/// Example:
+///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+///     >>> plan = plydrape.plan(scene)
+///     >>> plan.method, plan.result.accepted
+///     ('path', True)
 #[pyfunction]
 #[pyo3(signature = (
     scene, *, method: "typing.Literal['path', 'stepwise'] | None" = None, seed = None, memory = None,
@@ -100,6 +106,12 @@ pub fn plan(
 }
 
 /// A planned motion, and the drape along it.
+///
+/// Example:
+///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+///     >>> plan = plydrape.plan(scene)
+///     >>> plan.accepted, plan.positions.shape[1:]
+///     (True, (8, 3))
 #[pyclass(frozen, module = "plydrape")]
 pub struct Plan {
     planned: Arc<Planned>,
@@ -168,6 +180,14 @@ impl Plan {
     ///
     /// Returns:
     ///     "positions", "velocities", "accelerations" and "jerks" (m, s), each of shape (n, grippers, 3).
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> plan = plydrape.plan(scene)
+    ///     >>> motion = plan.motion(np.linspace(0, plan.duration, 101))
+    ///     >>> speeds = np.linalg.norm(motion["velocities"], axis=2)
+    ///     >>> bool(speeds.max() < 0.25), bool(speeds[[0, -1]].max() < 1e-9)
+    ///     (True, True)
     fn motion(&self, times: List<'_>) -> PyResult<Named> {
         let times = list(&times, "times")?;
         let motion = &self.planned.motion;
@@ -194,6 +214,14 @@ impl Plan {
     ///
     /// Raises:
     ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+    ///
+    /// Example:
+    ///     >>> import tempfile
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> plan = plydrape.plan(scene)
+    ///     >>> with tempfile.TemporaryDirectory() as folder:
+    ///     ...     sorted(path.name for path in plan.write(folder))
+    ///     ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
         let planned = Arc::clone(&self.planned);
         py.detach(|| write_all(&planned, &folder)).map_err(|fault| error::output(&fault))

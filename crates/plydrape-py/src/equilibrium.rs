@@ -114,12 +114,25 @@ impl Solver {
     }
 
     /// A solver for the ply of a scene, by its rules.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> plydrape.Solver.of(scene).solve(scene.positions[0]).forces.shape
+    ///     (16,)
     #[staticmethod]
     fn of(scene: &Scene) -> Self {
         Solver(Mutex::new(State::new(&scene.0.ply, &scene.0.settings)))
     }
 
     /// Forgets the last equilibrium: the next one starts from nothing.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> solver = plydrape.Solver.of(scene)
+    ///     >>> first = solver.solve(scene.positions[0]).forces
+    ///     >>> solver.forget()
+    ///     >>> bool((solver.solve(scene.positions[0]).forces == first).all())
+    ///     True
     fn forget(&self) {
         self.state().solver.forget();
     }
@@ -133,6 +146,11 @@ impl Solver {
     /// Raises:
     ///     ValueError: If the shape does not fit or a number is not finite.
     ///     SolveError: If no equilibrium was found.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]]).status
+    ///     'converged'
     #[pyo3(signature = (positions, *, check = true))]
     fn solve(&self, positions: Table<'_>, check: bool) -> PyResult<Equilibrium> {
         let positions = points(&positions, "positions")?;
@@ -163,6 +181,12 @@ impl Solver {
 /// A ply that hangs: forces, slopes, shape, and how they change.
 ///
 /// Catenaries are counted as in `Ply`.
+///
+/// Example:
+///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+///     >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+///     >>> equilibrium.forces.round(4)
+///     array([0.4177])
 #[pyclass(frozen, module = "plydrape")]
 pub struct Equilibrium {
     state: Mutex<State>,
@@ -244,6 +268,13 @@ impl Equilibrium {
     }
 
     /// Points along each catenary (m) at equal parts of its run, shape (catenaries, stations, 3).
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+    ///     >>> lowest = equilibrium.points(5)[0, 2]
+    ///     >>> (lowest * 1e3).round(1)
+    ///     array([49. ,  0. , -8.7])
     #[pyo3(signature = (stations = 17))]
     fn points(&self, stations: usize) -> PyResult<Array<f64>> {
         let (spans, count) = (&self.shape.spans, at_least_two(stations)?);
@@ -338,6 +369,13 @@ impl Equilibrium {
 }
 
 /// Derivatives of an `Equilibrium`: each array has the axes of what is differentiated, then those of `wrt`.
+///
+/// Example:
+///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+///     >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+///     >>> jacobian = equilibrium.jacobian(wrt="lengths")
+///     >>> jacobian.names, jacobian.forces.shape, jacobian.slopes.shape
+///     (['u', 'v'], (1, 2), (1, 2, 2))
 #[pyclass(frozen, module = "plydrape")]
 pub struct Jacobian {
     axes: Vec<usize>,
@@ -414,6 +452,12 @@ impl Jacobian {
     }
 
     /// Derivatives of the points (m) at fixed parts of the runs, shape (catenaries, stations, 3, …).
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+    ///     >>> equilibrium.jacobian(wrt="material").points(5).shape
+    ///     (1, 5, 3, 2)
     #[pyo3(signature = (stations = 17))]
     fn points(&self, stations: usize) -> PyResult<Array<f64>> {
         let count = at_least_two(stations)?;

@@ -18,6 +18,12 @@ use std::sync::Arc;
 pub struct Mold(pub mold::Mold);
 
 /// What lies closest to points.
+///
+/// Example:
+///     >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+///     >>> foot = mold.foot([[0, 0, 0.1]])
+///     >>> bool(np.isclose(np.linalg.norm(foot.points - [0, 0, 0.1]), abs(foot.distances[0])))
+///     True
 #[pyclass(frozen, module = "plydrape")]
 pub struct Foot(Vec<mold::Foot>);
 
@@ -128,6 +134,11 @@ impl Mold {
     ///
     /// Args:
     ///     places: x and y (m), shape (n, 2).
+    ///
+    /// Example:
+    ///     >>> mold = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml").mold
+    ///     >>> mold.heights([[0, 0], [0.3, 0.1]])
+    ///     array([0., 0.])
     fn heights(&self, py: Python<'_>, places: Table<'_>) -> PyResult<Array<f64>> {
         let view = places.0.as_array();
         let (rows, columns) = view.dim();
@@ -148,6 +159,12 @@ impl Mold {
     ///
     /// Returns:
     ///     Points (m), shape (n, 3), and the indices of each triangle's corners, shape (m, 3).
+    ///
+    /// Example:
+    ///     >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+    ///     >>> points, triangles = mold.patch((-0.1, -0.1), (0.1, 0.1), most=200)
+    ///     >>> points.shape[1], triangles.shape[1], len(triangles) <= 200
+    ///     (3, 3, True)
     #[pyo3(signature = (low, high, *, most = 20_000))]
     fn patch(
         &self,

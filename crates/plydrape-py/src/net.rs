@@ -25,6 +25,11 @@ impl Net {
     ///
     /// Raises:
     ///     SceneError: If the file has no `[ply]`, `[mold]` and `[target]` that make sense.
+    ///
+    /// Example:
+    ///     >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
+    ///     >>> float(net.shear_deg.max().round(3))
+    ///     38.005
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let drape = py.detach(|| scene::read_ideal_drape(&path));

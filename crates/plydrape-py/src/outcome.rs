@@ -13,6 +13,13 @@ use std::sync::Arc;
 ///
 /// What the mold has caught by then is held: the derivatives are those of the outcome to the grippers' targets as
 /// long as a slightly different last step catches nothing more, and exact where the state is smooth.
+///
+/// Example:
+///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+///     >>> outcome = plydrape.outcome(scene)
+///     >>> worst = outcome.overstretch.argmax()
+///     >>> outcome.overstretch_jacobian[worst].shape
+///     (8, 3)
 #[pyclass(frozen, module = "plydrape")]
 pub struct Outcome {
     result: Result,
@@ -55,7 +62,7 @@ pub fn outcome(
     Ok(Outcome {
         result: Result(Arc::new(found.result)),
         grippers,
-        overstretch: found.overstretch,
+        overstretch: found.overstretch.into_iter().map(Some).collect(),
         force: found.force,
         shear: found.shear,
         tilt: found.tilt.into_iter().map(Some).collect(),
@@ -89,8 +96,8 @@ impl Outcome {
         self.result.clone()
     }
 
-    /// Distance of the ends of each catenary's tightest free span beyond its fabric (m), negative where it is slack,
-    /// shape (catenaries,); nan where it lies from end to end.
+    /// Taut path of each catenary's tightest rest beyond its fabric (m), negative where it is slack, shape
+    /// (catenaries,): straight where it hangs, along the mold where it lies.
     #[getter]
     fn overstretch(&self) -> Array<f64> {
         values(&self.overstretch)

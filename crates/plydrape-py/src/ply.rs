@@ -135,6 +135,10 @@ impl Material {
     ///
     /// Raises:
     ///     ValueError: If there is none of that name.
+    ///
+    /// Example:
+    ///     >>> plydrape.Material.shipped("krogh2018").name
+    ///     'krogh2018'
     #[staticmethod]
     fn shipped(name: &str) -> PyResult<Self> {
         Material::text(name)?;
@@ -147,6 +151,10 @@ impl Material {
     ///
     /// Raises:
     ///     ValueError: If there is none of that name.
+    ///
+    /// Example:
+    ///     >>> "source" in plydrape.Material.text("krogh2018")
+    ///     True
     #[staticmethod]
     fn text(name: &str) -> PyResult<&'static str> {
         scene::shipped_material(name).ok_or_else(|| {
@@ -211,6 +219,13 @@ impl Material {
     }
 
     /// Shear force per length (N/m) at shear angles (rad), shape (n,); None if the material has no shear curve.
+    ///
+    /// Example:
+    ///     >>> curve = {"angle": [0, "20 deg"], "force": [0, "10 N/m"]}
+    ///     >>> material = {"mass": 0.3, "flexural_rigidity": 9e-6, "shear_curve": curve}
+    ///     >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material=material)
+    ///     >>> ply.material.shear_force(np.deg2rad([0, 10, 20]))
+    ///     array([ 0.,  5., 10.])
     fn shear_force(&self, angles: List<'_>) -> Option<Array<f64>> {
         let curve = self.0.shear_curve.as_ref()?;
         let forces: Vec<f64> = angles.0.as_array().iter().map(|a| curve.force(*a).0).collect();

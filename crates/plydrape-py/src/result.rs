@@ -30,6 +30,12 @@ use std::sync::Arc;
 pub struct Result(pub Arc<ResultFile>);
 
 /// The ply of one step as a surface.
+///
+/// Example:
+///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+///     >>> result = plydrape.simulate(scene)
+///     >>> bool((plydrape.simulate(scene).surface(1).gap > 0).all())
+///     True
 #[pyclass(frozen, module = "plydrape")]
 pub struct Surface(surface::Surface);
 
@@ -73,6 +79,16 @@ impl Result {
     ///
     /// Raises:
     ///     ResultError: If it cannot be read, or is not, to the last byte, what this version writes.
+    ///
+    /// Example:
+    ///     >>> import tempfile, pathlib
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> with tempfile.TemporaryDirectory() as folder:
+    ///     ...     path = pathlib.Path(folder) / "result.json"
+    ///     ...     _ = path.write_text(result.to_json())
+    ///     ...     plydrape.Result.read(path).title == result.title
+    ///     True
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let result = py.detach(|| read::read(&path));
@@ -83,6 +99,12 @@ impl Result {
     ///
     /// Raises:
     ///     ResultError: As `read`.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> plydrape.Result.parse(result.to_json()).accepted
+    ///     True
     #[staticmethod]
     fn parse(py: Python<'_>, text: &str) -> PyResult<Self> {
         let result = py.detach(|| read::parse(text.as_bytes(), "result.json".as_ref()));
@@ -150,11 +172,23 @@ impl Result {
     }
 
     /// The whole result.json as dicts and lists.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> sorted(result.to_dict())
+    ///     ['checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
     fn to_dict(&self) -> PyResult<Json> {
         Json::of(&*self.0)
     }
 
     /// The text of result.json, with its check sum.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> result.to_json()[:28]
+    ///     '{"format":"plydrape-result",'
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| json::text(&self.0)).map_err(|fault| error::output(&fault.into()))
     }
@@ -233,6 +267,12 @@ impl Result {
     }
 
     /// Each catenary of a step as a line from gripper to gripper (m), arrays of shape (n, 3).
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
+    ///     (16, 3)
     fn lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
         let (grid, step) = (self.0.scene.grid, self.step(step)?);
         let line = |c: &CatenaryState| {
@@ -244,6 +284,13 @@ impl Result {
     }
 
     /// The ply of a step as a surface with so many intervals along each side of a cell.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> surface = result.surface(1, intervals=4)
+    ///     >>> surface.size, surface.points.shape, surface.triangles.shape
+    ///     ((13, 5), (65, 3), (96, 3))
     #[pyo3(signature = (step, *, intervals = 8))]
     fn surface(&self, py: Python<'_>, step: isize, intervals: usize) -> PyResult<Surface> {
         if !(1..=1000).contains(&intervals) {
@@ -256,6 +303,13 @@ impl Result {
 
     /// The mold under all steps and the target in about `most` triangles: points (m), shape (n, 3), and corners,
     /// shape (m, 3). None without a mold there.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> points, triangles = result.mold_surface(most=100)
+    ///     >>> points.shape[1], len(triangles) <= 100
+    ///     (3, True)
     #[pyo3(signature = (*, most = 20_000))]
     fn mold_surface(&self, py: Python<'_>, most: usize) -> Option<(Array<f64>, Array<u32>)> {
         py.detach(|| ground(&self.0, most)).map(triangles)
@@ -266,6 +320,14 @@ impl Result {
     ///
     /// Raises:
     ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+    ///
+    /// Example:
+    ///     >>> import tempfile, pathlib
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> with tempfile.TemporaryDirectory() as folder:
+    ///     ...     sorted(path.name for path in result.write(folder))
+    ///     ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
         py.detach(|| output::write_all(&self.0, &folder)).map_err(|fault| error::output(&fault))
     }
@@ -279,6 +341,14 @@ impl Result {
     /// Raises:
     ///     OutputError: If that cannot be done.
     ///     ValueError: If there is no such format.
+    ///
+    /// Example:
+    ///     >>> import tempfile, pathlib
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> with tempfile.TemporaryDirectory() as folder:
+    ///     ...     sorted(path.name for path in result.export("csv", folder))
+    ///     ['steps.csv', 'trajectory.csv']
     #[pyo3(signature = (to: "typing.Literal['vtk', 'inp', 'ros2', 'csv', 'svg']", folder))]
     fn export(&self, py: Python<'_>, to: &str, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
         let format = match to {
@@ -298,6 +368,12 @@ impl Result {
     }
 
     /// The page of `plydrape report`: one HTML file for any browser.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> result.html()[:15]
+    ///     '<!doctype html>'
     fn html(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| page::html(&self.0)).map_err(|fault| error::output(&fault))
     }
@@ -306,6 +382,14 @@ impl Result {
     ///
     /// Raises:
     ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+    ///
+    /// Example:
+    ///     >>> import tempfile, pathlib
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> with tempfile.TemporaryDirectory() as folder:
+    ///     ...     result.report(pathlib.Path(folder) / "page.html").name
+    ///     'page.html'
     fn report(&self, py: Python<'_>, path: PathBuf) -> PyResult<PathBuf> {
         let Some(name) = path.file_name().and_then(|name| name.to_str()) else {
             return Err(PyValueError::new_err(format!("{} names no file", path.display())));
@@ -318,6 +402,12 @@ impl Result {
     }
 
     /// The figure of chosen steps as SVG, unless given of those that figure.svg shows.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> result.svg([1, 26, -1])[:4]
+    ///     '<svg'
     #[pyo3(signature = (steps = None))]
     fn svg(&self, py: Python<'_>, steps: Option<Vec<isize>>) -> PyResult<String> {
         let steps: Vec<usize> = match steps {
@@ -335,6 +425,11 @@ impl Result {
     /// Args:
     ///     kind: "steps", "measures" or "shear".
     ///     options: Those of the function of that name in `plydrape.plot`.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> figure = result.plot("measures")
     #[pyo3(signature = (
         kind: "typing.Literal['steps', 'measures', 'shear']" = "steps", **options: "typing.Any"
     ) -> "matplotlib.figure.Figure")]
@@ -350,6 +445,11 @@ impl Result {
     ///
     /// Args:
     ///     height: Height of the frame (pixels).
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> page = result.show(height=400)
     #[pyo3(signature = (*, height = 640) -> "plydrape.notebook.Page")]
     fn show<'py>(slf: &Bound<'py, Self>, height: usize) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("plydrape.notebook")?.getattr("show")?.call1((slf, height))
@@ -360,6 +460,15 @@ impl Result {
     /// Args:
     ///     step: Which step.
     ///     options: Those of `plydrape.view.scene3d`.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> import pyvista
+    ///     >>> pyvista.OFF_SCREEN = True
+    ///     >>> plotter = result.scene3d(-1)
+    ///     >>> "ply" in plotter.actors
+    ///     True
     #[pyo3(signature = (step = -1, **options: "typing.Any") -> "pyvista.Plotter")]
     fn scene3d<'py>(
         slf: &Bound<'py, Self>,

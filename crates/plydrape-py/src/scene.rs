@@ -150,6 +150,10 @@ impl Scene {
     }
 
     /// The text of a commented scene to start from, as `plydrape new` writes it.
+    ///
+    /// Example:
+    ///     >>> plydrape.Scene.template().startswith("# A scene for plydrape")
+    ///     True
     #[staticmethod]
     fn template() -> &'static str {
         scene::TEMPLATE
@@ -206,7 +210,8 @@ impl Scene {
         Some(Array::rows(&[grippers.len(), 3], grippers.iter().copied()))
     }
 
-    /// The same scene along another motion. It has no `text`, as no scene file says it.
+    /// The same scene along another motion. It has no `text`, as no scene file says it. Where a scene file is refused
+    /// if its start stretches the ply, this one is draped: its overstretch says by how much.
     ///
     /// Args:
     ///     times: Time of each step (s), ascending, shape (steps,).

@@ -122,6 +122,11 @@ impl Span {
     ///
     /// Raises:
     ///     ValueError: If a distance is not between 0 and `run`.
+    ///
+    /// Example:
+    ///     >>> span = plydrape.Span(run=0.1, length=0.101, weight=3.0, flexural_rigidity=1e-5)
+    ///     >>> (span.heights([0, 0.05, 0.1]) * 1e3).round(2) + 0.0
+    ///     array([ 0.  , -6.18,  0.  ])
     fn heights(&self, x: List<'_>) -> PyResult<Array<f64>> {
         let x = self.places(&x)?;
         let height = |x: f64| match &self.profile {

@@ -89,6 +89,11 @@ class Study:
             StudyError: the file cannot be read or says what cannot be.
             SceneError: the scene is refused.
 
+        Example:
+            >>> study = plydrape.study.Study.read("examples/study/study.toml")
+            >>> study.names[:2]
+            ['ply.material.flexural_rigidity', 'grippers.height']
+
         """
         path = Path(path)
         table = source.document(path, "study")
@@ -102,6 +107,12 @@ class Study:
 
         Raises:
             As `read`.
+
+        Example:
+            >>> scene = "examples/02_hanging_strip/scene.toml"
+            >>> vary = {"ply.material.mass": {"values": [0.3, 0.32]}}
+            >>> len(plydrape.study.Study.of({"scene": scene, "sampling": "grid", "vary": vary}))
+            2
 
         """
         return _study(table, Path(base), None)
@@ -141,6 +152,11 @@ class Study:
             SceneError: the scene is refused, as it was in the study.
             IndexError: there is no such scenario.
 
+        Example:
+            >>> study = plydrape.study.Study.read("examples/study/study.toml")
+            >>> study.scene(0).ply.grippers
+            (4, 2)
+
         """
         return self.task.scene(range(len(self))[scenario], self.values[scenario])
 
@@ -151,7 +167,14 @@ class Study:
         return "sha256:" + hashlib.sha256(text.encode()).hexdigest()
 
     def described(self) -> dict[str, Any]:
-        """The definition as plain JSON values: strict JSON, infinite numbers as text."""
+        """The definition as plain JSON values: strict JSON, infinite numbers as text.
+
+        Example:
+            >>> study = plydrape.study.Study.read("examples/study/study.toml")
+            >>> study.described()["seed"]
+            1
+
+        """
         about = {
             "title": self.title,
             "command": self.command,

@@ -42,7 +42,19 @@ class Outcome:
         return f"<plydrape.study.Outcome {self._rows.num_rows} rows, {said}>"
 
     def table(self) -> pa.Table:
-        """All rows, one a scenario. Units are in the fields' metadata: `table.units(rows)`."""
+        """All rows, one a scenario. Units are in the fields' metadata: `table.units(rows)`.
+
+        Example:
+            >>> import tempfile
+            >>> scene = "examples/02_hanging_strip/scene.toml"
+            >>> vary = {"ply.material.mass": {"values": [0.3, 0.32]}}
+            >>> table = {"scene": scene, "sampling": "grid", "vary": vary}
+            >>> with tempfile.TemporaryDirectory() as folder:
+            ...     outcome = plydrape.study.run(table, output=folder, workers=1, progress=False)
+            >>> outcome.table()["ply.material.mass"].to_pylist()
+            [0.3, 0.32]
+
+        """
         return self._rows
 
     @property
@@ -84,6 +96,16 @@ def read(folder: str | os.PathLike[str]) -> Outcome:
 
     Raises:
         StudyError: it is no study's folder, or has no rows yet.
+
+    Example:
+        >>> import tempfile
+        >>> scene = "examples/02_hanging_strip/scene.toml"
+        >>> vary = {"ply.material.mass": {"values": [0.3, 0.32]}}
+        >>> table = {"scene": scene, "sampling": "grid", "vary": vary}
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     _ = plydrape.study.run(table, output=folder, workers=1, progress=False)
+        ...     plydrape.study.read(folder).accepted_share
+        1.0
 
     """
     require("scipy", "pyarrow")

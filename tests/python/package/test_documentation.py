@@ -80,3 +80,27 @@ def test_everything_public_is_documented() -> None:
         if not inspect.getdoc(getattr(value, "__func__", value)) and name not in known
     ]
     assert not bare
+
+
+def called() -> Iterator[tuple[str, Any]]:
+    """Classes and functions that users call by name, and the methods of these classes."""
+    for module in (plydrape, plydrape.batch, plydrape.study):
+        for name in module.__all__:
+            value = getattr(module, name)
+            if not callable(value):
+                continue
+            yield f"{module.__name__}.{name}", value
+            if inspect.isclass(value):
+                for key, part in vars(value).items():
+                    if not key.startswith("_") and callable(getattr(value, key)):
+                        yield f"{module.__name__}.{name}.{key}", part
+
+
+def test_everything_that_is_called_has_an_example() -> None:
+    """Whoever asks for help sees how it is used."""
+    bare = [
+        name
+        for name, value in called()
+        if ">>>" not in (inspect.getdoc(getattr(value, "__func__", value)) or "")
+    ]
+    assert not bare

@@ -224,3 +224,22 @@ def test_an_outcome_has_the_drapes_own_numbers() -> None:
     assert np.allclose(np.rad2deg(outcome.tilts), result.tilts_deg[-1], atol=1e-9)
     shear = np.rad2deg(outcome.shear).reshape(result.shear_deg[-1].shape)
     assert np.allclose(np.nan_to_num(shear), result.shear_deg[-1], atol=1e-9)
+    edges = 3 * 2 + 4
+    worst = result.measures["overstretch_mm"][-1]
+    assert outcome.overstretch[:edges].max() * 1e3 == pytest.approx(worst, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["01_flat_sheared_mold", "04_dome"])
+def test_a_landed_outcome_changes_with_its_targets_as_it_says(name: str) -> None:
+    """Lying rests as well: against whole drapes whose last step ends a micrometre aside."""
+    scene = plydrape.Scene.read(FLAT.parents[1] / name / "scene.toml")
+    middle = plydrape.outcome(scene)
+    worst = int(middle.overstretch.argmax())
+    gripper = int(scene.ply.catenaries[worst, 0])
+    for k in range(2):
+        low, high = (outcome_at(scene, gripper, k, h) for h in (-1e-6, 1e-6))
+        difference = (high.overstretch - low.overstretch) / 2e-6
+        exact = middle.overstretch_jacobian[:, gripper, k]
+        # the same is caught: contact that begins between the two would jump
+        same = np.abs(difference - exact) < 1e-3
+        assert same[worst] and same.mean() > 0.8, (difference, exact)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from io import BytesIO
-from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, cast
 
@@ -21,32 +20,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
     from plydrape import Net
-
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
-
-
-@pytest.fixture(scope="module")
-def flat() -> plydrape.Result:
-    """The paper's example: limits are exceeded, the mold is a plane."""
-    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold/scene.toml"))
-
-
-@pytest.fixture(scope="module")
-def dome() -> plydrape.Result:
-    """A dome, draped straight."""
-    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "04_dome/scene.toml"))
-
-
-@pytest.fixture(scope="module")
-def shallow() -> plydrape.Result:
-    """A mold without symmetry, draped straight: no cell is like another."""
-    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "08_stl_mold/scene.toml"))
-
-
-@pytest.fixture(scope="module")
-def strip() -> plydrape.Result:
-    """One row of grippers, no mold."""
-    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "02_hanging_strip/scene.toml"))
 
 
 def named(figure: Any, gid: str, panel: int = 0) -> Any:

@@ -26,24 +26,6 @@ def off_screen(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     pyvista.close_all()
 
 
-@pytest.fixture(scope="module")
-def dome() -> plydrape.Result:
-    """A dome, draped straight."""
-    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "04_dome/scene.toml"))
-
-
-@pytest.fixture(scope="module")
-def shallow() -> plydrape.Result:
-    """A mold without symmetry, draped straight: no cell is like another."""
-    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "08_stl_mold/scene.toml"))
-
-
-@pytest.fixture(scope="module")
-def flat() -> plydrape.Result:
-    """The paper's example on a plane."""
-    return plydrape.simulate(plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold/scene.toml"))
-
-
 def mesh(plotter: pyvista.Plotter, name: str) -> Any:
     """What an actor of this name draws."""
     return cast(Any, plotter.actors[name]).mapper.dataset
@@ -146,9 +128,8 @@ def test_colours_and_steps(dome: plydrape.Result, flat: plydrape.Result) -> None
             view.scene3d(result, **options)
 
 
-def test_a_strip_without_mold_is_a_scene() -> None:
+def test_a_strip_without_mold_is_a_scene(strip: plydrape.Result) -> None:
     """Lines and grippers; there is no surface to colour."""
-    strip = plydrape.simulate(plydrape.Scene.read(EXAMPLES / "02_hanging_strip/scene.toml"))
     plotter = strip.scene3d(1)
     assert {"edges", "grippers"} <= set(plotter.actors)
     assert not {"ply", "mold"} & set(plotter.actors)

@@ -1,8 +1,10 @@
 //! How a drape comes out, and how that changes with where its grippers end.
 
 use super::{Quantity, Sensitivity};
-use crate::draping::Draping;
 use crate::draping::record::ResultFile;
+use crate::draping::spans::Point;
+use crate::draping::{Draping, lying_rests};
+use crate::ply::Laid;
 use crate::scene::Scene;
 use std::ops::ControlFlow;
 
@@ -15,9 +17,9 @@ use std::ops::ControlFlow;
 pub struct Outcome {
     /// The drape.
     pub result: ResultFile,
-    /// Straight distance of the ends of each catenary's tightest free span beyond its fabric (m), negative where
-    /// it is slack; none of a catenary that lies from end to end.
-    pub overstretch: Vec<Option<Quantity>>,
+    /// Taut path of each catenary's tightest rest beyond its fabric (m), negative where it is slack: straight where
+    /// it hangs, along the mold where it lies. The derivative of a lying path is a central difference of its length.
+    pub overstretch: Vec<Quantity>,
     /// Horizontal force (N) of each catenary's span that pulls or pushes most; none where there is none.
     pub force: Vec<Option<Quantity>>,
     /// Shear angle of each cell (rad); none where it does not shear.
@@ -38,13 +40,20 @@ pub fn outcome(
     let Draping { solver, positions, laid, .. } = &mut draping;
     let look = Sensitivity::new(scene, solver, &shape, positions, laid);
 
-    let mut overstretch: Vec<Option<Quantity>> = vec![None; grid.catenaries()];
-    let mut force = overstretch.clone();
+    let nothing = Quantity { value: f64::NEG_INFINITY, gradient: Vec::new() };
+    let mut overstretch = vec![nothing; grid.catenaries()];
+    let mut force: Vec<Option<Quantity>> = vec![None; grid.catenaries()];
+    for catenary in 0..grid.catenaries() {
+        for found in lying(scene, look.laid, look.positions, catenary) {
+            if found.value > overstretch[catenary].value {
+                overstretch[catenary] = found;
+            }
+        }
+    }
     for span in &shape.spans {
-        let tighter = look.overstretch(span);
-        let slot = &mut overstretch[span.catenary];
-        if slot.as_ref().is_none_or(|old| tighter.value > old.value) {
-            *slot = Some(tighter);
+        let found = look.overstretch(span);
+        if found.value > overstretch[span.catenary].value {
+            overstretch[span.catenary] = found;
         }
         let slot = &mut force[span.catenary];
         if let Some(found) = look.force(span)
@@ -60,4 +69,46 @@ pub fn outcome(
         tilt: (0..grid.grippers()).map(|gripper| look.tilt(gripper)).collect(),
         result,
     })
+}
+
+/// Step of the differences of a lying path's length (m): small beside a mold's radii, large beside rounding.
+const STEP: f64 = 1e-6;
+
+/// The rests of a catenary that lie on the mold: path beyond fabric.
+fn lying(
+    scene: &Scene,
+    laid: &[Option<Laid>],
+    positions: &[Point],
+    catenary: usize,
+) -> Vec<Quantity> {
+    let (Some(mold), Some(laid)) = (&scene.mold, &laid[catenary]) else { return Vec::new() };
+    let grid = scene.ply.grid;
+    let c = grid.catenary(catenary);
+    let grippers = [c.from, c.to].map(|g| grid.index(g));
+    let tolerance = scene.settings.contact.tolerance;
+    let misfits = |ends: [Point; 2]| -> Vec<f64> {
+        let rests = lying_rests(laid, ends, mold, tolerance);
+        rests.iter().map(|rest| rest.fit.path - rest.fit.length).collect()
+    };
+    let ends = grippers.map(|gripper| positions[gripper]);
+    let mut out: Vec<Quantity> = (misfits(ends).into_iter())
+        .map(|value| Quantity { value, gradient: vec![0.0; 3 * positions.len()] })
+        .collect();
+    if out.is_empty() {
+        return out;
+    }
+    for (end, gripper) in grippers.into_iter().enumerate() {
+        for axis in 0..3 {
+            let moved = |step: f64| {
+                let mut ends = ends;
+                ends[end][axis] += step;
+                misfits(ends)
+            };
+            let (low, high) = (moved(-STEP), moved(STEP));
+            for (found, (low, high)) in out.iter_mut().zip(low.into_iter().zip(high)) {
+                found.gradient[3 * gripper + axis] = (high - low) / (2.0 * STEP);
+            }
+        }
+    }
+    out
 }
