@@ -1,6 +1,6 @@
 """How long Python waits: one equilibrium, many, many drapes, beside the same without Python.
 
-The same in Rust is `equilibrium_4x2_again` and `equilibrium_4x2_cold` of `cargo bench --bench speed`.
+The same in Rust: `equilibrium_4x2_again` and `equilibrium_4x2_cold` of `cargo bench --bench speed`.
 """
 
 from __future__ import annotations
