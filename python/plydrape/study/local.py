@@ -20,6 +20,9 @@ from .worker import READY, START, THREADS
 
 Job = tuple[Chunk, list[Row]]
 
+# A process may be killed while it starts; one that never starts is at fault itself.
+BEGINNINGS = 3
+
 
 class Local:
     """An executor of `workers` processes, each looked after by a thread of the client.
@@ -107,10 +110,10 @@ class Local:
         """A process that is ready to work.
 
         Raises:
-            StudyError: it ends before that, twice.
+            StudyError: it ends before that, three times.
 
         """
-        for _ in range(2):
+        for _ in range(BEGINNINGS):
             process = subprocess.Popen(
                 [sys.executable, "-c", START, *(path or os.getcwd() for path in sys.path)],
                 stdin=subprocess.PIPE,

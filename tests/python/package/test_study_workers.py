@@ -6,9 +6,11 @@ import os
 import random
 import signal
 from collections import deque
+from typing import Any
 
 import pytest
 from deadly import Deadly
+from plydrape.study import local
 from plydrape.study.carry import TRIES, Chunk, Done, Lost, carry_out
 from plydrape.study.error import StudyError
 from plydrape.study.local import Local
@@ -117,6 +119,30 @@ def test_a_killed_worker_costs_no_row() -> None:
     rows = [row for batch in sorted(kept, key=lambda batch: batch.first) for row in batch.rows]
     assert rows == [made.task.row(k, made.values[k], {}) for k in range(120)]
     assert not executor.pids
+
+
+def test_a_worker_killed_while_it_starts_is_begun_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twice in a row, as two kills can meet the same place; the rows are as ever."""
+    ask = local._ask
+    killed: list[int] = []
+
+    def unlucky(process: Any, job: Any, first: bytes | None = None) -> Any:
+        if first is not None and len(killed) < 2:
+            killed.append(process.pid)
+            process.kill()
+        return ask(process, job, first)
+
+    monkeypatch.setattr(local, "_ask", unlucky)
+    made = study(6)
+    executor = Local(made.task, workers=1)
+    kept: list[Batch] = []
+    try:
+        carry_out(executor, made.task, made.values, [(0, 6)], kept.append, every=0.05)
+    finally:
+        executor.close()
+    assert len(killed) == 2
+    rows = [row for batch in sorted(kept, key=lambda batch: batch.first) for row in batch.rows]
+    assert rows == [made.task.row(k, made.values[k], {}) for k in range(6)]
 
 
 def test_a_worker_of_another_version_is_refused() -> None:
