@@ -1,9 +1,9 @@
 //! Many at once, on all cores: `plydrape.batch`.
 
 use crate::arrays::{Array, Block, steps};
-use crate::equilibrium::{Solver, shear_angles};
 use crate::result::Result;
 use crate::scene::Scene;
+use crate::solver::{Solver, shear_angles};
 use crate::work::run;
 use plydrape::draping;
 use plydrape::equilibrium::Status;

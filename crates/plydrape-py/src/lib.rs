@@ -8,6 +8,7 @@ mod batch;
 mod drape;
 mod equilibrium;
 mod error;
+mod jacobian;
 mod json;
 mod mold;
 mod net;
@@ -15,7 +16,9 @@ mod outcome;
 mod ply;
 mod result;
 mod scene;
+mod solver;
 mod span;
+mod surface;
 mod table;
 mod work;
 
@@ -29,7 +32,9 @@ mod _plydrape {
     #[pymodule_export]
     use crate::drape::{Plan, plan, simulate};
     #[pymodule_export]
-    use crate::equilibrium::{Equilibrium, Jacobian, Solver};
+    use crate::equilibrium::Equilibrium;
+    #[pymodule_export]
+    use crate::jacobian::Jacobian;
     #[pymodule_export]
     use crate::mold::{Foot, Mold};
     #[pymodule_export]
@@ -39,11 +44,15 @@ mod _plydrape {
     #[pymodule_export]
     use crate::ply::{Material, Ply};
     #[pymodule_export]
-    use crate::result::{Result, Surface};
+    use crate::result::Result;
     #[pymodule_export]
     use crate::scene::{Scene, materials};
     #[pymodule_export]
+    use crate::solver::Solver;
+    #[pymodule_export]
     use crate::span::Span;
+    #[pymodule_export]
+    use crate::surface::Surface;
 
     /// Version of the package and of the library in it.
     #[pymodule_export]

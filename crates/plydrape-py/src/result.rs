@@ -5,6 +5,7 @@ use crate::error;
 use crate::json::Json;
 use crate::mold::{Mold, triangles};
 use crate::net::Net;
+use crate::surface::Surface;
 use plydrape::draping::record::{CatenaryState, ResultFile, Step};
 use plydrape::equilibrium::Status;
 use plydrape::output::{self, export, figure, folder, json, page, read};
@@ -28,16 +29,6 @@ use std::sync::Arc;
 #[pyclass(frozen, module = "plydrape")]
 #[derive(Clone)]
 pub struct Result(pub Arc<ResultFile>);
-
-/// The ply of one step as a surface.
-///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> result = plydrape.simulate(scene)
-///     >>> bool((plydrape.simulate(scene).surface(1).gap > 0).all())
-///     True
-#[pyclass(frozen, module = "plydrape")]
-pub struct Surface(surface::Surface);
 
 impl Result {
     /// A step by its number, from 1; negative ones count from the end.
@@ -481,34 +472,5 @@ impl Result {
     fn __repr__(&self) -> String {
         let verdict = if self.accepted() { "accepted" } else { "not accepted" };
         format!("<plydrape.Result of {:?}, {} steps, {verdict}>", self.title(), self.0.steps.len())
-    }
-}
-
-#[pymethods]
-impl Surface {
-    /// Points along u and along v.
-    #[getter]
-    fn size(&self) -> (usize, usize) {
-        self.0.size.into()
-    }
-
-    /// Points (m), shape (points, 3), u running fastest.
-    #[getter]
-    fn points(&self) -> Array<f64> {
-        Array::rows(&[self.0.vertices.len(), 3], self.0.vertices.iter().copied())
-    }
-
-    /// Corners of its triangles, shape (triangles, 3); none of a strip.
-    #[getter]
-    fn triangles(&self) -> Array<u32> {
-        let corners = self.0.triangles();
-        Array::rows(&[corners.len(), 3], corners)
-    }
-
-    /// Distance of each point from the mold (m), negative inside it, shape (points,); nan without a mold.
-    #[getter]
-    fn gap(&self) -> Array<f64> {
-        let points = self.0.vertices.len();
-        Array::new(&[points], self.0.gap.clone().unwrap_or_else(|| vec![f64::NAN; points]))
     }
 }

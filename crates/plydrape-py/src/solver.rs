@@ -1,0 +1,186 @@
+//! `plydrape.Solver`: finds how a ply hangs from its grippers.
+//!
+//! Without contact. What a ply does on a mold is a drape: `plydrape.simulate`.
+
+use crate::arrays::{Table, points};
+use crate::equilibrium::Equilibrium;
+use crate::error;
+use crate::ply::Ply;
+use crate::scene::Scene;
+use plydrape::draping::spans::shape;
+use plydrape::equilibrium::{self, Status};
+use plydrape::ply::{self, Laid, shear};
+use plydrape::scene::{Contact, Settings, SlopeRule};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::f64::consts::FRAC_PI_2;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Finds equilibria of a hanging ply, one after another: each starts from the last one.
+///
+/// Args:
+///     ply: What hangs.
+///     slopes: How shared slopes are found: "moment-balance", or "min-force" as in Krogh et al. 2018.
+///     axial_stiffness: EA of a line of ply (N); infinite for an inextensible ply.
+///     gravity: Acceleration of gravity (m/s²).
+///     max_tilt: Limit of the ball joints (rad).
+///
+/// Raises:
+///     ValueError: If a number makes no sense.
+///
+/// Example:
+///     >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
+///     >>> solver = plydrape.Solver(ply)
+///     >>> equilibrium = solver.solve([[0.098 * i, 0, 0] for i in range(4)])
+///     >>> equilibrium.status
+///     'converged'
+///     >>> bool((equilibrium.forces > 0).all())
+///     True
+#[pyclass(frozen, module = "plydrape")]
+pub struct Solver(Mutex<State>);
+
+/// A solver with what it solves for.
+#[derive(Clone)]
+pub struct State {
+    pub solver: equilibrium::Solver,
+    pub ply: Arc<ply::Ply>,
+    pub laid: Arc<[Option<Laid>]>,
+}
+
+impl State {
+    fn new(ply: &ply::Ply, settings: &Settings) -> Self {
+        State {
+            solver: equilibrium::Solver::new(ply, settings),
+            ply: Arc::new(ply.clone()),
+            laid: vec![None; ply.grid.catenaries()].into(),
+        }
+    }
+}
+
+impl Solver {
+    fn state(&self) -> std::sync::MutexGuard<'_, State> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A solver that remembers nothing, for another thread.
+    pub fn fresh(&self) -> equilibrium::Solver {
+        let mut solver = self.state().solver.clone();
+        solver.forget();
+        solver
+    }
+
+    /// What it solves for.
+    pub fn ply(&self) -> Arc<ply::Ply> {
+        Arc::clone(&self.state().ply)
+    }
+}
+
+#[pymethods]
+impl Solver {
+    #[new]
+    #[pyo3(signature = (
+        ply, *, slopes: "typing.Literal['moment-balance', 'min-force']" = "moment-balance",
+        axial_stiffness = 1e5, gravity = 9.81, max_tilt = 40_f64.to_radians()
+    ))]
+    fn new(
+        ply: &Ply,
+        slopes: &str,
+        axial_stiffness: f64,
+        gravity: f64,
+        max_tilt: f64,
+    ) -> PyResult<Self> {
+        let slopes = match slopes {
+            "moment-balance" => SlopeRule::MomentBalance,
+            "min-force" => SlopeRule::MinForce,
+            other => {
+                let text =
+                    format!("slopes is {other:?}; \"moment-balance\" or \"min-force\" is wanted");
+                return Err(PyValueError::new_err(text));
+            }
+        };
+        for (name, value, most) in [
+            ("axial_stiffness", axial_stiffness, f64::INFINITY),
+            ("gravity", gravity, f64::MAX),
+            ("max_tilt", max_tilt, FRAC_PI_2 * (1.0 - f64::EPSILON)),
+        ] {
+            if !(value > 0.0 && value <= most) {
+                let below = if name == "max_tilt" { " below π/2" } else { "" };
+                let text = format!("{name} is {value}; a positive number{below} is wanted");
+                return Err(PyValueError::new_err(text));
+            }
+        }
+        let contact = Contact::default();
+        let settings = Settings { slopes, axial_stiffness, gravity, max_tilt, contact };
+        Ok(Solver(Mutex::new(State::new(&ply.0, &settings))))
+    }
+
+    /// A solver for the ply of a scene, by its rules.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> plydrape.Solver.of(scene).solve(scene.positions[0]).forces.shape
+    ///     (16,)
+    #[staticmethod]
+    fn of(scene: &Scene) -> Self {
+        Solver(Mutex::new(State::new(&scene.0.ply, &scene.0.settings)))
+    }
+
+    /// Forgets the last equilibrium: the next one starts from nothing.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> solver = plydrape.Solver.of(scene)
+    ///     >>> first = solver.solve(scene.positions[0]).forces
+    ///     >>> solver.forget()
+    ///     >>> bool((solver.solve(scene.positions[0]).forces == first).all())
+    ///     True
+    fn forget(&self) {
+        self.state().solver.forget();
+    }
+
+    /// Solves for the grippers where they are.
+    ///
+    /// Args:
+    ///     positions: Positions of the grippers (m), shape (grippers, 3), i running fastest.
+    ///     check: Whether an equilibrium that was not found is an error, or just says so in its `status`.
+    ///
+    /// Raises:
+    ///     ValueError: If the shape does not fit or a number is not finite.
+    ///     SolveError: If no equilibrium was found.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]]).status
+    ///     'converged'
+    #[pyo3(signature = (positions, *, check = true))]
+    fn solve(&self, positions: Table<'_>, check: bool) -> PyResult<Equilibrium> {
+        let positions = points(&positions, "positions")?;
+        let mut state = self.state();
+        let count = state.ply.grid.grippers();
+        if positions.len() != count {
+            let text =
+                format!("there are {} positions; the ply has {count} grippers", positions.len());
+            return Err(PyValueError::new_err(text));
+        }
+        let laid = Arc::clone(&state.laid);
+        let outcome = state.solver.solve(&positions, &laid);
+        if check && outcome.status != Status::Converged {
+            let (status, residual) = (outcome.status.name(), outcome.residual);
+            let text = format!(
+                "no equilibrium was found ({status} after {} iterations, a Newton step of {residual:.1e} still to go); \
+                 look at the ply with check=False, or move the grippers less far apart",
+                outcome.iterations
+            );
+            return Err(error::solve(&text, status, outcome.iterations, residual));
+        }
+        let state = state.clone();
+        let shape = shape(&state.ply, &state.solver, outcome, &positions, &laid);
+        Ok(Equilibrium { state: Mutex::new(state), positions, shape })
+    }
+}
+
+/// Shear angle of each cell (rad), 0 where no diagonal is stretched.
+pub fn shear_angles(ply: &ply::Ply, solver: &equilibrium::Solver) -> Vec<f64> {
+    let stretched = solver.assembly().shearing.iter();
+    stretched.map(|s| s.map_or(0.0, |(path, _)| shear::angle(ply.cell, path))).collect()
+}
