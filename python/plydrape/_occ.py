@@ -186,6 +186,26 @@ def _edges(face: Any, held: Any, where: Any) -> Iterator[tuple[Any, NDArray[np.i
             yield edge, nodes, bool(tool.Degenerated_s(edge))
 
 
+def groups(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The smallest number of the group of each of `count` things that pairs (N, 2) connect.
+
+    Example:
+        >>> groups(5, np.array([[3, 1], [3, 4]])).tolist()
+        [0, 1, 2, 1, 1]
+
+    """
+    root = np.arange(count)
+    # numbers fall until none does; groups are short, so this ends after a few rounds
+    while True:
+        before = root.copy()
+        low = root[pairs].min(axis=1)
+        for side in (0, 1):
+            np.minimum.at(root, pairs[:, side], low)
+        root = root[root]
+        if (root == before).all():
+            return root
+
+
 def merged(
     points: NDArray[np.float64], triangles: NDArray[np.int64], pairs: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -200,16 +220,7 @@ def merged(
         (4, [[0, 1, 2], [0, 2, 3]])
 
     """
-    root = np.arange(len(points))
-    # the smallest number of a group wins; groups are short, so this ends after a few rounds
-    while True:
-        before = root.copy()
-        low = root[pairs].min(axis=1)
-        for side in (0, 1):
-            np.minimum.at(root, pairs[:, side], low)
-        root = root[root]
-        if (root == before).all():
-            break
+    root = groups(len(points), pairs)
     root = root[triangles]
     flat = (root[:, 0] == root[:, 1]) | (root[:, 1] == root[:, 2]) | (root[:, 2] == root[:, 0])
     used, triangles = np.unique(root[~flat], return_inverse=True)

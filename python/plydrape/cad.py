@@ -212,15 +212,7 @@ def _length(value: float | str) -> float:
 def _upward(points: NDArray[np.float64], triangles: NDArray[np.int64]) -> NDArray[np.int64]:
     """Triangles turned so that each connected part faces up, a closed part outwards."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]]])
-    part = np.arange(len(points))
-    while True:
-        before = part.copy()
-        low = part[edges].min(axis=1)
-        for side in (0, 1):
-            np.minimum.at(part, edges[:, side], low)
-        part = part[part]
-        if (part == before).all():
-            break
+    part = _occ.groups(len(points), edges)
     part = part[triangles[:, 0]]
     a, b, c = (points[triangles[:, k]] - points.mean(axis=0) for k in range(3))
     normal = np.cross(b - a, c - a)
