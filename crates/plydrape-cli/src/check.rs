@@ -244,7 +244,7 @@ fn plan(scene: &Scene) -> Option<(&'static str, String)> {
 }
 
 /// Rules of the model, contact and limits.
-fn rules(scene: &Scene) -> [(&'static str, String); 5] {
+fn rules(scene: &Scene) -> [(&'static str, String); 7] {
     let settings = &scene.settings;
     let limits = &scene.limits;
     let slopes = match settings.slopes {
@@ -259,8 +259,8 @@ fn rules(scene: &Scene) -> [(&'static str, String); 5] {
         ContactEnd::Free => "free slope at its ends",
         ContactEnd::Tangent => "mold's slope at its ends",
     };
-    let angle = |limit: Option<f64>| limit.map_or("any".into(), |a| format!("{} deg", degrees(a)));
-    let force = limits.force.map_or("any".into(), |f| format!("{} N", short(f)));
+    let force =
+        |limit: Option<f64>| limit.map_or("any".into(), |force| format!("{} N", short(force)));
     [
         (
             "model",
@@ -278,12 +278,21 @@ fn rules(scene: &Scene) -> [(&'static str, String); 5] {
         (
             "limits",
             format!(
-                "slack {} %, bridging {} mm, overstretch {} %, shear {}, tilt {} deg, force {force}",
+                "slack {} %, bridging {} mm, overstretch {} %, strain {} %, force {}",
                 short(limits.slack_ratio * 100.0),
                 millimetres(limits.bridging),
                 short(limits.overstretch * 100.0),
-                angle(limits.shear),
-                degrees(limits.tilt),
+                short(limits.strain * 100.0),
+                force(limits.force),
+            ),
+        ),
+        (
+            "",
+            format!(
+                "shear {} deg, {} deg after landing; penetration {} mm",
+                degrees(limits.shear),
+                degrees(limits.landing_shear),
+                millimetres(limits.penetration),
             ),
         ),
         (
@@ -294,6 +303,16 @@ fn rules(scene: &Scene) -> [(&'static str, String); 5] {
                 millimetres(limits.landing_gripper),
                 degrees(limits.fibre_angle),
                 short(limits.contact_share * 100.0)
+            ),
+        ),
+        (
+            "",
+            format!(
+                "each gripper: tilt {} deg, {} deg/s; load {}, pull {}",
+                degrees(limits.tilt),
+                degrees(limits.tilt_rate),
+                force(Some(limits.gripper_load)),
+                force(limits.gripper_pull),
             ),
         ),
         ("", reach(limits)),
@@ -310,10 +329,13 @@ fn reach(limits: &Limits) -> String {
         None => "anywhere".into(),
     };
     format!(
-        "grippers {workspace}, {} mm apart, up to {} m/s, {} m/s², {} m/s³",
+        "grippers {workspace}, {} mm apart, up to {} m/s, {} m/s², {} m/s³{}",
         millimetres(limits.gripper_distance),
         short(limits.speed),
         short(limits.acceleration),
-        short(limits.jerk)
+        short(limits.jerk),
+        limits
+            .duration
+            .map_or(String::new(), |longest| format!("; done within {} s", short(longest)))
     )
 }

@@ -39,7 +39,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let time_ms = start.elapsed().as_secs_f64() * 1e3;
     debug_assert_eq!(again.as_ref(), Ok(net));
 
-    let summary = Summary::of(net, ideal.shear_limit);
+    let summary = Summary::of(net, Some(ideal.shear_limit));
     let files = write_all(net, mold, &ideal.title, &results.folder("net"))?;
     let text = format!("{}\n\n{}", ideal.title, summary.table());
     results.print(quiet, &Printed { summary: &summary, time_ms }, &text, &files)?;

@@ -17,7 +17,7 @@ fn the_template_passes_its_own_check() {
     let scene = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(scene.ply.grid.grippers(), 12);
     assert_eq!(scene.motion.positions.len(), 30);
-    assert_eq!(scene.limits.shear, Some(45f64.to_radians()));
+    assert_eq!(scene.limits.shear, 45f64.to_radians());
 }
 
 #[test]

@@ -269,9 +269,7 @@ impl<'a> Report<'a> {
         let everywhere = |pick: fn(&Measures) -> &Option<Worst>| self.worst(pick);
         judge("overstretch", "%", 1e2, limits.overstretch * 1e2, everywhere(|m| &m.overstretch));
         judge("tilt", "°", 1.0, limits.tilt.to_degrees(), everywhere(|m| &m.tilt_deg));
-        if let Some(shear) = limits.shear {
-            judge("shear", "°", 1.0, shear.to_degrees(), everywhere(|m| &m.shear_deg));
-        }
+        judge("shear", "°", 1.0, limits.shear.to_degrees(), everywhere(|m| &m.shear_deg));
         if let Some(force) = limits.force {
             judge("force", "N", 1.0, force, everywhere(|m| &m.force_n));
         }

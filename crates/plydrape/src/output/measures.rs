@@ -89,7 +89,7 @@ pub const MEASURES: [Measure; 14] = [
         unit: "deg",
         place: "shear",
         find: |m| m.shear_deg.as_ref(),
-        limit: |l| l.shear.map(f64::to_degrees),
+        limit: |l| Some(l.shear.to_degrees()),
     },
     Measure {
         key: "tilt_deg",

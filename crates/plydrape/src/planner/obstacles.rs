@@ -120,7 +120,6 @@ fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
 
 /// Shear of the ideal drape, or of the cells between the targets where it is not known.
 fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
-    let limit = scene.limits.shear?;
     let (grid, ply) = (scene.ply.grid, &scene.ply);
     let found = match &target.drape {
         Some(net) => net.report.largest_shear.map(|(angle, [i, j])| {
@@ -150,7 +149,7 @@ fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
         }
     };
     let found = found.map(|(angle, at)| (angle.to_degrees(), at));
-    beyond("shear", "°", limit.to_degrees(), found)
+    beyond("shear", "°", scene.limits.shear.to_degrees(), found)
 }
 
 /// Parts of the ideal drape without a place on the mold.

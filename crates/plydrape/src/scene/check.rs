@@ -54,7 +54,7 @@ pub(super) fn scene(
         base,
     };
     let motion = places.motion(file, target.as_ref())?;
-    let limits = limits(&file.limits, &ply, max_tilt, document)?;
+    let limits = limits(&file.limits, &ply, max_tilt, settings.contact.tolerance, document)?;
     let plan = plan(&file.plan, ply.grid, document)?;
     Ok(Scene {
         title: file.title.clone().unwrap_or_else(|| title(document, base)),

@@ -4,7 +4,7 @@ use super::check::{MAX_TILT, ply, title};
 use super::error::{Document, SceneError};
 use super::file::SceneFile;
 use super::limits::limits;
-use super::{mold, target};
+use super::{Contact, mold, target};
 use crate::mold::Mold;
 use crate::net::Net;
 use crate::ply::Ply;
@@ -21,8 +21,8 @@ pub struct IdealDrape {
     pub mold: Mold,
     /// How it lies; some of it may not.
     pub net: Net,
-    /// Largest shear allowed (rad): the scene's limit, or else the material's locking angle.
-    pub shear_limit: Option<f64>,
+    /// Largest shear allowed (rad), see [`super::Limits::shear`].
+    pub shear_limit: f64,
 }
 
 /// Checks `[ply]`, `[mold]`, `[target]` and `[limits]` of a scene and lays the ply.
@@ -53,8 +53,8 @@ pub(super) fn ideal_drape(
         ));
     }
     let net = target::net(table, &ply, &mold, document)?;
-    let limits = limits(&file.limits, &ply, MAX_TILT, document)?;
-    let shear_limit = limits.shear.or(ply.material.locking_angle);
+    let limits = limits(&file.limits, &ply, MAX_TILT, Contact::default().tolerance, document)?;
+    let shear_limit = limits.shear;
     let title = file.title.clone().unwrap_or_else(|| title(document, base));
     Ok(IdealDrape { title, ply, mold, net, shear_limit })
 }

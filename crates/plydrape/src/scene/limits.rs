@@ -5,11 +5,23 @@ use super::error::{Document, SceneError};
 use super::file::LimitsTable;
 use super::heading::coordinates;
 use super::located::Fixed;
-use super::quantity::{Angle, Length, Measure, Quantity, Ratio};
+use super::motion::DURATIONS;
+use super::quantity::{Angle, AngularRate, Force, Length, Measure, Quantity, Ratio};
 use crate::ply::Ply;
 
 /// Largest angle between landed edges and the fibres of the ideal drape unless given (rad).
 const FIBRE_ANGLE: f64 = 3.0 * std::f64::consts::PI / 180.0;
+/// Largest shear angle where neither the scene nor the material names one (rad).
+const SHEAR: f64 = 45.0 * std::f64::consts::PI / 180.0;
+/// Largest change of a cell's shear after its diagonal landed unless given (rad).
+const LANDING_SHEAR: f64 = 3.0 * std::f64::consts::PI / 180.0;
+/// Largest angular rate of a ball joint unless given (rad/s): our assumption of a passive joint, from no data sheet.
+const TILT_RATE: f64 = 90.0 * std::f64::consts::PI / 180.0;
+/// Largest vertical load at a gripper unless given (N): a vacuum cup of 30 mm holds more, and slips sideways at 4 to
+/// 10 N.
+const GRIPPER_LOAD: f64 = 10.0;
+/// Smallest and largest angular rate of a ball joint (rad/s).
+const TILT_RATES: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest speed of a gripper (m/s).
 const SPEEDS: [f64; 2] = [1e-6, 1e2];
 /// Smallest and largest acceleration of a gripper (m/s²).
@@ -17,13 +29,23 @@ const ACCELERATIONS: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest jerk of a gripper (m/s³).
 const JERKS: [f64; 2] = [1e-6, 1e7];
 
-/// Checks the table `[limits]`; `max_tilt` is the largest gripper tilt (rad) unless the table says another.
+/// Checks the table `[limits]`; unless the table says otherwise the largest gripper tilt is `max_tilt` (rad), the
+/// deepest penetration the contact `tolerance` (m).
 pub(super) fn limits(
     table: &LimitsTable,
     ply: &Ply,
     max_tilt: f64,
+    tolerance: f64,
     document: &Document,
 ) -> Result<Limits, SceneError> {
+    let angle = |key: &Option<Quantity<Angle>>, default: f64| match key {
+        Some(angle) => acute(angle, document),
+        None => Ok(default),
+    };
+    let force = |key: &Option<Quantity<Force>>| match key {
+        Some(force) => force.positive(document).map(Some),
+        None => Ok(None),
+    };
     let length = |key: &Option<Quantity<_>>, default: f64| match key {
         Some(value) => value.not_negative(document),
         None => Ok(default),
@@ -34,22 +56,19 @@ pub(super) fn limits(
         overstretch: share(table.overstretch.as_ref(), 0.001, document)?,
         landing_contact: length(&table.landing_contact, 2e-3)?,
         landing_gripper: length(&table.landing_gripper, 5e-4)?,
-        fibre_angle: match &table.fibre_angle {
-            Some(angle) => acute(angle, document)?,
-            None => FIBRE_ANGLE,
+        fibre_angle: angle(&table.fibre_angle, FIBRE_ANGLE)?,
+        shear: angle(&table.shear, ply.material.locking_angle.unwrap_or(SHEAR))?,
+        landing_shear: angle(&table.landing_shear, LANDING_SHEAR)?,
+        strain: share(table.strain.as_ref(), 0.005, document)?,
+        penetration: length(&table.penetration, tolerance)?,
+        tilt: angle(&table.tilt, max_tilt)?,
+        tilt_rate: match &table.tilt_rate {
+            Some(rate) => tilt_rate(rate, document)?,
+            None => TILT_RATE,
         },
-        shear: match &table.shear {
-            Some(shear) => Some(acute(shear, document)?),
-            None => ply.material.locking_angle,
-        },
-        tilt: match &table.tilt {
-            Some(tilt) => acute(tilt, document)?,
-            None => max_tilt,
-        },
-        force: match &table.force {
-            Some(force) => Some(force.positive(document)?),
-            None => None,
-        },
+        force: force(&table.force)?,
+        gripper_load: force(&table.gripper_load)?.unwrap_or(GRIPPER_LOAD),
+        gripper_pull: force(&table.gripper_pull)?,
         contact_share: share(table.contact_share.as_ref(), 0.95, document)?,
         gripper_distance: match &table.gripper_distance {
             Some(distance) => distance.size(document)?,
@@ -62,7 +81,16 @@ pub(super) fn limits(
         speed: rate(table.speed.as_ref(), 0.25, SPEEDS, document)?,
         acceleration: rate(table.acceleration.as_ref(), 1.0, ACCELERATIONS, document)?,
         jerk: rate(table.jerk.as_ref(), 10.0, JERKS, document)?,
+        duration: match &table.duration {
+            Some(duration) => Some(duration.within_for(document, DURATIONS, "a motion")?),
+            None => None,
+        },
     })
+}
+
+/// Angular rate of a ball joint (rad/s).
+fn tilt_rate(rate: &Quantity<AngularRate>, document: &Document) -> Result<f64, SceneError> {
+    rate.within_for(document, TILT_RATES, "a gripper's joint")
 }
 
 /// Speed, acceleration or jerk of a gripper.

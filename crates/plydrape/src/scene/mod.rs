@@ -286,8 +286,8 @@ pub enum ContactEnd {
 
 /// What an accepted drape keeps to.
 ///
-/// Overstretch, tilt, shear and force are judged in every step of every scene; slack, bridging,
-/// landing errors and contact share at the end of scenes with a [`Target`].
+/// Overstretch, strain, penetration, tilt and its rate, shear, forces and loads are judged in every step of every
+/// scene; slack, bridging, landing errors and contact share at the end of scenes with a [`Target`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
     /// Slack of a catenary, all its rests, as a share of its length.
@@ -302,12 +302,24 @@ pub struct Limits {
     pub landing_gripper: f64,
     /// Angle between landed edges and the fibres of the ideal drape (rad).
     pub fibre_angle: f64,
-    /// Shear angle (rad); the material's locking angle unless given.
-    pub shear: Option<f64>,
+    /// Shear angle (rad): the scene's, else the material's locking angle, else 45 deg.
+    pub shear: f64,
+    /// Difference between a cell's shear at the end and when its diagonal landed (rad).
+    pub landing_shear: f64,
+    /// Strain of a free segment, of its own length.
+    pub strain: f64,
+    /// Depth of grippers and spans below the mold (m).
+    pub penetration: f64,
     /// Gripper tilt (rad).
     pub tilt: f64,
+    /// Angular rate of a gripper's ball joint (rad/s).
+    pub tilt_rate: f64,
     /// Horizontal force of a span (N).
     pub force: Option<f64>,
+    /// Vertical load that one gripper holds (N).
+    pub gripper_load: f64,
+    /// Pull in the plane of the ply at one gripper (N).
+    pub gripper_pull: Option<f64>,
     /// Share of the ply's edges that lies on the mold.
     pub contact_share: f64,
     /// Smallest distance between grippers (m).
@@ -320,4 +332,6 @@ pub struct Limits {
     pub acceleration: f64,
     /// Jerk of a gripper (m/s³), of planned motions.
     pub jerk: f64,
+    /// Longest time that a motion may take (s).
+    pub duration: Option<f64>,
 }

@@ -48,6 +48,8 @@ measures! {
     Speed: [SPEED], "a speed", "m/s", "0.25 m/s";
     /// Jerk (m/s³).
     Jerk: [JERK], "a jerk", "m/s^3", "10 m/s^3";
+    /// Angular rate (rad/s).
+    AngularRate: [ANGULAR_RATE], "an angular rate", "rad/s", "90 deg/s";
     /// Frequency (Hz).
     Frequency: [FREQUENCY], "a frequency", "Hz", "100 Hz";
     /// Acceleration (m/s²).

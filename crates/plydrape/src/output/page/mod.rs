@@ -201,7 +201,7 @@ fn fields(result: &ResultFile, ranges: &Ranges) -> Vec<Field> {
         out.push(field("gap", "gap to the mold", "mm", "vertex", range, None));
     }
     if result.scene.grid.cells() > 0 {
-        let limit = result.scene.limits.shear.map(f64::to_degrees);
+        let limit = Some(result.scene.limits.shear.to_degrees());
         out.push(field("shear", "shear angle", "°", "cell", ranges.shear, limit));
         out.push(field("direction", "warp direction", "°", "cell", ranges.direction, None));
     }

@@ -18,9 +18,7 @@ impl Step<'_> {
                 program.at_most(&q.gradient, 1.0 / MM, limit.max(q.value) - q.value);
             }
         };
-        if let Some(limit) = limits.shear {
-            (0..grid.cells()).for_each(|cell| keep(look.shear(cell), limit));
-        }
+        (0..grid.cells()).for_each(|cell| keep(look.shear(cell), limits.shear));
         for gripper in 0..grid.grippers() {
             keep(Some(look.tilt(gripper)), limits.tilt);
         }

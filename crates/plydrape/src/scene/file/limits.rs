@@ -1,7 +1,9 @@
 //! The keys of the table `[limits]`.
 
 use crate::scene::located::Fixed;
-use crate::scene::quantity::{Acceleration, Angle, Force, Jerk, Length, Quantity, Ratio, Speed};
+use crate::scene::quantity::{
+    Acceleration, Angle, AngularRate, Force, Jerk, Length, Quantity, Ratio, Speed, Time,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -22,12 +24,24 @@ pub(in crate::scene) struct LimitsTable {
     pub landing_gripper: Option<Quantity<Length>>,
     /// Angle between landed edges and the fibres of the ideal drape (rad), 3 deg unless given.
     pub fibre_angle: Option<Quantity<Angle>>,
-    /// Shear angle (rad); the material's locking angle unless given.
+    /// Shear angle (rad); the material's locking angle unless given, 45 deg where it has none.
     pub shear: Option<Quantity<Angle>>,
+    /// Difference between a cell's shear at the end and when its diagonal landed (rad), 3 deg unless given.
+    pub landing_shear: Option<Quantity<Angle>>,
+    /// Strain of a free segment, of its own length, 0.005 unless given: what yarns bear.
+    pub strain: Option<Quantity<Ratio>>,
+    /// Depth of grippers and spans below the mold (m); the contact's `tolerance` unless given.
+    pub penetration: Option<Quantity<Length>>,
     /// Gripper tilt (rad); the grippers' `max_tilt` unless given.
     pub tilt: Option<Quantity<Angle>>,
+    /// Angular rate of a gripper's ball joint (rad/s), 90 deg/s unless given: assumed of a passive joint.
+    pub tilt_rate: Option<Quantity<AngularRate>>,
     /// Horizontal force of a span (N); none unless given.
     pub force: Option<Quantity<Force>>,
+    /// Vertical load that one gripper holds (N), 10 N unless given: a vacuum cup of 30 mm holds more.
+    pub gripper_load: Option<Quantity<Force>>,
+    /// Pull in the plane of the ply at one gripper (N); none unless given. A vacuum cup of 30 mm slips at 4 to 10 N.
+    pub gripper_pull: Option<Quantity<Force>>,
     /// Share of the ply's edges on the mold at the end, 0.95 unless given.
     pub contact_share: Option<Quantity<Ratio>>,
     /// Smallest distance between any two grippers (m), half the shorter side of a cell unless given.
@@ -40,4 +54,6 @@ pub(in crate::scene) struct LimitsTable {
     pub acceleration: Option<Quantity<Acceleration>>,
     /// Jerk of a gripper (m/s³), 10 unless given.
     pub jerk: Option<Quantity<Jerk>>,
+    /// Longest time that the motion may take (s), given or planned; none unless given.
+    pub duration: Option<Quantity<Time>>,
 }
