@@ -2,7 +2,6 @@
 
 use plydrape::draping::Drape;
 use plydrape::draping::record::Summary;
-use plydrape::equilibrium::Status;
 use serde::Serialize;
 use std::process::ExitCode;
 
@@ -26,7 +25,7 @@ impl<'a> Printed<'a> {
 
 /// The exit code of a drape, `interrupted` or not.
 pub fn exit_code(drape: &Drape, interrupted: bool) -> ExitCode {
-    let unsolved = drape.result.steps.iter().any(|step| step.solver.status != Status::Converged);
+    let unsolved = drape.result.steps.iter().any(|step| !step.solver.found());
     match (interrupted, unsolved, drape.result.summary.accepted) {
         (true, _, _) => ExitCode::from(130),
         (_, true, _) => ExitCode::from(3),

@@ -38,6 +38,5 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let (title, steps) = (&result.scene.title, table::steps_table(result));
     let text = format!("{title}\n\n{steps}\n{}", table::verdict(result));
     results.print(quiet, &Printed::of(&drape), &text, &files)?;
-    let summary = &result.summary;
-    Ok(exit_code(&drape, summary.steps < summary.steps_planned))
+    Ok(exit_code(&drape, result.summary.interrupted()))
 }

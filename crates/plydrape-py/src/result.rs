@@ -8,8 +8,9 @@ use crate::net::Net;
 use crate::surface::Surface;
 use plydrape::draping::record::{CatenaryState, ResultFile, Step};
 use plydrape::equilibrium::Status;
+use plydrape::measure::{Name, Scope};
 use plydrape::output::{self, export, figure, folder, json, page, read};
-use plydrape::output::{ground::ground, measures::MEASURES, surface};
+use plydrape::output::{ground::ground, surface};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -250,11 +251,10 @@ impl Result {
         let every = |value: &dyn Fn(&Step) -> Option<f64>| {
             Array::new(&shape, self.0.steps.iter().map(|step| or_nan(value(step))).collect())
         };
-        let worst = MEASURES.iter().map(|measure| {
-            (measure.key, every(&|step| (measure.find)(&step.measures).map(|worst| worst.value)))
-        });
-        let share = ("contact_share", every(&|step| step.measures.contact_share));
-        Named(worst.chain([share]).collect())
+        let measured = Name::ALL.iter().filter(|name| name.measure().scope() != Scope::Whole);
+        let worst =
+            measured.map(|name| (name.measure().key(), every(&|step| step.measures.value(*name))));
+        Named(worst.collect())
     }
 
     /// Each catenary of a step as a line from gripper to gripper (m), arrays of shape (n, 3).

@@ -20,6 +20,7 @@ pub mod catenary;
 pub mod draping;
 pub mod equilibrium;
 pub mod material;
+pub mod measure;
 pub mod mold;
 pub mod motion;
 pub mod net;

@@ -77,6 +77,12 @@ pub fn attitude(
     Attitude { slope, tilt: normal[2].clamp(-1.0, 1.0).acos(), quaternion }
 }
 
+/// Unit normal of the ply at a gripper: the z axis of its orientation (x, y, z, w).
+#[must_use]
+pub fn normal([x, y, z, w]: [f64; 4]) -> Point {
+    [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)]
+}
+
 /// Unit quaternion (x, y, z, w) of the rotation whose columns are the given axes.
 fn quaternion([x, y, z]: [Point; 3]) -> [f64; 4] {
     let trace = x[0] + y[1] + z[2];

@@ -11,8 +11,9 @@
 //! the result would depend on the number of steps.
 
 use super::spans::{FreeSpan, Point};
+use crate::mold::vector::{cross, unit};
 use crate::mold::{Mold, Strand, distance};
-use crate::ply::Laid;
+use crate::ply::{Laid, LandedCell, shear};
 use crate::scene::Contact;
 
 /// Stations at which a span is looked at; minima between them are refined.
@@ -44,13 +45,28 @@ pub struct Bridge {
     pub width: f64,
 }
 
-/// A diagonal in the ideal drape on a curved mold.
+/// A diagonal about to land, and its cell at that moment.
+///
+/// A diagonal is no fibre. When it lands its cell keeps the shear that it has: its length is the one that this shear gives on the mold,
+/// √(a² + b² ± 2ab sin γ) times [`shear::curved_scale`], on a plane the length that it hangs with.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct IdealDiagonal {
-    /// Its way along the mold (m): what it is set to where it lands.
-    pub length: f64,
-    /// [`crate::ply::shear::curved_scale`] of its cell.
-    pub scale: f64,
+pub struct Diagonal {
+    /// Fabric sides of the cell a, b (m).
+    pub sides: [f64; 2],
+    /// Its shear angle γ (rad), positive where the rising diagonal is the longer one.
+    pub shear: f64,
+    /// 1 for the rising diagonal, −1 for the falling one.
+    pub sign: f64,
+}
+
+impl Diagonal {
+    /// Its length (m) on the mold where `place` (m) touches it, and how its cell lands.
+    fn landed(&self, mold: &Mold, place: Point) -> (f64, LandedCell) {
+        let [first, second] = mold.curvatures(place).principal;
+        let scale = shear::curved_scale(self.sides, self.shear, first * second);
+        let flat = shear::diagonal(self.sides, self.shear, self.sign);
+        (scale * flat, LandedCell { shear: self.shear, scale })
+    }
 }
 
 /// What a look at one catenary found.
@@ -92,6 +108,11 @@ impl Sounding {
         samples.extend(minima);
         samples.sort_by(|a, b| a.0.total_cmp(&b.0));
         Sounding { samples }
+    }
+
+    /// Fraction of the run at which the span is deepest; 0 if it is clear of the mold.
+    pub fn deepest(&self) -> f64 {
+        self.samples.iter().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |(t, _)| *t)
     }
 
     /// Depth of the lowest point below the mold (m), negative if the span hangs clear.
@@ -246,20 +267,47 @@ fn whole(mold: &Mold, a: [f64; 3], b: [f64; 3], length: f64) -> Strand {
     line
 }
 
+/// Unit tangent of the mold (with this unit normal) out of the first (0) or second (1) end of what is laid along a
+/// horizontal unit vector.
+fn outward(normal: [f64; 3], [x, y]: [f64; 2], end: usize) -> [f64; 3] {
+    let ahead = unit(cross([-y, x, 0.0], normal)).unwrap_or([0.0; 3]);
+    if end == 0 { ahead.map(|c| -c) } else { ahead }
+}
+
+/// Depth below the mold (m) that a new touch of a span has: that of its deepest point, or of a span that is in contact already, of the
+/// run at its contact end. What its grippers are deep themselves is no touch.
+pub fn new_depth(span: &FreeSpan, sounding: &Sounding, caught: bool) -> f64 {
+    let samples = &sounding.samples;
+    let depth = |n: usize| -samples[n].1;
+    if samples.is_empty() {
+        return 0.0;
+    }
+    let last = samples.len() - 1;
+    if !caught {
+        return sounding.depth() - depth(0).max(depth(last)).max(0.0);
+    }
+    // from the contact end on, as long as it is below the mold
+    let run = (0..=last).map(|n| if span.rest == 0 { last - n } else { n });
+    let gripper = if span.rest == 0 { 0 } else { last };
+    let below = run.skip(1).take_while(|n| depth(*n) > 0.0).map(depth).fold(0.0, f64::max);
+    below - depth(gripper).max(0.0)
+}
+
 /// Looks at a catenary that nothing has caught yet.
 pub fn first_touch(
     span: &FreeSpan,
     sounding: &Sounding,
     mold: &Mold,
     contact: &Contact,
-    ideal: Option<IdealDiagonal>,
+    diagonal: Option<Diagonal>,
 ) -> Look {
     let runs = runs(span, sounding, mold, contact.tolerance);
     let Some(run) = runs.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)) else {
         return Look::default();
     };
     let heading = span.heading();
-    let length = ideal.map_or(span.length, |ideal| ideal.length);
+    let landed = diagonal.map(|diagonal| diagonal.landed(mold, span.point(run.deepest)));
+    let length = landed.map_or(span.length, |(length, _)| length);
     let arc = |t: f64| length / span.length * span.arc(t);
     let (held_first, held_last) = (run.from <= 0.0, run.to >= 1.0);
     let [a, b] = span.ends.map(|end| mold.closest_point(end));
@@ -301,13 +349,16 @@ pub fn first_touch(
             largest_gap(span, mold, a, b)
         })
         .max_by(|a, b| a.gap.total_cmp(&b.gap));
+    let normal = [line.points[0], line.end()].map(|p| mold.normal(p));
+    let outward = [0, 1].map(|end| outward(normal[end], heading, end));
     let laid = Laid {
         length,
-        normal: [line.points[0], line.end()].map(|p| mold.normal(p)),
+        normal,
         line,
         lying: [held_first && held_last; 2],
         arch: [0.0; 2],
-        scale: ideal.map_or(1.0, |ideal| ideal.scale),
+        outward,
+        landed: landed.map(|(_, cell)| cell),
     };
     Look { laid: Some(laid), bridge }
 }
@@ -383,6 +434,7 @@ pub fn next_touch(
         grown
     };
     laid.normal[rest] = mold.normal(laid.point()[rest]);
+    laid.outward[rest] = outward(laid.normal[rest], heading, rest);
     look.laid = Some(laid);
     look
 }

@@ -1,28 +1,32 @@
 //! The drape: gripper positions step by step, the equilibrium at each, and what the mold catches.
 //!
 //! One loop, the paper's section 4: move the grippers ([`crate::scene::Motion`]), solve the equilibrium
-//! ([`crate::equilibrium`]), look for contact ([`contact`]), measure (`measures`) and record
-//! ([`record`]).
+//! ([`crate::equilibrium`]), look for contact ([`contact`]), measure ([`crate::measure`]) and record
+//! ([`record`]). A search drapes in the same way and keeps the verdicts alone ([`Judged`]).
 
-mod attitude;
+pub(crate) mod attitude;
 pub mod contact;
 mod crossing;
-mod landing;
-mod measures;
+pub(crate) mod landing;
+pub(crate) mod load;
+pub(crate) mod misfit;
 pub(crate) mod reach;
 pub mod record;
 mod report;
 pub mod spans;
+mod stop;
 
-use crate::equilibrium::{Equilibrium, Solver};
-use crate::mold::Mold;
-use crate::ply::{Laid, shear};
+use crate::equilibrium::{Equilibrium, Solver, Status};
+use crate::measure::{Before, Judge, State, Verdict};
+use crate::ply::{Grid, Kind, Laid, shear};
 use crate::scene::{Scene, Stepping};
 pub(crate) use attitude::attitude;
-use contact::{Bridge, IdealDiagonal, Sounding};
+use contact::{Bridge, Diagonal, Sounding};
+pub(crate) use crossing::hanging as stations;
 pub(crate) use landing::fabric;
-pub(crate) use measures::{fit, lying_rests};
+pub(crate) use misfit::{lying_segments, misfit};
 use record::ResultFile;
+use serde::{Deserialize, Serialize};
 use spans::{Point, Shape, shape};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -30,8 +34,32 @@ use std::time::{Duration, Instant};
 /// Smallest part of a step that cutting leaves.
 const SMALLEST_CUT: f64 = 1.0 / 256.0;
 
-/// Rounds of contact at one place of the grippers before the rest is left to the next step.
+/// Rounds of contact and equilibrium at one place of the grippers before the step counts as unsolved.
 const MAX_ROUNDS: usize = 50;
+
+/// How the contact of a step was followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactStatus {
+    /// Until nothing changed any more, no new touch deeper than the tolerance.
+    Followed,
+    /// It still changed when the rounds at one place were spent.
+    RoundLimit,
+    /// A new touch was deeper than the tolerance, however short the step was cut.
+    CutLimit,
+}
+
+impl ContactStatus {
+    /// As tables have it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            ContactStatus::Followed => "followed",
+            ContactStatus::RoundLimit => "round-limit",
+            ContactStatus::CutLimit => "cut-limit",
+        }
+    }
+}
 
 /// The ply in one step, with everything that is known of it.
 #[derive(Debug, Clone)]
@@ -48,10 +76,33 @@ pub struct Snapshot {
     pub laid: Vec<Option<Laid>>,
     /// Touches that the model does not follow, by catenary.
     pub bridges: Vec<Option<Bridge>>,
+    /// Depth of the deepest span below the mold (m), its catenary and the place (m); none if all are clear of it.
+    pub deepest: Option<(f64, usize, Point)>,
     /// Shear of each cell that shears.
     pub shear: Vec<Option<CellShear>>,
     /// Equilibria solved in this step.
     pub equilibria: usize,
+    /// The first equilibrium of this step that did not converge, or else the last one.
+    pub solved: Equilibrium,
+    /// How the contact was followed.
+    pub contact: ContactStatus,
+}
+
+impl Snapshot {
+    /// Why this step is no solution, if it is none.
+    #[must_use]
+    pub fn failure(&self) -> Option<&'static str> {
+        match (self.solved.status, self.contact) {
+            (Status::Converged, ContactStatus::Followed) => None,
+            (Status::Converged, ContactStatus::RoundLimit) => {
+                Some("contact that changes without end")
+            }
+            (Status::Converged, ContactStatus::CutLimit) => {
+                Some("a touch deeper than the tolerance in the shortest cut of a step")
+            }
+            (status, _) => Some(status.name()),
+        }
+    }
 }
 
 /// Shear of a cell.
@@ -65,6 +116,14 @@ pub struct CellShear {
     pub falling: bool,
 }
 
+impl CellShear {
+    /// Shear angle (rad), negative where the falling diagonal is the stretched one.
+    #[must_use]
+    pub fn signed(&self) -> f64 {
+        if self.falling { -self.angle } else { self.angle }
+    }
+}
+
 /// A finished drape.
 #[derive(Debug, Clone)]
 pub struct Drape {
@@ -74,46 +133,54 @@ pub struct Drape {
     pub solving: Duration,
 }
 
+/// How a drape of a search came out.
+#[derive(Debug, Clone)]
+pub struct Judged {
+    /// Every limit that applies, but those of a motion in time.
+    pub limits: Vec<Verdict>,
+    /// All steps were done, and every limit holds.
+    pub accepted: bool,
+    /// Share of the steps that were not done: it was broken off.
+    pub missing: f64,
+    /// Steps whose equilibrium or contact was not found.
+    pub unsolved: usize,
+}
+
 /// Drapes the ply of a scene along its motion.
 ///
 /// `progress` is told after each step how many are done; when it breaks, the drape ends there, complete
-/// for the steps done.
-pub fn simulate(scene: &Scene, progress: impl FnMut(usize) -> ControlFlow<()>) -> Drape {
-    simulate_within(scene, usize::MAX, progress)
-}
-
-/// As [`simulate`], broken off after the step in which more than `most` equilibria have been solved.
-pub(crate) fn simulate_within(
-    scene: &Scene,
-    most: usize,
-    mut progress: impl FnMut(usize) -> ControlFlow<()>,
-) -> Drape {
-    let mut draping = Draping { most, ..Draping::new(scene) };
+/// for the steps done. It also ends where no ply would survive, see `Summary::stopped`.
+pub fn simulate(scene: &Scene, mut progress: impl FnMut(usize) -> ControlFlow<()>) -> Drape {
+    let mut draping = Draping::new(scene);
     let (result, _) = draping.run(&mut progress);
     Drape { result, solving: draping.solving }
 }
 
-/// What the ideal drape knows of each diagonal, where the mold is curved and the drape is known.
-fn ideal_diagonals(scene: &Scene) -> Vec<Option<IdealDiagonal>> {
-    let grid = scene.ply.grid;
-    let mut out = vec![None; grid.catenaries()];
-    let (Some(mold), Some(target)) = (&scene.mold, &scene.target) else { return out };
-    if matches!(mold, Mold::Plane(_)) || target.drape.is_none() {
-        return out;
-    }
-    for cell in 0..grid.cells() {
-        let diagonals = [0, 1].map(|n| grid.edges() + 2 * cell + n);
-        let ways = diagonals.map(|n| {
-            let c = grid.catenary(n);
-            let [a, b] = [c.from, c.to].map(|g| target.grippers[grid.index(g)]);
-            mold.path_length(a, b)
-        });
-        let scale = shear::curved_scale(scene.ply.cell, ways);
-        for (n, length) in diagonals.into_iter().zip(ways) {
-            out[n] = Some(IdealDiagonal { length, scale });
+/// Drapes without keeping more than the verdicts; broken off after the step in which more than `most` equilibria have
+/// been solved. The times of the motion count for nothing.
+pub(crate) fn judge(
+    scene: &Scene,
+    most: usize,
+    mut progress: impl FnMut(usize) -> ControlFlow<()>,
+) -> Judged {
+    let mut draping = Draping { most, ..Draping::new(scene) };
+    let mut judge = Judge::new(scene, false);
+    let (planned, mut done, mut unsolved) = (scene.motion.positions.len(), 0, 0);
+    let mut before: Option<Before> = None;
+    for step in 0..planned {
+        let snapshot = draping.advance(step);
+        let state = State::new(scene, &snapshot, &draping.solver, before.as_ref());
+        judge.see(&state, step + 1 == planned);
+        unsolved += usize::from(snapshot.failure().is_some());
+        done = step + 1;
+        if progress(done).is_break() || draping.equilibria > most || stop::tears(&state) {
+            break;
         }
+        before = Some(state.as_before());
     }
-    out
+    let limits = judge.verdicts();
+    let accepted = done == planned && limits.iter().all(|verdict| verdict.ok);
+    Judged { limits, accepted, missing: 1.0 - done as f64 / planned.max(1) as f64, unsolved }
 }
 
 /// A drape under way.
@@ -127,8 +194,11 @@ pub(crate) struct Draping<'a> {
     /// What the mold has caught of each catenary.
     pub(crate) laid: Vec<Option<Laid>>,
     bridges: Vec<Option<Bridge>>,
-    ideal: Vec<Option<IdealDiagonal>>,
+    deepest: Option<(f64, usize, Point)>,
     equilibria: usize,
+    /// The first equilibrium of a step that did not converge.
+    unsolved: Option<Equilibrium>,
+    contact: ContactStatus,
     /// Equilibria after which a step is not cut any further.
     most: usize,
     solving: Duration,
@@ -143,8 +213,10 @@ impl<'a> Draping<'a> {
             positions: scene.motion.positions[0].clone(),
             laid: vec![None; count],
             bridges: vec![None; count],
-            ideal: ideal_diagonals(scene),
+            deepest: None,
             equilibria: 0,
+            unsolved: None,
+            contact: ContactStatus::Followed,
             most: usize::MAX,
             solving: Duration::ZERO,
         }
@@ -159,9 +231,9 @@ impl<'a> Draping<'a> {
         let mut last = None;
         for step in 0..self.scene.motion.positions.len() {
             let snapshot = self.advance(step);
-            report.add(&snapshot, &self.solver);
+            let goes_on = report.add(&snapshot, &self.solver);
             last = Some(snapshot.shape);
-            if progress(step + 1).is_break() || self.equilibria > self.most {
+            if progress(step + 1).is_break() || !goes_on {
                 break;
             }
         }
@@ -174,6 +246,9 @@ impl<'a> Draping<'a> {
         let equilibrium: Equilibrium = self.solver.solve(positions, &self.laid);
         self.solving += start.elapsed();
         self.equilibria += 1;
+        if equilibrium.status != Status::Converged {
+            self.unsolved.get_or_insert(equilibrium);
+        }
         shape(&self.scene.ply, &self.solver, equilibrium, positions, &self.laid)
     }
 
@@ -186,16 +261,20 @@ impl<'a> Draping<'a> {
             step: step + 1,
             time: self.scene.motion.times[step],
             positions: goal.clone(),
-            shape,
             laid: self.laid.clone(),
             bridges: self.bridges.clone(),
+            deepest: self.deepest,
             shear: self.shear(),
             equilibria: self.equilibria - before,
+            solved: self.unsolved.unwrap_or(shape.equilibrium),
+            contact: self.contact,
+            shape,
         }
     }
 
     /// Moves the grippers and follows the contact, by the scene's rule for steps.
     pub(crate) fn move_to(&mut self, goal: &[Point]) -> Shape {
+        (self.unsolved, self.contact) = (None, ContactStatus::Followed);
         let shape = match self.scene.settings.contact.stepping {
             Stepping::Once => self.arrive(goal),
             Stepping::Cut => self.cut_to(goal),
@@ -217,9 +296,14 @@ impl<'a> Draping<'a> {
 
     /// As in the paper: one equilibrium, one look at the contact; solved anew where it has changed.
     fn arrive(&mut self, goal: &[Point]) -> Shape {
-        let shape = self.solve(goal);
-        let soundings = self.soundings(&shape);
-        if self.touch(&shape, &soundings) { self.solve(goal) } else { shape }
+        let mut shape = self.solve(goal);
+        let mut soundings = self.soundings(&shape);
+        if self.touch(&shape, &soundings) {
+            shape = self.solve(goal);
+            soundings = self.soundings(&shape);
+        }
+        self.note_depth(&shape, &soundings);
+        shape
     }
 
     /// Cuts the way where the ply would dip deeper than the tolerance, and follows the contact at each
@@ -237,20 +321,31 @@ impl<'a> Draping<'a> {
         loop {
             let next = f64::min(done + part, 1.0);
             let place = if next >= 1.0 { goal.to_vec() } else { at(next) };
+            let unsolved = self.unsolved;
             let mut shape = self.solve(&place);
             let mut soundings = self.soundings(&shape);
-            if part > SMALLEST_CUT && self.is_deep(&soundings) && start != *goal {
+            let deep = self.is_deep(&shape, &soundings) && start != *goal;
+            if deep && part > SMALLEST_CUT {
+                // this place is not gone to, and how it was solved says nothing
+                self.unsolved = unsolved;
                 part *= 0.5;
                 continue;
             }
-            for _ in 0..MAX_ROUNDS {
-                if !self.touch(&shape, &soundings) {
-                    break;
-                }
+            if deep {
+                self.contact = ContactStatus::CutLimit;
+            }
+            let mut rounds = 0;
+            while self.touch(&shape, &soundings) {
                 shape = self.solve(&place);
                 soundings = self.soundings(&shape);
+                rounds += 1;
+                if rounds == MAX_ROUNDS {
+                    self.contact = ContactStatus::RoundLimit;
+                    break;
+                }
             }
             if next >= 1.0 || self.equilibria > self.most {
+                self.note_depth(&shape, &soundings);
                 return shape;
             }
             (done, part) = (next, f64::min(2.0 * part, 1.0 - next));
@@ -266,9 +361,38 @@ impl<'a> Draping<'a> {
         shape.spans.iter().map(|span| Sounding::new(span, mold, tolerance)).collect()
     }
 
-    /// Whether a span dips deeper below the mold than the tolerance.
-    fn is_deep(&self, soundings: &[Sounding]) -> bool {
-        soundings.iter().any(|sounding| sounding.depth() > self.scene.settings.contact.tolerance)
+    /// Whether a span touches anew, deeper below the mold than the tolerance. Depths that no contact would change are
+    /// left out: those of the grippers, and second touches.
+    fn is_deep(&self, shape: &Shape, soundings: &[Sounding]) -> bool {
+        let tolerance = self.scene.settings.contact.tolerance;
+        shape.spans.iter().zip(soundings).any(|(span, sounding)| {
+            sounding.depth() > tolerance
+                && contact::new_depth(span, sounding, self.laid[span.catenary].is_some())
+                    > tolerance
+        })
+    }
+
+    fn note_depth(&mut self, shape: &Shape, soundings: &[Sounding]) {
+        self.deepest = None;
+        for (span, sounding) in shape.spans.iter().zip(soundings) {
+            let depth = sounding.depth();
+            if depth > self.deepest.map_or(0.0, |(most, ..)| most) {
+                self.deepest = Some((depth, span.catenary, span.point(sounding.deepest())));
+            }
+        }
+    }
+
+    /// A diagonal that nothing has caught yet, and the shear of its cell.
+    fn diagonal(&self, catenary: usize) -> Option<Diagonal> {
+        let grid: Grid = self.scene.ply.grid;
+        let cell = catenary.checked_sub(grid.edges())? / 2;
+        let shearing = self.solver.assembly().shearing[cell];
+        let sides = self.scene.ply.sides(cell, &self.laid);
+        let shear = shearing.map_or(0.0, |(path, falling)| {
+            CellShear { angle: shear::angle(sides, path), path, falling }.signed()
+        });
+        let sign = if grid.catenary(catenary).kind == Kind::Rising { 1.0 } else { -1.0 };
+        Some(Diagonal { sides: self.scene.ply.cell, shear, sign })
     }
 
     /// Looks at every span once; true if the contact has changed.
@@ -281,13 +405,13 @@ impl<'a> Draping<'a> {
         for bridge in &mut self.bridges {
             *bridge = None;
         }
-        for (span, sounding) in shape.spans.iter().zip(soundings) {
+        // what lands in one look lands with the shear that its cell had before
+        let diagonals: Vec<Option<Diagonal>> =
+            shape.spans.iter().map(|span| self.diagonal(span.catenary)).collect();
+        for ((span, sounding), diagonal) in shape.spans.iter().zip(soundings).zip(diagonals) {
             let slot = &mut self.laid[span.catenary];
             let look = match slot {
-                None => {
-                    let ideal = self.ideal[span.catenary];
-                    contact::first_touch(span, sounding, mold, rule, ideal)
-                }
+                None => contact::first_touch(span, sounding, mold, rule, diagonal),
                 Some(laid) => contact::next_touch(span, sounding, laid, mold, rule),
             };
             if let Some(laid) = look.laid {

@@ -1,21 +1,14 @@
 //! Where the grippers are: apart from each other, and within the workspace of their robot.
 
-use super::record::Worst;
 use super::spans::Point;
+use crate::measure::{Found, Site};
 use crate::mold::distance;
-use crate::ply::Grid;
 
 /// What rounding puts outside a box is inside (m).
 const ROUNDING: f64 = 1e-9;
 
-/// A gripper's indices in words.
-pub(crate) fn id(grid: Grid, gripper: usize) -> String {
-    let [i, j] = grid.id(gripper);
-    format!("[{i},{j}]")
-}
-
 /// The two grippers closest to each other: their distance (mm) and the middle between them.
-pub(crate) fn closest(grid: Grid, positions: &[Point]) -> Option<Worst> {
+pub(crate) fn closest(positions: &[Point]) -> Option<Found> {
     // along x: who is further off in x alone than the closest pair is no candidate, nor is anyone behind
     let mut order: Vec<usize> = (0..positions.len()).collect();
     order.sort_by(|&a, &b| positions[a][0].total_cmp(&positions[b][0]).then(a.cmp(&b)));
@@ -33,16 +26,13 @@ pub(crate) fn closest(grid: Grid, positions: &[Point]) -> Option<Worst> {
         }
     }
     let [a, b] = pair?;
-    Some(Worst {
-        value: least * 1e3,
-        at: format!("grippers {} and {}", id(grid, a), id(grid, b)),
-        place: [0, 1, 2].map(|n| 0.5 * (positions[a][n] + positions[b][n])),
-    })
+    let place = [0, 1, 2].map(|n| 0.5 * (positions[a][n] + positions[b][n]));
+    Some(Found { value: least * 1e3, site: Site::Grippers(a, b), place: Some(place) })
 }
 
 /// The gripper farthest outside a box ([from, to] in x, y and z, m): its distance from the box (mm), zero
 /// where none is outside.
-pub(crate) fn outside(grid: Grid, positions: &[Point], workspace: [[f64; 2]; 3]) -> Option<Worst> {
+pub(crate) fn outside(positions: &[Point], workspace: [[f64; 2]; 3]) -> Option<Found> {
     let beyond = |point: &Point| {
         let excess = |n: usize| {
             let [from, to] = workspace[n];
@@ -54,8 +44,8 @@ pub(crate) fn outside(grid: Grid, positions: &[Point], workspace: [[f64; 2]; 3])
     let all = positions.iter().enumerate().map(|(n, point)| (beyond(point), n));
     // the first of several that are equal
     let (far, n) = all.reduce(|most, next| if next.0 > most.0 { next } else { most })?;
-    let at = if far > 0.0 { format!("gripper {}", id(grid, n)) } else { "nowhere".into() };
-    Some(Worst { value: far * 1e3, at, place: positions[n] })
+    let found = Found { value: far * 1e3, site: Site::Gripper(n), place: Some(positions[n]) };
+    Some(if far > 0.0 { found } else { Found::NONE })
 }
 
 #[cfg(test)]
@@ -63,21 +53,19 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const GRID: Grid = Grid { nu: 3, nv: 2 };
-
     /// A box of 1 m; 3 and 4 mm outside it make 5 mm from its edge.
     #[test]
     fn the_distance_from_the_workspace_is_that_of_its_nearest_point() {
         let workspace = [[0.0, 1.0]; 3];
         let mut positions = vec![[0.5; 3]; 6];
-        let worst = outside(GRID, &positions, workspace).unwrap();
-        assert_eq!((worst.value, worst.at.as_str()), (0.0, "nowhere"));
+        let worst = outside(&positions, workspace).unwrap();
+        assert_eq!(worst, Found::NONE);
         positions[1] = [0.5, 0.5, 1.0 + 1e-12];
-        assert_eq!(outside(GRID, &positions, workspace).unwrap().value, 0.0);
+        assert_eq!(outside(&positions, workspace).unwrap().value, 0.0);
         positions[4] = [1.003, 0.5, -0.004];
-        let worst = outside(GRID, &positions, workspace).unwrap();
+        let worst = outside(&positions, workspace).unwrap();
         assert!((worst.value - 5.0).abs() < 1e-9, "{}", worst.value);
-        assert_eq!(worst.at, "gripper [1,1]");
+        assert_eq!(worst.site, Site::Gripper(4));
     }
 
     proptest! {
@@ -92,7 +80,7 @@ mod tests {
             let least = pairs
                 .map(|[a, b]| distance(positions[a], positions[b]))
                 .fold(f64::INFINITY, f64::min);
-            prop_assert_eq!(closest(GRID, &positions).unwrap().value, least * 1e3);
+            prop_assert_eq!(closest(&positions).unwrap().value, least * 1e3);
         }
     }
 }

@@ -1,28 +1,29 @@
 //! From snapshots to the record: what every step looked like, and the verdict at the end.
 
-use super::Snapshot;
-use super::attitude::{Attitude, attitude};
-use super::crossing::{STATIONS, hanging, lowered};
-use super::landing::{Landing, landing};
-use super::measures::{self, LyingRest, described, fit, name};
+use super::crossing::{STATIONS, lowered};
+use super::landing::Landing;
+use super::misfit::{LyingSegment, Misfit};
 use super::record::{
-    Bridging, CatenaryDirection, CatenaryId, CatenaryState, Cell, ContactState, FORMAT, Gripper,
-    Hold, Measures, Numbers, ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step,
-    Summary, VERSION, Verdict, Worst,
+    Bridging, CatenaryDirection, CatenaryId, CatenaryKind, CatenaryState, Cell, ContactState,
+    FORMAT, Gripper, Hold, ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step, Summary,
+    VERSION,
 };
 use super::spans::{FreeSpan, Point};
+use super::{Snapshot, stop};
 use crate::catenary;
-use crate::equilibrium::{Solver, Status};
+use crate::equilibrium::Solver;
+use crate::measure::{Before, Judge, Name, State, last_numbers, worst_numbers};
 use crate::mold::vector::along;
 use crate::mold::{Mold, distance};
-use crate::ply::{Laid, shear};
+use crate::ply::{Kind, Laid, Ruck, shear};
 use crate::scene::Scene;
 
 /// Collects the steps of a drape.
 pub struct Report<'a> {
     scene: &'a Scene,
     steps: Vec<Step>,
-    quaternions: Vec<Option<[f64; 4]>>,
+    before: Option<Before>,
+    judge: Judge<'a>,
 }
 
 impl<'a> Report<'a> {
@@ -30,28 +31,22 @@ impl<'a> Report<'a> {
         Report {
             scene,
             steps: Vec::with_capacity(scene.motion.positions.len()),
-            quaternions: vec![None; scene.ply.grid.grippers()],
+            before: None,
+            judge: Judge::new(scene, true),
         }
     }
 
-    /// Records a step.
-    pub fn add(&mut self, snapshot: &Snapshot, solver: &Solver) {
+    /// Records a step; false if no ply survives it.
+    pub fn add(&mut self, snapshot: &Snapshot, solver: &Solver) -> bool {
         let (scene, grid) = (self.scene, self.scene.ply.grid);
-        let spans = &snapshot.shape.spans;
-        let mut points: Vec<Vec<Point>> = spans.iter().map(hanging).collect();
-        let attitudes: Vec<Attitude> = (0..grid.grippers())
-            .map(|n| attitude(solver, grid, &snapshot.positions, n, self.quaternions[n]))
-            .collect();
-        let landings: Vec<Option<Landing>> = (snapshot.laid.iter().enumerate())
-            .map(|(n, laid)| laid.as_ref().and_then(|laid| landing(scene, n, laid)))
-            .collect();
-        let measures = measures::measures(scene, snapshot, &attitudes, &points, &landings);
-        for (span, through) in lowered(scene, spans, &snapshot.laid) {
+        let state = State::new(scene, snapshot, solver, self.before.as_ref());
+        let measures = self.judge.see_all(&state);
+        let mut points = state.stations().to_vec();
+        for (span, through) in lowered(scene, &snapshot.shape.spans, &snapshot.laid) {
             points[span] = through;
         }
         let mut grippers = Vec::with_capacity(grid.grippers());
-        for (n, attitude) in attitudes.iter().enumerate() {
-            self.quaternions[n] = Some(attitude.quaternion);
+        for (n, attitude) in state.attitudes().iter().enumerate() {
             let position = snapshot.positions[n];
             let target = scene.target.as_ref().map(|t| distance(position, t.grippers[n]) * 1e3);
             grippers.push(Gripper {
@@ -64,7 +59,7 @@ impl<'a> Report<'a> {
                 target_distance_mm: target,
             });
         }
-        let equilibrium = snapshot.shape.equilibrium;
+        let equilibrium = snapshot.solved;
         self.steps.push(Step {
             step: snapshot.step,
             time: snapshot.time,
@@ -74,20 +69,21 @@ impl<'a> Report<'a> {
                 iterations: equilibrium.iterations,
                 residual: equilibrium.residual,
                 equilibria: snapshot.equilibria,
+                contact: snapshot.contact,
             },
-            catenaries: self.catenaries(snapshot, points, &landings),
+            catenaries: self.catenaries(&state, points),
             cells: self.cells(snapshot),
             measures,
         });
+        let goes_on = !stop::tears(&state);
+        self.before = Some(state.as_before());
+        goes_on
     }
 
-    fn catenaries(
-        &self,
-        snapshot: &Snapshot,
-        points: Vec<Vec<Point>>,
-        landings: &[Option<Landing>],
-    ) -> Vec<CatenaryState> {
+    fn catenaries(&self, state: &State, points: Vec<Vec<Point>>) -> Vec<CatenaryState> {
         let (scene, grid) = (self.scene, self.scene.ply.grid);
+        let (snapshot, landings) = (state.snapshot, state.landings());
+        let mut misfits = state.misfits().iter();
         let mut spans = snapshot.shape.spans.iter().zip(points).peekable();
         let mut out = Vec::with_capacity(grid.catenaries());
         for n in 0..grid.catenaries() {
@@ -98,7 +94,7 @@ impl<'a> Report<'a> {
                 .then(|| snapshot.shear[(n - grid.edges()) / 2])
                 .flatten()
                 .filter(|shear| shear.falling == (direction == CatenaryDirection::Falling));
-            let mut state = CatenaryState {
+            let mut line = CatenaryState {
                 kind,
                 direction,
                 from: c.from,
@@ -116,29 +112,20 @@ impl<'a> Report<'a> {
             };
             while let Some((span, points)) = spans.next_if(|(span, _)| span.catenary == n) {
                 if laid.is_none() {
-                    state.length = span.length;
+                    line.length = span.length;
                 }
-                state.spans.push(span_state(span, points, state.length));
+                if let Some(misfit) = misfits.next() {
+                    line.spans.push(self.span_state(span, points, misfit));
+                }
             }
             if let (Some(laid), Some(mold)) = (laid, &scene.mold) {
-                let grippers = [c.from, c.to].map(|g| snapshot.positions[grid.index(g)]);
-                state.contact = Some(ContactState {
-                    arc: laid.arc(),
-                    points: laid.line.points.clone(),
-                    landing_error_mm: landings[n].as_ref().map(|landing| {
-                        landing.errors.iter().map(|e| e.map(|error| error * 1e3)).collect()
-                    }),
-                    fibre_angle_deg: (landings[n].as_ref())
-                        .and_then(|landing| landing.fibre_angle)
-                        .map(|(angle, _)| angle.to_degrees()),
-                });
-                let tolerance = scene.settings.contact.tolerance;
-                for rest in measures::lying_rests(laid, grippers, mold, tolerance) {
-                    state.spans.push(lying_state(laid, &rest, mold));
+                line.contact = Some(contact_state(laid, landings[n].as_ref()));
+                for segment in &state.lying()[n] {
+                    line.spans.push(self.lying_state(laid, segment, mold));
                 }
-                state.spans.sort_by(|a, b| a.arc[0].total_cmp(&b.arc[0]));
+                line.spans.sort_by(|a, b| a.arc[0].total_cmp(&b.arc[0]));
             }
-            out.push(state);
+            out.push(line);
         }
         out
     }
@@ -151,13 +138,17 @@ impl<'a> Report<'a> {
     }
 
     fn cells(&self, snapshot: &Snapshot) -> Vec<Cell> {
-        let across = self.scene.ply.grid.nu - 1;
+        let (across, edges) = (self.scene.ply.grid.nu - 1, self.scene.ply.grid.edges());
         let cell = |(n, shear): (usize, &Option<super::CellShear>)| Cell {
             cell: [n % across, n / across],
             shear_deg: shear.map_or(0.0, |shear| shear.angle.to_degrees()),
             shearing: shear.map(|shear| match shear.falling {
                 true => CatenaryDirection::Falling,
                 false => CatenaryDirection::Rising,
+            }),
+            landed_deg: [0, 1].map(|k| {
+                let laid = snapshot.laid[edges + 2 * n + k].as_ref()?;
+                laid.landed.map(|landed| landed.shear.to_degrees())
             }),
         };
         snapshot.shear.iter().enumerate().map(cell).collect()
@@ -203,235 +194,126 @@ impl<'a> Report<'a> {
         let first_shear = self.steps.iter().find(|step| step.cells.iter().any(shears));
         let all_shear =
             self.steps.iter().find(|s| !s.cells.is_empty() && s.cells.iter().all(shears));
-        let limits = self.verdicts();
-        let last = self.steps.last();
+        let limits = self.judge.verdicts();
+        let last = self.steps.last().map(|step| &step.measures);
         Summary {
             accepted: limits.iter().all(|verdict| verdict.ok)
                 && self.steps.len() == self.scene.motion.positions.len(),
+            stopped: stop::reason(self.scene, &self.steps),
             steps: self.steps.len(),
             steps_planned: self.scene.motion.positions.len(),
             first_contact_step: first.map(|step| step.step),
             first_contact,
             first_shear_step: first_shear.map(|step| step.step),
             all_shear_step: all_shear.map(|step| step.step),
-            worst: numbers(|pick| self.worst(pick).map(|(_, worst)| worst.value)),
-            last: numbers(|pick| last.and_then(|s| pick(&s.measures).as_ref()).map(|w| w.value)),
-            contact_share: last.and_then(|step| step.measures.contact_share),
+            worst: worst_numbers(self.steps.iter().map(|step| &step.measures)),
+            last: last_numbers(last),
+            contact_share: last.and_then(|measures| measures.value(Name::ContactShare)),
             limits,
             equilibria: self.steps.iter().map(|step| step.solver.equilibria).sum(),
         }
     }
 
-    /// The worst of a measure over all steps, the first one where several are equal.
-    fn worst(&self, pick: impl Fn(&Measures) -> &Option<Worst>) -> Option<(usize, &Worst)> {
-        self.extreme(pick, |value, before| value > before)
-    }
-
-    /// The value of a measure over all steps that beats all others, the first one where several are equal.
-    fn extreme(
-        &self,
-        pick: impl Fn(&Measures) -> &Option<Worst>,
-        beats: impl Fn(f64, f64) -> bool,
-    ) -> Option<(usize, &Worst)> {
-        let mut out: Option<(usize, &Worst)> = None;
-        for step in &self.steps {
-            if let Some(worst) = pick(&step.measures)
-                && out.is_none_or(|(_, before)| beats(worst.value, before.value))
-            {
-                out = Some((step.step, worst));
-            }
+    fn span_state(&self, span: &FreeSpan, points: Vec<Point>, misfit: &Misfit) -> SpanState {
+        SpanState {
+            arc: [span.start, span.start + span.length],
+            length: span.length,
+            run: span.run(),
+            rise: span.ends[1][2] - span.ends[0][2],
+            state: match span.state {
+                _ if span.shearing => Hold::Straight,
+                catenary::SpanState::Hanging => Hold::Hanging,
+                catenary::SpanState::Overstretched => Hold::Overstretched,
+                catenary::SpanState::Straight => Hold::Straight,
+            },
+            force: span.force,
+            slopes: span.slopes,
+            prescribed: span.prescribed,
+            points,
+            ..self.fitted(misfit)
         }
-        out
     }
 
-    /// Every limit that applies to the scene, see [`crate::scene::Limits`].
-    fn verdicts(&self) -> Vec<Verdict> {
-        let (limits, settings) = (&self.scene.limits, &self.scene.settings);
-        let mut out = Vec::new();
-        let mut judge = |name: &'static str,
-                         unit: &'static str,
-                         scale: f64,
-                         limit: f64,
-                         found: Option<(usize, &Worst)>| {
-            let Some((step, worst)) = found else { return };
-            let value = worst.value * scale;
-            // a bound that holds a slope exactly at its limit is no breach
-            let ok = value <= limit * (1.0 + 1e-9);
-            let (step, at) = (Some(step), worst.at.clone());
-            let place = Some(worst.place);
-            let (name, unit) = (name.into(), unit.into());
-            out.push(Verdict { name, value, limit, unit, ok, step, at, place });
+    /// A segment that lies on the mold, or one of no length; `None` for a catenary that lies whole.
+    fn lying_state(&self, laid: &Laid, segment: &LyingSegment, mold: &Mold) -> SpanState {
+        let LyingSegment { which, misfit, line } = segment;
+        let arc = match which {
+            None => [0.0, laid.length],
+            Some(0) => [0.0, laid.arc()[0]],
+            Some(_) => [laid.arc()[1], laid.length],
         };
-        let last = self.steps.last();
-        let at_end = |pick: fn(&Measures) -> &Option<Worst>| {
-            last.and_then(|step| pick(&step.measures).as_ref().map(|worst| (step.step, worst)))
+        let [a, b] = [line.points[0], line.end()];
+        let run = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let slope = if run > 0.0 { (b[2] - a[2]) / run } else { 0.0 };
+        // its slack stands up as a ruck in its middle; a catenary that lies whole is drawn by its contact
+        let ruck = self.ruck(misfit);
+        let points = match which {
+            Some(_) if misfit.length > 0.0 => (0..STATIONS)
+                .map(|n| {
+                    let s = line.length() * n as f64 / (STATIONS - 1) as f64;
+                    let place = line.at(s);
+                    let height = ruck.map_or(0.0, |ruck| ruck.at(s - 0.5 * line.length()));
+                    along(place, height, mold.normal(place))
+                })
+                .collect(),
+            _ => Vec::new(),
         };
-        let everywhere = |pick: fn(&Measures) -> &Option<Worst>| self.worst(pick);
-        judge("overstretch", "%", 1e2, limits.overstretch * 1e2, everywhere(|m| &m.overstretch));
-        judge("tilt", "°", 1.0, limits.tilt.to_degrees(), everywhere(|m| &m.tilt_deg));
-        judge("shear", "°", 1.0, limits.shear.to_degrees(), everywhere(|m| &m.shear_deg));
-        if let Some(force) = limits.force {
-            judge("force", "N", 1.0, force, everywhere(|m| &m.force_n));
+        SpanState {
+            arc,
+            length: misfit.length,
+            run,
+            rise: b[2] - a[2],
+            slopes: [slope; 2],
+            points,
+            ..self.fitted(misfit)
         }
-        if limits.workspace.is_some() {
-            judge("workspace", "mm", 1.0, 0.0, everywhere(|m| &m.workspace_mm));
+    }
+
+    fn ruck(&self, misfit: &Misfit) -> Option<Ruck> {
+        let ply = &self.scene.ply;
+        let line = ply.line(ply.grid.catenary(misfit.catenary).kind);
+        Ruck::of(misfit.slack(), line.flexural_rigidity, line.mass * self.scene.settings.gravity)
+    }
+
+    /// What a segment has of its misfit; it lies, and all else is empty.
+    fn fitted(&self, misfit: &Misfit) -> SpanState {
+        let length = misfit.length;
+        SpanState {
+            arc: [0.0; 2],
+            length,
+            run: 0.0,
+            rise: 0.0,
+            state: Hold::Lying,
+            force: None,
+            slopes: [0.0; 2],
+            prescribed: [false; 2],
+            points: Vec::new(),
+            slack_mm: misfit.slack() * 1e3,
+            slack_ratio: if length > 0.0 { misfit.slack() / length } else { 0.0 },
+            wrinkle_mm: self.ruck(misfit).map_or(0.0, |ruck| ruck.height() * 1e3),
+            overstretch_mm: misfit.overstretch() * 1e3,
+            overstretch: misfit.overstretch() / misfit.whole,
         }
-        if let (Some(target), Some(step)) = (&self.scene.target, last) {
-            if self.scene.mold.is_some() {
-                judge(
-                    "slack_ratio",
-                    "%",
-                    1e2,
-                    limits.slack_ratio * 1e2,
-                    at_end(|m| &m.slack_ratio),
-                );
-                judge("bridging", "mm", 1.0, limits.bridging * 1e3, at_end(|m| &m.bridging_mm));
-            }
-            let contact = step.catenaries.iter().enumerate().filter_map(|(n, c)| {
-                let contact = c.contact.as_ref()?;
-                let errors = contact.landing_error_mm.as_ref()?;
-                let known =
-                    errors.iter().zip(&contact.points).filter_map(|(e, p)| Some(((*e)?, *p)));
-                let (value, place) = known.max_by(|a, b| a.0.total_cmp(&b.0))?;
-                Some(Worst { value, at: name(self.scene, n), place })
-            });
-            let contact = contact.max_by(|a, b| a.value.total_cmp(&b.value));
-            let found = contact.as_ref().map(|worst| (step.step, worst));
-            judge("landing_contact", "mm", 1.0, limits.landing_contact * 1e3, found);
-            let gripper =
-                step.grippers.iter().zip(&target.grippers).map(|(gripper, place)| Worst {
-                    value: distance(gripper.position, *place) * 1e3,
-                    at: format!("gripper [{},{}]", gripper.id[0], gripper.id[1]),
-                    place: gripper.position,
-                });
-            let gripper = gripper.max_by(|a, b| a.value.total_cmp(&b.value));
-            let found = gripper.as_ref().map(|worst| (step.step, worst));
-            judge("landing_gripper", "mm", 1.0, limits.landing_gripper * 1e3, found);
-            let fibre = at_end(|m| &m.fibre_angle_deg);
-            judge("fibre_angle", "°", 1.0, limits.fibre_angle.to_degrees(), fibre);
-            if let Some(share) = step.measures.contact_share {
-                out.push(Verdict {
-                    name: "contact_share".into(),
-                    value: share * 1e2,
-                    limit: limits.contact_share * 1e2,
-                    unit: "%".into(),
-                    ok: share >= limits.contact_share,
-                    step: Some(step.step),
-                    at: "all edges".into(),
-                    place: None,
-                });
-            }
-        }
-        let closest = self.extreme(|m| &m.gripper_distance_mm, |value, before| value < before);
-        if let Some((step, worst)) = closest {
-            let limit = limits.gripper_distance * 1e3;
-            out.push(Verdict {
-                name: "gripper_distance".into(),
-                value: worst.value,
-                limit,
-                unit: "mm".into(),
-                // as above
-                ok: worst.value >= limit * (1.0 - 1e-9),
-                step: Some(step),
-                at: worst.at.clone(),
-                place: Some(worst.place),
-            });
-        }
-        if let Some(step) = self.steps.iter().find(|step| step.solver.status != Status::Converged) {
-            out.push(Verdict {
-                name: "equilibrium".into(),
-                value: step.solver.residual,
-                limit: 1e-6,
-                unit: "slope".into(),
-                ok: false,
-                step: Some(step.step),
-                at: format!(
-                    "solver {} with max_tilt {:.1}°",
-                    step.solver.status.name(),
-                    settings.max_tilt.to_degrees()
-                ),
-                place: None,
-            });
-        }
-        out
     }
 }
 
-fn numbers(pick: impl Fn(fn(&Measures) -> &Option<Worst>) -> Option<f64>) -> Numbers {
-    Numbers {
-        slack_mm: pick(|m| &m.slack_mm),
-        slack_ratio: pick(|m| &m.slack_ratio),
-        overstretch: pick(|m| &m.overstretch),
-        bridging_mm: pick(|m| &m.bridging_mm),
-        shear_deg: pick(|m| &m.shear_deg),
-        tilt_deg: pick(|m| &m.tilt_deg),
-        landing_error_mm: pick(|m| &m.landing_error_mm),
-        fibre_angle_deg: pick(|m| &m.fibre_angle_deg),
+fn contact_state(laid: &Laid, landing: Option<&Landing>) -> ContactState {
+    let errors = |landing: &Landing| landing.errors.iter().map(|e| e.map(|e| e * 1e3)).collect();
+    let angle = landing.and_then(|landing| landing.fibre_angle);
+    ContactState {
+        arc: laid.arc(),
+        points: laid.line.points.clone(),
+        landing_error_mm: landing.map(errors),
+        fibre_angle_deg: angle.map(|(angle, _)| angle.to_degrees()),
     }
 }
 
-fn span_state(span: &FreeSpan, points: Vec<Point>, whole: f64) -> SpanState {
-    let fit = fit(span);
-    SpanState {
-        arc: [span.start, span.start + span.length],
-        length: span.length,
-        run: span.run(),
-        rise: span.ends[1][2] - span.ends[0][2],
-        state: match span.state {
-            _ if span.shearing => Hold::Straight,
-            catenary::SpanState::Hanging => Hold::Hanging,
-            catenary::SpanState::Overstretched => Hold::Overstretched,
-            catenary::SpanState::Straight => Hold::Straight,
-        },
-        force: span.force,
-        slopes: span.slopes,
-        prescribed: span.prescribed,
-        points,
-        slack_mm: fit.slack() * 1e3,
-        slack_ratio: fit.slack_ratio(),
-        wrinkle_mm: fit.wrinkle() * 1e3,
-        overstretch_mm: fit.overstretch() * 1e3,
-        overstretch: fit.overstretch() / whole,
-    }
-}
-
-/// A rest that lies on the mold, or one of no length; `None` for a catenary that lies whole.
-fn lying_state(laid: &Laid, rest: &LyingRest, mold: &Mold) -> SpanState {
-    let LyingRest { which, fit, line } = rest;
-    let arc = match which {
-        None => [0.0, laid.length],
-        Some(0) => [0.0, laid.arc()[0]],
-        Some(_) => [laid.arc()[1], laid.length],
-    };
-    let [a, b] = [line.points[0], line.end()];
-    let run = (b[0] - a[0]).hypot(b[1] - a[1]);
-    let slope = if run > 0.0 { (b[2] - a[2]) / run } else { 0.0 };
-    // its slack stands up as a wrinkle, half a sine; a catenary that lies whole is drawn by its contact
-    let points = match which {
-        Some(_) if fit.length > 0.0 => (0..STATIONS)
-            .map(|n| {
-                let t = n as f64 / (STATIONS - 1) as f64;
-                let place = line.at(t * line.length());
-                let height = fit.wrinkle() * (std::f64::consts::PI * t).sin();
-                along(place, height, mold.normal(place))
-            })
-            .collect(),
-        _ => Vec::new(),
-    };
-    SpanState {
-        arc,
-        length: fit.length,
-        run,
-        rise: b[2] - a[2],
-        state: Hold::Lying,
-        force: None,
-        slopes: [slope; 2],
-        prescribed: [false; 2],
-        points,
-        slack_mm: fit.slack() * 1e3,
-        slack_ratio: fit.slack_ratio(),
-        wrinkle_mm: fit.wrinkle() * 1e3,
-        overstretch_mm: fit.overstretch() * 1e3,
-        overstretch: fit.overstretch() / laid.length,
+/// The kind of a catenary as the record has it.
+fn described(kind: Kind) -> (CatenaryKind, CatenaryDirection) {
+    match kind {
+        Kind::EdgeU => (CatenaryKind::Edge, CatenaryDirection::U),
+        Kind::EdgeV => (CatenaryKind::Edge, CatenaryDirection::V),
+        Kind::Rising => (CatenaryKind::Diagonal, CatenaryDirection::Rising),
+        Kind::Falling => (CatenaryKind::Diagonal, CatenaryDirection::Falling),
     }
 }

@@ -4,8 +4,8 @@
 //! a step leaves its cells empty.
 
 use super::OutputError;
-use super::measures::MEASURES;
 use crate::draping::record::{ResultFile, Step};
+use crate::measure::{Name, Scope};
 use crate::motion::{Attitudes, MotionError, TimedMotion};
 use crate::ply::{Grid, GripperId};
 use ::csv::{Error, Writer};
@@ -17,10 +17,10 @@ use ::csv::{Error, Writer};
 pub fn steps(result: &ResultFile) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
     let mut header = vec!["step", "t (s)"];
-    let columns = MEASURES.iter().map(|m| [m.header(), format!("{} at", m.place)]);
+    let columns = measured().map(|m| [header_of(m), format!("{} at", m.measure().label())]);
     let columns: Vec<String> = columns.flatten().collect();
     header.extend(columns.iter().map(String::as_str));
-    header.extend(["contact share (1)", "solver status", "iterations", "residual", "equilibria"]);
+    header.extend(["solver status", "iterations", "residual", "equilibria", "contact status"]);
     table.write_record(&header)?;
     for step in &result.steps {
         table.write_record(step_row(step))?;
@@ -30,17 +30,28 @@ pub fn steps(result: &ResultFile) -> Result<String, Error> {
 
 fn step_row(step: &Step) -> Vec<String> {
     let mut row = vec![step.step.to_string(), number(step.time)];
-    for measure in &MEASURES {
-        let worst = (measure.find)(&step.measures);
+    for name in measured() {
+        let worst = step.measures.get(name);
         row.push(worst.map(|w| number(w.value)).unwrap_or_default());
         row.push(worst.map(|w| w.at.clone()).unwrap_or_default());
     }
-    row.push(step.measures.contact_share.map(number).unwrap_or_default());
     row.push(step.solver.status.name().to_owned());
     row.push(step.solver.iterations.to_string());
     row.push(number(step.solver.residual));
     row.push(step.solver.equilibria.to_string());
+    row.push(step.solver.contact.name().to_owned());
     row
+}
+
+/// The measures that a step may have.
+fn measured() -> impl Iterator<Item = Name> {
+    Name::ALL.iter().copied().filter(|name| name.measure().scope() != Scope::Whole)
+}
+
+/// The column of a measure, its unit in brackets.
+fn header_of(name: Name) -> String {
+    let measure = name.measure();
+    format!("{} ({})", measure.label(), measure.unit().recorded)
 }
 
 /// One row a gripper and step: time (s), gripper `i-j`, position (m), orientation (x, y, z, w).
@@ -171,9 +182,9 @@ mod tests {
     fn steps_hold_places_with_commas_and_empty_cells() {
         let mut result = sample::draped(4, 2, 3);
         let at = "edge [0, 0]–[1, 0], second span";
-        result.steps[0].measures.slack_mm =
-            Some(Worst { value: 1.25, at: at.into(), place: [0.0; 3] });
-        result.steps[0].measures.bridging_mm = None;
+        let worst = Worst { value: 1.25, at: at.into(), place: Some([0.0; 3]) };
+        result.steps[0].measures.set(Name::Slack, Some(worst));
+        result.steps[0].measures.set(Name::Bridging, None);
         let text = steps(&result).unwrap();
         let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
         let column = |name| header.iter().position(|h| *h == name).unwrap();

@@ -20,7 +20,6 @@ pub mod ground;
 pub mod inp;
 pub mod json;
 mod manifest;
-pub mod measures;
 pub mod net;
 pub mod page;
 pub mod plan;

@@ -1,7 +1,8 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
-use crate::draping::record::{ResultFile, Step, Verdict, Worst};
+use crate::draping::record::{ResultFile, Step, Verdict};
 use crate::equilibrium::Status;
+use crate::measure::Name;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -38,18 +39,19 @@ fn header() -> Vec<String> {
 
 fn row(step: &Step) -> Vec<String> {
     let m = &step.measures;
-    let worst = |w: &Option<Worst>, factor: f64, digits: usize| {
-        fixed(w.as_ref().map(|w| w.value * factor), digits)
+    let shown = |name: Name, digits: usize| {
+        let factor = name.measure().unit().factor;
+        fixed(m.value(name).map(|value| value * factor), digits)
     };
     vec![
         step.step.to_string(),
-        fixed(m.contact_share.map(|share| share * 100.0), 1),
-        worst(&m.slack_mm, 1.0, 2),
-        worst(&m.overstretch, 100.0, 3),
-        worst(&m.shear_deg, 1.0, 2),
-        worst(&m.tilt_deg, 1.0, 2),
-        worst(&m.force_n, 1.0, 3),
-        worst(&m.landing_error_mm, 1.0, 2),
+        shown(Name::ContactShare, 1),
+        shown(Name::Slack, 2),
+        shown(Name::Overstretch, 3),
+        shown(Name::Shear, 2),
+        shown(Name::Tilt, 2),
+        shown(Name::Force, 3),
+        shown(Name::LandingError, 2),
     ]
 }
 
@@ -91,12 +93,15 @@ fn chosen(result: &ResultFile) -> BTreeSet<usize> {
 
 /// A line for equilibria that did not converge, if any.
 fn failed_solves(result: &ResultFile) -> String {
-    let failed: Vec<&Step> =
-        result.steps.iter().filter(|step| step.solver.status != Status::Converged).collect();
+    let failed: Vec<&Step> = result.steps.iter().filter(|step| !step.solver.found()).collect();
     let Some(first) = failed.first() else {
         return String::new();
     };
-    let (status, step) = (first.solver.status.name(), first.step);
+    let status = match first.solver.status {
+        Status::Converged => first.solver.contact.name(),
+        status => status.name(),
+    };
+    let step = first.step;
     match failed.len() {
         1 => format!("step {step} did not converge: {status}\n"),
         more => format!("{more} steps did not converge, the first in step {step}: {status}\n"),
@@ -113,7 +118,7 @@ pub fn verdict(result: &ResultFile) -> String {
         let mut rows = vec![titles.map(str::to_owned).to_vec()];
         rows.extend(summary.limits.iter().map(|v| {
             vec![
-                v.name.replace('_', " "),
+                v.name.title(),
                 significant(v.value),
                 significant(v.limit),
                 v.unit.to_string(),
@@ -124,7 +129,10 @@ pub fn verdict(result: &ResultFile) -> String {
         }));
         text = aligned(&rows, &[0, 3, 4, 6]);
     }
-    if summary.steps < summary.steps_planned {
+    if let Some(reason) = &summary.stopped {
+        let _ = writeln!(text, "stopped: {reason}");
+    }
+    if summary.interrupted() {
         let (done, planned) = (summary.steps, summary.steps_planned);
         let _ = writeln!(text, "interrupted after step {done} of {planned}");
     }
@@ -155,7 +163,7 @@ pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
 /// A verdict in words: name, value, limit, step and place.
 #[must_use]
 pub fn in_words(v: &Verdict) -> String {
-    let (name, unit) = (v.name.replace('_', " "), unit(&v.unit));
+    let (name, unit) = (v.name.title(), unit(&v.unit));
     let (value, limit) = (significant(v.value), significant(v.limit));
     let step = v.step.map(|step| format!(" in step {step}")).unwrap_or_default();
     let at = if v.at.is_empty() { String::new() } else { format!(", {}", v.at) };
@@ -271,8 +279,8 @@ mod tests {
     #[test]
     fn verdict_names_the_worst_limit() {
         let mut result = sample::draped(4, 2, 30);
-        let limit = |name: &'static str, value, limit, ok| Verdict {
-            name: name.into(),
+        let limit = |name: Name, value, limit, ok| Verdict {
+            name,
             value,
             limit,
             unit: "mm".into(),
@@ -283,9 +291,9 @@ mod tests {
         };
         result.summary.accepted = false;
         result.summary.limits = vec![
-            limit("tilt", 12.0, 40.0, true),
-            limit("overstretch", 2.0, 1.0, false),
-            limit("contact_share", 0.1, 0.9, false),
+            limit(Name::Tilt, 12.0, 40.0, true),
+            limit(Name::Overstretch, 2.0, 1.0, false),
+            limit(Name::ContactShare, 0.1, 0.9, false),
         ];
         let text = verdict(&result);
         assert!(
@@ -303,8 +311,8 @@ mod tests {
     /// 38° of 40° is nearer to its limit than 60 mm, where 50 mm is the least; a limit of zero is never near.
     #[test]
     fn the_closest_limit_is_the_one_with_the_smallest_margin() {
-        let limit = |name: &'static str, value, limit, ok| Verdict {
-            name: name.into(),
+        let limit = |name: Name, value, limit, ok| Verdict {
+            name,
             value,
             limit,
             unit: "mm".into(),
@@ -314,13 +322,13 @@ mod tests {
             place: None,
         };
         let limits = [
-            limit("gripper_distance", 60.0, 50.0, true),
-            limit("tilt", 38.0, 40.0, true),
-            limit("workspace", 0.0, 0.0, true),
-            limit("slack_ratio", 0.05, 0.05, false),
+            limit(Name::GripperDistance, 60.0, 50.0, true),
+            limit(Name::Tilt, 38.0, 40.0, true),
+            limit(Name::Workspace, 0.0, 0.0, true),
+            limit(Name::SlackRatio, 0.05, 0.05, false),
         ];
-        assert_eq!(closest(&limits).map(|v| &*v.name), Some("tilt"));
-        assert_eq!(limiting(&limits).map(|v| &*v.name), Some("slack_ratio"));
+        assert_eq!(closest(&limits).map(|v| v.name), Some(Name::Tilt));
+        assert_eq!(limiting(&limits).map(|v| v.name), Some(Name::SlackRatio));
         assert_eq!(in_words(&limits[1]), "tilt 38 mm against 40 mm, gripper [0,0]");
         assert_eq!(
             obstacles(&limits[3..]),

@@ -1,7 +1,8 @@
 //! What is known of a search while it runs: the best plan so far, told to whoever watches, and whether the
 //! search shall end.
 
-use crate::draping::record::{ResultFile, Verdict};
+use crate::draping::Judged;
+use crate::measure::Verdict;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -79,13 +80,13 @@ impl<'a> Board<'a> {
     }
 
     /// Counts a complete drape and keeps it if it is the best.
-    pub fn add(&self, result: &ResultFile, score: f64) {
+    pub fn add(&self, judged: &Judged, score: f64) {
         self.evaluations.fetch_add(1, Ordering::Relaxed);
         let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
         if score < best.score {
             best.score = score;
-            best.limits.clone_from(&result.summary.limits);
-            best.accepted = result.summary.accepted;
+            best.limits.clone_from(&judged.limits);
+            best.accepted = judged.accepted;
         }
         drop(best);
         let _ = self.tick();

@@ -1,15 +1,14 @@
 //! How good a plan is: the complete drape along it, and how far its worst measure is from its limit.
 
-use crate::draping::record::{ResultFile, Verdict};
-use crate::draping::{Drape, simulate_within};
-use crate::equilibrium::Status;
+use crate::draping::{self, Judged};
+use crate::measure::{Verdict, Worth};
 use crate::planner::board::Board;
 use crate::scene::{Motion, Scene, Stepping};
 
 /// Weight of the mean of all measures beside the worst one: among plans that are equally good at their
 /// worst, the better one.
 const MEAN: f64 = 0.1;
-/// Share of a machine's limit up to which it does not matter.
+/// Share of a limit that is just to be kept up to which it does not matter.
 const SPARE: f64 = 0.9;
 /// Equilibria a step on the average from which on a drape is broken off; good ones take two or three.
 const HOPELESS: usize = 12;
@@ -31,13 +30,13 @@ pub fn with_motion(scene: &Scene, motion: Motion) -> Scene {
 /// The complete drape along planned positions of grippers (m), rounded as the motion will round them; broken off
 /// where it is hopeless or the board is stopped.
 #[must_use]
-pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Drape {
+pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Judged {
     follow(scene, rounded(planned), board)
 }
 
 /// The same with twice the steps on the same path: a good plan does not hang on them.
 #[must_use]
-pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Drape {
+pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Judged {
     let mut positions = Vec::with_capacity(2 * planned.len());
     for (k, here) in rounded(planned).into_iter().enumerate() {
         if k > 0 {
@@ -49,10 +48,10 @@ pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> D
 }
 
 /// The drape along positions (m), one second a step.
-fn follow(scene: &Scene, positions: Vec<Vec<[f64; 3]>>, board: &Board) -> Drape {
+fn follow(scene: &Scene, positions: Vec<Vec<[f64; 3]>>, board: &Board) -> Judged {
     let most = HOPELESS * positions.len();
     let times = (0..positions.len()).map(|n| n as f64).collect();
-    simulate_within(&with_motion(scene, Motion { times, positions }), most, |_| board.tick())
+    draping::judge(&with_motion(scene, Motion { times, positions }), most, |_| board.tick())
 }
 
 /// Where the spline of [`rounded`] passes halfway between two steps; straight between the first two and the last
@@ -82,43 +81,26 @@ pub fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
     out
 }
 
-/// A measure as a multiple of its limit: up to 1 it holds.
-#[must_use]
-pub fn ratio(verdict: &Verdict) -> f64 {
-    let Verdict { name, value, limit, .. } = verdict;
-    let ratio = match &**name {
-        // lower bounds: what is missing to the whole, and the limit as a multiple of the distance
-        "contact_share" => (100.0 - value) / (100.0 - limit).max(1e-3),
-        "gripper_distance" => limit / value.max(1e-9),
-        _ if *limit > 0.0 => value / limit,
-        _ if *value > 0.0 => 1.0 + value,
-        _ => 0.0,
-    };
-    if verdict.ok { ratio.min(1.0) } else { ratio.max(1.0 + 1e-9) }
-}
-
-/// What a limit adds to the score. Limits of the machine are not to be undercut, only kept with a tenth to
-/// spare; less of what spoils the ply is always better.
+/// What a limit adds to the score. A limit that is just to be kept counts from where little of it is left; less of what
+/// spoils the ply is always better.
 fn weight(verdict: &Verdict) -> f64 {
-    let ratio = ratio(verdict);
-    match &*verdict.name {
-        "tilt" | "shear" | "force" | "gripper_distance" | "workspace" if ratio <= 1.0 => {
-            ((ratio - SPARE) / (1.0 - SPARE)).max(0.0)
-        }
+    let ratio = verdict.ratio();
+    match verdict.name.measure().worth() {
+        Worth::Kept if ratio <= 1.0 => ((ratio - SPARE) / (1.0 - SPARE)).max(0.0),
         _ => ratio,
     }
 }
 
 /// The worst ratio, and a little of the mean; smaller is better, and above 1 + MEAN nothing is accepted.
 #[must_use]
-pub fn score(result: &ResultFile) -> f64 {
-    let limits = &result.summary.limits;
-    let ratios: Vec<f64> = limits.iter().map(weight).collect();
+pub fn score(judged: &Judged) -> f64 {
+    let ratios: Vec<f64> = judged.limits.iter().map(weight).collect();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
-    let unsolved = result.steps.iter().filter(|s| s.solver.status != Status::Converged).count();
     let mean = ratios.iter().map(|r| r.min(10.0)).sum::<f64>() / ratios.len().max(1) as f64;
     // one that was broken off is worse than any that was not, the less of it there is
-    let summary = &result.summary;
-    let missing = 1.0 - summary.steps as f64 / summary.steps_planned.max(1) as f64;
-    worst + MEAN * mean + unsolved as f64 + if missing > 0.0 { 1e3 * (1.0 + missing) } else { 0.0 }
+    let missing = judged.missing;
+    worst
+        + MEAN * mean
+        + judged.unsolved as f64
+        + if missing > 0.0 { 1e3 * (1.0 + missing) } else { 0.0 }
 }

@@ -4,8 +4,8 @@
 //! start than the ply between them, and a start inside the mold, are not asked for here: reading the scene
 //! refuses them.
 
-use crate::draping::reach::{closest, id, outside};
-use crate::draping::record::Verdict;
+use crate::draping::reach::{closest, outside};
+use crate::measure::{Name, Site, Verdict, Worst};
 use crate::mold::{Mold, distance};
 use crate::ply::{Kind, shear};
 use crate::scene::{Scene, Target};
@@ -38,18 +38,11 @@ pub fn obstacles(scene: &Scene) -> Vec<Verdict> {
     out
 }
 
-/// A verdict of something that exceeds its limit, if it does.
-fn beyond(
-    name: &'static str,
-    unit: &'static str,
-    limit: f64,
-    found: Option<Found>,
-) -> Option<Verdict> {
+/// A verdict (in the measure's unit) of something that exceeds its limit, if it does.
+fn beyond(name: Name, limit: f64, found: Option<Found>) -> Option<Verdict> {
     let (value, at) = found?;
-    // what rounding puts beyond a limit is within it
-    let ok = value <= limit * (1.0 + 1e-9);
-    let (name, unit) = (name.into(), unit.into());
-    (!ok).then_some(Verdict { name, value, limit, unit, ok, step: None, at, place: None })
+    let verdict = Verdict::of(name, Worst { value, at, place: None }, limit, None);
+    (!verdict.ok).then_some(verdict)
 }
 
 /// The largest value, the first of several that are equal.
@@ -61,28 +54,21 @@ fn largest(values: impl Iterator<Item = (f64, usize)>) -> Option<(f64, usize)> {
 fn places(
     scene: &Scene,
     positions: &[[f64; 3]],
-    when: &str,
+    when: &'static str,
     step: Option<usize>,
 ) -> impl Iterator<Item = Verdict> {
-    let (grid, limits) = (scene.ply.grid, &scene.limits);
-    let workspace = limits.workspace.and_then(|workspace| {
-        let worst = outside(grid, positions, workspace)?;
-        beyond("workspace", "mm", 0.0, Some((worst.value, format!("{} {when}", worst.at))))
-    });
-    let apart = closest(grid, positions).and_then(|worst| {
-        let limit = limits.gripper_distance * 1e3;
-        (worst.value < limit * (1.0 - 1e-9)).then(|| Verdict {
-            name: "gripper_distance".into(),
-            value: worst.value,
-            limit,
-            unit: "mm".into(),
-            ok: false,
-            step: None,
-            at: format!("{} {when}", worst.at),
-            place: Some(worst.place),
-        })
-    });
-    workspace.into_iter().chain(apart).map(move |verdict| Verdict { step, ..verdict })
+    let limits = &scene.limits;
+    let workspace = limits.workspace.and_then(|workspace| outside(positions, workspace));
+    let found = [
+        (Name::Workspace, 0.0, workspace),
+        (Name::GripperDistance, limits.gripper_distance * 1e3, closest(positions)),
+    ];
+    let grid = scene.ply.grid;
+    found.into_iter().filter_map(move |(name, limit, found)| {
+        let worst = Worst::of(&found?, grid);
+        let worst = Worst { at: format!("{} {when}", worst.at), ..worst };
+        Some(Verdict::of(name, worst, limit, step)).filter(|verdict| !verdict.ok)
+    })
 }
 
 /// Fabric between two targets (m): along the mold if both lie on it.
@@ -111,11 +97,9 @@ fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
             - 1.0
     };
     let worst = largest((0..grid.edges()).map(|n| (share(n), n)));
-    let found = worst.map(|(share, n)| {
-        let [a, b] = ends(n).1.map(|g| id(grid, g));
-        (share * 1e2, format!("edge {a}–{b} at the target"))
-    });
-    beyond("overstretch", "%", scene.limits.overstretch * 1e2, found)
+    let found =
+        worst.map(|(share, n)| (share, format!("{} at the target", Site::Catenary(n).label(grid))));
+    beyond(Name::Overstretch, scene.limits.overstretch, found)
 }
 
 /// Shear of the ideal drape, or of the cells between the targets where it is not known.
@@ -149,7 +133,7 @@ fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
         }
     };
     let found = found.map(|(angle, at)| (angle.to_degrees(), at));
-    beyond("shear", "°", scene.limits.shear.to_degrees(), found)
+    beyond(Name::Shear, scene.limits.shear.to_degrees(), found)
 }
 
 /// Parts of the ideal drape without a place on the mold.
@@ -157,7 +141,7 @@ fn missing_nodes(target: &Target) -> Option<Verdict> {
     let net = target.drape.as_ref()?;
     let first = net.missing.first()?;
     let found = (net.missing.len() as f64, format!("ideal drape: {first}"));
-    beyond("missing_nodes", "", 0.0, Some(found))
+    beyond(Name::MissingNodes, 0.0, Some(found))
 }
 
 /// Targets given beyond the mold's border, or deeper in it than touching it; those of the net lie on it.
@@ -173,9 +157,9 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     let found = worst.map(|(far, n)| {
         let side =
             if mold.foot(target.grippers[n]).beyond { "beyond its border" } else { "inside it" };
-        (far * 1e3, format!("target of gripper {}, {side}", id(scene.ply.grid, n)))
+        (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(scene.ply.grid)))
     });
-    beyond("off_mold", "mm", scene.settings.contact.tolerance * 1e3, found)
+    beyond(Name::OffMold, scene.settings.contact.tolerance * 1e3, found)
 }
 
 /// The mold's slope where a gripper is to stand on it: its joint follows the ply, and the ply the mold.
@@ -188,9 +172,12 @@ fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     };
     let all = target.grippers.iter().enumerate();
     let found = largest(all.filter_map(|(n, place)| Some((tilt(*place)?, n)))).map(|(tilt, n)| {
-        (tilt.to_degrees(), format!("mold at the target of gripper {}", id(scene.ply.grid, n)))
+        (
+            tilt.to_degrees(),
+            format!("mold at the target of {}", Site::Gripper(n).label(scene.ply.grid)),
+        )
     });
-    beyond("tilt", "°", scene.limits.tilt.to_degrees(), found)
+    beyond(Name::Tilt, scene.limits.tilt.to_degrees(), found)
 }
 
 /// A way to the target that is longer than all steps together may go.
@@ -200,7 +187,10 @@ fn way(scene: &Scene, start: &[[f64; 3]], target: &Target) -> Option<Verdict> {
     let reach = plan.move_limit? * moves as f64;
     let ways = start.iter().zip(&target.grippers).map(|(a, b)| distance(*a, *b));
     let found = largest(ways.enumerate().map(|(n, way)| (way, n))).map(|(way, n)| {
-        (way * 1e3, format!("straight way of gripper {} in {moves} moves", id(scene.ply.grid, n)))
+        (
+            way * 1e3,
+            format!("straight way of {} in {moves} moves", Site::Gripper(n).label(scene.ply.grid)),
+        )
     });
-    beyond("move_limit", "mm", reach * 1e3, found)
+    beyond(Name::MoveLimit, reach * 1e3, found)
 }

@@ -7,9 +7,10 @@ use super::memory::Memory;
 use super::obstacles::obstacles;
 use super::path::{self, Strategy};
 use super::stepwise::{Outcome, stepwise};
-use crate::draping::record::{PlanRecord, Verdict};
+use crate::draping::record::PlanRecord;
 use crate::draping::spans::Point;
 use crate::draping::{Drape, simulate};
+use crate::measure::{Name, Site, Verdict, Worst};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
 use crate::scene::{PlanMethod, Scene};
 use std::ops::ControlFlow;
@@ -156,16 +157,16 @@ fn by_steps(scene: &Scene, board: &Board) -> Found {
         board.tick()
     });
     let limits = match plan.outcome {
-        Outcome::OutOfSteps(stray) | Outcome::OutOfReach(stray) => vec![Verdict {
-            name: "steps".into(),
-            value: stray.distance * 1e3,
-            limit: 0.0,
-            unit: "mm".into(),
-            ok: false,
-            step: Some(plan.positions.len()),
-            at: format!("gripper [{},{}], short of its target", stray.gripper[0], stray.gripper[1]),
-            place: plan.positions.last().map(|step| step[scene.ply.grid.index(stray.gripper)]),
-        }],
+        Outcome::OutOfSteps(stray) | Outcome::OutOfReach(stray) => {
+            let gripper = scene.ply.grid.index(stray.gripper);
+            let at = Site::Gripper(gripper).label(scene.ply.grid);
+            let worst = Worst {
+                value: stray.distance * 1e3,
+                at: format!("{at}, short of its target"),
+                place: plan.positions.last().map(|step| step[gripper]),
+            };
+            vec![Verdict::of(Name::Steps, worst, 0.0, Some(plan.positions.len()))]
+        }
         Outcome::Arrived | Outcome::Interrupted | Outcome::NoTarget => Vec::new(),
     };
     Found { evaluations: plan.positions.len(), positions: plan.positions, strategy: None, limits }
@@ -174,23 +175,18 @@ fn by_steps(scene: &Scene, board: &Board) -> Found {
 /// Largest speed, acceleration and jerk of the motion against their limits.
 fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
     let peaks = motion.peaks();
-    let verdict = |name: &'static str, unit: &'static str, peak: Peak, limit: f64| {
-        let [i, j] = scene.ply.grid.id(peak.gripper);
+    let verdict = |name: Name, peak: Peak, limit: f64| {
         let step = motion.times().partition_point(|t| *t < peak.time) + 1;
-        Verdict {
-            name: name.into(),
+        let worst = Worst {
             value: peak.value,
-            limit,
-            unit: unit.into(),
-            ok: peak.value <= limit * (1.0 + 1e-9),
-            step: Some(step.min(motion.times().len())),
-            at: format!("gripper [{i},{j}]"),
+            at: Site::Gripper(peak.gripper).label(scene.ply.grid),
             place: Some(motion.at(peak.time)[peak.gripper]),
-        }
+        };
+        Verdict::of(name, worst, limit, Some(step.min(motion.times().len())))
     };
     vec![
-        verdict("speed", "m/s", peaks.speed, bounds.speed),
-        verdict("acceleration", "m/s²", peaks.acceleration, bounds.acceleration),
-        verdict("jerk", "m/s³", peaks.jerk, bounds.jerk),
+        verdict(Name::Speed, peaks.speed, bounds.speed),
+        verdict(Name::Acceleration, peaks.acceleration, bounds.acceleration),
+        verdict(Name::Jerk, peaks.jerk, bounds.jerk),
     ]
 }

@@ -19,8 +19,18 @@ pub struct Laid {
     /// By how much the way along the mold is longer than straight to the gripper, for each rest that has
     /// lain down (m).
     pub arch: [f64; 2],
-    /// Length of the lying cell's diagonals as a multiple of a flat cell's, see
-    /// [`crate::ply::shear::curved_scale`]; 1 for edges.
+    /// Unit tangents of the mold out of the segment, at its two ends.
+    pub outward: [[f64; 3]; 2],
+    /// Of a diagonal, how its cell landed.
+    pub landed: Option<LandedCell>,
+}
+
+/// A cell at the moment when one of its diagonals landed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LandedCell {
+    /// Its shear angle γ (rad), positive where the rising diagonal is the longer one.
+    pub shear: f64,
+    /// By how much the mold's curvature scales its diagonals, [`crate::ply::shear::curved_scale`].
     pub scale: f64,
 }
 

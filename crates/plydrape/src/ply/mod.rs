@@ -2,10 +2,12 @@
 
 mod grid;
 mod laid;
+mod ruck;
 pub mod shear;
 
 pub use grid::{Catenary, Grid, GripperId, Kind};
-pub use laid::Laid;
+pub use laid::{Laid, LandedCell};
+pub use ruck::Ruck;
 
 use crate::material::{Line, Material, Section};
 use serde::{Deserialize, Serialize};
@@ -50,8 +52,8 @@ impl Ply {
     #[must_use]
     pub fn sides(&self, cell: usize, laid: &[Option<Laid>]) -> [f64; 2] {
         let first = self.grid.edges() + 2 * cell;
-        let scale = laid[first..first + 2].iter().flatten().map(|laid| laid.scale).next();
-        self.cell.map(|side| scale.unwrap_or(1.0) * side)
+        let landed = laid[first..first + 2].iter().flatten().find_map(|laid| laid.landed);
+        self.cell.map(|side| landed.map_or(1.0, |landed| landed.scale) * side)
     }
 
     /// Mass per length and flexural rigidity of a catenary.

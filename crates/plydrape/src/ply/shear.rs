@@ -40,12 +40,32 @@ pub fn partner_length<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretc
     if square.re() > least * least { square.sqrt() } else { T::from(least) }
 }
 
-/// By how much a curved mold scales both diagonals of a cell that lies on it: √((d₁² + d₂²) / 2(a²+b²)),
-/// d₁ and d₂ the ways along the mold (m) in the ideal drape. 1 on a plane, where a cell is a parallelogram.
+/// Signed shear angle γ (rad) of a cell with sides a, b (m) whose taut diagonals are `rising` and `falling` (m):
+/// positive where the rising one is stretched, negative where the falling one is, 0 where neither is.
 #[must_use]
-pub fn curved_scale([a, b]: [f64; 2], diagonals: [f64; 2]) -> f64 {
-    let [rising, falling] = diagonals;
-    ((rising * rising + falling * falling) / (2.0 * (a * a + b * b))).sqrt()
+pub fn signed_angle(sides: [f64; 2], rising: f64, falling: f64) -> f64 {
+    let (sign, longer) = if falling > rising { (-1.0, falling) } else { (1.0, rising) };
+    if is_shearing(sides, longer) { sign * angle(sides, longer) } else { 0.0 }
+}
+
+/// Length (m) of the rising (`sign` 1) or falling (−1) diagonal of a cell with sides a, b (m) at the signed shear
+/// angle γ (rad): √(a² + b² ± 2ab sin γ).
+#[must_use]
+pub fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
+    (a * a + b * b + sign * 2.0 * a * b * shear.sin()).sqrt()
+}
+
+/// By how much a mold of Gaussian curvature K (1/m²) scales both diagonals of a cell that lies on it, with sides a, b
+/// (m) and shear angle γ (rad): √(1 + K A²/6(a² + b²)), A = ab cos γ its area. 1 on a plane.
+///
+/// With half diagonals p, q that cross at φ on a sphere of radius 1, cos a + cos b = 2 cos p cos q; to fourth order
+/// d₁² + d₂² = 2(a² + b²) + A²/3. Ours.
+#[must_use]
+pub fn curved_scale([a, b]: [f64; 2], shear: f64, gaussian_curvature: f64) -> f64 {
+    let area = a * b * shear.cos();
+    let excess = gaussian_curvature * area * area / (6.0 * (a * a + b * b));
+    // beyond that a cell is no small part of its mold, and the series says nothing
+    (1.0 + excess.clamp(-0.5, 0.5)).sqrt()
 }
 
 /// Force (N) in the stretched diagonal: τ d₁/cos γ by virtual work, at the shear angle γ (rad), τ (N/m) the

@@ -106,15 +106,15 @@ pub struct SpanState {
     pub prescribed: [bool; 2],
     /// Its shape at equally spaced stations (m); slack of a lying rest is drawn as a wrinkle.
     pub points: Vec<[f64; 3]>,
-    /// Free length minus the path between its ends (mm), not negative.
+    /// Free length minus the way between its ends (mm), not negative; a fold where the gripper has passed the contact.
     pub slack_mm: f64,
     /// Slack as a share of its free length.
     pub slack_ratio: f64,
-    /// Amplitude of the wrinkle that the slack makes, (2/π)√(chord·slack) (mm).
+    /// Height of the ruck that the slack makes on the mold (mm), [`crate::ply::Ruck`].
     pub wrinkle_mm: f64,
-    /// Chord beyond the free length (mm), not negative.
+    /// Way beyond the free length (mm), not negative.
     pub overstretch_mm: f64,
-    /// Chord beyond the free length as a share of the whole catenary.
+    /// Way beyond the free length as a share of the whole catenary.
     pub overstretch: f64,
 }
 

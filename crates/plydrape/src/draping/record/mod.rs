@@ -6,11 +6,13 @@
 mod catenary;
 mod outcome;
 
+pub use crate::measure::{Measures, Numbers, Verdict, Worst};
 pub use catenary::{
     Bridging, CatenaryDirection, CatenaryKind, CatenaryState, ContactState, Hold, SpanState,
 };
-pub use outcome::{CatenaryId, Measures, Numbers, Summary, Verdict, Worst};
+pub use outcome::{CatenaryId, Summary};
 
+use crate::draping::ContactStatus;
 use crate::equilibrium::Status;
 use crate::material::Material;
 use crate::mold::Mold;
@@ -24,7 +26,7 @@ use std::sync::Arc;
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// A whole result file.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -134,8 +136,7 @@ impl Gripper {
     /// Unit normal of the ply there: the z axis of the orientation.
     #[must_use]
     pub fn normal(&self) -> [f64; 3] {
-        let [x, y, z, w] = self.quaternion;
-        [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)]
+        crate::draping::attitude::normal(self.quaternion)
     }
 }
 
@@ -151,6 +152,16 @@ pub struct Solver {
     pub residual: f64,
     /// Equilibria solved in this step.
     pub equilibria: usize,
+    /// `followed`, or what ended the search for contact.
+    pub contact: ContactStatus,
+}
+
+impl Solver {
+    /// Whether equilibrium and contact were found.
+    #[must_use]
+    pub fn found(&self) -> bool {
+        self.status == Status::Converged && self.contact == ContactStatus::Followed
+    }
 }
 
 /// A cell in one step.
@@ -163,4 +174,7 @@ pub struct Cell {
     pub shear_deg: f64,
     /// The shearing diagonal, `rising` or `falling`.
     pub shearing: Option<CatenaryDirection>,
+    /// Shear angle (°) that each of its diagonals landed with, rising and falling, positive where the rising one is the
+    /// longer one; null where it has not.
+    pub landed_deg: [Option<f64>; 2],
 }

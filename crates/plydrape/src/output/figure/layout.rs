@@ -10,6 +10,7 @@ use super::relief::Relief;
 use super::scale::Scale;
 use super::{FigureError, points};
 use crate::draping::record::{ResultFile, Step};
+use crate::measure::Name;
 use crate::mold::Mold;
 
 /// Width of the sheet (picture points).
@@ -97,7 +98,7 @@ fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
         1.0 => String::new(),
         more => format!("  (z exaggerated {} ×)", axes::label(more)),
     };
-    let gap = match (curved(result), &step.measures.gap_mm) {
+    let gap = match (curved(result), step.measures.get(Name::Gap)) {
         (Some(_), Some(gap)) => format!("  (gap to the mold up to {:.1} mm)", gap.value),
         _ => String::new(),
     };

@@ -9,8 +9,8 @@ mod facts;
 mod geometry;
 
 use super::OutputError;
-use super::measures::MEASURES;
 use crate::draping::record::{ResultFile, Step, Worst};
+use crate::measure::{Name, Sense};
 use facts::{Fact, facts};
 use geometry::{Detail, Geometry, Ranges};
 use serde::Serialize;
@@ -33,6 +33,7 @@ struct Page<'a> {
     facts: Vec<Fact>,
     accepted: bool,
     interrupted: bool,
+    stopped: Option<&'a str>,
     steps: Vec<usize>,
     times: Vec<f64>,
     grid: [usize; 2],
@@ -112,7 +113,8 @@ fn page(result: &ResultFile) -> Page<'_> {
         input: scene.input.as_deref(),
         facts: facts(result),
         accepted: summary.accepted,
-        interrupted: summary.steps < summary.steps_planned,
+        interrupted: summary.interrupted(),
+        stopped: summary.stopped.as_deref(),
         steps: shown.iter().map(|step| step.step).collect(),
         times: shown.iter().map(|step| step.time).collect(),
         grid: [scene.grid.nu, scene.grid.nv],
@@ -127,62 +129,45 @@ fn page(result: &ResultFile) -> Page<'_> {
 
 /// Every limit of a result, with the measure that it is about.
 fn limits(result: &ResultFile) -> Vec<Limit<'_>> {
-    let about = |name: &str| match name {
-        "landing_contact" | "landing_gripper" => Some("landing_error_mm"),
-        "contact_share" => Some("contact_share"),
-        _ => MEASURES.iter().map(|m| m.key).find(|key| {
-            let ending = key.strip_prefix(name);
-            matches!(ending, Some("" | "_mm" | "_deg" | "_n"))
-        }),
-    };
     let limits = result.summary.limits.iter().map(|verdict| Limit {
-        name: verdict.name.replace('_', " "),
+        name: verdict.name.title(),
         value: verdict.value,
         limit: verdict.limit,
         unit: &verdict.unit,
-        least: matches!(&*verdict.name, "contact_share" | "gripper_distance"),
+        least: verdict.is_least(),
         ok: verdict.ok,
         step: verdict.step,
         at: &verdict.at,
         place: verdict.place,
-        measure: about(&verdict.name),
+        measure: has_course(result, verdict.name).then(|| verdict.name.measure().key()),
     });
     limits.collect()
 }
 
-/// Every measure that has a value in some step.
+/// Whether a measure has a value in some step.
+fn has_course(result: &ResultFile, name: Name) -> bool {
+    result.steps.iter().any(|step| step.measures.get(name).is_some())
+}
+
+/// Every measure that has a value in some step, with its limit where the result is judged by it.
 fn courses<'a>(result: &'a ResultFile, shown: &[&'a Step]) -> Vec<Course<'a>> {
-    let limits = &result.scene.limits;
-    let judged = |key: &str| result.summary.limits.iter().any(|v| key.starts_with(&*v.name));
-    let mut out = Vec::with_capacity(MEASURES.len() + 1);
-    for measure in &MEASURES {
+    let course = |name: &Name| {
+        let measure = name.measure();
         let worst: Vec<Option<&Worst>> =
-            shown.iter().map(|step| (measure.find)(&step.measures)).collect();
-        let landing = measure.key == "landing_error_mm";
-        out.push(Course {
-            key: measure.key,
-            label: measure.label,
-            unit: measure.unit,
+            shown.iter().map(|step| step.measures.get(*name)).collect();
+        let judged = result.summary.limits.iter().find(|verdict| verdict.name == *name);
+        Course {
+            key: measure.key(),
+            label: measure.label(),
+            unit: measure.unit().recorded,
             values: worst.iter().map(|w| w.map(|w| w.value)).collect(),
             at: worst.iter().map(|w| w.map(|w| w.at.as_str())).collect(),
-            places: worst.iter().map(|w| w.map(|w| w.place)).collect(),
-            limit: (measure.limit)(limits).filter(|_| judged(measure.key) || landing),
-            least: measure.is_least(),
-        });
-    }
-    let share: Vec<Option<f64>> = shown.iter().map(|step| step.measures.contact_share).collect();
-    out.push(Course {
-        key: "contact_share",
-        label: "contact share",
-        unit: "1",
-        at: vec![None; share.len()],
-        places: vec![None; share.len()],
-        values: share,
-        limit: Some(limits.contact_share).filter(|_| judged("contact_share")),
-        least: true,
-    });
-    out.retain(|course| course.values.iter().any(Option::is_some));
-    out
+            places: worst.iter().map(|w| w.and_then(|w| w.place)).collect(),
+            limit: judged.map(|verdict| verdict.limit / measure.unit().factor),
+            least: measure.sense() == Sense::AtLeast,
+        }
+    };
+    Name::ALL.iter().filter(|name| has_course(result, **name)).map(course).collect()
 }
 
 /// What colours can tell of this result.

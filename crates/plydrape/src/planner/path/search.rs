@@ -7,7 +7,7 @@ use super::quick::quick;
 use super::refine::correction;
 use super::strategy::Strategy;
 use super::trajectory::trajectory;
-use crate::draping::Drape;
+use crate::draping::Judged;
 use crate::draping::spans::Point;
 use crate::mold::vector::along;
 use crate::planner::board::Board;
@@ -44,8 +44,8 @@ pub struct Candidate {
     pub strategy: Strategy,
     /// The positions that it plans (m), one list of all grippers a step.
     pub positions: Vec<Vec<Point>>,
-    /// Its complete drape.
-    pub drape: Drape,
+    /// How its complete drape came out.
+    pub judged: Judged,
     /// [`judge::score`] of it.
     pub score: f64,
 }
@@ -61,14 +61,14 @@ impl Candidate {
         positions: Vec<Vec<Point>>,
         board: &Board,
     ) -> Candidate {
-        let drape = judge::drape(scene, &positions, board);
-        let mut score = judge::score(&drape.result);
+        let judged = judge::drape(scene, &positions, board);
+        let mut score = judge::score(&judged);
         if score < PROMISING {
             let finer = judge::drape_finer(scene, &positions, board);
-            score = score.max(judge::score(&finer.result));
+            score = score.max(judge::score(&finer));
         }
-        board.add(&drape.result, score);
-        Candidate { strategy, positions, drape, score }
+        board.add(&judged, score);
+        Candidate { strategy, positions, judged, score }
     }
 }
 
@@ -169,7 +169,7 @@ fn refined(scene: &Scene, best: &Candidate, board: &Board) -> Option<Candidate> 
 }
 
 fn is_accepted(candidate: &Candidate) -> bool {
-    candidate.drape.result.summary.accepted
+    candidate.judged.accepted
 }
 
 /// The one with the lower score; where they are equal, the one whose numbers come first.

@@ -3,7 +3,7 @@
 use super::{Quantity, Sensitivity};
 use crate::draping::record::ResultFile;
 use crate::draping::spans::Point;
-use crate::draping::{Draping, lying_rests};
+use crate::draping::{Draping, lying_segments};
 use crate::ply::Laid;
 use crate::scene::Scene;
 use std::ops::ControlFlow;
@@ -87,8 +87,8 @@ fn lying(
     let grippers = [c.from, c.to].map(|g| grid.index(g));
     let tolerance = scene.settings.contact.tolerance;
     let misfits = |ends: [Point; 2]| -> Vec<f64> {
-        let rests = lying_rests(laid, ends, mold, tolerance);
-        rests.iter().map(|rest| rest.fit.path - rest.fit.length).collect()
+        let segments = lying_segments(catenary, laid, ends, mold, tolerance);
+        segments.iter().map(|segment| -segment.misfit.excess()).collect()
     };
     let ends = grippers.map(|gripper| positions[gripper]);
     let mut out: Vec<Quantity> = (misfits(ends).into_iter())

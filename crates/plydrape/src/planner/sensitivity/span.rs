@@ -6,8 +6,9 @@
 
 use super::{Quantity, Sensitivity, add};
 use crate::catenary::{Graded, Profile};
+use crate::draping::misfit;
 use crate::draping::spans::{FreeSpan, Point};
-use crate::mold::vector::{dot, sub, unit};
+use crate::mold::vector::{along, dot, sub, unit};
 
 /// A point with its gradient to all gripper positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,12 +54,23 @@ impl Sensitivity<'_> {
         Some(Quantity { value, gradient: self.row(element, 0).to_vec() })
     }
 
-    /// Straight distance of its ends beyond its fabric length (m); negative is slack.
+    /// Way between its ends beyond its fabric length (m), see [`Misfit`]; negative is slack.
     #[must_use]
     pub fn overstretch(&self, span: &FreeSpan) -> Quantity {
         let mut gradient = self.zeros();
+        let laid = self.laid[span.catenary].as_ref();
         let [a, b] = span.ends;
-        let chord = unit(sub(b, a)).unwrap_or([0.0; 3]);
+        let mut chord = unit(sub(b, a)).unwrap_or([0.0; 3]);
+        if let Some(laid) = laid {
+            // behind the contact the way grows along the tangent out of it
+            let sense = if span.rest == 0 { -1.0 } else { 1.0 };
+            let (outward, gripper) = (laid.outward[span.rest], sub(b, a).map(|c| sense * c));
+            let ahead = dot(gripper, outward);
+            if ahead < 0.0 {
+                let aside = unit(along(gripper, -ahead, outward)).unwrap_or([0.0; 3]);
+                chord = along(outward, 1.0, aside).map(|c| sense * c);
+            }
+        }
         for (end, sign) in [(0, -1.0), (1, 1.0)] {
             if let Some(gripper) = self.gripper_at(span, end) {
                 for n in 0..3 {
@@ -72,7 +84,7 @@ impl Sensitivity<'_> {
             None if self.laid[span.catenary].is_none() => gradient.fill(0.0),
             None => {}
         }
-        Quantity { value: span.chord() - span.length, gradient }
+        Quantity { value: -misfit(span, laid).excess(), gradient }
     }
 
     /// Slope at a fraction `t` of its run, along its heading.

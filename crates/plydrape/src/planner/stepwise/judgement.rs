@@ -1,7 +1,7 @@
 //! What the true model says of a step.
 
 use crate::draping::spans::Shape;
-use crate::draping::{Draping, attitude, fit, lying_rests};
+use crate::draping::{Draping, attitude, lying_segments, misfit};
 use crate::equilibrium::Status;
 use crate::scene::Scene;
 
@@ -44,7 +44,8 @@ fn stretch(scene: &Scene, draping: &Draping, shape: &Shape) -> f64 {
     let length = |catenary: usize| ply.flat_length(ply.grid.catenary(catenary).kind);
     let mut worst = 0.0_f64;
     for span in shape.spans.iter().filter(|span| span.catenary < edges) {
-        worst = worst.max(fit(span).overstretch() / length(span.catenary));
+        let misfit = misfit(span, draping.laid[span.catenary].as_ref());
+        worst = worst.max(misfit.overstretch() / length(span.catenary));
     }
     let Some(mold) = &scene.mold else {
         return worst;
@@ -53,8 +54,8 @@ fn stretch(scene: &Scene, draping: &Draping, shape: &Shape) -> f64 {
         let Some(laid) = laid else { continue };
         let c = ply.grid.catenary(n);
         let ends = [c.from, c.to].map(|g| draping.positions[ply.grid.index(g)]);
-        for rest in lying_rests(laid, ends, mold, scene.settings.contact.tolerance) {
-            worst = worst.max(rest.fit.overstretch() / length(n));
+        for segment in lying_segments(n, laid, ends, mold, scene.settings.contact.tolerance) {
+            worst = worst.max(segment.misfit.overstretch() / length(n));
         }
     }
     worst

@@ -7,7 +7,7 @@
 
 use super::step::wanted_stretch;
 use crate::draping::spans::{Point, Shape};
-use crate::draping::{Draping, lying_rests};
+use crate::draping::{Draping, lying_segments, misfit};
 use crate::mold::Strand;
 use crate::mold::vector::{along, norm, sub, unit};
 use crate::planner::program::{MM, Program};
@@ -78,20 +78,24 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
         let c = grid.catenary(n);
         let ids = [c.from, c.to].map(|g| grid.index(g));
         let ends = ids.map(|g| draping.positions[g]);
-        for rest in lying_rests(laid, ends, mold, scene.settings.contact.tolerance) {
+        for rest in lying_segments(n, laid, ends, mold, scene.settings.contact.tolerance) {
             let held: &[usize] = match rest.which {
                 None => &[0, 1],
                 Some(0) => &[0],
                 Some(_) => &[1],
             };
             out.push(Rest {
-                pull: rest.fit.path - rest.fit.length,
+                pull: rest.misfit.way - rest.misfit.length,
                 wanted: PULL * ply.flat_length(c.kind),
-                length: rest.fit.length,
+                length: rest.misfit.length,
                 whole: ply.flat_length(c.kind),
                 grippers: held
                     .iter()
-                    .filter_map(|&end| Some((ids[end], outward(&rest.line, end)?)))
+                    .filter_map(|&end| {
+                        // behind the contact, the way grows back over it
+                        let sense = if rest.misfit.way < 0.0 { -1.0 } else { 1.0 };
+                        Some((ids[end], outward(&rest.line, end)?.map(|c| sense * c)))
+                    })
                     .collect(),
             });
         }
@@ -109,7 +113,7 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
             _ => (grid.index(c.to), way),
         };
         out.push(Rest {
-            pull: span.chord() - span.length,
+            pull: -misfit(span, draping.laid[span.catenary].as_ref()).excess(),
             wanted: wanted_stretch(scene, span),
             length: span.length,
             whole: ply.flat_length(c.kind),

@@ -1,0 +1,61 @@
+//! What the ply asks of each gripper: vertical load, and pull in the plane.
+//!
+//! Each family of edges carries the whole ply in the model, so where there are two each counts half. A line inside the ply stands for
+//! a strip one cell wide, one on its boundary for half a strip. So the loads of a hanging ply add up to its weight.
+
+use super::Snapshot;
+use crate::ply::{Kind, Ply};
+use crate::scene::Scene;
+
+/// Forces of the ply on a gripper (N).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Load {
+    /// Downwards.
+    pub vertical: f64,
+    /// Horizontally along x and y.
+    pub pull: [f64; 2],
+}
+
+/// Share of an edge's forces that is the ply's.
+fn tributary(ply: &Ply, edge: usize) -> f64 {
+    let (grid, c) = (ply.grid, ply.grid.catenary(edge));
+    let (line, lines) =
+        if c.kind == Kind::EdgeU { (c.from[1], grid.nv) } else { (c.from[0], grid.nu) };
+    let families = if grid.nv > 1 { 2.0 } else { 1.0 };
+    let boundary = lines > 1 && (line == 0 || line + 1 == lines);
+    if boundary { 0.5 / families } else { 1.0 / families }
+}
+
+/// The loads of all grippers, in the order of [`crate::ply::Grid::index`].
+///
+/// A span between two grippers pulls with its forces. Where the mold holds a segment at its other end, the tension is an
+/// artefact of the axial stiffness; half of its weight counts.
+#[must_use]
+pub fn loads(scene: &Scene, snapshot: &Snapshot) -> Vec<Load> {
+    let (ply, grid) = (&scene.ply, scene.ply.grid);
+    let mut out = vec![Load::default(); grid.grippers()];
+    for span in snapshot.shape.spans.iter().filter(|span| span.catenary < grid.edges()) {
+        let c = grid.catenary(span.catenary);
+        let share = tributary(ply, span.catenary);
+        let grippers = [c.from, c.to].map(|g| grid.index(g));
+        let half_weight = 0.5 * ply.line(c.kind).mass * scene.settings.gravity * span.length;
+        if snapshot.laid[span.catenary].is_some() {
+            out[grippers[span.rest]].vertical += share * half_weight;
+            continue;
+        }
+        let [x, y] = span.heading();
+        for (end, sign) in [(0, -1.0), (1, 1.0)] {
+            let load = &mut out[grippers[end]];
+            load.vertical += share
+                * match &span.profile {
+                    Some(profile) => sign * profile.station(end as f64 * span.run()).vertical_force,
+                    None => half_weight,
+                };
+            // each end is drawn towards the other
+            let force = -sign * share * span.force.unwrap_or(0.0);
+            load.pull[0] += force * x;
+            load.pull[1] += force * y;
+        }
+    }
+    out
+}

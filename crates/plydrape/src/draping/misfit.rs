@@ -1,0 +1,164 @@
+//! How the fabric of a free segment fits the way that it has: slack where it is longer, stretch where it is shorter.
+//!
+//! The way of a segment between two grippers is the straight line. Between a gripper and the end of what is in contact it
+//! has a sign: with the way from the end to the gripper split into x along the outward tangent of the mold and
+//! y across it, it is √(x² + y²) ahead of the end and y + x behind it (x < 0). A gripper that has moved inwards past
+//! the end thus makes a fold, all of it slack, and never stretch. A segment that lies has the way along the mold.
+
+use super::spans::{FreeSpan, Point};
+use crate::mold::vector::{dot, sub};
+use crate::mold::{Mold, Strand, distance};
+use crate::ply::Laid;
+
+/// Fit of one free or lying segment between what holds it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Misfit {
+    /// Index of its catenary.
+    pub catenary: usize,
+    /// Fabric length (m).
+    pub length: f64,
+    /// Way between its ends (m), negative where a gripper has passed the end of what is in contact.
+    pub way: f64,
+    /// Fabric length of the whole catenary (m).
+    pub whole: f64,
+    /// Middle of its ends (m).
+    pub place: Point,
+}
+
+impl Misfit {
+    /// Fabric beyond the way (m), negative where it is short.
+    #[must_use]
+    pub fn excess(&self) -> f64 {
+        self.length - self.way
+    }
+
+    /// Fabric beyond the way (m), not negative.
+    #[must_use]
+    pub fn slack(&self) -> f64 {
+        // what rounding leaves of a taut line is none
+        let slack = self.excess();
+        if slack > 1e-12 * self.whole { slack } else { 0.0 }
+    }
+
+    /// Way beyond the fabric (m), not negative.
+    #[must_use]
+    pub fn overstretch(&self) -> f64 {
+        let short = -self.excess();
+        if short > 1e-12 * self.whole { short } else { 0.0 }
+    }
+}
+
+fn middle(a: Point, b: Point) -> Point {
+    [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]))
+}
+
+/// Way (m) from the end of a contact segment to a point, `outward` the unit tangent of the mold out of the segment.
+#[must_use]
+pub fn way_ahead(end: Point, outward: Point, point: Point) -> f64 {
+    let way = sub(point, end);
+    let (along, square) = (dot(way, outward), dot(way, way));
+    if along >= 0.0 {
+        return square.sqrt();
+    }
+    (square - along * along).max(0.0).sqrt() + along
+}
+
+/// How a free span fits between its ends; `laid` is what is in contact of its catenary.
+#[must_use]
+pub fn misfit(span: &FreeSpan, laid: Option<&Laid>) -> Misfit {
+    let [a, b] = span.ends;
+    let way = match laid {
+        None => span.chord(),
+        Some(laid) => {
+            let (end, gripper) = if span.rest == 0 { (b, a) } else { (a, b) };
+            way_ahead(end, laid.outward[span.rest], gripper)
+        }
+    };
+    Misfit {
+        catenary: span.catenary,
+        length: span.length,
+        way,
+        whole: laid.map_or(span.length, |laid| laid.length),
+        place: middle(a, b),
+    }
+}
+
+/// A segment of a catenary that does not hang: one that lies, or one of no length whose gripper has moved on.
+pub struct LyingSegment {
+    /// 0 before the contact segment, 1 after it; none for a catenary that lies whole.
+    pub which: Option<usize>,
+    /// How its fabric fits.
+    pub misfit: Misfit,
+    /// The taut line between its ends, from first to last.
+    pub line: Strand,
+}
+
+/// The segments of a catenary that do not hang.
+///
+/// A gripper within `tolerance` (m) of the mold counts as standing on it; one that has lifted off pulls
+/// straight.
+#[must_use]
+pub fn lying_segments(
+    catenary: usize,
+    laid: &Laid,
+    grippers: [Point; 2],
+    mold: &Mold,
+    tolerance: f64,
+) -> Vec<LyingSegment> {
+    if !laid.is_whole() && laid.hangs(0) && laid.hangs(1) {
+        return Vec::new();
+    }
+    let straight = |a, b| Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
+    let foot = |gripper: Point| {
+        let foot = mold.foot(gripper);
+        (foot.distance <= tolerance).then_some(foot.point)
+    };
+    let fit = |length, way, line: &Strand| {
+        let place = middle(line.points[0], line.end());
+        Misfit { catenary, length, way, whole: laid.length, place }
+    };
+    if laid.is_whole() {
+        let line = match grippers.map(foot) {
+            [Some(a), Some(b)] => mold.path(a, b).unwrap_or_else(|| straight(a, b)),
+            _ => straight(grippers[0], grippers[1]),
+        };
+        let misfit = fit(laid.length, line.length(), &line);
+        return vec![LyingSegment { which: None, misfit, line }];
+    }
+    let segment = |which: usize| {
+        let (end, outward) = (laid.point()[which], laid.outward[which]);
+        let gripper = foot(grippers[which]);
+        let place = gripper.unwrap_or(grippers[which]);
+        let [a, b] = if which == 0 { [place, end] } else { [end, place] };
+        let along = gripper.and_then(|_| mold.path(a, b));
+        let line = along.unwrap_or_else(|| straight(a, b));
+        // behind the end the line leads back over what is in contact
+        let behind = dot(sub(place, end), outward) < 0.0;
+        let way = match gripper {
+            Some(_) if behind => -line.length(),
+            Some(_) => line.length(),
+            None => way_ahead(end, outward, place),
+        };
+        LyingSegment { which: Some(which), misfit: fit(laid.rest(which), way, &line), line }
+    };
+    (0..2).filter(|&which| !laid.hangs(which)).map(segment).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ahead of the end the way is the distance, also at a right angle; on the mold behind it, minus the distance.
+    /// It is continuous where the two meet.
+    #[test]
+    fn the_way_has_the_sign_of_the_side_that_the_gripper_is_on() {
+        let (end, outward) = ([1.0, 2.0, 0.0], [0.6, 0.8, 0.0]);
+        let at = |along: f64, up: f64| {
+            way_ahead(end, outward, [1.0 + 0.6 * along, 2.0 + 0.8 * along, up])
+        };
+        assert!((at(0.03, 0.04) - 0.05).abs() < 1e-15);
+        assert!((at(-0.03, 0.0) + 0.03).abs() < 1e-15);
+        assert!((at(0.0, 0.04) - 0.04).abs() < 1e-15);
+        assert!((at(-1e-9, 0.04) - at(1e-9, 0.04)).abs() < 2e-9);
+    }
+}

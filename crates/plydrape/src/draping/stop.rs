@@ -1,0 +1,42 @@
+//! Where a drape ends because no ply would survive what its grippers do, and what to do about it.
+
+use super::record::Step;
+use crate::measure::{Name, State};
+use crate::scene::Scene;
+
+/// Stretch of an edge, as a share of it, from which nothing that follows means anything: carbon fibre breaks at 1.5 to
+/// 2 %, and a woven ply gives some per cent more by its crimp.
+const TORN: f64 = 0.1;
+
+/// Share of the ply's longer side from which a first touch is far from its place.
+const ASTRAY: f64 = 0.1;
+
+/// Whether an edge of a step is stretched beyond what any ply bears.
+pub fn tears(state: &State) -> bool {
+    let worst = Name::Overstretch.measure().evaluate(state);
+    worst.is_some_and(|worst| worst.value > TORN)
+}
+
+/// Why a drape ends with its last step, and what would help; none if it need not end.
+pub fn reason(scene: &Scene, steps: &[Step]) -> Option<String> {
+    let last = steps.last()?;
+    let worst = last.measures.get(Name::Overstretch).filter(|worst| worst.value > TORN)?;
+    let mut text = format!(
+        "{} is stretched by {:.0} % in step {}: no ply survives that, and the drape ends here",
+        worst.at,
+        worst.value * 1e2,
+        last.step
+    );
+    let landing = |step: &Step| step.measures.value(Name::LandingError);
+    let grid = scene.ply.grid;
+    let [a, b] = scene.ply.cell;
+    let side = (a * (grid.nu - 1) as f64).max(b * grid.nv.saturating_sub(1) as f64);
+    match steps.iter().find_map(landing) {
+        Some(far) if far * 1e-3 > ASTRAY * side => {
+            text +=
+                &format!("; it first touched the mold {far:.0} mm from its place: come from above");
+        }
+        _ => text += "; bring grippers closer together, or let them follow the mold",
+    }
+    Some(text)
+}

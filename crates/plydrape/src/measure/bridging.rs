@@ -1,0 +1,44 @@
+//! Bridging: the gap between ply and mold between two touches of one catenary, of which the model follows one.
+
+use super::{Found, Measure, Most, Scope, Site, State, Unit};
+use crate::scene::Scene;
+
+/// Bridging; see the head of this file.
+pub struct Bridging;
+
+impl Measure for Bridging {
+    fn name(&self) -> &'static str {
+        "bridging"
+    }
+
+    fn key(&self) -> &'static str {
+        "bridging_mm"
+    }
+
+    fn label(&self) -> &'static str {
+        "bridging"
+    }
+
+    fn unit(&self) -> Unit {
+        Unit::MILLIMETRE
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::End
+    }
+
+    fn limit(&self, scene: &Scene) -> Option<f64> {
+        (scene.mold.is_some() && scene.target.is_some()).then_some(scene.limits.bridging * 1e3)
+    }
+
+    fn evaluate(&self, state: &State) -> Option<Found> {
+        state.scene.mold.as_ref()?;
+        let mut most = Most::default();
+        for (n, bridge) in state.snapshot.bridges.iter().enumerate() {
+            if let Some(bridge) = bridge {
+                most.meet(bridge.gap, Site::Catenary(n), bridge.place);
+            }
+        }
+        Some(most.in_units_of(1e-3).unwrap_or(Found::NONE))
+    }
+}

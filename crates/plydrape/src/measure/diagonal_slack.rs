@@ -1,0 +1,35 @@
+//! Slack of diagonals: fabric of a segment of a diagonal beyond its way, as the paper prints it of its example.
+//!
+//! A diagonal is no fibre and this is no wrinkle: what counts is the shear that its cell landed with
+//! (`landing_shear.rs`).
+
+use super::{Found, Measure, Most, Site, State, Unit};
+
+/// Slack of diagonals; see the head of this file.
+pub struct DiagonalSlack;
+
+impl Measure for DiagonalSlack {
+    fn name(&self) -> &'static str {
+        "diagonal_slack"
+    }
+
+    fn key(&self) -> &'static str {
+        "diagonal_slack_mm"
+    }
+
+    fn label(&self) -> &'static str {
+        "slack of diagonals"
+    }
+
+    fn unit(&self) -> Unit {
+        Unit::MILLIMETRE
+    }
+
+    fn evaluate(&self, state: &State) -> Option<Found> {
+        let mut most = Most::default();
+        for m in state.misfits().iter().filter(|m| m.catenary >= state.edges()) {
+            most.meet(m.slack(), Site::Catenary(m.catenary), m.place);
+        }
+        most.in_units_of(1e-3)
+    }
+}

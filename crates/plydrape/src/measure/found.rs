@@ -1,0 +1,88 @@
+//! A worst value and the part of the ply that has it.
+
+use crate::draping::spans::Point;
+use crate::ply::Grid;
+
+/// A part of the ply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Site {
+    /// A catenary by its index.
+    Catenary(usize),
+    /// A gripper by its index.
+    Gripper(usize),
+    /// Two grippers by their indices.
+    Grippers(usize, usize),
+    /// A cell by its index.
+    Cell(usize),
+    /// All edges together.
+    AllEdges,
+    /// All grippers together.
+    AllGrippers,
+    /// No part of it has any.
+    Nowhere,
+}
+
+impl Site {
+    /// As a label.
+    #[must_use]
+    pub fn label(self, grid: Grid) -> String {
+        let id = |n: usize| {
+            let [i, j] = grid.id(n);
+            format!("[{i},{j}]")
+        };
+        match self {
+            Site::Catenary(n) => {
+                let c = grid.catenary(n);
+                let kind = if c.kind.is_edge() { "edge" } else { "diagonal" };
+                format!("{kind} [{},{}]–[{},{}]", c.from[0], c.from[1], c.to[0], c.to[1])
+            }
+            Site::Gripper(n) => format!("gripper {}", id(n)),
+            Site::Grippers(a, b) => format!("grippers {} and {}", id(a), id(b)),
+            Site::Cell(n) => format!("cell [{},{}]", n % (grid.nu - 1), n / (grid.nu - 1)),
+            Site::AllEdges => "all edges".into(),
+            Site::AllGrippers => "all grippers".into(),
+            Site::Nowhere => "nowhere".into(),
+        }
+    }
+}
+
+/// A value of a measure, in its unit, and where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// The value.
+    pub value: f64,
+    /// Which part of the ply has it.
+    pub site: Site,
+    /// Place in space (m), where it has one.
+    pub place: Option<Point>,
+}
+
+impl Found {
+    /// Nothing of it anywhere.
+    pub const NONE: Found = Found { value: 0.0, site: Site::Nowhere, place: None };
+}
+
+/// Collects the largest of several values, the first of those that are equal.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Most(Option<Found>);
+
+impl Most {
+    /// Another value.
+    pub fn meet(&mut self, value: f64, site: Site, place: Point) {
+        if self.0.is_none_or(|most| value > most.value) {
+            self.0 = Some(Found { value, site, place: Some(place) });
+        }
+    }
+
+    /// The largest of them, none of none.
+    #[must_use]
+    pub fn found(self) -> Option<Found> {
+        self.0
+    }
+
+    /// The largest of them in a unit of so much (SI).
+    #[must_use]
+    pub fn in_units_of(self, unit: f64) -> Option<Found> {
+        self.0.map(|most| Found { value: most.value / unit, ..most })
+    }
+}

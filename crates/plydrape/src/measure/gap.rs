@@ -1,0 +1,36 @@
+//! Gap: the largest distance of a station of a free span from the mold.
+
+use super::{Found, Measure, Most, Site, State, Unit};
+
+/// Gap; see the head of this file.
+pub struct Gap;
+
+impl Measure for Gap {
+    fn name(&self) -> &'static str {
+        "gap"
+    }
+
+    fn key(&self) -> &'static str {
+        "gap_mm"
+    }
+
+    fn label(&self) -> &'static str {
+        "gap"
+    }
+
+    fn unit(&self) -> Unit {
+        Unit::MILLIMETRE
+    }
+
+    fn evaluate(&self, state: &State) -> Option<Found> {
+        let mold = state.scene.mold.as_ref()?;
+        let mut most = Most::default();
+        for (span, points) in state.snapshot.shape.spans.iter().zip(state.stations()) {
+            for point in points {
+                let gap = mold.signed_distance(*point).max(0.0);
+                most.meet(gap, Site::Catenary(span.catenary), *point);
+            }
+        }
+        Some(most.in_units_of(1e-3).unwrap_or(Found::NONE))
+    }
+}

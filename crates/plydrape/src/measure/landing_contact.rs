@@ -1,0 +1,45 @@
+//! Landing of contact points: how far what has landed is from where the ideal drape has the same fabric.
+
+use super::{Found, Measure, Most, Scope, Site, State, Unit};
+use crate::scene::Scene;
+
+/// Landing of contact points; see the head of this file.
+pub struct LandingContact;
+
+impl Measure for LandingContact {
+    fn name(&self) -> &'static str {
+        "landing_contact"
+    }
+
+    fn key(&self) -> &'static str {
+        "landing_contact_mm"
+    }
+
+    fn label(&self) -> &'static str {
+        "landing of contact points"
+    }
+
+    fn unit(&self) -> Unit {
+        Unit::MILLIMETRE
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::End
+    }
+
+    fn limit(&self, scene: &Scene) -> Option<f64> {
+        scene.target.as_ref().map(|_| scene.limits.landing_contact * 1e3)
+    }
+
+    fn evaluate(&self, state: &State) -> Option<Found> {
+        let mut most = Most::default();
+        for (n, landing) in state.landings().iter().enumerate() {
+            let laid = state.snapshot.laid[n].as_ref();
+            let worst = laid.zip(landing.as_ref()).and_then(|(laid, found)| found.worst(&laid.line));
+            if let Some((error, place)) = worst {
+                most.meet(error, Site::Catenary(n), place);
+            }
+        }
+        most.in_units_of(1e-3)
+    }
+}

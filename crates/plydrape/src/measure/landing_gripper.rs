@@ -1,0 +1,52 @@
+//! Landing of grippers: how far a gripper ends from where the ideal drape puts it.
+
+use super::{Found, Measure, Most, Scope, Site, State, Unit};
+use crate::mold::distance;
+use crate::scene::Scene;
+
+/// Landing of grippers; see the head of this file.
+pub struct LandingGripper;
+
+impl Measure for LandingGripper {
+    fn name(&self) -> &'static str {
+        "landing_gripper"
+    }
+
+    fn key(&self) -> &'static str {
+        "landing_gripper_mm"
+    }
+
+    fn label(&self) -> &'static str {
+        "landing of grippers"
+    }
+
+    fn unit(&self) -> Unit {
+        Unit::MILLIMETRE
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::End
+    }
+
+    fn limit(&self, scene: &Scene) -> Option<f64> {
+        scene.target.as_ref().map(|_| scene.limits.landing_gripper * 1e3)
+    }
+
+    fn evaluate(&self, state: &State) -> Option<Found> {
+        landed_gripper(state, false)
+    }
+}
+
+/// The gripper farthest from its target, of all or of those that stand on the mold (mm).
+pub(super) fn landed_gripper(state: &State, standing: bool) -> Option<Found> {
+    let (scene, mut most) = (state.scene, Most::default());
+    let tolerance = scene.settings.contact.tolerance;
+    for (n, target) in scene.target.as_ref()?.grippers.iter().enumerate() {
+        let place = state.snapshot.positions[n];
+        let stands = |place| scene.mold.as_ref().is_some_and(|m| m.signed_distance(place) <= tolerance);
+        if !standing || stands(place) {
+            most.meet(distance(place, *target), Site::Gripper(n), place);
+        }
+    }
+    most.in_units_of(1e-3)
+}

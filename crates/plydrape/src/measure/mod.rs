@@ -1,0 +1,206 @@
+//! What is measured of a drape, section 13 of `docs/theory.md`: each measure is a type in a file of its own.
+//!
+//! A [`Measure`] says what it is called, in which unit, which way it is bounded ([`Sense`]), when it counts
+//! ([`Scope`]), which limit of the scene bounds it, and how it is found on the ply of one step ([`State`]). Verdicts,
+//! the search, tables, the page, CSV and Python take all of that from here; [`Name`] lists them.
+//!
+//! `state` holds what several measures share in one step, `verdict` turns values into verdicts, `record` is
+//! what a result file keeps of them.
+
+mod found;
+mod record;
+mod state;
+mod unit;
+mod verdict;
+
+pub use found::{Found, Most, Site};
+pub use record::{ByName, Measures, Numbers, Worst};
+pub use state::{Before, Misfit, State};
+pub use unit::Unit;
+pub use verdict::{Judge, Verdict, last_numbers, worst_numbers};
+
+use crate::scene::Scene;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// Which way a limit bounds a measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sense {
+    /// No value above the limit is accepted.
+    AtMost,
+    /// No value below the limit is accepted.
+    AtLeast,
+}
+
+/// When a measure counts for the verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scope {
+    /// In every step: the worst of all.
+    EveryStep,
+    /// At the end alone.
+    End,
+    /// Of the motion in time: it means nothing where the steps have no times yet, as in a search.
+    Time,
+    /// Of a whole motion or plan, found outside the drape.
+    Whole,
+}
+
+/// What it is worth to stay below a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Worth {
+    /// Less is always better: what spoils the ply.
+    Less,
+    /// The limit is to be kept, and less has no worth: what a machine can do.
+    Kept,
+}
+
+/// Something that is measured of a drape.
+pub trait Measure: Sync {
+    /// Name of its limit in scenes and verdicts, `landing_shear`.
+    fn name(&self) -> &'static str;
+
+    /// Its key among the measures of a step, the unit at its end where it has one, `landing_shear_deg`.
+    fn key(&self) -> &'static str {
+        self.name()
+    }
+
+    /// What it is called in tables and charts.
+    fn label(&self) -> &'static str;
+
+    /// Unit of its values, and how they are shown.
+    fn unit(&self) -> Unit;
+
+    /// Which way its limit bounds it.
+    fn sense(&self) -> Sense {
+        Sense::AtMost
+    }
+
+    /// When it counts.
+    fn scope(&self) -> Scope {
+        Scope::EveryStep
+    }
+
+    /// What it is worth to stay below its limit.
+    fn worth(&self) -> Worth {
+        Worth::Less
+    }
+
+    /// Its limit in a scene, in its own unit; none where the scene sets none or it has no meaning there.
+    fn limit(&self, _scene: &Scene) -> Option<f64> {
+        None
+    }
+
+    /// Its worst value in the ply of one step and where that is; none where it has no meaning.
+    fn evaluate(&self, _state: &State) -> Option<Found> {
+        None
+    }
+}
+
+/// Declares the measures: a file and a type each.
+macro_rules! measures {
+    ($($module:ident: $name:ident),* $(,)?) => {
+        $(mod $module;)*
+
+        /// Every measure, in the order in which tables show them.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Name {
+            $(
+                #[doc = concat!("See `measure/", stringify!($module), ".rs`.")]
+                $name,
+            )*
+        }
+
+        impl Name {
+            /// All of them, in order.
+            pub const ALL: &[Name] = &[$(Name::$name),*];
+
+            /// What it is.
+            #[must_use]
+            pub fn measure(self) -> &'static dyn Measure {
+                match self {
+                    $(Name::$name => &$module::$name,)*
+                }
+            }
+        }
+    };
+}
+
+measures! {
+    overstretch: Overstretch,
+    overstretch_length: OverstretchLength,
+    strain: Strain,
+    penetration: Penetration,
+    tilt: Tilt,
+    tilt_rate: TiltRate,
+    shear: Shear,
+    gripper_load: GripperLoad,
+    gripper_pull: GripperPull,
+    force: Force,
+    workspace: Workspace,
+    slack: Slack,
+    slack_ratio: SlackRatio,
+    wrinkle: Wrinkle,
+    wrinkle_angle: WrinkleAngle,
+    diagonal_slack: DiagonalSlack,
+    bridging: Bridging,
+    landing_error: LandingError,
+    landing_contact: LandingContact,
+    landing_gripper: LandingGripper,
+    landing_shear: LandingShear,
+    fibre_angle: FibreAngle,
+    gap: Gap,
+    sag_ratio: SagRatio,
+    slope: Slope,
+    contact_share: ContactShare,
+    gripper_distance: GripperDistance,
+    equilibrium: Equilibrium,
+    duration: Duration,
+    speed: Speed,
+    acceleration: Acceleration,
+    jerk: Jerk,
+    missing_nodes: MissingNodes,
+    off_mold: OffMold,
+    move_limit: MoveLimit,
+    steps: Steps,
+}
+
+impl Name {
+    /// Its name as tables have it, `landing shear`.
+    #[must_use]
+    pub fn title(self) -> String {
+        self.measure().name().replace('_', " ")
+    }
+}
+
+impl Serialize for Name {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.measure().name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Name {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(from)?;
+        let named = |name: &&Name| name.measure().name() == text;
+        Name::ALL
+            .iter()
+            .find(named)
+            .copied()
+            .ok_or_else(|| serde::de::Error::custom(format!("there is no limit called `{text}`")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file is read by these names: no two measures share one.
+    #[test]
+    fn every_measure_has_a_name_and_a_key_of_its_own() {
+        for (n, a) in Name::ALL.iter().enumerate() {
+            for b in &Name::ALL[..n] {
+                assert_ne!(a.measure().name(), b.measure().name());
+                assert_ne!(a.measure().key(), b.measure().key());
+            }
+        }
+    }
+}

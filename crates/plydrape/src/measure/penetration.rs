@@ -1,0 +1,100 @@
+//! Penetration: the greatest depth of grippers and spans below the mold.
+//!
+//! Grippers are followed along their straight ways from the step before: the distance from the mold changes by no more
+//! than the way, so halving the way finds the deepest point.
+
+use super::{Found, Measure, Most, Site, State, Unit};
+use crate::draping::spans::Point;
+use crate::mold::vector::between;
+use crate::mold::{Mold, distance};
+use crate::scene::Scene;
+
+/// Penetration; see the head of this file.
+pub struct Penetration;
+
+impl Measure for Penetration {
+    fn name(&self) -> &'static str {
+        "penetration"
+    }
+
+    fn key(&self) -> &'static str {
+        "penetration_mm"
+    }
+
+    fn label(&self) -> &'static str {
+        "penetration"
+    }
+
+    fn unit(&self) -> Unit {
+        Unit::MILLIMETRE
+    }
+
+    fn limit(&self, scene: &Scene) -> Option<f64> {
+        scene.mold.as_ref().map(|_| scene.limits.penetration * 1e3)
+    }
+
+    fn evaluate(&self, state: &State) -> Option<Found> {
+        let mold = state.scene.mold.as_ref()?;
+        // finer than the limit by far, and no search for what does not matter
+        let resolution = 0.01 * state.scene.settings.contact.tolerance;
+        let mut most = Most::default();
+        for (n, to) in state.snapshot.positions.iter().enumerate() {
+            let from = state.before.map_or(*to, |before| before.positions[n]);
+            let (depth, place) = deepest(mold, from, *to, resolution);
+            most.meet(depth, Site::Gripper(n), place);
+        }
+        if let Some((depth, catenary, place)) = state.snapshot.deepest {
+            most.meet(depth, Site::Catenary(catenary), place);
+        }
+        let found = most.in_units_of(1e-3)?;
+        Some(if found.value > 0.0 { found } else { Found::NONE })
+    }
+}
+
+/// Greatest depth (m) along a straight way and its place, to a resolution (m); 0 where all of it is outside.
+fn deepest(mold: &Mold, from: Point, to: Point, resolution: f64) -> (f64, Point) {
+    let depth = |p: Point| -mold.signed_distance(p);
+    let mut best = (0.0, to);
+    let mut meet = |depth: f64, place: Point| {
+        if depth > best.0 {
+            best = (depth, place);
+        }
+        best.0
+    };
+    let [start, end] = [depth(from), depth(to)];
+    meet(start, from);
+    meet(end, to);
+    let mut open = vec![([from, to], [start, end])];
+    while let Some(([a, b], [da, db])) = open.pop() {
+        let reach = 0.5 * (da + db + distance(a, b));
+        let middle = between(a, b, 0.5);
+        if reach <= meet(0.0, middle) + resolution {
+            continue;
+        }
+        let dm = depth(middle);
+        meet(dm, middle);
+        open.push(([a, middle], [da, dm]));
+        open.push(([middle, b], [dm, db]));
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mold::{Face, Pose, Sphere};
+
+    /// Straight across a ball from side to side the deepest point is the middle: R − √(R² − c²/4) less of the chord's
+    /// height above it.
+    #[test]
+    fn a_way_through_a_ball_is_deepest_in_its_middle() {
+        let pose = Pose::new([0.0; 3], [0.0; 3]);
+        let ball = Mold::Sphere(Sphere { pose, radius: 0.5, face: Face::Outside });
+        for height in [0.1, 0.3, 0.49, 0.6] {
+            let [from, to] = [[-0.8, 0.1, height], [0.9, 0.1, height]];
+            let (depth, _) = deepest(&ball, from, to, 1e-6);
+            let expected = (0.5 - f64::hypot(0.1, height)).max(0.0);
+            assert!((depth - expected).abs() < 1.1e-6, "{height}: {depth} {expected}");
+        }
+    }
+}

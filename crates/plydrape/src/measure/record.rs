@@ -1,0 +1,125 @@
+//! What a result file keeps of the measures.
+
+use super::{Found, Name};
+use crate::ply::Grid;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+
+/// A worst value and where it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Worst {
+    /// The value, in the unit that the measure names.
+    pub value: f64,
+    /// Which part of the ply: a catenary, a cell or a gripper.
+    #[serde(rename = "where")]
+    pub at: String,
+    /// Place in space (m), where it has one.
+    pub place: Option<[f64; 3]>,
+}
+
+impl Worst {
+    /// With its site as a label.
+    #[must_use]
+    pub fn of(found: &Found, grid: Grid) -> Worst {
+        Worst { value: found.value, at: found.site.label(grid), place: found.place }
+    }
+}
+
+/// Values by measure, in the order of [`Name::ALL`]; a file has them by key.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ByName<T>(Vec<(Name, T)>);
+
+/// Worst values of one step; a measure without a meaning in it is missing.
+pub type Measures = ByName<Worst>;
+
+/// Worst values as plain numbers, null where a measure has no meaning.
+pub type Numbers = ByName<Option<f64>>;
+
+impl<T> Default for ByName<T> {
+    fn default() -> Self {
+        ByName(Vec::new())
+    }
+}
+
+impl<T> ByName<T> {
+    /// The value of a measure, if it has one.
+    #[must_use]
+    pub fn get(&self, name: Name) -> Option<&T> {
+        self.0.iter().find(|(own, _)| *own == name).map(|(_, value)| value)
+    }
+
+    /// All of them in order.
+    pub fn iter(&self) -> impl Iterator<Item = (Name, &T)> {
+        self.0.iter().map(|(name, value)| (*name, value))
+    }
+
+    /// Sets a value, or none.
+    pub fn set(&mut self, name: Name, value: Option<T>) {
+        self.0.retain(|(own, _)| *own != name);
+        if let Some(value) = value {
+            let at = self.0.partition_point(|(own, _)| *own < name);
+            self.0.insert(at, (name, value));
+        }
+    }
+}
+
+impl Measures {
+    /// The number of a measure, if it has one.
+    #[must_use]
+    pub fn value(&self, name: Name) -> Option<f64> {
+        self.get(name).map(|worst| worst.value)
+    }
+}
+
+impl Numbers {
+    /// The number of a measure, if it has one.
+    #[must_use]
+    pub fn value(&self, name: Name) -> Option<f64> {
+        self.get(name).copied().flatten()
+    }
+}
+
+impl<T> FromIterator<(Name, T)> for ByName<T> {
+    fn from_iter<I: IntoIterator<Item = (Name, T)>>(values: I) -> Self {
+        ByName(values.into_iter().collect())
+    }
+}
+
+impl<T: Serialize> Serialize for ByName<T> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(Some(self.0.len()))?;
+        for (name, value) in &self.0 {
+            map.serialize_entry(name.measure().key(), value)?;
+        }
+        map.end()
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for ByName<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Keys<T>(std::marker::PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {
+            type Value = ByName<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("measures by their keys")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+                let mut out = ByName::default();
+                while let Some(key) = map.next_key::<String>()? {
+                    let own = |name: &&Name| name.measure().key() == key;
+                    let name = Name::ALL.iter().find(own).ok_or_else(|| {
+                        A::Error::custom(format!("there is no measure called `{key}`"))
+                    })?;
+                    out.set(*name, Some(map.next_value()?));
+                }
+                Ok(out)
+            }
+        }
+        from.deserialize_map(Keys(std::marker::PhantomData))
+    }
+}

@@ -1,0 +1,133 @@
+//! The ply of one step, and what several measures share of it; each part is worked out when it is first asked for.
+
+use crate::draping::attitude::{Attitude, attitude};
+use crate::draping::landing::{Landing, landing};
+use crate::draping::misfit::{LyingSegment, lying_segments, misfit};
+use crate::draping::spans::Point;
+use crate::draping::{Snapshot, stations};
+use crate::equilibrium::Solver;
+use crate::scene::Scene;
+use std::cell::OnceCell;
+
+pub use crate::draping::misfit::Misfit;
+
+/// The step before, for rates and ways.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Before {
+    /// Time (s).
+    pub time: f64,
+    /// Gripper positions (m).
+    pub positions: Vec<Point>,
+    /// Orientations of the grippers (x, y, z, w).
+    pub quaternions: Vec<[f64; 4]>,
+}
+
+/// The ply of one step.
+pub struct State<'a> {
+    /// The scene that is draped.
+    pub scene: &'a Scene,
+    /// The ply.
+    pub snapshot: &'a Snapshot,
+    /// The solver, as it was left by the step.
+    pub solver: &'a Solver,
+    /// The step before; none of the first.
+    pub before: Option<&'a Before>,
+    attitudes: OnceCell<Vec<Attitude>>,
+    lying: OnceCell<Vec<Vec<LyingSegment>>>,
+    misfits: OnceCell<Vec<Misfit>>,
+    landings: OnceCell<Vec<Option<Landing>>>,
+    stations: OnceCell<Vec<Vec<Point>>>,
+}
+
+impl<'a> State<'a> {
+    /// The ply of a step.
+    #[must_use]
+    pub fn new(
+        scene: &'a Scene,
+        snapshot: &'a Snapshot,
+        solver: &'a Solver,
+        before: Option<&'a Before>,
+    ) -> Self {
+        State {
+            scene,
+            snapshot,
+            solver,
+            before,
+            attitudes: OnceCell::new(),
+            lying: OnceCell::new(),
+            misfits: OnceCell::new(),
+            landings: OnceCell::new(),
+            stations: OnceCell::new(),
+        }
+    }
+
+    /// Number of edge catenaries; they come first.
+    #[must_use]
+    pub fn edges(&self) -> usize {
+        self.scene.ply.grid.edges()
+    }
+
+    /// How the grippers are tilted.
+    pub fn attitudes(&self) -> &[Attitude] {
+        self.attitudes.get_or_init(|| {
+            let (grid, positions) = (self.scene.ply.grid, &self.snapshot.positions);
+            let before = |n: usize| self.before.map(|before| before.quaternions[n]);
+            let one = |n| attitude(self.solver, grid, positions, n, before(n));
+            (0..grid.grippers()).map(one).collect()
+        })
+    }
+
+    /// What the next step has to know of this one.
+    #[must_use]
+    pub fn as_before(&self) -> Before {
+        Before {
+            time: self.snapshot.time,
+            positions: self.snapshot.positions.clone(),
+            quaternions: self.attitudes().iter().map(|attitude| attitude.quaternion).collect(),
+        }
+    }
+
+    /// The segments of each catenary that lie on the mold beside its contact.
+    pub fn lying(&self) -> &[Vec<LyingSegment>] {
+        self.lying.get_or_init(|| {
+            let Some(mold) = &self.scene.mold else { return Vec::new() };
+            let (grid, tolerance) = (self.scene.ply.grid, self.scene.settings.contact.tolerance);
+            let one = |(n, laid): (usize, &Option<_>)| {
+                let c = grid.catenary(n);
+                let grippers = [c.from, c.to].map(|g| self.snapshot.positions[grid.index(g)]);
+                let segments = |laid| lying_segments(n, laid, grippers, mold, tolerance);
+                laid.as_ref().map(segments).unwrap_or_default()
+            };
+            self.snapshot.laid.iter().enumerate().map(one).collect()
+        })
+    }
+
+    /// How every free or lying segment fits: those that hang first, catenary by catenary.
+    pub fn misfits(&self) -> &[Misfit] {
+        self.misfits.get_or_init(|| {
+            let hanging = self.snapshot.shape.spans.iter();
+            let hanging = hanging.map(|s| misfit(s, self.snapshot.laid[s.catenary].as_ref()));
+            let lying = self.lying().iter().flatten().map(|segment| segment.misfit);
+            hanging.chain(lying).collect()
+        })
+    }
+
+    /// The misfits of edges; diagonals are no fibres.
+    pub fn edge_misfits(&self) -> impl Iterator<Item = &Misfit> {
+        let edges = self.edges();
+        self.misfits().iter().filter(move |misfit| misfit.catenary < edges)
+    }
+
+    /// How each contact segment has landed, where the ideal drape is known.
+    pub fn landings(&self) -> &[Option<Landing>] {
+        self.landings.get_or_init(|| {
+            let laid = self.snapshot.laid.iter().enumerate();
+            laid.map(|(n, laid)| landing(self.scene, n, laid.as_ref()?)).collect()
+        })
+    }
+
+    /// Points of each free span (m), equally spaced along its run.
+    pub fn stations(&self) -> &[Vec<Point>] {
+        self.stations.get_or_init(|| self.snapshot.shape.spans.iter().map(stations).collect())
+    }
+}

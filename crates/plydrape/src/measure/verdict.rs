@@ -1,0 +1,224 @@
+//! Limits and whether they hold.
+
+use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, Worst};
+use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// What rounding puts beyond a limit is within it: a bound that holds a slope exactly at its limit is no breach.
+const ROUNDING: f64 = 1e-9;
+
+/// A limit and whether it holds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Verdict {
+    /// What is limited; in a file its key in the scene.
+    pub name: Name,
+    /// Worst value, in the unit of the limit as reported.
+    pub value: f64,
+    /// The limit, in the same unit: the least or the most allowed, see [`super::Measure::sense`].
+    pub limit: f64,
+    /// Unit of both.
+    pub unit: Cow<'static, str>,
+    /// Whether it holds.
+    pub ok: bool,
+    /// Step of the worst value; none where it belongs to no step, as the speed of a motion.
+    pub step: Option<usize>,
+    /// Which part of the ply has the worst value.
+    #[serde(rename = "where")]
+    pub at: String,
+    /// Place of the worst value in space (m), where it has one.
+    pub place: Option<[f64; 3]>,
+}
+
+impl Verdict {
+    /// The verdict on a value (in the measure's unit) against its limit (in the same).
+    #[must_use]
+    pub fn of(name: Name, worst: Worst, limit: f64, step: Option<usize>) -> Verdict {
+        let (measure, Worst { value, at, place }) = (name.measure(), worst);
+        let unit = measure.unit();
+        let ok = match measure.sense() {
+            Sense::AtMost => value <= limit * (1.0 + ROUNDING),
+            Sense::AtLeast => value >= limit * (1.0 - ROUNDING),
+        };
+        let [value, limit] = [value, limit].map(|value| value * unit.factor);
+        Verdict { name, value, limit, unit: unit.shown.into(), ok, step, at, place }
+    }
+
+    /// Whether its limit is the least that is allowed.
+    #[must_use]
+    pub fn is_least(&self) -> bool {
+        self.name.measure().sense() == Sense::AtLeast
+    }
+
+    /// The value as a multiple of its limit: up to 1 it holds. Of a least one, what is missing to the whole if it is
+    /// a share, else the limit as a multiple of the value.
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        let Verdict { value, limit, .. } = *self;
+        let whole = self.name.measure().unit().factor;
+        let ratio = match self.is_least() {
+            true if whole != 1.0 => (whole - value) / (whole - limit).max(1e-5 * whole),
+            true => limit / value.max(f64::MIN_POSITIVE),
+            false if limit > 0.0 => value / limit,
+            false if value > 0.0 => 1.0 + value,
+            false => 0.0,
+        };
+        if self.ok { ratio.min(1.0) } else { ratio.max(1.0 + ROUNDING) }
+    }
+}
+
+/// Collects the worst values of a drape step by step, and judges them at its end.
+#[derive(Debug)]
+pub struct Judge<'a> {
+    scene: &'a Scene,
+    /// Whether the steps have the times of a motion.
+    timed: bool,
+    worst: ByName<(usize, Found)>,
+    unfound: Option<(usize, f64, &'static str)>,
+}
+
+impl<'a> Judge<'a> {
+    /// For a scene; `timed` if its steps have the times of a motion, which those of a search do not have yet.
+    #[must_use]
+    pub fn new(scene: &'a Scene, timed: bool) -> Self {
+        Judge { scene, timed, worst: ByName::default(), unfound: None }
+    }
+
+    /// The limit of a measure that a drape is judged by.
+    fn limit(&self, name: Name) -> Option<f64> {
+        let measure = name.measure();
+        let judged = match measure.scope() {
+            Scope::EveryStep | Scope::End => true,
+            Scope::Time => self.timed,
+            Scope::Whole => false,
+        };
+        measure.limit(self.scene).filter(|_| judged)
+    }
+
+    /// Looks at a step for what its limits need; `last` if no other follows.
+    pub fn see(&mut self, state: &State, last: bool) {
+        for name in Name::ALL {
+            let counts = last || name.measure().scope() != Scope::End;
+            if counts && self.limit(*name).is_some() {
+                if let Some(found) = name.measure().evaluate(state) {
+                    self.meet(*name, state.snapshot.step, found);
+                }
+            }
+        }
+        self.solved(state);
+    }
+
+    /// Looks at a step for everything, and returns it.
+    pub fn see_all(&mut self, state: &State) -> Measures {
+        let grid = state.scene.ply.grid;
+        let mut out = Vec::with_capacity(Name::ALL.len());
+        for name in Name::ALL {
+            if let Some(found) = name.measure().evaluate(state) {
+                self.meet(*name, state.snapshot.step, found);
+                out.push((*name, Worst::of(&found, grid)));
+            }
+        }
+        self.solved(state);
+        out.into_iter().collect()
+    }
+
+    fn solved(&mut self, state: &State) {
+        if self.unfound.is_none()
+            && let Some(why) = state.snapshot.failure()
+        {
+            let residual = state.snapshot.shape.equilibrium.residual;
+            self.unfound = Some((state.snapshot.step, residual, why));
+        }
+    }
+
+    fn meet(&mut self, name: Name, step: usize, found: Found) {
+        let measure = name.measure();
+        let beaten = self.worst.get(name).is_some_and(|(_, before)| match measure.sense() {
+            _ if measure.scope() == Scope::End => false,
+            Sense::AtMost => found.value <= before.value,
+            Sense::AtLeast => found.value >= before.value,
+        });
+        if !beaten {
+            self.worst.set(name, Some((step, found)));
+        }
+    }
+
+    /// Every limit that applies, in the order of [`Name::ALL`].
+    #[must_use]
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        let grid = self.scene.ply.grid;
+        let judged = Name::ALL.iter().filter_map(|name| {
+            let (limit, (step, found)) = (self.limit(*name)?, self.worst.get(*name)?);
+            Some(Verdict::of(*name, Worst::of(found, grid), limit, Some(*step)))
+        });
+        let mut out: Vec<Verdict> = judged.collect();
+        if let Some((step, residual, why)) = self.unfound {
+            let worst = Worst { value: residual, at: why.into(), place: None };
+            let verdict =
+                Verdict::of(Name::Equilibrium, worst, super::equilibrium::RESIDUAL, Some(step));
+            out.push(Verdict { ok: false, ..verdict });
+        }
+        out
+    }
+}
+
+/// The worst of each measure over all steps as a plain number; of those that count at the end too.
+#[must_use]
+pub fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
+    let mut out: Vec<Option<f64>> = vec![None; Name::ALL.len()];
+    for measures in steps {
+        for (name, worst) in measures.iter() {
+            let slot = &mut out[name as usize];
+            let better = |before: f64| match name.measure().sense() {
+                Sense::AtMost => worst.value > before,
+                Sense::AtLeast => worst.value < before,
+            };
+            if slot.is_none_or(better) {
+                *slot = Some(worst.value);
+            }
+        }
+    }
+    reported(|name| out[name as usize])
+}
+
+/// The numbers of one step.
+#[must_use]
+pub fn last_numbers(measures: Option<&Measures>) -> Numbers {
+    reported(|name| measures.and_then(|measures| measures.value(name)))
+}
+
+fn reported(value: impl Fn(Name) -> Option<f64>) -> Numbers {
+    let names = Name::ALL.iter().filter(|name| name.measure().scope() != Scope::Whole);
+    names.map(|name| (*name, value(*name))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict(name: Name, value: f64, limit: f64) -> Verdict {
+        Verdict::of(name, Worst { value, at: String::new(), place: None }, limit, None)
+    }
+
+    /// Shares are shown in per cent; a share of 95 % has used up half of the way from 100 % to a least share of 90 %.
+    #[test]
+    fn a_ratio_says_how_much_of_a_limit_is_used_up() {
+        let share = verdict(Name::ContactShare, 0.95, 0.9);
+        assert!(share.ok && (share.value - 95.0).abs() < 1e-12 && share.unit == "%");
+        assert!((share.ratio() - 0.5).abs() < 1e-12);
+        assert!((verdict(Name::GripperDistance, 60.0, 30.0).ratio() - 0.5).abs() < 1e-12);
+        assert!((verdict(Name::Tilt, 10.0, 40.0).ratio() - 0.25).abs() < 1e-12);
+        let workspace = verdict(Name::Workspace, 3.0, 0.0);
+        assert!(!workspace.ok && workspace.ratio() == 4.0);
+    }
+
+    /// A value beyond its limit by rounding alone is within it, above and below.
+    #[test]
+    fn rounding_breaks_no_limit() {
+        assert!(verdict(Name::Tilt, 40.0 * (1.0 + 1e-12), 40.0).ok);
+        assert!(!verdict(Name::Tilt, 40.0 * (1.0 + 1e-6), 40.0).ok);
+        assert!(verdict(Name::GripperDistance, 50.0 * (1.0 - 1e-12), 50.0).ok);
+        assert!(!verdict(Name::GripperDistance, 50.0 * (1.0 - 1e-6), 50.0).ok);
+    }
+}
