@@ -19,7 +19,8 @@ use std::time::Instant;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 The scene needs [mold] and [target]; [plan] and [limits] say how to look and what to keep. Grippers \
-start where they start in `simulate`: of a motion from a file only the first step is used. What no \
+start where they start in `simulate`: of a motion from a file only the first step is used, and a \
+`duration` in [motion] is refused: limits.duration is what a plan keeps. What no \
 plan can keep is said first. The best plan found is written even if it is not accepted. Ctrl-C ends \
 the search and writes the best plan so far.
 
@@ -168,6 +169,9 @@ fn scene(arguments: &Arguments) -> Result<Scene, Failure> {
             "has no [target]: a plan needs to know where the ply shall end",
             "add [target] with `origin`, `direction`, `shear` and `seed`, or empty, or with `positions`",
         ));
+    }
+    if let Some(refusal) = scene.plan_refusal.take() {
+        return Err(Failure::from(*refusal));
     }
     if let Some(method) = arguments.method {
         scene.plan.method = method.into();

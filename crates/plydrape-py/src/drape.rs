@@ -63,6 +63,7 @@ pub fn simulate(
 ///
 /// Raises:
 ///     PlanError: If the scene has no mold or target, or `memory` is not of its ply.
+///     SceneError: If its motion has a `duration`, which a plan would ignore.
 ///     ValueError: If there is no such method, or `memory` is no plan.json.
 ///
 /// Example:

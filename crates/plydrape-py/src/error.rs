@@ -43,7 +43,10 @@ pub fn scene(error: &SceneError) -> PyErr {
 
 /// A scene without a plan.
 pub fn plan(error: &PlanError) -> PyErr {
-    plain("PlanError", error)
+    match error {
+        PlanError::Ignored(refusal) => scene(refusal),
+        _ => plain("PlanError", error),
+    }
 }
 
 /// A result file that is none.

@@ -251,6 +251,7 @@ impl Scene {
         }
         let mut scene = (*self.0).clone();
         scene.input = None;
+        scene.plan_refusal = None;
         scene.title = title.unwrap_or(scene.title);
         scene.motion = Motion { times, positions };
         Ok(scene.into())

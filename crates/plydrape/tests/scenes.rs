@@ -130,6 +130,66 @@ fn a_plan_and_its_limits_are_read_in_si() {
     assert_eq!((scene.limits.gripper_distance, scene.limits.workspace), (0.05, None));
 }
 
+/// What a scene says nothing of follows from its ply and its contact, or from the sources that the keys name.
+#[test]
+fn every_limit_of_the_ply_and_the_joints_is_read_in_si_or_has_its_default() {
+    let text = "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = MATERIAL\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n[contact]\ntolerance = \"1 mm\"\n";
+    let bare = "{ mass = 0.3, bending_rigidity_warp = 0, bending_rigidity_weft = 0 }";
+    let locking =
+        bare.replace(" }", ", locking_angle = \"40 deg\", locking_test = \"picture frame\" }");
+    let with = |material: &str, limits: &str| {
+        let text = text.replace("MATERIAL", material);
+        parse(&format!("{text}[limits]\n{limits}")).unwrap_or_else(|e| panic!("{e}")).limits
+    };
+    let near = |found: f64, expected: f64| {
+        assert!((found - expected).abs() <= 1e-15 * expected, "{found} {expected}");
+    };
+    let degrees = |angle: f64| angle.to_radians();
+
+    let limits = with(bare, "");
+    near(limits.shear, degrees(45.0));
+    near(limits.landing_shear, degrees(3.0));
+    near(limits.tilt_rate, degrees(90.0));
+    assert_eq!((limits.penetration, limits.strain, limits.gripper_load), (1e-3, 0.005, 10.0));
+    assert_eq!((limits.gripper_pull, limits.duration), (None, None));
+
+    near(with(&locking, "").shear, degrees(40.0));
+    near(with(&locking, "shear = \"50 deg\"").shear, degrees(50.0));
+    for rate in [
+        "\"30 deg/s\"",
+        "\"30 °/s\"",
+        "\"1800 deg/min\"",
+        "0.5235987755982988",
+        "\"0.5235987755982988 rad/s\"",
+    ] {
+        near(with(bare, &format!("tilt_rate = {rate}")).tilt_rate, degrees(30.0));
+    }
+    let given = "landing_shear = \"2 deg\"\nstrain = \"0.2 %\"\npenetration = \"3 mm\"\ngripper_load = \"500 mN\"\ngripper_pull = 4\nduration = \"2 min\"\n";
+    let limits = with(bare, given);
+    near(limits.landing_shear, degrees(2.0));
+    near(limits.strain, 0.002);
+    near(limits.penetration, 0.003);
+    assert_eq!(
+        (limits.gripper_load, limits.gripper_pull, limits.duration),
+        (0.5, Some(4.0), Some(120.0))
+    );
+}
+
+/// Where only the key of the motion is written that a plan ignores; a motion of a file or held has none.
+#[test]
+fn a_scene_with_a_duration_says_why_it_is_not_planned() {
+    let scene = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
+    assert!(scene.plan_refusal.is_none());
+    let text = scene::TEMPLATE.replace("# duration = \"29 s\"", "duration = \"8 s\"");
+    let scene = parse(&text).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(scene.motion.times.last(), Some(&8.0));
+    let refusal =
+        plydrape::planner::plan(&scene, None, &mut |_| std::ops::ControlFlow::Continue(()));
+    let refusal =
+        refusal.err().unwrap_or_else(|| panic!("a plan ignored the duration")).to_string();
+    assert!(refusal.contains("\"8 s\"") && refusal.contains("[limits]"), "{refusal}");
+}
+
 /// `docs/scene.schema.json` is what the program prints; `UPDATE_SCHEMA=1` writes it anew.
 #[test]
 fn the_committed_schema_is_current() {

@@ -12,7 +12,7 @@ use crate::draping::spans::Point;
 use crate::draping::{Drape, simulate};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
-use crate::scene::{PlanMethod, Scene};
+use crate::scene::{PlanMethod, Scene, SceneError};
 use std::ops::ControlFlow;
 
 /// A finished plan.
@@ -43,6 +43,9 @@ pub enum PlanError {
     /// Nowhere to go.
     #[error("the scene has no target: a plan needs to know where the ply shall end")]
     NoTarget,
+    /// A key of the scene that a plan would ignore.
+    #[error(transparent)]
+    Ignored(#[from] Box<SceneError>),
     /// A file that is no plan of this version.
     #[error("the earlier plan is of format `{format}`, version {version}: plan anew")]
     Format {
@@ -91,7 +94,7 @@ struct Found {
 /// verdict says which, where and by how much.
 ///
 /// # Errors
-/// [`PlanError`] if the scene has no mold or target, or the memory is not of its ply.
+/// [`PlanError`] if the scene has no mold or target, gives its motion a duration, or the memory is not of its ply.
 pub fn plan(
     scene: &Scene,
     memory: Option<&Memory>,
@@ -102,6 +105,9 @@ pub fn plan(
     }
     if scene.target.is_none() {
         return Err(PlanError::NoTarget);
+    }
+    if let Some(refusal) = &scene.plan_refusal {
+        return Err(PlanError::Ignored(refusal.clone()));
     }
     if let Some(memory) = memory {
         memory.check(scene)?;

@@ -4,7 +4,7 @@ use super::error::{Document, SceneError};
 use super::file::{EndKey, GrippersTable, MotionKind, PlyTable, SceneFile, Slopes, SteppingKey};
 use super::limits::{acute, limits};
 use super::located::{Count, Located};
-use super::motion::motion;
+use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::trajectory::trajectory;
 use super::{Contact, ContactEnd, Motion, Scene, Settings, SlopeRule, Stepping, Target};
@@ -67,6 +67,7 @@ pub(super) fn scene(
         settings,
         limits,
         plan,
+        plan_refusal: file.motion.as_ref().and_then(|table| unplanned(&table.value, document)),
     })
 }
 

@@ -60,7 +60,10 @@ pub(super) fn limits(
         shear: angle(&table.shear, ply.material.locking_angle.unwrap_or(SHEAR))?,
         landing_shear: angle(&table.landing_shear, LANDING_SHEAR)?,
         strain: share(table.strain.as_ref(), 0.005, document)?,
-        penetration: length(&table.penetration, tolerance)?,
+        penetration: match &table.penetration {
+            Some(depth) => depth.size(document)?,
+            None => tolerance,
+        },
         tilt: angle(&table.tilt, max_tilt)?,
         tilt_rate: match &table.tilt_rate {
             Some(rate) => tilt_rate(rate, document)?,

@@ -155,6 +155,8 @@ pub struct Scene {
     pub limits: Limits,
     /// How a motion is planned, where none is followed.
     pub plan: Plan,
+    /// Why no plan is looked for: what the scene says of its own motion and a planned one would not keep.
+    pub plan_refusal: Option<Box<SceneError>>,
 }
 
 /// How gripper trajectories are planned.

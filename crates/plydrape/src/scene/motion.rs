@@ -70,6 +70,22 @@ pub(super) fn motion(
     Ok(motion)
 }
 
+/// Why a plan of a scene with this motion is refused: it has a time law of its own and would ignore the duration.
+pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<Box<SceneError>> {
+    let span = &keys.duration.as_ref()?.span;
+    let written = document.excerpt(span);
+    Some(Box::new(document.error(
+        span.clone(),
+        format!(
+            "a plan does not keep the duration {} of [motion]: how long it takes follows from the limits of its grippers",
+            document.quoted(span)
+        ),
+        format!(
+            "remove it, or comment it out; if a plan shall take no longer, write duration = {written} in [limits]"
+        ),
+    )))
+}
+
 fn hold(
     keys: Option<&MotionTable>,
     start: &Places,

@@ -161,7 +161,8 @@ pub(super) struct MotionTable {
     pub kind: MotionKind,
     /// Number of steps of a straight motion, 30 unless given; step 1 is the start.
     pub steps: Option<Located<Count>>,
-    /// Time from the first to the last step (s), a second a step unless given.
+    /// Time from the first to the last step of a straight motion (s), a second a step unless given. `plydrape plan`
+    /// refuses it: what a plan keeps is the `duration` of [limits].
     pub duration: Option<Quantity<Time>>,
     /// CSV file with columns t, gripper ("i-j"), x, y, z, relative to the scene.
     pub file: Option<Located<String>>,

@@ -1,0 +1,97 @@
+//! `plydrape check`: reads a scene, says what was understood, and warns of what cannot be meant.
+
+mod mold;
+mod rules;
+mod warnings;
+mod way;
+
+use crate::diagnostic::Done;
+use crate::numbers::{degrees, millimetres, short};
+use plydrape::material::{Material, Section, ShearCurve};
+use plydrape::ply::Direction;
+use plydrape::scene::Scene;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// A noun of the scene and what it is; without a noun it goes on with the one before.
+type Line = (&'static str, String);
+
+/// Read a scene, and say what was understood or what is wrong.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+What is possible but hardly meant, such as a start kilometres off, is warned of on standard error, \
+with exit code 0.")]
+pub struct Arguments {
+    /// The scene file.
+    scene: PathBuf,
+}
+
+/// Reads the scene; prints a summary unless `quiet`, and warnings.
+pub fn run(arguments: &Arguments, quiet: bool) -> Done {
+    let scene = plydrape::scene::read(&arguments.scene)?;
+    if !quiet {
+        let mut out = io::stdout().lock();
+        writeln!(out, "{}", scene.title)?;
+        for (noun, text) in summary(&scene) {
+            writeln!(out, "  {noun:<9} {text}")?;
+        }
+        out.flush()?;
+    }
+    for warning in warnings::warnings(&scene) {
+        eprintln!("warning: {warning}");
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The nouns of a scene, each in a line.
+fn summary(scene: &Scene) -> Vec<Line> {
+    let ply = &scene.ply;
+    let mut lines = vec![
+        (
+            "ply",
+            format!(
+                "{} × {} grippers, cells of {} × {} mm, warp along {}",
+                ply.grid.nu,
+                ply.grid.nv,
+                millimetres(ply.cell[0]),
+                millimetres(ply.cell[1]),
+                match ply.warp {
+                    Direction::U => "u",
+                    Direction::V => "v",
+                }
+            ),
+        ),
+        ("material", material(&ply.material)),
+        ("", ply.material.source.clone()),
+    ];
+    lines.extend(mold::mold(scene));
+    lines.extend(way::way(scene));
+    lines.extend(rules::rules(scene));
+    lines.extend(rules::plan(scene));
+    lines
+}
+
+fn material(material: &Material) -> String {
+    let section = match material.section {
+        Section::Line { mass, flexural_rigidity } => {
+            format!("{} kg/m, EI {} N·m²", short(mass), short(flexural_rigidity))
+        }
+        Section::Areal { mass, warp_rigidity, weft_rigidity } => format!(
+            "{} kg/m², bending rigidity {} N·m in warp, {} N·m in weft",
+            short(mass),
+            short(warp_rigidity),
+            short(weft_rigidity)
+        ),
+    };
+    let shear = match &material.shear_curve {
+        Some(ShearCurve::Table { angle, .. }) => format!("shear curve of {} points", angle.len()),
+        Some(ShearCurve::Polynomial { .. }) => "shear curve as a polynomial".into(),
+        None => "no shear curve: shear forces stay unknown".into(),
+    };
+    let locking = match material.locking_angle {
+        Some(angle) => format!(", locks at {} deg", degrees(angle)),
+        None => String::new(),
+    };
+    format!("{}: {section}; {shear}{locking}", material.name)
+}

@@ -1,0 +1,94 @@
+//! What a mold is, in words.
+
+use super::Line;
+use crate::numbers::{degrees, millimetres};
+use plydrape::mold::{Face, MeshReport, Mold, Plane, Pose, Surface};
+use plydrape::scene::Scene;
+
+/// The mold, and what was repaired in a mesh: one line each.
+pub(super) fn mold(scene: &Scene) -> Vec<Line> {
+    let Some(mold) = &scene.mold else {
+        return vec![("mold", "none: the ply just hangs".into())];
+    };
+    let mm = |length: f64| format!("{} mm", millimetres(length));
+    let side = |face: Face| match face {
+        Face::Outside => "outside",
+        Face::Inside => "inside",
+    };
+    let text = match mold {
+        Mold::Plane(plane) => level(plane),
+        Mold::Cylinder(c) => format!(
+            "cylinder of radius {}, from {}, {}",
+            mm(c.radius),
+            side(c.face),
+            standing("axis through", &c.pose)
+        ),
+        Mold::Sphere(s) => format!(
+            "sphere of radius {}, from {}, {}",
+            mm(s.radius),
+            side(s.face),
+            standing("centre", &s.pose)
+        ),
+        Mold::Torus(t) => format!(
+            "torus, ring of {} and tube of {}, from {}, {}",
+            mm(t.ring_radius),
+            mm(t.tube_radius),
+            side(t.face),
+            standing("centre", &t.pose)
+        ),
+        Mold::Graph(graph) => {
+            let surface = match &graph.surface {
+                Surface::Saddle(saddle) => {
+                    let [a, b] = saddle.radii.map(mm);
+                    format!("saddle of radii {a} and {b}")
+                }
+                Surface::Formula { z } => format!("z = {}", z.text()),
+                Surface::HeightGrid(grid) => {
+                    let [nx, ny] = grid.size();
+                    format!("grid of {nx} × {ny} heights")
+                }
+                Surface::Lifted(_) => "mold lifted ahead of a front".into(),
+            };
+            let range = match graph.domain {
+                Some([x, y]) => {
+                    let [x, y] = [x, y].map(|ends| ends.map(millimetres).join(" to "));
+                    format!("x from {x} mm, y from {y} mm")
+                }
+                None => "without border".into(),
+            };
+            format!("{surface}, {range}, {}", standing("origin", &graph.pose))
+        }
+        Mold::Mesh(_) => match &scene.mesh {
+            Some(report) => return mesh(report),
+            None => "mesh".into(),
+        },
+    };
+    vec![("mold", text)]
+}
+
+fn level(plane: &Plane) -> String {
+    let [x, y, z] = plane.point.map(millimetres);
+    let [nx, ny, nz] = plane.normal;
+    let tilt = nx.hypot(ny).atan2(nz);
+    let climb = if tilt > 0.0 {
+        let heading = (-ny).atan2(-nx);
+        format!("climbing {} deg towards {} deg", degrees(tilt), degrees(heading))
+    } else {
+        "level".into()
+    };
+    format!("plane through ({x}, {y}, {z}) mm, {climb}")
+}
+
+/// Where a mold stands, and whether it is turned.
+fn standing(what: &str, pose: &Pose) -> String {
+    let [x, y, z] = pose.position.map(millimetres);
+    let upright = *pose == Pose::new(pose.position, [0.0; 3]);
+    format!("{what} ({x}, {y}, {z}) mm{}", if upright { "" } else { ", turned" })
+}
+
+/// A mesh in the lines of its report.
+fn mesh(report: &MeshReport) -> Vec<Line> {
+    let text = report.to_string();
+    let nouns = std::iter::once("mold").chain(std::iter::repeat(""));
+    nouns.zip(text.lines()).map(|(noun, line)| (noun, line.to_string())).collect()
+}

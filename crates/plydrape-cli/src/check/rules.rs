@@ -1,0 +1,123 @@
+//! Rules of the model, limits and the planner, in words.
+
+use super::Line;
+use crate::numbers::{degrees, millimetres, short};
+use plydrape::scene::{ContactEnd, Limits, PlanMethod, Scene, SlopeRule, Stepping};
+
+/// Rules of the model, contact and limits.
+pub(super) fn rules(scene: &Scene) -> [Line; 7] {
+    let settings = &scene.settings;
+    let limits = &scene.limits;
+    let slopes = match settings.slopes {
+        SlopeRule::MinForce => "min-force",
+        SlopeRule::MomentBalance => "moment-balance",
+    };
+    let stepping = match settings.contact.stepping {
+        Stepping::Once => "looked for once per step",
+        Stepping::Cut => "steps cut where they dip deeper",
+    };
+    let end = match settings.contact.end {
+        ContactEnd::Free => "free slope at its ends",
+        ContactEnd::Tangent => "mold's slope at its ends",
+    };
+    let force =
+        |limit: Option<f64>| limit.map_or("any".into(), |force| format!("{} N", short(force)));
+    [
+        (
+            "model",
+            format!(
+                "{slopes} slopes, EA {} N, g {} m/s², gripper tilt up to {} deg",
+                short(settings.axial_stiffness),
+                short(settings.gravity),
+                degrees(settings.max_tilt)
+            ),
+        ),
+        (
+            "contact",
+            format!("within {} mm, {stepping}, {end}", millimetres(settings.contact.tolerance)),
+        ),
+        (
+            "limits",
+            format!(
+                "slack {} %, bridging {} mm, overstretch {} %, strain {} %, force {}",
+                short(limits.slack_ratio * 100.0),
+                millimetres(limits.bridging),
+                short(limits.overstretch * 100.0),
+                short(limits.strain * 100.0),
+                force(limits.force),
+            ),
+        ),
+        (
+            "",
+            format!(
+                "shear {} deg, {} deg after landing; penetration {} mm",
+                degrees(limits.shear),
+                degrees(limits.landing_shear),
+                millimetres(limits.penetration),
+            ),
+        ),
+        (
+            "",
+            format!(
+                "landing within {} mm (contact), {} mm (grippers), fibres within {} deg, {} % in contact",
+                millimetres(limits.landing_contact),
+                millimetres(limits.landing_gripper),
+                degrees(limits.fibre_angle),
+                short(limits.contact_share * 100.0)
+            ),
+        ),
+        (
+            "",
+            format!(
+                "each gripper: tilt {} deg, {} deg/s; load {}, pull {}",
+                degrees(limits.tilt),
+                degrees(limits.tilt_rate),
+                force(Some(limits.gripper_load)),
+                force(limits.gripper_pull),
+            ),
+        ),
+        ("", reach(limits)),
+    ]
+}
+
+/// Where grippers may be and how fast they may move.
+fn reach(limits: &Limits) -> String {
+    let workspace = match limits.workspace {
+        Some(sides) => {
+            let [x, y, z] = sides.map(|ends| ends.map(millimetres).join(" to "));
+            format!("x {x}, y {y}, z {z} mm")
+        }
+        None => "anywhere".into(),
+    };
+    format!(
+        "grippers {workspace}, {} mm apart, up to {} m/s, {} m/s², {} m/s³{}",
+        millimetres(limits.gripper_distance),
+        short(limits.speed),
+        short(limits.acceleration),
+        short(limits.jerk),
+        limits
+            .duration
+            .map_or(String::new(), |longest| format!("; done within {} s", short(longest)))
+    )
+}
+
+/// How a motion would be planned; nothing where there is nothing to plan.
+pub(super) fn plan(scene: &Scene) -> Option<Line> {
+    let (Some(_), Some(_), plan) = (&scene.mold, &scene.target, &scene.plan) else {
+        return None;
+    };
+    let method = match plan.method {
+        PlanMethod::Path => "path",
+        PlanMethod::Stepwise => "stepwise",
+    };
+    let far = plan.move_limit.map(|far| format!(" of up to {} mm", millimetres(far)));
+    let text = format!(
+        "{method}, {} steps{}, up to {} drapes, seed {}, motion at {} Hz",
+        plan.steps,
+        far.unwrap_or_default(),
+        plan.evaluations,
+        plan.seed,
+        short(plan.rate)
+    );
+    Some(("plan", text))
+}

@@ -1,0 +1,137 @@
+//! What is possible but hardly meant: places far off, plies of no known cloth, grippers in the mold.
+
+use super::way::longest;
+use crate::numbers::{millimetres, short};
+use plydrape::material::Section;
+use plydrape::mold::Mold;
+use plydrape::scene::Scene;
+
+/// Straight way of a gripper, in diagonals of the ply, beyond which a place must be a slip: even a table on the other
+/// side of a cell is a few of them away.
+const FAR: f64 = 20.0;
+/// Mass of plies (kg/m²): the lightest woven ones, of spread tow, weigh some 0.05; the heaviest, rovings, 3D weaves
+/// and stitched stacks with their resin, stay below 10.
+const PLIES: [f64; 2] = [0.05, 10.0];
+/// Most places of grippers that are looked at in a motion.
+const LOOKS: usize = 100_000;
+
+/// Every warning, in a sentence.
+pub(super) fn warnings(scene: &Scene) -> Vec<String> {
+    far(scene).into_iter().chain(mass(scene)).chain(below(scene)).collect()
+}
+
+/// A way many times longer than the ply.
+fn far(scene: &Scene) -> Option<String> {
+    let ply = &scene.ply;
+    let sides = [0, 1].map(|n| ply.cell[n] * ([ply.grid.nu, ply.grid.nv][n] - 1) as f64);
+    let diagonal = sides[0].hypot(sides[1]);
+    let ([i, j], way) = longest(scene).filter(|(_, way)| *way > FAR * diagonal)?;
+    let (to, keys) = match scene.target {
+        Some(_) => ("its target", "[grippers], [target] and [mold]"),
+        None => ("where its motion ends", "the motion's file"),
+    };
+    Some(format!(
+        "gripper [{i}, {j}] starts {} m from {to}, {:.0} times the diagonal of the ply; see whether the units and origins in {keys} are right",
+        short(rounded(way)),
+        way / diagonal
+    ))
+}
+
+/// A mass per area that no ply has. A mass per length is that of a strip one cell wide, as wide as a square cell of
+/// the same area.
+fn mass(scene: &Scene) -> Option<String> {
+    let [a, b] = scene.ply.cell;
+    let (areal, what, grams) = match scene.ply.material.section {
+        Section::Areal { mass, .. } => {
+            (mass, "the material has".to_string(), format!("{} g/m^2", short(mass)))
+        }
+        Section::Line { mass, .. } => {
+            let width = (a * b).sqrt();
+            let what = format!(
+                "{} kg/m of a strip one cell wide, {} mm, makes",
+                short(mass),
+                millimetres(rounded(width))
+            );
+            (mass / width, what, format!("{} g/m", short(mass)))
+        }
+    };
+    let [least, most] = PLIES;
+    let is_of_a_ply = |areal: f64| (least..=most).contains(&areal);
+    if is_of_a_ply(areal) {
+        return None;
+    }
+    let side = if areal > most { "more" } else { "less" };
+    let remedy = if is_of_a_ply(1e-3 * areal) {
+        format!("did you mean mass = \"{grams}\"?")
+    } else {
+        "see whether the unit of `mass` is right".into()
+    };
+    let areal = short(rounded(areal));
+    Some(format!(
+        "{what} {areal} kg/m², {side} than plies have ({least} to {most} kg/m²); {remedy}"
+    ))
+}
+
+/// Depth of a place below the mold (m); none beside it, where nothing is above or below.
+fn depth(mold: &Mold, place: [f64; 3]) -> f64 {
+    match mold.drop_to([place[0], place[1]]) {
+        Some(_) => -mold.signed_distance(place),
+        None => f64::NEG_INFINITY,
+    }
+}
+
+/// The deepest of some grippers and its depth (m).
+fn deepest(mold: &Mold, grippers: &[[f64; 3]]) -> Option<(usize, f64)> {
+    let depths = grippers.iter().map(|place| depth(mold, *place)).enumerate();
+    depths.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// A target in the mold, and a motion that dips deeper than its target.
+fn below(scene: &Scene) -> Vec<String> {
+    let Some(mold) = &scene.mold else {
+        return Vec::new();
+    };
+    let mut out = Vec::new();
+    let name = |gripper: usize| {
+        let [i, j] = scene.ply.grid.id(gripper);
+        format!("gripper [{i}, {j}]")
+    };
+    let mm = |depth: f64| millimetres(rounded(depth));
+    let mut allowed = scene.limits.penetration;
+    let target = scene.target.as_ref().and_then(|target| deepest(mold, &target.grippers));
+    if let Some((gripper, depth)) = target.filter(|(_, depth)| *depth > allowed) {
+        allowed = depth;
+        out.push(format!(
+            "the target of {} lies {} mm below the mold, where limits.penetration allows {} mm; raise the target or lower the mold",
+            name(gripper),
+            mm(depth),
+            mm(scene.limits.penetration)
+        ));
+    }
+    if let Some((step, gripper, depth)) = dip(scene, mold).filter(|(.., depth)| *depth > allowed) {
+        out.push(format!(
+            "in step {} {} is {} mm below the mold, where limits.penetration allows {} mm; start higher, or come from above",
+            step + 1,
+            name(gripper),
+            mm(depth),
+            mm(scene.limits.penetration)
+        ));
+    }
+    out
+}
+
+/// Where the motion is deepest: step, gripper, depth (m).
+fn dip(scene: &Scene, mold: &Mold) -> Option<(usize, usize, f64)> {
+    let steps = &scene.motion.positions;
+    let stride = (steps.len() * scene.ply.grid.grippers()).div_ceil(LOOKS).max(1);
+    let looks = (0..steps.len()).step_by(stride).chain(steps.len().checked_sub(1));
+    let depths = looks.filter_map(|step| {
+        deepest(mold, &steps[step]).map(|(gripper, depth)| (step, gripper, depth))
+    });
+    depths.max_by(|a, b| a.2.total_cmp(&b.2))
+}
+
+/// Three digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,93 @@
+//! The way of the grippers, in words: the start, the target, and how far apart they are.
+
+use super::Line;
+use crate::numbers::{degrees, millimetres, short};
+use plydrape::ply::GripperId;
+use plydrape::scene::Scene;
+use std::fmt::Write as _;
+
+/// The motion, the start, the target and the longest way between them.
+pub(super) fn way(scene: &Scene) -> Vec<Line> {
+    let mut lines = vec![("motion", motion(scene)), ("start", place(start(scene)))];
+    lines.push(("target", target(scene)));
+    if let Some(target) = &scene.target {
+        lines.push(("", place(&target.grippers)));
+    }
+    if let Some((gripper, way)) = longest(scene) {
+        let [i, j] = gripper;
+        lines.push((
+            "way",
+            format!("{} mm in a straight line at most, of gripper [{i}, {j}]", millimetres(way)),
+        ));
+    }
+    lines
+}
+
+fn motion(scene: &Scene) -> String {
+    match scene.motion.times.as_slice() {
+        [] | [_] => "held still at the start".into(),
+        [.., last] => format!("{} steps in {} s", scene.motion.positions.len(), short(*last)),
+    }
+}
+
+/// Where the grippers start (m).
+fn start(scene: &Scene) -> &[[f64; 3]] {
+    scene.motion.positions.first().map_or(&[], Vec::as_slice)
+}
+
+/// Where they shall end (m): at the target, or else where the motion ends.
+fn end(scene: &Scene) -> &[[f64; 3]] {
+    let last = || scene.motion.positions.last().map_or(&[][..], Vec::as_slice);
+    scene.target.as_ref().map_or_else(last, |target| &target.grippers)
+}
+
+/// The gripper with the longest straight way from its start to its end, and that way (m); none where all stay.
+pub(super) fn longest(scene: &Scene) -> Option<(GripperId, f64)> {
+    let way = |(from, to): (&[f64; 3], &[f64; 3])| {
+        [0, 1, 2].map(|n| to[n] - from[n]).iter().map(|d| d * d).sum::<f64>().sqrt()
+    };
+    let ways = start(scene).iter().zip(end(scene)).map(way).enumerate();
+    let (gripper, way) = ways.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (way > 0.0).then(|| (scene.ply.grid.id(gripper), way))
+}
+
+/// The box around some places and its middle.
+fn place(points: &[[f64; 3]]) -> String {
+    let ends = [0, 1, 2].map(|n| {
+        let along = || points.iter().map(|point| point[n]);
+        [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
+    });
+    let range = |[low, high]: [f64; 2]| {
+        let [low, high] = [low, high].map(millimetres);
+        if low == high { low } else { format!("{low} to {high}") }
+    };
+    let [x, y, z] = ends.map(range);
+    let middle = ends.map(|[low, high]| millimetres(0.5 * (low + high))).join(", ");
+    format!("x {x} mm, y {y} mm, z {z} mm, middle ({middle}) mm")
+}
+
+fn target(scene: &Scene) -> String {
+    let Some(target) = &scene.target else {
+        return "none".into();
+    };
+    let Some(net) = &target.drape else {
+        return "gripper positions as given".into();
+    };
+    let layup = &net.layup;
+    let [x, y, z] = layup.place.map(millimetres);
+    let [u, v] = [0, 1].map(|n| millimetres(layup.seed[n] as f64 * layup.mesh[n]));
+    let mut text = format!(
+        "on the mold, fabric point ({u}, {v}) mm at ({x}, {y}, {z}) mm, sheared by {} deg, u heading {} deg",
+        degrees(layup.shear),
+        degrees(layup.heading)
+    );
+    let [nu, nv] = layup.nodes;
+    let _ = write!(text, "; net of {nu} × {nv} nodes");
+    if let Some((shear, _)) = net.report.largest_shear {
+        let _ = write!(text, ", shear up to {} deg", degrees(shear));
+    }
+    if !net.missing.is_empty() {
+        let _ = write!(text, ", {} without a place on the mold", net.missing.len());
+    }
+    text
+}
