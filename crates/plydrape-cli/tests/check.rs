@@ -51,8 +51,8 @@ fn in_unit(unit: &str) -> String {
     SCENE.replace("LL", unit)
 }
 
-/// The start as the keys say, the target as the fabric is, and of eight ways that of the corner (294, 98) + origin
-/// to (300, 100): √(4² + 22² + 75²) mm.
+/// The start as the keys say, the target as the fabric is; of all ways that of gripper [0, 1] is the longest, from
+/// (10, 78, 75) to (0, 100, 0) mm.
 #[test]
 fn start_and_target_are_shown_in_x_y_z_with_the_longest_way() {
     let output = check(&in_unit("mm"), &[]);
@@ -64,8 +64,8 @@ fn start_and_target_are_shown_in_x_y_z_with_the_longest_way() {
     ] {
         assert!(shown.contains(line), "{shown}");
     }
-    let way = (4f64 * 4.0 + 22.0 * 22.0 + 75.0 * 75.0).sqrt();
-    let line = format!("way {way:.4} mm in a straight line at most, of gripper [3, 1]");
+    let way = (10f64 * 10.0 + 22.0 * 22.0 + 75.0 * 75.0).sqrt();
+    let line = format!("way {way:.4} mm in a straight line at most, of gripper [0, 1]");
     assert!(shown.contains(&line), "{line}\n{shown}");
 }
 
