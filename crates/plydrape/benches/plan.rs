@@ -6,6 +6,7 @@
 
 use plydrape::draping::record::ResultFile;
 use plydrape::draping::simulate;
+use plydrape::measure::Name;
 use plydrape::output::table;
 use plydrape::planner;
 use plydrape::scene::{self, PlanMethod, Scene, Stepping};
@@ -110,16 +111,16 @@ fn row(result: &ResultFile, time: f64) -> String {
     let verdict = match table::limiting(&result.summary.limits) {
         None => "yes".into(),
         Some(worst) => {
-            format!("no: {} {}", worst.name.replace('_', " "), amount(worst.value, &worst.unit))
+            format!("no: {} {}", worst.name.title(), amount(worst.value, &worst.unit))
         }
     };
     format!(
         "{} | {} | {} | {} | {} | {verdict} | {time:.1} |",
-        three(end.slack_mm),
-        three(end.slack_ratio.map(|ratio| 100.0 * ratio)),
-        three(end.bridging_mm),
-        three(end.landing_error_mm),
-        three(result.summary.worst.overstretch.map(|ratio| 100.0 * ratio)),
+        three(end.value(Name::Slack)),
+        three(end.value(Name::SlackRatio).map(|ratio| 100.0 * ratio)),
+        three(end.value(Name::Bridging)),
+        three(end.value(Name::LandingError)),
+        three(result.summary.worst.value(Name::Overstretch).map(|ratio| 100.0 * ratio)),
     )
 }
 

@@ -3,6 +3,7 @@
 use plydrape::draping::record::CatenaryKind;
 use plydrape::draping::record::ResultFile;
 use plydrape::draping::simulate;
+use plydrape::measure::Name;
 use plydrape::mold::{
     Cylinder, Face, Formula, Graph, HeightGrid, Mesh, Mold, Pose, Saddle, Sphere, Surface,
 };
@@ -163,7 +164,7 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
         let low = wall - bridge.gap;
         assert!(low > -tolerance && low < sag + tolerance, "{radius} {half}: {low} {sag}");
         assert!((bridge.width - length).abs() < 1e-4, "{radius} {half}: {}", bridge.width);
-        let reported = last.measures.bridging_mm.as_ref().expect("bridging").value;
+        let reported = last.measures.get(Name::Bridging).expect("bridging").value;
         assert!((reported * 1e-3 - bridge.gap).abs() < 1e-15, "{reported}");
     }
 }
@@ -241,7 +242,7 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
         let contacts = edges.filter_map(|c| c.contact.as_ref());
         let errors = contacts.flat_map(|c| c.landing_error_mm.iter().flatten().flatten());
         let error = errors.copied().fold(0.0, f64::max);
-        [last.measures.contact_share.expect("a mold"), error]
+        [last.measures.value(Name::ContactShare).expect("a mold"), error]
     };
     // middle and spread over the numbers of steps
     let over_steps = |tolerance: f64| -> [[f64; 2]; 2] {
@@ -390,7 +391,7 @@ fn laying_within_the_tolerance_stretches_nothing() {
             let positions = trajectory(&scene, &ground, ring).expect("a target");
             let times = (0..positions.len()).map(|n| n as f64).collect();
             let scene = Scene { motion: Motion { times, positions }, ..scene.clone() };
-            let stretch = drape(&scene).summary.worst.overstretch.expect("edges");
+            let stretch = drape(&scene).summary.worst.value(Name::Overstretch).expect("edges");
             // without the rule it is the tolerance, as a share of an edge: 0.2 %
             assert!(stretch < 8e-4, "{name}, {steps} steps: {stretch}");
         }

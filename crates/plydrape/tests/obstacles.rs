@@ -36,7 +36,11 @@ fn only(found: &[Verdict], name: &str, value: f64, limit: f64, step: Option<usiz
     let [verdict] = found else {
         panic!("{found:?}");
     };
-    assert_eq!((&*verdict.name, verdict.step, verdict.ok), (name, step, false), "{found:?}");
+    assert_eq!(
+        (verdict.name.measure().name(), verdict.step, verdict.ok),
+        (name, step, false),
+        "{found:?}"
+    );
     assert!((verdict.value - value).abs() < 1e-6 * value.max(1.0), "{found:?}");
     assert!((verdict.limit - limit).abs() < 1e-9 * limit.max(1.0), "{found:?}");
     verdict.at.clone()

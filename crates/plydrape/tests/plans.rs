@@ -5,6 +5,7 @@ use plydrape::draping::record::CatenaryKind;
 use plydrape::draping::record::{CatenaryState, ResultFile, Step, Verdict};
 use plydrape::draping::simulate;
 use plydrape::equilibrium::Status;
+use plydrape::measure::Name;
 use plydrape::output::{csv, plan, table};
 use plydrape::planner::{self, Planned};
 use plydrape::scene::{self, Scene};
@@ -97,7 +98,7 @@ fn planned(scene: &Scene) -> Planned {
 }
 
 fn verdict<'a>(result: &'a ResultFile, name: &str) -> &'a Verdict {
-    let found = result.summary.limits.iter().find(|limit| limit.name == name);
+    let found = result.summary.limits.iter().find(|limit| limit.name.measure().name() == name);
     found.unwrap_or_else(|| panic!("{name} is not judged"))
 }
 
@@ -148,7 +149,7 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     let tilt = largest(&mut tilts.into_iter());
     assert!(tilt <= TILT, "{what}: tilt {tilt}°");
 
-    let share = last.measures.contact_share.expect("a mold");
+    let share = last.measures.value(Name::ContactShare).expect("a mold");
     assert!(share >= CONTACT_SHARE, "{what}: contact {share}");
     let close = verdict(result, "gripper_distance");
     let least = |step: &Step| {
@@ -353,7 +354,7 @@ fn a_hemisphere_too_steep_for_the_grippers_is_said_to_be() {
     let scene = Example::of("11_hemisphere").with_table("plan", |_| None, few).scene();
     let known = planner::obstacles::obstacles(&scene);
     let [tilt] = &known[..] else { panic!("{known:?}") };
-    assert!(tilt.name == "tilt" && (tilt.value - 57.08).abs() < 0.01, "{tilt:?}");
+    assert!(tilt.name == Name::Tilt && (tilt.value - 57.08).abs() < 0.01, "{tilt:?}");
     let (plan, _) = is_explained(&scene);
     let tilt = verdict(&plan.drape.result, "tilt");
     assert!(!tilt.ok && tilt.value >= 57.0, "{tilt:?}");
@@ -387,7 +388,7 @@ fn what_cannot_be_kept_is_in_the_verdict_of_the_plan() {
         let scene = example.scene();
         let known = planner::obstacles::obstacles(&scene);
         let [known] = &known[..] else { panic!("{known:?}") };
-        assert!(known.name == name && known.at.contains(at), "{known:?}");
+        assert!(known.name.measure().name() == name && known.at.contains(at), "{known:?}");
         assert!(
             (known.value - value).abs() < 0.05 && (known.limit - limit).abs() < 1e-9,
             "{known:?}"

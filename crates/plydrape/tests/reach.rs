@@ -2,6 +2,7 @@
 
 use plydrape::draping::record::{ResultFile, Verdict};
 use plydrape::draping::simulate;
+use plydrape::measure::Name;
 use plydrape::scene;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -16,7 +17,7 @@ fn closing(limits: &str) -> ResultFile {
 }
 
 fn verdict<'a>(result: &'a ResultFile, name: &str) -> Option<&'a Verdict> {
-    result.summary.limits.iter().find(|verdict| verdict.name == name)
+    result.summary.limits.iter().find(|verdict| verdict.name.measure().name() == name)
 }
 
 /// A least value: its worst is the smallest of all steps, and less than the limit fails.
@@ -40,12 +41,12 @@ fn the_workspace_is_judged_in_every_step() {
     assert!((outside.value - 8.0).abs() < 1e-9, "{outside:?}");
     assert_eq!((outside.ok, outside.limit, outside.step), (false, 0.0, Some(1)));
     assert_eq!(outside.at, "gripper [1,0]");
-    let last = result.steps[9].measures.workspace_mm.as_ref().unwrap();
+    let last = result.steps[9].measures.get(Name::Workspace).unwrap();
     assert_eq!((last.value, last.at.as_str()), (0.0, "nowhere"));
 
     let result = closing("");
     assert!(verdict(&result, "workspace").is_none());
-    assert!(result.steps[0].measures.workspace_mm.is_none());
+    assert!(result.steps[0].measures.value(Name::Workspace).is_none());
 }
 
 /// What is judged later counts as what was judged at once.

@@ -280,7 +280,7 @@ fn slack(result: &ResultFile) -> f64 {
 
 /// Largest value of a limit, and whether it holds.
 fn verdict(result: &ResultFile, name: &str) -> (f64, bool) {
-    let found = result.summary.limits.iter().find(|verdict| verdict.name == name);
+    let found = result.summary.limits.iter().find(|verdict| verdict.name.measure().name() == name);
     found.map(|verdict| (verdict.value, verdict.ok)).expect("a judged limit")
 }
 

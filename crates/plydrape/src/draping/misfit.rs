@@ -52,27 +52,13 @@ fn middle(a: Point, b: Point) -> Point {
     [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]))
 }
 
-/// Way (m) from the end of a contact segment to a point, `outward` the unit tangent of the mold out of the segment.
-#[must_use]
-pub fn way_ahead(end: Point, outward: Point, point: Point) -> f64 {
-    let way = sub(point, end);
-    let (along, square) = (dot(way, outward), dot(way, way));
-    if along >= 0.0 {
-        return square.sqrt();
-    }
-    (square - along * along).max(0.0).sqrt() + along
-}
-
 /// How a free span fits between its ends; `laid` is what is in contact of its catenary.
 #[must_use]
 pub fn misfit(span: &FreeSpan, laid: Option<&Laid>) -> Misfit {
     let [a, b] = span.ends;
     let way = match laid {
         None => span.chord(),
-        Some(laid) => {
-            let (end, gripper) = if span.rest == 0 { (b, a) } else { (a, b) };
-            way_ahead(end, laid.outward[span.rest], gripper)
-        }
+        Some(laid) => laid.way(span.rest, if span.rest == 0 { a } else { b }),
     };
     Misfit {
         catenary: span.catenary,
@@ -137,28 +123,9 @@ pub fn lying_segments(
         let way = match gripper {
             Some(_) if behind => -line.length(),
             Some(_) => line.length(),
-            None => way_ahead(end, outward, place),
+            None => laid.way(which, place),
         };
         LyingSegment { which: Some(which), misfit: fit(laid.rest(which), way, &line), line }
     };
     (0..2).filter(|&which| !laid.hangs(which)).map(segment).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Ahead of the end the way is the distance, also at a right angle; on the mold behind it, minus the distance.
-    /// It is continuous where the two meet.
-    #[test]
-    fn the_way_has_the_sign_of_the_side_that_the_gripper_is_on() {
-        let (end, outward) = ([1.0, 2.0, 0.0], [0.6, 0.8, 0.0]);
-        let at = |along: f64, up: f64| {
-            way_ahead(end, outward, [1.0 + 0.6 * along, 2.0 + 0.8 * along, up])
-        };
-        assert!((at(0.03, 0.04) - 0.05).abs() < 1e-15);
-        assert!((at(-0.03, 0.0) + 0.03).abs() < 1e-15);
-        assert!((at(0.0, 0.04) - 0.04).abs() < 1e-15);
-        assert!((at(-1e-9, 0.04) - at(1e-9, 0.04)).abs() < 2e-9);
-    }
 }

@@ -139,7 +139,8 @@ pub fn shape(
         let stretched = (catenary >= grid.edges())
             .then(|| assembly.shearing[(catenary - grid.edges()) / 2])
             .flatten()
-            .filter(|(_, falling)| *falling == (c.kind == Kind::Falling));
+            .filter(|(_, falling)| *falling == (c.kind == Kind::Falling))
+            .filter(|_| laid[catenary].is_none());
         let rests = laid[catenary].as_ref().map_or(1, |_| 2);
         for rest in 0..rests {
             let ends = match &laid[catenary] {
@@ -168,8 +169,10 @@ pub fn shape(
                 prescribed: [false; 2],
             };
             span.slopes = [span.slope(0.0); 2];
+            // a fold has no catenary
+            span.length = laid[catenary].as_ref().map_or(0.0, |l| l.rest(rest));
             if let Some((path, _)) = stretched {
-                span.length = laid[catenary].as_ref().map_or(path, |l| l.rest(rest));
+                span.length = path;
             } else if let Some((n, element)) =
                 elements.next_if(|(_, e)| e.catenary == catenary && e.rest == rest)
             {

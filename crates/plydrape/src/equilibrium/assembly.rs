@@ -333,7 +333,11 @@ impl<T: Number> Assembly<T> {
             let side = 1 - end;
             let (hangs, length) = match &build.laid[catenary] {
                 None => (true, flat),
-                Some(laid) => (laid.hangs(end), T::from(laid.rest(end)) * factor),
+                Some(laid) => {
+                    let place = build.ends(&c)[end].map(|x| x.re());
+                    let hangs = laid.hangs(end) && !laid.is_folded(end, place);
+                    (hangs, T::from(laid.rest(end)) * factor)
+                }
             };
             let mut seen = Side::Fixed(line.slope());
             if hangs {
@@ -369,7 +373,9 @@ impl<T: Number> Assembly<T> {
         let c = grid.catenary(catenary);
         let falling = c.kind == Kind::Falling;
         let stretched = self.shearing[cell];
-        if stretched.is_some_and(|(_, which)| which == falling) {
+        // once it has landed, its free segments are spans like any other
+        let landed = build.laid[catenary].is_some();
+        if stretched.is_some_and(|(_, which)| which == falling) && !landed {
             return;
         }
         let [along_u, along_v, factor] = build.factors.length;
@@ -391,7 +397,10 @@ impl<T: Number> Assembly<T> {
                     self.elements.push(element);
                     return;
                 }
-                Some(laid) if laid.hangs(rest) => {
+                Some(laid)
+                    if laid.hangs(rest)
+                        && !laid.is_folded(rest, build.ends(&c)[rest].map(|x| x.re())) =>
+                {
                     let length = T::from(laid.rest(rest)) * factor;
                     let mut element = self.element(build, catenary, rest, &line, length);
                     element.ends[rest] = ends[rest];

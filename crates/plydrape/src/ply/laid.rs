@@ -1,6 +1,7 @@
 //! What the mold has caught of a catenary.
 
-use crate::mold::Strand;
+use crate::mold::vector::{dot, sub};
+use crate::mold::{Strand, distance};
 
 /// The contact segment of a catenary: fixed in space and in fabric arc length.
 ///
@@ -84,9 +85,65 @@ impl Laid {
         self.lying == [true, true] && self.arc() == [0.0, self.length]
     }
 
+    /// Way (m) from an end of the segment to a point: √(x² + y²) ahead of the end, y + x behind it, x along the outward tangent
+    /// of the mold and y across it.
+    ///
+    /// Behind the end, on the mold, it is minus the distance: a gripper there has folded the fabric back.
+    #[must_use]
+    pub fn way(&self, which: usize, point: [f64; 3]) -> f64 {
+        let way = sub(point, self.point()[which]);
+        let (along, square) = (dot(way, self.outward[which]), dot(way, way));
+        if along >= 0.0 {
+            return square.sqrt();
+        }
+        (square - along * along).max(0.0).sqrt() + along
+    }
+
+    /// Whether the gripper of a rest, at `point` (m), has passed the end of the segment so far that the rest is a fold: no
+    /// catenary of its length leads there, though it is not stretched.
+    #[must_use]
+    pub fn is_folded(&self, which: usize, point: [f64; 3]) -> bool {
+        let (way, length) = (self.way(which, point), self.rest(which));
+        way < length && distance(point, self.point()[which]) >= length
+    }
+
     /// Whether a rest hangs: it has a length and has not lain down.
     #[must_use]
     pub fn hangs(&self, which: usize) -> bool {
         !self.lying[which] && self.rest(which) > NOTHING * self.length
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ahead of the end the way is the distance, also at a right angle; on the mold behind it, minus the distance.
+    /// It is continuous where the two meet.
+    #[test]
+    fn the_way_has_the_sign_of_the_side_that_the_gripper_is_on() {
+        let line = Strand { points: vec![[1.0, 2.0, 0.0]; 2], arc: vec![0.02, 0.08] };
+        let outward = [[-0.6, -0.8, 0.0], [0.6, 0.8, 0.0]];
+        let laid = Laid {
+            length: 0.1,
+            line,
+            normal: [[0.0, 0.0, 1.0]; 2],
+            lying: [false; 2],
+            arch: [0.0; 2],
+            outward,
+            landed: None,
+        };
+        let place = |along: f64, up: f64| [1.0 + 0.6 * along, 2.0 + 0.8 * along, up];
+        for (which, sense) in [(0, -1.0), (1, 1.0)] {
+            let way = |along: f64, up: f64| laid.way(which, place(sense * along, up));
+            assert!((way(0.03, 0.04) - 0.05).abs() < 1e-15);
+            assert!((way(-0.03, 0.0) + 0.03).abs() < 1e-15);
+            assert!((way(0.0, 0.04) - 0.04).abs() < 1e-15);
+            assert!((way(-1e-9, 0.04) - way(1e-9, 0.04)).abs() < 2e-9);
+            // 20 mm of fabric: 30 mm behind is a fold, 30 mm ahead or above is stretched, 10 mm behind hangs
+            let folded = |along: f64, up: f64| laid.is_folded(which, place(sense * along, up));
+            assert!(folded(-0.03, 0.0) && !folded(0.03, 0.0));
+            assert!(!folded(0.0, 0.03) && !folded(-0.01, 0.0));
+        }
     }
 }
