@@ -1,7 +1,7 @@
 //! How a gripper is tilted: its ball joint follows the ply.
 
 use super::spans::Point;
-use crate::equilibrium::{Side, Solver};
+use crate::equilibrium::{Solver, heading};
 use crate::mold::vector::{cross, unit};
 use crate::ply::Grid;
 
@@ -16,39 +16,6 @@ pub struct Attitude {
     pub quaternion: [f64; 4],
 }
 
-/// Slope of the ply at a gripper along a direction (0: u, 1: v).
-///
-/// A shearing diagonal's, or the shared one; at the rim that of the one edge; where two edges keep
-/// slopes of their own (a limp ply, or one side on the mold) their mean.
-fn slope(solver: &Solver, gripper: usize, direction: usize) -> Option<f64> {
-    let assembly = solver.assembly();
-    if let Some(slope) = assembly.governed[gripper][direction] {
-        return Some(slope);
-    }
-    let (mut sum, mut count) = (0.0, 0.0);
-    for side in assembly.sides[gripper][direction] {
-        let slope = match side {
-            Side::None => continue,
-            Side::Hanging(element, end) => solver.end_slopes(element)[end],
-            Side::Fixed(slope) => slope,
-        };
-        sum += slope;
-        count += 1.0;
-    }
-    (count > 0.0).then(|| sum / count)
-}
-
-/// Horizontal unit vector of the line through a gripper along a direction.
-fn heading(grid: Grid, positions: &[Point], gripper: usize, direction: usize) -> Option<[f64; 2]> {
-    let [i, j] = grid.id(gripper);
-    let (index, count) = if direction == 0 { (i, grid.nu) } else { (j, grid.nv) };
-    let at = |k: usize| positions[grid.index(if direction == 0 { [k, j] } else { [i, k] })];
-    let (a, b) = (at(index.saturating_sub(1)), at((index + 1).min(count - 1)));
-    let delta = [b[0] - a[0], b[1] - a[1]];
-    let length = delta[0].hypot(delta[1]);
-    (length > 0.0).then(|| delta.map(|d| d / length))
-}
-
 /// The attitude of a gripper; the quaternion's sign continues `before`.
 pub fn attitude(
     solver: &Solver,
@@ -57,7 +24,7 @@ pub fn attitude(
     gripper: usize,
     before: Option<[f64; 4]>,
 ) -> Attitude {
-    let slope = [0, 1].map(|d| slope(solver, gripper, d));
+    let slope = [0, 1].map(|d| solver.gripper_slope(positions, gripper, d));
     let u = heading(grid, positions, gripper, 0).unwrap_or([1.0, 0.0]);
     // a strip has no v: across it the gripper is level
     let v = heading(grid, positions, gripper, 1).unwrap_or([-u[1], u[0]]);

@@ -37,7 +37,7 @@ pub struct Element<T> {
 pub enum End<T> {
     /// No moment.
     Free,
-    /// A given slope: governed by a shearing diagonal, or the mold's.
+    /// A given slope: constrained by a shearing cell, or the mold's.
     Given(T),
     /// The shared slope of a joint.
     Joint(usize),
@@ -98,13 +98,49 @@ pub struct Assembly<T> {
     pub joints: Vec<Joint>,
     /// Taut path of the stretched diagonal of each cell (m) and whether it is the falling one.
     pub shearing: Vec<Option<(T, bool)>>,
-    /// Slope of the ply at each gripper along u and v, where a shearing diagonal governs it.
-    pub governed: Vec<[Option<T>; 2]>,
+    /// The plane that shearing cells prescribe at each gripper, where they do.
+    pub constraints: Vec<Option<Constraint<T>>>,
     /// The edges around each gripper: `[direction][before, after]`.
     pub sides: Vec<[[Side<T>; 2]; 2]>,
+    /// Whether lines along u and along v have a bending stiffness.
+    pub is_rigid: [bool; 2],
     pub(super) joint_at: Vec<[Option<usize>; 2]>,
     pub(super) directions: Vec<[[T; 2]; 2]>,
-    pub(super) counts: Vec<[f64; 2]>,
+}
+
+/// What the shearing cells around a gripper prescribe there: a plane, and how much it counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Constraint<T> {
+    /// Unit normal of the plane, upwards.
+    pub normal: [T; 3],
+    /// Weight w of the plane, from 0 at the onset of shear to 1: the slope is `(1−w) s_free + w s_plane`.
+    pub weight: T,
+}
+
+impl<T: Number> Constraint<T> {
+    /// Slope of the plane along a horizontal unit vector: −(n·e)/n_z.
+    #[must_use]
+    pub fn slope(&self, heading: [T; 2]) -> T {
+        let ([nx, ny, nz], zero) = (self.normal, T::from(0.0));
+        // a level plane has the slope 0, not −0
+        zero - (nx * heading[0] + ny * heading[1]) / nz
+    }
+
+    /// The constrained slope along a horizontal unit vector, `free` the slope without the constraint.
+    #[must_use]
+    pub fn blend(&self, free: Option<T>, heading: [T; 2]) -> T {
+        let plane = self.slope(heading);
+        match free {
+            Some(free) if self.is_partial() => free + self.weight * (plane - free),
+            _ => plane,
+        }
+    }
+
+    /// Whether the unconstrained slope still counts.
+    #[must_use]
+    pub fn is_partial(&self) -> bool {
+        self.weight.re() < 1.0
+    }
 }
 
 /// Horizontal parts of a straight line.
@@ -145,6 +181,11 @@ impl<T: Number> Line<T> {
         if self.run.re() > 0.0 { self.rise / self.run } else { T::from(0.0) }
     }
 
+    /// From the first end to the second.
+    pub(super) fn vector(&self) -> [T; 3] {
+        [self.delta[0], self.delta[1], self.rise]
+    }
+
     pub(super) fn unit(&self) -> [T; 2] {
         if self.run.re() > 0.0 { self.delta.map(|d| d / self.run) } else { [T::from(0.0); 2] }
     }
@@ -162,6 +203,12 @@ pub struct Build<'a, T> {
     pub laid: &'a [Option<Laid>],
     /// What multiplies the ply's numbers: 1, but for their derivatives.
     pub factors: Factors<T>,
+    /// Shear angle from which a cell's plane prescribes its slopes alone (rad).
+    pub full_constraint: f64,
+    /// Slopes at both ends of every element in the equilibrium without constraints, where it is known.
+    pub free: &'a [[T; 2]],
+    /// Whether shearing cells constrain slopes.
+    pub constrained: bool,
 }
 
 /// Factors on what a ply is, each for lines along u, lines along v and diagonals.
@@ -173,6 +220,28 @@ pub struct Factors<T> {
     pub weight: [T; 3],
     /// On the flexural rigidity.
     pub rigidity: [T; 3],
+}
+
+/// The grippers before and behind one along a direction (0: u, 1: v); itself on the boundary.
+#[must_use]
+pub fn neighbours(grid: Grid, gripper: usize, direction: usize) -> [usize; 2] {
+    let [i, j] = grid.id(gripper);
+    let (index, count) = if direction == 0 { (i, grid.nu) } else { (j, grid.nv) };
+    let at = |k: usize| grid.index(if direction == 0 { [k, j] } else { [i, k] });
+    [at(index.saturating_sub(1)), at((index + 1).min(count - 1))]
+}
+
+/// Horizontal unit vector of the line through a gripper along a direction (0: u, 1: v): from the gripper
+/// before it to the one behind it.
+pub fn heading<T: Number>(
+    grid: Grid,
+    positions: &[[T; 3]],
+    gripper: usize,
+    direction: usize,
+) -> Option<[T; 2]> {
+    let [before, after] = neighbours(grid, gripper, direction);
+    let way = line(positions[before], positions[after]);
+    (way.run.re() > 0.0).then(|| way.unit())
 }
 
 /// Which of three [`Factors`] is a catenary's.
@@ -191,6 +260,12 @@ impl<T: Number> Build<'_, T> {
 
     fn ends(&self, c: &Catenary) -> [[T; 3]; 2] {
         [c.from, c.to].map(|g| self.positions[self.grid().index(g)])
+    }
+
+    /// From the first gripper of a catenary to its second (m).
+    pub(super) fn chord(&self, catenary: usize) -> [T; 3] {
+        let [from, to] = self.ends(&self.grid().catenary(catenary));
+        [0, 1, 2].map(|n| to[n] - from[n])
     }
 
     /// Whether the lines of edges along a direction have bending stiffness.
@@ -246,11 +321,11 @@ impl<T> Default for Assembly<T> {
             edge_elements: 0,
             joints: Vec::new(),
             shearing: Vec::new(),
-            governed: Vec::new(),
+            constraints: Vec::new(),
             sides: Vec::new(),
+            is_rigid: [true; 2],
             joint_at: Vec::new(),
             directions: Vec::new(),
-            counts: Vec::new(),
         }
     }
 }
@@ -261,8 +336,9 @@ impl<T: Number> Assembly<T> {
         let grid = build.grid();
         self.elements.clear();
         self.joints.clear();
+        self.is_rigid = [0, 1].map(|direction| build.is_rigid(direction));
         self.shear(build);
-        self.govern(build);
+        self.constrain(build);
         self.sides.clear();
         self.sides.resize(grid.grippers(), [[Side::None; 2]; 2]);
         self.joint_at.clear();
@@ -389,7 +465,8 @@ impl<T: Number> Assembly<T> {
         };
         for rest in 0..2 {
             let line = build.rest_line(catenary, rest);
-            let ends = [0, 1].map(|end| self.plane(build, cell, c, end, &line));
+            let element = self.elements.len();
+            let ends = [0, 1].map(|end| self.plane(build, cell, c, [end, element], &line));
             match &build.laid[catenary] {
                 None => {
                     let mut element = self.element(build, catenary, 0, &line, length);
@@ -410,6 +487,45 @@ impl<T: Number> Assembly<T> {
                 Some(_) => {}
             }
         }
+    }
+
+    /// Slope of the ply at a gripper along a direction (0: u, 1: v), `heading` in plan; none where the ply has no
+    /// edge in that direction.
+    ///
+    /// That of the plane of the shearing cells, or the shared one; on the boundary that of the one edge; where two
+    /// edges keep slopes of their own (a limp ply, or one side in contact) their mean.
+    pub fn gripper_slope(
+        &self,
+        gripper: usize,
+        direction: usize,
+        heading: [T; 2],
+        [free, held]: [&[[T; 2]]; 2],
+    ) -> Option<T> {
+        let mean = |ends: &[[T; 2]]| {
+            let (mut sum, mut count) = (T::from(0.0), 0.0);
+            for side in self.sides[gripper][direction] {
+                sum += match side {
+                    Side::None => continue,
+                    Side::Hanging(element, end) => ends[element][end],
+                    Side::Fixed(slope) => slope,
+                };
+                count += 1.0;
+            }
+            (count > 0.0).then(|| sum / count)
+        };
+        match self.constraints[gripper].filter(|_| self.is_rigid[direction]) {
+            Some(constraint) if constraint.is_partial() => {
+                Some(constraint.blend(mean(free), heading))
+            }
+            Some(constraint) => Some(constraint.slope(heading)),
+            None => mean(held),
+        }
+    }
+
+    /// Whether a gripper's slopes are still mixed with those of the unconstrained ply.
+    #[must_use]
+    pub fn is_partly_constrained(&self) -> bool {
+        self.constraints.iter().flatten().any(Constraint::is_partial)
     }
 
     /// The unknown joint of a gripper along a direction, if it has one.

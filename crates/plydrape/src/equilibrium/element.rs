@@ -24,27 +24,24 @@ pub struct Wanted {
 /// Force, end slopes and end curvatures as functions of the prescribed slopes s₁, s₂ and, if `M` is 7,
 /// of run, rise, weight, rigidity and fabric length.
 #[derive(Debug, Clone, Copy)]
-pub struct Settled<const M: usize> {
+pub struct Evaluated<const M: usize> {
     /// Horizontal force H (N).
     pub force: Jet<M>,
     /// Slopes at both ends.
     pub slope: [Jet<M>; 2],
     /// Curvatures z'' at both ends (1/m).
     pub curvature: [Jet<M>; 2],
-    /// Relative step of H over which the derivatives were carried: their error is its square.
-    pub carried: f64,
-    /// Relative error of the length that is left.
-    pub unmet: f64,
+    /// Measured relative error of the length, |C|/L_set; NaN where the force has moved since it was measured.
+    pub length_residual: f64,
 }
 
-impl<const M: usize> Default for Settled<M> {
+impl<const M: usize> Default for Evaluated<M> {
     fn default() -> Self {
-        Settled {
+        Evaluated {
             force: Jet::default(),
             slope: [Jet::default(); 2],
             curvature: [Jet::default(); 2],
-            carried: 0.0,
-            unmet: 0.0,
+            length_residual: 0.0,
         }
     }
 }
@@ -154,24 +151,29 @@ fn moved<const N: usize>(q: Jet<N>, step: f64) -> Jet<N> {
     out
 }
 
-/// Relative step of H over which derivatives may be carried by their own derivatives.
+/// Relative step of H over which the derivatives may be carried by their own derivatives. Their error is its
+/// square; it vanishes as the slopes converge, because H is then predicted ever better.
 const NEAR: f64 = 0.01;
 
-/// Relative step of H below which the quadratic error of the next one is lost.
-const SETTLED: f64 = 3e-6;
+/// Relative step of H up to which the length measured before the step bounds the error after it: the steps
+/// contract quadratically.
+const SMALL_STEP: f64 = 1e-7;
+
+/// Evaluations of the length that a force close to the solution may take before it is searched anew.
+const FEW: usize = 4;
 
 /// Finds the force of a span near `force` (N) (`None`: from scratch) with its derivatives.
-pub fn settle<const N: usize, const M: usize>(
+pub fn evaluate<const N: usize, const M: usize>(
     span: &Span,
     force: Option<f64>,
     wanted: Wanted,
-) -> Settled<M> {
+) -> Evaluated<M> {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let sound = |h: f64| h > pole && h.is_finite();
     let relative = |step: f64, h: f64| step.abs() / (h - pole).max(f64::MIN_POSITIVE);
     let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| approach(span, span.first_guess()));
     let mut searched = false;
-    let (profile, c, mut next) = loop {
+    let (profile, c, next) = loop {
         let profile = Profile::new(span, h);
         let (c, excess) = constraint::<N>(&profile, span);
         let next = span.advance(goal, h, excess);
@@ -182,32 +184,17 @@ pub fn settle<const N: usize, const M: usize>(
         h = approach(span, h);
         searched = true;
     };
-    // what the derivatives need is near enough; the force itself is taken to the last digits
-    let mut step = next - h;
-    for _ in 0..4 {
-        if relative(step, h) <= SETTLED {
-            break;
-        }
-        let better = span.advance(goal, next, Profile::new(span, next).excess());
-        if !sound(better) {
-            break;
-        }
-        step = better - next;
-        next = better;
-    }
-    let last = next - h;
-    let c = moved(c, last);
-    // beyond a short step the series of C says little; then the last cheap look does
-    let unmet = if relative(step, next) <= SETTLED { 0.0 } else { c.value.abs() / span.length };
-    let force = implicit::<N, M>(&c, next);
-    let carried = relative(last, h);
-    let mut out = Settled { force, carried, unmet, ..Settled::default() };
+    let step = next - h;
+    let measured = c.value.abs() / span.length;
+    let length_residual = if relative(step, h) <= SMALL_STEP { measured } else { f64::NAN };
+    let force = implicit::<N, M>(&moved(c, step), next);
+    let mut out = Evaluated { force, length_residual, ..Evaluated::default() };
     for end in 0..2 {
         if wanted.slope[end] {
-            out.slope[end] = follow(&moved(profile.end_slope_jet::<N>(end), last), &force);
+            out.slope[end] = follow(&moved(profile.end_slope_jet::<N>(end), step), &force);
         }
         if wanted.curvature[end] {
-            let curvature = moved(profile.end_curvature_jet::<N>(end), last);
+            let curvature = moved(profile.end_curvature_jet::<N>(end), step);
             out.curvature[end] = follow(&curvature, &force);
         }
     }
@@ -215,34 +202,11 @@ pub fn settle<const N: usize, const M: usize>(
 }
 
 /// Finds the force of a span that no unknown slope moves: no derivatives.
-pub fn settle_still(span: &Span, force: Option<f64>, wanted: Wanted) -> Settled<2> {
-    let (pole, goal) = (span.buckling_force(), span.goal());
-    let sound = |h: f64| h > pole && h.is_finite();
-    let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| span.first_guess());
-    let mut settled = false;
-    for _ in 0..4 {
-        if !sound(h) {
-            break;
-        }
-        let excess = Profile::new(span, h).excess();
-        let next = span.advance(goal, h, excess);
-        settled = sound(next)
-            && excess.to_force < 0.0
-            && (next - h).abs() <= SETTLED * (h - pole).max(f64::MIN_POSITIVE);
-        h = next;
-        if settled {
-            break;
-        }
-    }
-    let mut out = Settled::default();
-    if !settled {
-        let root = span.solve(Some(h));
-        h = root.force.unwrap_or(h);
-        out.unmet = root.residual;
-    }
-    out.force.value = h;
+pub fn evaluate_still(span: &Span, force: Option<f64>, wanted: Wanted) -> Evaluated<2> {
+    let mut out = Evaluated::default();
+    (out.force.value, out.length_residual) = meet_length(span, force);
     if wanted.slope != [false; 2] {
-        let profile = Profile::new(span, h);
+        let profile = Profile::new(span, out.force.value);
         for end in 0..2 {
             out.slope[end].value = profile.end_slope(end);
         }
@@ -250,18 +214,45 @@ pub fn settle_still(span: &Span, force: Option<f64>, wanted: Wanted) -> Settled<
     out
 }
 
+/// The force (N) that gives a span its length, from one close to it (`None`: from scratch), and the measured
+/// relative error of the length: at that force, or one contracting step before it.
+pub fn meet_length(span: &Span, force: Option<f64>) -> (f64, f64) {
+    let (pole, goal) = (span.buckling_force(), span.goal());
+    let sound = |h: f64| h > pole && h.is_finite();
+    let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| span.first_guess());
+    for _ in 0..FEW {
+        if !sound(h) {
+            break;
+        }
+        let excess = Profile::new(span, h).excess();
+        let next = span.advance(goal, h, excess);
+        if !(sound(next) && excess.to_force < 0.0) {
+            break;
+        }
+        let step = next - h;
+        let error = (excess.value - goal.excess - goal.compliance * h) * span.run / span.length;
+        h = next;
+        if step.abs() <= SMALL_STEP * (h - pole) {
+            return (h, error.abs());
+        }
+    }
+    let h = span.solve(Some(h)).force.unwrap_or(h);
+    let error = Profile::new(span, h).excess().value - goal.excess - goal.compliance * h;
+    (h, (error * span.run / span.length).abs())
+}
+
 /// A force close enough to start from, by a few cheap steps from a guess.
 fn approach(span: &Span, guess: f64) -> f64 {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let mut h = guess;
-    for _ in 0..3 {
+    for _ in 0..FEW - 1 {
         if !(h > pole && h.is_finite()) {
             break;
         }
         let next = span.advance(goal, h, Profile::new(span, h).excess());
         let step = (next - h).abs() / (h - pole);
         h = next;
-        if step <= 0.03 {
+        if step <= 3.0 * NEAR {
             return h;
         }
     }

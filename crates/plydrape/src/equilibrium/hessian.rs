@@ -6,25 +6,26 @@
 
 use super::assembly::{End, SlopeSource};
 use super::solver::Solver;
+use super::tuning::Tuning;
 
 /// Element matrices of the Hessian: 2×2 of each element, and what a diagonal's ends are made of.
 pub fn assemble(solver: &mut Solver) {
     let work = &mut solver.work;
-    let (assembly, settled) = (&solver.assembly, &solver.settled);
+    let (assembly, evaluated) = (&solver.assembly, &solver.evaluated);
     let joints = assembly.joints.len();
     work.blocks.clear();
     work.rows.clear();
     work.diagonal.clear();
     work.diagonal.resize(joints, 0.0);
     for (n, element) in assembly.elements.iter().enumerate() {
-        let jet = &settled[n].force;
+        let jet = &evaluated[n].force;
         let mut block = [[0.0; 2]; 2];
         for i in 0..2 {
             for j in 0..2 {
                 block[i][j] = jet.gradient[i] * jet.gradient[j] + jet.value * jet.hessian[i][j];
                 if n < assembly.edge_elements {
                     for end in 0..2 {
-                        block[i][j] += work.adjoint[n][end] * settled[n].slope[end].hessian[i][j];
+                        block[i][j] += work.adjoint[n][end] * evaluated[n].slope[end].hessian[i][j];
                     }
                 }
             }
@@ -44,7 +45,7 @@ pub fn assemble(solver: &mut Solver) {
                                 match assembly.elements[edge].ends[1 - at] {
                                     End::Joint(joint) => (
                                         joint,
-                                        plane.share[m] * settled[edge].slope[at].gradient[1 - at],
+                                        plane.share[m] * evaluated[edge].slope[at].gradient[1 - at],
                                     ),
                                     _ => (0, 0.0),
                                 }
@@ -90,7 +91,15 @@ fn multiply(blocks: &[[[f64; 2]; 2]], rows: &[[[(usize, f64); 2]; 2]], x: &[f64]
 
 /// Conjugate gradients for the step: B p = right, preconditioned by the diagonal; where the curvature
 /// turns negative they end with a long step that way. The right side must vanish on active bounds.
-pub fn solve_linear(solver: &mut Solver, right: &[f64], tolerance: f64, out: &mut [f64]) {
+///
+/// Returns whether the system was solved; if not, `early_ends` says why.
+pub fn solve_linear(
+    solver: &mut Solver,
+    right: &[f64],
+    tolerance: f64,
+    out: &mut [f64],
+) -> bool {
+    let Tuning { far_step, linear_iterations, .. } = solver.tuning;
     let work = &mut solver.work;
     let count = right.len();
     let [r, z, d, q] = &mut work.vectors;
@@ -109,10 +118,10 @@ pub fn solve_linear(solver: &mut Solver, right: &[f64], tolerance: f64, out: &mu
         d[n] = z[n];
         rz += r[n] * z[n];
     }
-    let goal = rz * tolerance * tolerance;
-    for _ in 0..=2 * count.min(500) {
+    let (start, goal) = (rz, rz * tolerance * tolerance);
+    for _ in 0..=linear_iterations * count.min(500) {
         if rz <= goal || rz == 0.0 {
-            break;
+            return true;
         }
         multiply(&work.blocks, &work.rows, d, q);
         for (q, active) in q.iter_mut().zip(&work.active) {
@@ -125,9 +134,10 @@ pub fn solve_linear(solver: &mut Solver, right: &[f64], tolerance: f64, out: &mu
             // downhill without end: go far, the search along the step will bring it back
             let size = d.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
             for n in 0..count {
-                out[n] += FAR_STEP / size * d[n];
+                out[n] += far_step / size * d[n];
             }
-            break;
+            work.early_ends.negative_curvatures += 1;
+            return false;
         }
         let alpha = rz / curvature;
         let before = rz;
@@ -142,15 +152,16 @@ pub fn solve_linear(solver: &mut Solver, right: &[f64], tolerance: f64, out: &mu
             d[n] = z[n] + rz / before * d[n];
         }
     }
+    // rounding may keep the residual of a system of few unknowns above a tolerance of 1e-13
+    let solved = rz <= goal.max(start * ROUNDING * ROUNDING);
+    work.early_ends.linear_solves += u32::from(!solved);
+    solved
 }
 
 /// The step p that minimizes ½pᵀBp + gᵀp within the bounds of the slopes, by a primal-dual active set:
 /// a joint is at its bound if its step would leave it, and stays while its multiplier pushes outwards.
-///
-/// Returns whether the bounds that hold, left in `work.active`, are those of the step before: only then
-/// do two steps tell the error of the next.
-pub fn bounded_step(solver: &mut Solver, tolerance: f64, step: &mut [f64]) -> bool {
-    let mut settled = false;
+pub fn bounded_step(solver: &mut Solver, tolerance: f64, step: &mut [f64]) {
+    let mut found = false;
     let bound = solver.bound();
     let count = step.len();
     let mut right = std::mem::take(&mut solver.work.right);
@@ -159,7 +170,7 @@ pub fn bounded_step(solver: &mut Solver, tolerance: f64, step: &mut [f64]) -> bo
     let mut free = std::mem::take(&mut solver.work.free);
     free.resize(count, 0.0);
     step.fill(0.0);
-    for _ in 0..MAX_ACTIVE_SETS {
+    for _ in 0..solver.tuning.active_sets {
         let work = &mut solver.work;
         // joints at a bound go there; what that does to the others is known
         for n in 0..count {
@@ -195,24 +206,18 @@ pub fn bounded_step(solver: &mut Solver, tolerance: f64, step: &mut [f64]) -> bo
             work.active[n] = active;
         }
         if !changed {
-            settled = true;
+            found = true;
             break;
         }
     }
-    let work = &mut solver.work;
-    settled &= work.held == work.active;
-    work.held.clone_from(&work.active);
+    solver.work.early_ends.active_sets += u32::from(!found);
     solver.work.right = right;
     solver.work.product = product;
     solver.work.free = free;
-    settled
 }
 
-/// Slope change that is tried along a direction of negative curvature.
-const FAR_STEP: f64 = 0.2;
-
-/// Active sets tried for one step.
-const MAX_ACTIVE_SETS: usize = 12;
+/// Relative residual of a linear system that rounding may leave.
+const ROUNDING: f64 = 1e-10;
 
 /// Which bound a joint with this slope is held by, or driven to by this step.
 fn side(step: f64, slope: f64) -> f64 {

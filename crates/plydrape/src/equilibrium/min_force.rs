@@ -10,7 +10,8 @@
 use super::Number;
 use super::assembly::{Assembly, End, SlopeSource};
 use super::hessian::{assemble, bounded_step, solve_linear};
-use super::solver::{Equilibrium, MAX_ITERATIONS, Solver, Status, error_after};
+use super::solver::{Solver, Work};
+use super::status::{EarlyEnds, Equilibrium, Status};
 
 /// An element's force and end slopes with their derivatives to its own end slopes.
 #[derive(Debug, Clone, Copy)]
@@ -63,105 +64,116 @@ pub fn gradient<T: Number>(
 }
 
 /// Derivative of the slopes for a change of the gradient: −B⁻¹ `change`, active bounds held. The Hessian B
-/// must have been assembled at the solution.
-pub(super) fn respond(solver: &mut Solver, change: &[f64], out: &mut [f64]) {
+/// must have been assembled at the solution. Returns whether the system could be solved: where B is not
+/// positive the state is no strict minimum, and the slopes have no derivative.
+pub(super) fn respond(solver: &mut Solver, change: &[f64], out: &mut [f64]) -> bool {
     let right: Vec<f64> =
         change.iter().zip(&solver.work.active).map(|(g, a)| if *a { 0.0 } else { -g }).collect();
-    solve_linear(solver, &right, 1e-14, out);
+    solve_linear(solver, &right, 1e-14, out)
 }
 
 impl Solver {
-    /// Settles everything and evaluates ½‖H‖² (N²) and its gradient.
+    /// Evaluates every element, ½‖H‖² (N²) and its gradient.
     fn evaluate(&mut self) -> f64 {
         let (edges, all) = (self.assembly.edge_elements, self.assembly.elements.len());
-        self.settle(0..edges);
-        self.settle(edges..all);
-        let settled = &self.settled;
+        self.evaluate_elements(0..edges);
+        self.evaluate_elements(edges..all);
+        let evaluated = &self.evaluated;
         self.work.gradient.resize(self.slopes.len(), 0.0);
         self.work.adjoint.resize(all, [0.0; 2]);
         let response = |n: usize| Response {
-            force: (settled[n].force.value, settled[n].force.gradient),
-            slope: settled[n].slope.map(|s| (s.value, s.gradient)),
+            force: (evaluated[n].force.value, evaluated[n].force.gradient),
+            slope: evaluated[n].slope.map(|s| (s.value, s.gradient)),
         };
         gradient(&self.assembly, response, &mut self.work.gradient, &mut self.work.adjoint);
-        0.5 * settled.iter().map(|s| s.force.value * s.force.value).sum::<f64>()
+        0.5 * evaluated.iter().map(|s| s.force.value * s.force.value).sum::<f64>()
+    }
+
+    /// The gradient that is left at slopes that are not at their limits, as a change of slope: divided by the
+    /// diagonal of the Hessian.
+    fn slope_residual(&self) -> f64 {
+        let Work { gradient, diagonal, active, .. } = &self.work;
+        let left = gradient.iter().zip(diagonal).zip(active).map(|((g, d), active)| match active {
+            true => 0.0,
+            false if *d > 0.0 => (g / d).abs(),
+            false if *g == 0.0 => 0.0,
+            false => f64::INFINITY,
+        });
+        left.fold(0.0, f64::max)
     }
 }
 
 /// Minimizes ½‖H‖² over the shared slopes.
 pub fn solve(solver: &mut Solver) -> Equilibrium {
     let (count, bound) = (solver.slopes.len(), solver.bound());
-    // an edge's free end follows its other end: its slope is needed where a diagonal looks at it
+    let ended = |status, iterations, residual| Equilibrium {
+        status,
+        iterations,
+        residual,
+        length_residual: 0.0,
+        early_ends: EarlyEnds::default(),
+    };
     let mut objective = solver.evaluate();
     if count == 0 {
-        solver.read_free_ends();
-        return Equilibrium { status: Status::Converged, iterations: 1, residual: 0.0 };
+        return ended(Status::Converged, 1, 0.0);
     }
-    let (mut status, mut residual, mut iterations) = (Status::IterationLimit, f64::INFINITY, 0);
+    let tuning = solver.tuning;
     let mut before = f64::INFINITY;
-    while iterations < MAX_ITERATIONS {
-        iterations += 1;
+    for iterations in 1.. {
         solver.mark_active();
         assemble(solver);
+        let residual = solver.slope_residual();
+        if residual <= tuning.slope_tolerance {
+            return ended(Status::Converged, iterations, residual);
+        }
+        if iterations > tuning.iterations {
+            return ended(Status::IterationLimit, iterations, residual);
+        }
         let mut step = std::mem::take(&mut solver.work.step);
-        let mut trial = std::mem::take(&mut solver.work.trial);
+        let mut kept = std::mem::take(&mut solver.work.trial);
         step.resize(count, 0.0);
-        trial.resize(count, 0.0);
+        kept.clear();
+        kept.extend_from_slice(&solver.work.gradient);
         // looser far away: a Newton step is worth no more digits than it will have
         let tolerance = if count <= 64 { 1e-13 } else { (0.01 * before).clamp(1e-12, 1e-4) };
-        let settled = bounded_step(solver, tolerance, &mut step);
+        bounded_step(solver, tolerance, &mut step);
         let mut start = std::mem::take(&mut solver.work.start);
         start.clear();
         start.extend_from_slice(&solver.slopes);
         let projected =
             |fraction: f64, n: usize| (start[n] + fraction * step[n]).clamp(-bound, bound);
-        let size = (0..count).map(|n| (projected(1.0, n) - start[n]).abs()).fold(0.0, f64::max);
-        let mut accepted = false;
-        if settled && tolerance * size <= 1e-12 && solver.may_finish(size, before) {
+        before = (0..count).map(|n| (projected(1.0, n) - start[n]).abs()).fold(0.0, f64::max);
+        let (mut accepted, mut fraction) = (false, 1.0);
+        while fraction > tuning.smallest_share {
             solver.slopes.clear();
-            solver.slopes.extend((0..count).map(|n| projected(1.0, n)));
-            solver.finish(0..solver.assembly.elements.len());
-            residual = error_after(size, before).min(size);
-            status = Status::Converged;
-            accepted = true;
-        } else {
-            let mut fraction = 1.0;
-            while fraction > 1e-9 {
-                solver.slopes.clear();
-                solver.slopes.extend((0..count).map(|n| projected(fraction, n)));
-                let descent: f64 = (0..count)
-                    .map(|n| solver.work.gradient[n] * (solver.slopes[n] - start[n]))
-                    .sum();
-                trial.copy_from_slice(&solver.work.gradient);
-                let next = solver.evaluate();
-                if next <= objective + 1e-4 * descent + 1e-11 * objective {
-                    objective = next;
-                    accepted = true;
-                    break;
-                }
-                solver.work.gradient.copy_from_slice(&trial);
-                fraction *= 0.5;
+            solver.slopes.extend((0..count).map(|n| projected(fraction, n)));
+            let way = solver.slopes.iter().zip(&start).map(|(s, start)| s - start);
+            let descent: f64 = kept.iter().zip(way).map(|(g, way)| g * way).sum();
+            let next = solver.evaluate();
+            let rounding = tuning.objective_rounding * objective;
+            if next <= objective + tuning.decrease * descent + rounding {
+                objective = next;
+                accepted = true;
+                break;
             }
-            residual = size;
+            fraction *= 0.5;
         }
         if !accepted {
             solver.slopes.clear();
             solver.slopes.extend_from_slice(&start);
             solver.evaluate();
+            solver.work.early_ends.line_searches += 1;
         }
         solver.work.step = step;
         solver.work.start = start;
-        solver.work.trial = trial;
-        if status == Status::Converged {
-            break;
-        }
+        solver.work.trial = kept;
         if !accepted {
             // no descent left to find: converged as far as the objective can tell, or stalled
-            status = if size <= 1e-6 { Status::Converged } else { Status::Stalled };
-            break;
+            solver.mark_active();
+            let rounding = residual <= tuning.rounding_residual;
+            let status = if rounding { Status::Converged } else { Status::Stalled };
+            return ended(status, iterations, residual);
         }
-        before = size;
     }
-    solver.read_free_ends();
-    Equilibrium { status, iterations, residual }
+    unreachable!("the loop ends at the limit of iterations")
 }

@@ -5,6 +5,7 @@
 //! `element` differentiates one span,
 //! `min_force` and `moment_balance` are the two rules for the slopes, eqs. (9) and (10) of
 //! `docs/theory.md`, and `tangent` is the exact derivative of the solved state along a `direction`.
+//! `status` says how a solve ended and `tuning` holds every constant of the method.
 
 mod assembly;
 mod direction;
@@ -14,12 +15,18 @@ mod min_force;
 mod moment_balance;
 mod slopes;
 mod solver;
+mod status;
 mod tangent;
+mod tuning;
 
-pub use assembly::{Assembly, Element, End, Joint, PlaneSlope, Side, SlopeSource};
+pub use assembly::{
+    Assembly, Constraint, Element, End, Joint, PlaneSlope, Side, SlopeSource, heading, neighbours,
+};
 pub use direction::{Direction, Property};
-pub use solver::{Equilibrium, Solver, Status};
+pub use solver::Solver;
+pub use status::{EarlyEnds, Equilibrium, Status};
 pub use tangent::{Linearized, StateTangent};
+pub use tuning::Tuning;
 
 use num_dual::DualNum;
 

@@ -6,7 +6,8 @@
 
 use super::Number;
 use super::assembly::{Assembly, End};
-use super::solver::{Equilibrium, MAX_ITERATIONS, Solver, Status, error_after};
+use super::solver::Solver;
+use super::status::{EarlyEnds, Equilibrium, Status};
 
 /// Jump of moment across a joint (N·m): EI z'' before the gripper minus EI z'' after it. It grows
 /// with the joint's slope.
@@ -32,7 +33,7 @@ fn row(solver: &Solver, joint: usize) -> [f64; 3] {
     let mut row = [0.0; 3];
     for (element, sign) in assembly.joints[joint].elements.into_iter().zip([1.0, -1.0]) {
         let end = end_at(assembly, element, joint);
-        let gradient = solver.settled[element].curvature[end].gradient;
+        let gradient = solver.evaluated[element].curvature[end].gradient;
         let factor = sign * assembly.elements[element].rigidity;
         row[1] += factor * gradient[end];
         if let End::Joint(other) = assembly.elements[element].ends[1 - end] {
@@ -76,21 +77,22 @@ fn solve_linear(
 }
 
 /// Derivative of the slopes for a change of the jumps: −J⁻¹ `change`, active bounds held.
-pub(super) fn respond(solver: &mut Solver, change: &[f64], out: &mut [f64]) {
+/// Returns whether the state is a stable one: elsewhere the slopes have no derivative.
+pub(super) fn respond(solver: &mut Solver, change: &[f64], out: &mut [f64]) -> bool {
     let right: Vec<f64> = change.iter().map(|c| -c).collect();
     let mut ratio = vec![0.0; right.len()];
-    solve_linear(solver, &right, 0.0, &mut ratio, out);
+    solve_linear(solver, &right, 0.0, &mut ratio, out)
 }
 
 impl Solver {
-    /// Settles the edges and evaluates all jumps.
+    /// Evaluates the edges and all jumps.
     fn evaluate_jumps(&mut self) {
-        self.settle(0..self.assembly.edge_elements);
+        self.evaluate_elements(0..self.assembly.edge_elements);
         let count = self.slopes.len();
         self.work.gradient.resize(count, 0.0);
         for joint in 0..count {
-            let settled = &self.settled;
-            let jump = jump(&self.assembly, joint, |e, end| settled[e].curvature[end].value);
+            let evaluated = &self.evaluated;
+            let jump = jump(&self.assembly, joint, |e, end| evaluated[e].curvature[end].value);
             self.work.gradient[joint] = jump;
         }
         self.mark_active();
@@ -109,8 +111,13 @@ impl Solver {
         right.extend(self.work.gradient.iter().map(|jump| -jump));
         let mut shift = 0.0;
         let largest = (0..count).map(|n| row(self, n)[1].abs()).fold(0.0, f64::max);
-        while !solve_linear(self, &right, shift, &mut ratio, &mut step) && shift <= 64.0 * largest {
-            shift = if shift == 0.0 { largest / 64.0 } else { 4.0 * shift };
+        while !solve_linear(self, &right, shift, &mut ratio, &mut step) {
+            self.work.early_ends.negative_curvatures += u32::from(shift == 0.0);
+            if shift > self.tuning.largest_shift * largest {
+                self.work.early_ends.damping_limits += 1;
+                break;
+            }
+            shift = if shift == 0.0 { FIRST_SHIFT * largest } else { 4.0 * shift };
         }
         // far from the solution no step is worth more than a fraction of a right angle
         let size = step.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
@@ -122,6 +129,18 @@ impl Solver {
         self.work.right = right;
     }
 
+    /// The jumps that are left at slopes that are not at their limits, as a change of slope: divided by their own
+    /// derivatives. Infinite where such a derivative is not positive, as in a state that is not stable.
+    fn jump_residual(&self) -> f64 {
+        let left = |n: usize| {
+            let jump = self.work.gradient[n];
+            let on = row(self, n)[1];
+            if on > 0.0 { (jump / on).abs() } else { f64::INFINITY }
+        };
+        let free = (0..self.slopes.len()).filter(|n| !self.work.active[*n]);
+        free.map(left).fold(0.0, f64::max)
+    }
+
     /// Work of the jumps along the way from `start` to the present slopes: how the energy changes there.
     fn work_along(&self, start: &[f64]) -> f64 {
         let way = self.slopes.iter().zip(start).map(|(s, start)| s - start);
@@ -131,6 +150,9 @@ impl Solver {
 
 /// Largest slope change of one step.
 const FAR_STEP: f64 = 0.3;
+
+/// First shift of the diagonal, as a share of its largest entry.
+const FIRST_SHIFT: f64 = 1.0 / 64.0;
 
 /// Balances the moments at every joint, then lets the diagonals follow.
 pub fn solve(solver: &mut Solver) -> Equilibrium {
@@ -147,22 +169,32 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
     }
     solver.evaluate_jumps();
     let outcome = if count == 0 {
-        Equilibrium { status: Status::Converged, iterations: 1, residual: 0.0 }
+        ended(Status::Converged, 1, 0.0)
     } else {
         balance(solver, bound)
     };
     // diagonals are no tows: they follow
     let (edges, all) = (solver.assembly.edge_elements, solver.assembly.elements.len());
-    solver.settle(edges..all);
-    solver.read_free_ends();
+    solver.evaluate_elements(edges..all);
     outcome
+}
+
+fn ended(status: Status, iterations: usize, residual: f64) -> Equilibrium {
+    let early_ends = EarlyEnds::default();
+    Equilibrium { status, iterations, residual, length_residual: 0.0, early_ends }
 }
 
 /// Newton's method down the energy, from the jumps at the present slopes.
 fn balance(solver: &mut Solver, bound: f64) -> Equilibrium {
-    let count = solver.slopes.len();
-    let mut before = f64::INFINITY;
-    for iterations in 1..=MAX_ITERATIONS {
+    let (count, tuning) = (solver.slopes.len(), solver.tuning);
+    for iterations in 1.. {
+        let residual = solver.jump_residual();
+        if residual <= tuning.slope_tolerance {
+            return ended(Status::Converged, iterations, residual);
+        }
+        if iterations > tuning.iterations {
+            return ended(Status::IterationLimit, iterations, residual);
+        }
         solver.moment_step();
         let mut start = std::mem::take(&mut solver.work.trial);
         start.clear();
@@ -174,28 +206,30 @@ fn balance(solver: &mut Solver, bound: f64) -> Equilibrium {
             }
         };
         move_by(solver, 1.0);
-        let way = solver.slopes.iter().zip(&start).map(|(s, start)| (s - start).abs());
-        let size = way.fold(0.0, f64::max);
-        if solver.may_finish(size, before) {
-            solver.finish(0..solver.assembly.edge_elements);
-            solver.work.trial = start;
-            let residual = error_after(size, before).min(size);
-            return Equilibrium { status: Status::Converged, iterations, residual };
-        }
         // a step is good if the energy still falls at its end, or nearly stands still
         let down = solver.work_along(&start);
-        let mut fraction = 1.0;
-        loop {
+        let (mut accepted, mut fraction) = (false, 1.0);
+        while fraction > tuning.smallest_share {
             solver.evaluate_jumps();
             let uphill = solver.work_along(&start) / fraction;
-            if uphill <= 0.5 * down.abs() || fraction < 1e-6 {
+            if uphill <= 0.5 * down.abs() {
+                accepted = true;
                 break;
             }
             fraction *= 0.5;
             move_by(solver, fraction);
         }
+        if !accepted {
+            solver.slopes.copy_from_slice(&start);
+            solver.evaluate_jumps();
+            solver.work.early_ends.line_searches += 1;
+        }
         solver.work.trial = start;
-        before = size;
+        if !accepted {
+            let rounding = residual <= tuning.rounding_residual;
+            let status = if rounding { Status::Converged } else { Status::Stalled };
+            return ended(status, iterations, residual);
+        }
     }
-    Equilibrium { status: Status::IterationLimit, iterations: MAX_ITERATIONS, residual: before }
+    unreachable!("the loop ends at the limit of iterations")
 }

@@ -1,62 +1,66 @@
 //! The slope rules of the paper (section 2.2): what holds the ends of edges and diagonals, eq. (8) of
 //! `docs/theory.md`.
 //!
-//! A free slope at the rim, a shared one inside, the plane through two edges for a diagonal, and a
-//! shearing diagonal's own slope for all around it.
+//! A free slope on the boundary, a shared one inside, the plane through two edges for a diagonal, and the plane
+//! of a shearing cell for all that meet its stretched diagonal's grippers.
 
 use super::Number;
-use super::assembly::{Assembly, Build, End, Joint, Line, PlaneSlope, Side, SlopeSource};
-use crate::ply::{Catenary, Kind, Laid};
+use super::assembly::{Assembly, Build, Constraint, End, Joint, Line, PlaneSlope, Side, SlopeSource};
+use crate::ply::{Catenary, Kind, Laid, shear};
 use crate::scene::ContactEnd;
 
 impl<T: Number> Assembly<T> {
-    /// Slopes at the grippers of shearing diagonals: their outward slope, each taken in the line's own
-    /// direction; where several meet, the mean.
-    pub(super) fn govern(&mut self, build: &Build<T>) {
+    /// The planes of shearing cells at the grippers of their stretched diagonals, eq. (8a) of `docs/theory.md`.
+    ///
+    /// A shearing cell is a taut sheet: its plane contains the stretched diagonal and the direction between the
+    /// two other grippers. Where several cells meet, their planes are averaged by their weights w, and the
+    /// weight of the mean is `1 − ∏(1−w)`.
+    pub(super) fn constrain(&mut self, build: &Build<T>) {
         let grid = build.grid();
-        self.governed.clear();
-        self.governed.resize(grid.grippers(), [None; 2]);
-        let mut counts = std::mem::take(&mut self.counts);
-        counts.clear();
-        counts.resize(grid.grippers(), [0.0; 2]);
+        self.constraints.clear();
+        self.constraints.resize(grid.grippers(), None);
+        if !build.constrained || !self.is_rigid.contains(&true) {
+            return;
+        }
         for (cell, shearing) in self.shearing.iter().enumerate() {
-            let Some((_, falling)) = shearing else {
+            let Some((path, falling)) = *shearing else {
                 continue;
             };
-            let index = grid.edges() + 2 * cell + usize::from(*falling);
-            let catenary = grid.catenary(index);
+            let first = grid.edges() + 2 * cell;
+            let (stretched, other) = (first + usize::from(falling), first + usize::from(!falling));
+            let [along_u, along_v, _] = build.factors.length;
+            let [a, b] = build.ply.sides(cell, build.laid);
+            let weight = shear::onset([along_u * a, along_v * b], path, build.full_constraint);
+            let across = build.chord(other);
+            let catenary = grid.catenary(stretched);
             for (end, gripper) in [catenary.from, catenary.to].into_iter().enumerate() {
-                // where the diagonal lies up to its gripper, all but a crumb, it governs nothing
-                if build.laid[index].as_ref().is_some_and(|laid| laid.is_crumb(end)) {
+                // where the diagonal is in contact up to its gripper, all but a short free segment, it
+                // constrains nothing
+                if build.laid[stretched].as_ref().is_some_and(|laid| laid.is_crumb(end)) {
                     continue;
                 }
-                // slope in the diagonal's direction from its first end; outward at its second end is minus it
-                let slope = build.rest_line(index, end).slope();
-                let outward = if end == 0 { slope } else { -slope };
-                let along_u = match (catenary.kind, end) {
-                    (Kind::Falling, 0) | (Kind::Rising, 1) => -outward,
-                    _ => outward,
+                let Some(normal) = upward_normal(build.rest_line(stretched, end).vector(), across)
+                else {
+                    continue;
                 };
-                let along_v = if end == 0 { outward } else { -outward };
-                let g = grid.index(gripper);
-                for (d, slope) in [along_u, along_v].into_iter().enumerate() {
-                    let sum = self.governed[g][d].unwrap_or(T::from(0.0));
-                    self.governed[g][d] = Some(sum + slope);
-                    counts[g][d] += 1.0;
-                }
+                let here = &mut self.constraints[grid.index(gripper)];
+                let none = Constraint { normal: [T::from(0.0); 3], weight: T::from(0.0) };
+                let before = here.unwrap_or(none);
+                *here = Some(Constraint {
+                    normal: [0, 1, 2].map(|n| before.normal[n] + weight * normal[n]),
+                    weight: before.weight + weight - before.weight * weight,
+                });
             }
         }
-        for (governed, counts) in self.governed.iter_mut().zip(&counts) {
-            for d in 0..2 {
-                // a limp line has no slope to govern
-                let sum = governed[d].filter(|_| build.is_rigid(d));
-                governed[d] = sum.map(|sum| sum / counts[d]);
-            }
+        for constraint in self.constraints.iter_mut() {
+            // at the very onset the weight is below rounding, and there is no plane yet
+            *constraint = constraint.filter(|c| c.weight.re() > 0.0).and_then(|constraint| {
+                Some(Constraint { normal: unit(constraint.normal)?, ..constraint })
+            });
         }
-        self.counts = counts;
     }
 
-    /// Joins the edges on both sides of a gripper, and holds those that a shearing diagonal governs.
+    /// Joins the edges on both sides of a gripper, and holds those that a shearing cell constrains.
     pub(super) fn join(&mut self, build: &Build<T>) {
         let grid = build.grid();
         let lines = (0..grid.nv).map(|j| (0, j)).chain((0..grid.nu).map(|i| (1, i)));
@@ -66,9 +70,13 @@ impl<T: Number> Assembly<T> {
                 let id = if direction == 0 { [moving, fixed] } else { [fixed, moving] };
                 let gripper = grid.index(id);
                 let sides = self.sides[gripper][direction];
-                if let Some(slope) = self.governed[gripper][direction] {
+                let constraint = self.constraints[gripper].filter(|_| build.is_rigid(direction));
+                if let Some(constraint) = constraint {
                     for side in sides {
                         if let Side::Hanging(element, end) = side {
+                            let heading = self.directions[self.elements[element].catenary][end];
+                            let free = build.free.get(element).map(|slopes| slopes[end]);
+                            let slope = constraint.blend(free, heading);
                             self.elements[element].ends[end] = End::Given(slope);
                         }
                     }
@@ -85,7 +93,8 @@ impl<T: Number> Assembly<T> {
         }
     }
 
-    /// The end of a diagonal at a gripper: the plane through the two edge slopes of its cell there.
+    /// The end of a diagonal at a gripper: the plane through the two edge slopes of its cell there, or the plane
+    /// of the shearing cells.
     ///
     /// Free where those edges are parallel in plan and define no plane, and in a limp ply.
     pub(super) fn plane(
@@ -93,7 +102,7 @@ impl<T: Number> Assembly<T> {
         build: &Build<T>,
         cell: usize,
         c: Catenary,
-        end: usize,
+        [end, element]: [usize; 2],
         along: &Line<T>,
     ) -> End<T> {
         let grid = build.grid();
@@ -101,6 +110,11 @@ impl<T: Number> Assembly<T> {
             return End::Free;
         }
         let gripper = if end == 0 { c.from } else { c.to };
+        let g = grid.index(gripper);
+        if let Some(constraint) = self.constraints[g] {
+            let free = build.free.get(element).map(|slopes| slopes[end]);
+            return End::Given(constraint.blend(free, along.unit()));
+        }
         let (i, j) = (cell % (grid.nu - 1), cell / (grid.nu - 1));
         let [di, dj] = [gripper[0] - i, gripper[1] - j];
         // the cell's edges at this gripper: it stands at their start (0) or at their end (1)
@@ -115,11 +129,7 @@ impl<T: Number> Assembly<T> {
             (along[0] * v[1] - along[1] * v[0]) / determinant,
             (u[0] * along[1] - u[1] * along[0]) / determinant,
         ];
-        let g = grid.index(gripper);
         let source = [0, 1].map(|d| {
-            if let Some(slope) = self.governed[g][d] {
-                return SlopeSource::Given(slope);
-            }
             if let Some(joint) = self.joint_at[g][d] {
                 return SlopeSource::Joint(joint);
             }
@@ -152,4 +162,20 @@ pub(super) fn contact_end<T: Number>(
             End::Given((unit[0] * -nx + unit[1] * -ny) / nz)
         }
     }
+}
+
+/// Upward unit normal of the plane along two directions; none where they are parallel or the plane is vertical.
+fn upward_normal<T: Number>(a: [T; 3], b: [T; 3]) -> Option<[T; 3]> {
+    let cross = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    let normal = unit([cross(1, 2), cross(2, 0), cross(0, 1)])?;
+    let up = normal[2].re();
+    (up.abs() > VERTICAL).then(|| if up > 0.0 { normal } else { normal.map(|c| -c) })
+}
+
+/// Vertical part of a unit normal below which its plane stands upright and prescribes no slope.
+const VERTICAL: f64 = 1e-6;
+
+fn unit<T: Number>(a: [T; 3]) -> Option<[T; 3]> {
+    let square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+    (square.re() > 0.0).then(|| a.map(|c| c / square.sqrt()))
 }

@@ -4,91 +4,30 @@
 //! the two rules, read off the forces. Between calls it remembers forces and slopes by place, so an assembly
 //! that has gained or lost a span still starts warm. The iteration allocates nothing.
 
-use super::assembly::{Assembly, Build, Element, End, Factors, PlaneSlope, SlopeSource};
-use super::element::{Settled, Wanted, settle, settle_still};
+use super::assembly::{
+    Assembly, Build, Element, End, Factors, PlaneSlope, SlopeSource, class, heading,
+};
+use super::element::{Evaluated, Wanted, evaluate, evaluate_still, meet_length};
+use super::status::{EarlyEnds, Equilibrium, Status};
+use super::tuning::Tuning;
 use super::{min_force, moment_balance};
 use crate::catenary::SpanState;
 use crate::ply::{Laid, Ply};
 use crate::scene::{Settings, SlopeRule};
-use serde::{Deserialize, Serialize};
-
-/// How a solve ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Status {
-    /// The slopes satisfy their rule to rounding.
-    Converged,
-    /// The rule could not be satisfied further: no step improves it.
-    Stalled,
-    /// The iteration limit came first.
-    IterationLimit,
-}
-
-impl Status {
-    /// In words.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Status::Converged => "converged",
-            Status::Stalled => "stalled",
-            Status::IterationLimit => "iteration-limit",
-        }
-    }
-}
-
-/// How the last solve went.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Equilibrium {
-    /// How it ended.
-    pub status: Status,
-    /// Iterations on the slopes.
-    pub iterations: usize,
-    /// Optimality that is left: the Newton step of the slopes still to go, bounds respected.
-    pub residual: f64,
-}
-
-/// Iterations after which a solve gives up.
-pub(super) const MAX_ITERATIONS: usize = 100;
-
-/// Newton step of the slopes beyond which none may be the last.
-const LAST_STEP: f64 = 3e-4;
-
-/// Error of the slopes that a solve aims at.
-const AIM: f64 = 1e-8;
-
-/// Share of the flexural rigidity from which a difficult ply is stiffened.
-const LIMP: f64 = 1e-4;
-
-/// Growth of the rigidity below which stiffening is given up.
-const SMALLEST_GROWTH: f64 = 1.05;
-
-/// Relative error of a length that spoils an equilibrium.
-const LENGTH: f64 = 1e-8;
-
-/// Turn of an element's ends that its series takes: the force to its cube, the derivatives to its square.
-const SMALL_TURN: f64 = 1e-4;
-
-/// Relative step of H over which derivatives may have been carried at the last step.
-const SHARP: f64 = 2e-4;
-
-/// Error of the slopes to expect after a Newton step of `size` that came after one of `before`: the
-/// convergence is quadratic.
-pub(super) fn error_after(size: f64, before: f64) -> f64 {
-    if before.is_finite() && size > 0.0 { size * (size / before).powi(2) } else { size }
-}
 
 /// Finds equilibria, one after the other.
 #[derive(Debug, Clone)]
 pub struct Solver {
     pub(super) ply: Ply,
     pub(super) settings: Settings,
+    pub(super) tuning: Tuning,
     pub(super) assembly: Assembly<f64>,
     /// Shared slopes, one a joint.
     pub(super) slopes: Vec<f64>,
     /// Slopes that hold both ends of each element; a free end's is its outcome.
     pub(super) held: Vec<[f64; 2]>,
     /// Each element's force with its derivatives.
-    pub(super) settled: Vec<Settled<2>>,
+    pub(super) evaluated: Vec<Evaluated<2>>,
     /// What is needed of each element's ends.
     pub(super) wanted: Vec<Wanted>,
     pub(super) work: Work,
@@ -97,6 +36,14 @@ pub struct Solver {
     /// Buckling force of each element with free ends, and the height of the parabola's force above it.
     heights: Vec<[f64; 2]>,
     memory: Vec<[f64; 2]>,
+    /// Ratio of a force to its parabola's, found last for a span of the same kind with the same ends.
+    alike: [Option<f64>; 12],
+    /// Finds the same ply's equilibrium without constraints, where its slopes count.
+    pub(super) unconstrained: Option<Box<Solver>>,
+    /// Slopes at both ends of every element there; empty where they do not count.
+    pub(super) free: Vec<[f64; 2]>,
+    /// Whether shearing cells constrain slopes.
+    pub(super) constrained: bool,
 }
 
 /// Buffers of the iteration.
@@ -106,7 +53,6 @@ pub(super) struct Work {
     pub step: Vec<f64>,
     pub trial: Vec<f64>,
     pub active: Vec<bool>,
-    pub held: Vec<bool>,
     pub diagonal: Vec<f64>,
     pub vectors: [Vec<f64>; 4],
     pub start: Vec<f64>,
@@ -116,6 +62,7 @@ pub(super) struct Work {
     pub blocks: Vec<[[f64; 2]; 2]>,
     pub adjoint: Vec<[f64; 2]>,
     pub rows: Vec<[[(usize, f64); 2]; 2]>,
+    pub early_ends: EarlyEnds,
 }
 
 impl Solver {
@@ -125,54 +72,132 @@ impl Solver {
         Solver {
             ply: ply.clone(),
             settings: *settings,
+            tuning: Tuning::default(),
             assembly: Assembly::default(),
             slopes: Vec::new(),
             held: Vec::new(),
-            settled: Vec::new(),
+            evaluated: Vec::new(),
             wanted: Vec::new(),
             work: Work::default(),
             ratios: vec![[None; 2]; ply.grid.catenaries()],
             heights: Vec::new(),
             memory: vec![[0.0; 2]; ply.grid.grippers()],
+            alike: [None; 12],
+            unconstrained: None,
+            free: Vec::new(),
+            constrained: true,
         }
+    }
+
+    /// The same solver with other tuning constants.
+    #[must_use]
+    pub fn with_tuning(mut self, tuning: Tuning) -> Solver {
+        self.tuning = tuning;
+        self.unconstrained = None;
+        self
+    }
+
+    /// The tuning constants.
+    #[must_use]
+    pub fn tuning(&self) -> &Tuning {
+        &self.tuning
     }
 
     /// Forgets earlier solutions: the next solve starts cold.
     pub fn forget(&mut self) {
         self.ratios.fill([None; 2]);
         self.memory.fill([0.0; 2]);
+        if let Some(unconstrained) = &mut self.unconstrained {
+            unconstrained.forget();
+        }
     }
 
     /// Solves the equilibrium at gripper positions (m), in the order of [`crate::ply::Grid::index`],
     /// with what the mold has caught of each catenary.
     ///
-    /// Where the direct way fails, as it may for stiff plies in compression, the ply is made limp and
-    /// stiffened by and by: that follows the hanging state to its like.
+    /// Where a cell has just begun to shear, the ply is solved without constraints first: those slopes are mixed
+    /// with the plane's.
     pub fn solve(&mut self, positions: &[[f64; 3]], laid: &[Option<Laid>]) -> Equilibrium {
+        self.free.clear();
+        self.rebuild(positions, laid, 1.0);
+        let mut auxiliary = None;
+        if self.assembly.is_partly_constrained() {
+            let mut solver = self.unconstrained.take().unwrap_or_else(|| {
+                let mut solver = Solver::new(&self.ply, &self.settings).with_tuning(self.tuning);
+                solver.constrained = false;
+                Box::new(solver)
+            });
+            auxiliary = Some(solver.follow(positions, laid));
+            self.free.extend_from_slice(&solver.held);
+            self.unconstrained = Some(solver);
+        }
+        let outcome = self.follow(positions, laid);
+        match auxiliary {
+            None => outcome,
+            Some(first) => Equilibrium {
+                status: if first.status == Status::Converged { outcome.status } else { first.status },
+                iterations: first.iterations + outcome.iterations,
+                residual: outcome.residual.max(first.residual),
+                length_residual: outcome.length_residual.max(first.length_residual),
+                early_ends: first.early_ends.plus(outcome.early_ends),
+            },
+        }
+    }
+
+    /// Solves directly, or where that fails, as it may for stiff plies in compression, by continuation: the ply is
+    /// made limp and stiffened step by step, which follows the hanging state to its like.
+    fn follow(&mut self, positions: &[[f64; 3]], laid: &[Option<Laid>]) -> Equilibrium {
         let direct = self.attempt(positions, laid, 1.0);
         if direct.status == Status::Converged {
             return direct;
         }
-        let mut iterations = direct.iterations;
-        self.forget();
-        let (mut done, mut growth) = (LIMP, 4.0);
-        self.attempt(positions, laid, done);
-        while growth > SMALLEST_GROWTH {
+        let Tuning { limp, growth, smallest_growth, .. } = self.tuning;
+        let (mut iterations, mut early_ends) = (direct.iterations, direct.early_ends);
+        let mut count = |outcome: &Equilibrium| {
+            iterations += outcome.iterations;
+            early_ends = early_ends.plus(outcome.early_ends);
+            early_ends.continuation += 1;
+            (iterations, early_ends)
+        };
+        self.forget_own();
+        let (mut done, mut growth) = (limp, growth);
+        count(&self.attempt(positions, laid, done));
+        while growth > smallest_growth {
             let memory = (self.ratios.clone(), self.memory.clone());
             let next = f64::min(growth * done, 1.0);
             let outcome = self.attempt(positions, laid, next);
-            iterations += outcome.iterations;
+            let (iterations, early_ends) = count(&outcome);
             if outcome.status != Status::Converged {
                 (self.ratios, self.memory) = memory;
                 growth = growth.sqrt();
             } else if next >= 1.0 {
-                return Equilibrium { iterations, ..outcome };
+                return Equilibrium { iterations, early_ends, ..outcome };
             } else {
                 done = next;
             }
         }
-        self.forget();
-        Equilibrium { iterations, ..self.attempt(positions, laid, 1.0) }
+        self.forget_own();
+        let outcome = self.attempt(positions, laid, 1.0);
+        let (iterations, early_ends) = count(&outcome);
+        Equilibrium { iterations, early_ends, ..outcome }
+    }
+
+    fn forget_own(&mut self) {
+        self.ratios.fill([None; 2]);
+        self.memory.fill([0.0; 2]);
+    }
+
+    fn rebuild(&mut self, positions: &[[f64; 3]], laid: &[Option<Laid>], stiffness: f64) {
+        self.assembly.rebuild(&Build {
+            ply: &self.ply,
+            settings: &self.settings,
+            positions,
+            laid,
+            factors: Factors { length: [1.0; 3], weight: [1.0; 3], rigidity: [stiffness; 3] },
+            full_constraint: self.tuning.full_constraint,
+            free: &self.free,
+            constrained: self.constrained,
+        });
     }
 
     /// Solves with the flexural rigidity multiplied by `stiffness`.
@@ -182,28 +207,19 @@ impl Solver {
         laid: &[Option<Laid>],
         stiffness: f64,
     ) -> Equilibrium {
-        let build = Build {
-            ply: &self.ply,
-            settings: &self.settings,
-            positions,
-            laid,
-            factors: Factors { length: [1.0; 3], weight: [1.0; 3], rigidity: [stiffness; 3] },
-        };
-        self.assembly.rebuild(&build);
+        self.rebuild(positions, laid, stiffness);
+        self.work.early_ends = EarlyEnds::default();
         self.recall();
         let outcome = match self.settings.slopes {
             SlopeRule::MinForce => min_force::solve(self),
             SlopeRule::MomentBalance => moment_balance::solve(self),
         };
+        let length_residual = self.measure_lengths();
         self.remember();
         // a span that could not meet its length spoils the whole
-        let unmet = self.settled.iter().map(|settled| settled.unmet).fold(0.0, f64::max);
-        let lost = self.settled.iter().any(|settled| !settled.force.value.is_finite());
-        if lost || unmet > LENGTH {
-            let residual = outcome.residual.max(unmet);
-            return Equilibrium { status: Status::Stalled, residual, ..outcome };
-        }
-        outcome
+        let met = length_residual <= self.tuning.length_tolerance;
+        let status = if met { outcome.status } else { Status::LengthNotMet };
+        Equilibrium { status, length_residual, early_ends: self.work.early_ends, ..outcome }
     }
 
     /// The assembly of the last solve.
@@ -222,13 +238,26 @@ impl Solver {
     #[must_use]
     pub fn force(&self, element: usize) -> Option<f64> {
         let hangs = self.assembly.elements[element].state != SpanState::Straight;
-        hangs.then(|| self.settled[element].force.value)
+        hangs.then(|| self.evaluated[element].force.value)
     }
 
     /// Slopes at both ends of an element.
     #[must_use]
     pub fn end_slopes(&self, element: usize) -> [f64; 2] {
         self.held[element]
+    }
+
+    /// Slope of the ply at a gripper along a direction (0: u, 1: v), see [`Assembly::gripper_slope`]; `positions` (m) are
+    /// those of the last solve.
+    #[must_use]
+    pub fn gripper_slope(
+        &self,
+        positions: &[[f64; 3]],
+        gripper: usize,
+        direction: usize,
+    ) -> Option<f64> {
+        let heading = heading(self.ply.grid, positions, gripper, direction)?;
+        self.assembly.gripper_slope(gripper, direction, heading, [&self.free, &self.held])
     }
 
     /// Which ends of an element have a prescribed slope.
@@ -269,8 +298,8 @@ impl Solver {
         }
         self.held.clear();
         self.held.resize(count, [f64::NAN; 2]);
-        self.settled.clear();
-        self.settled.resize(count, Settled::default());
+        self.evaluated.clear();
+        self.evaluated.resize(count, Evaluated::default());
         self.wanted.clear();
         self.wanted.resize(count, Wanted::default());
         for n in 0..count {
@@ -282,6 +311,7 @@ impl Solver {
                 }
             }
         }
+        self.alike = [None; 12];
         self.heights.clear();
         for (n, element) in self.assembly.elements.iter().enumerate() {
             // the force follows the parabola's from step to step; NaN where the span is new
@@ -290,7 +320,7 @@ impl Solver {
             let pole = span.buckling_force();
             let height = span.first_guess() - pole;
             self.heights.push([pole, height]);
-            self.settled[n].force.value = pole + ratio * height;
+            self.evaluated[n].force.value = pole + ratio * height;
         }
     }
 
@@ -311,7 +341,7 @@ impl Solver {
     fn remember(&mut self) {
         for (n, element) in self.assembly.elements.iter().enumerate() {
             let [pole, height] = self.heights[n];
-            let ratio = (self.settled[n].force.value - pole) / height;
+            let ratio = (self.evaluated[n].force.value - pole) / height;
             self.ratios[element.catenary][element.rest] =
                 (element.state != SpanState::Straight && ratio.is_finite()).then_some(ratio);
         }
@@ -320,37 +350,71 @@ impl Solver {
         }
     }
 
-    /// Settles the elements of a range at the present shared slopes.
-    pub(super) fn settle(&mut self, elements: std::ops::Range<usize>) {
+    /// Evaluates the elements of a range at the present shared slopes.
+    pub(super) fn evaluate_elements(&mut self, elements: std::ops::Range<usize>) {
         for n in elements {
             let element = self.assembly.elements[n];
             if element.state == SpanState::Straight {
                 let slope = if element.run > 0.0 { element.rise / element.run } else { 0.0 };
                 self.held[n] = [slope; 2];
-                self.settled[n] = Settled::default();
-                self.settled[n].slope.iter_mut().for_each(|s| s.value = slope);
+                self.evaluated[n] = Evaluated::default();
+                self.evaluated[n].slope.iter_mut().for_each(|s| s.value = slope);
                 continue;
             }
             let slopes = [0, 1].map(|end| self.slope_at(&element, end));
             // nothing that holds it has moved: keep what is known
-            if slopes == self.held[n] && self.settled[n].carried <= SHARP {
-                continue;
-            }
-            let step = [slopes[0] - self.held[n][0], slopes[1] - self.held[n][1]];
-            if step[0].abs().max(step[1].abs()) <= SMALL_TURN && self.settled[n].carried <= SHARP {
-                self.turn(n, slopes);
+            if slopes == self.held[n] && !self.evaluated[n].length_residual.is_nan() {
                 continue;
             }
             let guess = self.predict(n, slopes);
             let span = element.span(self.settings.axial_stiffness, &slopes);
             let wanted = self.wanted[n];
-            self.settled[n] = if wanted.derivatives {
-                settle::<3, 2>(&span, guess, wanted)
+            self.evaluated[n] = if wanted.derivatives {
+                evaluate::<3, 2>(&span, guess, wanted)
             } else {
-                settle_still(&span, guess, wanted)
+                evaluate_still(&span, guess, wanted)
             };
             self.held[n] = slopes;
+            let [pole, height] = self.heights[n];
+            self.alike[self.likeness(&element)] =
+                Some((self.evaluated[n].force.value - pole) / height).filter(|r| r.is_finite());
         }
+    }
+
+    /// Largest relative error of a length, measured at the forces that are returned; slopes of free ends are
+    /// read off on the way.
+    fn measure_lengths(&mut self) -> f64 {
+        let mut largest: f64 = 0.0;
+        for (n, element) in self.assembly.elements.iter().enumerate() {
+            if element.state == SpanState::Straight {
+                continue;
+            }
+            let span = element.span(self.settings.axial_stiffness, &self.held[n]);
+            let found = &mut self.evaluated[n];
+            if !(found.length_residual <= 0.1 * self.tuning.length_tolerance) {
+                (found.force.value, found.length_residual) =
+                    meet_length(&span, Some(found.force.value));
+            }
+            let residual = found.length_residual;
+            largest = largest.max(if residual.is_finite() { residual } else { f64::INFINITY });
+            let free = element.ends.map(|end| matches!(end, End::Free));
+            if free[0] || free[1] {
+                let profile = crate::catenary::Profile::new(&span, found.force.value);
+                for end in 0..2 {
+                    if free[end] {
+                        self.held[n][end] = profile.end_slope(end);
+                    }
+                }
+            }
+        }
+        largest
+    }
+
+    /// Which spans are alike: of one kind, with the same ends free.
+    fn likeness(&self, element: &Element<f64>) -> usize {
+        let kind = class(self.ply.grid.catenary(element.catenary).kind);
+        let [first, second] = element.ends.map(|end| usize::from(matches!(end, End::Free)));
+        4 * kind + 2 * first + second
     }
 
     /// The slope that holds an end; 0 where nothing does.
@@ -367,78 +431,24 @@ impl Solver {
         let slope = |source| match source {
             SlopeSource::Given(slope) => slope,
             SlopeSource::Joint(joint) => self.slopes[joint],
-            SlopeSource::Outcome(edge, end) => self.settled[edge].slope[end].value,
+            SlopeSource::Outcome(edge, end) => self.evaluated[edge].slope[end].value,
         };
         plane.share[0] * slope(plane.source[0]) + plane.share[1] * slope(plane.source[1])
     }
 
     /// Force at new end slopes by the second-order series about the last ones.
     fn predict(&self, n: usize, slopes: [f64; 2]) -> Option<f64> {
-        let jet = &self.settled[n].force;
+        let jet = &self.evaluated[n].force;
         if jet.value.is_nan() {
-            return None;
+            let [pole, height] = self.heights[n];
+            let ratio = self.alike[self.likeness(&self.assembly.elements[n])];
+            return ratio.map(|ratio| pole + ratio * height);
         }
         let held = self.held[n];
         if held[0].is_nan() {
             return Some(jet.value);
         }
         Some(series(jet, [slopes[0] - held[0], slopes[1] - held[1]]))
-    }
-
-    /// Whether a Newton step of `size` after one of `before` may be the last, taken by series.
-    ///
-    /// The derivatives must not have been carried a long way.
-    pub(super) fn may_finish(&self, size: f64, before: f64) -> bool {
-        size <= LAST_STEP && error_after(size, before) <= AIM && self.is_sharp()
-    }
-
-    fn is_sharp(&self) -> bool {
-        self.settled.iter().all(|settled| settled.carried <= SHARP)
-    }
-
-    /// Takes a last small step of the shared slopes by series, without settling anew.
-    pub(super) fn finish(&mut self, elements: std::ops::Range<usize>) {
-        for n in elements {
-            let element = self.assembly.elements[n];
-            if element.state == SpanState::Straight {
-                continue;
-            }
-            let slopes = [0, 1].map(|end| self.slope_at(&element, end));
-            self.turn(n, slopes);
-        }
-    }
-
-    /// Carries an element to slightly other end slopes by its second-order series.
-    fn turn(&mut self, n: usize, slopes: [f64; 2]) {
-        let step = [slopes[0] - self.held[n][0], slopes[1] - self.held[n][1]];
-        let Settled { force, slope, curvature, carried, .. } = &mut self.settled[n];
-        for jet in [force].into_iter().chain(slope).chain(curvature) {
-            jet.value = series(jet, step);
-            for i in 0..2 {
-                jet.gradient[i] += jet.hessian[i][0] * step[0] + jet.hessian[i][1] * step[1];
-            }
-        }
-        *carried += step[0].abs().max(step[1].abs());
-        self.held[n] = slopes;
-    }
-
-    /// Writes the outcome of free ends where their slope is reported.
-    pub(super) fn read_free_ends(&mut self) {
-        for (n, element) in self.assembly.elements.iter().enumerate() {
-            if element.state == SpanState::Straight {
-                continue;
-            }
-            let free = element.ends.map(|end| matches!(end, End::Free));
-            if free[0] || free[1] {
-                let span = element.span(self.settings.axial_stiffness, &self.held[n]);
-                let profile = crate::catenary::Profile::new(&span, self.settled[n].force.value);
-                for end in 0..2 {
-                    if free[end] {
-                        self.held[n][end] = profile.end_slope(end);
-                    }
-                }
-            }
-        }
     }
 }
 

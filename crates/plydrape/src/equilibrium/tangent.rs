@@ -5,9 +5,9 @@
 //! same assembly and the same rule; what it does to the rule's residual at fixed slopes gives the slopes'
 //! response through the matrix of the last Newton step, and a second pass gives every force.
 
-use super::assembly::{Assembly, Build, End, Factors, Side, SlopeSource};
+use super::assembly::{Assembly, Build, End, Factors, SlopeSource, heading};
 use super::direction::Direction;
-use super::element::{Settled, Wanted, settle};
+use super::element::{Evaluated, Wanted, evaluate};
 use super::hessian::assemble;
 use super::min_force::{self, Response};
 use super::moment_balance;
@@ -32,11 +32,12 @@ pub struct StateTangent {
     pub loads: Vec<[f64; 2]>,
     /// Change of the taut path of each cell's stretched diagonal (m); 0 where none is.
     pub paths: Vec<f64>,
-    /// Change of the slopes along u and v that a shearing diagonal governs at each gripper; 0 where none.
-    pub governed: Vec<[f64; 2]>,
-    /// Change of the slopes of edges that are straight or lie, `[direction][before, after]` at each gripper;
-    /// 0 where they hang.
-    pub fixed: Vec<[[f64; 2]; 2]>,
+    /// Change of the slopes of the ply at each gripper along u and v, see [`Solver::gripper_slope`]; 0 where it has
+    /// none.
+    pub grippers: Vec<[f64; 2]>,
+    /// Whether the linear systems of the slopes were solved. Where they were not, the state is no strict minimum (or
+    /// no stable balance) and the other fields are no derivatives.
+    pub is_sound: bool,
 }
 
 /// A jet along the direction: its value and gradient to the end slopes as dual numbers.
@@ -57,13 +58,47 @@ struct Pass {
 /// The last solved state of a [`Solver`], ready to be differentiated along any number of directions.
 ///
 /// What does not depend on the direction is done once: every element's derivatives and the matrix of
-/// the slopes.
+/// the slopes. Where slopes are mixed with those of the unconstrained ply, that ply is differentiated first.
 #[derive(Debug)]
 pub struct Linearized<'a> {
     solver: &'a mut Solver,
     positions: &'a [[f64; 3]],
     laid: &'a [Option<Laid>],
-    jets: Vec<Settled<7>>,
+    own: Linearization,
+    unconstrained: Option<Linearization>,
+    sound: bool,
+}
+
+impl Linearized<'_> {
+    /// How the state changes along a direction.
+    pub fn along(&mut self, direction: &Direction) -> StateTangent {
+        let mut free: &[[Dual64; 2]] = &[];
+        let mut sound = true;
+        if let (Some(linearization), Some(solver)) =
+            (&mut self.unconstrained, &mut self.solver.unconstrained)
+        {
+            let state = linearization.along(solver, self.positions, self.laid, direction, &[]);
+            sound = state.is_sound;
+            free = &linearization.pass.held;
+        }
+        let mut state =
+            self.own.along(self.solver, self.positions, self.laid, direction, free);
+        state.is_sound &= sound;
+        self.sound &= state.is_sound;
+        state
+    }
+
+    /// Whether every derivative taken so far is one: see [`StateTangent::is_sound`].
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        self.sound
+    }
+}
+
+/// What does not depend on the direction, and buffers.
+#[derive(Debug)]
+struct Linearization {
+    jets: Vec<Evaluated<7>>,
     moving: Vec<[Dual64; 3]>,
     assembly: Assembly<Dual64>,
     pass: Pass,
@@ -72,32 +107,61 @@ pub struct Linearized<'a> {
     change: Vec<f64>,
 }
 
-impl Linearized<'_> {
-    /// How the state changes along a direction.
-    pub fn along(&mut self, direction: &Direction) -> StateTangent {
+impl Linearization {
+    /// Of a solver's last state.
+    fn new(solver: &mut Solver) -> Linearization {
+        let jets: Vec<Evaluated<7>> =
+            (0..solver.assembly.elements.len()).map(|n| solver.all_jets(n)).collect();
+        solver.refresh(&jets);
+        if solver.settings.slopes == SlopeRule::MinForce {
+            assemble(solver);
+        }
+        Linearization {
+            jets,
+            moving: Vec::new(),
+            assembly: Assembly::default(),
+            pass: Pass::default(),
+            gradient: Vec::new(),
+            adjoint: Vec::new(),
+            change: Vec::new(),
+        }
+    }
+
+    /// How the state changes along a direction; `free` are the end slopes of the unconstrained ply, where they count.
+    fn along(
+        &mut self,
+        solver: &mut Solver,
+        positions: &[[f64; 3]],
+        laid: &[Option<Laid>],
+        direction: &Direction,
+        free: &[[Dual64; 2]],
+    ) -> StateTangent {
         self.moving.clear();
-        let moved = self.positions.iter().zip(&direction.grippers);
+        let moved = positions.iter().zip(&direction.grippers);
         self.moving.extend(moved.map(|(p, v)| [0, 1, 2].map(|n| Dual64::new(p[n], v[n]))));
         let factors = |changes: [f64; 3]| changes.map(|change| Dual64::new(1.0, change));
         self.assembly.rebuild(&Build {
-            ply: &self.solver.ply,
-            settings: &self.solver.settings,
+            ply: &solver.ply,
+            settings: &solver.settings,
             positions: &self.moving,
-            laid: self.laid,
+            laid,
             factors: Factors {
                 length: factors(direction.length),
                 weight: factors(direction.weight),
                 rigidity: factors(direction.rigidity),
             },
+            full_constraint: solver.tuning.full_constraint,
+            free,
+            constrained: solver.constrained,
         });
 
         // what the direction does to the rule at fixed slopes
-        let joints = self.solver.slopes.len();
+        let joints = solver.slopes.len();
         let mut slopes = vec![0.0; joints];
-        self.pass.run(self.solver, &self.assembly, &self.jets, &slopes);
+        self.pass.run(solver, &self.assembly, &self.jets, &slopes);
         let (assembly, pass) = (&self.assembly, &self.pass);
         self.change.clear();
-        match self.solver.settings.slopes {
+        match solver.settings.slopes {
             SlopeRule::MinForce => {
                 self.gradient.resize(joints, Dual64::from(0.0));
                 self.adjoint.resize(assembly.elements.len(), [Dual64::from(0.0); 2]);
@@ -112,15 +176,17 @@ impl Linearized<'_> {
             }
         }
         // what the slopes answer, and with it everything else
-        match self.solver.settings.slopes {
-            SlopeRule::MinForce => min_force::respond(self.solver, &self.change, &mut slopes),
-            SlopeRule::MomentBalance => {
-                moment_balance::respond(self.solver, &self.change, &mut slopes);
-            }
-        }
-        self.pass.run(self.solver, &self.assembly, &self.jets, &slopes);
-        let (assembly, pass) = (&self.assembly, &self.pass);
-        let fixed = |side: &Side<Dual64>| if let Side::Fixed(s) = side { s.eps } else { 0.0 };
+        let is_sound = match solver.settings.slopes {
+            SlopeRule::MinForce => min_force::respond(solver, &self.change, &mut slopes),
+            SlopeRule::MomentBalance => moment_balance::respond(solver, &self.change, &mut slopes),
+        };
+        self.pass.run(solver, &self.assembly, &self.jets, &slopes);
+        let (assembly, pass, moving) = (&self.assembly, &self.pass, &self.moving);
+        let gripper_slope = |gripper: usize, direction: usize| {
+            let heading = heading(solver.ply.grid, moving, gripper, direction)?;
+            assembly.gripper_slope(gripper, direction, heading, [free, &pass.held])
+        };
+        let gripper = |n| [0, 1].map(|d| gripper_slope(n, d).map_or(0.0, |slope| slope.eps));
         StateTangent {
             slopes,
             force: pass.responses.iter().map(|r| r.force.0.eps).collect(),
@@ -130,12 +196,8 @@ impl Linearized<'_> {
                 .collect(),
             loads: assembly.elements.iter().map(|e| [e.weight.eps, e.rigidity.eps]).collect(),
             paths: assembly.shearing.iter().map(|s| s.map_or(0.0, |(path, _)| path.eps)).collect(),
-            governed: (assembly.governed.iter())
-                .map(|g| g.map(|slope| slope.map_or(0.0, |s| s.eps)))
-                .collect(),
-            fixed: (assembly.sides.iter())
-                .map(|sides| [0, 1].map(|d| [0, 1].map(|n| fixed(&sides[d][n]))))
-                .collect(),
+            grippers: (0..positions.len()).map(gripper).collect(),
+            is_sound,
         }
     }
 }
@@ -162,56 +224,44 @@ impl Solver {
         positions: &'a [[f64; 3]],
         laid: &'a [Option<Laid>],
     ) -> Linearized<'a> {
-        let jets: Vec<Settled<7>> =
-            (0..self.assembly.elements.len()).map(|n| self.all_jets(n)).collect();
-        self.refresh(&jets);
-        if self.settings.slopes == SlopeRule::MinForce {
-            assemble(self);
-        }
-        Linearized {
-            solver: self,
-            positions,
-            laid,
-            jets,
-            moving: Vec::new(),
-            assembly: Assembly::default(),
-            pass: Pass::default(),
-            gradient: Vec::new(),
-            adjoint: Vec::new(),
-            change: Vec::new(),
-        }
+        let own = Linearization::new(self);
+        let unconstrained = match &mut self.unconstrained {
+            Some(solver) if !self.free.is_empty() => Some(Linearization::new(solver)),
+            _ => None,
+        };
+        Linearized { solver: self, positions, laid, own, unconstrained, sound: true }
     }
 
     /// An element with derivatives to everything it depends on.
-    fn all_jets(&self, n: usize) -> Settled<7> {
+    fn all_jets(&self, n: usize) -> Evaluated<7> {
         let element = &self.assembly.elements[n];
         if element.state == SpanState::Straight {
-            return Settled::default();
+            return Evaluated::default();
         }
         let span = element.span(self.settings.axial_stiffness, &self.held[n]);
         let wanted = Wanted { slope: [true; 2], curvature: [true; 2], derivatives: true };
-        settle::<8, 7>(&span, Some(self.settled[n].force.value), wanted)
+        evaluate::<8, 7>(&span, Some(self.evaluated[n].force.value), wanted)
     }
 
     /// Puts exact derivatives at the solution where the last step was taken by series.
-    fn refresh(&mut self, jets: &[Settled<7>]) {
+    fn refresh(&mut self, jets: &[Evaluated<7>]) {
         let small = |jet: &Jet<7>| Jet {
             value: jet.value,
             gradient: [jet.gradient[0], jet.gradient[1]],
             hessian: [0, 1].map(|i| [jet.hessian[i][0], jet.hessian[i][1]]),
         };
-        for (settled, jets) in self.settled.iter_mut().zip(jets) {
-            settled.force = small(&jets.force);
+        for (evaluated, jets) in self.evaluated.iter_mut().zip(jets) {
+            evaluated.force = small(&jets.force);
             for end in 0..2 {
-                settled.slope[end] = small(&jets.slope[end]);
-                settled.curvature[end] = small(&jets.curvature[end]);
+                evaluated.slope[end] = small(&jets.slope[end]);
+                evaluated.curvature[end] = small(&jets.curvature[end]);
             }
         }
         // the adjoint of the free ends, for the Hessian
-        let settled = &self.settled;
+        let evaluated = &self.evaluated;
         let response = |n: usize| Response {
-            force: (settled[n].force.value, settled[n].force.gradient),
-            slope: settled[n].slope.map(|s| (s.value, s.gradient)),
+            force: (evaluated[n].force.value, evaluated[n].force.gradient),
+            slope: evaluated[n].slope.map(|s| (s.value, s.gradient)),
         };
         self.work.gradient.resize(self.slopes.len(), 0.0);
         self.work.adjoint.resize(self.assembly.elements.len(), [0.0; 2]);
@@ -222,7 +272,7 @@ impl Solver {
             }
             SlopeRule::MomentBalance => {
                 for (n, out) in self.work.gradient.iter_mut().enumerate() {
-                    let curvature = |e: usize, end: usize| settled[e].curvature[end].value;
+                    let curvature = |e: usize, end: usize| evaluated[e].curvature[end].value;
                     *out = moment_balance::jump(&self.assembly, n, curvature);
                 }
             }
@@ -237,7 +287,7 @@ impl Pass {
         &mut self,
         solver: &Solver,
         assembly: &Assembly<Dual64>,
-        jets: &[Settled<7>],
+        jets: &[Evaluated<7>],
         slopes: &[f64],
     ) {
         let zero = Dual64::from(0.0);

@@ -20,6 +20,23 @@ pub fn angle([a, b]: [f64; 2], stretched: f64) -> f64 {
     sine.clamp(-1.0, 1.0).asin()
 }
 
+/// Weight of a shearing cell's plane in the slopes around it, from 0 at the onset of shear to 1 at the shear angle
+/// `full` (rad): the smoothstep `x²(3 − 2x)` of x = γ/`full`.
+///
+/// A number that carries its derivative gives the weight's derivative: zero at both ends.
+#[must_use]
+pub fn onset<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T, full: f64) -> T {
+    let sine = (stretched * stretched - a * a - b * b) / (a * b * 2.0);
+    if sine.re() >= full.sin() {
+        return T::from(1.0);
+    }
+    if sine.re() <= 0.0 {
+        return T::from(0.0);
+    }
+    let share = sine.asin() / full;
+    share * share * (-share * 2.0 + 3.0)
+}
+
 /// How the shear angle (rad) changes with the sides a, b and the stretched diagonal, each changing by so much (m);
 /// 0 where the cell has folded.
 #[must_use]

@@ -2,6 +2,7 @@
 
 use super::touch::distance_gradient;
 use super::{Quantity, Sensitivity};
+use crate::equilibrium::neighbours;
 use crate::mold::vector::{sub, unit};
 use crate::ply::shear;
 use num_dual::{Dual64, DualNum};
@@ -60,7 +61,7 @@ impl Sensitivity<'_> {
             Dual64::new(self.positions[n][axis], f64::from(u8::from(moves)))
         };
         let heading = |d: usize| {
-            let [before, after] = self.neighbours(gripper, d);
+            let [before, after] = neighbours(self.scene.ply.grid, gripper, d);
             let [x, y] = [0, 1].map(|n| position(after, n) - position(before, n));
             let square = x * x + y * y;
             (square.re > 0.0).then(|| [x, y].map(|c| c / square.sqrt()))
@@ -79,14 +80,5 @@ impl Sensitivity<'_> {
         let aside = if square.re > 0.0 { square.sqrt() } else { zero };
         let up = if nz.re < 0.0 { -nz } else { nz };
         aside.atan2(up)
-    }
-
-    /// The grippers before and after one along a direction; itself at the rim.
-    fn neighbours(&self, gripper: usize, direction: usize) -> [usize; 2] {
-        let grid = self.scene.ply.grid;
-        let [i, j] = grid.id(gripper);
-        let (index, count) = if direction == 0 { (i, grid.nu) } else { (j, grid.nv) };
-        let at = |k: usize| grid.index(if direction == 0 { [k, j] } else { [i, k] });
-        [at(index.saturating_sub(1)), at((index + 1).min(count - 1))]
     }
 }

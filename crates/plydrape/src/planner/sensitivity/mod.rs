@@ -18,7 +18,7 @@ pub use outcome::{Outcome, outcome};
 pub use span::Place;
 
 use crate::draping::spans::{FreeSpan, Point, Shape};
-use crate::equilibrium::{Direction, Side, Solver, StateTangent};
+use crate::equilibrium::{Direction, Solver, StateTangent};
 use crate::ply::Laid;
 use crate::scene::Scene;
 
@@ -61,7 +61,7 @@ impl<'a> Sensitivity<'a> {
         laid: &'a [Option<Laid>],
     ) -> Self {
         let width = 3 * positions.len();
-        let mut state = State::new(solver, positions.len());
+        let mut state = State::new(solver, positions);
         let mut direction = Direction::none(positions.len());
         let mut linearized = solver.linearize(positions, laid);
         for column in 0..width {
@@ -114,51 +114,19 @@ struct State {
     rows: Vec<f64>,
     paths: Vec<Option<Quantity>>,
     slopes: Vec<[Option<Quantity>; 2]>,
-    /// What makes up the slope at each gripper.
-    sources: Vec<[Source; 2]>,
-}
-
-/// Where the slope at a gripper comes from.
-#[derive(Clone, Copy)]
-enum Source {
-    Governed,
-    /// The mean of the edges on both sides.
-    Sides([Side<f64>; 2]),
 }
 
 impl State {
-    fn new(solver: &Solver, grippers: usize) -> Self {
-        let (assembly, width) = (solver.assembly(), 3 * grippers);
+    fn new(solver: &Solver, positions: &[Point]) -> Self {
+        let (assembly, width) = (solver.assembly(), 3 * positions.len());
         let quantity = |value| Quantity { value, gradient: vec![0.0; width] };
-        let mut slopes = Vec::with_capacity(grippers);
-        let mut sources = Vec::with_capacity(grippers);
-        for gripper in 0..grippers {
-            let source = [0, 1].map(|d| match assembly.governed[gripper][d] {
-                Some(_) => Source::Governed,
-                None => Source::Sides(assembly.sides[gripper][d]),
-            });
-            slopes.push([0, 1].map(|d| {
-                if let Some(slope) = assembly.governed[gripper][d] {
-                    return Some(quantity(slope));
-                }
-                let at = |side| match side {
-                    Side::None => None,
-                    Side::Hanging(element, end) => Some(solver.end_slopes(element)[end]),
-                    Side::Fixed(slope) => Some(slope),
-                };
-                match assembly.sides[gripper][d].map(at) {
-                    [Some(a), Some(b)] => Some(quantity(0.5 * (a + b))),
-                    [a, b] => a.or(b).map(quantity),
-                }
-            }));
-            sources.push(source);
-        }
+        let slope = |gripper, d| solver.gripper_slope(positions, gripper, d).map(quantity);
+        let slopes = (0..positions.len()).map(|n| [0, 1].map(|d| slope(n, d))).collect();
         State {
             width,
             rows: vec![0.0; ROWS * assembly.elements.len() * width],
             paths: assembly.shearing.iter().map(|s| s.map(|(path, _)| quantity(path))).collect(),
             slopes,
-            sources,
         }
     }
 
@@ -174,26 +142,11 @@ impl State {
                 path.gradient[column] = *change;
             }
         }
-        for (gripper, sources) in self.sources.iter().enumerate() {
-            for (d, source) in sources.iter().enumerate() {
-                let Some(slope) = &mut self.slopes[gripper][d] else {
-                    continue;
-                };
-                slope.gradient[column] = match source {
-                    Source::Governed => tangent.governed[gripper][d],
-                    Source::Sides(sides) => {
-                        let (mut sum, mut count) = (0.0, 0.0);
-                        for (n, side) in sides.iter().enumerate() {
-                            sum += match *side {
-                                Side::None => continue,
-                                Side::Hanging(element, end) => tangent.end_slopes[element][end],
-                                Side::Fixed(_) => tangent.fixed[gripper][d][n],
-                            };
-                            count += 1.0;
-                        }
-                        sum / count
-                    }
-                };
+        for (slopes, changes) in self.slopes.iter_mut().zip(&tangent.grippers) {
+            for (slope, change) in slopes.iter_mut().zip(changes) {
+                if let Some(slope) = slope {
+                    slope.gradient[column] = *change;
+                }
             }
         }
     }
