@@ -7,6 +7,7 @@
 mod attitude;
 pub mod contact;
 mod crossing;
+pub mod gap;
 mod landing;
 mod measures;
 pub(crate) mod reach;
@@ -19,7 +20,8 @@ use crate::mold::Mold;
 use crate::ply::{Laid, shear};
 use crate::scene::{Scene, Stepping};
 pub(crate) use attitude::attitude;
-use contact::{Bridge, IdealDiagonal, Sounding};
+use contact::{Bridge, IdealDiagonal};
+use gap::{GapMemory, GapSamples};
 pub(crate) use landing::fabric;
 pub(crate) use measures::{fit, lying_rests};
 use record::ResultFile;
@@ -128,6 +130,8 @@ pub(crate) struct Draping<'a> {
     pub(crate) laid: Vec<Option<Laid>>,
     bridges: Vec<Option<Bridge>>,
     ideal: Vec<Option<IdealDiagonal>>,
+    /// What has been seen of the mold from the spans.
+    seen: GapMemory,
     equilibria: usize,
     /// Equilibria after which a step is not cut any further.
     most: usize,
@@ -144,6 +148,7 @@ impl<'a> Draping<'a> {
             laid: vec![None; count],
             bridges: vec![None; count],
             ideal: ideal_diagonals(scene),
+            seen: GapMemory::new(scene.mold.as_ref(), count),
             equilibria: 0,
             most: usize::MAX,
             solving: Duration::ZERO,
@@ -218,8 +223,8 @@ impl<'a> Draping<'a> {
     /// As in the paper: one equilibrium, one look at the contact; solved anew where it has changed.
     fn arrive(&mut self, goal: &[Point]) -> Shape {
         let shape = self.solve(goal);
-        let soundings = self.soundings(&shape);
-        if self.touch(&shape, &soundings) { self.solve(goal) } else { shape }
+        let gaps = self.gaps(&shape);
+        if self.touch(&shape, &gaps) { self.solve(goal) } else { shape }
     }
 
     /// Cuts the way where the ply would dip deeper than the tolerance, and follows the contact at each
@@ -238,17 +243,17 @@ impl<'a> Draping<'a> {
             let next = f64::min(done + part, 1.0);
             let place = if next >= 1.0 { goal.to_vec() } else { at(next) };
             let mut shape = self.solve(&place);
-            let mut soundings = self.soundings(&shape);
-            if part > SMALLEST_CUT && self.is_deep(&soundings) && start != *goal {
+            let mut gaps = self.gaps(&shape);
+            if part > SMALLEST_CUT && self.is_deep(&gaps) && start != *goal {
                 part *= 0.5;
                 continue;
             }
             for _ in 0..MAX_ROUNDS {
-                if !self.touch(&shape, &soundings) {
+                if !self.touch(&shape, &gaps) {
                     break;
                 }
                 shape = self.solve(&place);
-                soundings = self.soundings(&shape);
+                gaps = self.gaps(&shape);
             }
             if next >= 1.0 || self.equilibria > self.most {
                 return shape;
@@ -258,21 +263,21 @@ impl<'a> Draping<'a> {
     }
 
     /// How far every span is from the mold; none without a mold.
-    fn soundings(&self, shape: &Shape) -> Vec<Sounding> {
+    fn gaps(&mut self, shape: &Shape) -> Vec<GapSamples> {
         let Some(mold) = &self.scene.mold else {
             return Vec::new();
         };
         let tolerance = self.scene.settings.contact.tolerance;
-        shape.spans.iter().map(|span| Sounding::new(span, mold, tolerance)).collect()
+        shape.spans.iter().map(|span| self.seen.samples(span, mold, tolerance)).collect()
     }
 
     /// Whether a span dips deeper below the mold than the tolerance.
-    fn is_deep(&self, soundings: &[Sounding]) -> bool {
-        soundings.iter().any(|sounding| sounding.depth() > self.scene.settings.contact.tolerance)
+    fn is_deep(&self, gaps: &[GapSamples]) -> bool {
+        gaps.iter().any(|gap| gap.depth() > self.scene.settings.contact.tolerance)
     }
 
     /// Looks at every span once; true if the contact has changed.
-    fn touch(&mut self, shape: &Shape, soundings: &[Sounding]) -> bool {
+    fn touch(&mut self, shape: &Shape, gaps: &[GapSamples]) -> bool {
         let Some(mold) = &self.scene.mold else {
             return false;
         };
@@ -281,14 +286,14 @@ impl<'a> Draping<'a> {
         for bridge in &mut self.bridges {
             *bridge = None;
         }
-        for (span, sounding) in shape.spans.iter().zip(soundings) {
+        for (span, gap) in shape.spans.iter().zip(gaps) {
             let slot = &mut self.laid[span.catenary];
             let look = match slot {
                 None => {
                     let ideal = self.ideal[span.catenary];
-                    contact::first_touch(span, sounding, mold, rule, ideal)
+                    contact::first_touch(span, gap, mold, rule, ideal)
                 }
-                Some(laid) => contact::next_touch(span, sounding, laid, mold, rule),
+                Some(laid) => contact::next_touch(span, gap, laid, mold, rule),
             };
             if let Some(laid) = look.laid {
                 *slot = Some(laid);
