@@ -57,13 +57,18 @@ fn caught(mold: &Mold, [a, b]: [Point; 2], length: f64, what: Caught) -> Option<
     let arc = laid.arc.iter().map(|s| s + from * length).collect();
     let line = Strand { points: laid.points, arc };
     let normal = [line.points[0], line.end()].map(|p| mold.normal(p));
+    let tangent = normal.map(|[nx, ny, nz]| {
+        let slope = -(nx * heading[0] + ny * heading[1]) / nz;
+        [heading[0], heading[1], slope].map(|c| c / slope.hypot(1.0))
+    });
     Some(Laid {
         length,
         line,
         normal,
         lying: [what == Caught::First, what == Caught::Lying],
         arch: [0.0, if what == Caught::Lying { 1e-5 } else { 0.0 }],
-        scale: 1.0,
+        outward: [tangent[0].map(|c| -c), tangent[1]],
+        landed: None,
     })
 }
 

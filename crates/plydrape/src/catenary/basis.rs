@@ -248,6 +248,40 @@ impl Form {
         Values { value, first, ..Values::default() }
     }
 
+    /// ∫₀ᵗ of U, V, G at `N` equally spaced t from 0 to 1.
+    pub fn integrals<const N: usize>(&self) -> [[f64; 3]; N] {
+        let last = (N - 1) as f64;
+        let t: [f64; N] = std::array::from_fn(|n| n as f64 / last);
+        match *self {
+            Form::Stiff { kappa, terms, c: mean } => {
+                let c = entire_at(&t.map(|t| kappa * t * t), terms);
+                std::array::from_fn(|n| {
+                    let (t, t2) = (t[n], t[n] * t[n]);
+                    let [u, v, g] = [t2 * c[2][n], t2 * t * c[3][n], -t2 * t2 * c[4][n]];
+                    [u - t * mean[2], v - t * mean[3], t * mean[4] + g]
+                })
+            }
+            Form::Taut { k, far: e, mean: [m, ..] } => {
+                // a geometric series; the other layer is its mirror image
+                let (step, mut near) = ((-k / last).exp(), [0.0; N]);
+                near[0] = 1.0;
+                for n in 1..N {
+                    let next = step * near[n - 1];
+                    if next < NOTHING {
+                        break;
+                    }
+                    near[n] = next;
+                }
+                std::array::from_fn(|n| {
+                    let t = t[n];
+                    let [u, v] = [(1.0 - near[n]) / k, (near[N - 1 - n] - e) / k];
+                    [u - m * t, v - m * t, 0.5 * (t * t - t)]
+                })
+            }
+            Form::Limp => t.map(|t| [0.0, 0.0, 0.5 * (t * t - t)]),
+        }
+    }
+
     /// ∂/∂t of U, V, G at t = 0 or t = 1.
     pub fn end_derivative(&self, end: usize) -> Values {
         match *self {
@@ -309,6 +343,9 @@ impl Form {
 
 /// Exponents of boundary layers beyond this no longer count: e^(−45) = 3e-20.
 const NEGLIGIBLE: f64 = 45.0;
+
+/// Shares of a boundary layer below this no longer count.
+const NOTHING: f64 = 1e-20;
 
 /// e^(−x), 0 where it no longer counts.
 #[inline]

@@ -36,6 +36,20 @@ impl Profile {
         }
     }
 
+    /// Heights above the first end (m) at `N` stations at equal distances from the first end to the second.
+    ///
+    /// To rounding as from [`Profile::station`], in a fraction of the time.
+    #[must_use]
+    pub fn heights<const N: usize>(&self) -> [f64; N] {
+        let [a, b] = self.amplitude;
+        let run = self.span.run;
+        let integrals = self.form.integrals::<N>();
+        std::array::from_fn(|n| {
+            let ([u, v, g], t) = (integrals[n], n as f64 / (N - 1) as f64);
+            run * (self.theta * t + a * u + b * v + self.rho * g)
+        })
+    }
+
     /// Largest vertical distance of the span below its chord, and where (m): (sag, x).
     ///
     /// Zero at x = 0 if the span lies nowhere below its chord.

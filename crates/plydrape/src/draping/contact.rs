@@ -10,29 +10,18 @@
 //! the tolerance for a while: otherwise every step would lay a bit more of a ply that does not move, and
 //! the result would depend on the number of steps.
 
+use super::gap::{GapSamples, Run, farthest, largest_gap};
 use super::spans::{FreeSpan, Point};
 use crate::mold::vector::{cross, unit};
 use crate::mold::{Mold, Strand, distance};
 use crate::ply::{Laid, LandedCell, shear};
 use crate::scene::Contact;
 
-/// Stations at which a span is looked at; minima between them are refined.
-const STATIONS: usize = 48;
-
 /// Depth from which a span dips, as a share of the tolerance.
 const DIP: f64 = 1e-3;
 
 /// Stretch that laying a run may add to what it leaves free, as a share of the whole catenary.
 const PULL: f64 = 1e-4;
-
-/// A run of touching points of a span, as fractions of its run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Run {
-    from: f64,
-    to: f64,
-    deepest: f64,
-    depth: f64,
-}
 
 /// A touch away from the contact segment: the ply bridges what is between.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,163 +67,6 @@ pub struct Look {
     pub bridge: Option<Bridge>,
 }
 
-/// How far a span is from the mold along its run: its stations, and the minima between them.
-#[derive(Debug, Clone)]
-pub struct Sounding {
-    /// Fraction of the run and distance there (m), ascending; empty if the span is clear of the mold.
-    samples: Vec<(f64, f64)>,
-}
-
-impl Sounding {
-    /// Sounds a span; minima that may come closer than `tolerance` (m) are found exactly.
-    pub fn new(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Self {
-        if mold.clearance(span.ends[0], span.ends[1], span.length) > tolerance {
-            return Sounding { samples: Vec::new() };
-        }
-        let distance = |t: f64| mold.signed_distance(span.point(t));
-        let at = |n: usize| n as f64 / STATIONS as f64;
-        let mut samples: Vec<(f64, f64)> =
-            (0..=STATIONS).map(|n| (at(n), distance(at(n)))).collect();
-        // a touch may hide between two stations: add every local minimum that might be one
-        let minima: Vec<(f64, f64)> = (1..STATIONS)
-            .filter(|&n| {
-                let [before, here, after] = [samples[n - 1].1, samples[n].1, samples[n + 1].1];
-                // between stations a curve dips by no more than its neighbours rise
-                let reach = here - (before - here).max(after - here);
-                here <= before && here <= after && reach < tolerance
-            })
-            .map(|n| minimum(&distance, samples[n - 1], samples[n], samples[n + 1]))
-            .collect();
-        samples.extend(minima);
-        samples.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Sounding { samples }
-    }
-
-    /// Fraction of the run at which the span is deepest; 0 if it is clear of the mold.
-    pub fn deepest(&self) -> f64 {
-        self.samples.iter().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0.0, |(t, _)| *t)
-    }
-
-    /// Depth of the lowest point below the mold (m), negative if the span hangs clear.
-    pub fn depth(&self) -> f64 {
-        -self.samples.iter().fold(f64::INFINITY, |least, (_, distance)| least.min(*distance))
-    }
-}
-
-/// Runs of points closer to the mold than `tolerance` (m), ascending.
-fn runs(span: &FreeSpan, sounding: &Sounding, mold: &Mold, tolerance: f64) -> Vec<Run> {
-    let distance = |t: f64| mold.signed_distance(span.point(t));
-    let samples = &sounding.samples;
-    let mut out: Vec<Run> = Vec::new();
-    let mut open: Option<Run> = None;
-    for n in 0..samples.len() {
-        let (t, d) = samples[n];
-        if d < tolerance {
-            let run = open.get_or_insert_with(|| {
-                let outside = |n: usize| crossing(&distance, samples[n - 1].0, t, tolerance);
-                let from = if n == 0 { 0.0 } else { outside(n) };
-                Run { from, to: t, deepest: t, depth: d }
-            });
-            run.to = t;
-            if d < run.depth {
-                (run.deepest, run.depth) = (t, d);
-            }
-        } else if let Some(mut run) = open.take() {
-            run.to = crossing(&distance, t, samples[n - 1].0, tolerance);
-            out.push(run);
-        }
-    }
-    out.extend(open);
-    out
-}
-
-/// Smallest distance between two stations around a third that is lower, by parabolas through the last
-/// three points: (t, distance).
-fn minimum(
-    distance: &impl Fn(f64) -> f64,
-    (mut a, mut fa): (f64, f64),
-    (mut m, mut fm): (f64, f64),
-    (mut b, mut fb): (f64, f64),
-) -> (f64, f64) {
-    for _ in 0..20 {
-        let (p, q) = ((m - a) * (fm - fb), (m - b) * (fm - fa));
-        let vertex = m - 0.5 * ((m - a) * p - (m - b) * q) / (p - q);
-        // a parabola that degenerates: the wider half is cut instead
-        let inside = vertex > a && vertex < b;
-        let wider = if b - m > m - a { 0.5 * (m + b) } else { 0.5 * (a + m) };
-        let next = if inside { vertex } else { wider };
-        if (next - m).abs() < 1e-9 {
-            break;
-        }
-        let value = distance(next);
-        if value < fm {
-            if next > m {
-                (a, fa) = (m, fm)
-            } else {
-                (b, fb) = (m, fm)
-            }
-            (m, fm) = (next, value);
-        } else if next > m {
-            (b, fb) = (next, value);
-        } else {
-            (a, fa) = (next, value);
-        }
-    }
-    (m, fm)
-}
-
-/// Where the distance falls through `level` between `outside` and `inside`, by false position (Illinois).
-fn crossing(distance: &impl Fn(f64) -> f64, outside: f64, inside: f64, level: f64) -> f64 {
-    let (mut out, mut into) = (outside, inside);
-    let (mut f_out, mut f_in) = (distance(out) - level, distance(into) - level);
-    if f_out < 0.0 {
-        return outside;
-    }
-    for _ in 0..60 {
-        if (out - into).abs() < 1e-12 || f_in == 0.0 {
-            break;
-        }
-        let middle = out + (into - out) * f_out / (f_out - f_in);
-        let value = distance(middle) - level;
-        if value < 0.0 {
-            (into, f_in) = (middle, value);
-            f_out *= 0.5;
-        } else {
-            (out, f_out) = (middle, value);
-            f_in *= 0.5;
-        }
-    }
-    into
-}
-
-/// How far one can go from `near` towards `far` so that it still fits, by bisection.
-fn farthest(near: f64, far: f64, fits: impl Fn(f64) -> bool) -> f64 {
-    let (mut good, mut bad) = (near, far);
-    for _ in 0..40 {
-        let middle = 0.5 * (good + bad);
-        if fits(middle) {
-            good = middle;
-        } else {
-            bad = middle;
-        }
-    }
-    good
-}
-
-/// Largest gap between two fractions of a span.
-fn largest_gap(span: &FreeSpan, mold: &Mold, from: f64, to: f64) -> Bridge {
-    let [a, b] = [from, to].map(|t| span.point(t));
-    let mut worst = Bridge { place: a, gap: 0.0, width: distance(a, b) };
-    for n in 0..=STATIONS {
-        let place = span.point(from + (to - from) * n as f64 / STATIONS as f64);
-        let gap = mold.signed_distance(place);
-        if gap > worst.gap {
-            worst = Bridge { place, gap, ..worst };
-        }
-    }
-    worst
-}
-
 /// One line from two that start at the same point, at fabric arc length `arc` (m): the first is gone
 /// back along.
 fn joined(back: Option<Strand>, arc: f64, on: Option<Strand>) -> Strand {
@@ -276,32 +108,24 @@ fn outward(normal: [f64; 3], [x, y]: [f64; 2], end: usize) -> [f64; 3] {
 
 /// Depth below the mold (m) that a new touch of a span has: that of its deepest point, or of a span that is in contact already, of the
 /// run at its contact end. What its grippers are deep themselves is no touch.
-pub fn new_depth(span: &FreeSpan, sounding: &Sounding, caught: bool) -> f64 {
-    let samples = &sounding.samples;
-    let depth = |n: usize| -samples[n].1;
-    if samples.is_empty() {
-        return 0.0;
+pub fn new_depth(span: &FreeSpan, gaps: &GapSamples, mold: &Mold, caught: bool) -> f64 {
+    let own = |end: usize| (-mold.signed_distance(span.ends[end])).max(0.0);
+    match (caught, span.rest) {
+        (false, _) => gaps.depth() - own(0).max(own(1)),
+        (true, 0) => gaps.depth_from(1) - own(0),
+        (true, _) => gaps.depth_from(0) - own(1),
     }
-    let last = samples.len() - 1;
-    if !caught {
-        return sounding.depth() - depth(0).max(depth(last)).max(0.0);
-    }
-    // from the contact end on, as long as it is below the mold
-    let run = (0..=last).map(|n| if span.rest == 0 { last - n } else { n });
-    let gripper = if span.rest == 0 { 0 } else { last };
-    let below = run.skip(1).take_while(|n| depth(*n) > 0.0).map(depth).fold(0.0, f64::max);
-    below - depth(gripper).max(0.0)
 }
 
 /// Looks at a catenary that nothing has caught yet.
 pub fn first_touch(
     span: &FreeSpan,
-    sounding: &Sounding,
+    gaps: &GapSamples,
     mold: &Mold,
     contact: &Contact,
     diagonal: Option<Diagonal>,
 ) -> Look {
-    let runs = runs(span, sounding, mold, contact.tolerance);
+    let runs = gaps.runs(span, mold, contact.tolerance);
     let Some(run) = runs.iter().min_by(|a, b| a.depth.total_cmp(&b.depth)) else {
         return Look::default();
     };
@@ -366,12 +190,16 @@ pub fn first_touch(
 /// Looks at a rest of a catenary that the mold has caught before.
 pub fn next_touch(
     span: &FreeSpan,
-    sounding: &Sounding,
+    gaps: &GapSamples,
     laid: &Laid,
     mold: &Mold,
     contact: &Contact,
 ) -> Look {
-    let runs = runs(span, sounding, mold, contact.tolerance);
+    // a span that leaves the mold upwards changes nothing
+    if gaps.only_leaves(1 - span.rest, contact.tolerance, DIP * contact.tolerance) {
+        return Look::default();
+    }
+    let runs = gaps.runs(span, mold, contact.tolerance);
     let rest = span.rest;
     // the contact end: the second end of the first rest, the first end of the second
     let at_contact = |run: &&Run| {

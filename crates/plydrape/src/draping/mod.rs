@@ -7,6 +7,7 @@
 pub(crate) mod attitude;
 pub mod contact;
 mod crossing;
+pub mod gap;
 pub(crate) mod landing;
 pub(crate) mod load;
 pub(crate) mod misfit;
@@ -21,8 +22,9 @@ use crate::measure::{Before, Judge, State, Verdict};
 use crate::ply::{Grid, Kind, Laid, shear};
 use crate::scene::{Scene, Stepping};
 pub(crate) use attitude::attitude;
-use contact::{Bridge, Diagonal, Sounding};
+use contact::{Bridge, Diagonal};
 pub(crate) use crossing::hanging as stations;
+use gap::{GapMemory, GapSamples};
 pub(crate) use landing::fabric;
 pub(crate) use misfit::{lying_segments, misfit};
 use record::ResultFile;
@@ -195,6 +197,8 @@ pub(crate) struct Draping<'a> {
     pub(crate) laid: Vec<Option<Laid>>,
     bridges: Vec<Option<Bridge>>,
     deepest: Option<(f64, usize, Point)>,
+    /// What has been seen of the mold from the spans.
+    seen: GapMemory,
     equilibria: usize,
     /// The first equilibrium of a step that did not converge.
     unsolved: Option<Equilibrium>,
@@ -214,6 +218,7 @@ impl<'a> Draping<'a> {
             laid: vec![None; count],
             bridges: vec![None; count],
             deepest: None,
+            seen: GapMemory::new(scene.mold.as_ref(), count),
             equilibria: 0,
             unsolved: None,
             contact: ContactStatus::Followed,
@@ -297,12 +302,12 @@ impl<'a> Draping<'a> {
     /// As in the paper: one equilibrium, one look at the contact; solved anew where it has changed.
     fn arrive(&mut self, goal: &[Point]) -> Shape {
         let mut shape = self.solve(goal);
-        let mut soundings = self.soundings(&shape);
-        if self.touch(&shape, &soundings) {
+        let mut gaps = self.gaps(&shape);
+        if self.touch(&shape, &gaps) {
             shape = self.solve(goal);
-            soundings = self.soundings(&shape);
+            gaps = self.gaps(&shape);
         }
-        self.note_depth(&shape, &soundings);
+        self.note_depth(&shape, &gaps);
         shape
     }
 
@@ -323,8 +328,8 @@ impl<'a> Draping<'a> {
             let place = if next >= 1.0 { goal.to_vec() } else { at(next) };
             let unsolved = self.unsolved;
             let mut shape = self.solve(&place);
-            let mut soundings = self.soundings(&shape);
-            let deep = self.is_deep(&shape, &soundings) && start != *goal;
+            let mut gaps = self.gaps(&shape);
+            let deep = self.is_deep(&shape, &gaps) && start != *goal;
             if deep && part > SMALLEST_CUT {
                 // this place is not gone to, and how it was solved says nothing
                 self.unsolved = unsolved;
@@ -335,9 +340,9 @@ impl<'a> Draping<'a> {
                 self.contact = ContactStatus::CutLimit;
             }
             let mut rounds = 0;
-            while self.touch(&shape, &soundings) {
+            while self.touch(&shape, &gaps) {
                 shape = self.solve(&place);
-                soundings = self.soundings(&shape);
+                gaps = self.gaps(&shape);
                 rounds += 1;
                 if rounds == MAX_ROUNDS {
                     self.contact = ContactStatus::RoundLimit;
@@ -345,39 +350,40 @@ impl<'a> Draping<'a> {
                 }
             }
             if next >= 1.0 || self.equilibria > self.most {
-                self.note_depth(&shape, &soundings);
+                self.note_depth(&shape, &gaps);
                 return shape;
             }
             (done, part) = (next, f64::min(2.0 * part, 1.0 - next));
         }
     }
 
-    /// How far every span is from the mold; none without a mold.
-    fn soundings(&self, shape: &Shape) -> Vec<Sounding> {
+    /// Where every span touches the mold; none without a mold.
+    fn gaps(&mut self, shape: &Shape) -> Vec<GapSamples> {
         let Some(mold) = &self.scene.mold else {
             return Vec::new();
         };
         let tolerance = self.scene.settings.contact.tolerance;
-        shape.spans.iter().map(|span| Sounding::new(span, mold, tolerance)).collect()
+        shape.spans.iter().map(|span| self.seen.samples(span, mold, tolerance)).collect()
     }
 
     /// Whether a span touches anew, deeper below the mold than the tolerance. Depths that no contact would change are
     /// left out: those of the grippers, and second touches.
-    fn is_deep(&self, shape: &Shape, soundings: &[Sounding]) -> bool {
+    fn is_deep(&self, shape: &Shape, gaps: &[GapSamples]) -> bool {
+        let Some(mold) = &self.scene.mold else { return false };
         let tolerance = self.scene.settings.contact.tolerance;
-        shape.spans.iter().zip(soundings).any(|(span, sounding)| {
-            sounding.depth() > tolerance
-                && contact::new_depth(span, sounding, self.laid[span.catenary].is_some())
-                    > tolerance
+        shape.spans.iter().zip(gaps).any(|(span, gaps)| {
+            let caught = self.laid[span.catenary].is_some();
+            gaps.depth() > tolerance && contact::new_depth(span, gaps, mold, caught) > tolerance
         })
     }
 
-    fn note_depth(&mut self, shape: &Shape, soundings: &[Sounding]) {
+    /// Notes the deepest span of a step.
+    fn note_depth(&mut self, shape: &Shape, gaps: &[GapSamples]) {
         self.deepest = None;
-        for (span, sounding) in shape.spans.iter().zip(soundings) {
-            let depth = sounding.depth();
-            if depth > self.deepest.map_or(0.0, |(most, ..)| most) {
-                self.deepest = Some((depth, span.catenary, span.point(sounding.deepest())));
+        for (span, gaps) in shape.spans.iter().zip(gaps) {
+            let Some((t, distance)) = gaps.deepest() else { continue };
+            if -distance > self.deepest.map_or(0.0, |(most, ..)| most) {
+                self.deepest = Some((-distance, span.catenary, span.point(t)));
             }
         }
     }
@@ -396,7 +402,7 @@ impl<'a> Draping<'a> {
     }
 
     /// Looks at every span once; true if the contact has changed.
-    fn touch(&mut self, shape: &Shape, soundings: &[Sounding]) -> bool {
+    fn touch(&mut self, shape: &Shape, gaps: &[GapSamples]) -> bool {
         let Some(mold) = &self.scene.mold else {
             return false;
         };
@@ -408,11 +414,11 @@ impl<'a> Draping<'a> {
         // what lands in one look lands with the shear that its cell had before
         let diagonals: Vec<Option<Diagonal>> =
             shape.spans.iter().map(|span| self.diagonal(span.catenary)).collect();
-        for ((span, sounding), diagonal) in shape.spans.iter().zip(soundings).zip(diagonals) {
+        for ((span, gap), diagonal) in shape.spans.iter().zip(gaps).zip(diagonals) {
             let slot = &mut self.laid[span.catenary];
             let look = match slot {
-                None => contact::first_touch(span, sounding, mold, rule, diagonal),
-                Some(laid) => contact::next_touch(span, sounding, laid, mold, rule),
+                None => contact::first_touch(span, gap, mold, rule, diagonal),
+                Some(laid) => contact::next_touch(span, gap, laid, mold, rule),
             };
             if let Some(laid) = look.laid {
                 *slot = Some(laid);

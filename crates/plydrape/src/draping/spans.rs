@@ -70,6 +70,21 @@ impl FreeSpan {
         }
     }
 
+    /// Its points (m) at `N` stations at equal shares of its run, both ends included: to rounding as from
+    /// [`FreeSpan::point`], in a fraction of the time.
+    #[must_use]
+    pub fn stations<const N: usize>(&self) -> [Point; N] {
+        let [a, b] = self.ends;
+        let line = |n: usize, c: usize| a[c] + n as f64 / (N - 1) as f64 * (b[c] - a[c]);
+        match &self.profile {
+            Some(profile) => {
+                let heights: [f64; N] = profile.heights();
+                std::array::from_fn(|n| [line(n, 0), line(n, 1), a[2] + heights[n]])
+            }
+            None => std::array::from_fn(|n| [line(n, 0), line(n, 1), line(n, 2)]),
+        }
+    }
+
     /// How its point at a fixed fraction `t` of its run changes (m) along a direction that moves its ends by
     /// `ends` (m) and the solved state by `tangent`.
     #[must_use]

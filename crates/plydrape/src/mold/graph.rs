@@ -1,7 +1,7 @@
 //! Molds that are a height over a plane, z = f(x, y): closest points by Newton's method.
 
 use super::formula::Formula;
-use super::height::Height;
+use super::height::{Height, Steepness};
 use super::height_grid::HeightGrid;
 use super::lifted::Lifted;
 use super::pose::Pose;
@@ -55,6 +55,45 @@ impl Surface {
 }
 
 impl Graph {
+    /// Bounds of its slope and bend; without a domain only where they hold everywhere.
+    #[must_use]
+    pub fn steepness(&self) -> Steepness {
+        match (&self.surface, self.domain) {
+            (Surface::Saddle(saddle), domain) => saddle.steepness(domain),
+            (Surface::Formula { z }, Some(domain)) => z.steepness(domain),
+            (Surface::HeightGrid(heights), Some(domain)) => heights.steepness(domain),
+            _ => Steepness::UNKNOWN,
+        }
+    }
+
+    /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies above all of it, from what was
+    /// found closest to `p`; zero if no such ball is known.
+    ///
+    /// The closest point that [`Graph::foot`] finds downhill may not be the closest of all. Where the Hessian of
+    /// f is nowhere larger than b, it is: the lower half of a sphere of radius r ≤ 1/b that touches the graph from
+    /// above is a height whose Hessian is nowhere smaller than 1/r, so their difference is convex, and smallest
+    /// where they touch. From farther away only the slope s bounds the distance: a point at a height h above
+    /// the graph is at least h/√(1 + s²) away from it.
+    #[must_use]
+    pub fn clear(&self, p: [f64; 3], foot: &Foot, bound: Steepness) -> f64 {
+        if foot.beyond || foot.distance <= 0.0 {
+            return 0.0;
+        }
+        if foot.distance * bound.bend <= 1.0 {
+            return foot.distance;
+        }
+        let [x, y, z] = self.pose.local(p);
+        let outside = |n: usize, at: f64| {
+            self.domain.is_some_and(|range| !(range[n][0]..=range[n][1]).contains(&at))
+        };
+        if outside(0, x) || outside(1, y) {
+            return 0.0;
+        }
+        let clear = (z - self.surface.at(x, y).z) / bound.slope.hypot(1.0);
+        // no number where nothing is known
+        if clear > 0.0 { clear.min(foot.distance) } else { 0.0 }
+    }
+
     /// The foot of `p` (m): the closest point that is found downhill from the one straight below.
     #[must_use]
     pub fn foot(&self, p: [f64; 3]) -> Foot {

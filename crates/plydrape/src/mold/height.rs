@@ -11,6 +11,35 @@ pub struct Height {
     pub hessian: [f64; 3],
 }
 
+/// Bounds of the derivatives of a height over a region.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Steepness {
+    /// No slope is larger.
+    pub slope: f64,
+    /// No second derivative along a horizontal unit vector is larger in size (1/m).
+    pub bend: f64,
+}
+
+impl Steepness {
+    /// Nothing is known.
+    pub const UNKNOWN: Steepness = Steepness { slope: f64::INFINITY, bend: f64::INFINITY };
+
+    /// From bounds of |∂f/∂x| and |∂f/∂y|, and of |∂²f/∂x²|, |∂²f/∂x∂y| and |∂²f/∂y²|: no eigenvalue of the
+    /// Hessian is larger than the largest sum of sizes in one of its rows.
+    #[must_use]
+    pub fn new([fx, fy]: [f64; 2], [xx, xy, yy]: [f64; 3]) -> Self {
+        Steepness { slope: fx.hypot(fy), bend: xx.max(yy) + xy }
+    }
+
+    /// Bounds over both regions.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        // what is no number is no bound
+        let most = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) };
+        Steepness { slope: most(self.slope, other.slope), bend: most(self.bend, other.bend) }
+    }
+}
+
 impl Height {
     /// The same height everywhere.
     pub(super) fn constant(z: f64) -> Self {

@@ -9,7 +9,7 @@
 //!
 //! and the m are the solution of a tridiagonal system.
 
-use super::height::Height;
+use super::height::{Height, Steepness};
 use serde::{Deserialize, Serialize};
 
 /// A smooth surface through heights on a rectangular grid.
@@ -155,6 +155,57 @@ impl HeightGrid {
             gradient: [across(1, 0), across(0, 1)],
             hessian: [across(2, 0), across(1, 1), across(0, 2)],
         }
+    }
+}
+
+/// Largest size of (a³ − a)/6 for 0 ≤ a ≤ 1, at a = 1/√3.
+const BELLY: f64 = 0.064_150_029_909_958_43;
+
+impl HeightGrid {
+    /// Bounds of its slope and bend over ranges of x and y (m) within the grid.
+    ///
+    /// Between two nodes a cubic is no larger than the larger of its ends and 0.064 h² (|m₀| + |m₁|), its slope no
+    /// larger than that of its chord and h/3 (|m₀| + |m₁|), its second derivative no larger than the larger m.
+    #[must_use]
+    pub fn steepness(&self, range: [[f64; 2]; 2]) -> Steepness {
+        let own = self.range();
+        if (0..2).any(|n| range[n][0] < own[n][0] || range[n][1] > own[n][1]) {
+            return Steepness::UNKNOWN;
+        }
+        let nx = self.x.len();
+        let value = |ends: [f64; 2], m: [f64; 2], h: f64| {
+            ends[0].abs().max(ends[1].abs()) + BELLY * h * h * (m[0].abs() + m[1].abs())
+        };
+        let slope = |ends: [f64; 2], m: [f64; 2], h: f64| {
+            (ends[1] - ends[0]).abs() / h + h / 3.0 * (m[0].abs() + m[1].abs())
+        };
+        let cells = (0..self.y.len() - 1).flat_map(|j| (0..nx - 1).map(move |i| [i, j]));
+        cells.fold(Steepness::default(), |most, [i, j]| {
+            let [h, k] = [self.x[i + 1] - self.x[i], self.y[j + 1] - self.y[j]];
+            // at the corners, by x and then y
+            let node = |a: usize, b: usize, part: usize| self.nodes[(j + b) * nx + i + a][part];
+            let along_x = |b: usize, part: usize| [node(0, b, part), node(1, b, part)];
+            let along_y = |a: usize, part: usize| [node(a, 0, part), node(a, 1, part)];
+            // slope along x on both grid lines, carried across by a cubic along y
+            let fx =
+                [0, 2].map(|part| [0, 1].map(|b| slope(along_x(b, part), along_x(b, part + 1), h)));
+            let fy =
+                [0, 1].map(|part| [0, 1].map(|a| slope(along_y(a, part), along_y(a, part + 2), k)));
+            let xx = [0, 1].map(|a| value(along_y(a, 1), along_y(a, 3), k));
+            let yy = [0, 1].map(|b| value(along_x(b, 2), along_x(b, 3), h));
+            // the change along y of the slope along x: that of its chord and of its m
+            let change = |part: usize| {
+                let (low, high) = (along_x(0, part), along_x(1, part));
+                [high[0] - low[0], high[1] - low[1]]
+            };
+            let across = slope(change(0), change(1), h) / k;
+            let xy = across + k / 3.0 * (fx[1][0] + fx[1][1]);
+            let size = |ends: [f64; 2]| ends[0].max(ends[1]);
+            most.or(Steepness::new(
+                [value(fx[0], fx[1], k), value(fy[0], fy[1], h)],
+                [size(xx), xy, size(yy)],
+            ))
+        })
     }
 }
 

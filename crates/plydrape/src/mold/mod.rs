@@ -20,7 +20,7 @@ pub(crate) mod vector;
 
 pub use formula::{Formula, FormulaError, FormulaFault};
 pub use graph::{Graph, Surface};
-pub use height::Height;
+pub use height::{Height, Steepness};
 pub use height_grid::{HeightGrid, HeightGridError};
 pub use lifted::{Lift, Lifted};
 pub use mesh::{Mesh, MeshError, MeshReport};
@@ -175,6 +175,27 @@ impl Mold {
         match self {
             Mold::Plane(plane) => plane.signed_distance(p),
             _ => self.foot(p).distance,
+        }
+    }
+
+    /// Bounds of slope and bend for [`Mold::clear`]; only a height over a plane needs them.
+    #[must_use]
+    pub fn steepness(&self) -> Steepness {
+        match self {
+            Mold::Graph(graph) => graph.steepness(),
+            _ => Steepness::default(),
+        }
+    }
+
+    /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies outside of it, from the
+    /// closest point of `p` and [`Mold::steepness`]; zero if no such ball is known, and for a point inside the
+    /// mold or to the side of its border.
+    #[must_use]
+    pub fn clear(&self, p: [f64; 3], foot: &Foot, bound: Steepness) -> f64 {
+        match self {
+            Mold::Graph(graph) => graph.clear(p, foot, bound),
+            _ if foot.beyond => 0.0,
+            _ => foot.distance.max(0.0),
         }
     }
 

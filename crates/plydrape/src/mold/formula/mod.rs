@@ -5,6 +5,7 @@
 //! mold are exact.
 
 mod error;
+mod interval;
 mod operation;
 mod parser;
 #[cfg(test)]
@@ -12,7 +13,8 @@ mod tests;
 
 pub use error::{FormulaError, FormulaFault};
 
-use super::height::Height;
+use super::height::{Height, Steepness};
+use interval::{Interval, Range};
 use operation::Operation;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
@@ -76,6 +78,36 @@ impl Formula {
         stack[0]
     }
 
+    /// Bounds of its slope and bend over ranges of x and y (m); not finite where the formula has none, or where
+    /// none are found.
+    #[must_use]
+    pub fn steepness(&self, range: [[f64; 2]; 2]) -> Steepness {
+        let part = |n: usize, k: usize| {
+            let [low, high] = range[n];
+            let at = |k: usize| low + (high - low) * k as f64 / PARTS as f64;
+            Interval(at(k), at(k + 1))
+        };
+        let parts = (0..PARTS).flat_map(|j| (0..PARTS).map(move |i| [i, j]));
+        parts.fold(Steepness::default(), |most, [i, j]| {
+            let Range { gradient: [fx, fy], hessian, .. } = self.range([part(0, i), part(1, j)]);
+            let [xx, xy, yy] = hessian.map(Interval::size);
+            most.or(Steepness::new([fx.size(), fy.size()], [xx, xy, yy]))
+        })
+    }
+
+    /// Between which bounds height and derivatives stay over a rectangle (m).
+    fn range(&self, rectangle: [Interval; 2]) -> Range {
+        let none = Range::constant(Interval(0.0, 0.0));
+        let mut stack = [none; MOST];
+        let mut top = 0;
+        for operation in &self.program {
+            top = operation.top(top);
+            let (a, b) = (stack[top - 1], *stack.get(top).unwrap_or(&none));
+            stack[top - 1] = operation.range(a, &b, rectangle);
+        }
+        stack[0]
+    }
+
     /// A place (m) on a grid over ranges of x and y (m) where the height or one of its derivatives is not
     /// finite, if there is one.
     #[must_use]
@@ -95,6 +127,9 @@ impl Formula {
 
 /// Steps along x and along y in which a formula is looked through, an even number.
 const SAMPLES: usize = 64;
+
+/// Parts along x and along y over each of which a formula is bounded: the bounds are the closer the smaller these are.
+const PARTS: usize = 8;
 
 impl fmt::Debug for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
