@@ -52,18 +52,20 @@ struct Seen {
 struct Gap {
     least: f64,
     most: f64,
+    /// Both are the exact distance.
+    is_exact: bool,
 }
 
 /// Nothing is known of a distance.
-const UNKNOWN: Gap = Gap { least: f64::NEG_INFINITY, most: f64::INFINITY };
+const UNKNOWN: Gap = Gap::between(f64::NEG_INFINITY, f64::INFINITY);
 
 impl Gap {
     fn exact(distance: f64) -> Self {
-        Gap { least: distance, most: distance }
+        Gap { least: distance, most: distance, is_exact: true }
     }
 
-    fn is_exact(self) -> bool {
-        self.least == self.most
+    const fn between(least: f64, most: f64) -> Self {
+        Gap { least, most, is_exact: false }
     }
 }
 
@@ -73,7 +75,7 @@ impl Seen {
         let most = self.size + moved;
         // a point that may have come past a border or through the mold is no deeper than it is far
         let least = if self.clear > moved { self.clear - moved } else { -most };
-        Gap { least, most: most.max(least) }
+        Gap::between(least, most.max(least))
     }
 }
 
@@ -96,13 +98,21 @@ impl GapMemory {
 
     /// The samples of a span; minima that may come closer than `tolerance` (m) are found exactly.
     pub fn samples(&mut self, span: &FreeSpan, mold: &Mold, tolerance: f64) -> GapSamples {
-        if mold.clearance(span.ends[0], span.ends[1], span.length) > tolerance {
+        let seen = &mut self.seen[span.catenary][span.rest];
+        // the same bound for the whole span, before it comes near
+        let ends = || mold.clearance(span.ends[0], span.ends[1], span.length);
+        if seen.is_empty() && ends() > tolerance {
             return GapSamples::default();
         }
-        let seen = &mut self.seen[span.catenary][span.rest];
+        let is_known = !seen.is_empty();
         let mut look =
             Look { span, mold, steepness: self.steepness, gaps: [UNKNOWN; STATIONS], seen };
-        look.samples(tolerance)
+        let samples = look.samples(tolerance);
+        // below a border, where the bound takes no side
+        if is_known && samples != GapSamples::default() && ends() > tolerance {
+            return GapSamples::default();
+        }
+        samples
     }
 }
 
@@ -137,14 +147,14 @@ impl Look<'_> {
 
     /// What is seen of the mold from a point (m), and the distance of it (m).
     fn see(&self, from: Point) -> (Seen, f64) {
-        let foot = self.mold.foot(from);
-        let clear = self.mold.clear(from, &foot, self.steepness);
-        (Seen { from, size: foot.distance.abs(), clear }, foot.distance)
+        let apart = self.mold.separation(from);
+        let clear = self.mold.clear(from, apart, self.steepness);
+        (Seen { from, size: apart.distance.abs(), clear }, apart.distance)
     }
 
     /// Makes the gap of a station exact.
     fn settle(&mut self, station: usize) {
-        if self.gaps[station].is_exact() {
+        if self.gaps[station].is_exact {
             return;
         }
         let (seen, distance) = self.see(self.span.point(at(station)));
@@ -161,7 +171,7 @@ impl Look<'_> {
         if let Mold::Plane(plane) = self.mold {
             for n in 0..STATIONS {
                 let distance = plane.signed_distance(places[n]);
-                self.gaps[n] = Gap { least: distance - margin, most: distance + margin };
+                self.gaps[n] = Gap::between(distance - margin, distance + margin);
                 if is_open(self.gaps[n]) {
                     self.settle(n);
                 }
@@ -196,7 +206,7 @@ impl Look<'_> {
         let is_lowest = here.least <= before.most && here.least <= after.most && reach < tolerance;
         // nor by more than it is long, for which twice the chord is ample
         let chord = || distance(places[n], places[n - 1]).max(distance(places[n], places[n + 1]));
-        is_lowest && (here.is_exact() || here.least - tolerance < 2.0 * chord())
+        is_lowest && (here.is_exact || here.least - tolerance < 2.0 * chord())
     }
 
     /// The minima around stations that may touch.
@@ -229,10 +239,10 @@ impl Look<'_> {
                 continue;
             }
             loop {
-                let exact = run.iter().filter(|sample| sample.gap.is_exact());
+                let exact = run.iter().filter(|sample| sample.gap.is_exact);
                 let deepest = exact.fold(f64::INFINITY, |least, s| least.min(s.gap.least));
                 let deeper = (run.iter_mut())
-                    .filter(|sample| !sample.gap.is_exact() && sample.gap.least <= deepest)
+                    .filter(|sample| !sample.gap.is_exact && sample.gap.least <= deepest)
                     .min_by(|a, b| a.gap.least.total_cmp(&b.gap.least));
                 let Some((sample, station)) = deeper.and_then(|s| s.station.map(|n| (s, n))) else {
                     break;

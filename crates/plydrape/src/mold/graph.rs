@@ -7,7 +7,7 @@ use super::lifted::Lifted;
 use super::pose::Pose;
 use super::saddle::Saddle;
 use super::vector::{distance, dot, sub, unit};
-use super::{Curvatures, Foot};
+use super::{Curvatures, Foot, Separation};
 use serde::{Deserialize, Serialize};
 
 /// A height over the local xy plane.
@@ -66,8 +66,8 @@ impl Graph {
         }
     }
 
-    /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies above all of it, from what was
-    /// found closest to `p`; zero if no such ball is known.
+    /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies above all of it, from how far
+    /// `p` is away; zero if no such ball is known.
     ///
     /// The closest point that [`Graph::foot`] finds downhill may not be the closest of all. Where the Hessian of
     /// f is nowhere larger than b, it is: the lower half of a sphere of radius r ≤ 1/b that touches the graph from
@@ -75,12 +75,12 @@ impl Graph {
     /// where they touch. From farther away only the slope s bounds the distance: a point at a height h above
     /// the graph is at least h/√(1 + s²) away from it.
     #[must_use]
-    pub fn clear(&self, p: [f64; 3], foot: &Foot, bound: Steepness) -> f64 {
-        if foot.beyond || foot.distance <= 0.0 {
+    pub fn clear(&self, p: [f64; 3], apart: Separation, bound: Steepness) -> f64 {
+        if apart.beyond || apart.distance <= 0.0 {
             return 0.0;
         }
-        if foot.distance * bound.bend <= 1.0 {
-            return foot.distance;
+        if apart.distance * bound.bend <= 1.0 {
+            return apart.distance;
         }
         let [x, y, z] = self.pose.local(p);
         let outside = |n: usize, at: f64| {
@@ -91,7 +91,7 @@ impl Graph {
         }
         let clear = (z - self.surface.at(x, y).z) / bound.slope.hypot(1.0);
         // no number where nothing is known
-        if clear > 0.0 { clear.min(foot.distance) } else { 0.0 }
+        if clear > 0.0 { clear.min(apart.distance) } else { 0.0 }
     }
 
     /// The foot of `p` (m): the closest point that is found downhill from the one straight below.

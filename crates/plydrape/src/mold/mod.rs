@@ -66,6 +66,15 @@ pub struct Foot {
     pub beyond: bool,
 }
 
+/// How far a point is from a mold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Separation {
+    /// Distance (m), as in [`Foot`].
+    pub distance: f64,
+    /// The point is off to the side of an open border, as in [`Foot`].
+    pub beyond: bool,
+}
+
 /// A line of fabric on a mold.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Strand {
@@ -174,7 +183,23 @@ impl Mold {
     pub fn signed_distance(&self, p: [f64; 3]) -> f64 {
         match self {
             Mold::Plane(plane) => plane.signed_distance(p),
-            _ => self.foot(p).distance,
+            _ => self.separation(p).distance,
+        }
+    }
+
+    /// How far `p` (m) is from the mold, as [`Mold::foot`] says it.
+    #[must_use]
+    pub fn separation(&self, p: [f64; 3]) -> Separation {
+        match self {
+            Mold::Plane(plane) => Separation { distance: plane.signed_distance(p), beyond: false },
+            Mold::Cylinder(cylinder) => cylinder.separation(p),
+            Mold::Sphere(sphere) => sphere.separation(p),
+            Mold::Torus(torus) => torus.separation(p),
+            Mold::Mesh(mesh) => mesh.separation(p),
+            Mold::Graph(graph) => {
+                let Foot { distance, beyond, .. } = graph.foot(p);
+                Separation { distance, beyond }
+            }
         }
     }
 
@@ -187,15 +212,15 @@ impl Mold {
         }
     }
 
-    /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies outside of it, from the
-    /// closest point of `p` and [`Mold::steepness`]; zero if no such ball is known, and for a point inside the
+    /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies outside of it, from how far
+    /// `p` is away and [`Mold::steepness`]; zero if no such ball is known, and for a point inside the
     /// mold or to the side of its border.
     #[must_use]
-    pub fn clear(&self, p: [f64; 3], foot: &Foot, bound: Steepness) -> f64 {
+    pub fn clear(&self, p: [f64; 3], apart: Separation, bound: Steepness) -> f64 {
         match self {
-            Mold::Graph(graph) => graph.clear(p, foot, bound),
-            _ if foot.beyond => 0.0,
-            _ => foot.distance.max(0.0),
+            Mold::Graph(graph) => graph.clear(p, apart, bound),
+            _ if apart.beyond => 0.0,
+            _ => apart.distance.max(0.0),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::pose::Pose;
 use super::vector::dot;
-use super::{Curvatures, Foot};
+use super::{Curvatures, Foot, Separation};
 use serde::{Deserialize, Serialize};
 
 /// Which side of a round mold the ply lies on.
@@ -56,6 +56,12 @@ struct Arc {
     normal: [f64; 2],
     distance: f64,
     beyond: bool,
+}
+
+impl Arc {
+    fn separation(&self) -> Separation {
+        Separation { distance: self.distance, beyond: self.beyond }
+    }
 }
 
 fn arc(h: f64, z: f64, radius: f64, face: Face) -> Arc {
@@ -122,6 +128,13 @@ fn foot(pose: &Pose, point: [f64; 3], normal: [f64; 3], arc: &Arc) -> Foot {
 }
 
 impl Cylinder {
+    /// How far `p` (m) is away.
+    #[must_use]
+    pub fn separation(&self, p: [f64; 3]) -> Separation {
+        let [_, y, z] = self.pose.local(p);
+        arc(y, z, self.radius, self.face).separation()
+    }
+
     /// The foot of `p` (m).
     #[must_use]
     pub fn foot(&self, p: [f64; 3]) -> Foot {
@@ -140,6 +153,13 @@ impl Cylinder {
 }
 
 impl Sphere {
+    /// How far `p` (m) is away.
+    #[must_use]
+    pub fn separation(&self, p: [f64; 3]) -> Separation {
+        let [x, y, z] = self.pose.local(p);
+        arc(length(x, y), z, self.radius, self.face).separation()
+    }
+
     /// The foot of `p` (m).
     #[must_use]
     pub fn foot(&self, p: [f64; 3]) -> Foot {
@@ -163,6 +183,13 @@ impl Sphere {
 }
 
 impl Torus {
+    /// How far `p` (m) is away.
+    #[must_use]
+    pub fn separation(&self, p: [f64; 3]) -> Separation {
+        let [x, y, z] = self.pose.local(p);
+        arc(length(x, y) - self.ring_radius, z, self.tube_radius, self.face).separation()
+    }
+
     /// The foot of `p` (m).
     #[must_use]
     pub fn foot(&self, p: [f64; 3]) -> Foot {

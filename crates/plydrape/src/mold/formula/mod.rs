@@ -8,6 +8,7 @@ mod error;
 mod interval;
 mod operation;
 mod parser;
+mod polynomial;
 #[cfg(test)]
 mod tests;
 
@@ -16,6 +17,7 @@ pub use error::{FormulaError, FormulaFault};
 use super::height::{Height, Steepness};
 use interval::{Interval, Range};
 use operation::Operation;
+use polynomial::Polynomial;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
 
@@ -30,6 +32,8 @@ pub struct Formula {
     program: Vec<Operation>,
     /// Most heights that wait on the stack at a time.
     depth: usize,
+    /// The same as a sum of powers, where it is written as one.
+    polynomial: Option<Polynomial>,
 }
 
 /// Most heights on the stack.
@@ -52,7 +56,8 @@ impl Formula {
         if depth > MOST {
             return Err(FormulaError { at: 0..text.len(), fault: FormulaFault::Depth });
         }
-        Ok(Formula { text: text.to_string(), program, depth })
+        let polynomial = Polynomial::of(&program);
+        Ok(Formula { text: text.to_string(), program, depth, polynomial })
     }
 
     /// As it was written.
@@ -64,6 +69,9 @@ impl Formula {
     /// The height at (x, y) (m); not finite where the formula is not defined.
     #[must_use]
     pub fn at(&self, x: f64, y: f64) -> Height {
+        if let Some(polynomial) = &self.polynomial {
+            return polynomial.at(x, y);
+        }
         if self.depth <= FEW { self.run::<FEW>(x, y) } else { self.run::<MOST>(x, y) }
     }
 

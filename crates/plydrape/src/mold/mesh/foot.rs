@@ -8,8 +8,8 @@ use super::closest::{Weights, closest};
 use super::orient::NONE;
 use super::query::Near;
 use super::{Mesh, fan};
-use crate::mold::Foot;
 use crate::mold::vector::{cross, dot, norm, sub, unit};
+use crate::mold::{Foot, Separation};
 
 /// How far (share of the mesh) a point may lie off to the side of a border and still count as over it.
 const ASIDE: f64 = 1e-9;
@@ -31,16 +31,22 @@ impl Mesh {
     #[must_use]
     pub fn foot(&self, p: [f64; 3]) -> Foot {
         let spot = self.spot(p);
+        let Separation { distance, beyond } = self.separation_from(&spot, p);
+        Foot { point: spot.point, normal: self.normal_at(&spot), distance, beyond }
+    }
+
+    /// How far `p` (m) is away, as [`Mesh::foot`] says it.
+    #[must_use]
+    pub fn separation(&self, p: [f64; 3]) -> Separation {
+        self.separation_from(&self.spot(p), p)
+    }
+
+    fn separation_from(&self, spot: &Spot, p: [f64; 3]) -> Separation {
         let off = sub(p, spot.point);
         let distance = norm(off);
-        let beyond = self.is_beyond(&spot, off, distance);
-        let inside = !beyond && dot(off, self.side_normal(&spot)) < 0.0;
-        Foot {
-            point: spot.point,
-            normal: self.normal_at(&spot),
-            distance: if inside { -distance } else { distance },
-            beyond,
-        }
+        let beyond = self.is_beyond(spot, off, distance);
+        let inside = !beyond && dot(off, self.side_normal(spot)) < 0.0;
+        Separation { distance: if inside { -distance } else { distance }, beyond }
     }
 
     /// The point of the mesh closest to `p` (m).
