@@ -367,13 +367,17 @@ impl<'a> Draping<'a> {
     }
 
     /// Whether a span touches anew, deeper below the mold than the tolerance. Depths that no contact would change are
-    /// left out: those of the grippers, and second touches.
+    /// left out: those of the grippers, and second touches; and so are diagonals that have landed: they are no
+    /// fibres, and snap where the slopes at their grippers do.
     fn is_deep(&self, shape: &Shape, gaps: &[GapSamples]) -> bool {
         let Some(mold) = &self.scene.mold else { return false };
         let tolerance = self.scene.settings.contact.tolerance;
         shape.spans.iter().zip(gaps).any(|(span, gaps)| {
             let caught = self.laid[span.catenary].is_some();
-            gaps.depth() > tolerance && contact::new_depth(span, gaps, mold, caught) > tolerance
+            let follows = !caught || span.catenary < self.scene.ply.grid.edges();
+            follows
+                && gaps.depth() > tolerance
+                && contact::new_depth(span, gaps, mold, caught) > tolerance
         })
     }
 
