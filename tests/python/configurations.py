@@ -97,6 +97,25 @@ def zigzag(nu: int, nv: int, spacing: float, shear: float) -> Real:
     return at
 
 
+def inclined(base: Real, climb: float, towards: float, turn: float = 0.0) -> Real:
+    """Level positions turned about z by ``turn``, then climbing by ``climb`` in one direction."""
+    out = base.copy()
+    x, y = base[..., 0], base[..., 1]
+    x, y = x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)
+    along, across = x * np.cos(towards) + y * np.sin(towards), y * np.cos(towards) - x * np.sin(towards)
+    z = along * np.sin(climb)
+    along = along * np.cos(climb)
+    out[..., 0] = along * np.cos(towards) - across * np.sin(towards)
+    out[..., 1] = along * np.sin(towards) + across * np.cos(towards)
+    out[..., 2] = z
+    return out
+
+
+def mirrored(base: Real) -> Real:
+    """The mirror image in the plane y = 0."""
+    return base * np.array([1.0, -1.0, 1.0])
+
+
 def material(**changes: float) -> Problem:
     """The paper's material with changes; positions come later."""
     cell = (changes.pop("a", 0.1), changes.pop("b", 0.1))
@@ -118,6 +137,18 @@ def drawn() -> list[Configuration]:
     for nu, nv, angle in ((4, 2, 20.0), (3, 3, -14.0), (5, 3, 10.0), (2, 2, 25.0)):
         base = grid(nu, nv, (0.097, 0.097), shear=angle * deg)
         rows.append(("fully sheared", f"{nu}x{nv}", 30 * nu + nv, base, 8e-4, 5e-3, plain))
+    for nu, nv, angle, towards in ((4, 2, 15.0, 0.5), (3, 3, 15.0, 2.2), (4, 3, -15.0, 4.0)):
+        base = grid(nu, nv, (0.097, 0.097), shear=angle * deg)
+        seed = 40 * nu + nv
+        climbs = inclined(base, 20 * deg, towards, turn=towards / 3.0)
+        rows += [
+            ("fully sheared", f"incline {nu}x{nv}", seed, climbs, 5e-4, 3e-3, plain),
+            ("fully sheared", f"mirrored {nu}x{nv}", seed, mirrored(climbs), 5e-4, 3e-3, plain),
+        ]
+    for nu, nv, angle, towards in ((2, 2, 4.5, 0.5), (4, 2, 4.8, 1.5), (3, 3, -4.6, 3.0)):
+        # the cells shear from 2.97 degrees on: here by 1 to 2
+        base = inclined(grid(nu, nv, (0.0975, 0.0975), shear=angle * deg), 15 * deg, towards, 0.4)
+        rows.append(("fully sheared", f"onset {nu}x{nv}", 50 * nu + nv, base, 2e-4, 2e-3, plain))
     rows += [
         ("fully sheared", "zigzag 3x3", 81, zigzag(3, 3, 0.097, 12 * deg), 5e-4, 4e-3, plain),
         ("fully sheared", "zigzag 4x3", 82, zigzag(4, 3, 0.097, 12 * deg), 5e-4, 4e-3, plain),

@@ -8,7 +8,7 @@ forces H and shared slopes s:
 
 with free slopes on the ply's free boundary, one slope for colinear edges on both sides of a
 gripper, the slopes of diagonals from the plane through their cell's edges, shear kinematics and
-governed slopes. Nothing is eliminated: the engine may reduce the problem, this does not.
+slopes that shearing cells constrain. Nothing is eliminated: the engine may reduce the problem, this does not.
 
 Solver: SciPy's SLSQP with exact first derivatives (complex steps through the span), from the
 feasible point that hangs every span at the slopes of its chords. Forces are scaled by that point's,
@@ -30,7 +30,7 @@ SI units: m, N, N m^2; slopes are rise over run.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,7 +49,8 @@ class Problem:
 
     ``positions``: (nv, nu, 3) (m). ``cell``: fabric lengths a along u, b along v (m). ``mass``
     (kg/m), ``rigidity`` EI (N m^2), ``axial_stiffness`` EA (N, may be infinite), ``gravity``
-    (m/s^2), ``max_tilt`` (rad), ``rule``: "min-force" or "moment-balance".
+    (m/s^2), ``max_tilt`` (rad), ``rule``: "min-force" or "moment-balance". ``constrained``: whether
+    shearing cells constrain slopes, fully from the shear angle ``onset`` (rad) on.
     """
 
     positions: Real
@@ -60,6 +61,8 @@ class Problem:
     gravity: float = 9.8
     max_tilt: float = float(np.radians(40.0))
     rule: str = "min-force"
+    constrained: bool = True
+    onset: float = float(np.radians(3.0))
 
     @property
     def size(self) -> tuple[int, int]:
@@ -75,7 +78,6 @@ class Catenary:
     ends: tuple[Gripper, Gripper]
     length: float
     shearing: bool = False
-    governed_by_shear: bool = False
 
 
 @dataclass
@@ -83,14 +85,15 @@ class Net:
     """Catenaries and what determines each slope.
 
     ``catenaries``: edges along u, along v, then two diagonals a cell, i running fastest.
-    ``shared``: (gripper, line) of each unknown slope. ``governed``: slope of each governed end.
+    ``shared``: (gripper, line) of each unknown slope. ``planes``: at each gripper that shearing
+    cells constrain the gradient (dz/dx, dz/dy) of their mean plane and its weight.
     ``run``, ``rise``: (n, ) (m). ``horizontal``: unit vectors from first to second end (n, 2).
     ``hanging``: which catenaries have an unknown force.
     """
 
     catenaries: list[Catenary]
     shared: list[tuple[Gripper, str]]
-    governed: dict[tuple[Gripper, str], float]
+    planes: dict[Gripper, tuple[Real, float]]
     run: Real
     rise: Real
     horizontal: Real
@@ -129,44 +132,68 @@ def build(problem: Problem) -> Net:
                 shears[longer] = True
                 lengths[1 - longer] = float(np.sqrt(2.0 * flat**2 - taut[longer] ** 2))
             lines += [
-                Catenary(RISING, rising, lengths[0], shears[0], shears[1]),
-                Catenary(FALLING, falling, lengths[1], shears[1], shears[0]),
+                Catenary(RISING, rising, lengths[0], shears[0]),
+                Catenary(FALLING, falling, lengths[1], shears[1]),
             ]
 
     steps = np.array([step(*line.ends) for line in lines])
     run, rise = np.hypot(steps[:, 0], steps[:, 1]), steps[:, 2]
 
-    # A shearing diagonal passes its slope to both lines at its two grippers, in the lines' sense:
-    # outward slope d on the + side of a line is slope d, on the - side it is slope -d.
-    passed: dict[tuple[Gripper, str], list[float]] = {}
-    for line, r, h in zip(lines, run, rise, strict=True):
-        if not line.shearing:
-            continue
-        for here, there, outward in (
-            (line.ends[0], line.ends[1], h / r),
-            (line.ends[1], line.ends[0], -h / r),
-        ):
-            for axis, name in ((0, EDGE_U), (1, EDGE_V)):
-                side = np.sign(there[axis] - here[axis])
-                passed.setdefault((here, name), []).append(float(side * outward))
-    governed = {key: float(np.mean(values)) for key, values in passed.items()}
-
+    planes = constraints(problem, lines, steps) if problem.constrained else {}
     shared = [
         ((i, j), name)
         for name, axis, count in ((EDGE_U, 0, nu), (EDGE_V, 1, nv))
         for j in range(nv)
         for i in range(nu)
-        if 0 < (i, j)[axis] < count - 1 and ((i, j), name) not in governed
+        if 0 < (i, j)[axis] < count - 1 and (i, j) not in planes
     ]
     chord = np.hypot(run, rise)
     length = np.array([line.length for line in lines])
-    hanging = np.array([not line.shearing for line in lines])
+    # Without constraints a stretched diagonal hangs on, overstretched, so that the slopes of least
+    # force do not jump as it becomes taut.
+    hanging = np.array([not (line.shearing and problem.constrained) for line in lines])
     if np.isinf(problem.axial_stiffness):
         hanging &= chord < length
     horizontal = steps[:, :2] / run[:, None]
-    net = Net(lines, shared, governed, run, rise, horizontal, hanging)
+    net = Net(lines, shared, planes, run, rise, horizontal, hanging)
     net.edge_of = {line.ends: index for index, line in enumerate(lines)}
     return net
+
+
+def constraints(
+    problem: Problem, lines: list[Catenary], steps: Real
+) -> dict[Gripper, tuple[Real, float]]:
+    """The plane that shearing cells prescribe at each gripper, as its gradient, and its weight.
+
+    A shearing cell is a taut sheet. Its plane z = gradient . (x, y) contains the shearing diagonal
+    and is parallel to the other one: two linear equations. At a gripper several planes are averaged
+    as unit normals (-dz/dx, -dz/dy, 1)/|...|, each with a weight that grows from 0 at the onset of
+    shear to 1 at the shear angle ``onset``; what is left of the unconstrained slope is the product
+    of what each plane leaves.
+    """
+    a, b = problem.cell
+    found: dict[Gripper, list[tuple[Real, float]]] = {}
+    for n, line in enumerate(lines):
+        if not line.shearing:
+            continue
+        other = n + 1 if line.direction == RISING else n - 1
+        ways = np.stack([steps[n], steps[other]])
+        gradient = np.linalg.solve(ways[:, :2], ways[:, 2])
+        normal = np.append(-gradient, 1.0)
+        normal /= np.linalg.norm(normal)
+        # Law of cosines: the sides a, b meet at a right angle plus the shear angle.
+        d = float(np.linalg.norm(steps[n]))
+        shear = float(np.arccos((a * a + b * b - d * d) / (2.0 * a * b))) - np.pi / 2.0
+        share = min(shear / problem.onset, 1.0)
+        weight = 3.0 * share**2 - 2.0 * share**3
+        for gripper in line.ends:
+            found.setdefault(gripper, []).append((normal, weight))
+    out = {}
+    for gripper, planes in found.items():
+        mean = np.sum([w * normal for normal, w in planes], axis=0)
+        left = float(np.prod([1.0 - w for _, w in planes]))
+        out[gripper] = (-mean[:2] / mean[2], 1.0 - left)
+    return out
 
 
 @dataclass
@@ -202,12 +229,13 @@ class Model:
         self.length = np.array([line.length for line in net.catenaries])
         self.chord = np.hypot(net.run, net.rise)
         self.bound = float(np.tan(problem.max_tilt))
+        self.constrained = self.constrained_ends()
         prescribed = np.zeros((len(net.catenaries), 2), bool)
         for index, line in enumerate(net.catenaries):
             for end, gripper in enumerate(line.ends):
                 key = (gripper, line.direction)
                 prescribed[index, end] = (
-                    index >= net.edges or key in self.shared or key in net.governed
+                    index >= net.edges or key in self.shared or (index, end) in self.constrained
                 )
         weight = problem.mass * problem.gravity
         n = len(net.catenaries)
@@ -224,6 +252,28 @@ class Model:
         # Length to reach: L (1 + H sec / EA).
         self.softness = self.length * self.spans.secant / problem.axial_stiffness
 
+    def constrained_ends(self) -> dict[tuple[int, int], float]:
+        """Slope of each end of an edge that shearing cells constrain: (edge, end).
+
+        The vertical plane through the edge cuts the cells' plane along the edge's horizontal
+        direction. At the onset of shear it is mixed with the edge's slope in the ply without
+        constraints.
+        """
+        net = self.net
+        free = None
+        if any(0.0 < weight < 1.0 for _, weight in net.planes.values()):
+            free = solve(replace(self.problem, constrained=False)).slopes
+        out = {}
+        for index, line in enumerate(net.catenaries[: net.edges]):
+            for end, gripper in enumerate(line.ends):
+                if gripper in net.planes:
+                    gradient, weight = net.planes[gripper]
+                    slope = float(gradient @ net.horizontal[index])
+                    if weight < 1.0 and free is not None:
+                        slope = (1.0 - weight) * float(free[index, end]) + weight * slope
+                    out[index, end] = slope
+        return out
+
     def edge_slopes(self, s: Real) -> Real:
         """Prescribed slopes of all catenaries (n, 2) for shared slopes s; 0 where none is known."""
         out = np.zeros((len(self.net.catenaries), 2))
@@ -232,8 +282,8 @@ class Model:
                 key = (gripper, line.direction)
                 if key in self.shared:
                     out[index, end] = s[self.shared[key] - self.forces]
-                elif key in self.net.governed:
-                    out[index, end] = self.net.governed[key]
+                elif (index, end) in self.constrained:
+                    out[index, end] = self.constrained[index, end]
         return out
 
     def plane(self, diagonal: int, end: int) -> list[tuple[int, int, float]]:

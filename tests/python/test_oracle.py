@@ -9,7 +9,7 @@ import numpy as np
 import oracle_span as span
 import program
 import pytest
-from configurations import Configuration, drawn, grid, paper, solved
+from configurations import Configuration, drawn, grid, inclined, mirrored, paper, solved
 from oracle import Model, Problem, Solution, solve
 from oracle_span import Spans
 from scipy.integrate import quad
@@ -265,27 +265,42 @@ def test_mirrored_ply_has_the_same_forces_and_opposite_slopes() -> None:
             assert two.forces[m] == pytest.approx(one.forces[n], rel=1e-8, nan_ok=True)
 
 
-def test_shearing_diagonal_governs_slopes_in_each_line_s_own_sense() -> None:
-    """By hand: one cell, sheared, its far corner 10 mm up.
+@pytest.mark.parametrize("climb", [0.0, 20.0])
+@pytest.mark.parametrize("shear", [15.0, -15.0])
+def test_sheared_ply_in_a_plane_has_the_plane_s_slopes(climb: float, shear: float) -> None:
+    """By geometry: a plane that climbs by 20 degrees towards any heading, fully sheared cells in it.
 
-    The diagonal from [0, 0] rises with d = 10 mm / its run; seen from [1, 1] it leaves downward, on
-    the - side of both lines, so both lines have slope +d at both of its grippers.
+    Every edge at a constrained gripper has the slope of the plane in its own direction, which is
+    that of its chord.
     """
-    at = grid(2, 2, (0.097, 0.097), shear=float(np.radians(20.0)))
-    at[1, 1, 2] = 0.01
-    net = Model(Problem(at)).net
-    d = 0.01 / float(np.linalg.norm(at[1, 1, :2]))
-    assert net.governed == pytest.approx(
-        {((0, 0), "u"): d, ((0, 0), "v"): d, ((1, 1), "u"): d, ((1, 1), "v"): d}
-    )
-    # The falling diagonal leaves [1, 0] to the - side along u, to the + side along v.
-    at = grid(2, 2, (0.097, 0.097), shear=float(np.radians(-20.0)))
-    at[1, 0, 2] = 0.01
-    net = Model(Problem(at)).net
-    d = 0.01 / float(np.linalg.norm((at[1, 0] - at[0, 1])[:2]))
-    assert net.governed == pytest.approx(
-        {((1, 0), "u"): -d, ((1, 0), "v"): d, ((0, 1), "u"): -d, ((0, 1), "v"): d}
-    )
+    for towards in np.radians(np.arange(0.0, 360.0, 30.0)):
+        at = grid(4, 3, (0.097, 0.097), shear=float(np.radians(shear)))
+        at = inclined(at, float(np.radians(climb)), float(towards), turn=0.7)
+        for places in (at, mirrored(at)):
+            model = Model(Problem(places))
+            chords = model.net.rise / model.net.run
+            assert len(model.net.planes) == 10
+            for (edge, _), slope in model.constrained.items():
+                assert slope == pytest.approx(chords[edge], abs=1e-12)
+
+
+def test_constraint_begins_with_the_unconstrained_slope_and_ends_with_the_plane_s() -> None:
+    """The weight at the onset of shear: one cell, its far corner 10 mm up, just beyond either end."""
+
+    def cell(angle: float) -> Problem:
+        at = grid(2, 2, (0.1, 0.1), shear=float(np.radians(angle)))
+        at[1, 1, 2] = 0.01
+        return Problem(at)
+
+    # the corner that is up stretches the diagonal too: d^2 = 2 0.1^2 (1 + sin) + 0.01^2
+    begins = float(np.degrees(np.arcsin(-0.005)))
+    free = solve(replace(cell(begins), constrained=False)).slopes
+    almost = solve(cell(begins + 1e-4)).slopes
+    np.testing.assert_allclose(almost[:4], free[:4], atol=1e-4)
+    ends = float(np.degrees(np.arcsin(np.sin(np.radians(3.0)) - 0.005)))
+    before, after = solve(cell(ends - 1e-4)), solve(cell(ends + 1e-4))
+    np.testing.assert_allclose(before.slopes[:4], after.slopes[:4], atol=1e-4)
+    assert all(weight == 1.0 for _, weight in Model(cell(ends + 1e-4)).net.planes.values())
 
 
 def test_overstretched_edge_pulls_with_its_axial_stiffness() -> None:

@@ -352,6 +352,25 @@ impl<T: Number> Assembly<T> {
         for catenary in grid.edges()..grid.catenaries() {
             self.diagonal(build, catenary);
         }
+        if !build.constrained {
+            self.stretched_diagonals(build);
+        }
+    }
+
+    /// The stretched diagonals as spans of the flat cell's length, behind all other elements.
+    ///
+    /// Just before the onset of shear a taut diagonal draws all slopes by its large force. Without constraints it
+    /// does so still, so that these slopes do not jump at the onset.
+    fn stretched_diagonals(&mut self, build: &Build<T>) {
+        let first = build.grid().edges();
+        for cell in 0..build.grid().cells() {
+            if let Some((_, falling)) = self.shearing[cell] {
+                let catenary = first + 2 * cell + usize::from(falling);
+                let kind = build.grid().catenary(catenary).kind;
+                let flat = T::from(build.ply.flat_length(kind)) * build.factors.length[2];
+                self.hang_diagonal(build, catenary, flat);
+            }
+        }
     }
 
     /// Which diagonal of each cell is stretched.
@@ -463,6 +482,14 @@ impl<T: Number> Assembly<T> {
             }
             None => flat,
         };
+        self.hang_diagonal(build, catenary, length);
+    }
+
+    /// The elements of a diagonal of a given fabric length (m).
+    fn hang_diagonal(&mut self, build: &Build<T>, catenary: usize, length: T) {
+        let grid = build.grid();
+        let (cell, c) = ((catenary - grid.edges()) / 2, grid.catenary(catenary));
+        let factor = build.factors.length[2];
         for rest in 0..2 {
             let line = build.rest_line(catenary, rest);
             let element = self.elements.len();

@@ -31,6 +31,9 @@ pub struct Evaluated<const M: usize> {
     pub slope: [Jet<M>; 2],
     /// Curvatures z'' at both ends (1/m).
     pub curvature: [Jet<M>; 2],
+    /// Relative step of H over which the derivatives were carried: their error is its square, that of the values
+    /// its cube.
+    pub carried: f64,
     /// Measured relative error of the length, |C|/L_set; NaN where the force has moved since it was measured.
     pub length_residual: f64,
 }
@@ -41,6 +44,7 @@ impl<const M: usize> Default for Evaluated<M> {
             force: Jet::default(),
             slope: [Jet::default(); 2],
             curvature: [Jet::default(); 2],
+            carried: 0.0,
             length_residual: 0.0,
         }
     }
@@ -159,6 +163,9 @@ const NEAR: f64 = 0.01;
 /// contract quadratically.
 const SMALL_STEP: f64 = 1e-7;
 
+/// Relative step of H after which the error of the next force is lost in rounding.
+const EXACT_STEP: f64 = 3e-6;
+
 /// Evaluations of the length that a force close to the solution may take before it is searched anew.
 const FEW: usize = 4;
 
@@ -184,11 +191,29 @@ pub fn evaluate<const N: usize, const M: usize>(
         h = approach(span, h);
         searched = true;
     };
+    // what the derivatives need is near enough; the force itself is taken to its last digits, because the
+    // line search compares sums of forces
+    let error = |excess: f64, h: f64| excess - goal.excess - goal.compliance * h;
+    let (mut last, mut measured) = (next - h, c.value.abs() / span.length);
+    let mut next = next;
+    for _ in 0..FEW {
+        if relative(last, next) <= EXACT_STEP {
+            break;
+        }
+        let excess = Profile::new(span, next).excess();
+        let better = span.advance(goal, next, excess);
+        measured = error(excess.value, next).abs() * span.run / span.length;
+        if !sound(better) {
+            break;
+        }
+        last = better - next;
+        next = better;
+    }
     let step = next - h;
-    let measured = c.value.abs() / span.length;
-    let length_residual = if relative(step, h) <= SMALL_STEP { measured } else { f64::NAN };
+    let length_residual = if relative(last, next) <= SMALL_STEP { measured } else { f64::NAN };
     let force = implicit::<N, M>(&moved(c, step), next);
-    let mut out = Evaluated { force, length_residual, ..Evaluated::default() };
+    let carried = relative(step, h);
+    let mut out = Evaluated { force, carried, length_residual, ..Evaluated::default() };
     for end in 0..2 {
         if wanted.slope[end] {
             out.slope[end] = follow(&moved(profile.end_slope_jet::<N>(end), step), &force);
@@ -237,8 +262,14 @@ pub fn meet_length(span: &Span, force: Option<f64>) -> (f64, f64) {
         }
     }
     let h = span.solve(Some(h)).force.unwrap_or(h);
-    let error = Profile::new(span, h).excess().value - goal.excess - goal.compliance * h;
-    (h, (error * span.run / span.length).abs())
+    (h, length_residual(span, h))
+}
+
+/// Relative error of a span's length at a force, |C|/L_set.
+pub fn length_residual(span: &Span, force: f64) -> f64 {
+    let goal = span.goal();
+    let error = Profile::new(span, force).excess().value - goal.excess - goal.compliance * force;
+    (error * span.run / span.length).abs()
 }
 
 /// A force close enough to start from, by a few cheap steps from a guess.

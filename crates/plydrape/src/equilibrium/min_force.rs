@@ -123,11 +123,15 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         solver.mark_active();
         assemble(solver);
         let residual = solver.slope_residual();
-        if residual <= tuning.slope_tolerance {
-            return ended(Status::Converged, iterations, residual);
-        }
-        if iterations > tuning.iterations {
+        if iterations > tuning.iterations && residual > tuning.slope_tolerance {
             return ended(Status::IterationLimit, iterations, residual);
+        }
+        if residual <= tuning.slope_tolerance {
+            if solver.is_sharp() {
+                return ended(Status::Converged, iterations, residual);
+            }
+            objective = solver.evaluate();
+            continue;
         }
         let mut step = std::mem::take(&mut solver.work.step);
         let mut kept = std::mem::take(&mut solver.work.trial);

@@ -186,11 +186,15 @@ fn balance(solver: &mut Solver, bound: f64) -> Equilibrium {
     let (count, tuning) = (solver.slopes.len(), solver.tuning);
     for iterations in 1.. {
         let residual = solver.jump_residual();
-        if residual <= tuning.slope_tolerance {
-            return ended(Status::Converged, iterations, residual);
-        }
-        if iterations > tuning.iterations {
+        if iterations > tuning.iterations && residual > tuning.slope_tolerance {
             return ended(Status::IterationLimit, iterations, residual);
+        }
+        if residual <= tuning.slope_tolerance {
+            if solver.is_sharp() {
+                return ended(Status::Converged, iterations, residual);
+            }
+            solver.evaluate_jumps();
+            continue;
         }
         solver.moment_step();
         let mut start = std::mem::take(&mut solver.work.trial);

@@ -7,13 +7,16 @@
 use super::assembly::{
     Assembly, Build, Element, End, Factors, PlaneSlope, SlopeSource, class, heading,
 };
-use super::element::{Evaluated, Wanted, evaluate, evaluate_still, meet_length};
+use super::element::{Evaluated, Wanted, evaluate, evaluate_still, length_residual, meet_length};
 use super::status::{EarlyEnds, Equilibrium, Status};
 use super::tuning::Tuning;
 use super::{min_force, moment_balance};
 use crate::catenary::SpanState;
 use crate::ply::{Laid, Ply};
 use crate::scene::{Settings, SlopeRule};
+
+/// Multiple of its height above the buckling force beyond which a force's rounding is looked at.
+const ROUGH: f64 = 1e3;
 
 /// Finds equilibria, one after the other.
 #[derive(Debug, Clone)]
@@ -367,7 +370,7 @@ impl Solver {
             }
             let slopes = [0, 1].map(|end| self.slope_at(&element, end));
             // nothing that holds it has moved: keep what is known
-            if slopes == self.held[n] && !self.evaluated[n].length_residual.is_nan() {
+            if slopes == self.held[n] && self.evaluated[n].carried <= self.tuning.carried {
                 continue;
             }
             let guess = self.predict(n, slopes);
@@ -385,6 +388,11 @@ impl Solver {
         }
     }
 
+    /// Whether no element's derivatives were carried far; if not, the next evaluation renews them.
+    pub(super) fn is_sharp(&self) -> bool {
+        self.evaluated.iter().all(|element| element.carried <= self.tuning.carried)
+    }
+
     /// Largest relative error of a length, measured at the forces that are returned; slopes of free ends are
     /// read off on the way.
     fn measure_lengths(&mut self) -> f64 {
@@ -398,6 +406,11 @@ impl Solver {
             if !(found.length_residual <= 0.1 * self.tuning.length_tolerance) {
                 (found.force.value, found.length_residual) =
                     meet_length(&span, Some(found.force.value));
+            }
+            // close to buckling the rounding of the force itself moves the length
+            let [pole, _] = self.heights[n];
+            if pole.abs() > ROUGH * (found.force.value - pole).abs() {
+                found.length_residual = length_residual(&span, found.force.value);
             }
             let residual = found.length_residual;
             largest = largest.max(if residual.is_finite() { residual } else { f64::INFINITY });

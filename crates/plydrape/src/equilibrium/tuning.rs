@@ -11,13 +11,17 @@ pub struct Tuning {
     /// paper's example differ by up to 33° from the plane's at the onset of shear: over 3° of shear the
     /// grippers turn some ten times as fast as the cell shears.
     pub full_constraint: f64,
-    /// Residual of the slopes at which a solve has converged. 1e-8: solutions are promised to 1e-6.
+    /// Residual of the slopes at which a solve has converged. 1e-9: solutions are promised to 1e-6, and differences of
+    /// them are taken.
     pub slope_tolerance: f64,
-    /// Relative error of a length that a converged solve may leave. 1e-8, as above.
+    /// Relative error of a length that a converged solve may leave. 1e-8, for the same promise.
     pub length_tolerance: f64,
     /// Residual of the slopes below which a line search that finds nothing better has met rounding, not an
     /// obstacle. 1e-6, because the objective is summed to about 1e-12 of itself and is flat to second order.
     pub rounding_residual: f64,
+    /// Relative step of a force over which its element's derivatives may have been carried at a converged state.
+    /// 2e-4: moments and gradients are then off by some 1e-11 of themselves.
+    pub carried: f64,
     /// Newton steps after which a solve gives up; a regular one takes two to eight.
     pub iterations: usize,
     /// Smallest share of a Newton step that a line search tries.
@@ -47,9 +51,10 @@ impl Default for Tuning {
     fn default() -> Self {
         Tuning {
             full_constraint: 3f64.to_radians(),
-            slope_tolerance: 1e-8,
+            slope_tolerance: 1e-9,
             length_tolerance: 1e-8,
             rounding_residual: 1e-6,
+            carried: 2e-4,
             iterations: 100,
             smallest_share: 1e-9,
             decrease: 1e-4,

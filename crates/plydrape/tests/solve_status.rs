@@ -1,0 +1,339 @@
+//! How a solve ends is told as it is: measured residuals, early ends, plies that cannot be solved, scaled copies.
+
+use plydrape::catenary::{EndCondition, Profile};
+use plydrape::equilibrium::{Direction, End, Solver, Status, Tuning};
+use plydrape::material::{Material, Section};
+use plydrape::ply::{Direction as Along, Grid, Laid, Ply};
+use plydrape::scene::{Contact, ContactEnd, Settings, SlopeRule, Stepping};
+
+type Point = [f64; 3];
+
+const RULES: [SlopeRule; 2] = [SlopeRule::MinForce, SlopeRule::MomentBalance];
+
+fn ply(nu: usize, nv: usize, cell: f64, mass: f64, flexural_rigidity: f64) -> Ply {
+    Ply {
+        grid: Grid { nu, nv },
+        cell: [cell; 2],
+        material: Material {
+            name: "of the test".into(),
+            source: "Krogh et al. 2018, Table 1, unless the test changes it".into(),
+            section: Section::Line { mass, flexural_rigidity },
+            shear_curve: None,
+            locking_angle: None,
+        },
+        warp: Along::U,
+    }
+}
+
+fn settings(slopes: SlopeRule, axial_stiffness: f64) -> Settings {
+    Settings {
+        slopes,
+        axial_stiffness,
+        gravity: 9.8,
+        max_tilt: 40f64.to_radians(),
+        contact: Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free },
+    }
+}
+
+fn free(ply: &Ply) -> Vec<Option<Laid>> {
+    vec![None; ply.grid.catenaries()]
+}
+
+/// Numbers in −1…1, the same in every run (xorshift).
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+/// Grippers `spacing` apart, flung about by `noise` of it in plan and by three times as much in height.
+fn flung(grid: Grid, spacing: f64, noise: f64, seed: u64) -> Vec<Point> {
+    let mut random = random(seed);
+    (0..grid.grippers())
+        .map(|n| {
+            let [i, j] = grid.id(n).map(|k| spacing * k as f64);
+            let size = noise * spacing;
+            [i + size * random(), j + size * random(), 0.3 + 3.0 * size * random()]
+        })
+        .collect()
+}
+
+/// Relative error of every length at the forces that are returned, by the arc length itself.
+fn length_errors(solver: &Solver) -> f64 {
+    let mut worst = 0.0_f64;
+    for n in 0..solver.assembly().elements.len() {
+        let Some(force) = solver.force(n) else { continue };
+        let span = solver.span(n);
+        let stretch = force * span.chord() / (span.run * span.axial_stiffness);
+        let length = Profile::new(&span, force).length_jet::<3>().value;
+        worst = worst.max((length - span.length * (1.0 + stretch)).abs() / span.length);
+    }
+    worst
+}
+
+/// What is reported as the error of the lengths is no less than the error itself, and a state that is said to
+/// have converged keeps it below the tolerance: soft plies, stiff plies and plies so stiff (EI up to 10⁶ N·m²) that
+/// the last digit of a force close to buckling moves the length by more than that.
+#[test]
+fn the_reported_length_residual_is_that_of_the_returned_forces() {
+    let mut not_met = 0;
+    for rule in RULES {
+        for exponent in -6..=6 {
+            let ply = ply(4, 2, 0.1, 0.3143, 10f64.powi(exponent));
+            for seed in 0..6 {
+                let positions = flung(ply.grid, 0.097, 0.01, 7 + seed);
+                let mut solver = Solver::new(&ply, &settings(rule, f64::INFINITY));
+                let outcome = solver.solve(&positions, &free(&ply));
+                let error = length_errors(&solver);
+                let rounding = 1e-11;
+                assert!(
+                    outcome.length_residual >= 0.5 * error - rounding || !error.is_finite(),
+                    "EI 1e{exponent}: {outcome:?} {error}"
+                );
+                match outcome.status {
+                    Status::LengthNotMet => not_met += 1,
+                    _ => assert!(error <= 1e-8, "EI 1e{exponent}: {outcome:?} {error}"),
+                }
+            }
+        }
+    }
+    assert!(not_met > 0, "no force in floating point gives the stiffest plies their lengths");
+}
+
+/// The reported residual is the gradient that is left, as a change of slope: moving any free slope by more than it
+/// (and by a millionth, for the differences) makes the sum of squares larger.
+#[test]
+fn a_solve_that_is_cut_short_says_so() {
+    let ply = ply(4, 2, 0.1, 0.3143, 9e-6);
+    let positions = flung(ply.grid, 0.096, 0.01, 3);
+    for rule in RULES {
+        let mut whole = Solver::new(&ply, &settings(rule, 1e5));
+        let outcome = whole.solve(&positions, &free(&ply));
+        assert_eq!(outcome.status, Status::Converged);
+        assert!(outcome.residual <= 1e-8 && outcome.early_ends == Default::default());
+        let tuning = Tuning { iterations: 0, ..Tuning::default() };
+        let mut cut = Solver::new(&ply, &settings(rule, 1e5)).with_tuning(tuning);
+        let outcome = cut.solve(&positions, &free(&ply));
+        assert_eq!(outcome.status, Status::IterationLimit, "{outcome:?}");
+        assert!(outcome.early_ends.continuation > 0, "the fallback is counted: {outcome:?}");
+        // the residual is an error of the slopes: of the size of what is missing
+        let missing = whole.slopes().iter().zip(cut.slopes()).map(|(a, b)| (a - b).abs());
+        let missing = missing.fold(0.0, f64::max);
+        assert!(outcome.residual > 0.2 * missing && outcome.residual < 5.0 * missing);
+        // and lengths are met at any slopes
+        assert!(outcome.length_residual <= 1e-8);
+    }
+}
+
+/// Half the sum of squares of the forces with the shared slopes put where the caller wants them.
+fn objective(solver: &Solver, slopes: &[f64]) -> f64 {
+    let assembly = solver.assembly();
+    let mut outcome = vec![[0.0; 2]; assembly.elements.len()];
+    let mut sum = 0.0;
+    for (n, element) in assembly.elements.iter().enumerate() {
+        let mut span = solver.span(n);
+        for end in 0..2 {
+            let slope = match element.ends[end] {
+                End::Joint(j) => slopes[j],
+                End::Plane(plane) => {
+                    let at = |source| match source {
+                        plydrape::equilibrium::SlopeSource::Given(s) => s,
+                        plydrape::equilibrium::SlopeSource::Joint(j) => slopes[j],
+                        plydrape::equilibrium::SlopeSource::Outcome(e, k) => {
+                            let pair: [f64; 2] = outcome[e];
+                            pair[k]
+                        }
+                    };
+                    plane.share[0] * at(plane.source[0]) + plane.share[1] * at(plane.source[1])
+                }
+                _ => continue,
+            };
+            span.ends[end] = EndCondition::Slope(slope);
+        }
+        let Some(force) = span.solve(solver.force(n)).force else { continue };
+        let profile = Profile::new(&span, force);
+        outcome[n] = [profile.end_slope(0), profile.end_slope(1)];
+        sum += 0.5 * force * force;
+    }
+    sum
+}
+
+/// Derivative of the objective at a slope, as a change of slope, by central differences: 0 at slopes at a limit that
+/// holds them.
+fn slope_residual(solver: &Solver, bound: f64) -> f64 {
+    let slopes = solver.slopes().to_vec();
+    let mut worst = 0.0_f64;
+    for j in 0..slopes.len() {
+        let h = 1e-4;
+        let at = |x: f64| {
+            let mut moved = slopes.clone();
+            moved[j] += x;
+            objective(solver, &moved)
+        };
+        let (low, middle, high) = (at(-h), at(0.0), at(h));
+        let gradient = (high - low) / (2.0 * h);
+        let curvature = (high - 2.0 * middle + low) / (h * h);
+        let held = slopes[j].abs() >= bound && gradient * slopes[j] < 0.0;
+        // differences of a large sum (of taut spans) say nothing
+        let rounding = 1e-12 * middle / (h * h);
+        if !held && curvature.abs() > 100.0 * rounding {
+            worst = worst.max(if curvature > 0.0 { (gradient / curvature).abs() } else { 1.0 });
+        }
+    }
+    worst
+}
+
+/// What is said to have converged has no descent left, by central differences of the objective.
+#[test]
+fn min_force_converges_only_where_no_descent_is_left() {
+    let bound = 40f64.to_radians().tan();
+    let mut converged = 0;
+    for seed in 0..120 {
+        let ply = ply(4, 2, 0.1, 0.3143, [9e-6, 1e-4, 1e-3][seed as usize % 3]);
+        let positions = flung(ply.grid, 0.08, 0.12, 100 + seed);
+        let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce, 1e5));
+        let outcome = solver.solve(&positions, &free(&ply));
+        if outcome.status == Status::Converged {
+            converged += 1;
+            let residual = slope_residual(&solver, bound);
+            assert!(residual < 1e-4, "seed {seed}: {outcome:?} {residual}");
+        }
+    }
+    assert!(converged > 100, "{converged}");
+}
+
+/// A line search that finds nothing, here because ten times the descent is asked for that there is, leaves a ply that
+/// has not converged, and it is said, with the residual that is left.
+#[test]
+fn a_line_search_that_finds_nothing_is_not_convergence() {
+    let ply = ply(4, 2, 0.1, 0.3143, 9e-6);
+    let positions = flung(ply.grid, 0.096, 0.01, 3);
+    let tuning = Tuning { decrease: 10.0, ..Tuning::default() };
+    let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce, 1e5)).with_tuning(tuning);
+    let outcome = solver.solve(&positions, &free(&ply));
+    assert_eq!(outcome.status, Status::Stalled, "{outcome:?}");
+    assert!(outcome.residual > 1e-4 && outcome.early_ends.line_searches > 0, "{outcome:?}");
+    assert!(slope_residual(&solver, 40f64.to_radians().tan()) > 1e-4);
+}
+
+/// Balanced moments are a stable state: energy rises in every direction. The matrix of the jumps by central
+/// differences has positive pivots, for stiff strips in compression too, from level slopes.
+#[test]
+fn balanced_moments_are_a_stable_state() {
+    let (mut converged, mut unstable_on_the_way) = (0, 0);
+    for seed in 0..60 {
+        let ply = ply(5, 1, 0.1, 0.3143, [2e-4, 1e-3, 5e-3][seed as usize % 3]);
+        let positions = flung(ply.grid, 0.09, 0.03, 400 + seed);
+        let mut solver = Solver::new(&ply, &settings(SlopeRule::MomentBalance, 1e5));
+        let outcome = solver.solve(&positions, &free(&ply));
+        unstable_on_the_way += outcome.early_ends.negative_curvatures;
+        if outcome.status != Status::Converged {
+            eprintln!("{seed} {outcome:?}");
+            continue;
+        }
+        converged += 1;
+        let slopes = solver.slopes().to_vec();
+        let jumps = |slopes: &[f64]| -> Vec<f64> {
+            let joint = |j: usize| {
+                let moment = |k: usize| {
+                    let element = solver.assembly().joints[j].elements[k];
+                    let mut span = solver.span(element);
+                    for end in 0..2 {
+                        if let End::Joint(other) = solver.assembly().elements[element].ends[end] {
+                            span.ends[end] = EndCondition::Slope(slopes[other]);
+                        }
+                    }
+                    let force = span.solve(solver.force(element)).force.expect("it hangs");
+                    let x = if k == 0 { span.run } else { 0.0 };
+                    Profile::new(&span, force).station(x).moment
+                };
+                moment(0) - moment(1)
+            };
+            (0..slopes.len()).map(joint).collect()
+        };
+        let bound = 40f64.to_radians().tan();
+        let free: Vec<usize> = (0..slopes.len()).filter(|j| slopes[*j].abs() < bound).collect();
+        let mut matrix = vec![vec![0.0; free.len()]; free.len()];
+        for (column, j) in free.iter().enumerate() {
+            let at = |x: f64| {
+                let mut moved = slopes.clone();
+                moved[*j] += x;
+                jumps(&moved)
+            };
+            let (low, high) = (at(-1e-5), at(1e-5));
+            for (row, i) in free.iter().enumerate() {
+                matrix[row][column] = (high[*i] - low[*i]) / 2e-5;
+            }
+        }
+        for pivot in 0..free.len() {
+            assert!(matrix[pivot][pivot] > 0.0, "seed {seed}: {outcome:?} {matrix:?}");
+            for row in pivot + 1..free.len() {
+                let factor = matrix[row][pivot] / matrix[pivot][pivot];
+                for column in pivot..free.len() {
+                    matrix[row][column] -= factor * matrix[pivot][column];
+                }
+            }
+        }
+    }
+    assert!(converged >= 50, "{converged}");
+    assert!(unstable_on_the_way > 0, "the strips are stiff enough to pass unstable states");
+}
+
+/// A ply and its copy n times as large have the same shape if weights balance rigidities alike: with lengths n-fold
+/// and EI/m n³-fold, here at equal mass, so that forces and EA grow n-fold. Nothing in the method is a length or a
+/// force.
+#[test]
+fn a_scaled_ply_hangs_in_the_same_shape() {
+    for rule in RULES {
+        for (seed, shear, rigidity) in [(1, 0.0, 9e-6), (2, 0.05, 9e-6), (3, 0.3, 9e-6), (4, 0.0, 9e-4)] {
+            let solved = |scale: f64| {
+                let ply = ply(4, 2, 0.1 * scale, 0.3143, rigidity * scale.powi(3));
+                let positions: Vec<Point> = flung(ply.grid, 0.0965, 0.01, seed)
+                    .iter()
+                    .map(|p| [p[0] + p[1] * f64::sin(shear), p[1] * f64::cos(shear), p[2]].map(|x| scale * x))
+                    .collect();
+                let mut solver = Solver::new(&ply, &settings(rule, 1e5 * scale));
+                let outcome = solver.solve(&positions, &free(&ply));
+                assert_eq!(outcome.status, Status::Converged, "scale {scale}: {outcome:?}");
+                (solver, outcome)
+            };
+            let (one, first) = solved(1.0);
+            for scale in [0.1, 10.0] {
+                let (other, outcome) = solved(scale);
+                assert_eq!(first.iterations, outcome.iterations);
+                for n in 0..one.assembly().elements.len() {
+                    let (a, b) = (one.end_slopes(n), other.end_slopes(n));
+                    assert!((0..2).all(|k| (a[k] - b[k]).abs() < 1e-7), "{a:?} {b:?}");
+                    if let (Some(a), Some(b)) = (one.force(n), other.force(n)) {
+                        assert!((b / scale - a).abs() < 1e-7 * a.abs().max(0.1), "{a} {b}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Where the matrix of the slopes is singular or not positive there is no derivative, and it is said: at slopes where
+/// a solve was cut short in a direction of negative curvature.
+#[test]
+fn derivatives_of_a_state_that_is_no_minimum_are_not_sound() {
+    let mut unsound = 0;
+    for seed in 0..40 {
+        let ply = ply(5, 1, 0.1, 0.3143, 5e-3);
+        let positions = flung(ply.grid, 0.08, 0.03, 700 + seed);
+        let tuning = Tuning { iterations: 0, ..Tuning::default() };
+        for rule in RULES {
+            let mut solver = Solver::new(&ply, &settings(rule, 1e5)).with_tuning(tuning);
+            solver.solve(&positions, &free(&ply));
+            let laid = free(&ply);
+            let mut linearized = solver.linearize(&positions, &laid);
+            linearized.along(&Direction::gripper(&ply, 1, 2));
+            unsound += u32::from(!linearized.is_sound());
+        }
+    }
+    assert!(unsound > 0);
+}
