@@ -355,7 +355,7 @@ fn a_ball_that_is_called_clear_holds_nothing_of_the_mold() {
             let [x, y] = [2.0, 3.0].map(|prime| 0.6 * (scatter(n, prime) - 0.5));
             let Some(on) = mold.drop_to([x, y]) else { continue };
             let p = [x, y, on[2] + 0.4 * scatter(n, 5.0).powi(2)];
-            let clear = mold.clear(p, mold.separation(p), bound);
+            let clear = mold.clear(p, mold.separation(p, f64::INFINITY), bound);
             for k in 1..400 {
                 let [u, v] = [7.0, 11.0].map(|prime| 0.6 * (scatter(k, prime) - 0.5));
                 let Some(q) = mold.drop_to([u, v]) else { continue };
