@@ -345,17 +345,21 @@ fn steepness_bounds_every_slope_and_bend() {
     }
 }
 
-/// A valley narrower than the point is high: the closest point that is found downhill is not the closest of all, and the
-/// ball that is called clear must not reach the other wall.
+/// High above ridges on a slope the closest point that is found downhill is not the closest of all, and the ball that is
+/// called clear must not reach the next ridge.
 #[test]
 fn a_ball_that_is_called_clear_holds_nothing_of_the_mold() {
-    for (name, mold) in molds(1.0) {
+    let z = Formula::new("0.03*cos(40*x) + 0.8*x").expect("a formula");
+    let domain = Some([[-0.5, 0.5]; 2]);
+    let surface = Surface::Formula { z };
+    let ridges = Mold::Graph(Graph { pose: level(), surface, domain });
+    for (name, mold) in molds(1.0).into_iter().chain([("ridges", ridges)]) {
         let bound = mold.steepness();
         for n in 1..300 {
             let [x, y] = [2.0, 3.0].map(|prime| 0.6 * (scatter(n, prime) - 0.5));
             let Some(on) = mold.drop_to([x, y]) else { continue };
             let p = [x, y, on[2] + 0.4 * scatter(n, 5.0).powi(2)];
-            let clear = mold.clear(p, mold.separation(p), bound);
+            let clear = mold.clear(p, mold.separation(p, f64::INFINITY), bound);
             for k in 1..400 {
                 let [u, v] = [7.0, 11.0].map(|prime| 0.6 * (scatter(k, prime) - 0.5));
                 let Some(q) = mold.drop_to([u, v]) else { continue };

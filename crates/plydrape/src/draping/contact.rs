@@ -145,14 +145,14 @@ pub fn first_touch(
     // laying a run must not stretch what it leaves free
     let reach = |side: usize, far: f64| {
         let left = |t: f64| if side == 0 { arc(t) } else { length - arc(t) };
-        let fits = |t: f64| {
+        let excess = |t: f64| {
             let pull = distance(piece(t).end(), span.ends[side]) - left(t);
-            pull <= (span.chord() - length).max(0.0) + PULL * length
+            pull - (span.chord() - length).max(0.0) - PULL * length
         };
-        if run.depth < -contact.tolerance || fits(far) {
+        if run.depth < -contact.tolerance || excess(far) <= 0.0 {
             return far;
         }
-        farthest(run.deepest, far, fits)
+        farthest(run.deepest, far, excess)
     };
     let line = match (held_first, held_last) {
         (true, true) => whole(mold, a, b, length),
@@ -240,15 +240,15 @@ pub fn next_touch(
     };
     let left = |t: f64| if rest == 0 { span.arc(t) } else { span.length - span.arc(t) };
     let whole = laid.length;
-    let fits = |t: f64| {
+    let excess = |t: f64| {
         let pull = distance(piece(t).end(), span.ends[rest]) - left(t);
-        pull <= (span.chord() - span.length).max(0.0) + PULL * whole
+        pull - (span.chord() - span.length).max(0.0) - PULL * whole
     };
     let far = if rest == 0 { run.from } else { run.to };
-    let to = if run.depth < -contact.tolerance || fits(far) {
+    let to = if run.depth < -contact.tolerance || excess(far) <= 0.0 {
         far
     } else {
-        farthest(1.0 - rest as f64, far, fits)
+        farthest(1.0 - rest as f64, far, excess)
     };
     let line = std::mem::take(&mut laid.line);
     laid.line = if rest == 0 {

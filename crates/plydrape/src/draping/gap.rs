@@ -108,8 +108,8 @@ impl GapMemory {
         let mut look =
             Look { span, mold, steepness: self.steepness, gaps: [UNKNOWN; STATIONS], seen };
         let samples = look.samples(tolerance);
-        // below a border, where the bound takes no side
-        if is_known && samples != GapSamples::default() && ends() > tolerance {
+        // what is deep in a mold that the whole span keeps clear of is below its border
+        if is_known && samples.depth() > tolerance && ends() > tolerance {
             return GapSamples::default();
         }
         samples
@@ -145,9 +145,9 @@ impl Look<'_> {
         self.mold.signed_distance(self.span.point(t))
     }
 
-    /// What is seen of the mold from a point (m), and the distance of it (m).
-    fn see(&self, from: Point) -> (Seen, f64) {
-        let apart = self.mold.separation(from);
+    /// What is seen of the mold from a point (m), which is no farther than `most` (m) from it, and the distance (m).
+    fn see(&self, from: Point, most: f64) -> (Seen, f64) {
+        let apart = self.mold.separation(from, most);
         let clear = self.mold.clear(from, apart, self.steepness);
         (Seen { from, size: apart.distance.abs(), clear }, apart.distance)
     }
@@ -157,7 +157,8 @@ impl Look<'_> {
         if self.gaps[station].is_exact {
             return;
         }
-        let (seen, distance) = self.see(self.span.point(at(station)));
+        let most = self.gaps[station].most;
+        let (seen, distance) = self.see(self.span.point(at(station)), most);
         self.gaps[station] = Gap::exact(distance);
         if let Some(slot) = self.seen.get_mut(station) {
             *slot = seen;
@@ -179,7 +180,7 @@ impl Look<'_> {
             return;
         }
         if self.seen.is_empty() {
-            let (middle, _) = self.see(places[STATIONS / 2]);
+            let (middle, _) = self.see(places[STATIONS / 2], f64::INFINITY);
             self.seen.resize(STATIONS, middle);
         }
         for n in 0..STATIONS {
@@ -413,18 +414,10 @@ fn crossing(distance: &impl Fn(f64) -> f64, outside: f64, inside: f64, level: f6
     into
 }
 
-/// How far one can go from `near` towards `far` so that it still fits, by bisection.
-pub fn farthest(near: f64, far: f64, fits: impl Fn(f64) -> bool) -> f64 {
-    let (mut good, mut bad) = (near, far);
-    for _ in 0..40 {
-        let middle = 0.5 * (good + bad);
-        if fits(middle) {
-            good = middle;
-        } else {
-            bad = middle;
-        }
-    }
-    good
+/// How far one can go from `near` towards `far`, where it no longer fits, so that it still fits: where `excess` comes
+/// to zero.
+pub fn farthest(near: f64, far: f64, excess: impl Fn(f64) -> f64) -> f64 {
+    if excess(near) >= 0.0 { near } else { crossing(&excess, far, near, 0.0) }
 }
 
 /// Largest gap between two fractions of a span.

@@ -183,19 +183,21 @@ impl Mold {
     pub fn signed_distance(&self, p: [f64; 3]) -> f64 {
         match self {
             Mold::Plane(plane) => plane.signed_distance(p),
-            _ => self.separation(p).distance,
+            _ => self.separation(p, f64::INFINITY).distance,
         }
     }
 
     /// How far `p` (m) is from the mold, as [`Mold::foot`] says it.
+    ///
+    /// It is known to be no farther than `most` (m), perhaps infinite, which saves a search among triangles.
     #[must_use]
-    pub fn separation(&self, p: [f64; 3]) -> Separation {
+    pub fn separation(&self, p: [f64; 3], most: f64) -> Separation {
         match self {
             Mold::Plane(plane) => Separation { distance: plane.signed_distance(p), beyond: false },
             Mold::Cylinder(cylinder) => cylinder.separation(p),
             Mold::Sphere(sphere) => sphere.separation(p),
             Mold::Torus(torus) => torus.separation(p),
-            Mold::Mesh(mesh) => mesh.separation(p),
+            Mold::Mesh(mesh) => mesh.separation(p, most),
             Mold::Graph(graph) => {
                 let Foot { distance, beyond, .. } = graph.foot(p);
                 Separation { distance, beyond }

@@ -16,6 +16,9 @@ const ASIDE: f64 = 1e-9;
 /// The same as a share of its distance.
 const ASIDE_SLOPE: f64 = 1e-9;
 
+/// Share by which the square of a bound on a distance is taken larger.
+const WITHIN: f64 = 1e-6;
+
 /// A point of the mesh: its triangle and its weights there.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
@@ -35,10 +38,12 @@ impl Mesh {
         Foot { point: spot.point, normal: self.normal_at(&spot), distance, beyond }
     }
 
-    /// How far `p` (m) is away, as [`Mesh::foot`] says it.
+    /// How far `p` (m) is away, as [`Mesh::foot`] says it; it is known to be no farther than `most` (m).
     #[must_use]
-    pub fn separation(&self, p: [f64; 3]) -> Separation {
-        self.separation_from(&self.spot(p), p)
+    pub fn separation(&self, p: [f64; 3], most: f64) -> Separation {
+        // a margin for rounding; should the bound be wrong all the same, everything is searched
+        let spot = self.spot_within(p, most * most * (1.0 + WITHIN));
+        self.separation_from(&spot.unwrap_or_else(|| self.spot(p)), p)
     }
 
     fn separation_from(&self, spot: &Spot, p: [f64; 3]) -> Separation {
@@ -51,17 +56,19 @@ impl Mesh {
 
     /// The point of the mesh closest to `p` (m).
     pub(super) fn spot(&self, p: [f64; 3]) -> Spot {
+        // no number, or too far away to tell
+        let corner = || Spot { triangle: 0, weights: [1.0, 0.0, 0.0], point: self.corners(0)[0] };
+        self.spot_within(p, f64::MAX).unwrap_or_else(corner)
+    }
+
+    /// The same, if the square of its distance is less than `most` (m²).
+    fn spot_within(&self, p: [f64; 3], most: f64) -> Option<Spot> {
         let near = |triangle: u32| {
             let (weights, point, square) = closest(self.corners(triangle as usize), p);
             Near { square, what: (weights, point) }
         };
-        match self.tree.nearest(p, near) {
-            Some((triangle, Near { what: (weights, point), .. })) => {
-                Spot { triangle: triangle as usize, weights, point }
-            }
-            // no number, or too far away to tell
-            None => Spot { triangle: 0, weights: [1.0, 0.0, 0.0], point: self.corners(0)[0] },
-        }
+        let (triangle, Near { what: (weights, point), .. }) = self.tree.nearest(p, most, near)?;
+        Some(Spot { triangle: triangle as usize, weights, point })
     }
 
     /// Smooth unit normal.

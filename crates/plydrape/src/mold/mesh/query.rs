@@ -32,10 +32,11 @@ impl Tree {
         Tree { boxes: Bvh::from_iter(BvhBuildStrategy::Binned, boxes) }
     }
 
-    /// The item nearest to `p` (m); none if `p` is so far away that squares overflow.
+    /// The item nearest to `p` (m); none if the square of its distance is not less than `most` (m²).
     pub fn nearest<T>(
         &self,
         p: [f64; 3],
+        most: f64,
         distance: impl Fn(u32) -> Near<T>,
     ) -> Option<(u32, Near<T>)> {
         let p = Vector::from(p);
@@ -43,7 +44,7 @@ impl Tree {
             let outside = (node.mins() - p).max(p - node.maxs()).max(Vector::ZERO);
             outside.length_squared()
         };
-        self.boxes.find_best(f64::MAX, to_box, |item, _| Some(distance(item)))
+        self.boxes.find_best(most.min(f64::MAX), to_box, |item, _| Some(distance(item)))
     }
 
     /// All items whose boxes reach within `tolerance` of `p` (m).
