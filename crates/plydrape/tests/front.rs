@@ -25,7 +25,7 @@ const RING: Strategy =
 fn score(scene: &Scene, positions: &[Vec<[f64; 3]>]) -> f64 {
     let mut watcher = |_: &plydrape::planner::Progress| ControlFlow::Continue(());
     let board = Board::new(1, &mut watcher);
-    judge::score(&judge::drape(scene, positions, &board).result)
+    judge::score(&judge::drape(scene, positions, &board))
 }
 
 /// Slopes and curvatures of the lifted mold are the central differences of its height and slopes, for a turned
