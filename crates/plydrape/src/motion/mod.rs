@@ -93,6 +93,17 @@ impl TimedMotion {
         Ok(TimedMotion { times, positions, law, peaks, path: Some(path) })
     }
 
+    /// The same motion over a time λ times as long: the same shapes of the ply, in the same order.
+    #[must_use]
+    pub fn slowed(&self, factor: f64) -> Self {
+        TimedMotion {
+            law: self.law.stretched(factor),
+            times: self.times.iter().map(|t| t * factor).collect(),
+            peaks: self.peaks.slowed(factor),
+            ..self.clone()
+        }
+    }
+
     /// Number of grippers.
     #[must_use]
     pub fn grippers(&self) -> usize {

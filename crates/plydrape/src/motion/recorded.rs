@@ -11,6 +11,7 @@ impl ResultFile {
     pub fn motion(&self) -> Result<Option<(TimedMotion, Attitudes)>, MotionError> {
         let Some(plan) = &self.plan else { return Ok(None) };
         let motion = TimedMotion::new(&plan.path, &Bounds::from(&self.scene.limits))?;
+        let motion = if plan.slowed > 1.0 { motion.slowed(plan.slowed) } else { motion };
         Ok(Some((motion, self.attitudes()?)))
     }
 

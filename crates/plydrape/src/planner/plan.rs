@@ -124,9 +124,19 @@ pub fn plan(
     let interrupted = board.is_stopped();
 
     let bounds = Bounds::from(&scene.limits);
-    let motion = TimedMotion::new(&found.positions, &bounds)?;
-    let followed = judge::with_motion(scene, motion.steps());
-    let mut drape = simulate(&followed, |_| ControlFlow::Continue(()));
+    let mut motion = TimedMotion::new(&found.positions, &bounds)?;
+    let follow = |motion: &TimedMotion| {
+        let followed = judge::with_motion(scene, motion.steps());
+        simulate(&followed, |_| ControlFlow::Continue(()))
+    };
+    let mut drape = follow(&motion);
+    // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
+    let fastest = drape.result.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
+    let slowed = (fastest / scene.limits.tilt_rate.to_degrees()).max(1.0);
+    if slowed > 1.0 {
+        motion = motion.slowed(slowed);
+        drape = follow(&motion);
+    }
     // what no plan can keep comes first
     let summary = &mut drape.result.summary;
     let judged = std::mem::take(&mut summary.limits);
@@ -137,6 +147,7 @@ pub fn plan(
         method: scene.plan.method,
         evaluations: found.evaluations,
         rate: scene.plan.rate,
+        slowed,
         path: found.positions.clone(),
     });
     let attitudes = drape.result.attitudes()?;

@@ -88,6 +88,9 @@ pub struct PlanRecord {
     pub evaluations: usize,
     /// Samples a second of the motion as it is written (Hz).
     pub rate: f64,
+    /// How many times longer the motion takes than its speed, acceleration and jerk need, so that no gripper turns faster
+    /// than its limit; 1 where that is no matter.
+    pub slowed: f64,
     /// Planned positions of all grippers (m): control points of the smooth path, one list a step.
     pub path: Vec<Vec<[f64; 3]>>,
 }
