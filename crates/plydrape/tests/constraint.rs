@@ -106,7 +106,8 @@ fn a_sheared_ply_in_an_inclined_plane_has_its_normal_at_every_constrained_grippe
                         continue;
                     };
                     constrained += 1;
-                    let found = normal(&solver, grid, &positions, gripper).expect("edges both ways");
+                    let found =
+                        normal(&solver, grid, &positions, gripper).expect("edges both ways");
                     for k in 0..3 {
                         assert!((constraint.normal[k] - expected[k]).abs() < 1e-13);
                         assert!((found[k] - expected[k]).abs() < 1e-12, "{found:?} {expected:?}");
@@ -267,7 +268,8 @@ fn derivatives_in_the_onset_agree_with_central_differences() {
                 (solver, moved)
             };
             let h = 2e-5;
-            let ((mut middle, _), (low, below), (high, above)) = (solved(0.0), solved(-h), solved(h));
+            let ((mut middle, _), (low, below), (high, above)) =
+                (solved(0.0), solved(-h), solved(h));
             assert!(middle.assembly().is_partly_constrained(), "not in the onset");
             let mut linearized = middle.linearize(&positions, &laid);
             let tangent = linearized.along(&direction);
@@ -320,7 +322,8 @@ fn the_stretched_diagonal_s_force_does_the_work_of_the_shear() {
     for stretched in [0.15, 0.16, 0.18] {
         let h = 1e-7;
         let angle = |d: f64| shear::angle(sides, d);
-        let work = tau * sides[0] * sides[1] * (angle(stretched + h) - angle(stretched - h)) / (2.0 * h);
+        let work =
+            tau * sides[0] * sides[1] * (angle(stretched + h) - angle(stretched - h)) / (2.0 * h);
         let force = shear::force(angle(stretched), stretched, tau);
         assert!((force / work - 1.0).abs() < 1e-7, "{force} {work}");
     }

@@ -289,12 +289,17 @@ fn balanced_moments_are_a_stable_state() {
 #[test]
 fn a_scaled_ply_hangs_in_the_same_shape() {
     for rule in RULES {
-        for (seed, shear, rigidity) in [(1, 0.0, 9e-6), (2, 0.05, 9e-6), (3, 0.3, 9e-6), (4, 0.0, 9e-4)] {
+        for (seed, shear, rigidity) in
+            [(1, 0.0, 9e-6), (2, 0.05, 9e-6), (3, 0.3, 9e-6), (4, 0.0, 9e-4)]
+        {
             let solved = |scale: f64| {
                 let ply = ply(4, 2, 0.1 * scale, 0.3143, rigidity * scale.powi(3));
                 let positions: Vec<Point> = flung(ply.grid, 0.0965, 0.01, seed)
                     .iter()
-                    .map(|p| [p[0] + p[1] * f64::sin(shear), p[1] * f64::cos(shear), p[2]].map(|x| scale * x))
+                    .map(|p| {
+                        [p[0] + p[1] * f64::sin(shear), p[1] * f64::cos(shear), p[2]]
+                            .map(|x| scale * x)
+                    })
                     .collect();
                 let mut solver = Solver::new(&ply, &settings(rule, 1e5 * scale));
                 let outcome = solver.solve(&positions, &free(&ply));

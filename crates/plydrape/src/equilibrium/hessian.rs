@@ -93,12 +93,7 @@ fn multiply(blocks: &[[[f64; 2]; 2]], rows: &[[[(usize, f64); 2]; 2]], x: &[f64]
 /// turns negative they end with a long step that way. The right side must vanish on active bounds.
 ///
 /// Returns whether the system was solved; if not, `early_ends` says why.
-pub fn solve_linear(
-    solver: &mut Solver,
-    right: &[f64],
-    tolerance: f64,
-    out: &mut [f64],
-) -> bool {
+pub fn solve_linear(solver: &mut Solver, right: &[f64], tolerance: f64, out: &mut [f64]) -> bool {
     let Tuning { far_step, linear_iterations, .. } = solver.tuning;
     let work = &mut solver.work;
     let count = right.len();

@@ -168,11 +168,8 @@ pub fn solve(solver: &mut Solver) -> Equilibrium {
         wanted.derivatives = false;
     }
     solver.evaluate_jumps();
-    let outcome = if count == 0 {
-        ended(Status::Converged, 1, 0.0)
-    } else {
-        balance(solver, bound)
-    };
+    let outcome =
+        if count == 0 { ended(Status::Converged, 1, 0.0) } else { balance(solver, bound) };
     // diagonals are no tows: they follow
     let (edges, all) = (solver.assembly.edge_elements, solver.assembly.elements.len());
     solver.evaluate_elements(edges..all);

@@ -5,7 +5,9 @@
 //! of a shearing cell for all that meet its stretched diagonal's grippers.
 
 use super::Number;
-use super::assembly::{Assembly, Build, Constraint, End, Joint, Line, PlaneSlope, Side, SlopeSource};
+use super::assembly::{
+    Assembly, Build, Constraint, End, Joint, Line, PlaneSlope, Side, SlopeSource,
+};
 use crate::ply::{Catenary, Kind, Laid, shear};
 use crate::scene::ContactEnd;
 

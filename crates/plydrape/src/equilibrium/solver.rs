@@ -147,7 +147,11 @@ impl Solver {
         match auxiliary {
             None => outcome,
             Some(first) => Equilibrium {
-                status: if first.status == Status::Converged { outcome.status } else { first.status },
+                status: if first.status == Status::Converged {
+                    outcome.status
+                } else {
+                    first.status
+                },
                 iterations: first.iterations + outcome.iterations,
                 residual: outcome.residual.max(first.residual),
                 length_residual: outcome.length_residual.max(first.length_residual),

@@ -81,8 +81,7 @@ impl Linearized<'_> {
             sound = state.is_sound;
             free = &linearization.pass.held;
         }
-        let mut state =
-            self.own.along(self.solver, self.positions, self.laid, direction, free);
+        let mut state = self.own.along(self.solver, self.positions, self.laid, direction, free);
         state.is_sound &= sound;
         self.sound &= state.is_sound;
         state
