@@ -69,8 +69,10 @@ fn the_paper_example_touches_first_in_iteration_26_on_its_short_diagonals() {
         assert!((cell.shear_deg - 20.0).abs() < 1e-9);
     }
     assert!(!summary.accepted);
-    let slack = last.measures.get(Name::Slack).expect("spans with slack");
-    assert!(slack.value > 0.5 && slack.at.starts_with("diagonal"), "{slack:?}");
+    let slack = last.measures.get(Name::DiagonalSlack).expect("diagonals with slack");
+    assert!(slack.value > 0.3 && slack.at.starts_with("diagonal"), "{slack:?}");
+    let slack = last.measures.get(Name::Slack).expect("edges with slack");
+    assert!(slack.value > 1.0 && slack.at.starts_with("edge"), "{slack:?}");
     let stretched = last.measures.get(Name::Overstretch).expect("edges");
     assert!(stretched.value > 0.001 && stretched.value < 0.05, "{stretched:?}");
 }
@@ -313,7 +315,10 @@ proptest! {
         let result = drape(&scene);
         let text = plydrape::output::json::text(&result);
         prop_assert!(text.is_ok(), "{:?}", text.err());
-        prop_assert!(plydrape::output::figure::svg(&result, &[1, 4]).is_ok());
+        // a drape that no ply survives ends early
+        let last = result.summary.steps;
+        prop_assert!(last == 4 || result.summary.stopped.is_some());
+        prop_assert!(plydrape::output::figure::svg(&result, &[1, last]).is_ok());
         check_record(&result);
     }
 }

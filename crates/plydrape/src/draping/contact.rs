@@ -20,7 +20,7 @@ use crate::scene::Contact;
 /// Depth from which a span dips, as a share of the tolerance.
 const DIP: f64 = 1e-3;
 
-/// Stretch that laying a run may add to what it leaves free, as a share of the whole catenary.
+/// Stretch that laying a run may add to what it leaves free, as a share of what it leaves.
 const PULL: f64 = 1e-4;
 
 /// A touch away from the contact segment: the ply bridges what is between.
@@ -147,7 +147,7 @@ pub fn first_touch(
         let left = |t: f64| if side == 0 { arc(t) } else { length - arc(t) };
         let excess = |t: f64| {
             let pull = distance(piece(t).end(), span.ends[side]) - left(t);
-            pull - (span.chord() - length).max(0.0) - PULL * length
+            pull - (span.chord() - length).max(0.0) - PULL * left(t)
         };
         if run.depth < -contact.tolerance || excess(far) <= 0.0 {
             return far;
@@ -239,10 +239,9 @@ pub fn next_touch(
         _ => mold.lay(end, heading, span.arc(t)),
     };
     let left = |t: f64| if rest == 0 { span.arc(t) } else { span.length - span.arc(t) };
-    let whole = laid.length;
     let excess = |t: f64| {
         let pull = distance(piece(t).end(), span.ends[rest]) - left(t);
-        pull - (span.chord() - span.length).max(0.0) - PULL * whole
+        pull - (span.chord() - span.length).max(0.0) - PULL * left(t)
     };
     let far = if rest == 0 { run.from } else { run.to };
     let to = if run.depth < -contact.tolerance || excess(far) <= 0.0 {

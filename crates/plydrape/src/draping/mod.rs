@@ -29,7 +29,7 @@ pub(crate) use landing::fabric;
 pub(crate) use misfit::{lying_segments, misfit};
 use record::ResultFile;
 use serde::{Deserialize, Serialize};
-use spans::{Point, Shape, shape};
+use spans::{FreeSpan, Point, Shape, shape};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
@@ -329,14 +329,15 @@ impl<'a> Draping<'a> {
             let unsolved = self.unsolved;
             let mut shape = self.solve(&place);
             let mut gaps = self.gaps(&shape);
-            let deep = self.is_deep(&shape, &gaps) && start != *goal;
-            if deep && part > SMALLEST_CUT {
+            let deep = self.deep(&shape, &gaps).filter(|_| start != *goal);
+            if deep.is_some() && part > SMALLEST_CUT {
                 // this place is not gone to, and how it was solved says nothing
                 self.unsolved = unsolved;
                 part *= 0.5;
                 continue;
             }
-            if deep {
+            // a fibre must not; a diagonal is none
+            if deep.is_some_and(|catenary| catenary < self.scene.ply.grid.edges()) {
                 self.contact = ContactStatus::CutLimit;
             }
             let mut rounds = 0;
@@ -366,19 +367,20 @@ impl<'a> Draping<'a> {
         shape.spans.iter().map(|span| self.seen.samples(span, mold, tolerance)).collect()
     }
 
-    /// Whether a span touches anew, deeper below the mold than the tolerance. Depths that no contact would change are
-    /// left out: those of the grippers, and second touches; and so are diagonals that have landed: they are no
-    /// fibres, and snap where the slopes at their grippers do.
-    fn is_deep(&self, shape: &Shape, gaps: &[GapSamples]) -> bool {
-        let Some(mold) = &self.scene.mold else { return false };
+    /// The first span that touches anew, deeper below the mold than the tolerance: its catenary. Depths that no contact would
+    /// change are left out: those of the grippers, and second touches; and so are diagonals that have landed: they
+    /// are no fibres, and snap where the slopes at their grippers do.
+    fn deep(&self, shape: &Shape, gaps: &[GapSamples]) -> Option<usize> {
+        let mold = self.scene.mold.as_ref()?;
         let tolerance = self.scene.settings.contact.tolerance;
-        shape.spans.iter().zip(gaps).any(|(span, gaps)| {
+        let deep = |(span, gaps): &(&FreeSpan, &GapSamples)| {
             let caught = self.laid[span.catenary].is_some();
             let follows = !caught || span.catenary < self.scene.ply.grid.edges();
             follows
                 && gaps.depth() > tolerance
                 && contact::new_depth(span, gaps, mold, caught) > tolerance
-        })
+        };
+        shape.spans.iter().zip(gaps).find(deep).map(|(span, _)| span.catenary)
     }
 
     /// Notes the deepest span of a step.

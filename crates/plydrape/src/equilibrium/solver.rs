@@ -15,6 +15,10 @@ use crate::catenary::SpanState;
 use crate::ply::{Laid, Ply};
 use crate::scene::{Settings, SlopeRule};
 
+/// Change of an element's end slopes that its series takes: the force to its cube, the derivatives to its square,
+/// 1e-10 of themselves.
+const SMALL_TURN: f64 = 1e-5;
+
 /// Multiple of its height above the buckling force beyond which a force's rounding is looked at.
 const ROUGH: f64 = 1e3;
 
@@ -47,6 +51,8 @@ pub struct Solver {
     pub(super) free: Vec<[f64; 2]>,
     /// Whether shearing cells constrain slopes.
     pub(super) constrained: bool,
+    /// Whether the assembly is that of the positions to solve for.
+    is_built: bool,
 }
 
 /// Buffers of the iteration.
@@ -89,6 +95,7 @@ impl Solver {
             unconstrained: None,
             free: Vec::new(),
             constrained: true,
+            is_built: false,
         }
     }
 
@@ -123,6 +130,7 @@ impl Solver {
     pub fn solve(&mut self, positions: &[[f64; 3]], laid: &[Option<Laid>]) -> Equilibrium {
         self.free.clear();
         self.rebuild(positions, laid, 1.0);
+        self.is_built = true;
         let mut auxiliary = None;
         if self.assembly.is_partly_constrained() {
             let mut solver = self.unconstrained.take().unwrap_or_else(|| {
@@ -132,6 +140,7 @@ impl Solver {
             });
             auxiliary = Some(solver.follow(positions, laid));
             self.free.extend_from_slice(&solver.held);
+            self.is_built = false;
             self.unconstrained = Some(solver);
         }
         let outcome = self.follow(positions, laid);
@@ -214,7 +223,9 @@ impl Solver {
         laid: &[Option<Laid>],
         stiffness: f64,
     ) -> Equilibrium {
-        self.rebuild(positions, laid, stiffness);
+        if stiffness != 1.0 || !std::mem::take(&mut self.is_built) {
+            self.rebuild(positions, laid, stiffness);
+        }
         self.work.early_ends = EarlyEnds::default();
         self.recall();
         let outcome = match self.settings.slopes {
@@ -373,6 +384,9 @@ impl Solver {
             if slopes == self.held[n] && self.evaluated[n].carried <= self.tuning.carried {
                 continue;
             }
+            if self.wanted[n].derivatives && self.turn(n, slopes) {
+                continue;
+            }
             let guess = self.predict(n, slopes);
             let span = element.span(self.settings.axial_stiffness, &slopes);
             let wanted = self.wanted[n];
@@ -386,6 +400,28 @@ impl Solver {
             self.alike[self.likeness(&element)] =
                 Some((self.evaluated[n].force.value - pole) / height).filter(|r| r.is_finite());
         }
+    }
+
+    /// Carries an element to very slightly other end slopes by its second-order series, if they are that close;
+    /// its length is measured at the end.
+    fn turn(&mut self, n: usize, slopes: [f64; 2]) -> bool {
+        let step = [slopes[0] - self.held[n][0], slopes[1] - self.held[n][1]];
+        let Evaluated { force, slope, curvature, carried, length_residual } =
+            &mut self.evaluated[n];
+        let size = step[0].abs().max(step[1].abs());
+        if !(size <= SMALL_TURN && *carried <= self.tuning.carried) {
+            return false;
+        }
+        for jet in [force].into_iter().chain(slope).chain(curvature) {
+            jet.value = series(jet, step);
+            for i in 0..2 {
+                jet.gradient[i] += jet.hessian[i][0] * step[0] + jet.hessian[i][1] * step[1];
+            }
+        }
+        *carried += size;
+        *length_residual = f64::NAN;
+        self.held[n] = slopes;
+        true
     }
 
     /// Whether no element's derivatives were carried far; if not, the next evaluation renews them.

@@ -47,6 +47,8 @@ pub struct Sensitivity<'a> {
     paths: Vec<Option<Quantity>>,
     /// Slope of the ply at each gripper along u and v, where there is one.
     slopes: Vec<[Option<Quantity>; 2]>,
+    /// Whether the state has derivatives: see [`StateTangent::is_sound`]. Gradients are meaningless where not.
+    pub is_sound: bool,
 }
 
 impl<'a> Sensitivity<'a> {
@@ -69,8 +71,9 @@ impl<'a> Sensitivity<'a> {
             state.put(column, &linearized.along(&direction));
             direction.grippers[column / 3][column % 3] = 0.0;
         }
+        let is_sound = linearized.is_sound();
         let State { rows, paths, slopes, .. } = state;
-        Sensitivity { scene, shape, positions, laid, rows, paths, slopes }
+        Sensitivity { scene, shape, positions, laid, rows, paths, slopes, is_sound }
     }
 
     /// Number of derivatives: three a gripper.
