@@ -13,6 +13,7 @@ export function verdict(data: PageData): string {
   if (data.accepted) text = count === 0 ? "Accepted: no limit is set" : `Accepted: ${all(count)} kept`;
   else if (failed === 0) text = "Not accepted";
   else text = `Not accepted: ${failed} of ${count} ${count === 1 ? "limit" : "limits"} exceeded`;
+  if (data.stopped !== null) return `${text}. Stopped: ${data.stopped}`;
   return data.interrupted ? `${text}. Interrupted: fewer steps than planned` : text;
 }
 
