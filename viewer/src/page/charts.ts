@@ -88,7 +88,7 @@ class Chart {
     const head = make(
       "figcaption",
       {},
-      make("p", {}, make("span", { class: "chart-name" }, label), this.value),
+      make("p", {}, make("span", { class: "chart-name", title: label }, label), this.value),
       make("p", {}, bound, this.where),
     );
     this.card.dataset.measure = measure.key;
