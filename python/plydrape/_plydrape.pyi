@@ -26,6 +26,7 @@ __all__ = [
     "Foot",
     "Jacobian",
     "Material",
+    "Measure",
     "Mold",
     "Net",
     "Outcome",
@@ -38,6 +39,7 @@ __all__ = [
     "Surface",
     "equilibria",
     "materials",
+    "measures",
     "outcome",
     "plan",
     "simulate",
@@ -103,6 +105,11 @@ class Equilibrium:
     """
     def __repr__(self, /) -> str: ...
     @property
+    def early_ends(self, /) -> dict[str, int]:
+        """
+        How often a part of the solve ended early or was replaced, by name; all zero in a plain solve.
+        """
+    @property
     def forces(self, /) -> NDArray[float64]:
         """
         Horizontal force of each catenary (N), shape (catenaries,); nan of a stretched diagonal or a straight one.
@@ -134,6 +141,11 @@ class Equilibrium:
             >>> jacobian.forces.shape, jacobian.points(5).shape
             ((1, 2, 3), (1, 5, 3, 2, 3))
         """
+    @property
+    def length_residual(self, /) -> float:
+        """
+        Largest error of a fabric length, as a share of it.
+        """
     def points(self, /, stations: SupportsIndex = 17) -> NDArray[float64]:
         """
         Points along each catenary (m) at equal parts of its run, shape (catenaries, stations, 3).
@@ -153,7 +165,7 @@ class Equilibrium:
     @property
     def residual(self, /) -> float:
         """
-        Newton step of the slopes still to go.
+        What is left of the rule of the slopes, scaled to a slope.
         """
     @property
     def shear(self, /) -> NDArray[float64]:
@@ -168,7 +180,7 @@ class Equilibrium:
     @property
     def status(self, /) -> str:
         """
-        How the solve ended: converged, "stalled" or "iteration-limit".
+        How the solve ended: converged, "stalled", "iteration-limit" or "length-not-met".
         """
 
 @final
@@ -326,6 +338,62 @@ class Material:
         Example:
             >>> "source" in plydrape.Material.text("krogh2018")
             True
+        """
+
+@final
+class Measure:
+    """
+    Something that is measured of a drape: what it is called, in which unit, and how a limit bounds it.
+
+    Example:
+        >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
+        >>> [(measure.label, measure.shown) for measure in shares]
+        [('contact share', '%'), ('gripper distance', 'mm')]
+    """
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def factor(self, /) -> float:
+        """
+        From a value in `unit` to the same in `shown`.
+        """
+    @property
+    def key(self, /) -> str:
+        """
+        Its key in `Result.measures` and in each step of a result, the unit at its end where it has one.
+        """
+    @property
+    def label(self, /) -> str:
+        """
+        What it is called in tables and charts.
+        """
+    @property
+    def name(self, /) -> str:
+        """
+        Name of its limit: its key in `limits` of a scene that sets one, and its name in `Result.limits`.
+        """
+    @property
+    def scope(self, /) -> str:
+        """
+        When it counts: "every-step"; the last step alone, "end"; "time" only of a motion with times; "whole" of a
+        motion or plan in one, so that no step has it.
+        """
+    @property
+    def sense(self, /) -> str:
+        """
+        Which way a limit bounds it: "at-most" or "at-least".
+        """
+    @property
+    def shown(self, /) -> str:
+        """
+        Unit that it is shown in, which is that of its limit in `Result.limits`: mm, "°", "N", "%".
+        """
+    @property
+    def unit(self, /) -> str:
+        """
+        Unit of its values in `Result.measures`: mm, "deg", "N"; "1" of ratios and shares.
         """
 
 @final
@@ -1362,6 +1430,16 @@ def materials() -> list[str]:
     Example:
         >>> plydrape.materials()
         ['krogh2018']
+    """
+
+def measures() -> list[Measure]:
+    """
+    Everything that is measured of drapes, in the order of tables.
+
+    Example:
+        >>> tilt = next(measure for measure in plydrape.measures() if measure.name == "tilt")
+        >>> tilt.key, tilt.unit, tilt.shown, tilt.sense, tilt.scope
+        ('tilt_deg', 'deg', '°', 'at-most', 'every-step')
     """
 
 def outcome(

@@ -54,9 +54,9 @@ class SolveError(PlydrapeError, ArithmeticError):
     """An equilibrium that was not found.
 
     Attributes:
-        status: How the solve ended: `stalled` or `iteration-limit`.
+        status: How the solve ended: `stalled`, `iteration-limit` or `length-not-met`.
         iterations: Iterations on the slopes.
-        residual: Newton step of the slopes still to go.
+        residual: What is left of the rule of the slopes, scaled to a slope.
 
     Example:
         >>> limp = {"mass": 0.3, "flexural_rigidity": 0.0}

@@ -5,10 +5,11 @@ use crate::error;
 use crate::jacobian::Jacobian;
 use crate::solver::{State, shear_angles};
 use plydrape::draping::spans::{FreeSpan, Shape};
-use plydrape::equilibrium::{Direction, Property, Status};
+use plydrape::equilibrium::{Direction, EarlyEnds, Property, Status};
 use plydrape::ply;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A ply that hangs: forces, slopes, shape, and how they change.
@@ -49,7 +50,7 @@ pub fn at_least_two(count: usize) -> PyResult<usize> {
 
 #[pymethods]
 impl Equilibrium {
-    /// How the solve ended: "converged", "stalled" or "iteration-limit".
+    /// How the solve ended: "converged", "stalled", "iteration-limit" or "length-not-met".
     #[getter]
     fn status(&self) -> &'static str {
         self.shape.equilibrium.status.name()
@@ -61,10 +62,37 @@ impl Equilibrium {
         self.shape.equilibrium.iterations
     }
 
-    /// Newton step of the slopes still to go.
+    /// What is left of the rule of the slopes, scaled to a slope.
     #[getter]
     fn residual(&self) -> f64 {
         self.shape.equilibrium.residual
+    }
+
+    /// Largest error of a fabric length, as a share of it.
+    #[getter]
+    fn length_residual(&self) -> f64 {
+        self.shape.equilibrium.length_residual
+    }
+
+    /// How often a part of the solve ended early or was replaced, by name; all zero in a plain solve.
+    #[getter]
+    fn early_ends(&self) -> BTreeMap<&'static str, u32> {
+        let EarlyEnds {
+            line_searches,
+            linear_solves,
+            negative_curvatures,
+            active_sets,
+            damping_limits,
+            continuation,
+        } = self.shape.equilibrium.early_ends;
+        BTreeMap::from([
+            ("line_searches", line_searches),
+            ("linear_solves", linear_solves),
+            ("negative_curvatures", negative_curvatures),
+            ("active_sets", active_sets),
+            ("damping_limits", damping_limits),
+            ("continuation", continuation),
+        ])
     }
 
     /// Positions of the grippers (m), shape (grippers, 3).

@@ -10,6 +10,7 @@ mod equilibrium;
 mod error;
 mod jacobian;
 mod json;
+mod measure;
 mod mold;
 mod net;
 mod outcome;
@@ -35,6 +36,8 @@ mod _plydrape {
     use crate::equilibrium::Equilibrium;
     #[pymodule_export]
     use crate::jacobian::Jacobian;
+    #[pymodule_export]
+    use crate::measure::{Measure, measures};
     #[pymodule_export]
     use crate::mold::{Foot, Mold};
     #[pymodule_export]

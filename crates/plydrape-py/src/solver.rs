@@ -167,9 +167,9 @@ impl Solver {
         if check && outcome.status != Status::Converged {
             let (status, residual) = (outcome.status.name(), outcome.residual);
             let text = format!(
-                "no equilibrium was found ({status} after {} iterations, a Newton step of {residual:.1e} still to go); \
-                 look at the ply with check=False, or move the grippers less far apart",
-                outcome.iterations
+                "no equilibrium was found ({status} after {} iterations: slopes are {residual:.1e} off their rule, \
+                 lengths {:.1e} of themselves); look at the ply with check=False, or move the grippers less far apart",
+                outcome.iterations, outcome.length_residual
             );
             return Err(error::solve(&text, status, outcome.iterations, residual));
         }

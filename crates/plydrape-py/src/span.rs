@@ -3,6 +3,7 @@
 use crate::arrays::{Array, List, list};
 use crate::error;
 use plydrape::catenary::{self, EndCondition, Profile, SpanState};
+use plydrape::equilibrium::Status;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -83,7 +84,8 @@ impl Span {
                 "no force gives the span its length: an error of {:.1e} of it is left",
                 root.residual
             );
-            return Err(error::solve(&text, "stalled", root.evaluations, root.residual));
+            let status = Status::LengthNotMet.name();
+            return Err(error::solve(&text, status, root.evaluations, root.residual));
         }
         let profile = root.force.map(|force| Profile::new(&span, force));
         Ok(Span { span, profile, state: root.state })

@@ -120,8 +120,8 @@ def measures(
 
     Args:
         result: The result.
-        names: Names of `result.measures` in the order wanted; if None all that have a value at some
-            step, without `overstretch_mm`, which is `overstretch` in another unit.
+        names: Names of `result.measures` in the order wanted; if None those with a limit, then
+            slack, gap and force.
         against: What runs to the right, the number of the step or its time (s).
         columns: Panels side by side; if None 3 on a double column, 2 on a single one.
         width: "single" (89 mm), "double" (183 mm) or a width in mm.

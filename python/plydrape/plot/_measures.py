@@ -3,59 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.textpath import TextPath
 from matplotlib.ticker import MaxNLocator
 
+import plydrape
 from plydrape.plot._sheet import DARK, GRID, LINE, MM, QUIET, RED, Sheet, breadth, style
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from plydrape import Result
+    from plydrape import Measure, Result
     from plydrape.plot import Width
 
-ROW = 32.0
-"""Height of a row of panels (mm)."""
+ROW, LOW = 32.0, 26.0
+"""Height of a row of panels (mm), and how low it gets to fit a page."""
+HEAD = 2.0
+"""More height where the limit stands below the name (mm)."""
+PAGE = 285.0
+"""Height of a page between its margins (mm)."""
+LARGE, SMALL = 8.0, 6.5
+"""Size of names, and how small they get to fit (pt)."""
+BESIDE = 15.0
+"""Width of a panel's axis with its numbers and unit (mm)."""
 
 
-@dataclass(frozen=True)
-class Measure:
-    """How a measure is shown."""
-
-    label: str
-    unit: str
-    factor: float = 1.0
-    """From the unit of `result.measures` to the unit shown, which is the unit of its limit."""
-    limit: str = ""
-    """The name of its limit in `result.limits`, where it has one."""
-    least: bool = False
-    """Whether the limit is the least that is allowed."""
-    at_end: bool = False
-    """Whether the limit holds at the last step only."""
-
-
-MEASURES = {
-    "slack_mm": Measure("slack", "mm"),
-    "slack_ratio": Measure("slack ratio", "%", 1e2, "slack_ratio", at_end=True),
-    "wrinkle_mm": Measure("wrinkle amplitude", "mm"),
-    "overstretch": Measure("overstretch", "%", 1e2, "overstretch"),
-    "overstretch_mm": Measure("overstretch", "mm"),
-    "gap_mm": Measure("gap", "mm"),
-    "contact_share": Measure("contact share", "%", 1e2, "contact_share", least=True, at_end=True),
-    "bridging_mm": Measure("bridging", "mm", 1.0, "bridging", at_end=True),
-    "landing_error_mm": Measure("landing error", "mm", 1.0, "landing_contact", at_end=True),
-    "fibre_angle_deg": Measure("fibre angle", "°", 1.0, "fibre_angle", at_end=True),
-    "shear_deg": Measure("shear", "°", 1.0, "shear"),
-    "tilt_deg": Measure("tilt", "°", 1.0, "tilt"),
-    "force_n": Measure("horizontal force", "N", 1.0, "force"),
-    "gripper_distance_mm": Measure("gripper distance", "mm", 1.0, "gripper_distance", least=True),
-    "workspace_mm": Measure("outside workspace", "mm", 1.0, "workspace"),
-}
+MEASURES = {measure.key: measure for measure in plydrape.measures() if measure.scope != "whole"}
+"""What steps may have, by key."""
+ALSO = ("slack_mm", "gap_mm", "force_n")
+"""What a reader looks for beside the limits."""
 
 
 def figure(
@@ -70,22 +50,24 @@ def figure(
     if against not in ("step", "time"):
         raise ValueError(f'measures can be drawn against "step" or "time", not "{against}"')
     wide = breadth(width)
-    chosen = _chosen(result.measures, names)
+    limits = {limit["name"]: limit for limit in result.limits}
+    chosen = _chosen(result.measures, names, limits)
     across = columns or (3 if wide > 120.0 else 2)
     if across < 1:
         raise ValueError(f"{columns} columns are none; choose 1 or more")
     across = min(across, len(chosen))
     rows = -(-len(chosen) // across)
     x = np.arange(1, len(result.times) + 1, dtype=float) if against == "step" else result.times
-    limits = {limit["name"]: limit for limit in result.limits}
 
     with style():
         # what the marks mean stands in the free cells of the last row, else in a strip below
         free = rows * across - len(chosen)
         inside = free * wide / across > 60.0
-        narrow = wide / across < 50.0
+        room = wide / across - BESIDE
+        narrow = any(_wide(MEASURES[name], limits) > room for name in chosen)
         head, foot = 6.0 if title else 1.0, 0.0 if inside else 9.0 if wide > 120.0 else 19.0
-        high = head + (ROW + 2.0 * narrow) * rows + foot
+        row = min(ROW + HEAD * narrow, max((PAGE - head - foot) / rows, LOW))
+        high = head + row * rows + foot
         sheet = Sheet(figsize=(wide * MM, high * MM), layout="constrained")
         engine = sheet.get_layout_engine()
         assert engine is not None
@@ -101,8 +83,8 @@ def figure(
             shown = MEASURES[name]
             if first is not None:
                 panel.axvline(x[first - 1], color=QUIET, lw=0.7, ls=":", zorder=1)
-            limit = limits.get(shown.limit) if shown.limit else None
-            _draw(panel, x, result.measures[name] * shown.factor, shown, limit, narrow=narrow)
+            values = result.measures[name] * shown.factor
+            _draw(panel, x, values, shown, limits.get(shown.name), room, narrow=narrow)
             if k + across >= len(chosen):
                 panel.tick_params(labelbottom=True)
             if k // across == rows - 1:
@@ -116,13 +98,19 @@ def figure(
     return sheet
 
 
-def _chosen(measures: dict[str, NDArray[np.float64]], names: Sequence[str] | None) -> list[str]:
-    """Names of measures that have a value."""
-    meant = [name for name in MEASURES if name in measures and np.isfinite(measures[name]).any()]
+def _chosen(
+    measures: dict[str, NDArray[np.float64]],
+    names: Sequence[str] | None,
+    limits: dict[str, dict[str, Any]],
+) -> list[str]:
+    """Keys of measures that have a value, those with a limit first."""
+    meant = [name for name in MEASURES if np.isfinite(measures[name]).any()]
+    meant.sort(key=lambda name: MEASURES[name].name not in limits)
     if names is None:
-        return [name for name in meant if name != "overstretch_mm"]
+        shown = [name for name in meant if MEASURES[name].name in limits or name in ALSO]
+        return shown or meant
     for name in names:
-        if name not in measures or name not in MEASURES:
+        if name not in MEASURES:
             raise ValueError(f'there is no measure "{name}"; there are {", ".join(meant)}')
         if name not in meant:
             raise ValueError(f'the measure "{name}" has no value at any step of this result')
@@ -131,12 +119,33 @@ def _chosen(measures: dict[str, NDArray[np.float64]], names: Sequence[str] | Non
     return list(names)
 
 
+def _wide(shown: Measure, limits: dict[str, dict[str, Any]]) -> float:
+    """How wide name and limit are beside each other (mm)."""
+    limit = limits.get(shown.name)
+    name = _length(shown.label, LARGE)
+    return name if limit is None else name + 2.0 + _length(_bound(shown, limit), 7.0)
+
+
+def _length(text: str, size: float) -> float:
+    """How long a text of so many points is (mm)."""
+    return float(TextPath((0, 0), text, size=size).get_extents().width) / 72.0 / MM
+
+
+def _bound(shown: Measure, limit: dict[str, Any]) -> str:
+    """A limit in words: when it counts, which way, how much."""
+    unit = "" if shown.shown == "1" else shown.shown
+    sign = "≥" if shown.sense == "at-least" else "≤"
+    when = "end: " if shown.scope == "end" else ""
+    return f"{when}{sign}\u2009{limit['limit']:g}{'' if unit == '°' else chr(0x2009)}{unit}"
+
+
 def _draw(
     panel: Axes,
     x: NDArray[np.float64],
     y: NDArray[np.float64],
     shown: Measure,
     limit: dict[str, Any] | None,
+    room: float,
     *,
     narrow: bool,
 ) -> None:
@@ -150,15 +159,16 @@ def _draw(
     )
     marks = [int(k) for k in np.flatnonzero(alone)]
     panel.plot(x, y, color=LINE, lw=1.0, marker=".", ms=3, markevery=marks, zorder=3, gid="values")
-    panel.set_title(shown.label, loc="left", pad=13 if narrow else 3)
-    panel.set_ylabel("deg" if shown.unit == "°" else shown.unit, labelpad=2)
+    size = min(max(LARGE * room / _length(shown.label, LARGE), SMALL), LARGE)
+    panel.set_title(shown.label, loc="left", pad=13 if narrow else 3, fontsize=size)
+    panel.set_ylabel("" if shown.shown == "1" else shown.shown.replace("°", "deg"), labelpad=2)
 
-    # The worst is what the limit judges; without a limit it is the largest value.
+    # The worst is what the limit judges; without a limit it is the worst of all steps.
     exceeded = limit is not None and not limit["ok"]
     if limit is not None and limit["step"] is not None:
         worst = limit["step"] - 1
     else:
-        worst = int(np.nanargmax(y))
+        worst = int(np.nanargmin(y) if shown.sense == "at-least" else np.nanargmax(y))
     if np.isfinite(y[worst]):
         mark: dict[str, Any] = {"marker": "o", "ms": 3.5}
         if exceeded:
@@ -175,13 +185,10 @@ def _draw(
         panel.axhline(
             bound, color=RED if exceeded else QUIET, lw=0.9, dashes=(4, 2.5), zorder=2, gid="limit"
         )
-        sign = "≥" if shown.least else "≤"
-        when = "end: " if shown.at_end else ""
-        text = f"{when}{sign}\u2009{bound:g}{'' if shown.unit == '°' else chr(0x2009)}{shown.unit}"
         ink = RED if exceeded else QUIET
         place: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points"}
         place |= {"ha": "right", "va": "bottom", "fontsize": 7, "color": ink, "gid": "bound"}
-        panel.annotate(text, (1, 1), (0, 3), **place)
+        panel.annotate(_bound(shown, limit), (1, 1), (0, 3), **place)
 
     # From zero where that is near, with room for the line at both ends.
     low, high = min(values), max(values)
@@ -205,7 +212,7 @@ def _legend(sheet: Sheet, room: Axes | None, *, contact: bool) -> None:
             ls="",
             marker="o",
             ms=3.5,
-            label="judged by the limit, else the largest",
+            label="judged by the limit, else the worst",
         ),
         Line2D([], [], color=RED, ls="", marker="X", ms=5, mew=0.5, label="limit exceeded"),
     ]

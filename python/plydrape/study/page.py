@@ -18,9 +18,8 @@ import plydrape
 from . import figures
 from .definition import Study
 from .outcome import Outcome
-from .scenario import AT_LEAST
 from .summary import flags, numbers
-from .words import amount, name
+from .words import amount, is_least, name
 
 # Bars of correlations: half their width.
 HALF = 60
@@ -211,7 +210,7 @@ def card(key: str, about: dict[str, Any], outcome: Outcome) -> str:
     values = numbers(rows, key)
     assert values is not None
     known = np.isfinite(values)
-    at_least = limit_name in AT_LEAST
+    at_least = is_least(limit_name)
     words = label(key)
     picture = figures.histogram(values[known], m["limit"], at_least, m["unit"], name(key))
 

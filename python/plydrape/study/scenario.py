@@ -21,15 +21,13 @@ from .error import StudyError
 from .keys import SCENE, Tables, Value, put
 from .law import Input
 from .placement import Placement
+from .words import BY_KEY, is_least
 
 Numbers = np.ndarray[Any, Any]
 
 # What a row may hold; None is an empty field.
 Cell = float | int | str | bool | None
 Line = dict[str, Cell]
-
-# Limits that are the least allowed; all others are the most.
-AT_LEAST = ("contact_share", "gripper_distance")
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,20 +191,28 @@ def build(tables: Tables, base: str, mold: plydrape.Mold | None = None) -> plydr
 def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
     """All numbers of a result's summary, and what became of each limit.
 
-    `worst_…` and `final_…` are those of all steps and of the last. Of each limit there is
+    `worst_…` and `final_…` are those of all steps and of the last, `stopped` says why a drape ended
+    where no ply would have survived it. Of each limit there is
     `value_…`, `limit_…` (both in the unit added to `units`), `ok_…`, and `margin_…`: what is
     left of the limit as a share of it, negative where it is exceeded, None where it is zero.
     """
     summary = result.summary
-    row: Line = {"accepted": result.accepted, "converged": result.converged}
+    row: Line = {
+        "accepted": result.accepted,
+        "converged": result.converged,
+        "stopped": summary["stopped"],
+    }
     for key, value in summary.items():
         if isinstance(value, bool | int | float) or value is None:
             row[key] = value
     for part in ("worst", "final"):
-        row.update({f"{part}_{key}": value for key, value in summary[part].items()})
+        for key, value in summary[part].items():
+            row[f"{part}_{key}"] = value
+            if BY_KEY[key].unit not in ("", "1"):
+                units[f"{part}_{key}"] = BY_KEY[key].unit
     for limit in result.limits:
         name, value, allowed = limit["name"], float(limit["value"]), float(limit["limit"])
-        left = value - allowed if name in AT_LEAST else allowed - value
+        left = value - allowed if is_least(name) else allowed - value
         row[f"value_{name}"] = value
         row[f"limit_{name}"] = allowed
         row[f"ok_{name}"] = bool(limit["ok"])

@@ -23,7 +23,7 @@ INTEGERS = {
     "evaluations",
 }
 BOOLEANS = {"accepted", "converged"}
-TEXTS = {"version", "error", "error_kind"}
+TEXTS = {"version", "stopped", "error", "error_kind"}
 # What closes a row; everything else stands in the order in which it was measured.
 LAST = ("seed", "version", "error", "error_kind")
 

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import math
 
-# Names that are not their key with spaces.
+# the package itself is still being loaded when it loads this
+from plydrape._plydrape import measures
+
+# Names of columns that are neither their key with spaces nor those of a measure.
 NAMES = {
     "placement.rms": "placement error, rms",
     "placement.largest": "placement error, largest",
-    "fibre_angle": "fibre angle",
 }
+# What is measured, by the name of its limit and by its key in a step.
+BY_NAME = {measure.name: measure for measure in measures()}
+BY_KEY = {measure.key: measure for measure in measures()}
 
 
 def amount(x: float) -> str:
@@ -31,9 +36,23 @@ def name(key: str) -> str:
     """A column's name in words.
 
     Example:
-        >>> name("value_slack_ratio"), name("worst_slack_mm")
-        ('slack ratio', 'worst slack mm')
+        >>> name("value_slack_ratio"), name("worst_force_n"), name("first_contact_step")
+        ('slack ratio', 'worst horizontal force', 'first contact step')
 
     """
+    part, _, rest = key.partition("_")
+    if part in ("worst", "final") and rest in BY_KEY:
+        return f"{part} {BY_KEY[rest].label}"
     key = key.removeprefix("value_")
     return NAMES.get(key, key if "." in key else key.replace("_", " "))
+
+
+def is_least(limit: str) -> bool:
+    """Whether a limit of this name is the least allowed, not the most.
+
+    Example:
+        >>> is_least("contact_share"), is_least("tilt")
+        (True, False)
+
+    """
+    return limit in BY_NAME and BY_NAME[limit].sense == "at-least"

@@ -61,7 +61,14 @@ def judged(result: plydrape.Result) -> dict[str, Any]:
     summary = result.summary
     wanted: dict[str, Any] = {
         key: summary[key]
-        for key in ("accepted", "contact_share", "first_contact_step", "equilibria", "steps")
+        for key in (
+            "accepted",
+            "stopped",
+            "contact_share",
+            "first_contact_step",
+            "equilibria",
+            "steps",
+        )
     }
     wanted["converged"] = result.converged
     for part in ("worst", "final"):

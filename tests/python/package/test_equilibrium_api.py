@@ -69,6 +69,24 @@ def compare(
 
 
 @pytest.mark.parametrize("rule", RULES)
+def test_an_equilibrium_says_how_it_was_found(
+    rule: Literal["moment-balance", "min-force"],
+) -> None:
+    """The error of the lengths is that of the lines as drawn, and what ended early is counted."""
+    base = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
+    places = np.stack([0.097 * np.arange(4), np.zeros(4), np.zeros(4)], axis=1)
+    equilibrium = solve(base, places, rule)
+    lines = np.diff(equilibrium.points(4001), axis=1)
+    lengths = np.linalg.norm(lines, axis=2).sum(axis=1)
+    # the fabric stretches by H/EA, and a polyline of so many parts is 1e-8 short
+    assert np.abs(lengths / 0.1 - 1.0).max() < 1e-5
+    assert equilibrium.status == "converged"
+    assert 0.0 <= equilibrium.length_residual < 1e-9 and equilibrium.residual < 1e-6
+    assert equilibrium.early_ends["line_searches"] == 0
+    assert all(isinstance(count, int) and count >= 0 for count in equilibrium.early_ends.values())
+
+
+@pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("areal", [True, False])
 def test_jacobians_agree_with_central_differences(
     rule: Literal["moment-balance", "min-force"], areal: bool

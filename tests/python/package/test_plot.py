@@ -227,7 +227,8 @@ def test_measures_are_those_of_the_result(flat: plydrape.Result) -> None:
         ("slack ratio", "slack_ratio", 100.0, "slack_ratio", "%"),
         ("overstretch", "overstretch", 100.0, "overstretch", "%"),
         ("tilt", "tilt_deg", 1.0, "tilt", "deg"),
-        ("landing error", "landing_error_mm", 1.0, "landing_contact", "mm"),
+        ("landing of contact points", "landing_contact_mm", 1.0, "landing_contact", "mm"),
+        ("tilt rate", "tilt_rate_deg_s", 1.0, "tilt_rate", "deg/s"),
         ("horizontal force", "force_n", 1.0, None, "N"),
         ("contact share", "contact_share", 100.0, "contact_share", "%"),
         ("gripper distance", "gripper_distance_mm", 1.0, "gripper_distance", "mm"),
@@ -254,6 +255,17 @@ def test_measures_are_those_of_the_result(flat: plydrape.Result) -> None:
     assert not limits["overstretch"]["ok"] and limits["tilt"]["ok"]
 
 
+def test_measures_with_a_limit_come_first(flat: plydrape.Result) -> None:
+    """Whatever is judged has its panel, before what is only looked at."""
+    figure = plot.measures(flat)
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    bounded = [named(figure, "limit", k) is not None for k in range(len(titles))]
+    assert bounded == sorted(bounded, reverse=True)
+    label = {measure.name: measure.label for measure in plydrape.measures()}
+    assert titles[sum(bounded) :] == ["horizontal force", "slack", "gap"]
+    assert {label[limit["name"]] for limit in flat.limits} == set(titles[: sum(bounded)])
+
+
 def test_measures_run_over_time(dome: plydrape.Result) -> None:
     """The times of the steps, and the first contact at its time."""
     figure = plot.measures(dome, ["tilt_deg"], against="time")
@@ -265,14 +277,15 @@ def test_measures_run_over_time(dome: plydrape.Result) -> None:
 
 
 def test_measure_titles_do_not_overlap(flat: plydrape.Result) -> None:
-    """Name and limit stand beside each other, or above each other on a narrow sheet."""
-    for width in ("single", "double"):
+    """Name and limit stand beside each other, or above each other if they are too long."""
+    for width in ("single", 120.0, "double", 300.0):
         figure = plot.measures(flat, width=cast(Any, width))
         renderer = painter(figure)
         for panel, axes in enumerate(figure.axes):
             bound = named(figure, "bound", panel)
+            name = cast(Any, axes)._left_title.get_window_extent(renderer)
+            assert name.x1 <= figure.bbox.x1
             if bound is not None:
-                name = cast(Any, axes)._left_title.get_window_extent(renderer)
                 assert not name.overlaps(bound.get_window_extent(renderer)), bound.get_text()
 
 
@@ -345,7 +358,7 @@ def test_bad_wishes_are_refused(flat: plydrape.Result) -> None:
         ("steps", {"columns": 0}, "columns"),
         ("steps", {"width": "triple"}, '"single", "double"'),
         ("measures", {"width": 3.0}, "40 to 1000 mm"),
-        ("measures", {"names": ["slck_mm"]}, 'no measure "slck_mm"; there are slack_mm'),
+        ("measures", {"names": ["slck_mm"]}, 'no measure "slck_mm"; there are overstretch'),
         ("measures", {"names": ["workspace_mm"]}, "no value at any step"),
         ("measures", {"names": []}, "at least one measure"),
         ("measures", {"against": "speed"}, '"step" or "time"'),

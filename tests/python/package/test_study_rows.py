@@ -62,7 +62,8 @@ def test_a_followed_plan_is_the_motion_of_its_result(tmp_path: Path) -> None:
     )
     same, other = rows(run(made, workers=1).table())
     for key, value in plan.result.summary["worst"].items():
-        assert same[f"worst_{key}"] == pytest.approx(value, rel=1e-6, abs=1e-9)
+        near = None if value is None else pytest.approx(value, rel=1e-6, abs=1e-9)
+        assert same[f"worst_{key}"] == near, key
     # Half a millimetre more fabric in each edge along u stays as slack.
     assert same["final_slack_mm"] < 0.1 < other["final_slack_mm"]
 
@@ -136,11 +137,19 @@ def test_rows_are_typed_and_have_units(tmp_path: Path) -> None:
     types: dict[str, Any] = {field.name: str(field.type) for field in schema}
     assert (types["scenario"], types["accepted"], types["error"]) == ("int64", "bool", "string")
     assert types["worst_slack_mm"] == types["grippers.height"] == "double"
+    assert types["stopped"] == "string"
     units = {
         name: schema.field(name).metadata[b"unit"].decode()
-        for name in ("grippers.height", "placement.rms", "value_slack_ratio", "limit_tilt")
+        for name in (
+            "grippers.height",
+            "placement.rms",
+            "value_slack_ratio",
+            "limit_tilt",
+            "worst_tilt_deg",
+            "final_gripper_load_n",
+        )
     }
-    assert list(units.values()) == ["mm", "mm", "%", "°"]
+    assert list(units.values()) == ["mm", "mm", "%", "°", "deg", "N"]
     # An interrupted or finished study is read from its parts.
     again = plydrape.study.read(tmp_path / "out")
     assert again.table().equals(pq.read_table(tmp_path / "out" / "study.parquet"))

@@ -23,13 +23,20 @@ export function full(value: number): string {
 
 /** A value with its unit; the unit 1 is silent and a degree stands close. */
 export function withUnit(text: string, unit: string): string {
-  if (unit === "" || unit === "1") return text;
-  return unit === "°" || unit === "deg" ? `${text}°` : `${text}\u00a0${unit}`;
+  const sign = signOf(unit);
+  if (sign === "") return text;
+  return sign === "°" ? `${text}°` : `${text}\u00a0${sign}`;
 }
 
 /** A unit behind a name, in brackets; nothing for the unit 1. */
 export function bracketed(unit: string): string {
-  return unit === "" || unit === "1" ? "" : ` (${unit === "deg" ? "°" : unit})`;
+  const sign = signOf(unit);
+  return sign === "" ? "" : ` (${sign})`;
+}
+
+/** A unit as people write it: degrees by their sign, nothing for the unit 1. */
+function signOf(unit: string): string {
+  return unit === "1" ? "" : unit.replace(/^deg/, "°");
 }
 
 function minus(text: string): string {

@@ -75,7 +75,10 @@ export interface PageData {
   input: string | null;
   facts: { label: string; value: string }[];
   accepted: boolean;
+  /** Somebody broke the drape off before its last step. */
   interrupted: boolean;
+  /** Why the drape ended where no ply would have survived it; null if it did not. */
+  stopped: string | null;
   steps: number[];
   times: number[];
   grid: [number, number];

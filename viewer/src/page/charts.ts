@@ -11,8 +11,8 @@ import type { Measure, PageData } from "../data/page_data";
 import { byId, make, themeColour } from "./dom";
 import type { State } from "./state";
 
-/** What a reader looks for first; the others follow in the order given. */
-const FIRST = ["slack", "gap", "shear", "tilt", "force"];
+/** What a reader looks for first; then come measures with a limit, then the others, both in the order given. */
+const FIRST = ["slack_mm", "gap_mm", "shear_deg", "tilt_deg", "penetration_mm", "overstretch", "force_n"];
 const HEIGHT = 104;
 /** Least time between two moves of the markers (ms). */
 const PAUSE = 90;
@@ -25,9 +25,10 @@ export class Charts {
   private later = 0;
 
   constructor(state: State, data: PageData) {
-    const rank = (m: Measure) => {
-      const place = FIRST.findIndex((word) => m.key === word || m.key.startsWith(`${word}_`));
-      return m.key === "slack_ratio" || place < 0 ? FIRST.length : place;
+    const rank = ({ key, limit }: Measure) => {
+      const place = FIRST.indexOf(key);
+      if (place >= 0) return place;
+      return limit === null ? FIRST.length + 1 : FIRST.length;
     };
     const measures = data.measures
       .filter((m) => m.values.some((value) => value !== null))
@@ -87,7 +88,7 @@ class Chart {
     const head = make(
       "figcaption",
       {},
-      make("p", {}, make("span", { class: "chart-name" }, label), this.value),
+      make("p", {}, make("span", { class: "chart-name", title: label }, label), this.value),
       make("p", {}, bound, this.where),
     );
     this.card.dataset.measure = measure.key;

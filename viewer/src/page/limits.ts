@@ -5,15 +5,21 @@ import type { Limit, PageData } from "../data/page_data";
 import { byId, make } from "./dom";
 import type { State } from "./state";
 
-/** One line: accepted or not, and why. */
-export function verdict(data: PageData): string {
+/** One line: accepted or not. */
+function verdict(data: PageData): string {
   const failed = data.limits.filter((limit) => !limit.ok).length;
   const count = data.limits.length;
   let text: string;
   if (data.accepted) text = count === 0 ? "Accepted: no limit is set" : `Accepted: ${all(count)} kept`;
   else if (failed === 0) text = "Not accepted";
   else text = `Not accepted: ${failed} of ${count} ${count === 1 ? "limit" : "limits"} exceeded`;
-  return data.interrupted ? `${text}. Interrupted: fewer steps than planned` : text;
+  return text;
+}
+
+/** Why there are fewer steps than planned, if there are. */
+function shortened(data: PageData): string {
+  if (data.stopped !== null) return `. Stopped: ${data.stopped}`;
+  return data.interrupted ? ". Interrupted: fewer steps than planned" : "";
 }
 
 function all(count: number): string {
@@ -23,7 +29,11 @@ function all(count: number): string {
 export function showVerdict(data: PageData): void {
   const badge = byId("verdict");
   badge.className = data.accepted ? "verdict pass" : "verdict fail";
-  badge.replaceChildren(sign(data.accepted), verdict(data));
+  badge.replaceChildren(
+    sign(data.accepted),
+    verdict(data),
+    make("span", { class: "reason" }, shortened(data)),
+  );
 }
 
 /** A tick or a cross; the word beside it says the same. */
