@@ -264,7 +264,8 @@ fn a_ply_set_down_in_its_target_shape_lies_without_fault() {
         let summary = drape(&scene).summary;
         assert!(summary.accepted, "{tilt}: {:?}", summary.limits);
         assert_eq!(summary.contact_share, Some(1.0));
-        assert!(summary.last.value(Name::LandingError).expect("an ideal drape") < 0.1);
+        // taut edges sag by 0.52 mm along the vertical, which an incline of 12° puts down 0.11 mm aside
+        assert!(summary.last.value(Name::LandingError).expect("an ideal drape") < 0.15);
         assert!(summary.last.value(Name::SlackRatio).expect("spans") < 5e-4);
     }
 }

@@ -2,7 +2,7 @@
 //! along the files that were written. Limits are the defaults of `[limits]`, repeated here as numbers.
 
 use plydrape::draping::record::CatenaryKind;
-use plydrape::draping::record::{CatenaryState, ResultFile, Step, Verdict};
+use plydrape::draping::record::{CatenaryDirection, CatenaryState, ResultFile, Step, Verdict};
 use plydrape::draping::simulate;
 use plydrape::equilibrium::Status;
 use plydrape::measure::Name;
@@ -20,6 +20,8 @@ const BRIDGING: f64 = 1e-3;
 const OVERSTRETCH: f64 = 0.001;
 /// Largest landing error of a contact point and of a gripper (mm).
 const LANDING: [f64; 2] = [2.0, 0.5];
+/// Difference of a cell's shear at the end and when it landed (°).
+const LANDING_SHEAR: f64 = 3.0;
 /// Largest angle between landed edges and the ideal drape (°).
 const FIBRE_ANGLE: f64 = 3.0;
 /// Least share of the edges' length that lies on the mold at the end.
@@ -116,15 +118,20 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     let last = result.steps.last().expect("steps");
     let contacts = || last.catenaries.iter().filter_map(|line| line.contact.as_ref());
 
-    // what all rests of a line keep of slack, as a share of the line; rests may be as short as one likes
-    for kind in [CatenaryKind::Edge, CatenaryKind::Diagonal] {
-        let lines = last.catenaries.iter().filter(|line| line.kind == kind);
-        let share = |line: &CatenaryState| {
-            1e-3 * line.spans.iter().map(|span| span.slack_mm).sum::<f64>() / line.length
-        };
-        let slack = largest(&mut lines.map(share));
-        assert!(slack <= SLACK, "{what}: slack of {slack} of {kind} length");
-    }
+    // what all segments of an edge keep of slack, as a share of the edge; segments may be as short as one likes
+    let share = |line: &CatenaryState| {
+        1e-3 * line.spans.iter().map(|span| span.slack_mm).sum::<f64>() / line.length
+    };
+    let slack = largest(&mut edges(result.steps.len() - 1).map(share));
+    assert!(slack <= SLACK, "{what}: slack of {slack} of an edge's length");
+    // a diagonal is no fibre: its cell landed with the shear that it ends with
+    let shears = last.cells.iter().flat_map(|cell| {
+        let sign = if cell.shearing == Some(CatenaryDirection::Falling) { -1.0 } else { 1.0 };
+        let end = sign * cell.shear_deg;
+        cell.landed_deg.into_iter().flatten().map(move |landed| (landed - end).abs())
+    });
+    let shear = largest(&mut shears.into_iter());
+    assert!(shear <= LANDING_SHEAR + 0.5, "{what}: landed {shear}° off in shear");
 
     let gap = |line: &CatenaryState| line.bridging.map(|b| b.gap);
     let gap = largest(&mut last.catenaries.iter().filter_map(gap));

@@ -2,7 +2,7 @@
 
 use super::spans::Point;
 use crate::equilibrium::{Solver, heading};
-use crate::mold::vector::{cross, unit};
+use crate::mold::vector::{cross, dot, unit};
 use crate::ply::Grid;
 
 /// Slopes of the ply at a gripper and the orientation that follows from them.
@@ -14,6 +14,35 @@ pub struct Attitude {
     pub tilt: f64,
     /// Orientation (x, y, z, w): z axis along the ply's normal, x axis along u.
     pub quaternion: [f64; 4],
+}
+
+/// Heights over the mold, in contact tolerances, between which a gripper turns from the ply's normal to the mold's.
+///
+/// A gripper stands on the mold from one tolerance on, and what lies there has the mold's normal. The ply's own slope is not resolved just
+/// above: a free segment of twenty tolerances beside the gripper leads down by one of them.
+const LANDING: [f64; 2] = [1.0, 10.0];
+
+impl Attitude {
+    /// The same gripper at a height over a mold (m): as it comes down it turns to the mold's normal, which it has where it stands.
+    #[must_use]
+    pub fn landing(
+        self,
+        height: f64,
+        mold: Point,
+        tolerance: f64,
+        before: Option<[f64; 4]>,
+    ) -> Self {
+        let [low, high] = LANDING.map(|heights| heights * tolerance);
+        let t = ((high - height) / (high - low)).clamp(0.0, 1.0);
+        let share = t * t * (3.0 - 2.0 * t);
+        if share == 0.0 {
+            return self;
+        }
+        let own = normal(self.quaternion);
+        let mixed = [0, 1, 2].map(|n| (1.0 - share) * own[n] + share * mold[n]);
+        let normal = unit(mixed).unwrap_or(own);
+        Attitude { slope: self.slope, ..oriented(normal, x_axis(self.quaternion), before) }
+    }
 }
 
 /// The attitude of a gripper; the quaternion's sign continues `before`.
@@ -34,14 +63,25 @@ pub fn attitude(
     let normal =
         unit(cross(along_u, along_v)).map_or(up, |n| if n[2] < 0.0 { n.map(|x| -x) } else { n });
     let x = unit(along_u).unwrap_or([1.0, 0.0, 0.0]);
-    let y = cross(normal, x);
-    let mut quaternion = quaternion([x, y, normal]);
+    Attitude { slope, ..oriented(normal, x, before) }
+}
+
+/// With its z axis along a unit normal and its x axis as near to `along` as that allows.
+fn oriented(normal: Point, along: Point, before: Option<[f64; 4]>) -> Attitude {
+    let aside = dot(along, normal);
+    let x = unit([0, 1, 2].map(|n| along[n] - aside * normal[n])).unwrap_or([1.0, 0.0, 0.0]);
+    let mut quaternion = quaternion([x, cross(normal, x), normal]);
     if let Some(before) = before
         && quaternion.iter().zip(before).map(|(a, b)| a * b).sum::<f64>() < 0.0
     {
         quaternion = quaternion.map(|c| -c);
     }
-    Attitude { slope, tilt: normal[2].clamp(-1.0, 1.0).acos(), quaternion }
+    Attitude { slope: [None; 2], tilt: normal[2].clamp(-1.0, 1.0).acos(), quaternion }
+}
+
+/// The x axis of an orientation (x, y, z, w).
+fn x_axis([x, y, z, w]: [f64; 4]) -> Point {
+    [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)]
 }
 
 /// Unit normal of the ply at a gripper: the z axis of its orientation (x, y, z, w).

@@ -100,7 +100,7 @@ impl GapMemory {
     pub fn samples(&mut self, span: &FreeSpan, mold: &Mold, tolerance: f64) -> GapSamples {
         let seen = &mut self.seen[span.catenary][span.rest];
         // the same bound for the whole span, before it comes near
-        let ends = || mold.clearance(span.ends[0], span.ends[1], span.length);
+        let ends = || mold.clearance(span.ends[0], span.ends[1], span.curve_length());
         if seen.is_empty() && ends() > tolerance {
             return GapSamples::default();
         }

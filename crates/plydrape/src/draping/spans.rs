@@ -52,6 +52,13 @@ impl FreeSpan {
         distance(self.ends[0], self.ends[1])
     }
 
+    /// Length of the curve that it hangs in (m): its fabric's, and what that is stretched by.
+    #[must_use]
+    pub fn curve_length(&self) -> f64 {
+        let curve = self.profile.as_ref().map(|profile| profile.length_to(self.run()));
+        curve.unwrap_or_else(|| self.chord())
+    }
+
     /// Horizontal unit vector from its first end to its second; zero if they lie above each other.
     #[must_use]
     pub fn heading(&self) -> [f64; 2] {

@@ -279,10 +279,9 @@ impl<T: Number> Build<'_, T> {
         let ends = self.ends(&self.grid().catenary(catenary));
         match &self.laid[catenary] {
             None => line(ends[0], ends[1]),
-            // nor has a crumb that lies one of its own: it goes on as the segment ends
+            // nor has one that lies a direction of its own: it goes on as the segment ends
             Some(laid)
-                if (laid.rest(end) <= 0.0 || (laid.lying[end] && laid.is_crumb(end)))
-                    && laid.line.length() > 0.0 =>
+                if (laid.rest(end) <= 0.0 || laid.lying[end]) && laid.line.length() > 0.0 =>
             {
                 let [a, b] = laid.end_piece(end).map(constant);
                 line(a, b)

@@ -16,7 +16,8 @@ impl<T: Number> Assembly<T> {
     ///
     /// A shearing cell is a taut sheet: its plane contains the stretched diagonal and the direction between the
     /// two other grippers. Where several cells meet, their planes are averaged by their weights w, and the
-    /// weight of the mean is `1 − ∏(1−w)`.
+    /// weight of the mean is `1 − ∏(1−w)`. A diagonal that has landed gives up its weight as its free segment
+    /// shortens from half of it to nothing.
     pub(super) fn constrain(&mut self, build: &Build<T>) {
         let grid = build.grid();
         self.constraints.clear();
@@ -36,11 +37,15 @@ impl<T: Number> Assembly<T> {
             let across = build.chord(other);
             let catenary = grid.catenary(stretched);
             for (end, gripper) in [catenary.from, catenary.to].into_iter().enumerate() {
-                // where the diagonal is in contact up to its gripper, all but a short free segment, it
-                // constrains nothing
-                if build.laid[stretched].as_ref().is_some_and(|laid| laid.is_crumb(end)) {
+                // what of the diagonal is in contact says nothing about what hangs beyond its gripper
+                let free = build.laid[stretched].as_ref().map_or(1.0, |laid| {
+                    let share = (2.0 * laid.rest(end) / laid.length).clamp(0.0, 1.0);
+                    share * share * (3.0 - 2.0 * share)
+                });
+                if free == 0.0 {
                     continue;
                 }
+                let weight = weight * free;
                 let Some(normal) = upward_normal(build.rest_line(stretched, end).vector(), across)
                 else {
                     continue;

@@ -1,4 +1,7 @@
-//! Landing of contact points: how far what has landed is from where the ideal drape has the same fabric.
+//! Landing of contact points: how far the fibres that have landed are from where the ideal drape has the same fabric.
+//!
+//! A diagonal is no fibre. Where its points land follows from the shear that its cell lands with, which is judged by itself
+//! (`landing_shear.rs`); their distances stand in the record of the diagonal.
 
 use super::{Found, Measure, Most, Scope, Site, State, Unit};
 use crate::scene::Scene;
@@ -33,7 +36,7 @@ impl Measure for LandingContact {
 
     fn evaluate(&self, state: &State) -> Option<Found> {
         let mut most = Most::default();
-        for (n, landing) in state.landings().iter().enumerate() {
+        for (n, landing) in state.landings().iter().enumerate().take(state.edges()) {
             let laid = state.snapshot.laid[n].as_ref();
             let worst = laid.zip(landing.as_ref()).and_then(|(laid, found)| found.worst(&laid.line));
             if let Some((error, place)) = worst {

@@ -8,6 +8,7 @@ use crate::draping::{Snapshot, stations};
 use crate::equilibrium::Solver;
 use crate::scene::Scene;
 use std::cell::OnceCell;
+use std::collections::VecDeque;
 
 pub use crate::draping::misfit::Misfit;
 
@@ -20,6 +21,14 @@ pub struct Before {
     pub positions: Vec<Point>,
     /// Orientations of the grippers (x, y, z, w).
     pub quaternions: Vec<[f64; 4]>,
+    /// Times (s) and orientations of earlier steps, back to [`window`] before this one and to the step before that.
+    earlier: VecDeque<(f64, Vec<[f64; 4]>)>,
+}
+
+/// Time (s) over which a rate is taken at least: a hundredth of the motion.
+#[must_use]
+pub fn window(scene: &Scene) -> f64 {
+    0.01 * scene.motion.times.last().copied().unwrap_or(0.0)
 }
 
 /// The ply of one step.
@@ -72,7 +81,16 @@ impl<'a> State<'a> {
         self.attitudes.get_or_init(|| {
             let (grid, positions) = (self.scene.ply.grid, &self.snapshot.positions);
             let before = |n: usize| self.before.map(|before| before.quaternions[n]);
-            let one = |n| attitude(self.solver, grid, positions, n, before(n));
+            let tolerance = self.scene.settings.contact.tolerance;
+            let one = |n: usize| {
+                let own = attitude(self.solver, grid, positions, n, before(n));
+                let Some(mold) = &self.scene.mold else { return own };
+                let foot = mold.foot(positions[n]);
+                if foot.beyond || foot.normal[2] <= 0.0 {
+                    return own;
+                }
+                own.landing(foot.distance, foot.normal, tolerance, before(n))
+            };
             (0..grid.grippers()).map(one).collect()
         })
     }
@@ -80,11 +98,35 @@ impl<'a> State<'a> {
     /// What the next step has to know of this one.
     #[must_use]
     pub fn as_before(&self) -> Before {
+        let time = self.snapshot.time;
+        let mut earlier = VecDeque::new();
+        if let Some(before) = self.before {
+            earlier.clone_from(&before.earlier);
+            earlier.push_back((before.time, before.quaternions.clone()));
+        }
+        // one step from before the window is enough
+        while earlier.len() > 1 && time - earlier[1].0 >= window(self.scene) {
+            earlier.pop_front();
+        }
         Before {
-            time: self.snapshot.time,
+            time,
             positions: self.snapshot.positions.clone(),
             quaternions: self.attitudes().iter().map(|attitude| attitude.quaternion).collect(),
+            earlier,
         }
+    }
+
+    /// The last step that is at least [`window`] before this one, else the first: the time since then (s) and its
+    /// orientations. None in the first step.
+    #[must_use]
+    pub fn since(&self) -> Option<(f64, &[[f64; 4]])> {
+        let before = self.before?;
+        let ago = |time: f64| self.snapshot.time - time;
+        let long = window(self.scene) * (1.0 - 1e-9);
+        let steps = before.earlier.iter().map(|(t, q)| (ago(*t), q.as_slice()));
+        let steps = steps.chain([(ago(before.time), before.quaternions.as_slice())]);
+        let first = steps.clone().next();
+        steps.filter(|(since, _)| *since >= long).last().or(first)
     }
 
     /// The segments of each catenary that lie on the mold beside its contact.

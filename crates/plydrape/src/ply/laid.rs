@@ -38,9 +38,6 @@ pub struct LandedCell {
 /// Rests shorter than this share of their catenary are nothing.
 const NOTHING: f64 = 1e-9;
 
-/// Rests shorter than this share of their catenary are crumbs.
-const CRUMB: f64 = 1e-2;
-
 impl Laid {
     /// Fabric arc length of the segment's ends from the first gripper (m).
     #[must_use]
@@ -71,12 +68,6 @@ impl Laid {
     pub fn rest(&self, which: usize) -> f64 {
         let [from, to] = self.arc();
         if which == 0 { from } else { self.length - to }
-    }
-
-    /// Whether a rest is too short to have a direction or a slope worth a name.
-    #[must_use]
-    pub fn is_crumb(&self, which: usize) -> bool {
-        self.rest(which) < CRUMB * self.length
     }
 
     /// Whether the catenary lies from gripper to gripper, without a segment of its own.

@@ -3,6 +3,9 @@
 
 use num_dual::DualNum;
 
+/// What a folded cell keeps of its shorter diagonal, as a share of a side.
+const FOLDED: f64 = 1e-6;
+
 /// Relative length by which a diagonal must exceed that of the flat cell to count as shearing.
 const ROUNDING: f64 = 1e-12;
 
@@ -53,7 +56,7 @@ pub fn angle_tangent(sides: [f64; 2], stretched: f64, change: [f64; 3]) -> f64 {
 #[must_use]
 pub fn partner_length<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T) -> T {
     let square = (a * a + b * b) * 2.0 - stretched * stretched;
-    let least = 1e-6 * a.re().min(b.re());
+    let least = FOLDED * a.re().min(b.re());
     if square.re() > least * least { square.sqrt() } else { T::from(least) }
 }
 
@@ -66,10 +69,11 @@ pub fn signed_angle(sides: [f64; 2], rising: f64, falling: f64) -> f64 {
 }
 
 /// Length (m) of the rising (`sign` 1) or falling (−1) diagonal of a cell with sides a, b (m) at the signed shear
-/// angle γ (rad): √(a² + b² ± 2ab sin γ).
+/// angle γ (rad): √(a² + b² ± 2ab sin γ). Of a folded cell the shorter one keeps a millionth of a side.
 #[must_use]
 pub fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
-    (a * a + b * b + sign * 2.0 * a * b * shear.sin()).sqrt()
+    let square = a * a + b * b + sign * 2.0 * a * b * shear.sin();
+    square.max(0.0).sqrt().max(FOLDED * a.min(b))
 }
 
 /// By how much a mold of Gaussian curvature K (1/m²) scales both diagonals of a cell that lies on it, with sides a, b
