@@ -60,6 +60,7 @@ describe("results page", { skip: missing ?? false }, () => {
   test("light and dark differ, by the system and by the button", () => themesDiffer(reports[0]));
   test("views look from elsewhere, and the list of keys opens", () => viewsDiffer(reports[0]));
   test("damaged data gives one sentence", () => damagedDataIsSaid(reports[0]));
+  test("a drape with fewer steps than planned says why", () => fewerStepsAreSaid(reports[0]));
   test("without WebGL everything else works", () => worksWithoutWebgl(reports[0]));
 
   const large = reports.find(({ name }) => name === "large");
@@ -436,12 +437,40 @@ async function viewsDiffer(report) {
   await context.close();
 }
 
-async function damagedDataIsSaid(report) {
+/** A page in three parts: what comes before its data, the data, what comes after. */
+function parts(report) {
   const text = readFileSync(report.file, "utf8");
   const mark = '<script type="application/json" id="plydrape-data">';
   const start = text.indexOf(mark) + mark.length;
   const end = text.indexOf("</script>", start);
-  const data = text.slice(start, end);
+  return [text.slice(0, start), text.slice(start, end), text.slice(end)];
+}
+
+async function fewerStepsAreSaid(report) {
+  const [head, data, tail] = parts(report);
+  const reason = "edge [2,1]–[3,1] is stretched by 12 % in step 3: no ply survives that";
+  const cases = {
+    stopped: [{ interrupted: false, stopped: reason }, `. Stopped: ${reason}`],
+    interrupted: [{ interrupted: true, stopped: null }, ". Interrupted: fewer steps than planned"],
+    whole: [{ interrupted: false, stopped: null }, ""],
+  };
+  for (const [name, [change, said]] of Object.entries(cases)) {
+    const changed = { ...JSON.parse(data), ...change };
+    const file = join(scratch, `${name}.html`);
+    writeFileSync(file, head + JSON.stringify(changed).replaceAll("<", "\\u003c") + tail);
+    const { page, context, complaints } = await openReport(browser, file, { width: 390, height: 800 });
+    const verdict = await page.locator("#verdict").innerText();
+    assert.ok(verdict.endsWith(said), verdict);
+    assert.equal(/Stopped|Interrupted/.test(verdict), said !== "", verdict);
+    // On a phone the sentence breaks, and nothing is wider than the window.
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+    assert.deepEqual(complaints, []);
+    await context.close();
+  }
+}
+
+async function damagedDataIsSaid(report) {
+  const [head, data, tail] = parts(report);
   const damaged = {
     cut: [data.slice(0, data.length / 2), /cut off or damaged/],
     newer: [data.replace(/"version"\s*:\s*1/, '"version":99'), /version 99/],
@@ -451,7 +480,7 @@ async function damagedDataIsSaid(report) {
   for (const [name, [broken, reason]] of Object.entries(damaged)) {
     assert.notEqual(broken, data);
     const file = join(scratch, `${name}.html`);
-    writeFileSync(file, text.slice(0, start) + broken + text.slice(end));
+    writeFileSync(file, head + broken + tail);
     const { page, context, complaints } = await openReport(browser, file, { wait: false });
     await page.locator("#failure").waitFor({ state: "visible", timeout: 10_000 });
     const sentence = await page.locator("#failure").innerText();

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 ///     >>> [(measure.label, measure.shown) for measure in shares]
 ///     [('contact share', '%'), ('gripper distance', 'mm')]
 #[pyclass(frozen, eq, hash, module = "plydrape")]
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Measure(Name);
 
 #[pymethods]
