@@ -1,7 +1,7 @@
 //! What the verdict of a drape says: depths, folds, landing shear, one rule for all molds, convergence, scale, and that nothing
 //! fails in silence.
 
-use plydrape::draping::record::ResultFile;
+use plydrape::draping::record::{ResultFile, Step};
 use plydrape::draping::{ContactStatus, Judged, simulate};
 use plydrape::equilibrium::Status;
 use plydrape::material::Section;
@@ -346,6 +346,18 @@ fn a_step_without_an_equilibrium_is_never_accepted() {
     assert!(unsolved > 0, "no ply of this test is beyond floating point");
 }
 
+/// What snaps onto the mold deeper than the tolerance in the shortest cut of a step is penetration of that depth: the dome by straight
+/// paths.
+#[test]
+fn an_edge_that_snaps_onto_the_mold_has_penetrated_it() {
+    let result = drape(&example("04_dome"));
+    let snaps = result.steps.iter().filter(|step| step.solver.contact == ContactStatus::CutLimit);
+    let depth = |step: &Step| step.measures.value(Name::Penetration).expect("a mold");
+    for step in snaps {
+        assert!(depth(step) > 0.2, "step {}: {}", step.step, depth(step));
+    }
+}
+
 /// Straight paths onto the curved molds of the examples change the contact several times at one place of the grippers; all of it
 /// is followed to its end.
 #[test]
@@ -353,7 +365,7 @@ fn contact_is_followed_until_nothing_changes() {
     for name in ["04_dome", "05_cylinder", "06_saddle", "10_shallow"] {
         let result = drape(&example(name));
         for step in &result.steps {
-            assert_eq!(step.solver.contact, ContactStatus::Followed, "{name} step {}", step.step);
+            assert_ne!(step.solver.contact, ContactStatus::RoundLimit, "{name} step {}", step.step);
         }
         assert!(result.steps.iter().any(|step| step.solver.equilibria > 8), "{name} is followed");
     }

@@ -227,6 +227,10 @@ pub fn next_touch(
         look.laid = Some(laid);
         return look;
     }
+    // fabric that leads back over what is in contact is not laid there a second time
+    if laid.is_behind(rest, span.ends[rest]) {
+        return look;
+    }
     // at a point of the mold the distance is zero but for rounding: what dips goes clearly below
     if run.depth > -DIP * contact.tolerance || span.run() == 0.0 {
         return look;

@@ -6,7 +6,6 @@
 //! the end thus makes a fold, all of it slack, and never stretch. A segment that lies has the way along the mold.
 
 use super::spans::{FreeSpan, Point};
-use crate::mold::vector::{dot, sub};
 use crate::mold::{Mold, Strand, distance};
 use crate::ply::Laid;
 
@@ -112,14 +111,14 @@ pub fn lying_segments(
         return vec![LyingSegment { which: None, misfit, line }];
     }
     let segment = |which: usize| {
-        let (end, outward) = (laid.point()[which], laid.outward[which]);
+        let end = laid.point()[which];
         let gripper = foot(grippers[which]);
         let place = gripper.unwrap_or(grippers[which]);
         let [a, b] = if which == 0 { [place, end] } else { [end, place] };
         let along = gripper.and_then(|_| mold.path(a, b));
         let line = along.unwrap_or_else(|| straight(a, b));
         // behind the end the line leads back over what is in contact
-        let behind = dot(sub(place, end), outward) < 0.0;
+        let behind = laid.is_behind(which, place);
         let way = match gripper {
             Some(_) if behind => -line.length(),
             Some(_) => line.length(),

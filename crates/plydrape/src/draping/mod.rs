@@ -47,7 +47,7 @@ pub enum ContactStatus {
     Followed,
     /// It still changed when the rounds at one place were spent.
     RoundLimit,
-    /// A new touch was deeper than the tolerance, however short the step was cut.
+    /// An edge snapped onto the mold deeper than the tolerance, however short the step was cut: its depth is penetration.
     CutLimit,
 }
 
@@ -78,7 +78,8 @@ pub struct Snapshot {
     pub laid: Vec<Option<Laid>>,
     /// Touches that the model does not follow, by catenary.
     pub bridges: Vec<Option<Bridge>>,
-    /// Depth of the deepest span below the mold (m), its catenary and the place (m); none if all are clear of it.
+    /// Depth of the deepest span below the mold (m), its catenary and the place (m): at the end of the step, and where an edge snapped
+    /// onto the mold on the way. None if all are clear of it.
     pub deepest: Option<(f64, usize, Point)>,
     /// Shear of each cell that shears.
     pub shear: Vec<Option<CellShear>>,
@@ -95,13 +96,10 @@ impl Snapshot {
     #[must_use]
     pub fn failure(&self) -> Option<&'static str> {
         match (self.solved.status, self.contact) {
-            (Status::Converged, ContactStatus::Followed) => None,
             (Status::Converged, ContactStatus::RoundLimit) => {
                 Some("contact that changes without end")
             }
-            (Status::Converged, ContactStatus::CutLimit) => {
-                Some("a touch deeper than the tolerance in the shortest cut of a step")
-            }
+            (Status::Converged, _) => None,
             (status, _) => Some(status.name()),
         }
     }
@@ -280,6 +278,7 @@ impl<'a> Draping<'a> {
     /// Moves the grippers and follows the contact, by the scene's rule for steps.
     pub(crate) fn move_to(&mut self, goal: &[Point]) -> Shape {
         (self.unsolved, self.contact) = (None, ContactStatus::Followed);
+        self.deepest = None;
         let shape = match self.scene.settings.contact.stepping {
             Stepping::Once => self.arrive(goal),
             Stepping::Cut => self.cut_to(goal),
@@ -336,9 +335,10 @@ impl<'a> Draping<'a> {
                 part *= 0.5;
                 continue;
             }
-            // a fibre must not; a diagonal is none
+            // a fibre that snaps so far is penetration, which has a limit; a diagonal is none
             if deep.is_some_and(|catenary| catenary < self.scene.ply.grid.edges()) {
                 self.contact = ContactStatus::CutLimit;
+                self.note_depth(&shape, &gaps);
             }
             let mut rounds = 0;
             while self.touch(&shape, &gaps) {
@@ -385,7 +385,6 @@ impl<'a> Draping<'a> {
 
     /// Notes the deepest span of a step.
     fn note_depth(&mut self, shape: &Shape, gaps: &[GapSamples]) {
-        self.deepest = None;
         for (span, gaps) in shape.spans.iter().zip(gaps) {
             let Some((t, distance)) = gaps.deepest() else { continue };
             if -distance > self.deepest.map_or(0.0, |(most, ..)| most) {

@@ -1,4 +1,7 @@
-//! Bridging: the gap between ply and mold between two touches of one catenary, of which the model follows one.
+//! Bridging: the gap between ply and mold between two touches of one edge, of which the model follows one.
+//!
+//! A diagonal is no fibre: one that landed in another shear than its cell ends with is too short or too long for its place, and spans hollows that
+//! the fabric lies in. Its gaps stand in its record.
 
 use super::{Found, Measure, Most, Scope, Site, State, Unit};
 use crate::scene::Scene;
@@ -34,7 +37,7 @@ impl Measure for Bridging {
     fn evaluate(&self, state: &State) -> Option<Found> {
         state.scene.mold.as_ref()?;
         let mut most = Most::default();
-        for (n, bridge) in state.snapshot.bridges.iter().enumerate() {
+        for (n, bridge) in state.snapshot.bridges.iter().enumerate().take(state.edges()) {
             if let Some(bridge) = bridge {
                 most.meet(bridge.gap, Site::Catenary(n), bridge.place);
             }

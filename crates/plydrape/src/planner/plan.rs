@@ -15,6 +15,10 @@ use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
 use crate::scene::{PlanMethod, Scene, SceneError};
 use std::ops::ControlFlow;
 
+/// How much faster grippers may turn between two steps of a plan than over the whole of both, within which the limit of the tilt rate is to
+/// hold for finer samples of the motion too.
+const RATE_MARGIN: f64 = 1.5;
+
 /// A finished plan.
 #[derive(Debug, Clone)]
 pub struct Planned {
@@ -132,7 +136,7 @@ pub fn plan(
     let mut drape = follow(&motion);
     // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
     let fastest = drape.result.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
-    let slowed = (fastest / scene.limits.tilt_rate.to_degrees()).max(1.0);
+    let slowed = (RATE_MARGIN * fastest / scene.limits.tilt_rate.to_degrees()).max(1.0);
     if slowed > 1.0 {
         motion = motion.slowed(slowed);
         drape = follow(&motion);

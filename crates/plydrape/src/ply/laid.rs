@@ -90,6 +90,12 @@ impl Laid {
         (square - along * along).max(0.0).sqrt() + along
     }
 
+    /// Whether a point is behind an end of the segment, over what is in contact.
+    #[must_use]
+    pub fn is_behind(&self, which: usize, point: [f64; 3]) -> bool {
+        dot(sub(point, self.point()[which]), self.outward[which]) < 0.0
+    }
+
     /// Whether the gripper of a rest, at `point` (m), has passed the end of the segment so far that the rest is a fold: no
     /// catenary of its length leads there, though it is not stretched.
     #[must_use]

@@ -163,7 +163,7 @@ impl Solver {
     /// Whether equilibrium and contact were found.
     #[must_use]
     pub fn found(&self) -> bool {
-        self.status == Status::Converged && self.contact == ContactStatus::Followed
+        self.status == Status::Converged && self.contact != ContactStatus::RoundLimit
     }
 }
 
