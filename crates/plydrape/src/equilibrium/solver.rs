@@ -439,7 +439,8 @@ impl Solver {
             }
             let span = element.span(self.settings.axial_stiffness, &self.held[n]);
             let found = &mut self.evaluated[n];
-            if !(found.length_residual <= 0.1 * self.tuning.length_tolerance) {
+            let near = 0.1 * self.tuning.length_tolerance;
+            if found.length_residual.is_nan() || found.length_residual > near {
                 (found.force.value, found.length_residual) =
                     meet_length(&span, Some(found.force.value));
             }

@@ -126,7 +126,7 @@ impl<'a> State<'a> {
         let steps = before.earlier.iter().map(|(t, q)| (ago(*t), q.as_slice()));
         let steps = steps.chain([(ago(before.time), before.quaternions.as_slice())]);
         let first = steps.clone().next();
-        steps.filter(|(since, _)| *since >= long).last().or(first)
+        steps.rev().find(|(since, _)| *since >= long).or(first)
     }
 
     /// The segments of each catenary that lie on the mold beside its contact.

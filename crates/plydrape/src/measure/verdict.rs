@@ -100,10 +100,11 @@ impl<'a> Judge<'a> {
     pub fn see(&mut self, state: &State, last: bool) {
         for name in Name::ALL {
             let counts = last || name.measure().scope() != Scope::End;
-            if counts && self.limit(*name).is_some() {
-                if let Some(found) = name.measure().evaluate(state) {
-                    self.meet(*name, state.snapshot.step, found);
-                }
+            if counts
+                && self.limit(*name).is_some()
+                && let Some(found) = name.measure().evaluate(state)
+            {
+                self.meet(*name, state.snapshot.step, found);
             }
         }
         self.solved(state);

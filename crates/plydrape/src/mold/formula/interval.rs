@@ -78,7 +78,8 @@ impl Interval {
     }
 
     fn sin(self) -> Self {
-        if !(self.1 - self.0 < TAU) {
+        let width = self.1 - self.0;
+        if width.is_nan() || width >= TAU {
             return Interval(-1.0, 1.0);
         }
         // whether a number π/2 + 2πk or −π/2 + 2πk is in it
