@@ -7,6 +7,7 @@ use super::spans::{FreeSpan, Point};
 use crate::catenary::{EndCondition, Profile, Span};
 use crate::ply::Laid;
 use crate::scene::Scene;
+use std::cell::OnceCell;
 
 /// Points of a span in a record.
 pub const STATIONS: usize = 11;
@@ -65,7 +66,13 @@ fn through(scene: &Scene, span: &FreeSpan, at: f64, meet: Point) -> Vec<Point> {
     let section = scene.ply.line(scene.ply.grid.catenary(span.catenary).kind);
     let halves = [0, 1].map(|n| {
         let ends = if n == 0 { [span.ends[0], meet] } else { [meet, span.ends[1]] };
-        let mut half = FreeSpan { ends, length: lengths[n], profile: None, ..span.clone() };
+        let mut half = FreeSpan {
+            ends,
+            length: lengths[n],
+            profile: None,
+            curve: OnceCell::new(),
+            ..span.clone()
+        };
         let mut hold = [EndCondition::Free; 2];
         if span.prescribed[n] {
             hold[n] = EndCondition::Slope(span.slopes[n]);

@@ -4,6 +4,7 @@ use crate::catenary::{Profile, SpanState};
 use crate::equilibrium::{Equilibrium, Solver, StateTangent};
 use crate::mold::distance;
 use crate::ply::{Kind, Laid, Ply};
+use std::cell::OnceCell;
 
 /// A point in space (m).
 pub type Point = [f64; 3];
@@ -25,6 +26,8 @@ pub struct FreeSpan {
     pub start: f64,
     /// Its closed form; none for a straight line.
     pub profile: Option<Profile>,
+    /// Length of that curve (m), once it has been asked for.
+    pub curve: OnceCell<f64>,
     /// How it holds its length.
     pub state: SpanState,
     /// Whether it belongs to a stretched diagonal.
@@ -55,8 +58,11 @@ impl FreeSpan {
     /// Length of the curve that it hangs in (m): its fabric's, and what that is stretched by.
     #[must_use]
     pub fn curve_length(&self) -> f64 {
-        let curve = self.profile.as_ref().map(|profile| profile.length_to(self.run()));
-        curve.unwrap_or_else(|| self.chord())
+        match &self.profile {
+            // asked for many times, and a quadrature each
+            Some(profile) => *self.curve.get_or_init(|| profile.length_to(self.run())),
+            None => self.chord(),
+        }
     }
 
     /// Horizontal unit vector from its first end to its second; zero if they lie above each other.
@@ -127,7 +133,7 @@ impl FreeSpan {
             return self.length;
         }
         let share = match &self.profile {
-            Some(profile) => profile.length_to(t * self.run()) / profile.length_to(self.run()),
+            Some(profile) => profile.length_to(t * self.run()) / self.curve_length(),
             None => t,
         };
         share.clamp(0.0, 1.0) * self.length
@@ -184,6 +190,7 @@ pub fn shape(
                 length: 0.0,
                 start,
                 profile: None,
+                curve: OnceCell::new(),
                 state: SpanState::Straight,
                 shearing: stretched.is_some(),
                 force: None,

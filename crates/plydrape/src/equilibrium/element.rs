@@ -21,6 +21,16 @@ pub struct Wanted {
     pub derivatives: bool,
 }
 
+impl Wanted {
+    /// Whether all of another's needs are among these.
+    pub fn covers(self, other: Wanted) -> bool {
+        let all = |own: [bool; 2], wanted: [bool; 2]| (0..2).all(|n| own[n] || !wanted[n]);
+        all(self.slope, other.slope)
+            && all(self.curvature, other.curvature)
+            && (self.derivatives || !other.derivatives)
+    }
+}
+
 /// Force, end slopes and end curvatures as functions of the prescribed slopes s₁, s₂ and, if `M` is 7,
 /// of run, rise, weight, rigidity and fabric length.
 #[derive(Debug, Clone, Copy)]

@@ -43,6 +43,10 @@ pub struct Solver {
     /// Buckling force of each element with free ends, and the height of the parabola's force above it.
     heights: Vec<[f64; 2]>,
     memory: Vec<[f64; 2]>,
+    /// The last solution of each span, by catenary and rest: one that has not moved needs no other.
+    kept: Vec<[Option<Kept>; 2]>,
+    /// What each element was evaluated with.
+    known: Vec<Wanted>,
     /// Ratio of a force to its parabola's, found last for a span of the same kind with the same ends.
     alike: [Option<f64>; 12],
     /// Finds the same ply's equilibrium without constraints, where its slopes count.
@@ -53,6 +57,26 @@ pub struct Solver {
     pub(super) constrained: bool,
     /// Whether the assembly is that of the positions to solve for.
     is_built: bool,
+}
+
+/// A span as it was solved.
+#[derive(Debug, Clone, Copy)]
+struct Kept {
+    element: Element<f64>,
+    held: [f64; 2],
+    evaluated: Evaluated<2>,
+    known: Wanted,
+}
+
+impl Kept {
+    /// Whether an element is the same span, whatever slopes hold it.
+    fn is(&self, element: &Element<f64>) -> bool {
+        let numbers = |e: &Element<f64>| [e.run, e.rise, e.length, e.weight, e.rigidity];
+        let free = |e: &Element<f64>| e.ends.map(|end| matches!(end, End::Free));
+        numbers(&self.element) == numbers(element)
+            && free(&self.element) == free(element)
+            && self.element.state == element.state
+    }
 }
 
 /// Buffers of the iteration.
@@ -91,6 +115,8 @@ impl Solver {
             ratios: vec![[None; 2]; ply.grid.catenaries()],
             heights: Vec::new(),
             memory: vec![[0.0; 2]; ply.grid.grippers()],
+            kept: vec![[None; 2]; ply.grid.catenaries()],
+            known: Vec::new(),
             alike: [None; 12],
             unconstrained: None,
             free: Vec::new(),
@@ -116,6 +142,7 @@ impl Solver {
     /// Forgets earlier solutions: the next solve starts cold.
     pub fn forget(&mut self) {
         self.ratios.fill([None; 2]);
+        self.kept.fill([None; 2]);
         self.memory.fill([0.0; 2]);
         if let Some(unconstrained) = &mut self.unconstrained {
             unconstrained.forget();
@@ -200,6 +227,7 @@ impl Solver {
 
     fn forget_own(&mut self) {
         self.ratios.fill([None; 2]);
+        self.kept.fill([None; 2]);
         self.memory.fill([0.0; 2]);
     }
 
@@ -320,6 +348,8 @@ impl Solver {
         self.evaluated.resize(count, Evaluated::default());
         self.wanted.clear();
         self.wanted.resize(count, Wanted::default());
+        self.known.clear();
+        self.known.resize(count, Wanted::default());
         for n in 0..count {
             for end in self.assembly.elements[n].ends {
                 match end {
@@ -339,6 +369,11 @@ impl Solver {
             let height = span.first_guess() - pole;
             self.heights.push([pole, height]);
             self.evaluated[n].force.value = pole + ratio * height;
+            let kept = self.kept[element.catenary][element.rest].filter(|kept| kept.is(element));
+            if let Some(kept) = kept {
+                (self.held[n], self.evaluated[n], self.known[n]) =
+                    (kept.held, kept.evaluated, kept.known);
+            }
         }
     }
 
@@ -358,6 +393,17 @@ impl Solver {
 
     fn remember(&mut self) {
         for (n, element) in self.assembly.elements.iter().enumerate() {
+            // a free end's slope is an outcome, and holds nothing
+            let held = |end: usize| match element.ends[end] {
+                End::Free => 0.0,
+                _ => self.held[n][end],
+            };
+            self.kept[element.catenary][element.rest] = Some(Kept {
+                element: *element,
+                held: [held(0), held(1)],
+                evaluated: self.evaluated[n],
+                known: self.known[n],
+            });
             let [pole, height] = self.heights[n];
             let ratio = (self.evaluated[n].force.value - pole) / height;
             self.ratios[element.catenary][element.rest] =
@@ -381,10 +427,11 @@ impl Solver {
             }
             let slopes = [0, 1].map(|end| self.slope_at(&element, end));
             // nothing that holds it has moved: keep what is known
-            if slopes == self.held[n] && self.evaluated[n].carried <= self.tuning.carried {
+            let known = self.known[n].covers(self.wanted[n]);
+            if known && slopes == self.held[n] && self.evaluated[n].carried <= self.tuning.carried {
                 continue;
             }
-            if self.wanted[n].derivatives && self.turn(n, slopes) {
+            if known && self.wanted[n].derivatives && self.turn(n, slopes) {
                 continue;
             }
             let guess = self.predict(n, slopes);
@@ -396,6 +443,7 @@ impl Solver {
                 evaluate_still(&span, guess, wanted)
             };
             self.held[n] = slopes;
+            self.known[n] = wanted;
             let [pole, height] = self.heights[n];
             self.alike[self.likeness(&element)] =
                 Some((self.evaluated[n].force.value - pole) / height).filter(|r| r.is_finite());
