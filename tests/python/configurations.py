@@ -102,7 +102,8 @@ def inclined(base: Real, climb: float, towards: float, turn: float = 0.0) -> Rea
     out = base.copy()
     x, y = base[..., 0], base[..., 1]
     x, y = x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)
-    along, across = x * np.cos(towards) + y * np.sin(towards), y * np.cos(towards) - x * np.sin(towards)
+    along = x * np.cos(towards) + y * np.sin(towards)
+    across = y * np.cos(towards) - x * np.sin(towards)
     z = along * np.sin(climb)
     along = along * np.cos(climb)
     out[..., 0] = along * np.cos(towards) - across * np.sin(towards)
@@ -113,7 +114,9 @@ def inclined(base: Real, climb: float, towards: float, turn: float = 0.0) -> Rea
 
 def mirrored(base: Real) -> Real:
     """The mirror image in the plane y = 0."""
-    return base * np.array([1.0, -1.0, 1.0])
+    out = base.copy()
+    out[..., 1] *= -1.0
+    return out
 
 
 def material(**changes: float) -> Problem:

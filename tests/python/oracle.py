@@ -8,7 +8,8 @@ forces H and shared slopes s:
 
 with free slopes on the ply's free boundary, one slope for colinear edges on both sides of a
 gripper, the slopes of diagonals from the plane through their cell's edges, shear kinematics and
-slopes that shearing cells constrain. Nothing is eliminated: the engine may reduce the problem, this does not.
+slopes that shearing cells constrain. Nothing is eliminated: the engine may reduce the problem,
+this does not.
 
 Solver: SciPy's SLSQP with exact first derivatives (complex steps through the span), from the
 feasible point that hangs every span at the slopes of its chords. Forces are scaled by that point's,

@@ -268,7 +268,7 @@ def test_mirrored_ply_has_the_same_forces_and_opposite_slopes() -> None:
 @pytest.mark.parametrize("climb", [0.0, 20.0])
 @pytest.mark.parametrize("shear", [15.0, -15.0])
 def test_sheared_ply_in_a_plane_has_the_plane_s_slopes(climb: float, shear: float) -> None:
-    """By geometry: a plane that climbs by 20 degrees towards any heading, fully sheared cells in it.
+    """By geometry: a plane that climbs by 20 degrees anywhere, fully sheared cells in it.
 
     Every edge at a constrained gripper has the slope of the plane in its own direction, which is
     that of its chord.
@@ -285,7 +285,7 @@ def test_sheared_ply_in_a_plane_has_the_plane_s_slopes(climb: float, shear: floa
 
 
 def test_constraint_begins_with_the_unconstrained_slope_and_ends_with_the_plane_s() -> None:
-    """The weight at the onset of shear: one cell, its far corner 10 mm up, just beyond either end."""
+    """The weight at the onset of shear: one cell, its far corner 10 mm up, beyond either end."""
 
     def cell(angle: float) -> Problem:
         at = grid(2, 2, (0.1, 0.1), shear=float(np.radians(angle)))

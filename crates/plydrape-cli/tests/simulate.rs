@@ -270,3 +270,36 @@ fn an_interrupt_leaves_complete_files_of_the_steps_done() {
     assert!(json.contains(&format!("\"step\":{steps},\"time\"")));
     assert!(!json.contains(&format!("\"step\":{},\"time\"", steps + 1)));
 }
+
+/// A ply stiffer than any, inextensible and with slack: no force in floating point gives its spans their lengths. The step says so
+/// in words, and the exit code is 3, not that of a limit.
+#[test]
+fn a_step_without_a_solution_exits_with_three() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut codes = Vec::new();
+    for turn in 0..12 {
+        let place = |i: usize, j: usize| {
+            let phase = 1.0 + 2.3 * ((4 * j + i) as f64 + 0.7 * f64::from(turn));
+            format!("[{}, {}, {}]", 0.098 * i as f64, 0.098 * j as f64, 0.05 + 4e-3 * phase.sin())
+        };
+        let row = |j: usize| (0..4).map(|i| place(i, j)).collect::<Vec<_>>().join(", ");
+        let written = format!(
+            "[ply]\ngrippers = [4, 2]\ncell = [0.1, 0.1]\n[ply.material]\nname = \"stiff\"\nmass = 0.3143\n\
+             flexural_rigidity = 1e6\n[grippers]\npositions = [[{}], [{}]]\n\
+             [model]\nslopes = \"min-force\"\naxial_stiffness = inf\n",
+            row(0),
+            row(1)
+        );
+        let scene = folder.path().join("stiff.toml");
+        std::fs::write(&scene, written).unwrap();
+        let output = simulate(&scene, &folder.path().join("out"), &[]);
+        codes.push(output.status.code());
+        let shown = text(&output.stdout);
+        match output.status.code() {
+            Some(3) => assert!(shown.contains("step 1 did not converge: "), "{shown}"),
+            Some(0 | 1) => {}
+            code => panic!("{code:?} {shown}{}", text(&output.stderr)),
+        }
+    }
+    assert!(codes.contains(&Some(3)), "{codes:?}");
+}

@@ -1,7 +1,7 @@
 //! What the mold has caught of a catenary.
 
-use crate::mold::vector::{dot, sub};
 use crate::mold::Strand;
+use crate::mold::vector::{dot, sub};
 
 /// The contact segment of a catenary: fixed in space and in fabric arc length.
 ///
