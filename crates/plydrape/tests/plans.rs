@@ -134,14 +134,15 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     assert!(shear <= LANDING_SHEAR + 0.5, "{what}: landed {shear}° off in shear");
 
     let gap = |line: &CatenaryState| line.bridging.map(|b| b.gap);
-    let gap = largest(&mut last.catenaries.iter().filter_map(gap));
+    let gap = largest(&mut edges(result.steps.len() - 1).filter_map(gap));
     assert!(gap <= BRIDGING, "{what}: a bridge of {gap} m");
 
     let stretches = (0..result.steps.len()).flat_map(edges).flat_map(|edge| &edge.spans);
     let stretch = largest(&mut stretches.map(|span| span.overstretch));
     assert!(stretch <= OVERSTRETCH, "{what}: overstretch {stretch}");
 
-    let errors = contacts().flat_map(|contact| contact.landing_error_mm.iter().flatten());
+    let laid = edges(result.steps.len() - 1).filter_map(|line| line.contact.as_ref());
+    let errors = laid.flat_map(|contact| contact.landing_error_mm.iter().flatten());
     let errors: Vec<f64> = errors.map(|error| error.expect("an ideal place")).collect();
     let off = largest(&mut errors.iter().copied());
     assert!(!errors.is_empty() && off <= LANDING[0], "{what}: landed {off} mm off");
@@ -250,11 +251,11 @@ fn only_comes_down(scene: &Scene, result: &ResultFile, rise: f64, what: &str) {
 /// Plans, writes the files, and drapes along what can be read from them.
 fn is_draped(example: &Example, what: &str) {
     let scene = example.scene();
-    let mut cut = scene.clone();
-    cut.settings.contact.stepping = plydrape::scene::Stepping::Cut;
-    for straight in [&scene, &cut] {
-        assert!(!drape(straight).summary.accepted, "{what}: straight paths will do");
-    }
+    // from high above, and looked at with a millimetre, a flat ply lands all at once in the last step
+    let mut straight = scene.clone();
+    straight.settings.contact.stepping = plydrape::scene::Stepping::Cut;
+    straight.settings.contact.tolerance = 2e-4;
+    assert!(!drape(&straight).summary.accepted, "{what}: straight paths will do");
 
     let plan = planned(&scene);
     keeps_every_limit(&plan.drape.result, what);

@@ -107,9 +107,18 @@ fn outward(normal: [f64; 3], [x, y]: [f64; 2], end: usize) -> [f64; 3] {
 }
 
 /// Depth below the mold (m) that a new touch of a span has: that of its deepest point, or of a span that is in contact already, of the
-/// run at its contact end. What its grippers are deep themselves is no touch.
-pub fn new_depth(span: &FreeSpan, gaps: &GapSamples, mold: &Mold, caught: bool) -> f64 {
-    let own = |end: usize| (-mold.signed_distance(span.ends[end])).max(0.0);
+/// run at its contact end. What a gripper is deeper than the `tolerance` (m) itself is no touch.
+pub fn new_depth(
+    span: &FreeSpan,
+    gaps: &GapSamples,
+    mold: &Mold,
+    caught: bool,
+    tolerance: f64,
+) -> f64 {
+    let own = |end: usize| {
+        let depth = -mold.signed_distance(span.ends[end]);
+        if depth > tolerance { depth } else { 0.0 }
+    };
     match (caught, span.rest) {
         (false, _) => gaps.depth() - own(0).max(own(1)),
         (true, 0) => gaps.depth_from(1) - own(0),

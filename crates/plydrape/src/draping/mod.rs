@@ -378,14 +378,18 @@ impl<'a> Draping<'a> {
             let follows = !caught || span.catenary < self.scene.ply.grid.edges();
             follows
                 && gaps.depth() > tolerance
-                && contact::new_depth(span, gaps, mold, caught) > tolerance
+                && contact::new_depth(span, gaps, mold, caught, tolerance) > tolerance
         };
         shape.spans.iter().zip(gaps).find(deep).map(|(span, _)| span.catenary)
     }
 
-    /// Notes the deepest span of a step.
+    /// Notes the deepest span of a step; diagonals that have landed are left out, as above.
     fn note_depth(&mut self, shape: &Shape, gaps: &[GapSamples]) {
         for (span, gaps) in shape.spans.iter().zip(gaps) {
+            let landed = self.laid[span.catenary].is_some();
+            if landed && span.catenary >= self.scene.ply.grid.edges() {
+                continue;
+            }
             let Some((t, distance)) = gaps.deepest() else { continue };
             if -distance > self.deepest.map_or(0.0, |(most, ..)| most) {
                 self.deepest = Some((-distance, span.catenary, span.point(t)));

@@ -150,14 +150,14 @@ pub fn verdict(result: &ResultFile) -> String {
 /// Of the limits that do not hold, the one exceeded furthest.
 #[must_use]
 pub fn limiting(limits: &[Verdict]) -> Option<&Verdict> {
-    limits.iter().filter(|v| !v.ok).max_by(|a, b| excess(a).total_cmp(&excess(b)))
+    limits.iter().filter(|v| !v.ok).max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
 }
 
 /// Of the limits that hold, the one that is nearest to not holding; none of zero, which only zero keeps.
 #[must_use]
 pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
     let kept = limits.iter().filter(|v| v.ok && v.limit != 0.0);
-    kept.min_by(|a, b| excess(a).total_cmp(&excess(b)))
+    kept.max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
 }
 
 /// A verdict in words: name, value, limit, step and place.
@@ -178,13 +178,6 @@ pub fn obstacles(verdicts: &[Verdict]) -> String {
     }
     let lines = verdicts.iter().map(|v| shortened(&format!("  {}", in_words(v)), 100) + "\n");
     "no plan can keep these limits:\n".to_owned() + &lines.collect::<String>()
-}
-
-/// How far beyond its limit a value is, as a ratio above 1; the limit may be a least or a largest value.
-fn excess(v: &Verdict) -> f64 {
-    let (value, limit) = (v.value.abs(), v.limit.abs());
-    let (less, more) = (value.min(limit), value.max(limit));
-    if less == 0.0 { f64::INFINITY } else { more / less }
 }
 
 fn unit(unit: &str) -> String {
@@ -293,12 +286,12 @@ mod tests {
         result.summary.limits = vec![
             limit(Name::Tilt, 12.0, 40.0, true),
             limit(Name::Overstretch, 2.0, 1.0, false),
-            limit(Name::ContactShare, 0.1, 0.9, false),
+            limit(Name::ContactShare, 10.0, 90.0, false),
         ];
         let text = verdict(&result);
         assert!(
             text.ends_with(
-                "not accepted: contact share 0.1 mm against 0.9 mm in step 30, edge [1, 0]–[2, 0]\n"
+                "not accepted: contact share 10 mm against 90 mm in step 30, edge [1, 0]–[2, 0]\n"
             ),
             "{text}"
         );
