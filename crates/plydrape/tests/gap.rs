@@ -112,7 +112,7 @@ fn span(mold: &Mold, n: usize, above: f64, scale: f64) -> FreeSpan {
     let profile = Profile::new(&problem, force);
     let length = profile.length_to(run);
     FreeSpan {
-        curve: std::cell::OnceCell::new(),
+        curve: std::sync::OnceLock::new(),
         catenary: 0,
         rest: 0,
         element: None,

@@ -7,7 +7,7 @@ use super::spans::{FreeSpan, Point};
 use crate::catenary::{EndCondition, Profile, Span};
 use crate::ply::Laid;
 use crate::scene::Scene;
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// Points of a span in a record.
 pub const STATIONS: usize = 11;
@@ -70,7 +70,7 @@ fn through(scene: &Scene, span: &FreeSpan, at: f64, meet: Point) -> Vec<Point> {
             ends,
             length: lengths[n],
             profile: None,
-            curve: OnceCell::new(),
+            curve: OnceLock::new(),
             ..span.clone()
         };
         let mut hold = [EndCondition::Free; 2];

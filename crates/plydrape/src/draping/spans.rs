@@ -4,7 +4,7 @@ use crate::catenary::{Profile, SpanState};
 use crate::equilibrium::{Equilibrium, Solver, StateTangent};
 use crate::mold::distance;
 use crate::ply::{Kind, Laid, Ply};
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// A point in space (m).
 pub type Point = [f64; 3];
@@ -27,7 +27,7 @@ pub struct FreeSpan {
     /// Its closed form; none for a straight line.
     pub profile: Option<Profile>,
     /// Length of that curve (m), once it has been asked for.
-    pub curve: OnceCell<f64>,
+    pub curve: OnceLock<f64>,
     /// How it holds its length.
     pub state: SpanState,
     /// Whether it belongs to a stretched diagonal.
@@ -190,7 +190,7 @@ pub fn shape(
                 length: 0.0,
                 start,
                 profile: None,
-                curve: OnceCell::new(),
+                curve: OnceLock::new(),
                 state: SpanState::Straight,
                 shearing: stretched.is_some(),
                 force: None,
