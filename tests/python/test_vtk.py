@@ -223,7 +223,8 @@ def test_the_surface_joins_the_grippers_and_faces_up(drape: Exported) -> None:
             assert np.abs(np.linalg.norm(fibres, axis=1) - 1).max() < 1e-14
             chord = b - a if direction == "u" else d - a
             along = np.einsum("ij,ij->i", fibres[quads[:, 0]], chord)
-            assert (along > 0.9 * np.linalg.norm(chord, axis=1)).all()
+            # a ruck of what slack there is stands up to 45 degrees steep within a quad
+            assert (along > np.cos(np.pi / 4) * np.linalg.norm(chord, axis=1)).all()
 
         # every quad knows its cell of the ply
         ids = np.column_stack([poly.in_cells["cell_i"], poly.in_cells["cell_j"]])
