@@ -21,7 +21,7 @@ pub struct Before {
     pub positions: Vec<Point>,
     /// Orientations of the grippers (x, y, z, w).
     pub quaternions: Vec<[f64; 4]>,
-    /// Times (s) and orientations of earlier steps, back to [`window`] before this one and to the step before that.
+    /// Times (s) and orientations of earlier steps, back to `window` before this one and to the step before that.
     earlier: VecDeque<(f64, Vec<[f64; 4]>)>,
 }
 
@@ -116,7 +116,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// The last step that is at least [`window`] before this one, else the first: the time since then (s) and its
+    /// The last step that is at least `window` before this one, else the first: the time since then (s) and its
     /// orientations. None in the first step.
     #[must_use]
     pub fn since(&self) -> Option<(f64, &[[f64; 4]])> {
