@@ -10,7 +10,7 @@ import oracle_span as span
 import program
 import pytest
 from configurations import Configuration, drawn, grid, inclined, mirrored, paper, solved
-from oracle import Model, Problem, Solution, solve
+from oracle import RISING, Model, Problem, Solution, solve
 from oracle_span import Spans
 from scipy.integrate import quad
 
@@ -286,21 +286,28 @@ def test_sheared_ply_in_a_plane_has_the_plane_s_slopes(climb: float, shear: floa
 
 def test_constraint_begins_with_the_unconstrained_slope_and_ends_with_the_plane_s() -> None:
     """The weight at the onset of shear: one cell, its far corner 10 mm up, beyond either end."""
+    side, up = 0.099, 0.01
 
     def cell(angle: float) -> Problem:
-        at = grid(2, 2, (0.1, 0.1), shear=float(np.radians(angle)))
-        at[1, 1, 2] = 0.01
+        at = grid(2, 2, (side, side), shear=float(np.radians(angle)))
+        at[1, 1, 2] = up
         return Problem(at)
 
-    # the corner that is up stretches the diagonal too: d^2 = 2 0.1^2 (1 + sin) + 0.01^2
-    begins = float(np.degrees(np.arcsin(-0.005)))
-    free = solve(replace(cell(begins), constrained=False)).slopes
-    almost = solve(cell(begins + 1e-4)).slopes
-    np.testing.assert_allclose(almost[:4], free[:4], atol=1e-4)
-    ends = float(np.degrees(np.arcsin(np.sin(np.radians(3.0)) - 0.005)))
-    before, after = solve(cell(ends - 1e-4)), solve(cell(ends + 1e-4))
+    def angle(shear: float) -> float:
+        """Of the grid, where the ply shears so: 2 side^2 (1 + sin) + up^2 = 2 0.1^2 (1 + sin)."""
+        diagonal = 0.02 * (1.0 + np.sin(np.radians(shear)))
+        return float(np.degrees(np.arcsin((diagonal - up**2) / (2.0 * side**2) - 1.0)))
+
+    begins = cell(angle(0.0) + 1e-4)
+    # the edges and the other diagonal keep slack
+    assert [c.direction for c in Model(begins).net.catenaries if c.shearing] == [RISING]
+    free = solve(replace(begins, constrained=False)).slopes
+    np.testing.assert_allclose(solve(begins).slopes[:4], free[:4], atol=1e-4)
+    before, after = solve(cell(angle(3.0) - 1e-4)), solve(cell(angle(3.0) + 1e-4))
     np.testing.assert_allclose(before.slopes[:4], after.slopes[:4], atol=1e-4)
-    assert all(weight == 1.0 for _, weight in Model(cell(ends + 1e-4)).net.planes.values())
+    weights = [weight for _, weight in Model(cell(angle(3.0) + 1e-4)).net.planes.values()]
+    assert weights == [1.0, 1.0]
+    assert not np.allclose(after.slopes[:4], free[:4], atol=1e-2)
 
 
 def test_overstretched_edge_pulls_with_its_axial_stiffness() -> None:
