@@ -94,7 +94,8 @@ impl<const P: usize> Panel for StiffPanel<P> {
     #[inline(always)]
     fn at(&self, p: usize) -> Values {
         // tⁿ c_n(κt²) − c_{n+1}(κ); each κ-derivative brings t²
-        let (c, mean, t) = (self.c.map(|c| c[p]), &self.mean, self.t[p]);
+        let c: [f64; 9] = std::array::from_fn(|n| self.c[n][p]);
+        let (mean, t) = (&self.mean, self.t[p]);
         let (t2, t3) = (t * t, t * t * t);
         let (t4, t5) = (t2 * t2, t2 * t3);
         Values {
@@ -220,6 +221,19 @@ impl Form {
                 StiffPanel { t: [t], c: entire_at(&[kappa * t * t], terms), mean }.at(0)
             }
             Form::Limp => LimpPanel { t: [t] }.at(0),
+        }
+    }
+
+    /// U, V, G at several t at once.
+    #[inline]
+    pub fn slopes<const N: usize>(&self, t: &[f64; N]) -> [[f64; 3]; N] {
+        match *self {
+            Form::Stiff { kappa, terms, c: mean } => {
+                let c = entire_at(&t.map(|t| kappa * t * t), terms);
+                let panel = StiffPanel { t: *t, c, mean };
+                std::array::from_fn(|n| panel.at(n).value)
+            }
+            _ => t.map(|t| self.slope(t).value),
         }
     }
 

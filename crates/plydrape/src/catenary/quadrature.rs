@@ -247,11 +247,9 @@ pub fn stretches(profile: &Profile) -> Stretches {
 /// How far the slope would sweep over the whole span at its fastest, from nine samples.
 fn fastest_sweep(profile: &Profile) -> f64 {
     let [alpha, beta] = profile.amplitude;
-    let slope = |n: usize| {
-        let [u, v, g] = profile.form.slope(n as f64 / 8.0).value;
-        profile.rho * g + alpha * u + beta * v
-    };
-    let slopes: [f64; 9] = std::array::from_fn(slope);
+    let t: [f64; 9] = std::array::from_fn(|n| n as f64 / 8.0);
+    let slope = |[u, v, g]: [f64; 3]| profile.rho * g + alpha * u + beta * v;
+    let slopes = profile.form.slopes(&t).map(slope);
     8.0 * (1..9).map(|n| (slopes[n] - slopes[n - 1]).abs()).fold(0.0, f64::max)
 }
 
