@@ -10,6 +10,7 @@
 //! | limp | EI = 0 | – | qℓ/H | 0, 0, t − ½ |
 
 use super::Span;
+use super::decay::decay;
 use super::entire::{curvature, entire, entire_at, slope, terms};
 use super::quadrature::Rule;
 
@@ -156,7 +157,7 @@ impl Form {
     }
 
     /// Adds the panel from `start` to `start + width` to a sum.
-    #[inline]
+    #[inline(always)]
     pub fn add_panel<const P: usize>(
         &self,
         rule: &Rule<P>,
@@ -179,33 +180,16 @@ impl Form {
     }
 
     /// e^(−kt) and e^(−k(1−t)) at the points `start + width·s` of a panel.
-    ///
-    /// The abscissas s are symmetric, so half the exponentials give the rest by division.
-    #[inline]
+    #[inline(always)]
     fn panel_layers<const P: usize>(&self, s: &[f64; P], start: f64, width: f64) -> [[f64; P]; 2] {
         let Form::Taut { k, .. } = *self else {
             return [[0.0; P]; 2];
         };
-        // from the panel's own first end; the second layer is the mirror image of the first
-        let decay = |from: f64| {
-            let mut out = [0.0; P];
-            let (first, last) = (k * from, k * (2.0 * from + width));
-            if first > NEGLIGIBLE {
-                return out;
-            }
-            let both = (-last).exp();
-            for p in 0..P / 2 {
-                out[p] = (-first - k * width * s[p]).exp();
-            }
-            for p in 0..P / 2 {
-                // a layer that ends within the panel: what underflows is nothing
-                out[P - 1 - p] = if both > 0.0 { both / out[p] } else { 0.0 };
-            }
-            out
-        };
-        let near = decay(start);
+        let exponents = |from: f64| s.map(|s| k * from + k * width * s);
+        // the abscissas are symmetric: the second layer is the mirror image of the first
+        let near = decay(&exponents(start));
         let whole = start == 0.0 && width == 1.0;
-        let mut far = if whole { near } else { decay(1.0 - start - width) };
+        let mut far = if whole { near } else { decay(&exponents(1.0 - start - width)) };
         far.reverse();
         [near, far]
     }

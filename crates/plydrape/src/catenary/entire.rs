@@ -48,7 +48,7 @@ pub fn entire(y: f64, terms: usize) -> [f64; 9] {
 }
 
 /// c₀ … c₈ at several y at once: `[n][point]`.
-#[inline]
+#[inline(always)]
 pub fn entire_at<const P: usize>(y: &[f64; P], terms: usize) -> [[f64; P]; 9] {
     let mut c = [[0.0; P]; 9];
     for j in (0..terms.min(TERMS)).rev() {
@@ -66,13 +66,13 @@ pub fn entire_at<const P: usize>(y: &[f64; P], terms: usize) -> [[f64; P]; 9] {
 }
 
 /// First derivative c_n'(y) from the values, n ≤ 6.
-#[inline]
+#[inline(always)]
 pub fn slope(c: &[f64; 9], n: usize) -> f64 {
     0.5 * (c[n + 1] - n as f64 * c[n + 2])
 }
 
 /// Second derivative c_n''(y) from the values, n ≤ 4.
-#[inline]
+#[inline(always)]
 pub fn curvature(c: &[f64; 9], n: usize) -> f64 {
     let m = n as f64;
     0.25 * (c[n + 2] - (2.0 * m + 1.0) * c[n + 3] + m * (m + 2.0) * c[n + 4])

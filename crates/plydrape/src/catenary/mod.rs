@@ -6,6 +6,7 @@
 //! length with exact derivatives, `solve` finds the H of a given length, `shape` reads off the result.
 
 mod basis;
+mod decay;
 mod entire;
 mod jet;
 mod length;

@@ -1,8 +1,8 @@
 //! The integrals over a span from which its length and all derivatives follow, eq. (4a) of
 //! `docs/theory.md`, summed panel by panel.
 //!
-//! Three sums: the excess with its derivative to H ([`ExcessSum`]), the solver's inner loop
-//! ([`UnknownsSum`]), and everything ([`AllSum`]).
+//! Four sums: the length alone ([`LengthSum`]), the excess with its derivative to H ([`ExcessSum`]), the solver's
+//! inner loop ([`UnknownsSum`]), and everything ([`AllSum`]).
 
 use super::basis::{Panel, Sum, Values};
 use super::jet::Chain;
@@ -11,8 +11,28 @@ use super::profile::{INNER, Profile, Response};
 /// Points that are summed side by side.
 const LANES: usize = 4;
 
-fn total(lanes: [f64; LANES]) -> f64 {
-    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3])
+/// The sums of `M` terms over the points of a panel. The loops are plain and over whole columns, so that the compiler
+/// takes several points at once.
+#[inline(always)]
+fn over_points<const M: usize, const P: usize>(terms: impl Fn(usize) -> [f64; M]) -> [f64; M] {
+    let mut columns = [[0.0; P]; M];
+    for p in 0..P {
+        let at = terms(p);
+        for m in 0..M {
+            columns[m][p] = at[m];
+        }
+    }
+    let mut out = [0.0; M];
+    for m in 0..M {
+        let mut lanes = [0.0; LANES];
+        for chunk in (0..P).step_by(LANES) {
+            for lane in 0..LANES {
+                lanes[lane] += columns[m][chunk + lane];
+            }
+        }
+        out[m] = (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]);
+    }
+    out
 }
 
 /// ∂z'/∂H = χ_H D + ρ_H G + a U + b V with D = ρ G_χ + α U_χ + β V_χ, and what else a point needs.
@@ -57,26 +77,56 @@ pub struct ExcessSum {
 }
 
 impl Sum for ExcessSum {
-    #[inline]
+    #[inline(always)]
     fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel) {
         let c = &self.to_force;
-        let mut sums = [[0.0; LANES]; 2];
-        for chunk in (0..P).step_by(LANES) {
-            for lane in 0..LANES {
-                let at = panel.at(chunk + lane);
+        let [value, slope] = over_points::<2, P>(
+            #[inline(always)]
+            |p| {
+                let at = panel.at(p);
                 let w = c.combine(at.value);
                 let w_h = c.slope(&at, c.combine(at.first));
                 let slope = c.theta + w;
                 let r = (1.0 + slope * slope).sqrt();
                 // one division for both terms
                 let d = c.sigma * (c.sigma * r + 1.0 + c.theta * slope);
-                let both = weights[chunk + lane] / (d * r);
-                sums[0][lane] += both * w * w * r;
-                sums[1][lane] += both * d * slope * w_h;
-            }
-        }
-        self.value += scale * total(sums[0]);
-        self.slope += scale * total(sums[1]);
+                let both = weights[p] / (d * r);
+                [both * w * w * r, both * d * slope * w_h]
+            },
+        );
+        self.value += scale * value;
+        self.slope += scale * slope;
+    }
+}
+
+/// ∫√(1+z'²).
+pub struct LengthSum {
+    amplitude: [f64; 2],
+    rho: f64,
+    theta: f64,
+    pub value: f64,
+}
+
+impl LengthSum {
+    pub fn new(profile: &Profile) -> Self {
+        let Profile { amplitude, rho, theta, .. } = *profile;
+        LengthSum { amplitude, rho, theta, value: 0.0 }
+    }
+}
+
+impl Sum for LengthSum {
+    #[inline(always)]
+    fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel) {
+        let [length] = over_points::<1, P>(
+            #[inline(always)]
+            |p| {
+                let [u, v, g] = panel.at(p).value;
+                let slope =
+                    self.theta + self.rho * g + self.amplitude[0] * u + self.amplitude[1] * v;
+                [weights[p] * (1.0 + slope * slope).sqrt()]
+            },
+        );
+        self.value += scale * length;
     }
 }
 
@@ -117,13 +167,13 @@ impl UnknownsSum {
 }
 
 impl Sum for UnknownsSum {
-    #[inline]
+    #[inline(always)]
     fn add<const P: usize>(&mut self, scale: f64, weights: &[f64; P], panel: &impl Panel) {
         let (c, k) = (&self.to_force, &self.second);
-        let mut sums = [[0.0; LANES]; 13];
-        for chunk in (0..P).step_by(LANES) {
-            for lane in 0..LANES {
-                let at = panel.at(chunk + lane);
+        let sums = over_points::<13, P>(
+            #[inline(always)]
+            |p| {
+                let at = panel.at(p);
                 let ([u, v, g], [ux, vx, gx]) = (at.value, at.first);
                 let w = c.combine(at.value);
                 let drift = c.combine(at.first);
@@ -140,27 +190,29 @@ impl Sum for UnknownsSum {
                 let square = 1.0 + slope * slope;
                 let r = square.sqrt();
                 let d = c.sigma * (c.sigma * r + 1.0 + c.theta * slope);
-                let both = weights[chunk + lane] / (d * r * square);
+                let both = weights[p] / (d * r * square);
                 let stretch = both * d;
                 let tilt = stretch * square * slope;
                 let (h, su, sv) = (stretch * w_h, stretch * u, stretch * v);
-                sums[0][lane] += both * w * w * r * square;
-                sums[1][lane] += tilt * w_h;
-                sums[2][lane] += tilt * u;
-                sums[3][lane] += tilt * v;
-                sums[4][lane] += tilt * w_hh;
-                sums[5][lane] += tilt * ux;
-                sums[6][lane] += tilt * vx;
-                sums[7][lane] += h * w_h;
-                sums[8][lane] += h * u;
-                sums[9][lane] += h * v;
-                sums[10][lane] += su * u;
-                sums[11][lane] += su * v;
-                sums[12][lane] += sv * v;
-            }
-        }
+                [
+                    both * w * w * r * square,
+                    tilt * w_h,
+                    tilt * u,
+                    tilt * v,
+                    tilt * w_hh,
+                    tilt * ux,
+                    tilt * vx,
+                    h * w_h,
+                    h * u,
+                    h * v,
+                    su * u,
+                    su * v,
+                    sv * v,
+                ]
+            },
+        );
         for n in 0..13 {
-            self.total[n] += scale * total(sums[n]);
+            self.total[n] += scale * sums[n];
         }
     }
 }

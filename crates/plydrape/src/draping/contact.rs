@@ -150,13 +150,15 @@ pub fn first_touch(
         (false, true) => (b, length),
         (false, false) => (mold.closest_point(span.point(run.deepest)), arc(run.deepest)),
     };
-    let piece = |t: f64| mold.lay(seed, heading, arc(t) - seed_arc);
+    let piece_to = |arc: f64| mold.lay(seed, heading, arc - seed_arc);
+    let piece = |t: f64| piece_to(arc(t));
     // laying a run must not stretch what it leaves free
     let reach = |side: usize, far: f64| {
-        let left = |t: f64| if side == 0 { arc(t) } else { length - arc(t) };
         let excess = |t: f64| {
-            let pull = distance(piece(t).end(), span.ends[side]) - left(t);
-            pull - (span.chord() - length).max(0.0) - PULL * left(t)
+            let arc = arc(t);
+            let left = if side == 0 { arc } else { length - arc };
+            let pull = distance(piece_to(arc).end(), span.ends[side]) - left;
+            pull - (span.chord() - length).max(0.0) - PULL * left
         };
         if run.depth < -contact.tolerance || excess(far) <= 0.0 {
             return far;
@@ -246,15 +248,16 @@ pub fn next_touch(
     }
     let heading = span.heading();
     let (end, arc) = (laid.point()[rest], laid.arc()[rest]);
-    // from the contact end towards the gripper
-    let piece = |t: f64| match rest {
-        0 => mold.lay(end, heading, span.arc(t) - span.length),
-        _ => mold.lay(end, heading, span.arc(t)),
+    // from the contact end towards the gripper, up to a fabric arc length of the span
+    let piece = |at: f64| match rest {
+        0 => mold.lay(end, heading, at - span.length),
+        _ => mold.lay(end, heading, at),
     };
-    let left = |t: f64| if rest == 0 { span.arc(t) } else { span.length - span.arc(t) };
     let excess = |t: f64| {
-        let pull = distance(piece(t).end(), span.ends[rest]) - left(t);
-        pull - (span.chord() - span.length).max(0.0) - PULL * left(t)
+        let at = span.arc(t);
+        let left = if rest == 0 { at } else { span.length - at };
+        let pull = distance(piece(at).end(), span.ends[rest]) - left;
+        pull - (span.chord() - span.length).max(0.0) - PULL * left
     };
     let far = if rest == 0 { run.from } else { run.to };
     let to = if run.depth < -contact.tolerance || excess(far) <= 0.0 {
@@ -264,10 +267,10 @@ pub fn next_touch(
     };
     let line = std::mem::take(&mut laid.line);
     laid.line = if rest == 0 {
-        joined(Some(piece(to)), arc, Some(line))
+        joined(Some(piece(span.arc(to))), arc, Some(line))
     } else {
         let mut grown = line;
-        let on = piece(to);
+        let on = piece(span.arc(to));
         for (point, s) in on.points.into_iter().zip(on.arc).skip(1) {
             grown.push(point, arc + s);
         }
