@@ -4,7 +4,7 @@ use miette::{
     Diagnostic, LabeledSpan, MietteError, MietteHandlerOpts, MietteSpanContents, ReportHandler,
     SourceCode, SourceSpan, SpanContents,
 };
-use plydrape::scene::SceneError;
+use plydrape_io::scene::SceneError;
 use std::fmt;
 use std::io;
 use std::path::Path;
@@ -50,10 +50,10 @@ pub enum Failure {
     },
     /// The results could not be written.
     #[error(transparent)]
-    Results(#[from] plydrape::output::OutputError),
+    Results(#[from] plydrape_io::OutputError),
     /// A result file was refused.
     #[error(transparent)]
-    Read(#[from] plydrape::output::read::ReadError),
+    Read(#[from] plydrape_io::read::ReadError),
     /// Standard output could not be written.
     #[error("the output cannot be written: {0}")]
     Stdout(#[from] io::Error),

@@ -3,7 +3,7 @@
 use crate::diagnostic::Done;
 use crate::results;
 use clap::ValueEnum;
-use plydrape::output::{export, read};
+use plydrape_io::{export, read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

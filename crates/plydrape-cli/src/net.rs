@@ -3,7 +3,7 @@
 use crate::diagnostic::Done;
 use crate::results::Results;
 use plydrape::net::Net;
-use plydrape::output::net::{Summary, write_all};
+use plydrape_io::net::{Summary, write_all};
 use serde::Serialize;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -31,7 +31,7 @@ struct Printed<'a> {
 /// Lays the net, writes the files and judges.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let results = &arguments.results;
-    let ideal = plydrape::scene::read_ideal_drape(&results.scene)?;
+    let ideal = plydrape_io::scene::read_ideal_drape(&results.scene)?;
     let (mold, net) = (&ideal.mold, &ideal.net);
     // once more, to tell how long it takes apart from all else that reading a scene does
     let start = Instant::now();

@@ -1,7 +1,7 @@
 //! `plydrape new`: writes a commented scene to start from.
 
 use crate::diagnostic::{Done, Failure};
-use plydrape::scene::TEMPLATE;
+use plydrape_io::scene::TEMPLATE;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::PathBuf;

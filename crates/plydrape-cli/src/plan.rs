@@ -6,10 +6,11 @@ use crate::outcome::{self, exit_code};
 use crate::results::Results;
 use crate::watch::{Interrupt, bar};
 use clap::{ValueEnum, value_parser};
-use plydrape::output::{plan::write_all, table};
 use plydrape::planner::obstacles::obstacles;
 use plydrape::planner::{self, Memory, Planned, Progress};
-use plydrape::scene::{PlanMethod, Scene, SceneError};
+use plydrape::scene::PlanMethod;
+use plydrape_io::scene::{SceneError, SceneFile};
+use plydrape_io::{ResultFile, plan, table};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -133,22 +134,23 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     bar.finish_and_clear();
     let planned = planned?;
 
-    let files = write_all(&planned, &results.folder("plan"))?;
+    let result = ResultFile::planned(&scene, scene.input.clone(), &planned);
+    let files = plan::write_all(&result, &planned.memory, &results.folder("plan"))?;
     let printed = Printed {
-        method: planned.method,
+        method: planned.record.method,
         plan_time_s,
-        evaluations: planned.evaluations,
+        evaluations: planned.record.evaluations,
         motion: Motion::of(&planned),
-        drape: outcome::Printed::of(&planned.drape),
+        drape: outcome::Printed::of(&result, planned.drape.solving),
     };
-    results.print(quiet, &printed, &text(&planned, &printed), &files)?;
-    Ok(exit_code(&planned.drape, planned.interrupted))
+    results.print(quiet, &printed, &text(&planned, &result, &printed), &files)?;
+    Ok(exit_code(&result, planned.interrupted))
 }
 
 /// The scene, with what the options say instead of it.
-fn scene(arguments: &Arguments) -> Result<Scene, Failure> {
+fn scene(arguments: &Arguments) -> Result<SceneFile, Failure> {
     let file = &arguments.results.scene;
-    let mut scene = plydrape::scene::read(file)?;
+    let mut scene = plydrape_io::scene::read(file)?;
     let refused = |message: &str, help: &str| {
         Failure::from(SceneError {
             file: file.display().to_string(),
@@ -189,11 +191,11 @@ fn memory(folder: &Path) -> Result<Memory, Failure> {
         message: format!("there is no plan to go on from in `{}`: {reason}", folder.display()),
         help: help.into(),
     };
-    let bytes = std::fs::read(&file).map_err(|error| {
+    let text = std::fs::read_to_string(&file).map_err(|error| {
         let help = "--continue takes the folder of an earlier `plydrape plan`, with its plan.json";
         refused(format!("plan.json cannot be read, {error}"), help)
     })?;
-    serde_json::from_slice(&bytes).map_err(|error| {
+    plan::read(&text).map_err(|error| {
         let help =
             "plan.json is not as this version of plydrape writes it: plan anew, without --continue";
         refused(error.to_string(), help)
@@ -211,16 +213,15 @@ fn best(progress: &Progress) -> String {
 }
 
 /// What is printed for people, below the obstacles.
-fn text(planned: &Planned, printed: &Printed) -> String {
-    let result = &planned.drape.result;
-    let method = match planned.method {
+fn text(planned: &Planned, result: &ResultFile, printed: &Printed) -> String {
+    let method = match printed.method {
         PlanMethod::Path => "path",
         PlanMethod::Stepwise => "stepwise",
     };
     let Motion { duration_s, max_speed, max_acceleration, max_jerk } = &printed.motion;
     let found = format!(
         "{method} plan after {} drapes in {:.1} s{}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³",
-        planned.evaluations,
+        printed.evaluations,
         printed.plan_time_s,
         if planned.interrupted { ", interrupted: the best so far" } else { "" },
         short(*max_speed),

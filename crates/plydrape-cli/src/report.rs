@@ -2,7 +2,7 @@
 
 use crate::diagnostic::Done;
 use crate::results;
-use plydrape::output::{folder, page, read};
+use plydrape_io::{folder, page, read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

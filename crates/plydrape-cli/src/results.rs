@@ -1,7 +1,7 @@
 //! What every command that leaves a folder of results takes, and how it prints what it found.
 
 use crate::diagnostic::Failure;
-use plydrape::output::{OutputError, json};
+use plydrape_io::{OutputError, json};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;

@@ -10,6 +10,6 @@ pub struct Arguments {}
 
 /// Prints the schema.
 pub fn run(_: &Arguments) -> Done {
-    io::stdout().write_all(plydrape::scene::schema().as_bytes())?;
+    io::stdout().write_all(plydrape_io::scene::schema().as_bytes())?;
     Ok(ExitCode::SUCCESS)
 }

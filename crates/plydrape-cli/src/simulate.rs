@@ -4,7 +4,7 @@ use crate::diagnostic::Done;
 use crate::outcome::{Printed, exit_code};
 use crate::results::Results;
 use crate::watch::{Interrupt, bar};
-use plydrape::output::{table, write_all};
+use plydrape_io::{ResultFile, table, write_all};
 
 /// Drape the ply along the trajectories of a scene; table of steps, verdict, files.
 #[derive(Debug, clap::Args)]
@@ -23,7 +23,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let results = &arguments.results;
     // first of all, so that even a long read ends in files of what was done
     let interrupt = Interrupt::listen();
-    let scene = plydrape::scene::read(&results.scene)?;
+    let scene = plydrape_io::scene::read(&results.scene)?;
 
     let steps = scene.motion.positions.len();
     let bar = bar(steps, "draping {bar:40} step {pos} of {len}, {eta} left", quiet);
@@ -33,10 +33,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     });
     bar.finish_and_clear();
 
-    let result = &drape.result;
-    let files = write_all(result, &results.folder("results"))?;
-    let (title, steps) = (&result.scene.title, table::steps_table(result));
-    let text = format!("{title}\n\n{steps}\n{}", table::verdict(result));
-    results.print(quiet, &Printed::of(&drape), &text, &files)?;
-    Ok(exit_code(&drape, result.summary.interrupted()))
+    let solving = drape.solving;
+    let result = ResultFile::new(&scene, scene.input.clone(), drape);
+    let files = write_all(&result, &results.folder("results"))?;
+    let (title, steps) = (&result.scene.title, table::steps_table(&result));
+    let text = format!("{title}\n\n{steps}\n{}", table::verdict(&result));
+    results.print(quiet, &Printed::of(&result, solving), &text, &files)?;
+    Ok(exit_code(&result, result.summary.interrupted()))
 }

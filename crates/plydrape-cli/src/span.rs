@@ -5,8 +5,8 @@ mod text;
 
 use crate::diagnostic::{Done, Failure};
 use plydrape::catenary::{EndCondition, Profile, Root, Span, SpanState, Station};
-use plydrape::output::json;
-use plydrape::scene::{Measured, quantity};
+use plydrape_io::json;
+use plydrape_io::scene::{Measured, quantity};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -73,7 +73,7 @@ pub fn run(arguments: &Arguments) -> Done {
     let solved = Solved::new(span)?;
     let mut out = io::stdout().lock();
     if arguments.json {
-        let text = json::of(&solved.printed()).map_err(plydrape::output::OutputError::from)?;
+        let text = json::of(&solved.printed()).map_err(plydrape_io::OutputError::from)?;
         out.write_all(text.as_bytes())?;
     } else {
         out.write_all(text::of(&solved).as_bytes())?;

@@ -8,6 +8,8 @@ use crate::work::run;
 use plydrape::draping;
 use plydrape::equilibrium::Status;
 use plydrape::ply::Grid;
+use plydrape_io::ResultFile;
+use plydrape_io::scene::SceneFile;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -55,10 +57,10 @@ pub fn simulate_all(
         .collect::<PyResult<Vec<_>>>()?;
     let pool = pool(threads)?;
     run(py, progress, move |watch| {
-        let drape = |scene: &Arc<_>| {
+        let drape = |scene: &Arc<SceneFile>| {
             let drape = draping::simulate(scene, |_| watch.flow());
             let _ = watch.count(1, scenes.len(), "draping");
-            Result(Arc::new(drape.result))
+            Result(Arc::new(ResultFile::new(scene, scene.input.clone(), drape)))
         };
         pool.install(|| scenes.par_iter().map(drape).collect())
     })

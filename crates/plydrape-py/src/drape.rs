@@ -6,9 +6,10 @@ use crate::result::Result;
 use crate::scene::{Scene, blocks};
 use crate::work::run;
 use plydrape::draping;
-use plydrape::output::{json, plan::write_all};
 use plydrape::planner::{self, Memory, Planned};
 use plydrape::scene::PlanMethod;
+use plydrape_io::ResultFile;
+use plydrape_io::plan as plan_file;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -40,10 +41,11 @@ pub fn simulate(
 ) -> PyResult<Result> {
     let scene = Arc::clone(&scene.get().0);
     let steps = scene.motion.positions.len();
-    let drape = run(py, progress, move |watch| {
-        draping::simulate(&scene, |done| watch.tell(done, steps, "draping"))
+    let result = run(py, progress, move |watch| {
+        let drape = draping::simulate(&scene, |done| watch.tell(done, steps, "draping"));
+        ResultFile::new(&scene, scene.input.clone(), drape)
     })?;
-    Ok(Result(Arc::new(drape.result)))
+    Ok(Result(Arc::new(result)))
 }
 
 /// Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
@@ -95,15 +97,20 @@ pub fn plan(
         }
     }
     scene.plan.seed = seed.unwrap_or(scene.plan.seed);
-    let memory: Option<Memory> = memory.map(serde_json::from_str).transpose().map_err(|fault| {
+    let memory: Option<Memory> = memory.map(plan_file::read).transpose().map_err(|fault| {
         PyValueError::new_err(format!("memory is no plan.json of this version: {fault}; plan anew"))
     })?;
+    if let Some(refusal) = &scene.plan_refusal {
+        return Err(error::scene(refusal));
+    }
     let planned = run(py, progress, move |watch| {
-        planner::plan(&scene, memory.as_ref(), &mut |progress| {
+        let planned = planner::plan(&scene, memory.as_ref(), &mut |progress| {
             watch.tell(progress.evaluations, progress.most, progress.stage)
-        })
+        })?;
+        let result = Arc::new(ResultFile::planned(&scene, scene.input.clone(), &planned));
+        Ok(Plan { planned: Arc::new(planned), result })
     })?;
-    planned.map(Plan::from).map_err(|fault| error::plan(&fault))
+    planned.map_err(|fault| error::plan(&fault))
 }
 
 /// A planned motion, and the drape along it.
@@ -116,14 +123,7 @@ pub fn plan(
 #[pyclass(frozen, module = "plydrape")]
 pub struct Plan {
     planned: Arc<Planned>,
-    result: Arc<draping::record::ResultFile>,
-}
-
-impl From<Planned> for Plan {
-    fn from(planned: Planned) -> Self {
-        let result = Arc::new(planned.drape.result.clone());
-        Plan { planned: Arc::new(planned), result }
-    }
+    result: Arc<ResultFile>,
 }
 
 #[pymethods]
@@ -137,7 +137,7 @@ impl Plan {
     /// The planner: "path" or "stepwise".
     #[getter]
     fn method(&self) -> &'static str {
-        match self.planned.method {
+        match self.planned.record.method {
             PlanMethod::Path => "path",
             PlanMethod::Stepwise => "stepwise",
         }
@@ -146,7 +146,7 @@ impl Plan {
     /// Complete drapes that the search tried; of the stepwise planner, steps.
     #[getter]
     fn evaluations(&self) -> usize {
-        self.planned.evaluations
+        self.planned.record.evaluations
     }
 
     /// Whether every limit is kept.
@@ -207,7 +207,7 @@ impl Plan {
     /// What a later search can go on from: the text of plan.json.
     #[getter]
     fn memory(&self) -> PyResult<String> {
-        json::of(&self.planned.memory).map_err(|fault| error::output(&fault.into()))
+        plan_file::text(&self.planned.memory).map_err(|fault| error::output(&fault.into()))
     }
 
     /// Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json into a
@@ -224,8 +224,8 @@ impl Plan {
     ///     ...     sorted(path.name for path in plan.write(folder))
     ///     ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
-        let planned = Arc::clone(&self.planned);
-        py.detach(|| write_all(&planned, &folder)).map_err(|fault| error::output(&fault))
+        let write = || plan_file::write_all(&self.result, &self.planned.memory, &folder);
+        py.detach(write).map_err(|fault| error::output(&fault))
     }
 
     fn __repr__(&self) -> String {

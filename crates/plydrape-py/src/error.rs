@@ -1,9 +1,9 @@
 //! Errors of the library as the exceptions of `plydrape.errors`, with the same words.
 
-use plydrape::output::OutputError;
-use plydrape::output::read::ReadError;
 use plydrape::planner::PlanError;
-use plydrape::scene::SceneError;
+use plydrape_io::OutputError;
+use plydrape_io::read::ReadError;
+use plydrape_io::scene::SceneError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::fmt::Display;
@@ -43,10 +43,7 @@ pub fn scene(error: &SceneError) -> PyErr {
 
 /// A scene without a plan.
 pub fn plan(error: &PlanError) -> PyErr {
-    match error {
-        PlanError::Ignored(refusal) => scene(refusal),
-        _ => plain("PlanError", error),
-    }
+    plain("PlanError", error)
 }
 
 /// A result file that is none.

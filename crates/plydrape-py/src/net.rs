@@ -3,7 +3,7 @@
 use crate::arrays::{Array, or_nan};
 use crate::error;
 use plydrape::net;
-use plydrape::scene;
+use plydrape_io::scene;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -5,6 +5,7 @@ use crate::result::Result;
 use crate::scene::Scene;
 use crate::work::run;
 use plydrape::planner::sensitivity::{self, Quantity};
+use plydrape_io::ResultFile;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -56,11 +57,13 @@ pub fn outcome(
     let scene = Arc::clone(&scene.get().0);
     let (steps, grippers) = (scene.motion.positions.len(), scene.ply.grid.grippers());
     let found = run(py, progress, move |watch| {
-        sensitivity::outcome(&scene, |done| watch.tell(done, steps, "draping"))
+        let found = sensitivity::outcome(&scene, |done| watch.tell(done, steps, "draping"))?;
+        let result = ResultFile::new(&scene, scene.input.clone(), found.drape.clone());
+        Some((found, result))
     })?;
-    let found = found.ok_or_else(|| PyValueError::new_err("the motion has no steps"))?;
+    let (found, result) = found.ok_or_else(|| PyValueError::new_err("the motion has no steps"))?;
     Ok(Outcome {
-        result: Result(Arc::new(found.result)),
+        result: Result(Arc::new(result)),
         grippers,
         overstretch: found.overstretch.into_iter().map(Some).collect(),
         force: found.force,

@@ -5,7 +5,7 @@ use crate::scene::text_of;
 use crate::{error, table};
 use plydrape::material::{self, Section};
 use plydrape::ply::{self, Direction};
-use plydrape::scene;
+use plydrape_io::scene;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

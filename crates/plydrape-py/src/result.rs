@@ -6,11 +6,11 @@ use crate::json::Json;
 use crate::mold::{Mold, triangles};
 use crate::net::Net;
 use crate::surface::Surface;
-use plydrape::draping::record::{CatenaryState, ResultFile, Step};
+use plydrape::draping::record::{CatenaryState, Step};
 use plydrape::equilibrium::Status;
 use plydrape::measure::{Name, Scope};
-use plydrape::output::{self, export, figure, folder, json, page, read};
-use plydrape::output::{ground::ground, surface};
+use plydrape_io::ground::ground;
+use plydrape_io::{ResultFile, export, figure, folder, json, page, read, surface};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -320,7 +320,8 @@ impl Result {
     ///     ...     sorted(path.name for path in result.write(folder))
     ///     ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
-        py.detach(|| output::write_all(&self.0, &folder)).map_err(|fault| error::output(&fault))
+        py.detach(|| plydrape_io::write_all(&self.0, &folder))
+            .map_err(|fault| error::output(&fault))
     }
 
     /// Writes files for another program into a folder, all or none, and returns their paths.

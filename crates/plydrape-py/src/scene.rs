@@ -5,7 +5,8 @@ use crate::mold::Mold;
 use crate::net::Net;
 use crate::ply::Ply;
 use crate::{error, table};
-use plydrape::scene::{self, Motion};
+use plydrape::scene::Motion;
+use plydrape_io::scene::{self, SceneFile};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -45,7 +46,7 @@ use toml::map::Map;
 ///     >>> scene.positions.shape
 ///     (30, 8, 3)
 #[pyclass(frozen, module = "plydrape")]
-pub struct Scene(pub Arc<scene::Scene>);
+pub struct Scene(pub Arc<SceneFile>);
 
 /// The tables of a scene, as keyword arguments.
 type Table<'a, 'py> = Option<&'a Bound<'py, PyDict>>;
@@ -252,7 +253,9 @@ impl Scene {
         let mut scene = (*self.0).clone();
         scene.input = None;
         scene.plan_refusal = None;
-        scene.title = title.unwrap_or(scene.title);
+        if let Some(title) = title {
+            scene.title = title;
+        }
         scene.motion = Motion { times, positions };
         Ok(scene.into())
     }
@@ -267,8 +270,8 @@ impl Scene {
     }
 }
 
-impl From<scene::Scene> for Scene {
-    fn from(scene: scene::Scene) -> Self {
+impl From<SceneFile> for Scene {
+    fn from(scene: SceneFile) -> Self {
         Scene(Arc::new(scene))
     }
 }

@@ -24,10 +24,6 @@ pub mod measure;
 pub mod mold;
 pub mod motion;
 pub mod net;
-pub mod output;
 pub mod planner;
 pub mod ply;
 pub mod scene;
-
-/// Name and version of this program, as it stands in what it writes.
-pub const PROGRAM: &str = concat!("plydrape ", env!("CARGO_PKG_VERSION"));

@@ -1,9 +1,8 @@
 //! What the ply is made of: mass, flexural rigidity, shear curve and locking angle.
 
-use serde::{Deserialize, Serialize};
-
 /// A woven ply, as the catenaries see it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Material {
     /// Name for reports.
     pub name: String,
@@ -18,8 +17,9 @@ pub struct Material {
 }
 
 /// Mass and flexural rigidity of the ply.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "kebab-case"))]
 pub enum Section {
     /// The same for every catenary, as in the paper.
     Line {
@@ -49,8 +49,9 @@ pub struct Line {
 }
 
 /// Picture-frame shear force per length over the shear angle.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "kebab-case"))]
 pub enum ShearCurve {
     /// Measured points (γ in rad ascending from 0, τ in N/m), joined by a monotone cubic.
     Table {

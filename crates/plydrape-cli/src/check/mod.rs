@@ -9,7 +9,7 @@ use crate::diagnostic::Done;
 use crate::numbers::{degrees, millimetres, short};
 use plydrape::material::{Material, Section, ShearCurve};
 use plydrape::ply::Direction;
-use plydrape::scene::Scene;
+use plydrape_io::scene::SceneFile;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -29,7 +29,7 @@ pub struct Arguments {
 
 /// Reads the scene; prints a summary unless `quiet`, and warnings.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
-    let scene = plydrape::scene::read(&arguments.scene)?;
+    let scene = plydrape_io::scene::read(&arguments.scene)?;
     if !quiet {
         let mut out = io::stdout().lock();
         writeln!(out, "{}", scene.title)?;
@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 }
 
 /// The nouns of a scene, each in a line.
-fn summary(scene: &Scene) -> Vec<Line> {
+fn summary(scene: &SceneFile) -> Vec<Line> {
     let ply = &scene.ply;
     let mut lines = vec![
         (

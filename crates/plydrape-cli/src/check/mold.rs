@@ -3,10 +3,10 @@
 use super::Line;
 use crate::numbers::{degrees, millimetres};
 use plydrape::mold::{Face, MeshReport, Mold, Plane, Pose, Surface};
-use plydrape::scene::Scene;
+use plydrape_io::scene::SceneFile;
 
 /// The mold, and what was repaired in a mesh: one line each.
-pub(super) fn mold(scene: &Scene) -> Vec<Line> {
+pub(super) fn mold(scene: &SceneFile) -> Vec<Line> {
     let Some(mold) = &scene.mold else {
         return vec![("mold", "none: the ply just hangs".into())];
     };

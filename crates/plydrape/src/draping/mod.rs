@@ -27,8 +27,7 @@ pub(crate) use crossing::hanging as stations;
 use gap::{GapMemory, GapSamples};
 pub(crate) use landing::fabric;
 pub(crate) use misfit::{lying_segments, misfit};
-use record::ResultFile;
-use serde::{Deserialize, Serialize};
+use record::{Step, Summary};
 use spans::{FreeSpan, Point, Shape, shape};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -40,8 +39,9 @@ const SMALLEST_CUT: f64 = 1.0 / 256.0;
 const MAX_ROUNDS: usize = 50;
 
 /// How the contact of a step was followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum ContactStatus {
     /// Until nothing changed any more, no new touch deeper than the tolerance.
     Followed,
@@ -127,8 +127,10 @@ impl CellShear {
 /// A finished drape.
 #[derive(Debug, Clone)]
 pub struct Drape {
-    /// Everything that is written.
-    pub result: ResultFile,
+    /// The ply in every step, the start being the first.
+    pub steps: Vec<Step>,
+    /// How it came out.
+    pub summary: Summary,
     /// Time spent in equilibria; no part of the result, which is the same on every machine.
     pub solving: Duration,
 }
@@ -152,8 +154,7 @@ pub struct Judged {
 /// for the steps done. It also ends where no ply would survive, see `Summary::stopped`.
 pub fn simulate(scene: &Scene, mut progress: impl FnMut(usize) -> ControlFlow<()>) -> Drape {
     let mut draping = Draping::new(scene);
-    let (result, _) = draping.run(&mut progress);
-    Drape { result, solving: draping.solving }
+    draping.run(&mut progress).0
 }
 
 /// Drapes without keeping more than the verdicts; broken off after the step in which more than `most` equilibria have
@@ -229,7 +230,7 @@ impl<'a> Draping<'a> {
     pub(crate) fn run(
         &mut self,
         progress: &mut impl FnMut(usize) -> ControlFlow<()>,
-    ) -> (ResultFile, Option<Shape>) {
+    ) -> (Drape, Option<Shape>) {
         let mut report = report::Report::new(self.scene);
         let mut last = None;
         for step in 0..self.scene.motion.positions.len() {
@@ -240,7 +241,8 @@ impl<'a> Draping<'a> {
                 break;
             }
         }
-        (report.finish(), last)
+        let (steps, summary) = report.finish();
+        (Drape { steps, summary, solving: self.solving }, last)
     }
 
     /// Solves the equilibrium at gripper positions.

@@ -5,8 +5,7 @@ use super::landing::Landing;
 use super::misfit::{LyingSegment, Misfit};
 use super::record::{
     Bridging, CatenaryDirection, CatenaryId, CatenaryKind, CatenaryState, Cell, ContactState,
-    FORMAT, Gripper, Hold, ResultFile, SceneEcho, Solver as SolverRecord, SpanState, Step, Summary,
-    VERSION,
+    Gripper, Hold, Solver as SolverRecord, SpanState, Step, Summary,
 };
 use super::spans::{FreeSpan, Point};
 use super::{Snapshot, stop};
@@ -154,33 +153,10 @@ impl<'a> Report<'a> {
         snapshot.shear.iter().enumerate().map(cell).collect()
     }
 
-    /// The whole record, judged.
-    pub fn finish(self) -> ResultFile {
-        let scene = self.scene;
-        let echo = SceneEcho {
-            title: scene.title.clone(),
-            input: scene.input.clone(),
-            grid: scene.ply.grid,
-            cell: scene.ply.cell,
-            material: scene.ply.material.clone(),
-            warp: scene.ply.warp,
-            mold: scene.mold.clone(),
-            target_grippers: scene.target.as_ref().map(|target| target.grippers.clone()),
-            ideal_drape: scene.target.as_ref().and_then(|target| target.drape.clone()),
-            settings: scene.settings,
-            limits: scene.limits,
-        };
+    /// The steps and the outcome, judged.
+    pub fn finish(self) -> (Vec<Step>, Summary) {
         let summary = self.summary();
-        ResultFile {
-            format: FORMAT.into(),
-            version: VERSION,
-            checksum: String::new(),
-            program: crate::PROGRAM.into(),
-            scene: echo,
-            plan: None,
-            steps: self.steps,
-            summary,
-        }
+        (self.steps, summary)
     }
 
     fn summary(&self) -> Summary {

@@ -1,10 +1,9 @@
 //! How a solve ended, as data: nothing that was cut short is silent.
 
-use serde::{Deserialize, Serialize};
-
 /// How a solve ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Status {
     /// The slopes satisfy their rule, and every span has its length, both as measured at the end.
     Converged,

@@ -9,6 +9,8 @@
 
 mod found;
 mod record;
+#[cfg(feature = "serde")]
+mod serial;
 mod state;
 mod unit;
 mod verdict;
@@ -20,7 +22,6 @@ pub use unit::Unit;
 pub use verdict::{Judge, Verdict, last_numbers, worst_numbers};
 
 use crate::scene::Scene;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Which way a limit bounds a measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -168,24 +169,6 @@ impl Name {
     #[must_use]
     pub fn title(self) -> String {
         self.measure().name().replace('_', " ")
-    }
-}
-
-impl Serialize for Name {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(self.measure().name())
-    }
-}
-
-impl<'de> Deserialize<'de> for Name {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(from)?;
-        let named = |name: &&Name| name.measure().name() == text;
-        Name::ALL
-            .iter()
-            .find(named)
-            .copied()
-            .ok_or_else(|| serde::de::Error::custom(format!("there is no limit called `{text}`")))
     }
 }
 

@@ -2,19 +2,16 @@
 
 use super::{Found, Name};
 use crate::ply::Grid;
-use serde::de::{Error, MapAccess, Visitor};
-use serde::ser::SerializeMap;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::fmt;
 
 /// A worst value and where it is.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Worst {
     /// The value, in the unit that the measure names.
     pub value: f64,
     /// Which part of the ply: a catenary, a cell or a gripper.
-    #[serde(rename = "where")]
+    #[cfg_attr(feature = "serde", serde(rename = "where"))]
     pub at: String,
     /// Place in space (m), where it has one.
     pub place: Option<[f64; 3]>,
@@ -85,41 +82,5 @@ impl Numbers {
 impl<T> FromIterator<(Name, T)> for ByName<T> {
     fn from_iter<I: IntoIterator<Item = (Name, T)>>(values: I) -> Self {
         ByName(values.into_iter().collect())
-    }
-}
-
-impl<T: Serialize> Serialize for ByName<T> {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut map = to.serialize_map(Some(self.0.len()))?;
-        for (name, value) in &self.0 {
-            map.serialize_entry(name.measure().key(), value)?;
-        }
-        map.end()
-    }
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for ByName<T> {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        struct Keys<T>(std::marker::PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {
-            type Value = ByName<T>;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("measures by their keys")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-                let mut out = ByName::default();
-                while let Some(key) = map.next_key::<String>()? {
-                    let own = |name: &&Name| name.measure().key() == key;
-                    let name = Name::ALL.iter().find(own).ok_or_else(|| {
-                        A::Error::custom(format!("there is no measure called `{key}`"))
-                    })?;
-                    out.set(*name, Some(map.next_value()?));
-                }
-                Ok(out)
-            }
-        }
-        from.deserialize_map(Keys(std::marker::PhantomData))
     }
 }

@@ -2,15 +2,15 @@
 
 use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, Worst};
 use crate::scene::Scene;
-use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// What rounding puts beyond a limit is within it: a bound that holds a slope exactly at its limit is no breach.
 const ROUNDING: f64 = 1e-9;
 
 /// A limit and whether it holds.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Verdict {
     /// What is limited; in a file its key in the scene.
     pub name: Name,
@@ -25,7 +25,7 @@ pub struct Verdict {
     /// Step of the worst value; none where it belongs to no step, as the speed of a motion.
     pub step: Option<usize>,
     /// Which part of the ply has the worst value.
-    #[serde(rename = "where")]
+    #[cfg_attr(feature = "serde", serde(rename = "where"))]
     pub at: String,
     /// Place of the worst value in space (m), where it has one.
     pub place: Option<[f64; 3]>,

@@ -8,10 +8,9 @@ use super::pose::Pose;
 use super::saddle::Saddle;
 use super::vector::{distance, dot, sub, unit};
 use super::{Curvatures, Foot, Separation};
-use serde::{Deserialize, Serialize};
 
 /// A height over the local xy plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Graph {
     /// Where it stands.
     pub pose: Pose,
@@ -22,8 +21,7 @@ pub struct Graph {
 }
 
 /// What gives the height of a [`Graph`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "surface", rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Surface {
     /// Curved down along one axis and up along the other.
     Saddle(Saddle),

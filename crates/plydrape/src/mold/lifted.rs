@@ -6,11 +6,10 @@
 
 use super::height::Height;
 use super::height_grid::HeightGrid;
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// A height grid lifted ahead of a front.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Lifted {
     /// The surface that is lifted.
     pub ground: Arc<HeightGrid>,
@@ -19,7 +18,7 @@ pub struct Lifted {
 }
 
 /// Height added ahead of an elliptic front.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lift {
     /// Where the front starts from (m).
     pub centre: [f64; 2],

@@ -4,7 +4,7 @@
 //! and curvatures, and where a length of fabric lies that is laid along it in a vertical plane. Distances
 //! in metres, positive outside; normals are unit vectors out of the mold, towards the ply.
 
-mod formula;
+pub mod formula;
 mod graph;
 mod height;
 mod height_grid;
@@ -16,9 +16,9 @@ mod pose;
 mod round;
 mod saddle;
 mod section;
-pub(crate) mod vector;
+pub mod vector;
 
-pub use formula::{Formula, FormulaError, FormulaFault};
+pub use formula::Formula;
 pub use graph::{Graph, Surface};
 pub use height::{Height, Steepness};
 pub use height_grid::{HeightGrid, HeightGridError};
@@ -28,16 +28,14 @@ pub use plane::Plane;
 pub use pose::Pose;
 pub use round::{Cylinder, Face, Sphere, Torus};
 pub use saddle::Saddle;
-pub(crate) use vector::distance;
+pub use vector::distance;
 
 use section::{Until, trace};
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use vector::{along, dot};
 
 /// A mold.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Mold {
     /// Flat, of any position and tilt.
     Plane(Plane),

@@ -97,7 +97,8 @@ fn sampled(
 }
 
 /// The last point of the mold (m) on the way from a place with one to a place without.
-pub(crate) fn border(
+#[must_use]
+pub fn border(
     mut last: [f64; 3],
     mut with: [f64; 2],
     mut without: [f64; 2],

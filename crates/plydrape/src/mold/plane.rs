@@ -1,10 +1,10 @@
 //! A flat mold of any position and tilt.
 
 use super::Foot;
-use serde::{Deserialize, Serialize};
 
 /// The plane through `point` with unit normal `normal`, whose z component is positive.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plane {
     /// A point of the mold (m).
     pub point: [f64; 3],

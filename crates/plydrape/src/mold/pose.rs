@@ -1,10 +1,10 @@
 //! Where a mold stands and how it is turned.
 
 use super::vector::{along, sub};
-use serde::{Deserialize, Serialize};
 
 /// A rigid placement: local coordinates are turned by `axes`, then moved to `position`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
     /// Place of the local origin (m).
     pub position: [f64; 3],

@@ -3,11 +3,11 @@
 use super::pose::Pose;
 use super::vector::dot;
 use super::{Curvatures, Foot, Separation};
-use serde::{Deserialize, Serialize};
 
 /// Which side of a round mold the ply lies on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Face {
     /// On the whole of it, from outside.
     Outside,
@@ -16,7 +16,8 @@ pub enum Face {
 }
 
 /// A cylinder about the local x axis, of any length.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cylinder {
     /// Its axis is the local x axis.
     pub pose: Pose,
@@ -27,7 +28,8 @@ pub struct Cylinder {
 }
 
 /// A sphere about the local origin.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sphere {
     /// Its centre is the local origin.
     pub pose: Pose,
@@ -38,7 +40,8 @@ pub struct Sphere {
 }
 
 /// A torus about the local z axis.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Torus {
     /// Its ring lies in the local xy plane.
     pub pose: Pose,

@@ -1,10 +1,10 @@
 //! A saddle: curved down along one axis and up along the other.
 
 use super::height::{Height, Steepness};
-use serde::{Deserialize, Serialize};
 
 /// The surface z = x²/2r₀ − y²/2r₁.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Saddle {
     /// Radii of curvature at its middle, upwards along x and downwards along y (m).
     pub radii: [f64; 2],

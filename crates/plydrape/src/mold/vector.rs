@@ -1,38 +1,50 @@
 //! Vectors in space, as arrays.
 
 /// Distance of two points (m).
-pub(crate) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+#[must_use]
+pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     norm(sub(a, b))
 }
 
-pub(crate) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+/// a − b.
+#[must_use]
+pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// a + t b.
-pub(crate) fn along(a: [f64; 3], t: f64, b: [f64; 3]) -> [f64; 3] {
+#[must_use]
+pub fn along(a: [f64; 3], t: f64, b: [f64; 3]) -> [f64; 3] {
     [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
 }
 
 /// The point a share `t` of the way from a to b; at 1 it is b to the last bit.
-pub(crate) fn between(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
+#[must_use]
+pub fn between(a: [f64; 3], b: [f64; 3], t: f64) -> [f64; 3] {
     if t >= 1.0 { b } else { [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n])) }
 }
 
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+/// a · b.
+#[must_use]
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+/// a × b.
+#[must_use]
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-pub(crate) fn norm(a: [f64; 3]) -> f64 {
+/// |a|.
+#[must_use]
+pub fn norm(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
 /// The unit vector along `a`; none if `a` has (all but) no length.
-pub(crate) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+#[must_use]
+pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     let length = norm(a);
     (length > 1e-12).then(|| a.map(|x| x / length))
 }

@@ -3,7 +3,12 @@
 use super::path::Vector;
 use super::spacing::farthest;
 use super::{Bounds, MotionError};
-use crate::scene::{MOST_POSITIONS, MOST_STEPS};
+
+/// Most steps of a motion.
+pub const MOST_STEPS: usize = 1_000_000;
+
+/// Most gripper positions of a motion: steps times grippers.
+pub const MOST_POSITIONS: usize = 50_000_000;
 
 /// Largest coordinate (m): a path's derivatives stay far from the end of the numbers.
 const FARTHEST: f64 = 1e6;

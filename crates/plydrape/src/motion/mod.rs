@@ -20,6 +20,7 @@ mod spacing;
 mod timing;
 
 pub use attitude::Attitudes;
+pub use check::{MOST_POSITIONS, MOST_STEPS};
 pub use error::MotionError;
 pub use peaks::{Peak, Peaks};
 

@@ -1,27 +1,29 @@
-//! The motion of a result: made again from the plan that its file holds.
+//! The motion of a recorded drape: made again from its plan and its steps.
 
 use super::{Attitudes, Bounds, MotionError, TimedMotion};
-use crate::draping::record::ResultFile;
+use crate::draping::record::{PlanRecord, Step};
+use crate::scene::Limits;
 
-impl ResultFile {
-    /// The motion of a planned drape at any time, and the orientations along it; none of a simulated one.
+impl PlanRecord {
+    /// The motion at any time, under the limits that it was planned for.
     ///
     /// # Errors
-    /// [`MotionError`] if plan and steps are none that a planner has written.
-    pub fn motion(&self) -> Result<Option<(TimedMotion, Attitudes)>, MotionError> {
-        let Some(plan) = &self.plan else { return Ok(None) };
-        let motion = TimedMotion::new(&plan.path, &Bounds::from(&self.scene.limits))?;
-        let motion = if plan.slowed > 1.0 { motion.slowed(plan.slowed) } else { motion };
-        Ok(Some((motion, self.attitudes()?)))
+    /// [`MotionError`] if the plan is none that a planner has made.
+    pub fn motion(&self, limits: &Limits) -> Result<TimedMotion, MotionError> {
+        let motion = TimedMotion::new(&self.path, &Bounds::from(limits))?;
+        Ok(if self.slowed > 1.0 { motion.slowed(self.slowed) } else { motion })
     }
+}
 
-    /// Orientations of the grippers between the steps.
+impl Attitudes {
+    /// Orientations of the grippers between the steps of a drape.
     ///
     /// # Errors
     /// [`MotionError`] if there are no steps.
-    pub fn attitudes(&self) -> Result<Attitudes, MotionError> {
-        let times: Vec<f64> = self.steps.iter().map(|step| step.time).collect();
-        let quaternions: Vec<Vec<[f64; 4]>> = (self.steps.iter())
+    pub fn of(steps: &[Step]) -> Result<Attitudes, MotionError> {
+        let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
+        let quaternions: Vec<Vec<[f64; 4]>> = steps
+            .iter()
             .map(|step| step.grippers.iter().map(|gripper| gripper.quaternion).collect())
             .collect();
         Attitudes::new(&times, &quaternions)

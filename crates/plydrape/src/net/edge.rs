@@ -13,11 +13,11 @@
 
 use super::spot::Spot;
 use crate::mold::vector::{along, cross, dot, norm, sub, unit};
-use serde::{Deserialize, Serialize};
 
 /// How the fabric between two neighbouring nodes is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum EdgeRule {
     /// Along the mold.
     #[default]

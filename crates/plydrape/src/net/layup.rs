@@ -3,11 +3,11 @@
 use super::edge::EdgeRule;
 use crate::mold::Mold;
 use crate::mold::vector::{along, cross, dot, unit};
-use serde::{Deserialize, Serialize};
 
 /// How the two generators run, the lines of nodes through the seed from which all others follow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Generators {
     /// Straight on over the mold.
     #[default]
@@ -17,7 +17,8 @@ pub enum Generators {
 }
 
 /// A ply to be laid on a mold as a net.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Layup {
     /// Nodes along u and v.
     pub nodes: [usize; 2],

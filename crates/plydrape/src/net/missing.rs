@@ -1,11 +1,11 @@
 //! Nodes that have no place on the mold, and why.
 
-use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Why a node has no place on the mold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Reason {
     /// It lies beyond the mold's border.
     OffMold,
@@ -17,7 +17,8 @@ pub enum Reason {
 }
 
 /// A node without a place.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Missing {
     /// Which node.
     pub node: [usize; 2],

@@ -30,11 +30,11 @@ pub use shear::CellShear;
 
 use crate::mold::Mold;
 use build::Build;
-use serde::{Deserialize, Serialize};
 use spot::{Ground, Spot};
 
 /// A ply draped as a pin-jointed net.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Net {
     /// What was asked for.
     pub layup: Layup,
@@ -47,7 +47,7 @@ pub struct Net {
     /// The net in a few numbers.
     pub report: Report,
     /// Nodes beyond the mold's border included.
-    #[serde(skip)]
+    #[cfg_attr(feature = "serde", serde(skip))]
     spots: Vec<Option<Spot>>,
 }
 

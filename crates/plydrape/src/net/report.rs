@@ -4,10 +4,10 @@ use super::layup::Layup;
 use super::missing::{Missing, Reason};
 use super::shear::CellShear;
 use super::spot::Spot;
-use serde::{Deserialize, Serialize};
 
 /// A net in a few numbers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// Nodes with a place on the mold.
     pub placed: usize,

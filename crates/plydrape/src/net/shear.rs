@@ -2,13 +2,13 @@
 
 use super::edge::EdgeRule;
 use super::spot::Spot;
-use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// Shear of one cell, from its four corner angles; after Krogh et al. 2021.
 ///
 /// With [`EdgeRule::Chord`] the angles are between bars, otherwise between tangents of the mold.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CellShear {
     /// Mean over the corners (rad), positive where u and v stand at less than 90°. What the mold's curvature
     /// adds to all four angles cancels.

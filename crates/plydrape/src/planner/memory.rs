@@ -4,22 +4,15 @@ use super::PlanError;
 use super::path::Strategy;
 use crate::ply::Grid;
 use crate::scene::Scene;
-use serde::{Deserialize, Serialize};
-
-/// Name of the format, the first key of every file of it.
-const FORMAT: &str = "plydrape-plan";
-/// Version of the format.
-const VERSION: u32 = 2;
 
 /// Positions (m) of all grippers, step by step.
 type Positions = Vec<Vec<[f64; 3]>>;
 
 /// The best of a search and how long it has searched.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Memory {
-    format: String,
-    version: u32,
     /// Grippers along u and v.
     grippers: [usize; 2],
     /// Fabric length of a cell along u and v (m).
@@ -43,15 +36,7 @@ impl Memory {
         positions: Positions,
     ) -> Self {
         let Grid { nu, nv } = scene.ply.grid;
-        Memory {
-            format: FORMAT.into(),
-            version: VERSION,
-            grippers: [nu, nv],
-            cell: scene.ply.cell,
-            evaluations,
-            strategy,
-            positions,
-        }
+        Memory { grippers: [nu, nv], cell: scene.ply.cell, evaluations, strategy, positions }
     }
 
     /// The strategy to go on from, and its positions if they lead from the scene's start to its target.
@@ -62,11 +47,8 @@ impl Memory {
         Some((self.strategy?, (ends && steps).then(|| self.positions.clone())))
     }
 
-    /// Refuses what another version wrote, or what belongs to another ply.
+    /// Refuses what belongs to another ply.
     pub(super) fn check(&self, scene: &Scene) -> Result<(), PlanError> {
-        if self.format != FORMAT || self.version != VERSION {
-            return Err(PlanError::Format { format: self.format.clone(), version: self.version });
-        }
         let Grid { nu, nv } = scene.ply.grid;
         if self.grippers != [nu, nv] || self.cell != scene.ply.cell {
             let [earlier_u, earlier_v] = self.grippers;

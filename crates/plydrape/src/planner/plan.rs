@@ -12,7 +12,7 @@ use crate::draping::spans::Point;
 use crate::draping::{Drape, simulate};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
-use crate::scene::{PlanMethod, Scene, SceneError};
+use crate::scene::{PlanMethod, Scene};
 use std::ops::ControlFlow;
 
 /// How much faster grippers may turn between two steps of a plan than over the whole of both, within which the limit of the tilt rate is to
@@ -24,10 +24,8 @@ const RATE_MARGIN: f64 = 1.5;
 pub struct Planned {
     /// The drape along the planned motion, step-cutting on, with all limits judged.
     pub drape: Drape,
-    /// The planner that made it.
-    pub method: PlanMethod,
-    /// Complete drapes tried; of the stepwise planner, steps.
-    pub evaluations: usize,
+    /// What the motion is made from again.
+    pub record: PlanRecord,
     /// The motion in time.
     pub motion: TimedMotion,
     /// How the grippers are turned in it.
@@ -47,17 +45,6 @@ pub enum PlanError {
     /// Nowhere to go.
     #[error("the scene has no target: a plan needs to know where the ply shall end")]
     NoTarget,
-    /// A key of the scene that a plan would ignore.
-    #[error(transparent)]
-    Ignored(#[from] Box<SceneError>),
-    /// A file that is no plan of this version.
-    #[error("the earlier plan is of format `{format}`, version {version}: plan anew")]
-    Format {
-        /// Its format.
-        format: String,
-        /// Its version.
-        version: u32,
-    },
     /// A plan for other grippers or other fabric.
     #[error(
         "the earlier plan is for {earlier_u} × {earlier_v} grippers or other cells, the scene has {nu} × {nv}: plan anew"
@@ -98,7 +85,7 @@ struct Found {
 /// verdict says which, where and by how much.
 ///
 /// # Errors
-/// [`PlanError`] if the scene has no mold or target, gives its motion a duration, or the memory is not of its ply.
+/// [`PlanError`] if the scene has no mold or target, or the memory is not of its ply.
 pub fn plan(
     scene: &Scene,
     memory: Option<&Memory>,
@@ -109,9 +96,6 @@ pub fn plan(
     }
     if scene.target.is_none() {
         return Err(PlanError::NoTarget);
-    }
-    if let Some(refusal) = &scene.plan_refusal {
-        return Err(PlanError::Ignored(refusal.clone()));
     }
     if let Some(memory) = memory {
         memory.check(scene)?;
@@ -135,30 +119,29 @@ pub fn plan(
     };
     let mut drape = follow(&motion);
     // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
-    let fastest = drape.result.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
+    let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
     let slowed = (RATE_MARGIN * fastest / scene.limits.tilt_rate.to_degrees()).max(1.0);
     if slowed > 1.0 {
         motion = motion.slowed(slowed);
         drape = follow(&motion);
     }
     // what no plan can keep comes first
-    let summary = &mut drape.result.summary;
+    let summary = &mut drape.summary;
     let judged = std::mem::take(&mut summary.limits);
     summary.judge_also(obstacles(scene));
     summary.limits.extend(judged);
     summary.judge_also(found.limits.into_iter().chain(rates(&motion, &bounds, scene)));
-    drape.result.plan = Some(PlanRecord {
+    let record = PlanRecord {
         method: scene.plan.method,
         evaluations: found.evaluations,
         rate: scene.plan.rate,
         slowed,
         path: found.positions.clone(),
-    });
-    let attitudes = drape.result.attitudes()?;
+    };
+    let attitudes = Attitudes::of(&drape.steps)?;
     let before = memory.map_or(0, |memory| memory.evaluations);
     let memory = Memory::new(scene, before + found.evaluations, found.strategy, found.positions);
-    let (method, evaluations) = (scene.plan.method, found.evaluations);
-    Ok(Planned { drape, method, evaluations, motion, attitudes, interrupted, memory })
+    Ok(Planned { drape, record, motion, attitudes, interrupted, memory })
 }
 
 fn by_path(scene: &Scene, memory: Option<&Memory>, board: &Board) -> Result<Found, PlanError> {

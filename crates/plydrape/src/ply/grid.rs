@@ -1,12 +1,11 @@
 //! Which catenaries hang between which grippers.
 
-use serde::{Deserialize, Serialize};
-
 /// A gripper by its grid indices `[i, j]`, from `[0, 0]`: i along u, j along v.
 pub type GripperId = [usize; 2];
 
 /// An array of `nu × nv` grippers; `nv = 1` is a single strip.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Grid {
     /// Grippers along u, at least 2.
     pub nu: usize,
@@ -15,8 +14,9 @@ pub struct Grid {
 }
 
 /// The four families of catenaries.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Kind {
     /// Edge from `[i, j]` to `[i+1, j]`.
     EdgeU,

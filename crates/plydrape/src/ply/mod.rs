@@ -10,7 +10,6 @@ pub use laid::{Laid, LandedCell};
 pub use ruck::Ruck;
 
 use crate::material::{Line, Material, Section};
-use serde::{Deserialize, Serialize};
 
 /// A rectangular woven ply held by a grid of grippers.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,8 +25,9 @@ pub struct Ply {
 }
 
 /// A direction of the gripper grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Direction {
     /// Along the first gripper index.
     U,

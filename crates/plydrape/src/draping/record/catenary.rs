@@ -1,12 +1,12 @@
 //! The catenaries of a step: kind, direction, spans, contact.
 
 use crate::ply::GripperId;
-use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Whether a catenary bounds cells or crosses one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum CatenaryKind {
     /// Along a fibre direction, between two cells or at the ply's border.
     Edge,
@@ -15,8 +15,9 @@ pub enum CatenaryKind {
 }
 
 /// Where a catenary leads.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum CatenaryDirection {
     /// Along the first gripper index.
     U,
@@ -29,8 +30,9 @@ pub enum CatenaryDirection {
 }
 
 /// What holds a span in its shape.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Hold {
     /// It hangs freely.
     Hanging,
@@ -58,8 +60,9 @@ words!(CatenaryDirection: U "u", V "v", Rising "rising", Falling "falling");
 words!(Hold: Hanging "hanging", Overstretched "overstretched", Straight "straight", Lying "lying");
 
 /// One catenary in one step.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CatenaryState {
     /// `edge` or `diagonal`.
     pub kind: CatenaryKind,
@@ -84,8 +87,9 @@ pub struct CatenaryState {
 }
 
 /// One free span in one step.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SpanState {
     /// Fabric arc length of its ends from the first gripper (m).
     pub arc: [f64; 2],
@@ -98,7 +102,7 @@ pub struct SpanState {
     /// Whether it hangs, is pulled or lies.
     pub state: Hold,
     /// Horizontal force (N); null where the model gives none.
-    #[serde(rename = "H_N")]
+    #[cfg_attr(feature = "serde", serde(rename = "H_N"))]
     pub force: Option<f64>,
     /// Slopes at its ends.
     pub slopes: [f64; 2],
@@ -119,8 +123,9 @@ pub struct SpanState {
 }
 
 /// The segment of a catenary that the mold has caught; rests beside it may lie there too.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ContactState {
     /// Fabric arc length of its ends from the first gripper (m).
     pub arc: [f64; 2],
@@ -134,8 +139,9 @@ pub struct ContactState {
 }
 
 /// A touch away from the contact segment, which the model does not follow.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Bridging {
     /// Place of the largest gap between segment and touch (m).
     pub place: [f64; 3],

@@ -1,7 +1,6 @@
-//! The result file: every force, slope, shape, contact and measure of every step.
+//! The record of a drape: every force, slope, shape, contact and measure of every step.
 //!
-//! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise. All other
-//! outputs can be made from it.
+//! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise.
 
 mod catenary;
 mod outcome;
@@ -14,73 +13,13 @@ pub use outcome::{CatenaryId, Summary};
 
 use crate::draping::ContactStatus;
 use crate::equilibrium::Status;
-use crate::material::Material;
-use crate::mold::Mold;
-use crate::net::Net;
-use crate::ply::{Direction, Grid, GripperId};
-use crate::scene::{Limits, PlanMethod, Settings};
-use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
-use std::sync::Arc;
+use crate::ply::GripperId;
+use crate::scene::PlanMethod;
 
-/// Name of the format, the first key of every result file.
-pub const FORMAT: &str = "plydrape-result";
-/// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 5;
-
-/// A whole result file.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ResultFile {
-    /// [`FORMAT`].
-    pub format: Cow<'static, str>,
-    /// [`VERSION`].
-    pub version: u32,
-    /// Check sum of the whole file with nothing here; empty until it is written.
-    pub checksum: String,
-    /// Version of the program that wrote it.
-    pub program: String,
-    /// The scene, as it was understood.
-    pub scene: SceneEcho,
-    /// The plan that the drape follows, if it was planned.
-    pub plan: Option<PlanRecord>,
-    /// One entry a step, the start being step 1.
-    pub steps: Vec<Step>,
-    /// The outcome.
-    pub summary: Summary,
-}
-
-/// The scene, as it was understood.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SceneEcho {
-    /// Its title.
-    pub title: String,
-    /// The scene file; none of a scene that was made in a program.
-    pub input: Option<Arc<str>>,
-    /// Grippers along u and v.
-    pub grid: Grid,
-    /// Fabric length of a cell along u and v (m).
-    pub cell: [f64; 2],
-    /// The ply's material.
-    pub material: Material,
-    /// The grid direction of the warp.
-    pub warp: Direction,
-    /// The mold, if any.
-    pub mold: Option<Mold>,
-    /// Final gripper positions of the ideal drape (m), if the ply is to be draped.
-    pub target_grippers: Option<Vec<[f64; 3]>>,
-    /// The ideal drape, a net, where it is known.
-    pub ideal_drape: Option<Arc<Net>>,
-    /// Rules of the model.
-    pub settings: Settings,
-    /// Limits of an accepted drape.
-    pub limits: Limits,
-}
-
-/// A plan: what a motion is made from again, see [`ResultFile::motion`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// A plan: what a motion is made from again, see [`PlanRecord::motion`].
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct PlanRecord {
     /// The planner.
     pub method: PlanMethod,
@@ -96,8 +35,9 @@ pub struct PlanRecord {
 }
 
 /// The ply in one step.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Step {
     /// Counts from 1, the start.
     pub step: usize,
@@ -116,8 +56,9 @@ pub struct Step {
 }
 
 /// A gripper in one step.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Gripper {
     /// Grid indices.
     pub id: GripperId,
@@ -144,8 +85,9 @@ impl Gripper {
 }
 
 /// How the equilibrium of a step was found.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Solver {
     /// `converged`, or what stopped it.
     pub status: Status,
@@ -168,8 +110,9 @@ impl Solver {
 }
 
 /// A cell in one step.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Cell {
     /// Its lowest gripper.
     pub cell: GripperId,

@@ -3,11 +3,11 @@
 use super::CatenaryKind;
 use crate::measure::{Numbers, Verdict};
 use crate::ply::GripperId;
-use serde::{Deserialize, Serialize};
 
 /// A catenary by its ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CatenaryId {
     /// `edge` or `diagonal`.
     pub kind: CatenaryKind,
@@ -18,8 +18,9 @@ pub struct CatenaryId {
 }
 
 /// The outcome of a drape: what `plydrape simulate --json` prints, but for its timing.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Summary {
     /// Every limit holds.
     pub accepted: bool,
@@ -40,7 +41,7 @@ pub struct Summary {
     /// Worst values over all steps.
     pub worst: Numbers,
     /// The same of the last step.
-    #[serde(rename = "final")]
+    #[cfg_attr(feature = "serde", serde(rename = "final"))]
     pub last: Numbers,
     /// Share of the edges' length that lies on the mold at the end.
     pub contact_share: Option<f64>,

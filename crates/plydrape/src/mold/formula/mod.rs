@@ -1,31 +1,21 @@
-//! A mold written as a formula: z = f(x, y), all in metres.
+//! A mold given by a formula: z = f(x, y), all in metres.
 //!
-//! The text becomes a list of operations in the order in which a pocket calculator with a stack would
+//! A formula is a list of operations in the order in which a pocket calculator with a stack would
 //! do them. Each is done on the height together with its derivatives, so that slope and curvature of the
 //! mold are exact.
 
-mod error;
 mod interval;
 mod operation;
-mod parser;
 mod polynomial;
-#[cfg(test)]
-mod tests;
 
-pub use error::{FormulaError, FormulaFault};
+pub use operation::{FUNCTIONS, Function, Operation};
 
 use super::height::{Height, Steepness};
 use interval::{Interval, Range};
-use operation::Operation;
 use polynomial::Polynomial;
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
 
-/// A height z = f(x, y) written as a formula.
-///
-/// Known are numbers, `x`, `y`, `pi`, `+ - * / ^`, brackets and the functions `sqrt`, `exp`, `ln`, `log10`,
-/// `sin`, `cos`, `tan`, `asin`, `acos`, `atan`, `sinh`, `cosh` and `tanh`. Powers come first and from the right:
-/// `-x^2` is −(x²), `2^3^2` is 2⁹. `**` is another way to write `^`.
+/// A height z = f(x, y) as a list of operations, each behind its operands.
 #[derive(Clone, PartialEq)]
 pub struct Formula {
     text: String,
@@ -42,22 +32,23 @@ const MOST: usize = 64;
 const FEW: usize = 8;
 
 impl Formula {
-    /// Reads a formula in x and y.
-    ///
-    /// # Errors
-    /// Where the text is no formula, and why.
-    pub fn new(text: &str) -> Result<Self, FormulaError> {
-        let program = parser::program(text)?;
+    /// A formula of operations, each behind its operands, and the text that stands for it in reports; none if they
+    /// leave not exactly one height, need one that is not there, or more than 64 at a time.
+    #[must_use]
+    pub fn new(text: &str, program: Vec<Operation>) -> Option<Self> {
         let (mut top, mut depth) = (0_usize, 0);
         for operation in &program {
+            if top < operation.operands() {
+                return None;
+            }
             top = operation.top(top);
             depth = depth.max(top);
         }
-        if depth > MOST {
-            return Err(FormulaError { at: 0..text.len(), fault: FormulaFault::Depth });
+        if top != 1 || depth > MOST {
+            return None;
         }
         let polynomial = Polynomial::of(&program);
-        Ok(Formula { text: text.to_string(), program, depth, polynomial })
+        Some(Formula { text: text.to_string(), program, depth, polynomial })
     }
 
     /// As it was written.
@@ -142,17 +133,5 @@ const PARTS: usize = 8;
 impl fmt::Debug for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Formula").field(&self.text).finish()
-    }
-}
-
-impl Serialize for Formula {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        self.text.serialize(to)
-    }
-}
-
-impl<'de> Deserialize<'de> for Formula {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Formula::new(&String::deserialize(from)?).map_err(de::Error::custom)
     }
 }

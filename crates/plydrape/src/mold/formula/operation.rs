@@ -4,13 +4,20 @@ use crate::mold::height::Height;
 
 /// One operation on the stack of heights.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Operation {
+pub enum Operation {
+    /// A number.
     Number(f64),
+    /// The coordinate x (m).
     X,
+    /// The coordinate y (m).
     Y,
+    /// A sum of two.
     Add,
+    /// The first of two less the second.
     Subtract,
+    /// A product of two.
     Multiply,
+    /// The first of two divided by the second.
     Divide,
     /// A power whose exponent is a whole number.
     Whole(i32),
@@ -18,30 +25,45 @@ pub(super) enum Operation {
     Real(f64),
     /// A power whose exponent is a formula itself.
     Power,
+    /// The same with the other sign.
     Negate,
+    /// A function of one.
     Call(Function),
 }
 
 /// A function of one number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Function {
+pub enum Function {
+    /// Square root.
     Sqrt,
+    /// Exponential.
     Exp,
+    /// Natural logarithm.
     Ln,
+    /// Logarithm to base 10.
     Log10,
+    /// Sine.
     Sin,
+    /// Cosine.
     Cos,
+    /// Tangent.
     Tan,
+    /// Inverse sine.
     Asin,
+    /// Inverse cosine.
     Acos,
+    /// Inverse tangent.
     Atan,
+    /// Hyperbolic sine.
     Sinh,
+    /// Hyperbolic cosine.
     Cosh,
+    /// Hyperbolic tangent.
     Tanh,
 }
 
 /// The functions by name.
-pub(super) const FUNCTIONS: [(&str, Function); 13] = [
+pub const FUNCTIONS: [(&str, Function); 13] = [
     ("sqrt", Function::Sqrt),
     ("exp", Function::Exp),
     ("ln", Function::Ln),
@@ -58,7 +80,18 @@ pub(super) const FUNCTIONS: [(&str, Function); 13] = [
 ];
 
 impl Operation {
+    /// Heights that it takes from the stack.
+    #[must_use]
+    pub fn operands(self) -> usize {
+        match self {
+            Operation::Number(_) | Operation::X | Operation::Y => 0,
+            Operation::Whole(_) | Operation::Real(_) | Operation::Negate | Operation::Call(_) => 1,
+            _ => 2,
+        }
+    }
+
     /// Heights on the stack behind the operation, from those before it.
+    #[must_use]
     pub fn top(self, top: usize) -> usize {
         match self {
             Operation::Number(_) | Operation::X | Operation::Y => top + 1,

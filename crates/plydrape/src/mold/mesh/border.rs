@@ -2,10 +2,10 @@
 
 use super::orient::{Component, NONE, Neighbours};
 use crate::mold::vector::distance;
-use serde::{Deserialize, Serialize};
 
 /// A closed line of edges that have a triangle on one side only.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Border {
     /// Its vertices in turn, the surface to the left.
     pub vertices: Vec<u32>,

@@ -1,69 +1,53 @@
 //! A mold given by triangles.
 //!
-//! A file is read ([`Mesh::read`]), its vertices are merged, its triangles turned to face one way
+//! Triangles are taken as they come ([`Soup`]), vertices are merged, its triangles turned to face one way
 //! and its borders found; what was repaired stands in the [`MeshReport`]. The mesh then answers
 //! what any mold is asked: the closest point and which side it is on, a smooth normal, curvatures, lines along
 //! it in a vertical plane, and its highest point at a place.
 
 mod border;
+mod build;
 mod closest;
 mod curvature;
 mod drop;
-mod element;
 mod error;
 mod fan;
 mod foot;
-mod inp;
-mod instance;
 mod join;
 mod normals;
-mod obj;
 mod orient;
 mod query;
-mod read;
 mod report;
 mod section;
 mod soup;
-mod stl;
-mod text;
 
 pub use border::Border;
 pub use error::MeshError;
 pub use report::{Finding, MeshReport};
+pub use soup::Soup;
 
-use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::OnceLock;
 
 /// A triangle mesh in its place. It never changes; share it behind an `Arc`.
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(try_from = "read::Triangles")]
+#[derive(Clone)]
 pub struct Mesh {
     /// Places of the vertices (m).
     vertices: Vec<[f64; 3]>,
     /// Corners of each triangle, anticlockwise seen from outside.
     triangles: Vec<[u32; 3]>,
     /// Triangles across the edges from corner k to corner k + 1, or none.
-    #[serde(skip)]
     neighbours: Vec<[u32; 3]>,
     /// First corner of the triangles around each vertex.
-    #[serde(skip)]
     fans: Vec<fan::Corner>,
-    #[serde(skip)]
     triangle_normals: Vec<[f64; 3]>,
-    #[serde(skip)]
     vertex_normals: Vec<[f64; 3]>,
-    #[serde(skip)]
     borders: Vec<Border>,
-    #[serde(skip)]
     bounds: [[f64; 3]; 2],
     /// Diagonal of the box around the mesh (m).
-    #[serde(skip)]
     size: f64,
-    #[serde(skip)]
     tree: query::Tree,
     /// Shape operator of each vertex, once asked for.
-    #[serde(skip)]
     shapes: OnceLock<Vec<curvature::Symmetric>>,
 }
 

@@ -24,11 +24,7 @@ pub(super) struct Component {
 }
 
 /// Finds the neighbours of all triangles; refuses edges of three triangles or more.
-pub(super) fn neighbours(
-    mesh: &Joined,
-    file: &str,
-    noun: &'static str,
-) -> Result<Neighbours, MeshError> {
+pub(super) fn neighbours(mesh: &Joined, noun: &'static str) -> Result<Neighbours, MeshError> {
     let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * mesh.triangles.len());
     for (corners, n) in mesh.triangles.iter().zip(0u32..) {
         for k in 0..3 {
@@ -47,7 +43,6 @@ pub(super) fn neighbours(
             }
             [(_, s), (_, t), (_, u), ..] => {
                 return Err(MeshError::Branching {
-                    file: file.to_owned(),
                     noun,
                     numbers: [s, t, u].map(|side| mesh.numbers[side as usize / 3]),
                     place: edge_middle(mesh, s as usize / 3, s as usize % 3),
@@ -64,7 +59,6 @@ pub(super) fn neighbours(
 pub(super) fn orient(
     mesh: &mut Joined,
     neighbours: &mut Neighbours,
-    file: &str,
     noun: &'static str,
     report: &mut MeshReport,
 ) -> Result<(Vec<u32>, Vec<Component>), MeshError> {
@@ -99,7 +93,6 @@ pub(super) fn orient(
                     members.push(other);
                 } else if turn[o] != turned {
                     return Err(MeshError::OneSided {
-                        file: file.to_owned(),
                         noun,
                         numbers: [mesh.numbers[t], mesh.numbers[o]],
                         place: edge_middle(mesh, t, k),
@@ -114,7 +107,6 @@ pub(super) fn orient(
             let upwards = sides.vector_area[2] / sides.area;
             if upwards.abs() < SIDEWAYS {
                 return Err(MeshError::Sideways {
-                    file: file.to_owned(),
                     noun,
                     number: mesh.numbers[seed],
                     triangles: members.len(),

@@ -1,11 +1,11 @@
 //! What was found and repaired while a mesh was read.
 
 use super::border::Border;
-use serde::Serialize;
 use std::fmt;
 
 /// What was found and repaired while a mesh was read.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeshReport {
     /// Vertices of the mold.
     pub vertices: usize,
@@ -32,7 +32,8 @@ pub struct MeshReport {
 }
 
 /// How often something was found, and where first.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Finding {
     /// How often.
     pub count: usize,

@@ -4,7 +4,7 @@ use crate::mold::vector::{cross, distance, dot, sub};
 
 /// The triangles of a file before they are joined into a mesh.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Soup {
+pub struct Soup {
     /// Vertices, in the unit of the file until the mesh is placed.
     pub points: Vec<[f64; 3]>,
     /// Corners of each triangle: indices of vertices.
@@ -18,6 +18,8 @@ pub(super) struct Soup {
 }
 
 impl Soup {
+    /// Nothing yet; `noun` is what messages call one of the triangles.
+    #[must_use]
     pub fn new(noun: &'static str) -> Self {
         Soup {
             points: Vec::new(),

@@ -2,11 +2,11 @@
 
 use crate::mold::Mold;
 use crate::scene::Scene;
-use serde::{Deserialize, Serialize};
 
 /// How a front lays the ply: where it starts, its shape, how steep and how taut the ply is ahead of it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Strategy {
     /// Where the front starts, as shares of the fabric along u and v.
     pub start: [f64; 2],

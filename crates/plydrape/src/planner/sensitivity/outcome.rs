@@ -1,9 +1,8 @@
 //! How a drape comes out, and how that changes with where its grippers end.
 
 use super::{Quantity, Sensitivity};
-use crate::draping::record::ResultFile;
 use crate::draping::spans::Point;
-use crate::draping::{Draping, lying_segments};
+use crate::draping::{Drape, Draping, lying_segments};
 use crate::ply::Laid;
 use crate::scene::Scene;
 use std::ops::ControlFlow;
@@ -16,7 +15,7 @@ use std::ops::ControlFlow;
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The drape.
-    pub result: ResultFile,
+    pub drape: Drape,
     /// Taut path of each catenary's tightest rest beyond its fabric (m), negative where it is slack: straight where
     /// it hangs, along the mold where it lies. The derivative of a lying path is a central difference of its length.
     pub overstretch: Vec<Quantity>,
@@ -35,7 +34,7 @@ pub fn outcome(
     mut progress: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Option<Outcome> {
     let mut draping = Draping::new(scene);
-    let (result, shape) = draping.run(&mut progress);
+    let (drape, shape) = draping.run(&mut progress);
     let (shape, grid) = (shape?, scene.ply.grid);
     let Draping { solver, positions, laid, .. } = &mut draping;
     let look = Sensitivity::new(scene, solver, &shape, positions, laid);
@@ -67,7 +66,7 @@ pub fn outcome(
         force,
         shear: (0..grid.cells()).map(|cell| look.shear(cell)).collect(),
         tilt: (0..grid.grippers()).map(|gripper| look.tilt(gripper)).collect(),
-        result,
+        drape,
     })
 }
 

@@ -1,0 +1,189 @@
+//! `plydrape check` as a user reads it: where the ply starts and shall end, and warnings of what can hardly be meant.
+
+use crate::common::{command, text, words};
+use std::process::Output;
+
+/// Grippers over a flat mold, all numbers in a unit of length to come.
+const SCENE: &str = "\
+[ply]
+grippers = [4, 2]
+cell = [\"100 LL\", \"100 LL\"]
+material = { mass = \"314 g/m^2\", bending_rigidity_warp = 0, bending_rigidity_weft = 0 }
+
+[mold]
+kind = \"plane\"
+
+[grippers]
+spacing = [\"98 LL\", \"98 LL\"]
+height = \"75 LL\"
+origin = [\"10 LL\", \"-20 LL\"]
+
+[target]
+";
+
+fn check(scene: &str, flags: &[&str]) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.toml");
+    std::fs::write(&file, scene).unwrap();
+    command().arg("check").arg(&file).args(flags).output().unwrap()
+}
+
+/// The warnings about a scene that passes.
+fn warnings(scene: &str) -> Vec<String> {
+    let output = check(scene, &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    text(&output.stderr)
+        .lines()
+        .map(|line| line.strip_prefix("warning: ").expect(line).to_string())
+        .collect()
+}
+
+/// The one warning about it.
+fn warning(scene: &str) -> String {
+    let found = warnings(scene);
+    assert_eq!(found.len(), 1, "{found:?}");
+    found.into_iter().next().unwrap()
+}
+
+fn in_unit(unit: &str) -> String {
+    SCENE.replace("LL", unit)
+}
+
+/// The start as the keys say, the target as the fabric is; of all ways that of gripper [0, 1] is the longest, from
+/// (10, 78, 75) to (0, 100, 0) mm.
+#[test]
+fn start_and_target_are_shown_in_x_y_z_with_the_longest_way() {
+    let output = check(&in_unit("mm"), &[]);
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+    let shown = words(&output.stdout);
+    for line in [
+        "start x 10 to 304 mm, y -20 to 78 mm, z 75 mm, middle (157, 29, 75) mm",
+        "x 0 to 300 mm, y 0 to 100 mm, z 0 mm, middle (150, 50, 0) mm",
+    ] {
+        assert!(shown.contains(line), "{shown}");
+    }
+    let way = (10f64 * 10.0 + 22.0 * 22.0 + 75.0 * 75.0).sqrt();
+    let line = format!("way {way:.4} mm in a straight line at most, of gripper [0, 1]");
+    assert!(shown.contains(&line), "{line}\n{shown}");
+}
+
+/// A held ply without a target has a start and no way.
+#[test]
+fn a_held_ply_has_no_way() {
+    let scene = in_unit("mm").replace("[target]\n", "[motion]\nkind = \"hold\"\n");
+    let shown = words(&check(&scene, &[]).stdout);
+    assert!(shown.contains("start x 10 to 304 mm"), "{shown}");
+    assert!(shown.contains("target none"), "{shown}");
+    assert!(!shown.contains("straight line"), "{shown}");
+}
+
+/// Nineteen diagonals are a long way, twenty-one a slip, in a cell of micrometres as in one of metres.
+#[test]
+fn a_start_many_plies_off_is_warned_of_at_any_scale() {
+    // diagonal of 3 × 1 cells of 100
+    let diagonal = 100.0 * 10f64.sqrt();
+    for unit in ["um", "mm", "cm"] {
+        let at = |share: f64| in_unit(unit).replace("\"10 ", &format!("\"{} ", -share * diagonal));
+        let near = warnings(&at(19.0));
+        assert!(near.is_empty(), "{unit}: {near:?}");
+        let far = warning(&at(21.0));
+        assert!(far.contains("gripper [3, 1] starts") && far.contains("21 times"), "{far}");
+    }
+    let kilometres = warning(&in_unit("mm").replace("\"10 mm\"", "5000"));
+    assert!(kilometres.contains("5000 m from its target"), "{kilometres}");
+}
+
+/// 370 g/m² without its unit is 370 kg/m²; a line of the same mass counts as a strip one cell wide.
+#[test]
+fn a_mass_that_no_ply_has_is_warned_of_with_the_likely_unit() {
+    let areal = |mass: &str| in_unit("mm").replace("\"314 g/m^2\"", mass);
+    for sound in ["0.05", "10", "\"314 g/m^2\""] {
+        assert!(warnings(&areal(sound)).is_empty(), "{sound}");
+    }
+    let heavy = warning(&areal("370"));
+    assert!(heavy.contains("370 kg/m²") && heavy.contains("did you mean mass = \"370 g/m^2\"?"));
+    let light = warning(&areal("\"314 mg/m^2\""));
+    assert!(light.contains("less than plies have"), "{light}");
+
+    let line = |mass: &str| {
+        let material = format!("material = {{ mass = {mass}, flexural_rigidity = 0 }}\n");
+        let lines = in_unit("mm");
+        lines
+            .lines()
+            .map(|l| if l.starts_with("material") { material.clone() } else { format!("{l}\n") })
+            .collect::<String>()
+    };
+    // 0.1 m wide: ten times as much per area
+    for sound in ["\"5.1 g/m\"", "\"0.99 kg/m\""] {
+        assert!(warnings(&line(sound)).is_empty(), "{sound}");
+    }
+    let heavy = warning(&line("37"));
+    assert!(heavy.contains("makes 370 kg/m²") && heavy.contains("\"37 g/m\""), "{heavy}");
+    assert!(warning(&line("\"4.9 g/m\"")).contains("0.049 kg/m²"));
+}
+
+/// Each once: of a target in the mold the steps before it are not told as well.
+#[test]
+fn grippers_below_the_mold_are_warned_of_once() {
+    let target = |z: &str| {
+        let row = |y: f64| {
+            let places: Vec<String> =
+                (0..4).map(|i| format!("[{}, {y}, \"{z}\"]", 0.1 * f64::from(i))).collect();
+            format!("[{}]", places.join(", "))
+        };
+        in_unit("mm") + &format!("positions = [{}, {}]\n", row(0.0), row(0.1))
+    };
+    assert!(warnings(&target("-0.19 mm")).is_empty());
+    let deep = warning(&target("-139 mm"));
+    assert!(deep.contains("lies 139 mm below the mold"), "{deep}");
+    assert!(deep.contains("limits.penetration allows 0.2 mm"), "{deep}");
+    assert!(warnings(&(target("-139 mm") + "[limits]\npenetration = \"140 mm\"\n")).is_empty());
+}
+
+/// Down to 20 mm below the mold and back up: the end says nothing of it.
+#[test]
+fn a_motion_through_the_mold_is_warned_of_with_its_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut rows = "t (s),gripper,x (mm),y (mm),z (mm)\n".to_string();
+    for (t, z) in [(0, 75), (1, -20), (2, 1)] {
+        rows += &format!("{t},0-0,0,0,{z}\n{t},1-0,98,0,{z}\n");
+    }
+    std::fs::write(folder.path().join("way.csv"), rows).unwrap();
+    let scene = folder.path().join("scene.toml");
+    let ply = "[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"plane\"\n";
+    std::fs::write(&scene, format!("{ply}[motion]\nkind = \"file\"\nfile = \"way.csv\"\n"))
+        .unwrap();
+    let output = command().arg("check").arg("--quiet").arg(&scene).output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stdout.is_empty());
+    let said = text(&output.stderr);
+    assert!(
+        said.contains("in step 2 gripper") && said.contains("is 20 mm below the mold"),
+        "{said}"
+    );
+    assert_eq!(said.lines().count(), 1, "{said}");
+}
+
+/// The duration of a straight motion is kept by the simulation and refused by the plan, with the key that it keeps.
+#[test]
+fn a_duration_that_a_plan_would_ignore_is_refused_by_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    let motion = "\n[motion]\nkind = \"straight\"\nsteps = 3\nduration = \"20 s\"\n";
+    std::fs::write(&scene, in_unit("mm") + motion).unwrap();
+    let shown = words(&command().arg("check").arg(&scene).output().unwrap().stdout);
+    assert!(shown.contains("motion 3 steps in 20 s"), "{shown}");
+
+    let output = command().arg("plan").arg(&scene).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    let said = words(&output.stderr);
+    for part in [
+        "duration \"20 s\" of [motion]",
+        "write duration = \"20 s\" in [limits]",
+        "scene.toml:19:12",
+    ] {
+        assert!(said.contains(part), "{part}\n{said}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}

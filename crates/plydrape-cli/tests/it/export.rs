@@ -1,0 +1,123 @@
+//! `plydrape export` and `plydrape report` as a user calls them: from a result.json alone, or a refusal.
+
+use crate::common::{command, example, files, text, words};
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+/// A result in a folder of its own, far from its scene.
+fn result(home: &Path, name: &str) -> PathBuf {
+    let run = home.join("run");
+    let mut simulate = command();
+    simulate.arg("simulate").arg(example(name)).arg("-o").arg(&run).arg("--quiet");
+    simulate.output().unwrap();
+    let alone = home.join("alone");
+    std::fs::create_dir(&alone).unwrap();
+    std::fs::copy(run.join("result.json"), alone.join("result.json")).unwrap();
+    alone.join("result.json")
+}
+
+fn plydrape(arguments: &[&str], result: &Path) -> Output {
+    let (first, rest) = arguments.split_first().unwrap();
+    command().arg(first).arg(result).args(rest).output().unwrap()
+}
+
+fn succeeds(output: &Output) {
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+}
+
+/// Every format goes to a folder of its name beside the result, or to the one asked for, with the same bytes.
+#[test]
+fn every_format_is_made_from_the_result_alone() {
+    let home = tempfile::tempdir().unwrap();
+    let result = result(home.path(), "01_flat_sheared_mold");
+    let asked = home.path().join("asked");
+    for format in ["csv", "inp", "ros2", "svg", "vtk"] {
+        let output = plydrape(&["export", "--to", format], &result);
+        succeeds(&output);
+        let beside = result.with_file_name(format);
+        let names = files(&beside);
+        assert!(!names.is_empty() && text(&output.stdout).matches("wrote ").count() == names.len());
+        let folder = asked.to_str().unwrap();
+        succeeds(&plydrape(&["export", "--to", format, "-o", folder], &result));
+        for name in names {
+            let [one, two] = [&beside, &asked].map(|dir| std::fs::read(dir.join(&name)).unwrap());
+            assert!(one == two && !one.is_empty(), "{name}");
+        }
+    }
+    // all of them stand in one folder together
+    assert!(asked.join("steps.csv").exists() && asked.join("ply.inp").exists());
+}
+
+/// Tables, figure and page are those that the simulation wrote.
+#[test]
+fn exports_are_what_the_simulation_wrote() {
+    let home = tempfile::tempdir().unwrap();
+    let result = result(home.path(), "05_cylinder");
+    for arguments in [&["export", "--to", "csv"][..], &["export", "--to", "svg"], &["report"]] {
+        succeeds(&plydrape(arguments, &result));
+    }
+    for (dir, name) in [
+        ("csv", "steps.csv"),
+        ("csv", "trajectory.csv"),
+        ("svg", "figure.svg"),
+        ("", "report.html"),
+    ] {
+        let again = std::fs::read(result.parent().unwrap().join(dir).join(name)).unwrap();
+        assert!(again == std::fs::read(home.path().join("run").join(name)).unwrap(), "{name}");
+    }
+}
+
+/// What is not, to the last digit, what this version wrote is refused with 2, a reason and a remedy; nothing is
+/// written.
+#[test]
+fn other_files_are_refused_with_a_remedy() {
+    let home = tempfile::tempdir().unwrap();
+    let good = result(home.path(), "02_hanging_strip");
+    let sound = std::fs::read_to_string(&good).unwrap();
+    let version = plydrape_io::result::VERSION;
+    let versioned = |other: u32| {
+        sound.replacen(&format!("\"version\":{version}"), &format!("\"version\":{other}"), 1)
+    };
+    let cases = [
+        ("cut", sound[..sound.len() / 2].to_owned(), "ends in the middle", "copy it again"),
+        ("edited", sound.replacen("0.098", "0.097", 1), "was changed", "put the file back"),
+        ("newer", versioned(version + 1), "in version", "update plydrape"),
+        ("older", versioned(version - 1), "in version", "run the scene again"),
+        ("foreign", "{\"format\":\"mesh\",\"version\":1}".into(), "is not a result", "give the"),
+        ("text", "step,t (s)\n".into(), "it is not JSON", "give the"),
+    ];
+    for (name, content, reason, remedy) in cases {
+        assert_ne!(content, sound, "{name}");
+        let folder = home.path().join(name);
+        std::fs::create_dir(&folder).unwrap();
+        let file = folder.join("result.json");
+        std::fs::write(&file, content).unwrap();
+        for arguments in [&["export", "--to", "vtk"][..], &["report"]] {
+            let output = plydrape(arguments, &file);
+            let said = words(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{name}: {said}");
+            assert!(said.contains(reason) && said.contains(remedy), "{name}: {said}");
+            assert!(output.stdout.is_empty());
+            assert_eq!(files(&folder), ["result.json"], "{name}");
+        }
+    }
+    let output = plydrape(&["report"], &home.path().join("none.json"));
+    assert_eq!(output.status.code(), Some(2));
+    assert!(words(&output.stderr).contains("cannot be read"));
+}
+
+/// A file of the user's is never written over, and then none of the others is written either.
+#[test]
+fn a_file_in_the_way_keeps_all_others_away() {
+    let home = tempfile::tempdir().unwrap();
+    let result = result(home.path(), "02_hanging_strip");
+    let folder = result.with_file_name("csv");
+    std::fs::create_dir(&folder).unwrap();
+    std::fs::write(folder.join("trajectory.csv"), "mine").unwrap();
+    let output = plydrape(&["export", "--to", "csv"], &result);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(words(&output.stderr).contains("trajectory.csv was not written by plydrape"));
+    assert_eq!(files(&folder), ["trajectory.csv"]);
+    assert_eq!(std::fs::read_to_string(folder.join("trajectory.csv")).unwrap(), "mine");
+}

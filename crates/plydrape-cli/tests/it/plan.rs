@@ -1,0 +1,322 @@
+//! `plydrape plan` as a user calls it: what it takes, what it refuses, what it prints and writes.
+
+use crate::common::{command, files, text, words};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// Four grippers over a flat mold, and a short search.
+const SCENE: &str = "\
+[ply]
+grippers = [2, 2]
+cell = [\"100 mm\", \"100 mm\"]
+material = \"krogh2018\"
+
+[mold]
+kind = \"plane\"
+
+[grippers]
+spacing = [\"98 mm\", \"98 mm\"]
+height = \"75 mm\"
+
+[target]
+origin = [\"0 mm\", \"0 mm\"]
+
+[plan]
+steps = 12
+evaluations = 2
+";
+
+const FILES: [&str; 7] = [
+    "figure.svg",
+    "motion.csv",
+    "plan.json",
+    "report.html",
+    "result.json",
+    "steps.csv",
+    "trajectory.csv",
+];
+
+/// A scene in a folder of its own.
+fn scene(folder: &Path, text: &str) -> PathBuf {
+    let scene = folder.join("flat.toml");
+    std::fs::write(&scene, text).unwrap();
+    scene
+}
+
+fn plan(scene: &Path, flags: &[&str]) -> Output {
+    command().arg("plan").arg(scene).args(flags).output().unwrap()
+}
+
+#[test]
+fn all_files_go_beside_the_scene_or_to_the_folder_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), SCENE);
+    let output = plan(&scene, &[]);
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+    assert_eq!(files(&folder.path().join("flat.plan")), FILES);
+    let shown = text(&output.stdout);
+    assert_eq!(shown.matches("wrote ").count(), FILES.len(), "{shown}");
+
+    let asked = folder.path().join("a/b");
+    let output = plan(&scene, &["--quiet", "-o", asked.to_str().unwrap()]);
+    assert!(output.stdout.is_empty() && output.stderr.is_empty());
+    assert_eq!(files(&asked), FILES);
+}
+
+/// The exit code is that of the verdict, in words and in JSON.
+#[test]
+fn exit_code_is_the_verdict() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), SCENE);
+    let output = plan(&scene, &[]);
+    let shown = text(&output.stdout);
+    let code = output.status.code();
+    let accepted = shown.contains("\naccepted\n");
+    assert_ne!(accepted, shown.contains("\nnot accepted: "), "{shown}");
+    assert_eq!(accepted, shown.contains("\nclosest to its limit: "), "{shown}");
+    assert_eq!(code, Some(if accepted { 0 } else { 1 }));
+    let output = plan(&scene, &["--json"]);
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((output.status.code(), printed["accepted"].as_bool()), (code, Some(accepted)));
+}
+
+/// What `simulate --json` prints of the finished plan, and what is known of the plan alone.
+#[test]
+fn json_is_one_object_with_the_drape_and_the_plan() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = plan(&scene(folder.path(), SCENE), &["--json", "--method", "stepwise"]);
+    assert!(output.stderr.is_empty());
+    let shown = text(&output.stdout);
+    assert_eq!(shown.matches('\n').count(), 1, "{shown}");
+    let printed: Value = serde_json::from_str(&shown).unwrap();
+    assert_eq!(printed["method"], "stepwise");
+    for key in ["accepted", "steps", "first_contact_step", "worst", "final", "mean_equilibrium_us"]
+    {
+        assert!(printed.get(key).is_some(), "{key} in {shown}");
+    }
+    assert!(printed["plan_time_s"].as_f64().unwrap() > 0.0);
+    assert!(printed["evaluations"].as_u64().unwrap() >= 1);
+    for key in ["duration_s", "max_speed", "max_acceleration", "max_jerk"] {
+        assert!(printed["motion"][key].as_f64().unwrap() > 0.0, "{key} in {shown}");
+    }
+    let limits = printed["limits"].as_array().unwrap();
+    for limit in limits {
+        assert!(limit["name"].is_string() && limit["where"].is_string(), "{limit}");
+        assert!(limit["value"].is_number() && limit["limit"].is_number(), "{limit}");
+        assert!(limit["ok"].is_boolean(), "{limit}");
+    }
+    let names: Vec<_> = limits.iter().filter_map(|limit| limit["name"].as_str()).collect();
+    assert!(names.contains(&"gripper_distance"), "{names:?}");
+}
+
+/// A workspace below the start: named before the table of steps, in the limits, and nothing is kept back.
+#[test]
+fn what_no_plan_can_keep_is_said_first_and_the_plan_is_written_all_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let limits = "\n[limits]\nworkspace = [[-1, 1], [-1, 1], [-1, \"60 mm\"]]\n";
+    let scene = scene(folder.path(), &format!("{SCENE}{limits}"));
+    let output = plan(&scene, &[]);
+    assert_eq!(output.status.code(), Some(1));
+    let shown = text(&output.stdout);
+    let first =
+        "no plan can keep these limits:\n  workspace 15 mm against 0 mm in step 1, gripper [0,0]";
+    let place = shown.find(first).unwrap_or_else(|| panic!("{shown}"));
+    assert!(place < shown.find("\nstep ").unwrap(), "{shown}");
+    assert!(shown.contains("\nnot accepted: workspace 15 mm"), "{shown}");
+    assert_eq!(files(&folder.path().join("flat.plan")), FILES);
+
+    let printed: Value = serde_json::from_slice(&plan(&scene, &["--json"]).stdout).unwrap();
+    assert_eq!(printed["accepted"], false);
+    let limits = printed["limits"].as_array().unwrap();
+    // what was known before stands first; the drape finds it too
+    assert_eq!(limits[0]["where"], "gripper [0,0] at the start", "{limits:?}");
+    let found: Vec<&Value> = limits.iter().filter(|limit| limit["name"] == "workspace").collect();
+    assert!(found.len() == 2 && found[1]["where"] == "gripper [0,0]", "{limits:?}");
+}
+
+/// Limits that no plan can keep, from plane geometry: which, by how much and where, before anything is searched;
+/// exit 1, and the best plan is there. A target sheared by 20°; one whose far corner is 500 + 100 mm off; 75 mm down
+/// in eleven moves of 1 mm.
+#[test]
+fn impossible_limits_are_named_with_amount_and_place_and_exit_with_one() {
+    let sheared = SCENE.replace("[target]", "[target]\nshear = \"20 deg\"");
+    let far = SCENE.replace("[target]\norigin = [\"0 mm\"", "[target]\norigin = [\"500 mm\"");
+    let slow = SCENE.replace("steps = 12", "steps = 12\nmove_limit = \"1 mm\"");
+    let shear = "\n[limits]\nshear = \"15 deg\"\n";
+    let workspace = "\n[limits]\nworkspace = [[-1, \"300 mm\"], [-1, 1], [-1, 1]]\n";
+    for (text, said, place) in [
+        (sheared + shear, "shear 20° against 15°", "net cell ["),
+        (far + workspace, "workspace 300 mm against 0 mm", "] at the target"),
+        (slow, "move limit 75.", "gripper [1,1] in 11 moves"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let output = plan(&scene(folder.path(), &text), &[]);
+        let shown = text_of_obstacles(&output);
+        assert_eq!(output.status.code(), Some(1), "{shown}");
+        assert!(shown.contains(said) && shown.contains(place), "{said}, {place}: {shown}");
+        assert!(words(&output.stdout).contains("not accepted: "));
+        assert_eq!(files(&folder.path().join("flat.plan")), FILES);
+    }
+}
+
+/// What is printed above the plan.
+fn text_of_obstacles(output: &Output) -> String {
+    let shown = text(&output.stdout);
+    let end = shown.find("path plan after").unwrap_or_else(|| panic!("{shown}"));
+    let start = shown.find("no plan can keep these limits:").unwrap_or_else(|| panic!("{shown}"));
+    shown[start..end].to_owned()
+}
+
+/// Grippers 101 mm apart with 100 mm of fabric between them: no start, so no scene.
+#[test]
+fn an_overstretched_start_is_refused_with_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene =
+        scene(folder.path(), &SCENE.replace("[\"98 mm\", \"98 mm\"]", "[\"101 mm\", \"98 mm\"]"));
+    let output = plan(&scene, &[]);
+    let message = words(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(message.contains("101") && message.contains("100"), "{message}");
+    assert!(!folder.path().join("flat.plan").exists());
+}
+
+#[test]
+fn a_scene_without_mold_or_target_is_refused_with_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let without = |table: &str| {
+        let tables = SCENE.split("\n\n").filter(|text| !text.starts_with(table));
+        tables.collect::<Vec<_>>().join("\n\n")
+    };
+    let bare = without("[target]");
+    let hanging = bare.replace("[mold]\nkind = \"plane\"\n\n", "");
+    for (text, fault, remedy) in
+        [(bare, "has no [target]", "add [target]"), (hanging, "has no [mold]", "add [mold]")]
+    {
+        let scene = scene(folder.path(), &text);
+        let output = plan(&scene, &[]);
+        let message = words(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(fault) && message.contains(remedy), "{message}");
+        assert!(output.stdout.is_empty());
+        assert!(!folder.path().join("flat.plan").exists());
+    }
+}
+
+#[test]
+fn a_broken_scene_exits_with_two_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    for (from, to) in [("steps = 12", "steps = 1"), ("evaluations", "evaluation")] {
+        let scene = scene(folder.path(), &SCENE.replace(from, to));
+        let output = plan(&scene, &["--json"]);
+        let message = words(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains("flat.toml:") && message.contains("help:"), "{message}");
+        assert!(output.stdout.is_empty());
+        assert!(!folder.path().join("flat.plan").exists());
+    }
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), SCENE);
+    for flags in [
+        ["--method", "best"],
+        ["--seed", "-1"],
+        ["--seed", "18446744073709551616"],
+        ["--threads", "0"],
+        ["--threads", "all"],
+    ] {
+        let output = plan(&scene, &flags);
+        assert_eq!(output.status.code(), Some(2), "{flags:?}");
+        assert!(!output.stderr.is_empty() && output.stdout.is_empty(), "{flags:?}");
+    }
+    assert!(!folder.path().join("flat.plan").exists());
+}
+
+#[test]
+fn help_names_every_option_and_every_file() {
+    let help = text(&plan(Path::new("--help"), &[]).stdout);
+    for option in ["--output", "--json", "--method", "--seed", "--threads", "--continue", "--quiet"]
+    {
+        assert!(help.contains(option), "{option} in {help}");
+    }
+    for file in FILES {
+        assert!(help.contains(file), "{file} in {help}");
+    }
+    assert!(help.contains("path") && help.contains("stepwise"), "{help}");
+}
+
+/// Back into its own folder; a folder without a plan, or with another's plan.json, is refused.
+#[test]
+fn a_search_goes_on_from_the_folder_of_an_earlier_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), SCENE);
+    let earlier = folder.path().join("flat.plan");
+    let go_on = |from: &Path| plan(&scene, &["--quiet", "--continue", from.to_str().unwrap()]);
+
+    let output = go_on(&earlier);
+    assert_eq!(output.status.code(), Some(2));
+    let message = words(&output.stderr);
+    assert!(message.contains("there is no plan to go on from"), "{message}");
+    assert!(!earlier.exists());
+
+    let first = plan(&scene, &["--quiet"]).status.code();
+    let output = go_on(&earlier);
+    assert_eq!(output.status.code(), first, "{}", text(&output.stderr));
+    assert_eq!(files(&earlier), FILES);
+
+    let other = folder.path().join("other");
+    std::fs::create_dir(&other).unwrap();
+    std::fs::write(other.join("plan.json"), "{\"mine\": 1}").unwrap();
+    let output = go_on(&other);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(words(&output.stderr).contains("plan anew, without --continue"));
+}
+
+/// Same scene and seed, same bytes, whatever the threads.
+#[test]
+fn the_plan_does_not_depend_on_the_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), SCENE);
+    let [one, two] = ["1", "2"].map(|threads| {
+        let out = folder.path().join(threads);
+        plan(
+            &scene,
+            &["--quiet", "--seed", "3", "--threads", threads, "-o", out.to_str().unwrap()],
+        );
+        out
+    });
+    for name in FILES {
+        let read = |out: &Path| std::fs::read(out.join(name)).unwrap();
+        assert!(read(&one) == read(&two), "{name} differs");
+    }
+}
+
+/// A long search, that no plan can end early by being accepted: the best so far, in files that are whole.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_complete_files_of_the_best_plan() {
+    let folder = tempfile::tempdir().unwrap();
+    let limits = "\n[limits]\nworkspace = [[-1, 1], [-1, 1], [-1, \"60 mm\"]]\n";
+    let long = SCENE.replace("evaluations = 2", "evaluations = 1000000");
+    let scene = scene(folder.path(), &format!("{long}{limits}"));
+    let mut command = command();
+    command.arg("plan").arg(&scene).arg("--json");
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
+
+    let out = folder.path().join("flat.plan");
+    assert_eq!(files(&out), FILES);
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!((1..1_000_000).contains(&printed["evaluations"].as_u64().unwrap()), "{printed}");
+    let result: Value =
+        serde_json::from_slice(&std::fs::read(out.join("result.json")).unwrap()).unwrap();
+    assert_eq!(result["summary"]["limits"], printed["limits"]);
+    assert_eq!(result["summary"]["steps"], result["summary"]["steps_planned"]);
+}

@@ -1,0 +1,69 @@
+//! `plydrape study` hands over to Python; here a script stands in for it.
+#![cfg(unix)]
+
+use crate::common::{command, text, words};
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+/// A program that stands in for Python.
+fn python(folder: &Path, script: &str) -> PathBuf {
+    let path = folder.join("python");
+    fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    path
+}
+
+fn study(python: &Path, arguments: &[&str]) -> Output {
+    command().arg("study").args(arguments).env("PLYDRAPE_PYTHON", python).output().unwrap()
+}
+
+#[test]
+fn a_missing_package_is_one_message_with_the_remedy() {
+    let home = tempfile::tempdir().unwrap();
+    let output = study(&python(home.path(), "exit 97"), &["study.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = words(&output.stderr);
+    for word in ["has no package plydrape", "pip install 'plydrape[study]'", "PLYDRAPE_PYTHON"] {
+        assert!(said.contains(word), "{said}");
+    }
+    assert!(output.stdout.is_empty());
+}
+
+#[test]
+fn a_missing_python_is_one_message_with_the_remedy() {
+    let output = study(Path::new("/no/such/python"), &["study.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = words(&output.stderr);
+    assert!(said.contains("/no/such/python") && said.contains("install Python"), "{said}");
+}
+
+/// All options arrive, a value with a dash and a file with a space as one word each; the code comes back.
+#[test]
+fn arguments_go_over_and_the_exit_code_comes_back() {
+    let home = tempfile::tempdir().unwrap();
+    let shown = "shift 2; for word in \"$@\"; do echo \"<$word>\"; done; exit 130";
+    let python = python(home.path(), shown);
+    let given =
+        ["my study.toml", "--quiet", "--workers", "3", "-o=-out", "--scheduler", "tcp://a:1"];
+    let output = study(&python, &given);
+    assert_eq!(output.status.code(), Some(130));
+    let wanted = "<--output=-out>\n<--scheduler=tcp://a:1>\n<--workers=3>\n<--quiet>\n<-->\n<my study.toml>\n";
+    assert_eq!(text(&output.stdout), wanted);
+}
+
+/// A signal ends Python: no code of its own, so it counts as interrupted.
+#[test]
+fn a_killed_python_is_an_interruption() {
+    let home = tempfile::tempdir().unwrap();
+    let output = study(&python(home.path(), "kill -9 $$"), &["study.toml"]);
+    assert_eq!(output.status.code(), Some(130));
+}
+
+#[test]
+fn no_workers_are_refused_before_python_starts() {
+    let output = study(Path::new("/no/such/python"), &["study.toml", "--workers", "0"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(!text(&output.stderr).contains("/no/such/python"));
+}

@@ -1,0 +1,154 @@
+//! How long a user waits: one span, one equilibrium cold and warm, large arrays, the whole example.
+//!
+//! `benches/run` prints these beside a SciPy solver of the same problem; `benches/README.md` is its
+//! table.
+
+use divan::{Bencher, black_box};
+use plydrape::catenary::{EndCondition, Profile, Span};
+use plydrape::draping::simulate;
+use plydrape::equilibrium::Solver;
+use plydrape::scene::{Scene, SlopeRule};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+fn main() {
+    divan::main();
+}
+
+/// A scene of the shipped examples.
+fn shipped(name: &str) -> Scene {
+    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
+    let path = Path::new(examples).join(name).join("scene.toml");
+    plydrape_io::scene::read(&path).expect("the example is shipped with the project").scene
+}
+
+/// The paper's example.
+fn example() -> Scene {
+    shipped("01_flat_sheared_mold")
+}
+
+/// The example's ply over a larger array, level, 98 mm apart.
+fn array(side: usize, rule: SlopeRule) -> (Solver, Vec<[f64; 3]>, usize) {
+    let mut scene = example();
+    scene.ply.grid.nu = side;
+    scene.ply.grid.nv = side;
+    scene.settings.slopes = rule;
+    let grid = scene.ply.grid;
+    let at = |n: usize| grid.id(n).map(|k| 0.098 * k as f64);
+    let positions = (0..grid.grippers()).map(|n| [at(n)[0], at(n)[1], 0.0]).collect();
+    (Solver::new(&scene.ply, &scene.settings), positions, grid.catenaries())
+}
+
+/// An edge of the example, free at the rim.
+const SPAN: Span = Span {
+    run: 0.098,
+    rise: 0.0,
+    length: 0.1,
+    ends: [EndCondition::Free, EndCondition::Slope(-0.02)],
+    weight: 0.3143 * 9.8,
+    flexural_rigidity: 9e-6,
+    axial_stiffness: 1e5,
+};
+
+/// One span's length with all first and second derivatives to H and both slopes.
+#[divan::bench]
+fn span_length_with_derivatives(bencher: Bencher) {
+    bencher.bench(|| Profile::new(black_box(&SPAN), black_box(0.4)).length_jet::<3>());
+}
+
+/// One span's length with its derivative to H.
+#[divan::bench]
+fn span_length_with_slope(bencher: Bencher) {
+    bencher.bench(|| Profile::new(black_box(&SPAN), black_box(0.4)).excess());
+}
+
+/// 4 × 2 grippers from nothing, all four shared slopes unknown.
+#[divan::bench]
+fn equilibrium_4x2_cold(bencher: Bencher) {
+    let scene = example();
+    let laid = vec![None; scene.ply.grid.catenaries()];
+    let mut solver = Solver::new(&scene.ply, &scene.settings);
+    bencher.bench_local(|| {
+        solver.forget();
+        solver.solve(black_box(&scene.motion.positions[0]), &laid)
+    });
+}
+
+/// The same place once more: what `benches/python.py` asks of Python, without Python.
+#[divan::bench]
+fn equilibrium_4x2_again(bencher: Bencher) {
+    let scene = example();
+    let laid = vec![None; scene.ply.grid.catenaries()];
+    let mut solver = Solver::new(&scene.ply, &scene.settings);
+    bencher.bench_local(|| solver.solve(black_box(&scene.motion.positions[0]), &laid));
+}
+
+/// 24 equilibria, each from the step before: the example from step 2 to step 25, the last before contact.
+#[divan::bench]
+fn equilibria_4x2_warm_24_steps(bencher: Bencher) {
+    let scene = example();
+    let laid = vec![None; scene.ply.grid.catenaries()];
+    bencher
+        .with_inputs(|| {
+            let mut solver = Solver::new(&scene.ply, &scene.settings);
+            solver.solve(&scene.motion.positions[0], &laid);
+            solver
+        })
+        .bench_local_values(|mut solver| {
+            for positions in &scene.motion.positions[1..25] {
+                solver.solve(black_box(positions), &laid);
+            }
+            solver
+        });
+}
+
+/// The hardest of them: between steps 1 and 2 the four shared slopes are unknown and move by 0.15.
+#[divan::bench]
+fn equilibrium_4x2_warm_steps_1_2(bencher: Bencher) {
+    let scene = example();
+    let laid = vec![None; scene.ply.grid.catenaries()];
+    let mut solver = Solver::new(&scene.ply, &scene.settings);
+    solver.solve(&scene.motion.positions[0], &laid);
+    let mut step = 0;
+    bencher.bench_local(|| {
+        step = 1 - step;
+        solver.solve(black_box(&scene.motion.positions[step]), &laid)
+    });
+}
+
+/// Square arrays from nothing: time against the number of cells.
+#[divan::bench(args = [25, 50, 100, 200], sample_count = 5, sample_size = 1)]
+fn array_min_force_cold(bencher: Bencher, side: usize) {
+    let (mut solver, positions, catenaries) = array(side, SlopeRule::MinForce);
+    let laid = vec![None; catenaries];
+    bencher.bench_local(|| {
+        solver.forget();
+        solver.solve(black_box(&positions), &laid)
+    });
+}
+
+/// The same with the moments balanced.
+#[divan::bench(args = [25, 50, 100, 200], sample_count = 5, sample_size = 1)]
+fn array_moment_balance_cold(bencher: Bencher, side: usize) {
+    let (mut solver, positions, catenaries) = array(side, SlopeRule::MomentBalance);
+    let laid = vec![None; catenaries];
+    bencher.bench_local(|| {
+        solver.forget();
+        solver.solve(black_box(&positions), &laid)
+    });
+}
+
+/// The paper's example, 30 steps with contact and all measures, without writing files.
+#[divan::bench]
+fn example_30_steps(bencher: Bencher) {
+    let scene = example();
+    bencher.bench(|| simulate(black_box(&scene), |_| ControlFlow::Continue(())));
+}
+
+/// 4 × 4 grippers over curved molds, 30 steps cut where they dip, without writing files: a sphere in closed
+/// form, a formula, and a mesh of 3 872 triangles.
+#[divan::bench(args = ["04_dome", "07_cubic", "08_stl_mold"], sample_count = 5, sample_size = 1)]
+fn curved_example(bencher: Bencher, name: &str) {
+    let scene = shipped(name);
+    bencher.bench_local(|| simulate(black_box(&scene), |_| ControlFlow::Continue(())));
+}

@@ -1,0 +1,199 @@
+//! The tables `steps.csv`, `trajectory.csv` and `motion.csv`, units in their headers.
+//!
+//! Numbers are in the shortest form that reads back to the same double. A measure without a meaning in
+//! a step leaves its cells empty.
+
+use super::OutputError;
+use crate::result::ResultFile;
+use ::csv::{Error, Writer};
+use plydrape::draping::record::Step;
+use plydrape::measure::{Name, Scope};
+use plydrape::motion::{Attitudes, MotionError, TimedMotion};
+use plydrape::ply::{Grid, GripperId};
+
+/// One row a step: time (s), every measure and where it is, share in contact, how the solver ended.
+///
+/// # Errors
+/// If the table cannot be formed; memory apart there is no known case.
+pub fn steps(result: &ResultFile) -> Result<String, Error> {
+    let mut table = Writer::from_writer(Vec::new());
+    let mut header = vec!["step", "t (s)"];
+    let columns = measured().map(|m| [header_of(m), format!("{} at", m.measure().label())]);
+    let columns: Vec<String> = columns.flatten().collect();
+    header.extend(columns.iter().map(String::as_str));
+    header.extend(["solver status", "iterations", "residual", "equilibria", "contact status"]);
+    table.write_record(&header)?;
+    for step in &result.steps {
+        table.write_record(step_row(step))?;
+    }
+    text(table)
+}
+
+fn step_row(step: &Step) -> Vec<String> {
+    let mut row = vec![step.step.to_string(), number(step.time)];
+    for name in measured() {
+        let worst = step.measures.get(name);
+        row.push(worst.map(|w| number(w.value)).unwrap_or_default());
+        row.push(worst.map(|w| w.at.clone()).unwrap_or_default());
+    }
+    row.push(step.solver.status.name().to_owned());
+    row.push(step.solver.iterations.to_string());
+    row.push(number(step.solver.residual));
+    row.push(step.solver.equilibria.to_string());
+    row.push(step.solver.contact.name().to_owned());
+    row
+}
+
+/// The measures that a step may have.
+fn measured() -> impl Iterator<Item = Name> {
+    Name::ALL.iter().copied().filter(|name| name.measure().scope() != Scope::Whole)
+}
+
+/// The column of a measure, its unit in brackets.
+fn header_of(name: Name) -> String {
+    let measure = name.measure();
+    format!("{} ({})", measure.label(), measure.unit().recorded)
+}
+
+/// One row a gripper and step: time (s), gripper `i-j`, position (m), orientation (x, y, z, w).
+///
+/// # Errors
+/// If the table cannot be formed; memory apart there is no known case.
+pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
+    let mut table = Writer::from_writer(Vec::new());
+    table.write_record(POSE)?;
+    for step in &result.steps {
+        for gripper in &step.grippers {
+            table.write_record(pose(
+                step.time,
+                gripper.id,
+                gripper.position,
+                gripper.quaternion,
+            ))?;
+        }
+    }
+    text(table)
+}
+
+/// The table of [`motion`] for a plan at its rate; none of a simulated drape.
+///
+/// # Errors
+/// As [`motion`], if plan and steps do not belong together.
+pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError> {
+    match (&result.plan, result.motion()?) {
+        (Some(plan), Some((timed, attitudes))) => {
+            motion(&timed, &attitudes, result.scene.grid, plan.rate).map(Some)
+        }
+        _ => Ok(None),
+    }
+}
+
+/// The table of [`trajectory`] for a timed motion, sampled at a rate (Hz), the last sample at its end.
+///
+/// A scene can follow it: `[motion]`, `kind = "file"`.
+///
+/// # Errors
+/// [`OutputError::Motion`] if motion, attitudes and grid differ in grippers, or the rate gives no or too
+/// many samples.
+pub fn motion(
+    motion: &TimedMotion,
+    attitudes: &Attitudes,
+    grid: Grid,
+    rate: f64,
+) -> Result<String, OutputError> {
+    for found in [motion.grippers(), attitudes.grippers()] {
+        if found != grid.grippers() {
+            return Err(MotionError::Grippers { found, expected: grid.grippers() }.into());
+        }
+    }
+    let mut table = Writer::from_writer(Vec::new());
+    table.write_record(POSE)?;
+    for time in motion.samples(rate)? {
+        let poses = motion.at(time).into_iter().zip(attitudes.at(time));
+        for (gripper, (position, quaternion)) in poses.enumerate() {
+            table.write_record(pose(time, grid.id(gripper), position, quaternion))?;
+        }
+    }
+    Ok(text(table)?)
+}
+
+/// The columns of a gripper's pose at a time.
+const POSE: [&str; 9] = ["t (s)", "gripper", "x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"];
+
+fn pose(time: f64, [i, j]: GripperId, position: [f64; 3], quaternion: [f64; 4]) -> Vec<String> {
+    let mut row = vec![number(time), format!("{i}-{j}")];
+    row.extend(position.map(number));
+    row.extend(quaternion.map(number));
+    row
+}
+
+/// The shortest decimal that reads back to the same double.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+pub(super) fn text(table: Writer<Vec<u8>>) -> Result<String, Error> {
+    let bytes = table.into_inner().map_err(|e| e.into_error())?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+    use plydrape::draping::record::Worst;
+
+    fn rows(text: &str) -> Vec<Vec<String>> {
+        let mut reader = ::csv::Reader::from_reader(text.as_bytes());
+        reader.records().map(|r| r.unwrap().iter().map(str::to_owned).collect()).collect()
+    }
+
+    /// The header is what robot programs are told to expect.
+    #[test]
+    fn trajectory_has_exactly_the_promised_columns() {
+        let text = trajectory(&sample::draped(4, 2, 3)).unwrap();
+        assert_eq!(text.lines().next(), Some("t (s),gripper,x (m),y (m),z (m),qx,qy,qz,qw"));
+    }
+
+    /// Time, position and orientation read back to the same bits, step by step, gripper by gripper.
+    #[test]
+    fn trajectory_reads_back_to_the_same_numbers() {
+        let mut result = sample::draped(4, 2, 3);
+        result.steps[1].grippers[0].position = [1.0 / 3.0, 1e-300, -0.0];
+        let rows = rows(&trajectory(&result).unwrap());
+        let mut rows = rows.iter();
+        for step in &result.steps {
+            for gripper in &step.grippers {
+                let row = rows.next().unwrap();
+                assert_eq!(row[1], format!("{}-{}", gripper.id[0], gripper.id[1]));
+                let written: Vec<f64> =
+                    [0, 2, 3, 4, 5, 6, 7, 8].map(|k| row[k].parse().unwrap()).to_vec();
+                let mut expected = vec![step.time];
+                expected.extend(gripper.position);
+                expected.extend(gripper.quaternion);
+                let bits = |list: &[f64]| list.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(&written), bits(&expected));
+            }
+        }
+        assert!(rows.next().is_none());
+    }
+
+    /// A place is words and may hold commas; an unknown measure is an empty cell.
+    #[test]
+    fn steps_hold_places_with_commas_and_empty_cells() {
+        let mut result = sample::draped(4, 2, 3);
+        let at = "edge [0, 0]–[1, 0], second span";
+        let worst = Worst { value: 1.25, at: at.into(), place: Some([0.0; 3]) };
+        result.steps[0].measures.set(Name::Slack, Some(worst));
+        result.steps[0].measures.set(Name::Bridging, None);
+        let text = steps(&result).unwrap();
+        let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+        let column = |name| header.iter().position(|h| *h == name).unwrap();
+        let rows = rows(&text);
+        assert_eq!(rows.len(), 3);
+        assert_eq!(rows[0][column("slack (mm)")], "1.25");
+        assert_eq!(rows[0][column("slack at")], at);
+        assert_eq!(rows[0][column("bridging (mm)")], "");
+        assert_eq!(rows[2][column("solver status")], "converged");
+    }
+}

@@ -1,0 +1,86 @@
+//! Why results could not be written, and what to do about it.
+
+use super::figure::FigureError;
+use super::inp::InpError;
+use super::json::JsonError;
+use super::ros2::Ros2Error;
+use plydrape::motion::MotionError;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+/// Why results could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// A file is in the way that plydrape did not write, or that was changed since.
+    #[error(
+        "{} was not written by plydrape or was changed since, so it stays: choose another folder with -o, or move that file away",
+        path.display()
+    )]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The output path is, or runs through, a file.
+    #[error("{} is not a folder: choose another one with -o", path.display())]
+    NotAFolder {
+        /// The path as given.
+        path: PathBuf,
+    },
+    /// The file system refused.
+    #[error("cannot {what} {}: {source}; {remedy}", path.display())]
+    Io {
+        /// What was tried.
+        what: &'static str,
+        /// On which path.
+        path: PathBuf,
+        /// What would help.
+        remedy: &'static str,
+        /// The file system's answer.
+        source: io::Error,
+    },
+    /// Writing failed in the middle and the earlier files could not be moved back.
+    #[error(
+        "{cause}; some earlier files of {} could not be put back: they are in {} under names beginning with old-",
+        path.display(), kept.display()
+    )]
+    Torn {
+        /// The output folder.
+        path: PathBuf,
+        /// The folder that keeps the earlier files.
+        kept: PathBuf,
+        /// What failed first.
+        cause: Box<OutputError>,
+    },
+    /// The result has no JSON text.
+    #[error(transparent)]
+    Json(#[from] JsonError),
+    /// A table could not be formed.
+    #[error("cannot form a table: {0}")]
+    Csv(#[from] csv::Error),
+    /// A motion cannot be sampled as asked for.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The result has no ROS 2 messages.
+    #[error(transparent)]
+    Ros2(#[from] Ros2Error),
+    /// The figure could not be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+    /// The result cannot be an input deck.
+    #[error(transparent)]
+    Inp(#[from] InpError),
+}
+
+impl OutputError {
+    /// The file system's answer, with the remedy that fits it.
+    pub(super) fn io(what: &'static str, path: &Path, source: io::Error) -> Self {
+        let remedy = match source.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+                "make room on the disk, or choose a folder on another one with -o"
+            }
+            ErrorKind::InvalidFilename => "choose a shorter path with -o",
+            _ => "choose a folder that you may write to with -o",
+        };
+        OutputError::Io { what, path: path.into(), remedy, source }
+    }
+}

@@ -1,0 +1,198 @@
+//! The paper's figure as one SVG: chosen steps in 3D, one above the other, in one frame and one scale.
+//!
+//! After Krogh et al. 2018, the figure of the numerical example: catenaries are red lines, a surface
+//! inside each cell is coloured by z, grippers are black discs tilted with the ply, contact is marked by
+//! red circles. Horizontal lengths have equal scale, z too unless its label says by how much it is
+//! exaggerated. A curved mold is drawn as a shaded surface, never exaggerated, and the ply over it is
+//! coloured by its gap to the mold. Same result, same bytes.
+
+mod axes;
+mod bar;
+mod canvas;
+mod colour;
+mod layout;
+mod panel;
+mod piece;
+mod projection;
+mod relief;
+mod scale;
+pub mod shear_map;
+mod shorten;
+
+pub(super) use colour::viridis_rgb;
+pub(super) use panel::{colour_value, gripper_radius};
+
+use crate::result::ResultFile;
+use plydrape::draping::record::Step;
+
+/// The most steps that one figure shows.
+pub const MOST_PANELS: usize = 3;
+
+/// Why a figure could not be drawn.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum FigureError {
+    /// No step is asked for, or the result has none.
+    #[error("a figure needs at least one step")]
+    NoStep,
+    /// More steps than fit.
+    #[error("{asked} steps are too many for one figure; choose up to {MOST_PANELS}")]
+    TooManySteps {
+        /// How many were asked for.
+        asked: usize,
+    },
+    /// A step that the result does not have.
+    #[error("the result has no step {step}; its steps are {first} to {last}")]
+    NoSuchStep {
+        /// The step asked for.
+        step: usize,
+        /// The result's first step.
+        first: usize,
+        /// The result's last step.
+        last: usize,
+    },
+    /// A step does not have one gripper for each place of the grid, or a grid too small to draw.
+    #[error("step {step} has {found} grippers, its grid of {nu} × {nv} needs {}", nu * nv)]
+    Grippers {
+        /// The step.
+        step: usize,
+        /// Its grippers.
+        found: usize,
+        /// Grippers of the grid along u.
+        nu: usize,
+        /// Grippers of the grid along v.
+        nv: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("step {step} has a coordinate that is not a finite number")]
+    NotFinite {
+        /// The step.
+        step: usize,
+    },
+    /// A net without a node on the mold.
+    #[error("the net has no node on the mold, so there is nothing to draw")]
+    NoNode,
+    /// The SVG writer failed.
+    #[error("the figure could not be drawn: {0}")]
+    Drawing(String),
+}
+
+/// The steps that tell most: the first, the first with contact, the last; each once.
+#[must_use]
+pub fn default_steps(result: &ResultFile) -> Vec<usize> {
+    let first = result.steps.first().map(|s| s.step);
+    let last = result.steps.last().map(|s| s.step);
+    let mut steps: Vec<usize> =
+        [first, result.summary.first_contact_step, last].into_iter().flatten().collect();
+    steps.dedup();
+    steps
+}
+
+/// The figure of up to three steps, given by their numbers (from 1), as an SVG 900 points wide.
+///
+/// # Errors
+/// [`FigureError`] if a step is missing or its coordinates are not finite.
+pub fn svg(result: &ResultFile, steps: &[usize]) -> Result<String, FigureError> {
+    if steps.len() > MOST_PANELS {
+        return Err(FigureError::TooManySteps { asked: steps.len() });
+    }
+    let (Some(first), Some(last)) = (result.steps.first(), result.steps.last()) else {
+        return Err(FigureError::NoStep);
+    };
+    let find = |step: &usize| {
+        let found = result.steps.iter().find(|s| s.step == *step);
+        found.ok_or(FigureError::NoSuchStep { step: *step, first: first.step, last: last.step })
+    };
+    let shown: Vec<&Step> = steps.iter().map(find).collect::<Result<_, _>>()?;
+    let grid = result.scene.grid;
+    for step in &shown {
+        let found = step.grippers.len();
+        if found != grid.grippers() || grid.nu < 2 || grid.nv < 1 {
+            let (step, nu, nv) = (step.step, grid.nu, grid.nv);
+            return Err(FigureError::Grippers { step, found, nu, nv });
+        }
+        if !points(step).all(|p| p.iter().all(|c| c.is_finite() && c.abs() < 1e6)) {
+            return Err(FigureError::NotFinite { step: step.step });
+        }
+    }
+    match shown.is_empty() {
+        true => Err(FigureError::NoStep),
+        false => layout::sheet(result, &shown),
+    }
+}
+
+/// Every point of a step that the figure draws (m).
+fn points(step: &Step) -> impl Iterator<Item = [f64; 3]> {
+    let spans = step.catenaries.iter().flat_map(|c| &c.spans);
+    let contact = step.catenaries.iter().filter_map(|c| c.contact.as_ref());
+    let grippers = step.grippers.iter().map(|g| g.position);
+    grippers
+        .chain(spans.flat_map(|s| s.points.iter().copied()))
+        .chain(contact.flat_map(|c| c.points.iter().copied()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+
+    /// First, first contact, last; a single step only once.
+    #[test]
+    fn default_steps_are_first_contact_and_last() {
+        let result = sample::draped(4, 2, 30);
+        let contact = result.summary.first_contact_step.unwrap();
+        assert_eq!(default_steps(&result), [1, contact, 30]);
+        assert_eq!(default_steps(&sample::hanging(2, 1)), [1]);
+    }
+
+    /// Grids, strips, hanging plies and molds of every tilt give well-formed pictures of finite numbers.
+    #[test]
+    fn every_kind_of_result_has_a_picture() {
+        let mut steep = sample::draped(4, 2, 30);
+        steep.scene.mold = Some(plydrape::mold::Mold::Plane(plydrape::mold::Plane {
+            point: [0.0; 3],
+            normal: [0.999_999_999, 0.0, 4e-5],
+        }));
+        let results = [
+            sample::draped(4, 2, 30),
+            sample::draped(2, 4, 30),
+            sample::draped(8, 5, 10),
+            sample::hanging(2, 1),
+            sample::hanging(30, 30),
+            sample::tilted(8, 5),
+            sample::draped(60, 60, 2),
+            steep,
+        ];
+        for result in &results {
+            let text = svg(result, &default_steps(result)).unwrap();
+            assert!(text.len() < 8_000_000, "{} bytes", text.len());
+            assert!(text.starts_with("<svg ") && text.trim_end().ends_with("</svg>"));
+            assert!(text.contains("z (mm)") && !text.contains("NaN") && !text.contains("inf"));
+            assert_eq!(text, svg(result, &default_steps(result)).unwrap());
+        }
+    }
+
+    /// A title may hold anything.
+    #[test]
+    fn titles_are_escaped() {
+        let mut result = sample::hanging(2, 2);
+        result.scene.title = "<b>&\"\u{1}</b>".into();
+        let text = svg(&result, &[1]).unwrap();
+        assert!(text.contains("&lt;b&gt;&amp;&quot; &lt;/b&gt;"));
+    }
+
+    /// What cannot be drawn is said in numbers.
+    #[test]
+    fn steps_that_cannot_be_drawn_are_refused() {
+        let mut result = sample::draped(4, 2, 5);
+        assert_eq!(svg(&result, &[]), Err(FigureError::NoStep));
+        assert_eq!(
+            svg(&result, &[1, 9]),
+            Err(FigureError::NoSuchStep { step: 9, first: 1, last: 5 })
+        );
+        assert_eq!(svg(&result, &[1, 2, 3, 4]), Err(FigureError::TooManySteps { asked: 4 }));
+        result.steps[1].grippers[0].position[2] = f64::NAN;
+        assert_eq!(svg(&result, &[2]), Err(FigureError::NotFinite { step: 2 }));
+        result.steps[2].grippers.pop();
+        assert!(matches!(svg(&result, &[3]), Err(FigureError::Grippers { found: 7, .. })));
+    }
+}

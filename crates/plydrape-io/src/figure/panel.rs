@@ -1,0 +1,304 @@
+//! One step in 3D: ply, catenaries, grippers, contact, mold; nearer shapes are drawn over farther ones.
+
+use super::FigureError;
+use super::axes::Frame;
+use super::canvas::{Canvas, Px};
+use super::colour::{BLACK, MOLD, RED, RIM, TARGET, WEAVE, viridis};
+use super::layout::bounds;
+use super::piece::{self, Form, Piece, grown, thread};
+use super::projection::{Point, View, turned};
+use super::relief::Relief;
+use super::scale::Scale;
+use crate::result::ResultFile;
+use crate::surface;
+use plydrape::draping::record::{Gripper, Step};
+use plydrape::mold::Mold;
+
+/// Radius of a gripper as a share of the shorter side of a cell.
+const GRIPPER: f64 = 0.12;
+/// Largest radius of a contact mark (picture points).
+pub(super) const MOST_MARK: f64 = 3.6;
+/// Distance of contact marks as a share of the cell.
+const MARKS_APART: f64 = 0.125;
+
+/// How finely a step is drawn: all lines and cells together stay within what a page can hold.
+#[derive(Debug, Clone, Copy)]
+struct Detail {
+    /// Squares of a cell along each side.
+    squares: usize,
+    /// Squares between the fabric lines on the surface, if there are any.
+    weave: Option<usize>,
+    /// Pieces of a catenary.
+    pieces: usize,
+    /// Corners of a gripper's disc.
+    corners: usize,
+    /// Diagonals of very large arrays are left out.
+    diagonals: bool,
+}
+
+impl Detail {
+    /// For one of so many panels, with cells of so many picture points.
+    fn of(result: &ResultFile, panels: usize, cell: f64) -> Self {
+        let cells = result.scene.grid.cells().max(1) as f64;
+        let most = (6000.0 / cells / panels as f64).sqrt();
+        let squares = (cell / 9.0).max(4.0).min(most).clamp(1.0, 28.0) as usize;
+        Detail {
+            squares: if squares > 1 { squares / 2 * 2 } else { 1 },
+            weave: (squares >= 8).then_some(if squares < 20 { 2 } else { 4 }),
+            pieces: (3000.0 / cells).min(cell / 7.0).clamp(1.0, 24.0) as usize,
+            corners: (2000.0 / cells).clamp(8.0, 32.0) as usize,
+            diagonals: cells < 1500.0,
+        }
+    }
+}
+
+/// What all panels share.
+pub(super) struct Stage<'a> {
+    pub result: &'a ResultFile,
+    pub frame: Frame,
+    /// Panels on the sheet.
+    pub panels: usize,
+    /// What the ply's colours stand for (m).
+    pub scale: Scale,
+    /// The patch of mold that is shown.
+    pub mold: Option<Ground>,
+}
+
+/// What is shown of a mold.
+pub(super) enum Ground {
+    /// The corners of a flat one.
+    Flat([Point; 4]),
+    /// The surface of a curved one.
+    Relief(Relief),
+}
+
+impl Ground {
+    /// Lowest and highest point of what is shown (m).
+    pub(super) fn heights(&self) -> [f64; 2] {
+        match self {
+            Ground::Flat(patch) => bounds(patch).map(|p| p[2]),
+            Ground::Relief(relief) => relief.heights(),
+        }
+    }
+}
+
+/// The mold of a result, if it is curved.
+pub(super) fn curved(result: &ResultFile) -> Option<&Mold> {
+    result.scene.mold.as_ref().filter(|mold| !matches!(mold, Mold::Plane(_)))
+}
+
+/// What the ply's colour tells at a place (m): its gap to a curved mold, else its height.
+pub(crate) fn colour_value(result: &ResultFile, p: Point) -> f64 {
+    curved(result).map_or(p[2], |mold| mold.signed_distance(p).max(0.0))
+}
+
+/// Radius of a gripper's disc (m).
+pub(crate) fn gripper_radius(result: &ResultFile) -> f64 {
+    let [a, b] = result.scene.cell;
+    let side = if result.scene.grid.nv > 1 { a.min(b) } else { a };
+    GRIPPER * side
+}
+
+impl Stage<'_> {
+    /// Draws a step where `view` puts it.
+    pub(super) fn draw(
+        &self,
+        canvas: &mut Canvas,
+        view: &View,
+        step: &Step,
+    ) -> Result<(), FigureError> {
+        self.frame.back(canvas, view)?;
+        self.mold(canvas, view)?;
+        let mut pieces = Vec::new();
+        let detail = Detail::of(self.result, self.panels, self.cell_length() * view.scale());
+        self.ply(&mut pieces, view, step, detail);
+        for gripper in &step.grippers {
+            self.gripper(&mut pieces, view, gripper, detail);
+        }
+        self.contact(&mut pieces, view, step, detail);
+        if let Some(Ground::Relief(relief)) = &self.mold {
+            for line in self.outline() {
+                thread(&mut pieces, view, &line, 0.0, TARGET, 1.2);
+            }
+            relief.paint_among(canvas, view, pieces)?;
+        } else {
+            piece::paint(canvas, pieces)?;
+        }
+        self.frame.front(canvas, view)
+    }
+
+    /// The outline of where the ply should end, side by side, each on the mold.
+    fn outline(&self) -> Vec<Vec<Point>> {
+        let (Some(target), Some(mold)) = (&self.result.scene.target_grippers, curved(self.result))
+        else {
+            return Vec::new();
+        };
+        let grid = self.result.scene.grid;
+        let border = (0..grid.edges()).map(|k| grid.catenary(k)).filter(|edge| {
+            let ([i, j], [k, m]) = (edge.from, edge.to);
+            let along_u = j == m && (j == 0 || j + 1 == grid.nv);
+            let along_v = i == k && (i == 0 || i + 1 == grid.nu);
+            along_u || along_v
+        });
+        let side = |(a, b): (Point, Point)| match mold.path(a, b) {
+            Some(line) => surface::stations(&line.points, 12),
+            None => vec![a, b],
+        };
+        border
+            .filter_map(|e| {
+                target.get(grid.index(e.from)).copied().zip(target.get(grid.index(e.to)).copied())
+            })
+            .map(side)
+            .collect()
+    }
+
+    /// The patch of a flat mold, and on it the outline of where the ply should end.
+    fn mold(&self, canvas: &mut Canvas, view: &View) -> Result<(), FigureError> {
+        let Some(Ground::Flat(patch)) = self.mold else {
+            return Ok(());
+        };
+        canvas.polygon(&patch.map(|p| view.at(p)), MOLD)?;
+        if let Some(target) = &self.result.scene.target_grippers {
+            let grid = self.result.scene.grid;
+            let (nu, nv) = (grid.nu - 1, grid.nv - 1);
+            let corners = [[0, 0], [nu, 0], [nu, nv], [0, nv], [0, 0]];
+            let path: Vec<Px> = corners
+                .iter()
+                .filter_map(|id| target.get(grid.index(*id)))
+                .map(|p| view.at(*p))
+                .collect();
+            canvas.line(&path, TARGET, 1.2)?;
+        }
+        Ok(())
+    }
+
+    /// How much nearer than its place a line on the surface counts (m), so that the squares that it
+    /// borders do not cover it.
+    fn lift(&self, detail: Detail) -> f64 {
+        1.5 * self.cell_length() / detail.squares as f64
+    }
+
+    /// The longer side of a cell (m); of a strip, its length.
+    fn cell_length(&self) -> f64 {
+        let [a, b] = self.result.scene.cell;
+        if self.result.scene.grid.nv > 1 { a.max(b) } else { a }
+    }
+
+    /// How many catenaries are drawn; edges come first.
+    fn drawn(&self, detail: Detail) -> usize {
+        let grid = self.result.scene.grid;
+        match detail.diagonals {
+            true => grid.catenaries(),
+            false => grid.edges(),
+        }
+    }
+
+    /// Surface and catenaries.
+    fn ply(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step, detail: Detail) {
+        let grid = self.result.scene.grid;
+        let n = detail.squares;
+        let lift = self.lift(detail);
+        let edges = surface::lines(grid, step, n);
+        for k in 0..grid.cells() {
+            let id = [k % (grid.nu - 1), k / (grid.nu - 1)];
+            let points = surface::cell(grid, &edges, id, n);
+            for row in 0..n {
+                for column in 0..n {
+                    let at = row * (n + 1) + column;
+                    let square = [at, at + 1, at + n + 2, at + n + 1].map(|i| points[i]);
+                    pieces.push(self.square(view, square));
+                }
+            }
+            // Fabric lines: they show shear and wrinkles where colour hardly changes.
+            let weave = detail.weave.map(|apart| (apart..n).step_by(apart));
+            for m in weave.into_iter().flatten() {
+                let each = (0..=n).step_by(2);
+                let along: Vec<Point> = each.clone().map(|k| points[m * (n + 1) + k]).collect();
+                let across: Vec<Point> = each.map(|k| points[k * (n + 1) + m]).collect();
+                for line in [along, across] {
+                    thread(pieces, view, &line, lift / 2.0, WEAVE, 0.7);
+                }
+            }
+        }
+
+        let lines = surface::lines(grid, step, detail.pieces);
+        let count = self.drawn(detail);
+        // Finer lines leave colour to be seen in small cells.
+        let finer = (self.cell_length() * view.scale() / 70.0).clamp(0.4, 1.0);
+        for (k, line) in lines.iter().take(count).enumerate() {
+            let width = if k < grid.edges() { 1.7 } else { 1.1 };
+            thread(pieces, view, line, lift, RED, width * finer);
+        }
+    }
+
+    /// A piece of surface in the colour of its middle, grown by a hair so that no seam shows.
+    fn square(&self, view: &View, corners: [Point; 4]) -> Piece {
+        let mean = |of: &dyn Fn(Point) -> f64| corners.iter().map(|p| of(*p)).sum::<f64>() / 4.0;
+        let place = [0, 1, 2].map(|c| mean(&|p| p[c]));
+        Piece {
+            depth: mean(&|p| view.depth(p)),
+            place,
+            points: grown(&corners.map(|p| view.at(p))),
+            ink: viridis(self.scale.share(colour_value(self.result, place))),
+            form: Form::Area,
+        }
+    }
+
+    /// A disc tilted with the ply, with a thin light rim.
+    fn gripper(&self, pieces: &mut Vec<Piece>, view: &View, gripper: &Gripper, detail: Detail) {
+        let radius = gripper_radius(self.result);
+        let corners = detail.corners;
+        let rim_width = (0.1 * radius * view.scale()).min(0.9);
+        let edge = |k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / corners as f64;
+            let arm = turned(gripper.quaternion, [radius * angle.cos(), radius * angle.sin(), 0.0]);
+            view.at([0, 1, 2].map(|c| gripper.position[c] + arm[c]))
+        };
+        let points: Vec<Px> = (0..corners).map(edge).collect();
+        let depth = view.depth(gripper.position) + self.lift(detail) + 2.0 * radius;
+        let mut rim = points.clone();
+        rim.push(points[0]);
+        let place = gripper.position;
+        let piece = |points, ink, form| Piece { depth, place, points, ink, form };
+        pieces.push(piece(points, BLACK, Form::Area));
+        if rim_width > 0.2 {
+            pieces.push(piece(rim, RIM, Form::Line(rim_width)));
+        }
+    }
+
+    /// Contact: a stronger line along each segment, and open circles from end to end.
+    fn contact(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step, detail: Detail) {
+        // Below the grippers, above all of the ply near by.
+        let lift = self.lift(detail) + 1.5 * gripper_radius(self.result);
+        let cell = self.cell_length();
+        let radius = (0.045 * cell * view.scale()).min(MOST_MARK);
+        let apart = (MARKS_APART * cell).max(5.0 * radius / view.scale());
+        let count = self.drawn(detail);
+        let lines = step.catenaries.iter().take(count);
+        for line in lines.flat_map(surface::touching) {
+            let [Some(first), Some(last)] = [line.first(), line.last()] else {
+                continue;
+            };
+            let square: f64 = (0..3).map(|c| (last[c] - first[c]).powi(2)).sum();
+            let marks = (square.sqrt() / apart).floor().min(50.0) as usize;
+            let spots = match marks {
+                0 => vec![line[line.len() / 2]],
+                _ => surface::stations(line, marks),
+            };
+            if line.len() > 1 {
+                let thick = surface::stations(line, detail.pieces);
+                thread(pieces, view, &thick, lift, RED, 0.65 * radius);
+            }
+            // On a large array the lines alone can tell.
+            if radius > 1.0 {
+                pieces.extend(spots.into_iter().map(|spot| Piece {
+                    depth: view.depth(spot) + lift,
+                    place: spot,
+                    points: vec![view.at(spot)],
+                    ink: RED,
+                    form: Form::Ring(radius),
+                }));
+            }
+        }
+    }
+}

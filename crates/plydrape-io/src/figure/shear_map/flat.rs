@@ -1,0 +1,71 @@
+//! The shear on the flat fabric, u to the right and v upwards.
+
+use super::blocks::Blocks;
+use super::marks::{arrow, dot, mark, marked, seed_ways};
+use crate::figure::FigureError;
+use crate::figure::axes::{self, LABEL, TICK, plain};
+use crate::figure::canvas::{Canvas, Ink, Px};
+use crate::figure::colour::FRAME;
+
+/// Where the flat fabric is on the sheet.
+pub(super) struct Flat {
+    pub left: f64,
+    pub bottom: f64,
+    /// Picture points per metre.
+    pub scale: f64,
+    /// Lengths along u and v (m).
+    pub fabric: [f64; 2],
+}
+
+impl Flat {
+    fn at(&self, [u, v]: [f64; 2]) -> Px {
+        [self.left + u * self.scale, self.bottom - v * self.scale]
+    }
+
+    pub fn draw(&self, canvas: &mut Canvas, blocks: &Blocks) -> Result<(), FigureError> {
+        let net = blocks.net;
+        let place = |id: [usize; 2]| [0, 1].map(|c| id[c] as f64 * net.layup.mesh[c]);
+        for ([low, high], ink) in blocks.tiles() {
+            let ([x0, y0], [x1, y1]) = (self.at(place(low)), self.at(place(high)));
+            // each reaches a hair over its neighbours, so that no seam shows
+            let (x1, y1) = (x1 + 0.3, y1 - 0.3);
+            canvas.polygon(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], ink)?;
+        }
+        for level in blocks.levels() {
+            for piece in blocks.isoline(level) {
+                canvas.line(&piece.map(|p| self.at(p)), Ink([255; 3], 0.8), 0.8)?;
+            }
+        }
+
+        // The fabric's rim, ticks and labels.
+        let [u, v] = self.fabric;
+        let ring = [[0.0, 0.0], [u, 0.0], [u, v], [0.0, v], [0.0, 0.0]].map(|p| self.at(p));
+        canvas.line(&ring, FRAME, 1.0)?;
+        let most = |length: f64, room: f64| (length * self.scale / room).clamp(2.0, 10.0);
+        for tick in axes::ticks(0.0, u, most(u, 56.0)) {
+            let [x, y] = self.at([tick * 1e-3, 0.0]);
+            canvas.line(&[[x, y], [x, y + 4.0]], FRAME, 1.0)?;
+            canvas.text(&axes::label(tick), [x, y + 13.0], plain(TICK, 0))?;
+        }
+        for tick in axes::ticks(0.0, v, most(v, 34.0)) {
+            let [x, y] = self.at([0.0, tick * 1e-3]);
+            canvas.line(&[[x - 4.0, y], [x, y]], FRAME, 1.0)?;
+            canvas.text(&axes::label(tick), [x - 8.0, y], plain(TICK, 1))?;
+        }
+        let [x, y] = self.at([u / 2.0, 0.0]);
+        canvas.text("u (mm)", [x, y + 34.0], plain(LABEL, 0))?;
+        let [x, y] = self.at([0.0, v]);
+        canvas.text("v (mm)", [x, y - 16.0], plain(LABEL, 1))?;
+
+        for (name, way) in seed_ways(net) {
+            let ends = [way[0], way[way.len() - 1]];
+            arrow(canvas, &ends.map(|id| self.at(place(id))), name)?;
+        }
+        dot(canvas, self.at(place(net.layup.seed)))?;
+        if let Some((largest, cell)) = marked(net) {
+            let middle = [0, 1].map(|c| (cell[c] as f64 + 0.5) * net.layup.mesh[c]);
+            mark(canvas, self.at(middle), &format!("{largest:.1}°"))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,125 @@
+//! The deck's header: what it carries, what not, and every choice in numbers.
+
+use super::contact::RigidMold;
+use super::mesh::Mesh;
+use super::motion::{HANG, LOAD};
+use super::section::ShellSection;
+use super::text::Deck;
+use crate::result::ResultFile;
+use plydrape::ply::Direction;
+
+/// Widest line of the header's text.
+const WIDTH: usize = 96;
+
+/// Writes the header.
+pub(super) fn write(
+    result: &ResultFile,
+    mesh: &Mesh,
+    section: &ShellSection,
+    mold: Option<&RigidMold>,
+    deck: &mut Deck,
+) {
+    let scene = &result.scene;
+    paragraph(deck, &format!("Ply between grippers: {}", scene.title));
+    paragraph(deck, &format!("Written from the result file of {}.", result.program));
+    paragraph(deck, "For CalculiX (ccx) and Abaqus/Standard. Units: m, kg, s, N, Pa. z is up.");
+
+    heading(deck, "What the deck carries");
+    let [n, m] = mesh.count;
+    paragraph(
+        deck,
+        &format!(
+            "Ply: {n} x {m} shells S8R of {:.4} x {:.4} m, flat at the start, at the rigid place that best fits the grippers of step 1. Axis 1 of the material is the warp, along {} of the grid.",
+            mesh.side[0],
+            mesh.side[1],
+            if scene.warp == Direction::U { "u" } else { "v" },
+        ),
+    );
+    paragraph(
+        deck,
+        &format!(
+            "Section: areal mass {:.6e} kg/m2, bending rigidity per width D1 = {:.6e} N m (warp), D2 = {:.6e} N m (weft), membrane stiffness per width A = {:.6e} N/m (mean of warp and weft), shear stiffness per width {:.6e} N/m per rad, Poisson's ratios 0.",
+            section.areal_mass,
+            section.rigidity[0],
+            section.rigidity[1],
+            section.membrane,
+            section.shear,
+        ),
+    );
+    let [first, second, _] = section.young();
+    paragraph(
+        deck,
+        &format!(
+            "Fabric bends more easily than a plate of its thickness. So thickness and moduli are effective ones, of the homogeneous shell with E h3/12 = D and E h = A: h = sqrt(12 D/A) = {:.6e} m, E1 = {first:.6e} Pa, E2 = {second:.6e} Pa, density = areal mass / h = {:.6e} kg/m3.",
+            section.thickness,
+            section.density(),
+        ),
+    );
+    for line in &section.assumed {
+        paragraph(deck, line);
+    }
+    let held = if mesh.strip() { "the whole line across the strip" } else { "one node" };
+    paragraph(
+        deck,
+        &format!(
+            "Grippers: sets GRIPPER_i_j, {held} each, moved by tables, free to turn. Step HANG ({HANG} s): gravity grows for {LOAD} s, then they go from the flat ply to step 1 of the result; step LAY follows the result's steps in its own time, {HANG} s later."
+        ),
+    );
+    match mold {
+        Some(mold) => paragraph(
+            deck,
+            &format!(
+                "Mold: {} triangles around the grippers' motion, held in every node; contact without friction. In Abaqus a *RIGID BODY of the set MOLD does the same faster.",
+                mold.triangles()
+            ),
+        ),
+        None if scene.mold.is_some() => {
+            paragraph(deck, "Mold: nothing of it lies below the grippers; there is no contact.");
+        }
+        None => {}
+    }
+
+    heading(deck, "What the deck does not carry");
+    paragraph(
+        deck,
+        "The model's catenaries: here the ply is a sheet. It shears with the stiffness above, at any angle; locking and the model's shearing diagonals are not in it.",
+    );
+    if mold.is_some() {
+        paragraph(
+            deck,
+            "The model's infinite friction, its contact segments and its rule of laying without stretch. Add *FRICTION to the interaction TOUCH for friction.",
+        );
+    }
+    paragraph(
+        deck,
+        "The grippers' size, mass and tilt limit: a gripper is a point (of a strip, a line).",
+    );
+    paragraph(deck, "Damping, rate effects, plastic bending, tack, prepreg cure.");
+    paragraph(
+        deck,
+        "If LAY stops early: smaller increments, *DYNAMIC instead of *STATIC, or in Abaqus *STATIC, STABILIZE (which CalculiX does not know). A static sheet that wrinkles may jump.",
+    );
+}
+
+/// A line that opens a part of the header.
+fn heading(deck: &mut Deck, text: &str) {
+    deck.comment("");
+    deck.comment(&format!("{text}:"));
+}
+
+/// A comment broken at spaces.
+fn paragraph(deck: &mut Deck, text: &str) {
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() && line.len() + word.len() >= WIDTH {
+            deck.comment(&line);
+            line.clear();
+            line.push(' ');
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    deck.comment(&line);
+}

@@ -1,0 +1,115 @@
+//! Files of plydrape: scenes, mesh readers, result files, exports, pictures and the page.
+//!
+//! The crate `plydrape` computes; this one reads what it needs and writes what it found, and computes no physics:
+//!
+//! 1. [`scene`]: a file becomes a checked scene, with [`mesh`] and [`formula`] for its mold;
+//! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
+//! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`]: everything else is made from a result;
+//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan; [`table`] prints for people;
+//! 5. [`folder`] writes files whole or not at all.
+
+pub mod csv;
+mod error;
+pub mod export;
+pub mod figure;
+mod finite;
+pub mod folder;
+pub mod formula;
+pub mod ground;
+pub mod inp;
+pub mod json;
+mod manifest;
+pub mod mesh;
+mod mold_record;
+pub mod net;
+pub mod page;
+pub mod plan;
+pub mod read;
+pub mod result;
+pub mod ros2;
+pub mod scene;
+pub mod surface;
+pub mod table;
+pub mod vtk;
+
+#[cfg(test)]
+mod sample;
+
+pub use error::OutputError;
+
+pub use result::ResultFile;
+
+use std::path::{Path, PathBuf};
+
+/// Name and version of this program, as it stands in what it writes.
+pub const PROGRAM: &str = concat!("plydrape ", env!("CARGO_PKG_VERSION"));
+
+/// Writes `result.json`, `steps.csv`, `trajectory.csv`, for a plan `motion.csv`, `figure.svg` and
+/// `report.html` into a folder, all or none.
+///
+/// The figure shows [`figure::default_steps`]. Returns the paths. Same result, same bytes.
+///
+/// # Errors
+/// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
+/// the folder is then as it was.
+pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
+    write_with(result, &[], dir)
+}
+
+/// As [`write_all`], with more files (plain name and content) behind them.
+fn write_with(
+    result: &ResultFile,
+    more: &[(&str, &[u8])],
+    dir: &Path,
+) -> Result<Vec<PathBuf>, OutputError> {
+    // First of all: it proves every number finite.
+    let json = json::text(result)?;
+    let steps = csv::steps(result)?;
+    let trajectory = csv::trajectory(result)?;
+    let motion = csv::planned_motion(result)?;
+    let figure = figure::svg(result, &figure::default_steps(result))?;
+    let page = page::html(result)?;
+    let mut files = vec![
+        ("result.json", json.as_bytes()),
+        ("steps.csv", steps.as_bytes()),
+        ("trajectory.csv", trajectory.as_bytes()),
+    ];
+    files.extend(motion.as_ref().map(|motion| ("motion.csv", motion.as_bytes())));
+    files.push(("figure.svg", figure.as_bytes()));
+    files.push(("report.html", page.as_bytes()));
+    files.extend(more);
+    folder::write(dir, &files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Five files, and the same bytes again from the same result.
+    #[test]
+    fn write_all_is_complete_and_repeats_itself() {
+        let dir = tempfile::tempdir().unwrap();
+        let result = sample::draped(4, 2, 30);
+        let paths = write_all(&result, dir.path()).unwrap();
+        let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
+        assert_eq!(
+            names,
+            ["result.json", "steps.csv", "trajectory.csv", "figure.svg", "report.html"]
+        );
+        let read = || -> Vec<Vec<u8>> { paths.iter().map(|p| std::fs::read(p).unwrap()).collect() };
+        let first = read();
+        write_all(&result, dir.path()).unwrap();
+        assert_eq!(read(), first);
+    }
+
+    /// A result that cannot be written leaves no folder behind.
+    #[test]
+    fn a_number_that_is_not_finite_writes_nothing() {
+        let home = tempfile::tempdir().unwrap();
+        let mut result = sample::draped(2, 2, 2);
+        result.steps[0].time = f64::NAN;
+        let fault = write_all(&result, &home.path().join("out")).unwrap_err();
+        assert!(fault.to_string().contains("steps[0].time"), "{fault}");
+        assert!(!home.path().join("out").exists());
+    }
+}

@@ -1,0 +1,36 @@
+//! The table `nodes.csv`: where every node of the net lies; lengths in metres, shear in degrees.
+//!
+//! Numbers are in the shortest form that reads back to the same double. A node without a place on the mold
+//! has empty cells for what is not known.
+
+use super::nodal_shear;
+use ::csv::{Error, Writer};
+use plydrape::net::Net;
+
+/// One row a node, i running fastest: grid indices, fabric coordinates from node [0, 0], place, and shear:
+/// the mean over the whole cells around the node of their shear magnitude.
+///
+/// # Errors
+/// If the table cannot be formed; memory apart there is no known case.
+pub fn table(net: &Net) -> Result<String, Error> {
+    let mut table = Writer::from_writer(Vec::new());
+    table.write_record(["i", "j", "u", "v", "x", "y", "z", "shear_deg"])?;
+    let ([nu, nv], mesh) = (net.layup.nodes, net.layup.mesh);
+    for id in (0..nu * nv).map(|n| [n % nu, n / nu]) {
+        let mut row = vec![id[0].to_string(), id[1].to_string()];
+        row.extend((0..2).map(|c| number(id[c] as f64 * mesh[c])));
+        match net.node(id) {
+            Some(place) => row.extend(place.map(number)),
+            None => row.extend(["", "", ""].map(str::to_owned)),
+        }
+        let shear = net.node(id).and_then(|_| nodal_shear(net, id));
+        row.push(shear.map(|s| number(s.to_degrees())).unwrap_or_default());
+        table.write_record(&row)?;
+    }
+    super::super::csv::text(table)
+}
+
+/// The shortest decimal that reads back to the same double.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}

@@ -1,0 +1,139 @@
+use super::*;
+use plydrape::mold::{Face, Pose, Sphere};
+use plydrape::net::{EdgeRule, Generators, Layup, Net};
+
+/// A bowl's worth of fabric over a hemisphere, some of it beyond the equator.
+fn ball() -> Mold {
+    let pose = Pose::new([0.0, 0.0, 0.0], [0.0; 3]);
+    Mold::Sphere(Sphere { pose, radius: 0.1, face: Face::Outside })
+}
+
+fn bowl() -> Mold {
+    let pose = Pose::new([0.0, 0.0, 0.2], [0.0; 3]);
+    Mold::Sphere(Sphere { pose, radius: 0.2, face: Face::Inside })
+}
+
+fn draped(mold: &Mold, count: usize, mesh: f64, place: [f64; 3]) -> Net {
+    let layup = Layup {
+        nodes: [count, count],
+        mesh: [mesh; 2],
+        seed: [count / 2; 2],
+        place,
+        heading: 0.3,
+        shear: 0.0,
+        generators: Generators::Geodesic,
+        edges: EdgeRule::Along,
+    };
+    Net::drape(mold, layup).unwrap()
+}
+
+/// Many cells on a dome, none missing; and a ply that is larger than its bowl.
+fn nets() -> [(Mold, Net); 2] {
+    let (dome, open) = (ball(), bowl());
+    let whole = draped(&dome, 41, 0.005, [0.0, 0.0, 0.1]);
+    let large = draped(&open, 61, 0.012, [0.0; 3]);
+    [(dome, whole), (open, large)]
+}
+
+fn rows(text: &str) -> Vec<Vec<String>> {
+    let mut reader = ::csv::Reader::from_reader(text.as_bytes());
+    reader.records().map(|r| r.unwrap().iter().map(str::to_owned).collect()).collect()
+}
+
+/// Every node has its row; places read back to the same bits, a missing node has none.
+#[test]
+fn the_table_of_nodes_reads_back_and_leaves_missing_ones_empty() {
+    let (_, net) = &nets()[1];
+    assert!(net.report.off_mold > 0 && net.report.placed > 100);
+    let text = nodes::table(net).unwrap();
+    assert_eq!(text.lines().next(), Some("i,j,u,v,x,y,z,shear_deg"));
+    let rows = rows(&text);
+    assert_eq!(rows.len(), net.nodes.len());
+    for (n, row) in rows.iter().enumerate() {
+        let id = [n % 61, n / 61];
+        assert_eq!([&row[0], &row[1]], [&id[0].to_string(), &id[1].to_string()]);
+        match net.node(id) {
+            Some(place) => {
+                let read: Vec<f64> = (4..7).map(|k| row[k].parse().unwrap()).collect();
+                assert_eq!(read, place);
+            }
+            None => assert!(row[4..].iter().all(String::is_empty)),
+        }
+    }
+}
+
+/// A node's shear is the mean of the cells that meet in it.
+#[test]
+fn shear_at_a_node_is_the_mean_of_its_cells() {
+    let (_, net) = &nets()[0];
+    let cell = |i, j| net.cell_shear([i, j]).unwrap().magnitude;
+    let inner = (cell(4, 7) + cell(5, 7) + cell(4, 8) + cell(5, 8)) / 4.0;
+    assert!((nodal_shear(net, [5, 8]).unwrap() - inner).abs() < 1e-15);
+    assert_eq!(nodal_shear(net, [0, 0]), Some(cell(0, 0)));
+}
+
+/// A net of one line has no cells and no map, but it has a picture and files.
+#[test]
+fn a_line_of_nodes_is_drawn_as_a_line() {
+    let mold = ball();
+    let mut layup = nets()[0].1.layup;
+    (layup.nodes, layup.seed) = ([20, 1], [10, 0]);
+    let net = Net::drape(&mold, layup).unwrap();
+    let svg = figure::shear_map::svg(&net, &mold, "line").unwrap();
+    assert!(svg.contains("on the mold") && !svg.contains("flat fabric"));
+    let home = tempfile::tempdir().unwrap();
+    assert_eq!(write_all(&net, &mold, "line", home.path()).unwrap().len(), 4);
+}
+
+/// Points, cells and their data have the sizes that the file says.
+#[test]
+fn vtk_arrays_have_the_announced_sizes() {
+    let (mold, net) = &nets()[1];
+    let text = vtu::net(net);
+    let cells = net.shear.iter().flatten().count();
+    let head = format!("NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\"", net.report.placed);
+    assert!(text.contains(&head), "{}", &text[..200]);
+    let lines = |name: &str| {
+        let from = text.find(&format!("Name=\"{name}\"")).unwrap();
+        text[from..].lines().skip(1).take_while(|l| !l.starts_with('<')).count()
+    };
+    for name in ["Points", "u", "v", "i", "j"] {
+        assert_eq!(lines(name), net.report.placed, "{name}");
+    }
+    for name in ["offsets", "types", "signed_shear_deg", "fibre_u", "fibre_v"] {
+        assert_eq!(lines(name), cells, "{name}");
+    }
+    assert!(vtu::mold(net, mold).unwrap().contains("<Points>"));
+}
+
+/// Four files, and the same bytes again from the same net.
+#[test]
+fn a_net_writes_its_files_twice_the_same() {
+    let dir = tempfile::tempdir().unwrap();
+    let (mold, net) = &nets()[0];
+    let paths = write_all(net, mold, "dome", dir.path()).unwrap();
+    let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
+    assert_eq!(names, ["nodes.csv", "shear.svg", "net.vtu", "mold.vtu"]);
+    let read = || -> Vec<Vec<u8>> { paths.iter().map(|p| std::fs::read(p).unwrap()).collect() };
+    let first = read();
+    write_all(net, mold, "dome", dir.path()).unwrap();
+    assert_eq!(read(), first);
+}
+
+/// A net is accepted if every node has its place and no cell shears beyond the limit; the verdict says
+/// what is not so.
+#[test]
+fn a_net_is_refused_beyond_its_shear_limit_and_beyond_its_mold() {
+    let [(_, whole), (_, large)] = &nets();
+    let (largest, cell) = whole.report.largest_shear.unwrap();
+    let free = Summary::of(whole, None);
+    assert!(free.accepted && free.table().ends_with("\naccepted\n"), "{}", free.table());
+    assert_eq!(free.max_shear_at.unwrap().cell, cell);
+    assert!(Summary::of(whole, Some(largest)).accepted);
+    let tight = Summary::of(whole, Some(0.5 * largest));
+    assert!(!tight.accepted);
+    assert!(tight.verdict().starts_with("not accepted: shear 5"), "{}", tight.verdict());
+    let beyond = Summary::of(large, None);
+    assert!(!beyond.accepted && beyond.verdict().contains("beyond the mold's border"));
+    assert!(beyond.table().lines().all(|l| l.chars().count() <= 100), "{}", beyond.table());
+}

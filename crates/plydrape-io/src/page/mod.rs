@@ -1,0 +1,242 @@
+//! `report.html`: one page that shows a result, without a network.
+//!
+//! The page is built from the sources in `viewer/` into `report.html` beside this file, which holds two marks. In
+//! their place come the title and everything that is shown, as one JSON object: numbers of the result, the ply's
+//! surface and the mold in triangles. The page computes no mechanics.
+
+mod block;
+mod facts;
+mod geometry;
+
+use super::OutputError;
+use crate::result::ResultFile;
+use facts::{Fact, facts};
+use geometry::{Detail, Geometry, Ranges};
+use plydrape::draping::record::{Step, Worst};
+use plydrape::measure::{Name, Sense};
+use serde::Serialize;
+
+/// The page without a result.
+const PAGE: &str = include_str!("report.html");
+/// Where the title goes.
+const TITLE: &str = "__PLYDRAPE_TITLE__";
+/// Where the data go.
+const DATA: &str = "__PLYDRAPE_DATA__";
+
+/// What the page is given.
+#[derive(Serialize)]
+struct Page<'a> {
+    format: &'static str,
+    version: u32,
+    program: &'a str,
+    title: &'a str,
+    input: Option<&'a str>,
+    facts: Vec<Fact>,
+    accepted: bool,
+    interrupted: bool,
+    stopped: Option<&'a str>,
+    steps: Vec<usize>,
+    times: Vec<f64>,
+    grid: [usize; 2],
+    divisions: usize,
+    limits: Vec<Limit<'a>>,
+    measures: Vec<Course<'a>>,
+    fields: Vec<Field>,
+    geometry: Geometry,
+    left_out: Vec<String>,
+}
+
+/// A limit and how it was kept.
+#[derive(Serialize)]
+struct Limit<'a> {
+    name: String,
+    value: f64,
+    limit: f64,
+    unit: &'a str,
+    least: bool,
+    ok: bool,
+    step: Option<usize>,
+    #[serde(rename = "where")]
+    at: &'a str,
+    place: Option<[f64; 3]>,
+    measure: Option<&'static str>,
+}
+
+/// A measure over the steps.
+#[derive(Serialize)]
+struct Course<'a> {
+    key: &'static str,
+    label: &'static str,
+    unit: &'static str,
+    values: Vec<Option<f64>>,
+    #[serde(rename = "where")]
+    at: Vec<Option<&'a str>>,
+    places: Vec<Option<[f64; 3]>>,
+    limit: Option<f64>,
+    least: bool,
+}
+
+/// What the ply's colour can tell.
+#[derive(Serialize)]
+struct Field {
+    key: &'static str,
+    label: &'static str,
+    unit: &'static str,
+    on: &'static str,
+    low: f64,
+    high: f64,
+    limit: Option<f64>,
+}
+
+/// The page of a result. Same result, same bytes.
+///
+/// # Errors
+/// [`OutputError`] if a number is not finite.
+pub fn html(result: &ResultFile) -> Result<String, OutputError> {
+    let data = super::json::of(&page(result))?.replace('<', "\\u003c");
+    let title = result.scene.title.replace('&', "&amp;").replace('<', "&lt;");
+    let whole =
+        PAGE.split_once(TITLE).and_then(|(head, rest)| Some((head, rest.split_once(DATA)?)));
+    let (head, (body, tail)) = whole.unwrap_or((PAGE, ("", "")));
+    Ok([head, &title, body, data.trim_end(), tail].concat())
+}
+
+fn page(result: &ResultFile) -> Page<'_> {
+    let (scene, summary) = (&result.scene, &result.summary);
+    let detail = Detail::of(result);
+    let shown: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
+    let (geometry, ranges) = Geometry::of(result, &detail);
+    Page {
+        format: "plydrape-page",
+        version: 1,
+        program: &result.program,
+        title: &scene.title,
+        input: scene.input.as_deref(),
+        facts: facts(result),
+        accepted: summary.accepted,
+        interrupted: summary.interrupted(),
+        stopped: summary.stopped.as_deref(),
+        steps: shown.iter().map(|step| step.step).collect(),
+        times: shown.iter().map(|step| step.time).collect(),
+        grid: [scene.grid.nu, scene.grid.nv],
+        divisions: detail.intervals,
+        limits: limits(result),
+        measures: courses(result, &shown),
+        fields: fields(result, &ranges),
+        geometry,
+        left_out: detail.left_out(result.steps.len()),
+    }
+}
+
+/// Every limit of a result, with the measure that it is about.
+fn limits(result: &ResultFile) -> Vec<Limit<'_>> {
+    let limits = result.summary.limits.iter().map(|verdict| Limit {
+        name: verdict.name.title(),
+        value: verdict.value,
+        limit: verdict.limit,
+        unit: &verdict.unit,
+        least: verdict.is_least(),
+        ok: verdict.ok,
+        step: verdict.step,
+        at: &verdict.at,
+        place: verdict.place,
+        measure: has_course(result, verdict.name).then(|| verdict.name.measure().key()),
+    });
+    limits.collect()
+}
+
+/// Whether a measure has a value in some step.
+fn has_course(result: &ResultFile, name: Name) -> bool {
+    result.steps.iter().any(|step| step.measures.get(name).is_some())
+}
+
+/// Every measure that has a value in some step, with its limit where the result is judged by it.
+fn courses<'a>(result: &'a ResultFile, shown: &[&'a Step]) -> Vec<Course<'a>> {
+    let course = |name: &Name| {
+        let measure = name.measure();
+        let worst: Vec<Option<&Worst>> =
+            shown.iter().map(|step| step.measures.get(*name)).collect();
+        let judged = result.summary.limits.iter().find(|verdict| verdict.name == *name);
+        Course {
+            key: measure.key(),
+            label: measure.label(),
+            unit: measure.unit().recorded,
+            values: worst.iter().map(|w| w.map(|w| w.value)).collect(),
+            at: worst.iter().map(|w| w.map(|w| w.at.as_str())).collect(),
+            places: worst.iter().map(|w| w.and_then(|w| w.place)).collect(),
+            limit: judged.map(|verdict| verdict.limit / measure.unit().factor),
+            least: measure.sense() == Sense::AtLeast,
+        }
+    };
+    Name::ALL.iter().filter(|name| has_course(result, **name)).map(course).collect()
+}
+
+/// What colours can tell of this result.
+fn fields(result: &ResultFile, ranges: &Ranges) -> Vec<Field> {
+    let field = |key, label, unit, on, [low, high]: [f64; 2], limit| Field {
+        key,
+        label,
+        unit,
+        on,
+        low,
+        high,
+        limit,
+    };
+    let mut out = vec![field("height", "height", "mm", "vertex", ranges.height, None)];
+    if let Some(range) = ranges.gap {
+        out.push(field("gap", "gap to the mold", "mm", "vertex", range, None));
+    }
+    if result.scene.grid.cells() > 0 {
+        let limit = Some(result.scene.limits.shear.to_degrees());
+        out.push(field("shear", "shear angle", "°", "cell", ranges.shear, limit));
+        out.push(field("direction", "warp direction", "°", "cell", ranges.direction, None));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+
+    /// The marks of the page are filled once each, and nothing in a title or a scene can end the data early.
+    #[test]
+    fn text_of_a_scene_cannot_leave_its_place() {
+        let mut result = sample::draped(4, 2, 3);
+        result.scene.title = "</title><script>alert(1)</script> & more".into();
+        result.scene.input = Some("# </script><script>alert(2)</script> __PLYDRAPE_DATA__".into());
+        let html = html(&result).unwrap();
+        assert_eq!(html.matches("alert(1)</script>").count(), 0);
+        assert_eq!(html.matches("alert(2)</script>").count(), 0);
+        assert!(html.contains("&lt;/title>"));
+        assert_eq!(PAGE.matches(TITLE).count(), 1);
+        assert_eq!(PAGE.matches(DATA).count(), 1);
+    }
+
+    /// A limit stands beside the course of its own measure, in the same unit.
+    #[test]
+    fn limits_know_their_measures() {
+        let result = sample::draped(4, 2, 3);
+        let page = page(&result);
+        let tilt = page.limits.iter().find(|limit| limit.name == "tilt").unwrap();
+        assert_eq!(tilt.measure, Some("tilt_deg"));
+        for course in &page.measures {
+            assert_eq!(course.values.len(), result.steps.len());
+        }
+    }
+
+    /// Large results are drawn coarser, then without diagonals, then in fewer steps, the last among them.
+    #[test]
+    fn large_results_say_what_is_left_out() {
+        let small = Detail::of(&sample::draped(4, 2, 3));
+        assert!(small.left_out(3).is_empty() && small.intervals == 12);
+        let mut result = sample::draped(2, 2, 2);
+        result.scene.grid = plydrape::ply::Grid { nu: 100, nv: 100 };
+        let step = result.steps[0].clone();
+        result.steps = vec![step; 200];
+        let large = Detail::of(&result);
+        assert_eq!(large.left_out(200).len(), 2, "{large:?}");
+        assert_eq!(large.steps.last(), Some(&199));
+        assert!(large.steps.len() * 199 * 199 <= 3_000_000);
+    }
+}

@@ -1,0 +1,86 @@
+//! The files of a plan: those of its drape, the motion, and `plan.json`, what a later search can go on from.
+
+use super::{OutputError, json, result::ResultFile, write_with};
+use plydrape::planner::Memory;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// Name of the format, the first key of every plan file.
+const FORMAT: &str = "plydrape-plan";
+/// Version of the format; it grows when a key changes its meaning.
+const VERSION: u32 = 3;
+
+#[derive(Serialize)]
+struct Written<'a> {
+    format: &'static str,
+    version: u32,
+    search: &'a Memory,
+}
+
+#[derive(Deserialize)]
+struct Head {
+    format: String,
+    version: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Whole {
+    #[serde(rename = "format")]
+    _format: String,
+    #[serde(rename = "version")]
+    _version: u32,
+    search: Memory,
+}
+
+/// Why a text is no plan file to go on from.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanFileError {
+    /// Of another format, or of another version.
+    #[error(
+        "it is of format `{format}`, version {version}, expected `{FORMAT}`, version {VERSION}"
+    )]
+    Format {
+        /// Its format.
+        format: String,
+        /// Its version.
+        version: u32,
+    },
+    /// No plan file at all, or a damaged one.
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+}
+
+/// The text of a plan file.
+///
+/// # Errors
+/// [`json::JsonError`] if a number is not finite.
+pub fn text(search: &Memory) -> Result<String, json::JsonError> {
+    json::of(&Written { format: FORMAT, version: VERSION, search })
+}
+
+/// Reads the text of a plan file.
+///
+/// # Errors
+/// [`PlanFileError`] if it is none of this version.
+pub fn read(text: &str) -> Result<Memory, PlanFileError> {
+    let Head { format, version } = serde_json::from_str(text)?;
+    if (format.as_str(), version) != (FORMAT, VERSION) {
+        return Err(PlanFileError::Format { format, version });
+    }
+    Ok(serde_json::from_str::<Whole>(text)?.search)
+}
+
+/// Writes the files of a plan's result with `motion.csv`, and `plan.json`, into a folder, all or none, and returns
+/// their paths.
+///
+/// # Errors
+/// [`OutputError`], as for [`super::write_all`].
+pub fn write_all(
+    result: &ResultFile,
+    search: &Memory,
+    dir: &Path,
+) -> Result<Vec<PathBuf>, OutputError> {
+    let plan = text(search)?;
+    write_with(result, &[("plan.json", plan.as_bytes())], dir)
+}

@@ -1,0 +1,109 @@
+use super::*;
+use crate::{json, sample};
+
+fn read(text: &str) -> Result<ResultFile, ReadError> {
+    parse(text.as_bytes(), Path::new("result.json"))
+}
+
+fn written() -> String {
+    json::text(&sample::draped(3, 2, 3)).unwrap()
+}
+
+/// What is read is what was written, to the last bit: written again it is the same text.
+#[test]
+fn a_result_that_is_read_writes_the_same_text() {
+    let text = written();
+    assert_eq!(json::text(&read(&text).unwrap()).unwrap(), text);
+}
+
+/// A file that was copied in part is told apart from one that was never a result.
+#[test]
+fn a_cut_text_is_truncated_wherever_it_was_cut() {
+    let text = written();
+    for share in [0.01, 0.1, 0.5, 0.9, 0.999] {
+        let end = (text.len() as f64 * share) as usize;
+        let end = (end..).find(|n| text.is_char_boundary(*n)).unwrap();
+        let refused = read(&text[..end]).unwrap_err();
+        assert!(matches!(refused, ReadError::Truncated { .. }), "{share}: {refused}");
+    }
+}
+
+/// No digit can be changed unseen; the file stays valid JSON all along.
+#[test]
+fn every_digit_stands_in_the_check_sum() {
+    let text = written();
+    let digits: Vec<usize> = (text.char_indices())
+        .filter(|(n, c)| c.is_ascii_digit() && *n > 0 && !text[..*n].ends_with("\"version\":"))
+        .map(|(n, _)| n)
+        .collect();
+    for n in digits.iter().step_by(7) {
+        let other = if &text[*n..=*n] == "7" { "8" } else { "7" };
+        let edited = [&text[..*n], other, &text[n + 1..]].concat();
+        assert!(matches!(read(&edited), Err(ReadError::Changed { .. })), "{}", &text[n - 9..n + 9]);
+    }
+}
+
+/// White space at the end, as an editor leaves it, is no change; a key more is one.
+#[test]
+fn only_white_space_at_the_end_may_change() {
+    let text = written();
+    assert!(read(text.trim_end()).is_ok());
+    assert!(read(&format!("{text}\r\n")).is_ok());
+    let more = text.replacen("{\"format\"", "{\"note\":1,\"format\"", 1);
+    assert!(matches!(read(&more), Err(ReadError::Changed { .. })));
+    let without = text.replacen("\"checksum\":\"crc32:", "\"checksum\":\"crc32:0", 1);
+    assert!(matches!(read(&without), Err(ReadError::Changed { .. })));
+}
+
+/// A forged check sum does not help a result that lacks a gripper, a cell or its grid.
+#[test]
+fn a_result_must_have_all_of_its_ply() {
+    let spoilt: [fn(&mut ResultFile); 4] = [
+        |r| r.steps[1].grippers.truncate(1),
+        |r| r.steps[0].cells.truncate(1),
+        |r| r.steps[2].catenaries.truncate(1),
+        |r| r.scene.grid.nu = 0,
+    ];
+    for spoil in spoilt {
+        let mut result = sample::draped(3, 2, 3);
+        spoil(&mut result);
+        let refused = read(&json::text(&result).unwrap()).unwrap_err();
+        assert!(matches!(refused, ReadError::Changed { .. }), "{refused}");
+    }
+}
+
+/// The version decides before anything else does: a later file may hold keys that are unknown today.
+#[test]
+fn other_versions_are_named() {
+    let text = written();
+    let other = |version: u32| {
+        text.replacen(
+            &format!("\"version\":{VERSION}"),
+            &format!("\"version\":{version},\"new\":0"),
+            1,
+        )
+    };
+    let refused = read(&other(VERSION + 1)).unwrap_err();
+    assert!(matches!(refused, ReadError::Newer { found, .. } if found == u64::from(VERSION) + 1));
+    let refused = read(&other(VERSION - 1)).unwrap_err();
+    assert!(matches!(refused, ReadError::Older { .. }), "{refused}");
+}
+
+/// JSON of another program, a list, text, bytes, nothing: none is a result.
+#[test]
+fn what_others_wrote_is_foreign() {
+    for text in [
+        "{\"format\":\"gltf\",\"version\":4}",
+        "[1,2]",
+        "3",
+        "t (s),x\n0,1\n",
+        "",
+        "{}",
+        "{\"version\":\"a\"}",
+    ] {
+        let refused = read(text).unwrap_err();
+        assert!(matches!(refused, ReadError::Foreign { .. }), "{text:?}: {refused}");
+    }
+    assert!(matches!(parse(&[0xff, 0xfe, 0x00], Path::new("x")), Err(ReadError::Foreign { .. })));
+    assert!(matches!(super::read(Path::new("no/such.json")), Err(ReadError::Unreadable { .. })));
+}

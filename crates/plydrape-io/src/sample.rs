@@ -1,0 +1,346 @@
+//! Made-up results for the tests of this folder: parabolas between grippers that move to a sheared
+//! target, cut off where they meet the mold. They look like a drape and solve nothing.
+
+use crate::result::{FORMAT, ResultFile, SceneEcho, VERSION};
+use plydrape::draping::ContactStatus;
+use plydrape::draping::record::*;
+use plydrape::equilibrium::Status;
+use plydrape::material::{Material, Section};
+use plydrape::measure::Name;
+use plydrape::mold::{Mold, Plane};
+use plydrape::ply::{Catenary, Direction, Grid, Kind};
+use plydrape::scene::{Contact, ContactEnd, Limits, Settings, SlopeRule, Stepping};
+
+const CELL: f64 = 0.1;
+const SPACING: f64 = 0.098;
+const SHEAR: f64 = 20.0;
+const HEIGHT: f64 = 0.075;
+const STATIONS: usize = 25;
+
+/// A drape onto the flat mold z = 0, like the paper's example.
+pub(super) fn draped(nu: usize, nv: usize, steps: usize) -> ResultFile {
+    let grid = Grid { nu, nv };
+    let target = positions(grid, CELL, SHEAR.to_radians(), 0.0);
+    let start = positions(grid, SPACING, 0.0, HEIGHT);
+    let mut result = frame(grid);
+    result.scene.mold = Some(Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }));
+    for k in 0..steps {
+        let t = k as f64 / (steps.max(2) - 1) as f64;
+        let mix = |a: &[f64; 3], b: &[f64; 3]| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
+        let grippers: Vec<_> = start.iter().zip(&target).map(|(a, b)| mix(a, b)).collect();
+        result.steps.push(step(grid, k + 1, t, &grippers, Some(0.0)));
+    }
+    result.scene.target_grippers = Some(target);
+    summarize(&mut result);
+    result
+}
+
+/// A ply that just hangs, one step, no mold.
+pub(super) fn hanging(nu: usize, nv: usize) -> ResultFile {
+    let grid = Grid { nu, nv };
+    let mut result = frame(grid);
+    let grippers = positions(grid, SPACING, 0.0, HEIGHT);
+    result.steps.push(step(grid, 1, 0.0, &grippers, None));
+    summarize(&mut result);
+    result
+}
+
+fn positions(grid: Grid, spacing: f64, shear: f64, z: f64) -> Vec<[f64; 3]> {
+    let at = |k| {
+        let [i, j] = grid.id(k).map(|n| n as f64 * spacing);
+        [i + j * shear.sin(), j * shear.cos(), z]
+    };
+    (0..grid.grippers()).map(at).collect()
+}
+
+fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) -> Step {
+    let mut shapes: Vec<Vec<[f64; 3]>> = Vec::new();
+    let mut lengths = Vec::new();
+    for k in 0..grid.catenaries() {
+        let line = grid.catenary(k);
+        let ends = [line.from, line.to].map(|id| at[grid.index(id)]);
+        lengths.push(length(grid, line, at));
+        shapes.push(parabola(ends, lengths[k]));
+    }
+    lift_crossings(grid, &mut shapes);
+    let catenaries = (0..grid.catenaries())
+        .map(|k| catenary(grid.catenary(k), lengths[k], &shapes[k], mold))
+        .collect();
+    let grippers = (0..at.len()).map(|k| gripper(grid, k, at)).collect();
+    let worst = |value| Worst { value, at: "edge [0, 0]–[1, 0]".into(), place: Some(at[0]) };
+    Step {
+        step,
+        time,
+        grippers,
+        solver: Solver {
+            status: Status::Converged,
+            iterations: 3,
+            residual: 1e-12,
+            equilibria: 1,
+            contact: ContactStatus::Followed,
+        },
+        catenaries,
+        cells: (0..grid.cells())
+            .map(|k| grid.catenary(grid.edges() + 2 * k).from)
+            .map(|cell| Cell { cell, shear_deg: 0.0, shearing: None, landed_deg: [None; 2] })
+            .collect(),
+        measures: [
+            (Name::Overstretch, 0.01 * time),
+            (Name::Tilt, 19.0 - 3.0 * time),
+            (Name::Shear, SHEAR * time),
+            (Name::Force, 0.37 + time),
+            (Name::Slack, 2.0 - time),
+            (Name::LandingError, 4.2 * time),
+            (Name::ContactShare, (time - 0.85).max(0.0)),
+        ]
+        .into_iter()
+        .filter(|(name, _)| *name != Name::LandingError || time > 0.8)
+        .map(|(name, value)| (name, worst(value)))
+        .collect(),
+    }
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|c| (b[c] - a[c]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Set length: of the cell, and of a diagonal by the shear of its cell.
+fn length(grid: Grid, line: Catenary, at: &[[f64; 3]]) -> f64 {
+    let p = |id| at[grid.index(id)];
+    let square = |d: f64| d * d;
+    let flat = CELL * std::f64::consts::SQRT_2;
+    let ([i, j], [k, l]) = (line.from, line.to);
+    match line.kind {
+        Kind::EdgeU | Kind::EdgeV => CELL,
+        Kind::Rising | Kind::Falling => {
+            let other = distance(p([k, j]), p([i, l]));
+            if other > flat { (4.0 * square(CELL) - square(other)).max(0.0).sqrt() } else { flat }
+        }
+    }
+}
+
+/// A parabola between two ends with the slack of a given length; straight where there is none.
+fn parabola(ends: [[f64; 3]; 2], length: f64) -> Vec<[f64; 3]> {
+    let chord = distance(ends[0], ends[1]);
+    let sag = (0.375 * chord * (length - chord).max(0.0)).sqrt();
+    let point = |k| {
+        let t = k as f64 / (STATIONS - 1) as f64;
+        let [x, y, z] = [0, 1, 2].map(|c| ends[0][c] + t * (ends[1][c] - ends[0][c]));
+        [x, y, z - 4.0 * sag * t * (1.0 - t)]
+    };
+    (0..STATIONS).map(point).collect()
+}
+
+/// The lower diagonal of each cell is drawn through the point of the higher, by a tent.
+fn lift_crossings(grid: Grid, shapes: &mut [Vec<[f64; 3]>]) {
+    for k in 0..grid.cells() {
+        let pair = [grid.edges() + 2 * k, grid.edges() + 2 * k + 1];
+        let middle = STATIONS / 2;
+        let height = pair.map(|c| shapes[c][middle][2]);
+        let top = height[0].max(height[1]);
+        for (c, own) in pair.into_iter().zip(height) {
+            for (n, point) in shapes[c].iter_mut().enumerate() {
+                let share = 1.0 - (n as f64 - middle as f64).abs() / middle as f64;
+                point[2] += share * (top - own);
+            }
+        }
+    }
+}
+
+fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) -> CatenaryState {
+    let edge = line.kind.is_edge();
+    let arc = |k: usize| length * k as f64 / (STATIONS - 1) as f64;
+    let touches = |k: &usize| mold.is_some_and(|z| shape[*k][2] < z + 0.001);
+    let low = (0..STATIONS).find(touches);
+    let high = (0..STATIONS).rev().find(touches);
+    let span = |a: usize, b: usize| SpanState {
+        arc: [arc(a), arc(b)],
+        length: arc(b) - arc(a),
+        run: distance(shape[a], shape[b]),
+        rise: shape[b][2] - shape[a][2],
+        state: Hold::Hanging,
+        force: Some(0.37),
+        slopes: [-0.3, 0.3],
+        prescribed: [false; 2],
+        points: shape[a..=b].to_vec(),
+        slack_mm: 2.0,
+        slack_ratio: 0.02,
+        wrinkle_mm: 8.9,
+        overstretch_mm: 0.0,
+        overstretch: 0.0,
+    };
+    let (spans, contact) = match low.zip(high) {
+        None => (vec![span(0, STATIONS - 1)], None),
+        Some((a, b)) => {
+            let rests = [(0, a), (b, STATIONS - 1)];
+            let segment = ContactState {
+                arc: [arc(a), arc(b)],
+                points: shape[a..=b].iter().map(|p| [p[0], p[1], mold.unwrap_or(p[2])]).collect(),
+                landing_error_mm: None,
+                fibre_angle_deg: None,
+            };
+            let free = rests.into_iter().filter(|(a, b)| b > a);
+            (free.map(|(a, b)| span(a, b)).collect(), Some(segment))
+        }
+    };
+    CatenaryState {
+        kind: if edge { CatenaryKind::Edge } else { CatenaryKind::Diagonal },
+        direction: match line.kind {
+            Kind::EdgeU => CatenaryDirection::U,
+            Kind::EdgeV => CatenaryDirection::V,
+            Kind::Rising => CatenaryDirection::Rising,
+            Kind::Falling => CatenaryDirection::Falling,
+        },
+        from: line.from,
+        to: line.to,
+        length,
+        shearing: false,
+        shear_force_n: None,
+        spans,
+        contact,
+        bridging: None,
+    }
+}
+
+/// A gripper tilted towards the middle of the ply, as the edge slopes would have it.
+fn gripper(grid: Grid, k: usize, at: &[[f64; 3]]) -> Gripper {
+    let [i, j] = grid.id(k);
+    let outer = |n: usize, count: usize| match n {
+        _ if count == 1 => 0.0,
+        0 => -0.3_f64,
+        n if n + 1 == count => 0.3,
+        _ => 0.0,
+    };
+    let (u, v) = (outer(i, grid.nu), outer(j, grid.nv));
+    // Half the rotation vector of the tilt, small enough to stand for the whole rotation.
+    let q = [v / 2.0, -u / 2.0, 0.0, 1.0];
+    let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+    Gripper {
+        id: [i, j],
+        position: at[k],
+        slope_u: Some(u),
+        slope_v: Some(v),
+        tilt_deg: u.hypot(v).atan().to_degrees(),
+        quaternion: q.map(|c| c / norm),
+        target_distance_mm: None,
+    }
+}
+
+fn summarize(result: &mut ResultFile) {
+    let touching = |c: &&CatenaryState| c.contact.is_some();
+    let first = result.steps.iter().find(|s| s.catenaries.iter().any(|c| c.contact.is_some()));
+    let id = |c: &CatenaryState| CatenaryId { kind: c.kind, from: c.from, to: c.to };
+    result.summary.first_contact_step = first.map(|s| s.step);
+    result.summary.first_contact =
+        first.map(|s| s.catenaries.iter().filter(touching).map(id).collect()).unwrap_or_default();
+    result.summary.steps = result.steps.len();
+    result.summary.steps_planned = result.steps.len();
+}
+
+fn frame(grid: Grid) -> ResultFile {
+    ResultFile {
+        format: FORMAT.into(),
+        version: VERSION,
+        checksum: String::new(),
+        program: "test".into(),
+        scene: SceneEcho {
+            title: "Flat sheared mold".into(),
+            input: None,
+            grid,
+            cell: [CELL, CELL],
+            material: Material {
+                name: "fabric".into(),
+                source: "made up".into(),
+                section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
+                shear_curve: None,
+                locking_angle: None,
+            },
+            warp: Direction::U,
+            mold: None,
+            target_grippers: None,
+            ideal_drape: None,
+            settings: Settings {
+                slopes: SlopeRule::MinForce,
+                axial_stiffness: 1e5,
+                gravity: 9.8,
+                max_tilt: 0.7,
+                contact: Contact {
+                    tolerance: 0.001,
+                    stepping: Stepping::Once,
+                    end: ContactEnd::Free,
+                },
+            },
+            limits: Limits {
+                slack_ratio: 0.005,
+                bridging: 0.001,
+                overstretch: 0.01,
+                landing_contact: 0.002,
+                landing_gripper: 0.002,
+                fibre_angle: 0.05,
+                shear: 0.8,
+                landing_shear: 0.05,
+                strain: 0.005,
+                penetration: 0.001,
+                tilt: 0.7,
+                tilt_rate: 1.5,
+                force: None,
+                gripper_load: 10.0,
+                gripper_pull: None,
+                contact_share: 0.9,
+                gripper_distance: 0.05,
+                workspace: None,
+                speed: 0.25,
+                acceleration: 1.0,
+                jerk: 10.0,
+                duration: None,
+            },
+        },
+        plan: None,
+        steps: Vec::new(),
+        summary: Summary {
+            accepted: true,
+            steps: 0,
+            steps_planned: 0,
+            stopped: None,
+            first_contact_step: None,
+            first_contact: Vec::new(),
+            first_shear_step: None,
+            all_shear_step: None,
+            worst: Numbers::default(),
+            last: Numbers::default(),
+            contact_share: None,
+            limits: vec![Verdict {
+                name: Name::Tilt,
+                value: 19.2,
+                limit: 40.0,
+                unit: "°".into(),
+                ok: true,
+                step: Some(1),
+                at: "gripper [0, 0]".into(),
+                place: None,
+            }],
+            equilibria: 30,
+        },
+    }
+}
+
+/// A drape onto a tilted plane, the whole motion tilted with it.
+pub(super) fn tilted(nu: usize, nv: usize) -> ResultFile {
+    let mut result = draped(nu, nv, 30);
+    let lean = |p: &mut [f64; 3]| p[2] += 0.25 * p[0] + 0.1 * p[1];
+    for step in &mut result.steps {
+        step.grippers.iter_mut().for_each(|g| lean(&mut g.position));
+        for catenary in &mut step.catenaries {
+            let spans = catenary.spans.iter_mut().flat_map(|s| &mut s.points);
+            let contact = catenary.contact.iter_mut().flat_map(|c| &mut c.points);
+            spans.chain(contact).for_each(lean);
+        }
+    }
+    result.scene.target_grippers.iter_mut().flatten().for_each(lean);
+    let norm = (1.0_f64 + 0.25 * 0.25 + 0.1 * 0.1).sqrt();
+    result.scene.mold = Some(Mold::Plane(Plane {
+        point: [0.0; 3],
+        normal: [-0.25 / norm, -0.1 / norm, 1.0 / norm],
+    }));
+    result
+}

@@ -1,0 +1,219 @@
+//! From the keys of a file to a scene that makes sense.
+
+use super::error::{Document, SceneError};
+use super::file::{EndKey, GrippersTable, MotionKind, PlyTable, SceneKeys, Slopes, SteppingKey};
+use super::limits::{acute, limits};
+use super::located::{Count, Located};
+use super::motion::{motion, unplanned};
+use super::plan::plan;
+use super::trajectory::trajectory;
+use super::{SceneFile, material, mold, start, target};
+use plydrape::mold::Mold;
+use plydrape::ply::{Direction, Grid, Ply};
+use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Settings, SlopeRule, Stepping, Target};
+use std::path::Path;
+
+/// Most grippers along u or v.
+const MOST_GRIPPERS: i64 = 1000;
+/// Largest gripper tilt unless given, as in Krogh et al. 2018 (rad).
+pub(super) const MAX_TILT: f64 = 40.0 * std::f64::consts::PI / 180.0;
+/// Smallest and largest finite axial stiffness (N).
+const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
+/// Smallest and largest gravity (m/s²).
+const GRAVITY: [f64; 2] = [1e-3, 1e3];
+
+/// Checks a scene file, on a mold of its own or on a `given` one; other files it names are relative to `base`.
+pub(super) fn scene(
+    file: &SceneKeys,
+    given: Option<Mold>,
+    document: &Document,
+    base: &Path,
+) -> Result<SceneFile, SceneError> {
+    let ply = ply(&file.ply, document, base)?;
+    let (mold, mesh) = match &file.mold {
+        Some(table) => {
+            let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
+            (Some(mold), report)
+        }
+        None => (given, None),
+    };
+    let max_tilt = match file.grippers.as_ref().map(|g| &g.value.max_tilt) {
+        Some(Some(tilt)) => acute(tilt, document)?,
+        _ => MAX_TILT,
+    };
+    let settings = Settings { max_tilt, ..settings(file, &ply, document)? };
+    let target = match &file.target {
+        Some(table) => Some(target::target(table, &ply, mold.as_ref(), document, base)?),
+        None => None,
+    };
+    let places = Surroundings {
+        ply: &ply,
+        mold: mold.as_ref(),
+        tolerance: settings.contact.tolerance,
+        document,
+        base,
+    };
+    let motion = places.motion(file, target.as_ref())?;
+    let limits = limits(&file.limits, &ply, max_tilt, settings.contact.tolerance, document)?;
+    let plan = plan(&file.plan, ply.grid, document)?;
+    let title = file.title.clone().unwrap_or_else(|| title(document, base));
+    Ok(SceneFile {
+        scene: Scene { title, ply, mold, motion, target, settings, limits, plan },
+        input: Some(document.text.clone()),
+        mesh,
+        plan_refusal: file.motion.as_ref().and_then(|table| unplanned(&table.value, document)),
+    })
+}
+
+/// The file's name without its ending; its folder's, if the file is just `scene.toml`.
+pub(super) fn title(document: &Document, base: &Path) -> String {
+    let stem = Path::new(&document.file).file_stem().unwrap_or_default();
+    match base.file_name() {
+        Some(folder) if stem == "scene" => folder.to_string_lossy().into_owned(),
+        _ => stem.to_string_lossy().into_owned(),
+    }
+}
+
+pub(super) fn ply(table: &PlyTable, document: &Document, base: &Path) -> Result<Ply, SceneError> {
+    let [nu, nv] = &table.grippers.value.0;
+    let grid =
+        Grid { nu: gripper_count(nu, 2, "u", document)?, nv: gripper_count(nv, 1, "v", document)? };
+    let [a, b] = &table.cell.0;
+    Ok(Ply {
+        grid,
+        cell: [a.size(document)?, b.size(document)?],
+        material: material::material(&table.material, document, base)?,
+        warp: table.warp.map_or(Direction::U, Direction::from),
+    })
+}
+
+fn gripper_count(
+    count: &Located<Count>,
+    least: i64,
+    along: &str,
+    document: &Document,
+) -> Result<usize, SceneError> {
+    let Count(value) = count.value;
+    if (least..=MOST_GRIPPERS).contains(&value)
+        && let Ok(value) = usize::try_from(value)
+    {
+        return Ok(value);
+    }
+    Err(document.error(
+        count.span.clone(),
+        format!("there cannot be {value} grippers along {along}"),
+        format!(
+            "{least} to {MOST_GRIPPERS} grippers are possible along {along}, as in grippers = [4, 2]; [4, 1] is a strip"
+        ),
+    ))
+}
+
+/// What gripper positions are read and checked against.
+pub(super) struct Surroundings<'a> {
+    pub ply: &'a Ply,
+    pub mold: Option<&'a Mold>,
+    /// Depth in the mold that still counts as touching it (m).
+    pub tolerance: f64,
+    pub document: &'a Document,
+    pub base: &'a Path,
+}
+
+impl Surroundings<'_> {
+    fn motion(&self, file: &SceneKeys, target: Option<&Target>) -> Result<Motion, SceneError> {
+        let &Surroundings { ply, document, base, .. } = self;
+        let from_file = file.motion.as_ref().filter(|m| m.value.kind == MotionKind::File);
+        if let Some(table) = from_file {
+            if let Some(grippers) = &file.grippers
+                && let Some(key) = placing_key(&grippers.value)
+            {
+                return Err(document.error(
+                    grippers.span.clone(),
+                    format!("the start is given twice: by `{key}` and by the motion's file"),
+                    format!(
+                        "remove `{key}`; beside a motion file [grippers] may hold `max_tilt` only"
+                    ),
+                ));
+            }
+            let (motion, start) = trajectory(table, ply, document, base)?;
+            start::check(&start, self)?;
+            return Ok(motion);
+        }
+        let start = match (&file.grippers, target.and_then(|target| target.drape.as_ref())) {
+            (None, Some(net)) => start::above(net, &file.ply.grippers.span, self),
+            (Some(table), Some(net)) if start::is_open(&table.value) => {
+                start::above(net, &table.span, self)
+            }
+            (Some(table), _) => start::start(table, self, target)?,
+            (None, None) => {
+                return Err(document.error(
+                    file.ply.grippers.span.clone(),
+                    "the scene does not say where the grippers start",
+                    "add [grippers] with spacing = [\"98 mm\", \"98 mm\"] and height = \"75 mm\", or with `positions`; or a [target] to start above",
+                ));
+            }
+        };
+        start::check(&start, self)?;
+        motion(file.motion.as_ref(), &start, target, ply, document)
+    }
+}
+
+/// A key that says where the grippers are.
+fn placing_key(keys: &GrippersTable) -> Option<&'static str> {
+    [
+        ("positions", keys.positions.is_some()),
+        ("spacing", keys.spacing.is_some()),
+        ("height", keys.height.is_some()),
+    ]
+    .into_iter()
+    .find_map(|(key, given)| given.then_some(key))
+    .or(start::other_key(keys))
+}
+
+fn settings(file: &SceneKeys, ply: &Ply, document: &Document) -> Result<Settings, SceneError> {
+    let model = &file.model;
+    let axial_stiffness = match &model.axial_stiffness {
+        Some(stiffness) if stiffness.si_or_infinite(document)? == f64::INFINITY => f64::INFINITY,
+        Some(stiffness) => stiffness.within(document, AXIAL_STIFFNESS)?,
+        None => 1e5,
+    };
+    let gravity = match &model.gravity {
+        Some(gravity) => gravity.within(document, GRAVITY)?,
+        None => 9.81,
+    };
+    let contact = &file.contact;
+    let tolerance = match &contact.tolerance {
+        Some(tolerance) => {
+            let value = tolerance.size(document)?;
+            let cell = ply.cell[0].min(ply.cell[1]);
+            if value > 0.1 * cell {
+                return Err(document.error(
+                    tolerance.span.clone(),
+                    format!("{} is more than a tenth of a cell", document.quoted(&tolerance.span)),
+                    format!("the contact tolerance is a small distance, e.g. \"0.2 mm\"; a cell is {:.2} mm here", cell * 1e3),
+                ));
+            }
+            value
+        }
+        None => Contact::default().tolerance,
+    };
+    Ok(Settings {
+        slopes: match model.slopes {
+            Some(Slopes::MinForce) => SlopeRule::MinForce,
+            Some(Slopes::MomentBalance) | None => SlopeRule::MomentBalance,
+        },
+        axial_stiffness,
+        gravity,
+        max_tilt: MAX_TILT,
+        contact: Contact {
+            tolerance,
+            stepping: match contact.stepping {
+                Some(SteppingKey::Once) => Stepping::Once,
+                Some(SteppingKey::Cut) | None => Stepping::Cut,
+            },
+            end: match contact.end {
+                Some(EndKey::Tangent) => ContactEnd::Tangent,
+                Some(EndKey::Free) | None => ContactEnd::Free,
+            },
+        },
+    })
+}

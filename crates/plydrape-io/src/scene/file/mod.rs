@@ -1,0 +1,239 @@
+//! The keys of a scene file and of a material file, as they may be written.
+//!
+//! These types say what is a key and what is not; [`super::check`] says what makes sense. Their
+//! comments are the descriptions of the JSON Schema.
+
+mod limits;
+mod mold;
+mod plan;
+mod target;
+
+pub(super) use limits::LimitsTable;
+pub(super) use mold::{MoldKind, MoldTable, SideKey};
+pub(super) use plan::{MethodKey, PlanTable};
+pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
+
+use super::choice::{Centred, MaterialChoice, Place, Positions};
+use super::located::{Count, Fixed, Located};
+use super::quantity::{
+    Acceleration, Angle, BendingRigidity, FlexuralRigidity, Force, ForcePerLength, Length, Mass,
+    Quantity, Ratio, Time,
+};
+use plydrape::ply::Direction;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A scene of plydrape: a ply, the grippers that hold it, the mold, and where all of it goes.
+/// Plain numbers are in SI units; a string carries a unit, as in "98 mm".
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(title = "plydrape scene", rename = "Scene")]
+pub(super) struct SceneKeys {
+    /// Name for reports; the file's name unless given.
+    pub title: Option<String>,
+    /// What hangs between the grippers.
+    pub ply: PlyTable,
+    /// What the ply is laid on. Without it the ply just hangs.
+    pub mold: Option<Located<MoldTable>>,
+    /// Where the grippers start.
+    pub grippers: Option<Located<GrippersTable>>,
+    /// Where the ply shall end.
+    pub target: Option<Located<TargetTable>>,
+    /// How the grippers move.
+    pub motion: Option<Located<MotionTable>>,
+    /// Rules of the model.
+    #[serde(default)]
+    pub model: ModelTable,
+    /// How contact between ply and mold is found.
+    #[serde(default)]
+    pub contact: ContactTable,
+    /// What an accepted drape keeps to.
+    #[serde(default)]
+    pub limits: LimitsTable,
+    /// How `plydrape plan` looks for the motion.
+    #[serde(default)]
+    pub plan: PlanTable,
+}
+
+/// What hangs between the grippers.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Ply")]
+pub(super) struct PlyTable {
+    /// Number of grippers along u and along v; [n, 1] is a strip.
+    pub grippers: Located<Fixed<Located<Count>, 2>>,
+    /// Fabric length between neighbouring grippers along u and along v (m).
+    pub cell: Fixed<Quantity<Length>, 2>,
+    /// A shipped material by name, a .toml file relative to the scene, or a table.
+    pub material: Located<MaterialChoice>,
+    /// The grid direction along which the warp runs, "u" unless given.
+    pub warp: Option<Warp>,
+}
+
+/// Grid direction of the warp.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Warp {
+    /// Along the first gripper index.
+    U,
+    /// Along the second gripper index.
+    V,
+}
+
+impl From<Warp> for Direction {
+    fn from(warp: Warp) -> Self {
+        match warp {
+            Warp::U => Direction::U,
+            Warp::V => Direction::V,
+        }
+    }
+}
+
+/// A woven ply, by line as in Krogh et al. 2018 or by area.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Material")]
+pub(super) struct MaterialTable {
+    /// Name for reports.
+    pub name: Option<String>,
+    /// Where the numbers come from; wanted in a material file.
+    pub source: Option<String>,
+    /// Mass per length (kg/m) or per area (kg/m²).
+    pub mass: Quantity<Mass>,
+    /// Flexural rigidity EI of a line of ply (N·m²); goes with a mass per length.
+    pub flexural_rigidity: Option<Quantity<FlexuralRigidity>>,
+    /// Bending rigidity per width along the warp (N·m); goes with a mass per area.
+    pub bending_rigidity_warp: Option<Quantity<BendingRigidity>>,
+    /// Bending rigidity per width along the weft (N·m); goes with a mass per area.
+    pub bending_rigidity_weft: Option<Quantity<BendingRigidity>>,
+    /// Picture-frame shear force per length over the shear angle.
+    pub shear_curve: Option<Located<ShearCurveTable>>,
+    /// Shear angle at which the weave locks (rad).
+    pub locking_angle: Option<Quantity<Angle>>,
+    /// The test that found the locking angle.
+    pub locking_test: Option<String>,
+}
+
+/// Measured points (`angle` and `force`), or a `polynomial`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "ShearCurve")]
+pub(super) struct ShearCurveTable {
+    /// Shear angles, ascending from 0 (rad).
+    pub angle: Option<Located<Vec<Quantity<Angle>>>>,
+    /// Shear force per length at each angle, never falling (N/m).
+    pub force: Option<Located<Vec<Quantity<ForcePerLength>>>>,
+    /// Coefficients of γ, γ², … (N/m, γ in rad).
+    pub polynomial: Option<Located<Vec<Quantity<Ratio>>>>,
+}
+
+/// Where the grippers start: a rectangle by `spacing` and `height`, or `positions`. Without any of these
+/// they start level above the middle of the target, 98 % of the fabric apart, half a cell above its
+/// highest point.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Grippers")]
+pub(super) struct GrippersTable {
+    /// Distance of neighbours along u and along v (m).
+    pub spacing: Option<Fixed<Quantity<Length>, 2>>,
+    /// Height z of all grippers; above the mold, with `parallel_to_mold` (m).
+    pub height: Option<Quantity<Length>>,
+    /// Place x, y of gripper [0, 0] (m), the origin unless given; with `parallel_to_mold`, of the mold point
+    /// below it. Or "centred": the rectangle's middle is above the middle of the target.
+    pub origin: Option<Located<Place<Centred>>>,
+    /// Heading of u (rad), from x towards y; that of the target where the origin is "centred".
+    pub direction: Option<Quantity<Angle>>,
+    /// True turns the rectangle parallel to the mold, `height` along its normal.
+    pub parallel_to_mold: Option<Located<bool>>,
+    /// Every position: a table of rows along v of [x, y, z] along u, or a CSV file (i, j, x, y, z).
+    pub positions: Option<Located<Positions>>,
+    /// Limit of the ball joints: largest gripper tilt (rad), 40 deg unless given.
+    pub max_tilt: Option<Quantity<Angle>>,
+}
+
+/// How the grippers move. `plydrape plan` finds a motion of its own and takes only the start from here: the
+/// first step of a file.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Motion")]
+pub(super) struct MotionTable {
+    /// Straight to the target, held still, or from a file.
+    pub kind: MotionKind,
+    /// Number of steps of a straight motion, 30 unless given; step 1 is the start.
+    pub steps: Option<Located<Count>>,
+    /// Time from the first to the last step of a straight motion (s), a second a step unless given. `plydrape plan`
+    /// refuses it: what a plan keeps is the `duration` of [limits].
+    pub duration: Option<Quantity<Time>>,
+    /// CSV file with columns t, gripper ("i-j"), x, y, z, relative to the scene.
+    pub file: Option<Located<String>>,
+}
+
+/// How the grippers move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum MotionKind {
+    /// From the start in straight lines to the target.
+    Straight,
+    /// One step, at the start.
+    Hold,
+    /// As the file says.
+    File,
+}
+
+/// Rules of the model.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Model")]
+pub(super) struct ModelTable {
+    /// How shared slopes are found, "moment-balance" unless given.
+    pub slopes: Option<Slopes>,
+    /// Axial stiffness EA of a line of ply (N), 100 kN unless given; inf for an inextensible ply.
+    pub axial_stiffness: Option<Quantity<Force>>,
+    /// Acceleration of gravity (m/s²), 9.81 unless given.
+    pub gravity: Option<Quantity<Acceleration>>,
+}
+
+/// How shared slopes are found.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Slopes {
+    /// A ball joint passes no moment.
+    MomentBalance,
+    /// Smallest norm of the horizontal forces, as in Krogh et al. 2018.
+    MinForce,
+}
+
+/// How contact between ply and mold is found.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Contact")]
+pub(super) struct ContactTable {
+    /// Distance that counts as touching (m), 0.2 mm unless given.
+    pub tolerance: Option<Quantity<Length>>,
+    /// Once per step, or with steps cut so that none dips deeper than the tolerance ("cut", the default).
+    pub stepping: Option<SteppingKey>,
+    /// Slope of a span where it leaves the mold, "free" unless given.
+    pub end: Option<EndKey>,
+}
+
+/// When contact is evaluated.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "Stepping")]
+pub(super) enum SteppingKey {
+    /// Once per step, as in Krogh et al. 2018.
+    Once,
+    /// A step that would carry a point deeper than the tolerance is halved until it does not.
+    Cut,
+}
+
+/// Slope of a span where it leaves the mold.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "End")]
+pub(super) enum EndKey {
+    /// Free, as in Krogh et al. 2018.
+    Free,
+    /// The slope of the mold.
+    Tangent,
+}

@@ -1,0 +1,61 @@
+//! The ideal drape alone: of a scene, what says how the ply is laid on the mold.
+
+use super::check::{MAX_TILT, ply, title};
+use super::error::{Document, SceneError};
+use super::file::SceneKeys;
+use super::limits::limits;
+use super::{mold, target};
+use plydrape::mold::Mold;
+use plydrape::net::Net;
+use plydrape::ply::Ply;
+use plydrape::scene::Contact;
+use std::path::Path;
+
+/// The ideal drape of a scene, whether or not grippers could bring the ply there.
+#[derive(Debug, Clone)]
+pub struct IdealDrape {
+    /// Name for reports.
+    pub title: String,
+    /// What is laid.
+    pub ply: Ply,
+    /// What it is laid on.
+    pub mold: Mold,
+    /// How it lies; some of it may not.
+    pub net: Net,
+    /// Largest shear allowed (rad), see [`plydrape::scene::Limits::shear`].
+    pub shear_limit: f64,
+}
+
+/// Checks `[ply]`, `[mold]`, `[target]` and `[limits]` of a scene and lays the ply.
+pub(super) fn ideal_drape(
+    file: &SceneKeys,
+    document: &Document,
+    base: &Path,
+) -> Result<IdealDrape, SceneError> {
+    let ply = ply(&file.ply, document, base)?;
+    let Some(table) = &file.mold else {
+        return Err(document.error_anywhere(
+            "the scene has no [mold] to lay the ply on",
+            "add [mold] with kind = \"plane\", or another one",
+        ));
+    };
+    let (mold, _) = mold::mold(&table.value, &ply, document, base)?;
+    let Some(table) = &file.target else {
+        return Err(document.error_anywhere(
+            "the scene has no [target], which says how the ply is laid on the mold",
+            "add [target] with `origin`, `direction`, `shear` and `seed`, or empty",
+        ));
+    };
+    if let Some(positions) = &table.value.positions {
+        return Err(document.error(
+            positions.span.clone(),
+            "the target gives `positions` of the grippers, which say nothing about the ply between them",
+            "give `origin`, `direction`, `shear` and `seed` to have the ply laid on the mold",
+        ));
+    }
+    let net = target::net(table, &ply, &mold, document)?;
+    let limits = limits(&file.limits, &ply, MAX_TILT, Contact::default().tolerance, document)?;
+    let shear_limit = limits.shear;
+    let title = file.title.clone().unwrap_or_else(|| title(document, base));
+    Ok(IdealDrape { title, ply, mold, net, shear_limit })
+}

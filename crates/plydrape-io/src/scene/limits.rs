@@ -1,0 +1,155 @@
+//! What an accepted drape keeps to.
+
+use super::error::{Document, SceneError};
+use super::file::LimitsTable;
+use super::heading::coordinates;
+use super::located::Fixed;
+use super::motion::DURATIONS;
+use super::quantity::{Angle, AngularRate, Force, Length, Measure, Quantity, Ratio};
+use plydrape::ply::Ply;
+use plydrape::scene::Limits;
+
+/// Largest angle between landed edges and the fibres of the ideal drape unless given (rad).
+const FIBRE_ANGLE: f64 = 3.0 * std::f64::consts::PI / 180.0;
+/// Largest shear angle where neither the scene nor the material names one (rad).
+const SHEAR: f64 = 45.0 * std::f64::consts::PI / 180.0;
+/// Largest change of a cell's shear after its diagonal landed unless given (rad).
+const LANDING_SHEAR: f64 = 3.0 * std::f64::consts::PI / 180.0;
+/// Largest angular rate of a ball joint unless given (rad/s): our assumption of a passive joint, from no data sheet.
+const TILT_RATE: f64 = 90.0 * std::f64::consts::PI / 180.0;
+/// Largest vertical load at a gripper unless given (N): a vacuum cup of 30 mm holds more, and slips sideways at 4 to
+/// 10 N.
+const GRIPPER_LOAD: f64 = 10.0;
+/// Smallest and largest angular rate of a ball joint (rad/s).
+const TILT_RATES: [f64; 2] = [1e-6, 1e4];
+/// Smallest and largest speed of a gripper (m/s).
+const SPEEDS: [f64; 2] = [1e-6, 1e2];
+/// Smallest and largest acceleration of a gripper (m/s²).
+const ACCELERATIONS: [f64; 2] = [1e-6, 1e4];
+/// Smallest and largest jerk of a gripper (m/s³).
+const JERKS: [f64; 2] = [1e-6, 1e7];
+
+/// Checks the table `[limits]`; unless the table says otherwise the largest gripper tilt is `max_tilt` (rad), the
+/// deepest penetration the contact `tolerance` (m).
+pub(super) fn limits(
+    table: &LimitsTable,
+    ply: &Ply,
+    max_tilt: f64,
+    tolerance: f64,
+    document: &Document,
+) -> Result<Limits, SceneError> {
+    let angle = |key: &Option<Quantity<Angle>>, default: f64| match key {
+        Some(angle) => acute(angle, document),
+        None => Ok(default),
+    };
+    let force = |key: &Option<Quantity<Force>>| match key {
+        Some(force) => force.positive(document).map(Some),
+        None => Ok(None),
+    };
+    let length = |key: &Option<Quantity<_>>, default: f64| match key {
+        Some(value) => value.not_negative(document),
+        None => Ok(default),
+    };
+    Ok(Limits {
+        slack_ratio: share(table.slack_ratio.as_ref(), 0.0005, document)?,
+        bridging: length(&table.bridging, 1e-3)?,
+        overstretch: share(table.overstretch.as_ref(), 0.001, document)?,
+        landing_contact: length(&table.landing_contact, 2e-3)?,
+        landing_gripper: length(&table.landing_gripper, 5e-4)?,
+        fibre_angle: angle(&table.fibre_angle, FIBRE_ANGLE)?,
+        shear: angle(&table.shear, ply.material.locking_angle.unwrap_or(SHEAR))?,
+        landing_shear: angle(&table.landing_shear, LANDING_SHEAR)?,
+        strain: share(table.strain.as_ref(), 0.005, document)?,
+        penetration: match &table.penetration {
+            Some(depth) => depth.size(document)?,
+            None => tolerance,
+        },
+        tilt: angle(&table.tilt, max_tilt)?,
+        tilt_rate: match &table.tilt_rate {
+            Some(rate) => tilt_rate(rate, document)?,
+            None => TILT_RATE,
+        },
+        force: force(&table.force)?,
+        gripper_load: force(&table.gripper_load)?.unwrap_or(GRIPPER_LOAD),
+        gripper_pull: force(&table.gripper_pull)?,
+        contact_share: share(table.contact_share.as_ref(), 0.95, document)?,
+        gripper_distance: match &table.gripper_distance {
+            Some(distance) => distance.size(document)?,
+            None => 0.5 * ply.cell[0].min(ply.cell[1]),
+        },
+        workspace: match &table.workspace {
+            Some(sides) => Some(workspace(sides, document)?),
+            None => None,
+        },
+        speed: rate(table.speed.as_ref(), 0.25, SPEEDS, document)?,
+        acceleration: rate(table.acceleration.as_ref(), 1.0, ACCELERATIONS, document)?,
+        jerk: rate(table.jerk.as_ref(), 10.0, JERKS, document)?,
+        duration: match &table.duration {
+            Some(duration) => Some(duration.within_for(document, DURATIONS, "a motion")?),
+            None => None,
+        },
+    })
+}
+
+/// Angular rate of a ball joint (rad/s).
+fn tilt_rate(rate: &Quantity<AngularRate>, document: &Document) -> Result<f64, SceneError> {
+    rate.within_for(document, TILT_RATES, "a gripper's joint")
+}
+
+/// Speed, acceleration or jerk of a gripper.
+fn rate<M: Measure>(
+    key: Option<&Quantity<M>>,
+    default: f64,
+    bounds: [f64; 2],
+    document: &Document,
+) -> Result<f64, SceneError> {
+    key.map_or(Ok(default), |rate| rate.within_for(document, bounds, "a gripper"))
+}
+
+/// A box (m); refuses sides that are empty or run backwards.
+fn workspace(
+    sides: &Fixed<Fixed<Quantity<Length>, 2>, 3>,
+    document: &Document,
+) -> Result<[[f64; 2]; 3], SceneError> {
+    let mut out = [[0.0; 2]; 3];
+    for (n, side) in sides.0.iter().enumerate() {
+        let [from, to] = coordinates(side, document)?;
+        if from >= to {
+            let axis = ["x", "y", "z"][n];
+            let fault = if from == to { "is empty" } else { "runs backwards" };
+            return Err(document.error(
+                side.0[0].span.start..side.0[1].span.end,
+                format!("the workspace {fault} along {axis}"),
+                "give [from, to] with from below to, as in [\"-500 mm\", \"500 mm\"]",
+            ));
+        }
+        out[n] = [from, to];
+    }
+    Ok(out)
+}
+
+/// An angle above zero and below a right angle (rad).
+pub(super) fn acute(angle: &Quantity<Angle>, document: &Document) -> Result<f64, SceneError> {
+    angle.positive(document)?;
+    angle.below_right_angle(document)
+}
+
+/// A share from 0 to 1.
+fn share(
+    key: Option<&Quantity<Ratio>>,
+    default: f64,
+    document: &Document,
+) -> Result<f64, SceneError> {
+    let Some(ratio) = key else {
+        return Ok(default);
+    };
+    let value = ratio.not_negative(document)?;
+    if value <= 1.0 {
+        return Ok(value);
+    }
+    Err(document.error(
+        ratio.span.clone(),
+        format!("{} is more than the whole", document.quoted(&ratio.span)),
+        format!("a share from 0 to 1 is wanted; {value} of a hundred is \"{value} %\""),
+    ))
+}

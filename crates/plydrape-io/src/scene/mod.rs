@@ -1,0 +1,159 @@
+//! A scene: everything one drape needs, read from a TOML file and checked.
+//!
+//! A file becomes a scene in three stages, each refusing what it cannot pass on with the place in
+//! the file, what is wrong there and what would be right ([`SceneError`]):
+//!
+//! 1. `read`, `complaint`: bytes become a text, a text the keys of `file`;
+//! 2. `quantity`, `units`: values with a unit become SI numbers of the wanted dimension;
+//! 3. `check` with `material`, `mold`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `plan`: numbers
+//!    become a [`Scene`], with what else the file says a [`SceneFile`].
+//!
+//! `argument` lends the reader of stage 2 to values on the command line.
+
+mod argument;
+mod check;
+mod choice;
+mod complaint;
+mod csv;
+mod error;
+mod file;
+mod heading;
+mod ideal;
+mod layup;
+mod limits;
+mod located;
+mod material;
+mod mold;
+mod motion;
+mod places;
+mod plan;
+mod quantity;
+mod read;
+mod rectangle;
+mod schema;
+mod start;
+mod target;
+mod trajectory;
+mod units;
+
+pub use argument::{Measured, quantity};
+pub use error::SceneError;
+pub use ideal::IdealDrape;
+pub use material::{shipped_material, shipped_materials};
+pub use schema::schema;
+
+use plydrape::mold::{MeshReport, Mold};
+use plydrape::ply::Ply;
+use plydrape::scene::Scene;
+use std::ops::{Deref, DerefMut};
+use std::path::Path;
+use std::sync::Arc;
+
+/// A commented scene to start from.
+pub const TEMPLATE: &str = include_str!("template.toml");
+
+/// Reads and checks a scene file; files it names are relative to its folder.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy.
+pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
+    let (document, base) = open(path)?;
+    scene(&document, base)
+}
+
+/// Reads of a scene file what its ideal drape needs, `[ply]`, `[mold]`, `[target]` and `[limits]`, and
+/// lays the ply; files it names are relative to its folder.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy. A ply that runs off the mold or folds is none.
+pub fn read_ideal_drape(path: &Path) -> Result<IdealDrape, SceneError> {
+    let (document, base) = open(path)?;
+    ideal::ideal_drape(&keys(&document)?, &document, base)
+}
+
+/// The text of a scene file, and the folder of the files it names.
+fn open(path: &Path) -> Result<(error::Document, &Path), SceneError> {
+    let mut document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML);
+    if let Err(error) = &mut document
+        && !path.exists()
+    {
+        error.help += "; `plydrape new NAME` writes a scene to start from";
+    }
+    Ok((document?, path.parent().unwrap_or(Path::new(""))))
+}
+
+/// Reads and checks the text of a scene; files it names are relative to `base`, and `name` stands
+/// for the scene in messages.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy.
+pub fn parse(text: &str, base: &Path, name: &str) -> Result<SceneFile, SceneError> {
+    scene(&error::Document::new(name, text), base)
+}
+
+/// Reads and checks the table `[ply]` of a scene's text alone; a material file is relative to `base`.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy.
+pub fn parse_ply(text: &str, base: &Path, name: &str) -> Result<Ply, SceneError> {
+    let document = error::Document::new(name, text);
+    check::ply(&keys(&document)?.ply, &document, base)
+}
+
+/// As [`parse`], on a mold that a program has made; the text has no `[mold]` then.
+///
+/// # Errors
+/// As [`parse`], and if the text has a mold of its own.
+pub fn parse_on(mold: Mold, text: &str, base: &Path, name: &str) -> Result<SceneFile, SceneError> {
+    let document = error::Document::new(name, text);
+    let mut file = keys(&document)?;
+    match file.mold.take() {
+        None => check::scene(&file, Some(mold), &document, base),
+        Some(table) => Err(document.error(
+            table.span,
+            "the scene has two molds",
+            "leave out [mold], or give no other mold",
+        )),
+    }
+}
+
+fn scene(document: &error::Document, base: &Path) -> Result<SceneFile, SceneError> {
+    check::scene(&keys(document)?, None, document, base)
+}
+
+fn keys(document: &error::Document) -> Result<file::SceneKeys, SceneError> {
+    if document.text.trim().is_empty() {
+        return Err(document.error_anywhere(
+            format!("`{}` is empty", document.file),
+            "`plydrape new NAME` writes a commented scene to start from",
+        ));
+    }
+    read::keys(document)
+}
+
+/// A scene with what its file says beside it.
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    /// The scene.
+    pub scene: Scene,
+    /// The text of the file; none of a scene that was made in a program.
+    pub input: Option<Arc<str>>,
+    /// What was found and repaired while the mold was read, if it is a mesh.
+    pub mesh: Option<MeshReport>,
+    /// Why no plan is looked for: what the scene says of its own motion and a planned one would not keep.
+    pub plan_refusal: Option<Box<SceneError>>,
+}
+
+impl Deref for SceneFile {
+    type Target = Scene;
+
+    fn deref(&self) -> &Scene {
+        &self.scene
+    }
+}
+
+impl DerefMut for SceneFile {
+    fn deref_mut(&mut self) -> &mut Scene {
+        &mut self.scene
+    }
+}

@@ -1,0 +1,85 @@
+//! A flat mold: by a point and a normal, or by its tilt.
+
+use super::UPWARD;
+use crate::scene::error::{Document, SceneError};
+use crate::scene::file::MoldTable;
+use crate::scene::heading::{coordinates, heading};
+use crate::scene::quantity::{Quantity, Ratio};
+use plydrape::mold::{Mold, Plane};
+
+/// Checks the keys of a plane.
+pub(super) fn plane(table: &MoldTable, document: &Document) -> Result<Mold, SceneError> {
+    let point = match &table.point {
+        Some(point) => coordinates(&point.value, document)?,
+        None => [0.0; 3],
+    };
+    let normal = match (&table.normal, &table.tilt) {
+        (Some(normal), None) => {
+            if let Some(direction) = &table.tilt_direction {
+                return Err(document.error(
+                    direction.span.clone(),
+                    "`tilt_direction` goes with `tilt`, not with `normal`",
+                    "keep `normal`, or give `tilt` and `tilt_direction`",
+                ));
+            }
+            let components = &normal.value.0;
+            unit_normal(components, document)?.ok_or_else(|| {
+                document.error(
+                    normal.span.clone(),
+                    "the normal of the mold does not point upwards",
+                    "the ply comes from above: give a normal with z > 0, tilted less than 89.9 deg, as in [0, 0, 1]",
+                )
+            })?
+        }
+        (None, Some(tilt)) => {
+            let angle = tilt.below_right_angle(document)?;
+            if angle.cos() < UPWARD {
+                return Err(document.error(
+                    tilt.span.clone(),
+                    "the mold is (all but) a wall",
+                    "a tilt below 89.9 deg is wanted",
+                ));
+            }
+            let climb = match &table.tilt_direction {
+                Some(direction) => heading(direction, document)?,
+                None => 0.0,
+            };
+            [-angle.sin() * climb.cos(), -angle.sin() * climb.sin(), angle.cos()]
+        }
+        (Some(_), Some(tilt)) => {
+            return Err(document.error(
+                tilt.span.clone(),
+                "the mold has a `normal` and a `tilt`",
+                "keep one of the two",
+            ));
+        }
+        (None, None) => match &table.tilt_direction {
+            Some(direction) => {
+                return Err(document.error(
+                    direction.span.clone(),
+                    "the mold has a `tilt_direction` but no `tilt`",
+                    "add tilt = \"10 deg\"",
+                ));
+            }
+            None => [0.0, 0.0, 1.0],
+        },
+    };
+    Ok(Mold::Plane(Plane { point, normal }))
+}
+
+/// The unit vector, `None` if it does not point upwards.
+fn unit_normal(
+    [x, y, z]: &[Quantity<Ratio>; 3],
+    document: &Document,
+) -> Result<Option<[f64; 3]>, SceneError> {
+    let [x, y, z] = [x.si(document)?, y.si(document)?, z.si(document)?];
+    // Scaled by the largest component first, so that no square overflows.
+    let largest = x.abs().max(y.abs()).max(z.abs());
+    if largest < f64::MIN_POSITIVE {
+        return Ok(None);
+    }
+    let [x, y, z] = [x / largest, y / largest, z / largest];
+    let norm = x.hypot(y).hypot(z);
+    let unit = [x / norm, y / norm, z / norm];
+    Ok((unit[2] >= UPWARD).then_some(unit))
+}

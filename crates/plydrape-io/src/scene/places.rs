@@ -1,0 +1,252 @@
+//! Gripper positions as written: by spacing, as a table, or in a CSV file.
+
+use super::choice::{Positions, PositionsRow};
+use super::csv::{Column, Csv, Row};
+use super::error::{Document, SceneError};
+use super::located::Located;
+use super::quantity::rounded;
+use super::read;
+use super::units::Dimension;
+use plydrape::ply::{Grid, GripperId, Kind, Ply};
+use std::ops::Range;
+use std::path::Path;
+
+/// Largest coordinate of a gripper (m).
+const FARTHEST: f64 = 1e4;
+/// Least horizontal distance of neighbours as a share of the fabric between them: a span has no
+/// solution straight up.
+const STEEPEST: f64 = 0.01;
+/// A chord this much longer than its fabric, as a share, is taut and not too long.
+const TAUT: f64 = 1e-9;
+
+/// Positions of all grippers, and where each was read.
+#[derive(Debug)]
+pub(super) struct Places {
+    /// Positions (m) in the order of [`Grid::index`].
+    pub points: Vec<[f64; 3]>,
+    /// The file they were read from.
+    pub document: Document,
+    /// One span per gripper, or one for all.
+    pub spans: Vec<Range<usize>>,
+    /// The span of the height, where it stands apart.
+    pub height: Option<Range<usize>>,
+}
+
+/// The columns of a table of positions.
+const COLUMNS: [Column; 5] = [
+    Column { name: "i", dimension: Dimension::NONE },
+    Column { name: "j", dimension: Dimension::NONE },
+    X,
+    Y,
+    Z,
+];
+/// The columns of coordinates.
+pub(super) const X: Column = Column { name: "x", dimension: Dimension::LENGTH };
+pub(super) const Y: Column = Column { name: "y", dimension: Dimension::LENGTH };
+pub(super) const Z: Column = Column { name: "z", dimension: Dimension::LENGTH };
+
+impl Places {
+    /// Reads the key `positions`.
+    pub fn read(
+        positions: &Located<Positions>,
+        grid: Grid,
+        scene: &Document,
+        base: &Path,
+    ) -> Result<Self, SceneError> {
+        match &positions.value {
+            Positions::Table(rows) => from_table(rows, &positions.span, grid, scene),
+            Positions::File(name) => {
+                let document = csv_file(name, &positions.span, scene, base)?;
+                from_csv(document, grid)
+            }
+        }
+    }
+
+    /// An error at the gripper with an index.
+    pub fn error(&self, index: usize, message: String, help: impl Into<String>) -> SceneError {
+        let span = self.spans.get(index).or_else(|| self.spans.first());
+        match span {
+            Some(span) => self.document.error(span.clone(), message, help),
+            None => self.document.error_anywhere(message, help),
+        }
+    }
+
+    /// Refuses neighbours further apart than the ply between them.
+    pub fn check_reach(&self, ply: &Ply) -> Result<(), SceneError> {
+        for_neighbours(ply, |kind, a, b| {
+            let length = ply.flat_length(kind);
+            let (from, to) = self.pair(ply.grid, a, b);
+            let distance = norm([to[0] - from[0], to[1] - from[1], to[2] - from[2]]);
+            // A diagonal may be longer than flat: its cell shears.
+            if !kind.is_edge() || distance <= length * (1.0 + TAUT) {
+                return Ok(());
+            }
+            Err(self.error(
+                ply.grid.index(b),
+                format!(
+                    "grippers {a:?} and {b:?} are {:.2} mm apart at the start; the ply between them is {:.2} mm",
+                    distance * 1e3,
+                    length * 1e3
+                ),
+                "bring the grippers closer together, or give the ply a longer `cell`",
+            ))
+        })
+    }
+
+    /// Refuses neighbours (all but) straight above each other.
+    pub fn check_run(&self, ply: &Ply, when: &str) -> Result<(), SceneError> {
+        for_neighbours(ply, |kind, a, b| {
+            let length = ply.flat_length(kind);
+            let (from, to) = self.pair(ply.grid, a, b);
+            let run = norm([to[0] - from[0], to[1] - from[1], 0.0]);
+            if run >= STEEPEST * length {
+                return Ok(());
+            }
+            Err(self.error(
+                ply.grid.index(b),
+                format!(
+                    "grippers {a:?} and {b:?} are only {:.3} mm apart in plan {when}; the ply between them is {:.2} mm",
+                    run * 1e3,
+                    length * 1e3
+                ),
+                "move them apart: a span needs a horizontal distance of 1 % of its fabric or more",
+            ))
+        })
+    }
+
+    fn pair(&self, grid: Grid, a: GripperId, b: GripperId) -> ([f64; 3], [f64; 3]) {
+        (self.points[grid.index(a)], self.points[grid.index(b)])
+    }
+}
+
+fn for_neighbours(
+    ply: &Ply,
+    check: impl Fn(Kind, GripperId, GripperId) -> Result<(), SceneError>,
+) -> Result<(), SceneError> {
+    (0..ply.grid.catenaries()).try_for_each(|index| {
+        let catenary = ply.grid.catenary(index);
+        check(catenary.kind, catenary.from, catenary.to)
+    })
+}
+
+fn norm([x, y, z]: [f64; 3]) -> f64 {
+    x.hypot(y).hypot(z)
+}
+
+/// A CSV file that a scene names.
+pub(super) fn csv_file(
+    name: &str,
+    span: &Range<usize>,
+    scene: &Document,
+    base: &Path,
+) -> Result<Document, SceneError> {
+    read::text(&base.join(name), name, read::LARGEST_CSV).map_err(|error| {
+        if error.span.is_some() {
+            return error;
+        }
+        let help = format!("paths are relative to the scene's folder; {}", error.help);
+        scene.error(span.clone(), error.message, help)
+    })
+}
+
+fn from_table(
+    rows: &[PositionsRow],
+    span: &Range<usize>,
+    grid: Grid,
+    scene: &Document,
+) -> Result<Places, SceneError> {
+    let help = format!(
+        "give a row for every gripper along v ({}), each with a position [x, y, z] for every gripper along u ({})",
+        grid.nv, grid.nu
+    );
+    if rows.len() != grid.nv {
+        let message =
+            format!("the number of rows in this table is {}, not {}", rows.len(), grid.nv);
+        return Err(scene.error(span.clone(), message, help));
+    }
+    let mut places = Places {
+        points: Vec::with_capacity(grid.grippers()),
+        document: scene.clone(),
+        spans: Vec::with_capacity(grid.grippers()),
+        height: None,
+    };
+    for row in rows {
+        if row.value.len() != grid.nu {
+            let message = format!(
+                "the number of positions in this row is {}, not {}",
+                row.value.len(),
+                grid.nu
+            );
+            return Err(scene.error(row.span.clone(), message, help));
+        }
+        for position in &row.value {
+            let [x, y, z] = &position.value.0;
+            places.points.push([x.coordinate(scene)?, y.coordinate(scene)?, z.coordinate(scene)?]);
+            places.spans.push(position.span.clone());
+        }
+    }
+    Ok(places)
+}
+
+fn from_csv(document: Document, grid: Grid) -> Result<Places, SceneError> {
+    let mut points = vec![None; grid.grippers()];
+    let mut spans = vec![0..0; grid.grippers()];
+    let header = {
+        let csv = Csv::new(&document, &COLUMNS)?;
+        for row in csv.rows() {
+            let gripper = [row.whole(0)?, row.whole(1)?];
+            let index = in_grid(gripper, grid).map_err(|(m, h)| row.fault(0, m, h))?;
+            if points[index].is_some() {
+                return Err(row.fault(
+                    0,
+                    format!("gripper {gripper:?} stands here for the second time"),
+                    "give every gripper one row",
+                ));
+            }
+            points[index] = Some(point(&row, [2, 3, 4])?);
+            spans[index] = row.span.clone();
+        }
+        csv.header.clone()
+    };
+    if let Some(missing) = points.iter().position(Option::is_none) {
+        return Err(document.error(
+            header,
+            format!("gripper {:?} has no row", grid.id(missing)),
+            format!("give every one of the {} grippers one row", grid.grippers()),
+        ));
+    }
+    Ok(Places { points: points.into_iter().flatten().collect(), document, spans, height: None })
+}
+
+/// The index of a gripper, or why there is none with such an id.
+pub(super) fn in_grid(gripper: GripperId, grid: Grid) -> Result<usize, (String, String)> {
+    if gripper[0] < grid.nu && gripper[1] < grid.nv {
+        return Ok(grid.index(gripper));
+    }
+    Err((
+        format!("there is no gripper {gripper:?}"),
+        format!(
+            "the ply has {} × {} grippers, from [0, 0] to [{}, {}]",
+            grid.nu,
+            grid.nv,
+            grid.nu - 1,
+            grid.nv - 1
+        ),
+    ))
+}
+
+/// The position (m) in three columns of a row.
+pub(super) fn point(row: &Row, columns: [usize; 3]) -> Result<[f64; 3], SceneError> {
+    let mut point = [0.0; 3];
+    for (coordinate, column) in point.iter_mut().zip(columns) {
+        *coordinate = row.number(column)?;
+        if coordinate.abs() > FARTHEST {
+            return Err(row.fault(
+                column,
+                format!("this is {} m, out of all scale for a ply", rounded(*coordinate)),
+                "a column without a unit is in metres: did you mean a header such as `x (mm)`?",
+            ));
+        }
+    }
+    Ok(point)
+}

@@ -1,0 +1,87 @@
+//! How a motion is planned.
+
+use super::error::{Document, SceneError};
+use super::file::{MethodKey, PlanTable};
+use super::located::{Count, Located, Seed};
+use plydrape::motion::MOST_POSITIONS;
+use plydrape::ply::Grid;
+use plydrape::scene::{Plan, PlanMethod};
+
+/// Most steps of a plan: each is solved in every drape that the search tries.
+const MOST_STEPS: usize = 10_000;
+/// Most drapes that a search may try.
+const MOST_EVALUATIONS: usize = 1_000_000;
+/// Smallest and largest rate of the motion file (Hz).
+const RATES: [f64; 2] = [0.1, 1e4];
+
+/// Checks the table `[plan]`.
+pub(super) fn plan(table: &PlanTable, grid: Grid, document: &Document) -> Result<Plan, SceneError> {
+    let default = Plan::default();
+    let most_steps = MOST_STEPS.min(MOST_POSITIONS / grid.grippers());
+    Ok(Plan {
+        method: match table.method {
+            Some(MethodKey::Path) => PlanMethod::Path,
+            Some(MethodKey::Stepwise) => PlanMethod::Stepwise,
+            None => default.method,
+        },
+        steps: match &table.steps {
+            Some(steps) => count(steps, [2, most_steps], "steps", document)?,
+            None => default.steps.min(most_steps),
+        },
+        move_limit: match &table.move_limit {
+            Some(limit) => Some(limit.size(document)?),
+            None => None,
+        },
+        seed: match &table.seed {
+            Some(seed) => number(seed, document)?,
+            None => default.seed,
+        },
+        evaluations: match &table.evaluations {
+            Some(most) => count(most, [1, MOST_EVALUATIONS], "drapes", document)?,
+            None => default.evaluations,
+        },
+        rate: match &table.rate {
+            Some(rate) => rate.within_for(document, RATES, "a motion file")?,
+            None => default.rate,
+        },
+    })
+}
+
+/// A count within bounds.
+fn count(
+    written: &Located<Count>,
+    [least, most]: [usize; 2],
+    of: &str,
+    document: &Document,
+) -> Result<usize, SceneError> {
+    let Count(value) = written.value;
+    if let Ok(value) = usize::try_from(value)
+        && (least..=most).contains(&value)
+    {
+        return Ok(value);
+    }
+    let fault = match value {
+        1 => format!("1 {} is too few for a plan", of.trim_end_matches('s')),
+        _ if value < 1 => format!("{value} {of} are too few for a plan"),
+        _ => format!("{value} {of} are too many for a plan"),
+    };
+    let help = match of {
+        "steps" => format!(
+            "{least} to {most} steps are possible: step 1 is the start, the last one the target"
+        ),
+        _ => format!("{least} to {most} {of} are possible"),
+    };
+    Err(document.error(written.span.clone(), fault, help))
+}
+
+/// The seed of the search.
+fn number(seed: &Located<Seed>, document: &Document) -> Result<u64, SceneError> {
+    let Seed(value) = seed.value;
+    u64::try_from(value).map_err(|_| {
+        document.error(
+            seed.span.clone(),
+            format!("the seed {value} is negative"),
+            "a whole number of zero or more is wanted, e.g. 0",
+        )
+    })
+}

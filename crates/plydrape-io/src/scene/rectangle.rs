@@ -1,0 +1,67 @@
+//! Rectangles of grippers laid out on a plane.
+
+use plydrape::mold::Plane;
+use plydrape::mold::vector::{along, cross};
+use plydrape::ply::Grid;
+
+/// A rectangle in a plane, spread along u and v from a corner.
+pub(super) struct Rectangle {
+    /// Its corner (m).
+    origin: [f64; 3],
+    /// Unit vector along u.
+    along_u: [f64; 3],
+    /// Unit vector along v, to the left of u.
+    along_v: [f64; 3],
+}
+
+impl Rectangle {
+    /// The corner above or below `origin` (x, y in m), u along the heading `direction` (rad) as seen from
+    /// above.
+    pub fn on(plane: &Plane, [x, y]: [f64; 2], direction: f64) -> Self {
+        let (sin, cos) = direction.sin_cos();
+        let climb = plane.slope([cos, sin]);
+        let length = climb.hypot(1.0);
+        let along_u = [cos / length, sin / length, climb / length];
+        let [nx, ny, nz] = plane.normal;
+        let [px, py, pz] = plane.point;
+        let z = pz - (nx * (x - px) + ny * (y - py)) / nz;
+        Rectangle { origin: [x, y, z], along_u, along_v: cross(plane.normal, along_u) }
+    }
+
+    /// Places (m) of all grippers, `spacing` (m) apart along u and v, in the order of [`Grid::index`].
+    pub fn grippers(&self, grid: Grid, spacing: [f64; 2]) -> Vec<[f64; 3]> {
+        (0..grid.grippers())
+            .map(|index| {
+                let [i, j] = grid.id(index);
+                let in_row = along(self.origin, i as f64 * spacing[0], self.along_u);
+                along(in_row, j as f64 * spacing[1], self.along_v)
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use plydrape::mold::vector::{dot, sub};
+    use proptest::prelude::*;
+
+    proptest! {
+        /// On any plane the sides keep their length, stand at right angles, lie in the plane, and u keeps its
+        /// heading in plan.
+        #[test]
+        fn a_rectangle_lies_in_its_plane(
+            tilt in 0.0..1.5f64, climb in -3.0..3.0f64, direction in -6.0..6.0f64,
+        ) {
+            let normal = [-tilt.sin() * climb.cos(), -tilt.sin() * climb.sin(), tilt.cos()];
+            let plane = Plane { point: [0.1, -0.2, 0.3], normal };
+            let rectangle = Rectangle::on(&plane, [0.4, 0.5], direction);
+            let (u, v) = (rectangle.along_u, rectangle.along_v);
+            prop_assert!((dot(u, u) - 1.0).abs() < 1e-13 && (dot(v, v) - 1.0).abs() < 1e-13);
+            prop_assert!(dot(u, v).abs() < 1e-13 && dot(u, normal).abs() < 1e-13);
+            prop_assert!((u[0] * direction.sin() - u[1] * direction.cos()).abs() < 1e-13);
+            prop_assert!(u[0] * direction.cos() + u[1] * direction.sin() > 0.0);
+            prop_assert!(dot(sub(rectangle.origin, plane.point), normal).abs() < 1e-13);
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! Where the grippers start.
+
+use super::check::Surroundings;
+use super::choice::Place;
+use super::error::SceneError;
+use super::file::GrippersTable;
+use super::heading::{coordinates, heading};
+use super::located::{Fixed, Located};
+use super::places::Places;
+use super::quantity::{Length, Quantity};
+use super::rectangle::Rectangle;
+use plydrape::mold::{Mold, Plane};
+use plydrape::net::Net;
+use plydrape::ply::Grid;
+use plydrape::scene::Target;
+use std::ops::Range;
+
+/// Distance of neighbours at the start as a share of the fabric between them, unless given: that of Krogh
+/// et al. 2018.
+const CLOSER: f64 = 0.98;
+/// Height of the start above the drape's highest point, in cells, unless given.
+const CLEAR: f64 = 0.5;
+
+/// Checks where the table `[grippers]` puts the grippers.
+pub(super) fn start(
+    table: &Located<GrippersTable>,
+    around: &Surroundings,
+    target: Option<&Target>,
+) -> Result<Places, SceneError> {
+    let keys = &table.value;
+    let &Surroundings { ply, document, base, .. } = around;
+    match (&keys.positions, &keys.spacing, &keys.height) {
+        (Some(positions), None, None) => {
+            if let Some(key) = other_key(keys) {
+                return Err(document.error(
+                    positions.span.clone(),
+                    format!("the grippers have `positions` and `{key}`"),
+                    format!("remove `{key}`: positions say all"),
+                ));
+            }
+            Places::read(positions, ply.grid, document, base)
+        }
+        (Some(positions), ..) => Err(document.error(
+            positions.span.clone(),
+            "the grippers have `positions` and a `spacing` or `height`",
+            "keep `positions`, or `spacing` and `height`",
+        )),
+        (None, Some(spacing), Some(height)) => rectangle(keys, spacing, height, around, target),
+        (None, ..) => Err(document.error(
+            table.span.clone(),
+            "[grippers] does not say where the grippers start",
+            "give spacing = [\"98 mm\", \"98 mm\"] and height = \"75 mm\", or `positions`",
+        )),
+    }
+}
+
+/// Whether the table says nothing about where the grippers start.
+pub(super) fn is_open(keys: &GrippersTable) -> bool {
+    keys.positions.is_none()
+        && keys.spacing.is_none()
+        && keys.height.is_none()
+        && other_key(keys).is_none()
+}
+
+/// The start of a scene that only says where the ply is to lie: a level rectangle above the middle of the
+/// ideal drape, a little closer than the fabric, half a cell above the drape's highest point. `span` is
+/// the place in the scene that faults of it are shown at.
+pub(super) fn above(net: &Net, span: &Range<usize>, around: &Surroundings) -> Places {
+    let ply = around.ply;
+    let ends: Vec<[f64; 3]> = net.nodes.iter().flatten().copied().collect();
+    let top = ends.iter().map(|place| place[2]).fold(f64::NEG_INFINITY, f64::max);
+    let level = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    let spacing = ply.cell.map(|side| CLOSER * side);
+    let spread = |corner| Rectangle::on(&level, corner, net.layup.heading);
+    let (here, there) = (middle(&spread([0.0; 2]).grippers(ply.grid, spacing)), middle(&ends));
+    let mut points = spread([0, 1].map(|n| there[n] - here[n])).grippers(ply.grid, spacing);
+    for point in &mut points {
+        point[2] = top + CLEAR * ply.cell[0].min(ply.cell[1]);
+    }
+    Places { points, document: around.document.clone(), spans: vec![span.clone()], height: None }
+}
+
+/// A key that has no place beside `positions` or a motion file.
+pub(super) fn other_key(keys: &GrippersTable) -> Option<&'static str> {
+    [
+        ("origin", keys.origin.is_some()),
+        ("direction", keys.direction.is_some()),
+        ("parallel_to_mold", keys.parallel_to_mold.is_some()),
+    ]
+    .into_iter()
+    .find_map(|(key, given)| given.then_some(key))
+}
+
+/// A rectangle of grippers: level, or parallel to the mold.
+fn rectangle(
+    keys: &GrippersTable,
+    spacing: &Fixed<Quantity<Length>, 2>,
+    height: &Quantity<Length>,
+    around: &Surroundings,
+    target: Option<&Target>,
+) -> Result<Places, SceneError> {
+    let &Surroundings { ply, document, .. } = around;
+    let place = spacing.0[0].span.start..spacing.0[1].span.end;
+    let distances = [spacing.0[0].size(document)?, spacing.0[1].size(document)?];
+    let lift = height.coordinate(document)?;
+    let plane = ground(keys, around)?;
+    let (origin, direction) = match &keys.origin {
+        None => ([0.0; 2], 0.0),
+        Some(origin) => match &origin.value {
+            Place::At(origin) => (coordinates(origin, document)?, 0.0),
+            Place::Word(_) => {
+                let Some(target) = target else {
+                    return Err(document.error(
+                        origin.span.clone(),
+                        "the start shall be centred above the target, and the scene has no target",
+                        "add [target], or give the place [x, y] of gripper [0, 0]",
+                    ));
+                };
+                let direction = match &keys.direction {
+                    Some(direction) => heading(direction, document)?,
+                    None => heading_of(&target.grippers, ply.grid),
+                };
+                // gripper [0, 0] as far from the middle as without a shift
+                let unmoved = Rectangle::on(&plane, [0.0; 2], direction);
+                let [here, there] =
+                    [unmoved.grippers(ply.grid, distances), target.grippers.clone()]
+                        .map(|points| middle(&points));
+                ([0, 1].map(|n| there[n] - here[n]), direction)
+            }
+        },
+    };
+    let direction = match &keys.direction {
+        Some(direction) => heading(direction, document)?,
+        None => direction,
+    };
+    let mut points = Rectangle::on(&plane, origin, direction).grippers(ply.grid, distances);
+    for point in &mut points {
+        for (coordinate, n) in point.iter_mut().zip(plane.normal) {
+            *coordinate += lift * n;
+        }
+    }
+    Ok(Places {
+        points,
+        document: document.clone(),
+        spans: vec![place],
+        height: Some(height.span.clone()),
+    })
+}
+
+/// The plane above which the rectangle lies: the mold, or z = 0.
+fn ground(keys: &GrippersTable, around: &Surroundings) -> Result<Plane, SceneError> {
+    let level = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    let Some(parallel) = keys.parallel_to_mold.as_ref().filter(|parallel| parallel.value) else {
+        return Ok(level);
+    };
+    let (message, help) = match around.mold {
+        Some(Mold::Plane(plane)) => return Ok(*plane),
+        Some(_) => (
+            "the grippers shall be parallel to the mold, and the mold is curved",
+            "remove `parallel_to_mold`: `height` is then the z of all grippers; or give their `positions`",
+        ),
+        None => (
+            "the grippers shall be parallel to the mold, and the scene has no mold",
+            "add [mold] with kind = \"plane\", or remove `parallel_to_mold`",
+        ),
+    };
+    Err(around.document.error(parallel.span.clone(), message, help))
+}
+
+/// Mean place of all grippers in plan (m).
+fn middle(points: &[[f64; 3]]) -> [f64; 2] {
+    [0, 1].map(|n| points.iter().map(|point| point[n]).sum::<f64>() / points.len() as f64)
+}
+
+/// Mean heading of the lines of grippers along u (rad).
+fn heading_of(points: &[[f64; 3]], grid: Grid) -> f64 {
+    let across = |n: usize| -> f64 {
+        (0..grid.nv)
+            .map(|j| points[grid.index([grid.nu - 1, j])][n] - points[grid.index([0, j])][n])
+            .sum()
+    };
+    across(1).atan2(across(0))
+}
+
+/// Refuses a start that cannot be: fabric too short, spans straight up, grippers in the mold.
+pub(super) fn check(places: &Places, around: &Surroundings) -> Result<(), SceneError> {
+    let &Surroundings { ply, mold, tolerance, .. } = around;
+    places.check_reach(ply)?;
+    places.check_run(ply, "at the start")?;
+    let Some(mold) = mold else {
+        return Ok(());
+    };
+    let depth = |point: &[f64; 3]| -mold.signed_distance(*point);
+    let Some((index, point)) =
+        places.points.iter().enumerate().find(|(_, point)| depth(point) > tolerance)
+    else {
+        return Ok(());
+    };
+    let id = ply.grid.id(index);
+    let depth_mm = depth(point) * 1e3;
+    let message = match mold {
+        Mold::Plane(_) => format!("gripper {id:?} starts {depth_mm:.2} mm below the mold"),
+        _ => format!("gripper {id:?} starts inside the mold, {depth_mm:.2} mm from its surface"),
+    };
+    let mut help = "start above the mold: raise the grippers or lower the mold".to_string();
+    // a level start clears the mold above its highest point under a gripper
+    let tops = places.points.iter().filter_map(|&[x, y, _]| mold.drop_to([x, y]));
+    let top = tops.map(|top| top[2]).fold(f64::NEG_INFINITY, f64::max);
+    if places.height.is_some() && !matches!(mold, Mold::Plane(_)) && top.is_finite() {
+        help += &format!("; below the grippers it reaches up to z = {:.1} mm", top * 1e3);
+    }
+    let mut error = places.error(index, message, help);
+    error.span = places.height.clone().or(error.span);
+    Err(error)
+}

@@ -1,0 +1,154 @@
+//! Where the ply shall end: the ideal drape on the mold, or positions as given.
+
+use super::error::{Document, SceneError};
+use super::file::TargetTable;
+use super::layup::{layup, round};
+use super::located::Located;
+use super::places::Places;
+use plydrape::mold::Mold;
+use plydrape::net::{LayupError, Net, Reason};
+use plydrape::ply::Ply;
+use plydrape::scene::Target;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Checks the table `[target]`.
+pub(super) fn target(
+    table: &Located<TargetTable>,
+    ply: &Ply,
+    mold: Option<&Mold>,
+    document: &Document,
+    base: &Path,
+) -> Result<Target, SceneError> {
+    let keys = &table.value;
+    if let Some(positions) = &keys.positions {
+        if let Some(key) = laying_key(keys) {
+            return Err(document.error(
+                positions.span.clone(),
+                format!("the target has `positions` and `{key}`"),
+                format!(
+                    "keep `positions`, which say all, or `{key}` to have the ply laid on the mold"
+                ),
+            ));
+        }
+        let places = Places::read(positions, ply.grid, document, base)?;
+        places.check_run(ply, "at the target")?;
+        return Ok(Target { grippers: places.points, drape: None });
+    }
+    let Some(mold) = mold else {
+        return Err(document.error(
+            table.span.clone(),
+            "the target is a drape on a mold, and the scene has no mold",
+            "add [mold] with kind = \"plane\", or give the target's `positions`",
+        ));
+    };
+    let net = net(table, ply, mold, document)?;
+    // nodes that hang straight above each other have no span between them
+    let places = Places {
+        points: at_grippers(&net, ply, table, document)?,
+        document: document.clone(),
+        spans: vec![header(table, document)],
+        height: None,
+    };
+    places.check_run(ply, "at the target")?;
+    Ok(Target { grippers: places.points, drape: Some(Arc::new(net)) })
+}
+
+/// Lays the ply on the mold; nodes without a place are no fault here.
+pub(super) fn net(
+    table: &Located<TargetTable>,
+    ply: &Ply,
+    mold: &Mold,
+    document: &Document,
+) -> Result<Net, SceneError> {
+    let keys = &table.value;
+    let layup = layup(keys, &table.span, ply, mold, document)?;
+    Net::drape(mold, layup).map_err(|error| no_net(keys, table, &error, document))
+}
+
+/// A key that says how the ply is laid on the mold.
+fn laying_key(keys: &TargetTable) -> Option<&'static str> {
+    [
+        ("shear", keys.shear.is_some()),
+        ("origin", keys.origin.is_some()),
+        ("direction", keys.direction.is_some()),
+        ("seed", keys.seed.is_some()),
+        ("mesh", keys.mesh.is_some()),
+        ("generators", keys.generators.is_some()),
+        ("edges", keys.edges.is_some()),
+    ]
+    .into_iter()
+    .find_map(|(key, given)| given.then_some(key))
+}
+
+/// The bytes of `[target]` itself.
+fn header(table: &Located<TargetTable>, document: &Document) -> std::ops::Range<usize> {
+    let text = document.text.get(table.span.clone()).unwrap_or_default();
+    let length = text.find('\n').unwrap_or(text.len());
+    table.span.start..table.span.start + length
+}
+
+/// A net that cannot be begun, at the key that would begin it.
+fn no_net(
+    keys: &TargetTable,
+    table: &Located<TargetTable>,
+    error: &LayupError,
+    document: &Document,
+) -> SceneError {
+    let shear = keys.shear.as_ref().map(|shear| &shear.span);
+    let origin = keys.origin.as_ref().map(|origin| &origin.span);
+    let (key, help) = match error {
+        LayupError::Shear { .. } => (shear, "give a smaller `shear`; a ply locks long before"),
+        _ => (origin, "give another `origin`, where the mold faces upwards"),
+    };
+    let place = key.cloned().unwrap_or_else(|| header(table, document));
+    document.error(place, error.to_string(), help)
+}
+
+/// Places of the net at the grippers; refuses a ply that reaches beyond the mold or folds.
+fn at_grippers(
+    net: &Net,
+    ply: &Ply,
+    table: &Located<TargetTable>,
+    document: &Document,
+) -> Result<Vec<[f64; 3]>, SceneError> {
+    let divisions = [0, 1].map(|n| (ply.cell[n] / net.layup.mesh[n]).round() as usize);
+    let node = |index: usize| {
+        let id = ply.grid.id(index);
+        [id[0] * divisions[0], id[1] * divisions[1]]
+    };
+    let places: Vec<Option<[f64; 3]>> =
+        (0..ply.grid.grippers()).map(|index| net.node(node(index))).collect();
+    let missing = places.iter().filter(|place| place.is_none()).count();
+    let Some(first) = places.iter().position(Option::is_none) else {
+        return Ok(places.into_iter().flatten().collect());
+    };
+    let id = ply.grid.id(first);
+    let reason = net.missing.iter().find(|missing| missing.node == node(first));
+    let (reason, help) = match reason.map(|missing| (missing.reason, missing.beyond)) {
+        Some((Reason::OffMold, beyond)) => (
+            match beyond {
+                Some(beyond) => {
+                    format!("lies {} mm beyond the border of the mold", round(beyond * 1e3))
+                }
+                None => "lies beyond the border of the mold".into(),
+            },
+            "the ply reaches over the mold's border: move `origin` or turn `direction`, or take a larger mold or a smaller ply",
+        ),
+        Some((Reason::Folded, _)) => (
+            "lies where the net folds".into(),
+            "the ply cannot lie there without a fold: move `origin` or `seed` towards the middle of the ply, or take a smaller ply",
+        ),
+        _ => (
+            "lies behind a fold of the net".into(),
+            "the ply folds on its way there: move `origin` or `seed` towards the middle of the ply, or take a smaller ply",
+        ),
+    };
+    let count = ply.grid.grippers();
+    let have = if missing == 1 { "gripper has" } else { "grippers have" };
+    Err(document.error(
+        header(table, document),
+        format!("{missing} of {count} {have} no place on the mold: gripper {id:?} {reason}"),
+        help,
+    ))
+}

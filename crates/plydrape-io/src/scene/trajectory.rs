@@ -1,0 +1,202 @@
+//! Gripper positions over the steps from a CSV file.
+
+use super::csv::{Column, Csv, Row};
+use super::error::{Document, SceneError};
+use super::file::MotionTable;
+use super::located::Located;
+use super::motion::DURATIONS;
+use super::places::{Places, X, Y, Z, csv_file, in_grid, point};
+use super::units::Dimension;
+use plydrape::motion::{MOST_POSITIONS, MOST_STEPS};
+use plydrape::ply::{GripperId, Ply};
+use plydrape::scene::Motion;
+use std::ops::Range;
+use std::path::Path;
+
+/// The columns of a motion file; others, such as the attitude `qx` … `qw`, are ignored.
+const COLUMNS: [Column; 5] = [
+    Column { name: "t", dimension: Dimension::TIME },
+    Column { name: "gripper", dimension: Dimension::NONE },
+    X,
+    Y,
+    Z,
+];
+
+/// A motion from a CSV file, and the start with its places in that file.
+pub(super) fn trajectory(
+    table: &Located<MotionTable>,
+    ply: &Ply,
+    scene: &Document,
+    base: &Path,
+) -> Result<(Motion, Places), SceneError> {
+    let Some(name) = &table.value.file else {
+        return Err(scene.error(
+            table.span.clone(),
+            "a motion of kind \"file\" needs a file",
+            "add file = \"trajectory.csv\" with the columns t, gripper, x, y, z",
+        ));
+    };
+    let stray = table.value.steps.as_ref().map(|steps| &steps.span);
+    let stray = stray.or(table.value.duration.as_ref().map(|duration| &duration.span));
+    if let Some(span) = stray {
+        return Err(scene.error(
+            span.clone(),
+            "the motion comes from a file, which has its own steps and times",
+            "remove `steps` and `duration`, or write kind = \"straight\"",
+        ));
+    }
+    let document = csv_file(&name.value, &name.span, scene, base)?;
+    let mut steps = Steps::new(&document, ply);
+    let csv = Csv::new(&document, &COLUMNS)?;
+    for row in csv.rows() {
+        steps.add(&row)?;
+    }
+    steps.finish(csv.header.clone())?;
+    let (motion, spans) = (steps.motion, steps.first_spans);
+    let start = Places {
+        points: motion.positions.first().cloned().unwrap_or_default(),
+        document,
+        spans,
+        height: None,
+    };
+    Ok((motion, start))
+}
+
+/// The steps of a motion file, as its rows come.
+struct Steps<'a> {
+    document: &'a Document,
+    ply: &'a Ply,
+    motion: Motion,
+    /// Time written in the file at the first step (s).
+    first_time: f64,
+    /// Which grippers the last step has so far.
+    seen: Vec<bool>,
+    /// The row of each gripper in the last step, and in the first.
+    spans: Vec<Range<usize>>,
+    first_spans: Vec<Range<usize>>,
+    last_row: Range<usize>,
+}
+
+impl<'a> Steps<'a> {
+    fn new(document: &'a Document, ply: &'a Ply) -> Self {
+        let grippers = ply.grid.grippers();
+        Steps {
+            document,
+            ply,
+            motion: Motion { times: Vec::new(), positions: Vec::new() },
+            first_time: 0.0,
+            seen: vec![false; grippers],
+            spans: vec![0..0; grippers],
+            first_spans: Vec::new(),
+            last_row: 0..0,
+        }
+    }
+
+    fn add(&mut self, row: &Row) -> Result<(), SceneError> {
+        // A new time begins a new step.
+        let written = row.number(0)?;
+        if self.motion.times.is_empty() {
+            self.first_time = written;
+        }
+        let time = written - self.first_time;
+        match self.motion.times.last() {
+            Some(last) if time == *last => {}
+            Some(last) if time < *last => {
+                return Err(row.fault(
+                    0,
+                    format!("the time falls from {} s to {written} s", last + self.first_time),
+                    "sort the rows by time: every gripper at one time, then every gripper at the next",
+                ));
+            }
+            _ => self.begin(time, row)?,
+        }
+
+        // One gripper of the step.
+        let gripper = gripper_id(row)?;
+        let index = in_grid(gripper, self.ply.grid).map_err(|(m, h)| row.fault(1, m, h))?;
+        if std::mem::replace(&mut self.seen[index], true) {
+            return Err(row.fault(
+                1,
+                format!("gripper {gripper:?} stands here for the second time at t = {written} s"),
+                "give every gripper one row at every time",
+            ));
+        }
+        if let Some(positions) = self.motion.positions.last_mut() {
+            positions[index] = point(row, [2, 3, 4])?;
+        }
+        self.spans[index] = row.span.clone();
+        self.last_row = row.span.clone();
+        Ok(())
+    }
+
+    fn begin(&mut self, time: f64, row: &Row) -> Result<(), SceneError> {
+        self.complete()?;
+        let most = MOST_STEPS.min(MOST_POSITIONS / self.ply.grid.grippers());
+        if self.motion.times.len() == most || time > DURATIONS[1] {
+            return Err(row.fault(
+                0,
+                "the motion is too long",
+                format!("{most} steps and {:e} s are the most", DURATIONS[1]),
+            ));
+        }
+        self.seen.fill(false);
+        self.motion.times.push(time);
+        self.motion.positions.push(vec![[0.0; 3]; self.ply.grid.grippers()]);
+        Ok(())
+    }
+
+    /// Refuses a step in which a gripper is missing or stands straight above another.
+    fn complete(&mut self) -> Result<(), SceneError> {
+        let (Some(time), Some(points)) = (self.motion.times.last(), self.motion.positions.last())
+        else {
+            return Ok(());
+        };
+        let Some(missing) = self.seen.iter().position(|seen| !seen) else {
+            if self.first_spans.is_empty() {
+                self.first_spans.clone_from(&self.spans);
+            }
+            let places = Places {
+                points: points.clone(),
+                document: self.document.clone(),
+                spans: self.spans.clone(),
+                height: None,
+            };
+            let time = time + self.first_time;
+            return places.check_run(self.ply, &format!("at t = {time} s"));
+        };
+        Err(self.document.error(
+            self.last_row.clone(),
+            format!(
+                "gripper {:?} has no row at t = {} s",
+                self.ply.grid.id(missing),
+                time + self.first_time
+            ),
+            format!(
+                "give every one of the {} grippers one row at every time",
+                self.ply.grid.grippers()
+            ),
+        ))
+    }
+
+    fn finish(&mut self, header: Range<usize>) -> Result<(), SceneError> {
+        if self.motion.times.is_empty() {
+            return Err(self.document.error(
+                header,
+                "there is no row below the header",
+                "give one row for every gripper at every time",
+            ));
+        }
+        self.complete()
+    }
+}
+
+/// A gripper written as "i-j".
+fn gripper_id(row: &Row) -> Result<GripperId, SceneError> {
+    let text = row.text(1)?;
+    let indices = text
+        .split_once('-')
+        .and_then(|(i, j)| Some([i.trim().parse().ok()?, j.trim().parse().ok()?]));
+    indices.ok_or_else(|| {
+        row.fault(1, format!("`{text}` is no gripper"), "write grippers as \"i-j\", from 0-0")
+    })
+}

@@ -1,0 +1,271 @@
+//! The ply between the catenaries: shapes as polylines, and a surface inside each cell.
+//!
+//! Inside a cell with edges c₀(s), c₁(s) along u and d₀(t), d₁(t) along v the surface is the Coons patch
+//!
+//! ```text
+//! S(s,t) = (1−t) c₀ + t c₁ + (1−s) d₀ + s d₁ − bilinear(corners)
+//! ```
+//!
+//! plus a correction that vanishes on the edges and takes the surface through both diagonals, as they are
+//! drawn. With p = s − t and q = s + t − 1, where the diagonals are p = 0 and q = 0 and the edges
+//! |p| + |q| = 1, and with e_r(q), e_f(p) the diagonals' distances from S, it is the Boolean sum
+//!
+//! ```text
+//! e_r(q) A + e_f(p) B − e₀ A B ,   A = 1 − (p/(1−|q|))² ,   B = 1 − (q/(1−|p|))² .
+//! ```
+//!
+//! If the diagonals miss each other, e₀ is the lower of both, so that the surface holds the higher.
+
+use crate::result::ResultFile;
+use plydrape::draping::record::{CatenaryState, Hold, SpanState, Step};
+use plydrape::ply::Grid;
+
+type Point = [f64; 3];
+
+/// The ply of one step as a structured grid of points, every catenary along its lines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    /// Points along u and along v: the gripper `[i, j]` is point `[i n, j n]` with n intervals a cell.
+    pub size: [usize; 2],
+    /// Points (m), u running fastest.
+    pub vertices: Vec<[f64; 3]>,
+    /// Distance of each point from the mold (m), negative inside it; none without a mold. The model follows
+    /// the catenaries alone: between them the ply may be drawn a little inside.
+    pub gap: Option<Vec<f64>>,
+}
+
+impl Surface {
+    /// The ply of a step of a result with so many intervals along each side of a cell, at least one. A strip
+    /// is one row of points.
+    #[must_use]
+    pub fn new(result: &ResultFile, step: &Step, intervals: usize) -> Self {
+        let (grid, n) = (result.scene.grid, intervals.max(1));
+        let size = [(grid.nu - 1) * n + 1, (grid.nv - 1) * n + 1];
+        let lines = lines(grid, step, n);
+        let mut vertices = vec![[0.0; 3]; size[0] * size[1]];
+        let mut put = |i: usize, j: usize, p: Point| vertices[j * size[0] + i] = p;
+        for j in 0..grid.nv - 1 {
+            for i in 0..grid.nu - 1 {
+                for (k, p) in cell(grid, &lines, [i, j], n).into_iter().enumerate() {
+                    put(i * n + k % (n + 1), j * n + k / (n + 1), p);
+                }
+            }
+        }
+        // the edges last: exact, and all there is of a strip
+        for edge in 0..grid.edges() {
+            let [i, j] = grid.catenary(edge).from;
+            let along = usize::from(edge >= grid.edges_u());
+            for (k, p) in lines[edge].iter().enumerate() {
+                put(i * n + k * (1 - along), j * n + k * along, *p);
+            }
+        }
+        let gap = result.scene.mold.as_ref();
+        let gap = gap.map(|mold| vertices.iter().map(|p| mold.signed_distance(*p)).collect());
+        Surface { size, vertices, gap }
+    }
+
+    /// Corners of two triangles a quad of the grid, counterclockwise from above where the ply is not turned over; none
+    /// of a strip.
+    #[must_use]
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let [nu, nv] = self.size;
+        let mut out = Vec::with_capacity(2 * (nu - 1) * (nv - 1));
+        for j in 0..nv - 1 {
+            for i in 0..nu - 1 {
+                let [a, b, c, d] =
+                    [j * nu + i, j * nu + i + 1, (j + 1) * nu + i + 1, (j + 1) * nu + i]
+                        .map(|n| n as u32);
+                out.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        out
+    }
+}
+
+fn mix(a: Point, b: Point, t: f64) -> Point {
+    [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]))
+}
+
+/// The whole shape of a catenary, free spans and contact in their order, from gripper to gripper.
+#[must_use]
+pub fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
+    let spans = line.spans.iter().map(|s| (s.arc, &s.points));
+    let contact = line.contact.iter().map(|c| (c.arc, &c.points));
+    let mut pieces: Vec<_> = spans.chain(contact).collect();
+    pieces.sort_by(|a, b| (a.0[0] + a.0[1]).total_cmp(&(b.0[0] + b.0[1])));
+    let mut points: Vec<Point> = pieces.iter().flat_map(|(_, p)| p.iter().copied()).collect();
+    // Fabric that lies begins at the gripper's foot on the mold; the line begins at the gripper itself. A line
+    // without stations still has its two grippers.
+    points.insert(0, ends[0]);
+    points.push(ends[1]);
+    points.dedup();
+    points
+}
+
+/// Slack ratio below which a lying rest counts as contact, not as a wrinkle.
+const FLAT: f64 = 5e-4;
+
+/// The lines in which a catenary touches the mold: its segment, and rests that lie flat beside it.
+pub(crate) fn touching(line: &CatenaryState) -> impl Iterator<Item = &[Point]> {
+    let flat = |span: &&SpanState| span.state == Hold::Lying && span.slack_ratio < FLAT;
+    let segment = line.contact.iter().map(|contact| contact.points.as_slice());
+    segment.chain(line.spans.iter().filter(flat).map(|span| span.points.as_slice()))
+}
+
+/// Points of a polyline at equal shares of its horizontal way (of its length, if it is upright).
+pub(crate) fn stations(line: &[Point], count: usize) -> Vec<Point> {
+    if line.len() < 2 {
+        return line.to_vec();
+    }
+    let way = |axes: usize| -> Vec<f64> {
+        let mut sum = 0.0;
+        let step = |pair: &[Point]| {
+            let square: f64 = (0..axes).map(|c| (pair[1][c] - pair[0][c]).powi(2)).sum();
+            sum += square.sqrt();
+            sum
+        };
+        std::iter::once(0.0).chain(line.windows(2).map(step)).collect()
+    };
+    let (flat, full) = (way(2), way(3));
+    let ends = [flat.last(), full.last()].map(|e| e.copied().unwrap_or(0.0));
+    let way = if ends[0] > 1e-3 * ends[1] { flat } else { full };
+    let total = way.last().copied().unwrap_or(0.0);
+    let mut k = 0;
+    (0..=count)
+        .map(|n| {
+            if n == count {
+                // also where the line ends upright
+                return line[line.len() - 1];
+            }
+            let goal = total * n as f64 / count as f64;
+            while k + 2 < way.len() && way[k + 1] < goal {
+                k += 1;
+            }
+            let length = way[k + 1] - way[k];
+            let part = if length > 0.0 { (goal - way[k]) / length } else { 0.0 };
+            mix(line[k], line[k + 1], part.clamp(0.0, 1.0))
+        })
+        .collect()
+}
+
+/// All catenaries of a step, each at `count + 1` stations, in the grid's order; a catenary that is
+/// missing in the result is straight.
+pub(crate) fn lines(grid: Grid, step: &Step, count: usize) -> Vec<Vec<Point>> {
+    let at = |id| step.grippers[grid.index(id)].position;
+    (0..grid.catenaries())
+        .map(|k| {
+            let line = grid.catenary(k);
+            let ends = [at(line.from), at(line.to)];
+            let whole = match step.catenaries.get(k) {
+                Some(state) => shape(state, ends),
+                None => ends.to_vec(),
+            };
+            stations(&whole, count)
+        })
+        .collect()
+}
+
+/// One cell: `(n + 1)²` points, s running fastest, from its six lines at `n + 1` stations.
+pub(crate) fn cell(grid: Grid, lines: &[Vec<Point>], [i, j]: [usize; 2], n: usize) -> Vec<Point> {
+    let (c0, c1) = (&lines[grid.edge_u([i, j])], &lines[grid.edge_u([i, j + 1])]);
+    let (d0, d1) = (&lines[grid.edge_v([i, j])], &lines[grid.edge_v([i + 1, j])]);
+    let [rising, falling] = grid.diagonals([i, j]).map(|k| &lines[k]);
+    let patch = |s: f64, t: f64| {
+        let [a, b] = [at(c0, s), at(c1, s)];
+        let [c, d] = [at(d0, t), at(d1, t)];
+        let corners = mix(mix(c0[0], c0[n], s), mix(c1[0], c1[n], s), t);
+        let (across, along) = (mix(a, b, t), mix(c, d, s));
+        [0, 1, 2].map(|k| across[k] + along[k] - corners[k])
+    };
+    // Distance of each diagonal from the patch, by q along the rising and by p along the falling one.
+    let rising_gap = |q: f64| {
+        let s = (1.0 + q) / 2.0;
+        minus(at(rising, s), patch(s, s))
+    };
+    let falling_gap = |p: f64| {
+        let s = (1.0 + p) / 2.0;
+        minus(at(falling, 1.0 - s), patch(s, 1.0 - s))
+    };
+    let (r0, f0) = (rising_gap(0.0), falling_gap(0.0));
+    let center = if r0[2] < f0[2] { r0 } else { f0 };
+
+    let mut points = Vec::with_capacity((n + 1) * (n + 1));
+    for row in 0..=n {
+        for column in 0..=n {
+            let (s, t) = (column as f64 / n as f64, row as f64 / n as f64);
+            let (p, q) = (s - t, s + t - 1.0);
+            let (a, b) = (fade(p, q), fade(q, p));
+            let (er, ef, base) = (rising_gap(q), falling_gap(p), patch(s, t));
+            points.push([0, 1, 2].map(|k| base[k] + er[k] * a + ef[k] * b - center[k] * a * b));
+        }
+    }
+    points
+}
+
+/// 1 on the diagonal `p = 0`, 0 on the edges of the cell.
+fn fade(p: f64, q: f64) -> f64 {
+    let reach = 1.0 - q.abs();
+    if reach <= 1e-12 {
+        return 0.0;
+    }
+    (1.0 - (p / reach).powi(2)).max(0.0)
+}
+
+fn minus(a: Point, b: Point) -> Point {
+    [0, 1, 2].map(|c| a[c] - b[c])
+}
+
+/// A line of equally spaced stations at a share of its way.
+fn at(line: &[Point], share: f64) -> Point {
+    let last = line.len() - 1;
+    let place = share.clamp(0.0, 1.0) * last as f64;
+    let low = (place as usize).min(last.saturating_sub(1));
+    mix(line[low], line[(low + 1).min(last)], place - low as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+
+    /// On its edges and on both diagonals the surface is the catenaries themselves.
+    #[test]
+    fn the_surface_passes_through_edges_and_diagonals() {
+        let result = sample::hanging(3, 2);
+        let (grid, n) = (result.scene.grid, 8);
+        let lines = lines(grid, &result.steps[0], n);
+        let cell = cell(grid, &lines, [1, 0], n);
+        let on = |s: usize, t: usize| cell[t * (n + 1) + s];
+        let near = |a: Point, b: Point| {
+            assert!((0..3).all(|c| (a[c] - b[c]).abs() < 1e-12), "{a:?} {b:?}");
+        };
+        let [rising, falling] = grid.diagonals([1, 0]);
+        let [c0, c1] = [[1, 0], [1, 1]].map(|id| grid.edge_u(id));
+        let [d0, d1] = [[1, 0], [2, 0]].map(|id| grid.edge_v(id));
+        let each = |line: usize, on_cell: &dyn Fn(usize) -> Point| {
+            for (k, point) in lines[line].iter().enumerate() {
+                near(on_cell(k), *point);
+            }
+        };
+        each(c0, &|k| on(k, 0));
+        each(c1, &|k| on(k, n));
+        each(d0, &|k| on(0, k));
+        each(d1, &|k| on(n, k));
+        each(rising, &|k| on(k, k));
+        each(falling, &|k| on(n - k, k));
+    }
+
+    /// Stations of a plain line are equally spaced, whatever the spacing of its points.
+    #[test]
+    fn stations_are_equally_spaced_in_the_horizontal() {
+        let line = [[0.0; 3], [0.1, 0.0, 0.0], [0.15, 0.0, 0.0], [1.0, 0.0, 0.0]];
+        for (k, p) in stations(&line, 10).iter().enumerate() {
+            assert!((p[0] - 0.1 * k as f64).abs() < 1e-15);
+        }
+        // both ends are met, also from a foot straight below them
+        let feet = [[0.0, 0.0, 1.0], [0.0; 3], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0]];
+        assert_eq!([stations(&feet, 4)[0], stations(&feet, 4)[4]], [feet[0], feet[3]]);
+        let upright = [[0.0; 3], [0.0, 0.0, 2.0]];
+        assert_eq!(stations(&upright, 2)[1], [0.0, 0.0, 1.0]);
+    }
+}

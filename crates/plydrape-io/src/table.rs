@@ -1,0 +1,350 @@
+//! Steps and verdict as plain text for a terminal, at most 100 columns wide.
+
+use crate::result::ResultFile;
+use plydrape::draping::record::{Step, Verdict};
+use plydrape::equilibrium::Status;
+use plydrape::measure::Name;
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// From this many steps on, only selected ones are shown.
+const MOST_ROWS: usize = 40;
+
+/// Columns after the step, with their units.
+const COLUMNS: [&str; 7] =
+    ["contact %", "slack mm", "overstr. %", "shear °", "tilt °", "force N", "landing mm"];
+
+/// One row a step: worst values and the share in contact.
+///
+/// Of more than 40 steps it shows the first, the last, those where contact and shear begin, those of
+/// the worst values, and some evenly between.
+#[must_use]
+pub fn steps_table(result: &ResultFile) -> String {
+    let shown = chosen(result);
+    let mut rows = vec![header()];
+    rows.extend(shown.iter().map(|index| row(&result.steps[*index])));
+    let mut text = aligned(&rows, &[]);
+    if shown.len() < result.steps.len() {
+        let (some, all) = (shown.len(), result.steps.len());
+        let _ = writeln!(text, "{some} of {all} steps shown; steps.csv has all");
+    }
+    text.push_str(&failed_solves(result));
+    text
+}
+
+fn header() -> Vec<String> {
+    let mut row = vec!["step".to_owned()];
+    row.extend(COLUMNS.map(str::to_owned));
+    row
+}
+
+fn row(step: &Step) -> Vec<String> {
+    let m = &step.measures;
+    let shown = |name: Name, digits: usize| {
+        let factor = name.measure().unit().factor;
+        fixed(m.value(name).map(|value| value * factor), digits)
+    };
+    vec![
+        step.step.to_string(),
+        shown(Name::ContactShare, 1),
+        shown(Name::Slack, 2),
+        shown(Name::Overstretch, 3),
+        shown(Name::Shear, 2),
+        shown(Name::Tilt, 2),
+        shown(Name::Force, 3),
+        shown(Name::LandingError, 2),
+    ]
+}
+
+/// A number with so many digits after the point; in exponent form if that would be too wide.
+fn fixed(value: Option<f64>, digits: usize) -> String {
+    match value {
+        None => "–".into(),
+        Some(v) if v.abs() < 1e6 => {
+            let text = format!("{v:.digits$}");
+            // No "-0.00".
+            if text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.')) {
+                format!("{:.digits$}", 0.0)
+            } else {
+                text
+            }
+        }
+        Some(v) => format!("{v:.2e}"),
+    }
+}
+
+/// Positions of the steps to show.
+fn chosen(result: &ResultFile) -> BTreeSet<usize> {
+    let count = result.steps.len();
+    if count <= MOST_ROWS {
+        return (0..count).collect();
+    }
+    let summary = &result.summary;
+    let mut numbers: BTreeSet<usize> = summary.limits.iter().filter_map(|v| v.step).collect();
+    for first in [summary.first_contact_step, summary.first_shear_step, summary.all_shear_step]
+        .into_iter()
+        .flatten()
+    {
+        numbers.extend([first.saturating_sub(1), first]);
+    }
+    let marked = (0..count).filter(|k| numbers.contains(&result.steps[*k].step));
+    let even = (0..=20).map(|k| k * (count - 1) / 20);
+    marked.chain(even).collect()
+}
+
+/// A line for equilibria that did not converge, if any.
+fn failed_solves(result: &ResultFile) -> String {
+    let failed: Vec<&Step> = result.steps.iter().filter(|step| !step.solver.found()).collect();
+    let Some(first) = failed.first() else {
+        return String::new();
+    };
+    let status = match first.solver.status {
+        Status::Converged => first.solver.contact.name(),
+        status => status.name(),
+    };
+    let step = first.step;
+    match failed.len() {
+        1 => format!("step {step} did not converge: {status}\n"),
+        more => format!("{more} steps did not converge, the first in step {step}: {status}\n"),
+    }
+}
+
+/// The table of limits and one line: accepted, or not and why.
+#[must_use]
+pub fn verdict(result: &ResultFile) -> String {
+    let summary = &result.summary;
+    let mut text = String::new();
+    if !summary.limits.is_empty() {
+        let titles = ["limit", "worst", "allowed", "unit", "", "step", "at"];
+        let mut rows = vec![titles.map(str::to_owned).to_vec()];
+        rows.extend(summary.limits.iter().map(|v| {
+            vec![
+                v.name.title(),
+                significant(v.value),
+                significant(v.limit),
+                v.unit.to_string(),
+                if v.ok { "pass" } else { "FAIL" }.into(),
+                v.step.map_or_else(|| "–".into(), |step| step.to_string()),
+                v.at.clone(),
+            ]
+        }));
+        text = aligned(&rows, &[0, 3, 4, 6]);
+    }
+    if let Some(reason) = &summary.stopped {
+        let _ = writeln!(text, "stopped: {reason}");
+    }
+    if summary.interrupted() {
+        let (done, planned) = (summary.steps, summary.steps_planned);
+        let _ = writeln!(text, "interrupted after step {done} of {planned}");
+    }
+    match limiting(&summary.limits) {
+        None if summary.accepted => text.push_str("accepted\n"),
+        None => text.push_str("not accepted\n"),
+        Some(worst) => {
+            text.push_str(&shortened(&format!("not accepted: {}", in_words(worst)), 100));
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// Of the limits that do not hold, the one exceeded furthest.
+#[must_use]
+pub fn limiting(limits: &[Verdict]) -> Option<&Verdict> {
+    limits.iter().filter(|v| !v.ok).max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+}
+
+/// Of the limits that hold, the one that is nearest to not holding; none of zero, which only zero keeps.
+#[must_use]
+pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
+    let kept = limits.iter().filter(|v| v.ok && v.limit != 0.0);
+    kept.max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+}
+
+/// A verdict in words: name, value, limit, step and place.
+#[must_use]
+pub fn in_words(v: &Verdict) -> String {
+    let (name, unit) = (v.name.title(), unit(&v.unit));
+    let (value, limit) = (significant(v.value), significant(v.limit));
+    let step = v.step.map(|step| format!(" in step {step}")).unwrap_or_default();
+    let at = if v.at.is_empty() { String::new() } else { format!(", {}", v.at) };
+    format!("{name} {value}{unit} against {limit}{unit}{step}{at}")
+}
+
+/// The limits that no plan can keep, one in a line; empty if there are none.
+#[must_use]
+pub fn obstacles(verdicts: &[Verdict]) -> String {
+    if verdicts.is_empty() {
+        return String::new();
+    }
+    let lines = verdicts.iter().map(|v| shortened(&format!("  {}", in_words(v)), 100) + "\n");
+    "no plan can keep these limits:\n".to_owned() + &lines.collect::<String>()
+}
+
+fn unit(unit: &str) -> String {
+    match unit {
+        "" | "1" => String::new(),
+        "°" => unit.into(),
+        _ => format!(" {unit}"),
+    }
+}
+
+/// Four significant digits, without zeros at the end.
+fn significant(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e6).contains(&size) {
+        return format!("{value:.2e}");
+    }
+    // Digits after the point, so that four count in all.
+    let power = if size == 0.0 { 0.0 } else { size.log10().floor() };
+    let text = format!("{value:.*}", (3.0 - power).max(0.0) as usize);
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// Columns aligned, two spaces between; numbers to the right, the columns of words to the left.
+fn aligned(rows: &[Vec<String>], words: &[usize]) -> String {
+    let columns = rows.first().map_or(0, Vec::len);
+    let cells = |column: usize| rows.iter().map(move |r| r[column].chars().count());
+    let widths: Vec<usize> = (0..columns).map(|c| cells(c).max().unwrap_or(0)).collect();
+    let mut text = String::new();
+    for row in rows {
+        let set = |(column, cell): (usize, &String)| {
+            let pad = " ".repeat(widths[column] - cell.chars().count());
+            match words.contains(&column) {
+                true => format!("{cell}{pad}"),
+                false => format!("{pad}{cell}"),
+            }
+        };
+        let line: Vec<String> = row.iter().enumerate().map(set).collect();
+        text.push_str(&shortened(line.join("  ").trim_end(), 100));
+        text.push('\n');
+    }
+    text
+}
+
+/// At most so many characters, the last an ellipsis if something was cut.
+fn shortened(line: &str, most: usize) -> String {
+    if line.chars().count() <= most {
+        return line.to_owned();
+    }
+    let mut cut: String = line.chars().take(most - 1).collect();
+    cut.push('…');
+    cut
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+
+    fn widest(text: &str) -> usize {
+        text.lines().map(|l| l.chars().count()).max().unwrap_or(0)
+    }
+
+    /// Up to forty steps are all there, in aligned columns.
+    #[test]
+    fn short_runs_show_every_step() {
+        let text = steps_table(&sample::draped(4, 2, 30));
+        assert_eq!(text.lines().count(), 31);
+        assert!(widest(&text) <= 100, "{text}");
+        let widths: BTreeSet<usize> = text.lines().map(|l| l.chars().count()).collect();
+        assert_eq!(widths.len(), 1, "{text}");
+    }
+
+    /// Of many steps the first, the last and the first contact stay.
+    #[test]
+    fn long_runs_show_the_steps_that_matter() {
+        let result = sample::draped(4, 2, 300);
+        let text = steps_table(&result);
+        assert!(text.lines().count() < 60, "{text}");
+        for step in [1, 300, result.summary.first_contact_step.unwrap()] {
+            assert!(
+                text.lines().any(|l| l.split_whitespace().next() == Some(&step.to_string())),
+                "step {step} in\n{text}"
+            );
+        }
+    }
+
+    /// The line names the limit that is exceeded most, relative to its size, even a least one.
+    #[test]
+    fn verdict_names_the_worst_limit() {
+        let mut result = sample::draped(4, 2, 30);
+        let limit = |name: Name, value, limit, ok| Verdict {
+            name,
+            value,
+            limit,
+            unit: "mm".into(),
+            ok,
+            step: Some(30),
+            at: "edge [1, 0]–[2, 0]".into(),
+            place: None,
+        };
+        result.summary.accepted = false;
+        result.summary.limits = vec![
+            limit(Name::Tilt, 12.0, 40.0, true),
+            limit(Name::Overstretch, 2.0, 1.0, false),
+            limit(Name::ContactShare, 10.0, 90.0, false),
+        ];
+        let text = verdict(&result);
+        assert!(
+            text.ends_with(
+                "not accepted: contact share 10 mm against 90 mm in step 30, edge [1, 0]–[2, 0]\n"
+            ),
+            "{text}"
+        );
+        assert!(widest(&text) <= 100);
+        result.summary.limits.truncate(1);
+        result.summary.accepted = true;
+        assert!(verdict(&result).ends_with("accepted\n"));
+    }
+
+    /// 38° of 40° is nearer to its limit than 60 mm, where 50 mm is the least; a limit of zero is never near.
+    #[test]
+    fn the_closest_limit_is_the_one_with_the_smallest_margin() {
+        let limit = |name: Name, value, limit, ok| Verdict {
+            name,
+            value,
+            limit,
+            unit: "mm".into(),
+            ok,
+            step: None,
+            at: "gripper [0,0]".into(),
+            place: None,
+        };
+        let limits = [
+            limit(Name::GripperDistance, 60.0, 50.0, true),
+            limit(Name::Tilt, 38.0, 40.0, true),
+            limit(Name::Workspace, 0.0, 0.0, true),
+            limit(Name::SlackRatio, 0.05, 0.05, false),
+        ];
+        assert_eq!(closest(&limits).map(|v| v.name), Some(Name::Tilt));
+        assert_eq!(limiting(&limits).map(|v| v.name), Some(Name::SlackRatio));
+        assert_eq!(in_words(&limits[1]), "tilt 38 mm against 40 mm, gripper [0,0]");
+        assert_eq!(
+            obstacles(&limits[3..]),
+            "no plan can keep these limits:\n  slack ratio 0.05 mm against 0.05 mm, gripper [0,0]\n"
+        );
+        assert_eq!(obstacles(&[]), "");
+    }
+
+    /// Digits that matter, none that do not.
+    #[test]
+    fn numbers_are_short() {
+        let shown = [0.0, 0.5, 12.0, 12.345678, 123456.0, 0.0142, 1e-9, 40.0].map(significant);
+        assert_eq!(shown, ["0", "0.5", "12", "12.35", "123456", "0.0142", "1.00e-9", "40"]);
+        assert_eq!(fixed(Some(-1e-12), 2), "0.00");
+    }
+
+    /// A place in words may be long; the table stays within its width.
+    #[test]
+    fn long_places_are_cut() {
+        let mut result = sample::draped(4, 2, 2);
+        result.summary.limits[0].at = "very far away ".repeat(20);
+        result.summary.limits[0].ok = false;
+        assert!(widest(&verdict(&result)) <= 100);
+    }
+}

@@ -1,0 +1,102 @@
+//! A result for VTK's readers, such as ParaView: XML PolyData and collections of it over time.
+//!
+//! | files | what |
+//! |---|---|
+//! | `ply.pvd`, `ply_0001.vtp` … | the ply's surface in quads (`ply`); none of a strip |
+//! | `catenaries.pvd`, `catenaries_0001.vtp` … | every catenary in its pieces (`catenaries`) |
+//! | `grippers.pvd`, `grippers_0001.vtp` … | a point for each gripper (`grippers`) |
+//! | `mold.vtp` | the mold under the drape (`mold`), if there is one |
+//! | `drape.pvd` | all of them as parts of one series |
+//!
+//! A number in a file's name is that of its step. Points are in metres, z up; arrays say their unit in their
+//! names (`slack_mm`). No array holds NaN: what is not known is 0, and an array beside it says so
+//! (`has_force`). `polydata` and `collection` write the formats.
+
+mod catenaries;
+mod collection;
+mod grippers;
+mod mold;
+mod ply;
+mod polydata;
+
+use super::OutputError;
+use crate::result::ResultFile;
+use collection::{Collection, Part};
+
+/// All files: names and contents. Same result, same bytes.
+///
+/// # Errors
+/// [`OutputError`] if a number is not finite.
+pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError> {
+    super::finite::check(&result.steps)?;
+    let mut files = Vec::new();
+    let mut all = Collection::default();
+    let surface = result.scene.grid.cells() > 0;
+    let mut series = ["ply", "catenaries", "grippers"].map(|name| (name, Collection::default()));
+    // a drape of 10 000 steps still stands in order in a folder
+    let digits = result.steps.last().map_or(1, |step| step.step).to_string().len().max(4);
+    let mold = mold::mold(result);
+
+    for step in &result.steps {
+        for (part, (name, collection)) in series.iter_mut().enumerate() {
+            let data = match *name {
+                "ply" if !surface => continue,
+                "ply" => ply::ply(result, step),
+                "catenaries" => catenaries::catenaries(step),
+                _ => grippers::grippers(step),
+            };
+            let file = format!("{name}_{:0digits$}.vtp", step.step);
+            let own = Part { time: step.time, part, name, file: file.clone() };
+            collection.parts.push(Part { part: 0, ..own.clone() });
+            all.parts.push(own);
+            files.push((file, data.at(step.time).bytes()));
+        }
+        if mold.is_some() {
+            let (part, name) = (series.len(), "mold");
+            all.parts.push(Part { time: step.time, part, name, file: "mold.vtp".into() });
+        }
+    }
+    files.extend(mold.map(|data| ("mold.vtp".to_owned(), data.bytes())));
+    for (name, collection) in series.into_iter().chain([("drape", all)]) {
+        if !collection.parts.is_empty() {
+            files.push((format!("{name}.pvd"), collection.text().into_bytes()));
+        }
+    }
+    Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+
+    /// Three files a step, the mold and four collections; the same bytes again from the same result.
+    #[test]
+    fn the_same_result_gives_the_same_bytes() {
+        let result = sample::draped(3, 2, 4);
+        let first = files(&result).unwrap();
+        let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names.len(), 3 * 4 + 1 + 4);
+        assert_eq!(names[..3], ["ply_0001.vtp", "catenaries_0001.vtp", "grippers_0001.vtp"]);
+        let rest = ["mold.vtp", "ply.pvd", "catenaries.pvd", "grippers.pvd", "drape.pvd"];
+        assert_eq!(names[12..], rest);
+        assert!(first == files(&result).unwrap());
+    }
+
+    /// A strip has no surface, so no file claims one.
+    #[test]
+    fn a_strip_has_no_surface() {
+        let names: Vec<String> =
+            files(&sample::hanging(3, 1)).unwrap().into_iter().map(|(name, _)| name).collect();
+        assert!(names.iter().all(|name| !name.starts_with("ply")), "{names:?}");
+        assert!(names.iter().any(|name| name == "drape.pvd"));
+    }
+
+    /// A number that is not finite would be read as something else.
+    #[test]
+    fn a_number_that_is_not_finite_is_refused() {
+        let mut result = sample::draped(3, 2, 2);
+        result.steps[1].grippers[0].position[2] = f64::NAN;
+        assert!(files(&result).is_err());
+    }
+}

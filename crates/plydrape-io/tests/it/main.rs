@@ -1,0 +1,23 @@
+//! What the engine does with scenes that are read from files, and what it writes, as one program.
+
+mod constraint;
+mod curved;
+mod draping;
+mod equilibrium;
+mod examples;
+mod figure;
+mod front;
+mod gap;
+mod mesh;
+mod mesh_files;
+mod molds_in_scenes;
+mod motion;
+mod net;
+mod obstacles;
+mod plans;
+mod reach;
+mod results;
+mod scenes;
+mod solve_status;
+mod stepwise;
+mod verdict;

@@ -1,0 +1,157 @@
+//! What a scene rules out by itself, before any plan: each limit with its amount, from plane geometry.
+
+use plydrape::draping::record::Verdict;
+use plydrape::planner::obstacles::obstacles;
+use plydrape_io::scene;
+use std::path::Path;
+
+const PLY: &str = "grippers = [4, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n";
+const START: &str = "spacing = [\"98 mm\", \"98 mm\"]\nheight = \"75 mm\"\n";
+
+fn found(base: &Path, text: &str) -> Vec<Verdict> {
+    let scene = scene::parse(text, base, "scene.toml").unwrap_or_else(|e| panic!("{e}")).scene;
+    obstacles(&scene)
+}
+
+/// The obstacles of 4 × 2 grippers over a flat mold, sheared by 20° at the target.
+fn flat(more: &str) -> Vec<Verdict> {
+    let text = format!(
+        "[ply]\n{PLY}[mold]\nkind = \"plane\"\n[grippers]\n{START}[target]\nshear = \"20 deg\"\n{more}\n"
+    );
+    found(Path::new(""), &text)
+}
+
+/// The same of 2 × 2 grippers whose targets are given (m).
+fn given(targets: [[f64; 3]; 4], more: &str) -> Vec<Verdict> {
+    let [a, b, c, d] = targets;
+    let text = format!(
+        "[ply]\n{}[mold]\nkind = \"plane\"\n[grippers]\n{START}[target]\npositions = [[{a:?}, {b:?}], [{c:?}, {d:?}]]\n{more}\n",
+        PLY.replace("[4, 2]", "[2, 2]")
+    );
+    found(Path::new(""), &text)
+}
+
+/// The only obstacle, by name, value, limit and step; and its place.
+fn only(found: &[Verdict], name: &str, value: f64, limit: f64, step: Option<usize>) -> String {
+    let [verdict] = found else {
+        panic!("{found:?}");
+    };
+    assert_eq!(
+        (verdict.name.measure().name(), verdict.step, verdict.ok),
+        (name, step, false),
+        "{found:?}"
+    );
+    assert!((verdict.value - value).abs() < 1e-6 * value.max(1.0), "{found:?}");
+    assert!((verdict.limit - limit).abs() < 1e-9 * limit.max(1.0), "{found:?}");
+    verdict.at.clone()
+}
+
+/// A square of fabric laid flat.
+const SQUARE: [[f64; 3]; 4] = [[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.1, 0.1, 0.0]];
+
+#[test]
+fn a_scene_that_can_be_draped_has_no_obstacle() {
+    assert!(found(Path::new(""), scene::TEMPLATE).is_empty());
+    assert!(flat("").is_empty());
+    assert!(given(SQUARE, "").is_empty());
+}
+
+/// A limit that is met exactly is none: the target is sheared by 20°.
+#[test]
+fn the_shear_of_the_ideal_drape_is_known_before_the_plan() {
+    assert!(flat("[limits]\nshear = \"20 deg\"").is_empty());
+    let at = only(&flat("[limits]\nshear = \"15 deg\""), "shear", 20.0, 15.0, None);
+    assert!(at.starts_with("net cell [") && at.contains("ideal drape, at ("), "{at}");
+}
+
+/// A rhombus leaning by 30°.
+#[test]
+fn targets_given_by_position_have_the_shear_of_their_parallelogram() {
+    let (sin, cos) = 30f64.to_radians().sin_cos();
+    let (x, y) = (0.1 * sin, 0.1 * cos);
+    let rhombus = [[0.0; 3], [0.1, 0.0, 0.0], [x, y, 0.0], [0.1 + x, y, 0.0]];
+    let at = only(&given(rhombus, "[limits]\nshear = \"20 deg\""), "shear", 30.0, 20.0, None);
+    assert_eq!(at, "cell [0,0] of the target");
+}
+
+/// 101 mm between two targets, and 100 mm of fabric.
+#[test]
+fn targets_further_apart_than_the_fabric_are_named() {
+    let mut targets = SQUARE;
+    targets[1][0] = 0.101;
+    let at = only(&given(targets, ""), "overstretch", 1.0, 0.1, None);
+    assert_eq!(at, "edge [0,0]–[1,0] at the target");
+}
+
+#[test]
+fn targets_inside_the_mold_are_named() {
+    let at = only(&given(SQUARE.map(|[x, y, _]| [x, y, -0.005]), ""), "off_mold", 5.0, 0.2, None);
+    assert!(at.starts_with("target of gripper [0,0], inside"), "{at}");
+}
+
+/// The start is 15 mm above the box, the target on its floor.
+#[test]
+fn a_start_outside_the_workspace_is_named() {
+    let limits = "[limits]\nworkspace = [[-1, 1], [-1, 1], [0, \"60 mm\"]]";
+    let at = only(&flat(limits), "workspace", 15.0, 0.0, Some(1));
+    assert_eq!(at, "gripper [0,0] at the start");
+}
+
+/// The far corner of the target is 300 mm + 100 mm · sin 20° off along x.
+#[test]
+fn a_target_outside_the_workspace_is_named() {
+    let limits = "[limits]\nworkspace = [[-1, \"330 mm\"], [-1, 1], [0, 1]]";
+    let value = 300.0 + 100.0 * 20f64.to_radians().sin() - 330.0;
+    let at = only(&flat(limits), "workspace", value, 0.0, None);
+    assert_eq!(at, "gripper [3,1] at the target");
+}
+
+/// 98 mm at the start, 100 mm at the target.
+#[test]
+fn grippers_too_close_at_the_start_are_named() {
+    let limits = "[limits]\ngripper_distance = \"99 mm\"";
+    let at = only(&flat(limits), "gripper_distance", 98.0, 99.0, Some(1));
+    assert!(at.starts_with("grippers [") && at.ends_with("at the start"), "{at}");
+}
+
+/// Ten moves of 5 mm; the last gripper is the one that the shear carries furthest.
+#[test]
+fn moves_too_short_for_the_way_are_named() {
+    assert!(flat("[plan]\nsteps = 19\nmove_limit = \"5 mm\"").is_empty());
+    let (sin, cos) = 20f64.to_radians().sin_cos();
+    let way = (6.0 + 100.0 * sin).hypot(100.0 * cos - 98.0).hypot(75.0);
+    let found = flat("[plan]\nsteps = 11\nmove_limit = \"5 mm\"");
+    let at = only(&found, "move_limit", way, 50.0, None);
+    assert_eq!(at, "straight way of gripper [3,1] in 10 moves");
+}
+
+/// A plane that climbs by 45° under joints that take 40°.
+#[test]
+fn a_mold_steeper_than_the_joints_is_named() {
+    let text = format!(
+        "[ply]\n{PLY}[mold]\nkind = \"plane\"\ntilt = \"45 deg\"\n[grippers]\n{START}parallel_to_mold = true\n[target]\n"
+    );
+    let at = only(&found(Path::new(""), &text), "tilt", 45.0, 40.0, None);
+    assert!(at.starts_with("mold at the target of gripper ["), "{at}");
+}
+
+/// A flat mesh with a hole of 50 mm in its middle: 4 × 4 nodes of the 10 mm net lie inside it.
+#[test]
+fn a_hole_under_the_ply_is_named_though_every_gripper_has_a_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut mesh = String::new();
+    for j in 0..7 {
+        for i in 0..7 {
+            mesh += &format!("v {} {} 0\n", 50 * i - 45, 50 * j - 45);
+        }
+    }
+    for (i, j) in (0..36).map(|n| (n % 6, n / 6)).filter(|cell| *cell != (3, 3)) {
+        let first = 1 + 7 * j + i;
+        mesh += &format!("f {} {} {} {}\n", first, first + 1, first + 8, first + 7);
+    }
+    std::fs::write(folder.path().join("mold.obj"), mesh).unwrap();
+    let text = "[ply]\ngrippers = [2, 2]\ncell = [0.2, 0.2]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"mesh\"\nfile = \"mold.obj\"\nunit = \"mm\"\n[target]\n";
+    let found = found(folder.path(), text);
+    let at = only(&found, "missing_nodes", 25.0, 0.0, None);
+    assert!(at.contains("beyond the border of the mold, at ("), "{at}");
+}

@@ -1,0 +1,90 @@
+//! Result files: complete, read back to the same numbers, and the page made from them.
+
+use plydrape::draping::simulate;
+use plydrape::planner;
+use plydrape::scene::{Motion, Scene};
+use plydrape_io::ResultFile;
+use plydrape_io::scene::{self, SceneFile};
+use plydrape_io::{csv, figure, json, page, read};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+fn examples() -> impl Iterator<Item = SceneFile> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let mut folders: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    folders.sort();
+    folders.into_iter().filter_map(|folder| {
+        let file = folder.join("scene.toml");
+        let scene = file.exists().then(|| scene::read(&file))?;
+        if let Err(refused) = &scene {
+            eprintln!("SKIPPED {}: {refused}", file.display());
+        }
+        scene.ok()
+    })
+}
+
+/// The last three steps of a scene: all there is to see, in little time.
+fn short(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    let from = scene.motion.times.len().saturating_sub(3);
+    let Motion { times, positions } = &mut scene.motion;
+    times.drain(..from);
+    positions.drain(..from);
+    scene
+}
+
+/// The result of a drape of these steps.
+fn drape(scene: &SceneFile) -> ResultFile {
+    let short = short(scene);
+    let drape = simulate(&short, |_| ControlFlow::Continue(()));
+    ResultFile::new(&short, scene.input.clone(), drape)
+}
+
+fn again(result: &ResultFile) -> ResultFile {
+    read::parse(json::text(result).unwrap().as_bytes(), Path::new("result.json")).unwrap()
+}
+
+/// Every example's result reads back to what writes the same bytes: the file, its tables, figure and page.
+#[test]
+fn all_outputs_can_be_made_from_the_file_alone() {
+    for scene in examples() {
+        let result = drape(&scene);
+        let back = again(&result);
+        let what = &scene.title;
+        assert_eq!(json::text(&back).unwrap(), json::text(&result).unwrap(), "{what}");
+        assert_eq!(csv::steps(&back).unwrap(), csv::steps(&result).unwrap(), "{what}");
+        assert_eq!(csv::trajectory(&back).unwrap(), csv::trajectory(&result).unwrap(), "{what}");
+        let figures = [&back, &result].map(|r| figure::svg(r, &figure::default_steps(r)).unwrap());
+        assert_eq!(figures[0], figures[1], "{what}");
+        let pages = [&back, &result].map(|r| page::html(r).unwrap());
+        assert_eq!(pages[0], pages[1], "{what}");
+        assert_eq!(back.scene.input, scene.input, "{what}");
+    }
+}
+
+/// A mold from a result file is the mold that was draped on: the same feet under the same points.
+#[test]
+fn molds_survive_the_file() {
+    for scene in examples() {
+        let Some(mold) = &scene.mold else { continue };
+        let back = again(&drape(&scene)).scene.mold.unwrap();
+        for p in scene.motion.positions.iter().flatten() {
+            assert_eq!(back.foot(*p), mold.foot(*p), "{} at {p:?}", scene.title);
+        }
+    }
+}
+
+/// The motion of a plan is made from the file again, at any time to the last bit.
+#[test]
+fn a_planned_motion_survives_the_file() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let mut scene = scene::read(&folder.join("01_flat_sheared_mold/scene.toml")).unwrap();
+    (scene.plan.steps, scene.plan.evaluations) = (20, 1);
+    let planned = planner::plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
+    let back = again(&ResultFile::planned(&scene, None, &planned));
+    let (motion, attitudes) = back.motion().unwrap().unwrap();
+    assert_eq!(motion, planned.motion);
+    assert_eq!(attitudes, planned.attitudes);
+    assert!(again(&drape(&scene)).motion().unwrap().is_none());
+}

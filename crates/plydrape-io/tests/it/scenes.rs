@@ -1,0 +1,281 @@
+//! Scenes that pass: the template, the examples, and the same positions written in other ways.
+
+use plydrape::scene::Scene;
+use plydrape_io::scene::{self, SceneError, SceneFile};
+use proptest::prelude::*;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn parse(text: &str) -> Result<SceneFile, SceneError> {
+    scene::parse(text, Path::new(env!("CARGO_MANIFEST_DIR")), "scene.toml")
+}
+
+#[test]
+fn the_template_passes_its_own_check() {
+    let scene = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(scene.ply.grid.grippers(), 12);
+    assert_eq!(scene.motion.positions.len(), 30);
+    assert_eq!(scene.limits.shear, 45f64.to_radians());
+}
+
+#[test]
+fn every_example_passes_the_check() {
+    let mut passed = 0;
+    for folder in std::fs::read_dir(root().join("examples")).unwrap() {
+        let folder = folder.unwrap().path();
+        let file = folder.join("scene.toml");
+        // notebooks, studies and pictures have tests of their own
+        if !file.is_file() {
+            continue;
+        }
+        let deck = root().join("../shared/data/molds/blade_like.inp");
+        if file.ends_with("09_blade/scene.toml") && !deck.exists() {
+            eprintln!("SKIPPED {}: no {}", file.display(), deck.display());
+            continue;
+        }
+        scene::read(&file).unwrap_or_else(|e| panic!("{e}")).scene;
+        passed += 1;
+    }
+    assert!(passed >= 3, "{passed}");
+}
+
+/// Numbers of the paper's Table 1 and section 4.
+#[test]
+fn the_first_example_is_the_papers() {
+    let scene = scene::read(&root().join("examples/01_flat_sheared_mold/scene.toml")).unwrap();
+    let line = scene.ply.line(plydrape::ply::Kind::EdgeU);
+    assert_eq!((line.mass, scene.settings.gravity), (0.3143, 9.8));
+    // E·I of the table.
+    assert!((line.flexural_rigidity - 1.0e8 * 9.0e-14).abs() < 1e-20);
+    assert_eq!(scene.motion.times.len(), 30);
+    let start = &scene.motion.positions[0];
+    assert!((start[7][0] - 0.294).abs() < 1e-15 && (start[7][1] - 0.098).abs() < 1e-15);
+    // Sides of 100 mm, v leaning 20 degrees towards u.
+    let end = scene.motion.positions.last().unwrap();
+    let (sin, cos) = 20f64.to_radians().sin_cos();
+    let corner = [0.3 + 0.1 * sin, 0.1 * cos, 0.0];
+    for (found, expected) in end[7].iter().zip(corner) {
+        assert!((found - expected).abs() < 1e-15, "{found} {expected}");
+    }
+    assert_eq!(*end, scene.target.as_ref().unwrap().grippers);
+}
+
+/// The rectangle of [`START`] as spacing, as a table and in a CSV file.
+#[test]
+fn positions_are_the_same_however_they_are_written() {
+    let with = |grippers: &str| {
+        let text = format!(
+            "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.1]\nmaterial = \"krogh2018\"\n[grippers]\n{grippers}\n"
+        );
+        parse(&text).unwrap_or_else(|e| panic!("{e}")).scene.motion.positions
+    };
+    let spacing = with("spacing = [0.098, 0.098]\nheight = 0.05\norigin = [0.01, 0]");
+    let table = with(
+        "positions = [[[0.01, 0, \"50 mm\"], [\"108 mm\", 0, 0.05]], [[0.01, 0.098, 0.05], [0.108, 0.098, 0.05]]]",
+    );
+    let file = with("positions = \"tests/start.csv\"");
+    for (a, b) in spacing[0].iter().zip(&table[0]).chain(spacing[0].iter().zip(&file[0])) {
+        for k in 0..3 {
+            assert!((a[k] - b[k]).abs() < 1e-15, "{a:?} {b:?}");
+        }
+    }
+}
+
+/// Times count from the first row; columns that are not asked for are ignored.
+#[test]
+fn a_motion_file_defines_start_and_steps() {
+    let text = "[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[motion]\nkind = \"file\"\nfile = \"tests/it/trajectory.csv\"\n";
+    let motion = parse(text).unwrap_or_else(|e| panic!("{e}")).scene.motion;
+    assert_eq!(motion.times, [0.0, 0.5, 2.0]);
+    assert_eq!(motion.positions[0], [[0.0, 0.0, 0.05], [0.098, 0.0, 0.05]]);
+    assert_eq!(motion.positions[2][1], [0.099, 0.0, 0.02]);
+}
+
+/// A chord equal to its fabric is taut, not too long: 98 mm written two ways differ in the last bit.
+#[test]
+fn a_taut_start_is_allowed() {
+    let text = "[ply]\ngrippers = [4, 1]\ncell = [0.098, 0.1]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = 0\n";
+    assert!(parse(text).is_ok());
+}
+
+#[test]
+fn an_inextensible_ply_is_written_as_infinity() {
+    for stiffness in ["inf", "\"inf\"", "\"inf N\""] {
+        let text = scene::TEMPLATE.replace("\"100 kN\"", stiffness);
+        let scene = parse(&text).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(scene.settings.axial_stiffness, f64::INFINITY);
+    }
+}
+
+/// The keys of [plan] and the motion's limits, each in a unit of its own, a seed of 64 bits; what is left out
+/// has the default.
+#[test]
+fn a_plan_and_its_limits_are_read_in_si() {
+    let keys = "[plan]\nmethod = \"stepwise\"\nsteps = 40\nmove_limit = \"5 mm\"\nseed = 9223372036854775808\nrate = \"1 kHz\"\n";
+    let limits = "gripper_distance = \"60 mm\"\nworkspace = [[\"-500 mm\", 1], [-1, 1], [0, 2]]\nspeed = \"6 m/min\"\n";
+    let text = "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.12]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n";
+    let scene = parse(&format!("{text}{keys}[limits]\n{limits}")).unwrap_or_else(|e| panic!("{e}"));
+    let plan = scene.plan;
+    assert_eq!(
+        (plan.method, plan.steps, plan.seed),
+        (plydrape::scene::PlanMethod::Stepwise, 40, 1 << 63)
+    );
+    assert_eq!((plan.move_limit, plan.rate, plan.evaluations), (Some(0.005), 1000.0, 60));
+    let limits = scene.limits;
+    assert_eq!(limits.gripper_distance, 0.06);
+    assert_eq!(limits.workspace, Some([[-0.5, 1.0], [-1.0, 1.0], [0.0, 2.0]]));
+    assert!((limits.speed - 0.1).abs() < 1e-15, "{}", limits.speed);
+
+    let scene = parse(text).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(scene.plan, plydrape::scene::Plan::default());
+    assert_eq!((scene.limits.gripper_distance, scene.limits.workspace), (0.05, None));
+}
+
+/// What a scene says nothing of follows from its ply and its contact, or from the sources that the keys name.
+#[test]
+fn every_limit_of_the_ply_and_the_joints_is_read_in_si_or_has_its_default() {
+    let text = "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = MATERIAL\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n[contact]\ntolerance = \"1 mm\"\n";
+    let bare = "{ mass = 0.3, bending_rigidity_warp = 0, bending_rigidity_weft = 0 }";
+    let locking =
+        bare.replace(" }", ", locking_angle = \"40 deg\", locking_test = \"picture frame\" }");
+    let with = |material: &str, limits: &str| {
+        let text = text.replace("MATERIAL", material);
+        parse(&format!("{text}[limits]\n{limits}")).unwrap_or_else(|e| panic!("{e}")).limits
+    };
+    let near = |found: f64, expected: f64| {
+        assert!((found - expected).abs() <= 1e-15 * expected, "{found} {expected}");
+    };
+    let degrees = |angle: f64| angle.to_radians();
+
+    let limits = with(bare, "");
+    near(limits.shear, degrees(45.0));
+    near(limits.landing_shear, degrees(3.0));
+    near(limits.tilt_rate, degrees(90.0));
+    assert_eq!((limits.penetration, limits.strain, limits.gripper_load), (1e-3, 0.005, 10.0));
+    assert_eq!((limits.gripper_pull, limits.duration), (None, None));
+
+    near(with(&locking, "").shear, degrees(40.0));
+    near(with(&locking, "shear = \"50 deg\"").shear, degrees(50.0));
+    for rate in [
+        "\"30 deg/s\"",
+        "\"30 °/s\"",
+        "\"1800 deg/min\"",
+        "0.5235987755982988",
+        "\"0.5235987755982988 rad/s\"",
+    ] {
+        near(with(bare, &format!("tilt_rate = {rate}")).tilt_rate, degrees(30.0));
+    }
+    let given = "landing_shear = \"2 deg\"\nstrain = \"0.2 %\"\npenetration = \"3 mm\"\ngripper_load = \"500 mN\"\ngripper_pull = 4\nduration = \"2 min\"\n";
+    let limits = with(bare, given);
+    near(limits.landing_shear, degrees(2.0));
+    near(limits.strain, 0.002);
+    near(limits.penetration, 0.003);
+    assert_eq!(
+        (limits.gripper_load, limits.gripper_pull, limits.duration),
+        (0.5, Some(4.0), Some(120.0))
+    );
+}
+
+/// Where only the key of the motion is written that a plan ignores; a motion of a file or held has none.
+#[test]
+fn a_scene_with_a_duration_says_why_it_is_not_planned() {
+    let scene = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
+    assert!(scene.plan_refusal.is_none());
+    let text = scene::TEMPLATE.replace("# duration = \"29 s\"", "duration = \"8 s\"");
+    let scene = parse(&text).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(scene.motion.times.last(), Some(&8.0));
+    let refusal =
+        plydrape::planner::plan(&scene, None, &mut |_| std::ops::ControlFlow::Continue(()));
+    let refusal =
+        refusal.err().unwrap_or_else(|| panic!("a plan ignored the duration")).to_string();
+    assert!(refusal.contains("\"8 s\"") && refusal.contains("[limits]"), "{refusal}");
+}
+
+/// `docs/scene.schema.json` is what the program prints; `UPDATE_SCHEMA=1` writes it anew.
+#[test]
+fn the_committed_schema_is_current() {
+    let file = root().join("docs/scene.schema.json");
+    if std::env::var_os("UPDATE_SCHEMA").is_some() {
+        std::fs::write(&file, scene::schema()).unwrap();
+    }
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), scene::schema());
+}
+
+/// Positions, times and settings of a scene that passed are finite.
+fn assert_finite(scene: &Scene) {
+    assert!(scene.motion.times.iter().all(|t| t.is_finite()));
+    assert!(scene.motion.times.windows(2).all(|pair| pair[0] < pair[1]));
+    assert!(scene.motion.positions.iter().flatten().flatten().all(|x| x.is_finite()));
+    assert!(scene.ply.cell.iter().all(|x| x.is_finite() && *x > 0.0));
+    assert!(!scene.settings.axial_stiffness.is_nan() && scene.settings.gravity > 0.0);
+}
+
+/// Values a careless or hostile hand might put in the place of another.
+const VALUES: [&str; 20] = [
+    "nan",
+    "inf",
+    "-inf",
+    "0",
+    "-1",
+    "1e308",
+    "1e-308",
+    "\"98 kg\"",
+    "\"\"",
+    "[]",
+    "{}",
+    "true",
+    "1979-05-27",
+    "\"-5 deg\"",
+    "[[[1, 2, 3]]]",
+    "9223372036854775807",
+    "\"1e999 m\"",
+    "\"98 mm\"",
+    "[\"98 mm\", 0]",
+    "\"µ\"",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    /// Flipped bytes and lost lines are read or refused with a place inside the text.
+    #[test]
+    fn a_damaged_scene_is_read_or_refused(
+        flips in prop::collection::vec((0..scene::TEMPLATE.len(), any::<u8>()), 0..6),
+        lost in prop::collection::vec(0..110usize, 0..4),
+    ) {
+        let mut bytes = scene::TEMPLATE.as_bytes().to_vec();
+        for (at, byte) in flips {
+            bytes[at] = byte;
+        }
+        let text = String::from_utf8_lossy(&bytes);
+        let kept: Vec<&str> = text.lines().enumerate().filter(|(k, _)| !lost.contains(k)).map(|(_, l)| l).collect();
+        let text = kept.join("\n");
+        match parse(&text) {
+            Ok(scene) => assert_finite(&scene),
+            Err(error) => {
+                prop_assert!(!error.message.is_empty() && !error.help.is_empty());
+                if let Some(span) = error.span.clone() {
+                    prop_assert!(error.text.get(span).is_some());
+                }
+            }
+        }
+    }
+
+    /// A value in the place of another is read or refused.
+    #[test]
+    fn a_strange_value_is_read_or_refused(line in 0..110usize, value in 0..VALUES.len(), twice in 0..110usize) {
+        let text: Vec<String> = scene::TEMPLATE.lines().enumerate().map(|(k, l)| {
+            let l = l.trim_start_matches("# ");
+            match l.split_once(" = ") {
+                Some((key, _)) if k == line || k == twice => format!("{key} = {}", VALUES[value]),
+                _ => scene::TEMPLATE.lines().nth(k).unwrap_or_default().to_string(),
+            }
+        }).collect();
+        if let Ok(scene) = parse(&text.join("\n")) {
+            assert_finite(&scene);
+        }
+    }
+}

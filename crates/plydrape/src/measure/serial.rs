@@ -1,0 +1,61 @@
+//! How measures are written by serde: a [`Name`] as itself, values by the measure's key.
+
+use super::{ByName, Name};
+use serde::de::{Error, MapAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+
+impl Serialize for Name {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.measure().name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Name {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(from)?;
+        let named = |name: &&Name| name.measure().name() == text;
+        Name::ALL
+            .iter()
+            .find(named)
+            .copied()
+            .ok_or_else(|| serde::de::Error::custom(format!("there is no limit called `{text}`")))
+    }
+}
+
+impl<T: Serialize> Serialize for ByName<T> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(Some(self.iter().count()))?;
+        for (name, value) in self.iter() {
+            map.serialize_entry(name.measure().key(), value)?;
+        }
+        map.end()
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for ByName<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Keys<T>(std::marker::PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {
+            type Value = ByName<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("measures by their keys")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+                let mut out = ByName::default();
+                while let Some(key) = map.next_key::<String>()? {
+                    let own = |name: &&Name| name.measure().key() == key;
+                    let name = Name::ALL.iter().find(own).ok_or_else(|| {
+                        A::Error::custom(format!("there is no measure called `{key}`"))
+                    })?;
+                    out.set(*name, Some(map.next_value()?));
+                }
+                Ok(out)
+            }
+        }
+        from.deserialize_map(Keys(std::marker::PhantomData))
+    }
+}

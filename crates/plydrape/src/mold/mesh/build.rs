@@ -1,0 +1,113 @@
+//! From loose triangles to a mold: placing, joining, turning, borders.
+
+use super::orient::{neighbours, orient};
+use super::query::Tree;
+use super::report::MeshReport;
+use super::soup::Soup;
+use super::{Mesh, MeshError, border, bounds, fan, join, normals};
+use crate::mold::Pose;
+use crate::mold::vector::distance;
+use std::sync::OnceLock;
+
+/// Sizes of a mold that are no mistake of units (m).
+const SIZES: std::ops::RangeInclusive<f64> = 1e-4..=1e5;
+
+impl Mesh {
+    /// A mold of triangles: corners (m), and the three of each triangle.
+    ///
+    /// # Errors
+    /// If the triangles are no mold: see [`MeshError`].
+    pub fn of_triangles(
+        vertices: Vec<[f64; 3]>,
+        triangles: &[[u32; 3]],
+    ) -> Result<(Self, MeshReport), MeshError> {
+        let mut soup = Soup::new("triangle");
+        let most = vertices.len();
+        if triangles.as_flattened().iter().any(|n| *n as usize >= most) {
+            let others = " of the vertices it has".to_owned();
+            return Err(MeshError::Empty { noun: "triangle", others });
+        }
+        soup.points = vertices;
+        for (n, corners) in triangles.iter().enumerate() {
+            soup.push(corners, n as u64 + 1);
+        }
+        Self::of_soup(soup, 1.0, &Pose::new([0.0; 3], [0.0; 3]))
+    }
+
+    /// A mold of triangles that are not joined yet: coordinates are multiplied by `scale` (m per unit), then placed
+    /// by `pose`.
+    ///
+    /// # Errors
+    /// If the triangles are no mold: see [`MeshError`].
+    pub fn of_soup(soup: Soup, scale: f64, pose: &Pose) -> Result<(Self, MeshReport), MeshError> {
+        build(soup, scale, pose)
+    }
+}
+
+/// Builds the mold from loose triangles.
+fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), MeshError> {
+    let noun = soup.noun;
+    if !(scale > 0.0 && scale.is_finite()) {
+        return Err(MeshError::Scale { scale });
+    }
+    if soup.triangles.is_empty() {
+        let kinds: Vec<&str> = soup.skipped.iter().map(|(kind, _)| kind.as_str()).collect();
+        let others = match kinds.len() {
+            0 => String::new(),
+            _ => format!(" of a surface, only of type {}", kinds.join(", ")),
+        };
+        return Err(MeshError::Empty { noun, others });
+    }
+    let mut used = vec![false; soup.points.len()];
+    soup.triangles.as_flattened().iter().for_each(|n| used[*n as usize] = true);
+    for (point, used) in soup.points.iter_mut().zip(&used) {
+        // what no triangle uses shall not count for the size
+        *point = if *used { pose.place(point.map(|x| scale * x)) } else { [f64::NAN; 3] };
+    }
+    let [low, high] = bounds(soup.points.iter());
+    let size = distance(low, high);
+    let mut report =
+        MeshReport { skipped: std::mem::take(&mut soup.skipped), ..MeshReport::default() };
+    if !SIZES.contains(&size) {
+        return Err(MeshError::Size { size, scale });
+    }
+
+    let mut joined = join::join(&soup, size, &mut report);
+    if joined.triangles.is_empty() {
+        let triangles = soup.triangles.len();
+        return Err(MeshError::NoArea { triangles, size });
+    }
+    drop(soup);
+    let mut neighbours = neighbours(&joined, noun)?;
+    let (component, components) = orient(&mut joined, &mut neighbours, noun, &mut report)?;
+    joined.renumber();
+    let fans = fan::split(&mut joined, &neighbours);
+
+    let join::Joined { vertices, triangles, .. } = joined;
+    let triangle_normals = normals::of_triangles(&vertices, &triangles);
+    let vertex_normals = normals::of_vertices(&vertices, &triangles, &triangle_normals);
+    let borders = border::borders(&vertices, &triangles, &neighbours, &component, &components);
+    let tree = Tree::new(
+        triangles.iter().map(|corners| bounds(corners.iter().map(|n| &vertices[*n as usize]))),
+    );
+    report.vertices = vertices.len();
+    report.triangles = triangles.len();
+    report.surfaces = components.len();
+    report.closed = components.iter().filter(|component| component.closed).count();
+    report.bounds = [low, high];
+    report.holes = borders.iter().filter(|border| border.hole).cloned().collect();
+    let mesh = Mesh {
+        vertices,
+        triangles,
+        neighbours,
+        fans,
+        triangle_normals,
+        vertex_normals,
+        borders,
+        bounds: [low, high],
+        size,
+        tree,
+        shapes: OnceLock::new(),
+    };
+    Ok((mesh, report))
+}

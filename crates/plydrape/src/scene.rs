@@ -1,0 +1,221 @@
+//! A scene: everything that one drape needs, as numbers in SI units.
+//!
+//! What reads a scene from a file, and refuses it with the place of a fault, is the crate `plydrape-io`.
+
+use crate::mold::Mold;
+use crate::net::Net;
+use crate::ply::Ply;
+use std::sync::Arc;
+
+/// A scene: everything that one drape needs.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Name for reports.
+    pub title: String,
+    /// What hangs between the grippers.
+    pub ply: Ply,
+    /// What it is laid on; a ply may also just hang.
+    pub mold: Option<Mold>,
+    /// Where the grippers are in every step.
+    pub motion: Motion,
+    /// Where the ply should end, if it is to be draped.
+    pub target: Option<Target>,
+    /// Rules of the model.
+    pub settings: Settings,
+    /// What an accepted drape keeps to.
+    pub limits: Limits,
+    /// How a motion is planned, where none is followed.
+    pub plan: Plan,
+}
+
+/// How gripper trajectories are planned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Plan {
+    /// The planner.
+    pub method: PlanMethod,
+    /// Steps of the planned motion, the start being the first; of the stepwise planner the most it may take.
+    pub steps: usize,
+    /// Farthest that a gripper may move in one step (m); the stepwise planner needs one and takes a share of
+    /// its way unless given.
+    pub move_limit: Option<f64>,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Most complete drapes that the search may try.
+    pub evaluations: usize,
+    /// Samples a second of the dense motion file (Hz).
+    pub rate: f64,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        let method = PlanMethod::Path;
+        Plan { method, steps: 90, move_limit: None, seed: 0, evaluations: 60, rate: 100.0 }
+    }
+}
+
+/// The planner of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum PlanMethod {
+    /// Whole trajectories, judged by complete drapes.
+    Path,
+    /// Step by step, as Krogh et al. 2018 sketch it.
+    Stepwise,
+}
+
+/// Gripper positions over the steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Time of each step (s), ascending, from 0.
+    pub times: Vec<f64>,
+    /// Positions (m) of each step, in the order of [`crate::ply::Grid::index`].
+    pub positions: Vec<Vec<[f64; 3]>>,
+}
+
+/// Where the ideal drape puts the grippers and the fabric.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Target {
+    /// Final gripper positions (m), in the order of [`crate::ply::Grid::index`].
+    pub grippers: Vec<[f64; 3]>,
+    /// The ideal drape, of which the grippers are nodes; none where their positions were given.
+    pub drape: Option<Arc<Net>>,
+}
+
+/// Rules of the model that a scene may choose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Settings {
+    /// How shared slopes are found.
+    pub slopes: SlopeRule,
+    /// Axial stiffness EA (N); infinite for an inextensible ply (written as null).
+    #[cfg_attr(
+        feature = "serde",
+        serde(serialize_with = "infinite_as_null", deserialize_with = "null_as_infinite")
+    )]
+    pub axial_stiffness: f64,
+    /// Acceleration of gravity g (m/s²).
+    pub gravity: f64,
+    /// Limit of the ball joints: largest gripper tilt (rad).
+    pub max_tilt: f64,
+    /// How contact is found.
+    pub contact: Contact,
+}
+
+#[cfg(feature = "serde")]
+/// An infinite value on purpose becomes null; any other number stays.
+fn infinite_as_null<S: serde::Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
+    let finite = (*value != f64::INFINITY).then_some(*value);
+    serde::Serialize::serialize(&finite, to)
+}
+
+#[cfg(feature = "serde")]
+/// The inverse of [`infinite_as_null`].
+fn null_as_infinite<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(<Option<f64> as serde::Deserialize>::deserialize(from)?.unwrap_or(f64::INFINITY))
+}
+
+/// How shared slopes are found, eqs. (9) and (10) of `docs/theory.md`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum SlopeRule {
+    /// The paper's: smallest norm of the horizontal forces.
+    MinForce,
+    /// A ball joint passes no moment: EI z'' is continuous across each gripper.
+    MomentBalance,
+}
+
+/// How contact between ply and mold is found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Contact {
+    /// Distance that counts as touching (m).
+    pub tolerance: f64,
+    /// Once per step, or with steps cut where the ply would dip deeper than the tolerance.
+    pub stepping: Stepping,
+    /// Slope of a span where it leaves the mold.
+    pub end: ContactEnd,
+}
+
+impl Default for Contact {
+    fn default() -> Self {
+        Contact { tolerance: 2e-4, stepping: Stepping::Cut, end: ContactEnd::Free }
+    }
+}
+
+/// When contact is evaluated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Stepping {
+    /// Once per step, as in the paper.
+    Once,
+    /// A step that would carry a point deeper than the tolerance is halved until it does not.
+    Cut,
+}
+
+/// The slope of a span at the end of a contact segment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum ContactEnd {
+    /// Free, as in the paper.
+    Free,
+    /// The slope of the mold.
+    Tangent,
+}
+
+/// What an accepted drape keeps to.
+///
+/// Overstretch, strain, penetration, tilt and its rate, shear, forces and loads are judged in every step of every
+/// scene; slack, bridging, landing errors and contact share at the end of scenes with a [`Target`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Limits {
+    /// Slack of a catenary, all its rests, as a share of its length.
+    pub slack_ratio: f64,
+    /// Bridging gap (m).
+    pub bridging: f64,
+    /// Chord beyond the free length, as a share of the whole edge.
+    pub overstretch: f64,
+    /// Distance of a contact point from its ideal place (m).
+    pub landing_contact: f64,
+    /// Distance of a gripper from its ideal place (m).
+    pub landing_gripper: f64,
+    /// Angle between landed edges and the fibres of the ideal drape (rad).
+    pub fibre_angle: f64,
+    /// Shear angle (rad): the scene's, else the material's locking angle, else 45 deg.
+    pub shear: f64,
+    /// Difference between a cell's shear at the end and when its diagonal landed (rad).
+    pub landing_shear: f64,
+    /// Strain of a free segment, of its own length.
+    pub strain: f64,
+    /// Depth of grippers and spans below the mold (m).
+    pub penetration: f64,
+    /// Gripper tilt (rad).
+    pub tilt: f64,
+    /// Angular rate of a gripper's ball joint (rad/s).
+    pub tilt_rate: f64,
+    /// Horizontal force of a span (N).
+    pub force: Option<f64>,
+    /// Vertical load that one gripper holds (N).
+    pub gripper_load: f64,
+    /// Pull in the plane of the ply at one gripper (N).
+    pub gripper_pull: Option<f64>,
+    /// Share of the ply's edges that lies on the mold.
+    pub contact_share: f64,
+    /// Smallest distance between grippers (m).
+    pub gripper_distance: f64,
+    /// Box that the grippers can reach: [from, to] in x, y and z (m).
+    pub workspace: Option<[[f64; 2]; 3]>,
+    /// Speed of a gripper (m/s), of planned motions.
+    pub speed: f64,
+    /// Acceleration of a gripper (m/s²), of planned motions.
+    pub acceleration: f64,
+    /// Jerk of a gripper (m/s³), of planned motions.
+    pub jerk: f64,
+    /// Longest time that a motion may take (s).
+    pub duration: Option<f64>,
+}

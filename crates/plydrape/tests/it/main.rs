@@ -1,0 +1,4 @@
+//! What the engine does, as one program.
+
+mod mold;
+mod span;
