@@ -6,7 +6,7 @@ import { dirname, join } from "node:path";
 import { build } from "esbuild";
 
 const here = import.meta.dirname;
-const target = join(here, "..", "crates", "plydrape", "src", "output", "page", "report.html");
+const target = join(here, "..", "crates", "plydrape-io", "src", "page", "report.html");
 const options = {
   absWorkingDir: here,
   bundle: true,

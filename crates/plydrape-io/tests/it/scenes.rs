@@ -76,7 +76,7 @@ fn positions_are_the_same_however_they_are_written() {
     let table = with(
         "positions = [[[0.01, 0, \"50 mm\"], [\"108 mm\", 0, 0.05]], [[0.01, 0.098, 0.05], [0.108, 0.098, 0.05]]]",
     );
-    let file = with("positions = \"tests/start.csv\"");
+    let file = with("positions = \"tests/it/start.csv\"");
     for (a, b) in spacing[0].iter().zip(&table[0]).chain(spacing[0].iter().zip(&file[0])) {
         for k in 0..3 {
             assert!((a[k] - b[k]).abs() < 1e-15, "{a:?} {b:?}");
