@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 project = "plydrape"
 extensions = ["myst_parser"]
-include_patterns = ["index.md", "guide/*.md", "theory.md"]
+include_patterns = ["index.md", "guide/*.md", "theory/*.md"]
 
 # Formulas between dollars, as GitHub shows them, and anchors at headings.
 myst_enable_extensions = ["dollarmath", "deflist"]
@@ -34,6 +34,9 @@ html_copy_source = False
 html_math_renderer = "mathml"
 pygments_style = "a11y-high-contrast-light"
 pygments_dark_style = "a11y-high-contrast-dark"
+
+# A link to a document that is no page of the guide.
+OUTER_LINK = re.compile(r"\[DESIGN\.md\]\((?:\.\./)+DESIGN\.md\)")
 
 TAG = re.compile(r"\\tag\{(.*?)\}")
 
@@ -53,7 +56,7 @@ def setup(app: Sphinx) -> None:
 
 def without_outer_links(_app: Sphinx, _page: str, source: list[str]) -> None:
     """Names DESIGN.md instead of linking it: right on GitHub, but no page of the guide."""
-    source[0] = source[0].replace("[DESIGN.md](../DESIGN.md)", "`DESIGN.md`")
+    source[0] = OUTER_LINK.sub("`DESIGN.md`", source[0])
 
 
 def inline_formula(page: HTML5Translator, node: nodes.math) -> None:
