@@ -19,6 +19,8 @@ class Outcome:
     Attributes:
         title: of the study.
         folder: where it stands, or None if it is in memory only.
+        written: names of the files that the run wrote there besides rows; none where the study
+            was finished before.
 
     Example:
         >>> outcome = plydrape.study.read("study.results")  # doctest: +SKIP
@@ -33,6 +35,7 @@ class Outcome:
         self._rows = rows
         self.title = title
         self.folder = folder
+        self.written: list[str] = []
         self._inputs = inputs
 
     def __repr__(self) -> str:
@@ -118,5 +121,5 @@ def read(folder: str | os.PathLike[str]) -> Outcome:
     parts = Folder(path).parts()
     if not parts:
         raise StudyError(f"`{path}` has no rows yet", help="run the study")
-    rows = table.joined([read_part(part) for _, _, part in parts])
+    rows = table.joined([read_part(*part) for part in parts])
     return Outcome(rows, definition["title"], path)

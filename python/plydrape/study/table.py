@@ -93,12 +93,12 @@ def content(rows: pa.Table) -> bytes:
     return bytes(memoryview(sink.getvalue()))
 
 
-def read(path: Any) -> pa.Table:
-    """A table of a Parquet file.
+def read(path: Any, columns: list[str] | None = None) -> pa.Table:
+    """A table of a Parquet file, or some of its columns.
 
     Raises:
         OSError: it cannot be read.
         pyarrow.ArrowInvalid: it is no Parquet.
 
     """
-    return pq.ParquetFile(path).read()
+    return pq.ParquetFile(path).read(columns)
