@@ -213,7 +213,6 @@ def _study(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
 
 def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
     # The keys themselves.
-    given.bounded(table)
     for key in table:
         if key not in KEYS:
             raise StudyError(
@@ -221,6 +220,7 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
                 help=f"its keys are {', '.join(KEYS)}{nearest(key, KEYS)}",
                 key=key,
             )
+    given.bounded(table)
     command = given.one_of(table, "command", COMMANDS, "simulate")
     sampling = given.one_of(table, "sampling", SAMPLINGS, "latin-hypercube")
     seed = given.whole(table, "seed", 0, least=0)
