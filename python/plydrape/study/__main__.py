@@ -26,6 +26,8 @@ Exit codes:
   2    bad input, or a file that cannot be written: the message names it, and the remedy
   130  interrupted by Ctrl-C or SIGTERM: the same command goes on
 """
+# Signals with these handlers are not for Python.
+UNHEARD = (signal.SIG_IGN, None)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -105,7 +107,9 @@ def interruptible() -> Iterator[None]:
             raise KeyboardInterrupt
 
     try:
-        before = [(s, signal.signal(s, end)) for s in (signal.SIGINT, signal.SIGTERM)]
+        # What is ignored stays so, as Ctrl-C in a script's background.
+        heard = [s for s in (signal.SIGINT, signal.SIGTERM) if signal.getsignal(s) not in UNHEARD]
+        before = [(s, signal.signal(s, end)) for s in heard]
     except ValueError:  # Only the main thread has signals.
         before = []
     try:
@@ -170,8 +174,10 @@ def told(outcome: Outcome, study: Study) -> str:
             f"(95 % interval {low:.1f} to {high:.1f} %)",
         ]
     wrote = [f"wrote {outcome.folder}/{file}" for file in outcome.written]
-    finished = f"{outcome.folder} was finished before: nothing was run or written"
-    return "\n".join([*lines, "", *(wrote or [finished])])
+    before = f"{outcome.folder} was finished before: nothing was run or written"
+    if outcome.ran:
+        before = f"{outcome.folder}: rows that were missing are there, the other files as before"
+    return "\n".join([*lines, "", *(wrote or [before])])
 
 
 if __name__ == "__main__":

@@ -19,8 +19,8 @@ class Outcome:
     Attributes:
         title: of the study.
         folder: where it stands, or None if it is in memory only.
-        written: names of the files that the run wrote there besides rows; none where the study
-            was finished before.
+        ran: number of scenarios that the run had left; 0 where the study was finished before.
+        written: names of the files that the run wrote there besides rows.
 
     Example:
         >>> outcome = plydrape.study.read("study.results")  # doctest: +SKIP
@@ -35,6 +35,7 @@ class Outcome:
         self._rows = rows
         self.title = title
         self.folder = folder
+        self.ran = 0
         self.written: list[str] = []
         self._inputs = inputs
 

@@ -12,7 +12,7 @@ from .carry import Executor, carry_out
 from .definition import Study
 from .error import StudyError, require
 from .folder import FINISHED, Folder, missing, text
-from .outcome import Outcome
+from .outcome import LAST, Outcome
 from .progress import Progress
 from .scenario import Batch
 
@@ -33,7 +33,7 @@ def run(
     """Runs every scenario of a study that has no row yet.
 
     The same study gives the same rows, whatever runs it and however often it was interrupted. A
-    finished study is only read; `written` of the outcome is then empty.
+    finished study is only read; `ran` of the outcome is then 0.
 
     Args:
         study: a study file, a dict with its keys, or a `Study`.
@@ -133,6 +133,7 @@ def _run(
         }
         # What a finished study has is left as it is, with what its user may have added.
         wanted = FINISHED if left else folder.missing()
+        outcome.ran = left
         outcome.written = folder.finish({name: make[name]() for name in wanted})
         return outcome
     finally:
@@ -157,9 +158,14 @@ def read_part(first: int, stop: int, path: Path, columns: list[str] | None = Non
     try:
         rows = table.read(path, columns)
         held = rows["scenario"].to_pylist()
+        absent = [name for name in LAST if not columns and name not in rows.column_names]
+        if absent:
+            raise KeyError(f"it has no column {absent[0]}")
+    except MemoryError:
+        raise
     except Exception as error:
         raise StudyError(f"`{path}` cannot be read: {error}", help=REMOVE) from error
-    if held != list(range(first, stop)):
+    if len(held) != stop - first or held != list(range(first, stop)):
         said = f"the scenarios {first} to {stop - 1}" if stop - first > 1 else f"scenario {first}"
         raise StudyError(
             f"`{path}` should hold {said}, as its name says, and holds {ranged(held)}",
