@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
+import math
+import os
+import signal
 import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
 
 from plydrape import PlydrapeError
 
@@ -16,9 +23,11 @@ from .words import amount, name
 EXIT_CODES = """\
 Exit codes:
   0    done: every scenario has its row
-  2    bad input: the message names the file, the key and the remedy
-  130  interrupted: the same command goes on
+  2    bad input, or a file that cannot be written: the message names it, and the remedy
+  130  interrupted by Ctrl-C or SIGTERM: the same command goes on
 """
+# Signals with these handlers are not for Python.
+UNHEARD = (signal.SIG_IGN, None)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -49,10 +58,16 @@ def parser() -> argparse.ArgumentParser:
 def main(arguments: list[str] | None = None) -> int:
     """Runs a study; the exit code."""
     given = parser().parse_args(arguments)
-    folder = given.output
+    with interruptible():
+        return command(given)
+
+
+def command(given: argparse.Namespace) -> int:
+    """Runs the study of the options; the exit code."""
+    folder = None
     try:
         study = Study.read(given.study)
-        folder = folder or beside(study)
+        folder = Path(given.output or beside(study))
         outcome = run(
             study,
             output=folder,
@@ -65,14 +80,57 @@ def main(arguments: list[str] | None = None) -> int:
         return refuse(f"{where}{error.message}", error.help)
     except PlydrapeError as error:
         return refuse(str(error), "")
+    except MemoryError:
+        return refuse("the memory does not suffice for this study", "run fewer scenarios")
+    except OSError as error:
+        return refuse(f"the study cannot be run: {error}", "")
     except KeyboardInterrupt:
-        print(
-            f"interrupted: finished rows are in {folder}; the same command goes on",
-            file=sys.stderr,
-        )
+        kept = f"finished rows are in {folder}" if folder and folder.is_dir() else "nothing was run"
+        print(f"interrupted: {kept}; the same command goes on", file=sys.stderr)
         return 130
-    if not given.quiet:
-        print(told(outcome, study))
+    return 0 if given.quiet else show(told(outcome, study))
+
+
+@contextlib.contextmanager
+def interruptible() -> Iterator[None]:
+    """SIGTERM ends the work like Ctrl-C; within a second of it either counts no more.
+
+    Those who end a process, such as `timeout`, may send a signal to it and to its group, and the
+    second would interrupt the end of the first.
+    """
+    last = -math.inf
+
+    def end(number: int, frame: object) -> None:
+        nonlocal last
+        if time.monotonic() - last > 1.0:
+            last = time.monotonic()
+            raise KeyboardInterrupt
+
+    try:
+        # What is ignored stays so, as Ctrl-C in a script's background.
+        heard = [s for s in (signal.SIGINT, signal.SIGTERM) if signal.getsignal(s) not in UNHEARD]
+        before = [(s, signal.signal(s, end)) for s in heard]
+    except ValueError:  # Only the main thread has signals.
+        before = []
+    try:
+        yield
+    finally:
+        for number, handler in before:
+            signal.signal(number, handler)
+
+
+def show(text: str) -> int:
+    """Prints on standard output; the exit code."""
+    try:
+        print(text, flush=True)
+    except OSError as error:
+        # Python would try once more at its end.
+        with contextlib.suppress(OSError, ValueError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # A reader that has seen enough, such as `head`, is no failure.
+        if not isinstance(error, BrokenPipeError):
+            why = error.strerror or error
+            return refuse(f"the output cannot be written: {why}", "the rows are in their folder")
     return 0
 
 
@@ -115,8 +173,11 @@ def told(outcome: Outcome, study: Study) -> str:
             f"accepted {100 * accepted['share']:.1f} % of {about['draped']} drapes "
             f"(95 % interval {low:.1f} to {high:.1f} %)",
         ]
-    files = ("study.parquet", "summary.json", "summary.html")
-    return "\n".join([*lines, "", *(f"wrote {outcome.folder}/{file}" for file in files)])
+    wrote = [f"wrote {outcome.folder}/{file}" for file in outcome.written]
+    before = f"{outcome.folder} was finished before: nothing was run or written"
+    if outcome.ran:
+        before = f"{outcome.folder}: rows that were missing are there, the other files as before"
+    return "\n".join([*lines, "", *(wrote or [before])])
 
 
 if __name__ == "__main__":

@@ -24,13 +24,14 @@ from .law import Input
 from .placement import COLUMNS, Placement
 from .scenario import Motion, Task, build, said
 from .varied import inputs, placement
+from .words import shown
 
 if TYPE_CHECKING:
     from .sample import Row
 
 COMMANDS = ("simulate", "plan", "follow")
 SAMPLINGS = ("latin-hypercube", "sobol", "grid")
-KEYS = ("title", "scene", "command", "plan", "sampling", "samples", "seed", "vary")
+KEYS = ("title", "scene", "command", "plan", "sampling", "samples", "max_scenarios", "seed", "vary")
 
 
 @dataclass(frozen=True)
@@ -219,18 +220,21 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
                 help=f"its keys are {', '.join(KEYS)}{nearest(key, KEYS)}",
                 key=key,
             )
+    given.bounded(table)
     command = given.one_of(table, "command", COMMANDS, "simulate")
     sampling = given.one_of(table, "sampling", SAMPLINGS, "latin-hypercube")
     seed = given.whole(table, "seed", 0, least=0)
     title = table.get("title")
     if title is not None and not isinstance(title, str):
-        raise StudyError(f"`title` = {title!r} is no text", help="put it in quotes", key="title")
+        raise StudyError(
+            f"`title` = {shown(title)} is no text", help="put it in quotes", key="title"
+        )
 
     # The scene, sound as it stands.
     tables, home = source.scene(table.get("scene"), base)
     varied = table.get("vary", {})
     if not isinstance(varied, Mapping):
-        raise StudyError(f"`vary` = {varied!r} is no table", help=VARY, key="vary")
+        raise StudyError(f"`vary` = {shown(varied)} is no table", help=VARY, key="vary")
     tables = source.expanded(tables, home, varied)
     motion = given.motion(table, command, base)
 
@@ -290,7 +294,7 @@ def _probe(study: Study) -> None:
         else:
             refused, why = faults[0]
             raise StudyError(
-                f"`{x.key}` cannot vary like this: with {refused!r} the scene is refused",
+                f"`{x.key}` cannot vary like this: with {shown(refused)} the scene is refused",
                 help=said(why),
                 key=x.key,
             )

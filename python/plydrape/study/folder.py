@@ -8,17 +8,20 @@
         summary.html      the page                     }
 
 Every file is written whole or not at all: under a hidden name, brought to the disk, renamed.
-What stands in `rows/` is what is done; nothing else is remembered. Only one process at a time
-may work in the folder. A folder that holds anything else is refused.
+What stands in `rows/` is what is done; nothing else is remembered. What the name of a part says is
+compared with its rows, here and in `run.py`. A file of the finished study that exists is never
+written over. Only one process at a time may work in the folder. A folder that holds anything else
+is refused.
 """
 
 from __future__ import annotations
 
 import contextlib
+import errno
 import json
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from pathlib import Path
 from typing import IO, Any
@@ -64,7 +67,8 @@ class Folder:
             for rest in self.rows.glob(".*.tmp"):
                 rest.unlink()
         except OSError as error:
-            raise StudyError(f"`{self.path}` cannot be used: {error}", help=OTHER) from error
+            why = error.strerror or error
+            raise StudyError(f"`{self.path}` cannot be used: {why}", help=OTHER) from error
 
     def _compare(self, study: Study) -> None:
         """Refuses a folder whose rows are not of this study."""
@@ -102,10 +106,15 @@ class Folder:
         """Finished runs of scenarios: first, stop and file, in order.
 
         Raises:
-            StudyError: two of them hold the same scenario.
+            StudyError: two of them hold the same scenario, or the name of one holds none.
 
         """
         found = sorted(_parts(self.rows))
+        for first, stop, path in found:
+            if stop <= first:
+                raise StudyError(
+                    f"`{path}`: the name ends with a scenario before its first", help="remove it"
+                )
         for (_, stop, path), (first, _, other) in pairwise(found):
             if first < stop:
                 raise StudyError(
@@ -118,10 +127,29 @@ class Folder:
         """Writes the part file of finished scenarios."""
         whole(self.rows / f"part-{first:06}-{first + rows - 1:06}.parquet", content)
 
-    def write(self, name: str, content: bytes) -> Path:
-        """Writes a file of the finished study."""
-        whole(self.path / name, content)
-        return self.path / name
+    def missing(self) -> list[str]:
+        """The files of the finished study that are not there."""
+        return [name for name in FINISHED if not os.path.lexists(self.path / name)]
+
+    def finish(self, contents: Mapping[str, bytes]) -> list[str]:
+        """Writes files of the finished study; the names of those that were not there before.
+
+        Raises:
+            StudyError: one is there, and not what the rows give.
+
+        """
+        for name, content in contents.items():
+            path = self.path / name
+            if os.path.lexists(path) and not same(path, content):
+                raise StudyError(
+                    f"`{path}` is not what the rows give: it was changed, or made of earlier "
+                    "rows; so it stays",
+                    help="move it away and run the same command again: all rows are finished",
+                )
+        absent = [name for name in contents if name in self.missing()]
+        for name in absent:
+            whole(self.path / name, contents[name])
+        return absent
 
     def close(self) -> None:
         """Lets others in."""
@@ -130,6 +158,10 @@ class Folder:
 
 
 LOCK = ".lock"
+# The files of a finished study.
+FINISHED = ("study.parquet", "summary.json", "summary.html")
+# What the system says where room is lacking: no space, quota, largest file.
+FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 def _parts(rows: Path) -> Iterator[tuple[int, int, Path]]:
@@ -174,10 +206,19 @@ def read_manifest(path: Path) -> dict[str, Any]:
     """
     try:
         manifest = json.loads((path / NAME).read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise StudyError(f"`{path}` is no study's folder: it has no {NAME}", help=OTHER) from error
     except (OSError, ValueError) as error:
-        raise StudyError(f"`{path}` is no study's folder: {error}", help=OTHER) from error
+        raise StudyError(f"`{path / NAME}` cannot be read: {error}", help=OTHER) from error
+    except RecursionError as error:
+        raise StudyError(
+            f"`{path / NAME}` cannot be read: it is nested too deep", help=OTHER
+        ) from error
     if not isinstance(manifest, dict) or manifest.get("format") != "plydrape-study":
         raise StudyError(f"`{path / NAME}` is no study of plydrape", help=OTHER)
+    definition = manifest.get("definition")
+    if not isinstance(definition, dict) or not isinstance(definition.get("title"), str):
+        raise StudyError(f"`{path / NAME}` has no definition of a study", help=OTHER)
     return manifest
 
 
@@ -206,14 +247,39 @@ def text(value: Any) -> bytes:
     return (json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
 
 
+def same(path: Path, content: bytes) -> bool:
+    """Whether a file has this content; False where it cannot be read."""
+    try:
+        return path.stat().st_size == len(content) and path.read_bytes() == content
+    except OSError:
+        return False
+
+
 def whole(path: Path, content: bytes) -> None:
-    """Writes a file whole or not at all; it may replace an earlier one."""
+    """Writes a file whole or not at all; it may replace an earlier one.
+
+    Raises:
+        StudyError: it cannot be written; nothing is left of it.
+
+    """
     hidden = path.with_name(f".{path.name}.tmp")
-    with open(hidden, "wb") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(hidden, path)
+    try:
+        with open(hidden, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(hidden, path)
+    except BaseException as error:  # Ctrl-C too leaves nothing half.
+        with contextlib.suppress(OSError):
+            hidden.unlink(missing_ok=True)
+        if not isinstance(error, OSError):
+            raise
+        remedy = "make room" if error.errno in FULL else "make the folder one that can be written"
+        raise StudyError(
+            f"`{path}` cannot be written: {error.strerror or error}",
+            help=f"{remedy} and run the same command again, which goes on: finished rows are "
+            "kept; or choose another folder with -o",
+        ) from error
     # The new name is on the disk too; not every system lets a folder be opened.
     with contextlib.suppress(OSError):
         folder = os.open(path.parent, os.O_RDONLY)

@@ -16,9 +16,51 @@ from .error import StudyError
 from .keys import nearest
 from .law import Input
 from .scenario import Motion
+from .words import shown
 
-# More scenarios than any machine here will drape; a slip of the pen is likelier.
-MOST = 10_000_000
+# Scenarios of a study that does not say how many it may have: a slip of the pen is likelier.
+MOST = 1_000_000
+# Bytes of memory that a row takes at the end, when all rows become one table and its summary.
+ROW = 3000
+# Points that SciPy's Sobol sequence has, and inputs that it can vary.
+SOBOL_POINTS, SOBOL_INPUTS = 2**30, 21201
+# Levels of tables and lists that a study may have; a scene in it has six.
+DEEPEST = 32
+# Whole numbers end here in scenes and in Parquet.
+LARGEST = 2**63 - 1
+
+
+def bounded(table: Mapping[str, Any]) -> None:
+    """Looks at every value once: nothing is nested too deep, no whole number is too large.
+
+    Raises:
+        StudyError: something is.
+
+    Example:
+        >>> bounded({"samples": 8})
+
+    """
+    left: list[tuple[str, int, Any]] = [("", 0, table)]
+    while left:
+        path, depth, value = left.pop()
+        if isinstance(value, int) and abs(value) > LARGEST:
+            digits = round(value.bit_length() * math.log10(2))
+            raise StudyError(
+                f"`{path}` is a whole number of about {digits} digits",
+                help=f"the largest possible is {LARGEST}",
+                key=path,
+            )
+        if not isinstance(value, Mapping | list | tuple):
+            continue
+        if depth == DEEPEST:
+            raise StudyError(
+                f"`{path[:60]}…` is nested more than {DEEPEST} levels deep",
+                help="no key of a study is: look for brackets that are not closed",
+                key=path,
+            )
+        inner = value.items() if isinstance(value, Mapping) else enumerate(value)
+        before = f"{path}." if path else ""
+        left += [(f"{before}{key}", depth + 1, below) for key, below in inner]
 
 
 def one_of(table: Mapping[str, Any], key: str, known: tuple[str, ...], usual: str) -> str:
@@ -31,7 +73,7 @@ def one_of(table: Mapping[str, Any], key: str, known: tuple[str, ...], usual: st
     if value not in known:
         quoted = [f'"{name}"' for name in known]
         raise StudyError(
-            f"`{key}` = {value!r} is not known",
+            f"`{key}` = {shown(value)} is not known",
             help=f"it is one of {', '.join(quoted)}{nearest(str(value), known)}",
             key=key,
         )
@@ -45,9 +87,9 @@ def whole(table: Mapping[str, Any], key: str, usual: int | None, least: int) -> 
         StudyError: it is absent, no whole number, or less than the least.
     """
     value = table.get(key, usual)
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value < 2**63:
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= LARGEST:
         raise StudyError(
-            f"`{key}` is missing" if value is None else f"`{key}` = {value!r} does not count",
+            f"`{key}` is missing" if value is None else f"`{key}` = {shown(value)} does not count",
             help=f"write a whole number of {least} or more, as in {key} = {max(least, 256)}",
             key=key,
         )
@@ -55,26 +97,54 @@ def whole(table: Mapping[str, Any], key: str, usual: int | None, least: int) -> 
 
 
 def scenarios(table: Mapping[str, Any], sampling: str, laws: tuple[Input, ...]) -> int:
-    """Number of scenarios: as given, or of a grid as follows.
+    """Number of scenarios: as given, or of a grid as follows. Nothing is made yet.
 
     Raises:
-        StudyError: none is given, or too many are.
+        StudyError: none is given, or more than `max_scenarios`, with what they would take.
     """
+    most = whole(table, "max_scenarios", MOST, least=1)
     if sampling == "grid":
         if "samples" in table:
             raise StudyError(
-                f"`samples` = {table['samples']!r} says nothing to a grid",
+                f"`samples` = {shown(table['samples'])} says nothing to a grid",
                 help="remove it: a grid has every combination of its numbers",
                 key="samples",
             )
-        samples = math.prod(len(x.grid()) for x in laws)
+        samples, said = math.prod(x.count for x in laws), "the grid"
+        remedy = "give fewer points or values"
     else:
         samples = whole(table, "samples", None, least=1)
-    if samples > MOST:
+        said, remedy = f"`samples` = {samples}", "write fewer"
+    if samples > most:
+        number = str(samples) if samples <= LARGEST else f"about 1e{len(str(samples)) - 1}"
         raise StudyError(
-            f"{samples} scenarios are more than {MOST}", help="split the study", key="samples"
+            f"{said} makes {number} scenarios, which is more than {most}; their rows would take "
+            f"about {size(samples * ROW)} of memory",
+            help=f"{remedy}, or allow them by max_scenarios = {min(samples, LARGEST)}",
+            key="vary" if sampling == "grid" else "samples",
+        )
+    if sampling == "sobol" and (samples > SOBOL_POINTS or len(laws) > SOBOL_INPUTS):
+        raise StudyError(
+            f"a Sobol sequence has no {samples} points of {len(laws)} numbers: it ends at "
+            f"{SOBOL_POINTS} points and {SOBOL_INPUTS} numbers",
+            help='use sampling = "latin-hypercube"',
+            key="samples",
         )
     return samples
+
+
+def size(count: int) -> str:
+    """Bytes in a unit that makes their number small.
+
+    Example:
+        >>> size(3_000), size(3 * 10**15), size(10**40)
+        ('3 kB', '3 PB', 'more than 1000 EB')
+
+    """
+    for power, unit in enumerate(("B", "kB", "MB", "GB", "TB", "PB", "EB")):
+        if count < 1000 ** (power + 1):
+            return f"{count / 1000**power:.3g} {unit}"
+    return "more than 1000 EB"
 
 
 def motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None:
@@ -89,7 +159,7 @@ def motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None:
         if given is None:
             return None
         raise StudyError(
-            f'`plan` = {given!r} goes with command = "follow" only, and this is {command!r}',
+            f'`plan` = {shown(given)} goes with command = "follow" only, and this is {command!r}',
             help="remove it, or follow the plan",
             key="plan",
         )

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from .error import StudyError
+from .words import shown
 
 Value = float | int | str | bool
 Tables = Mapping[str, Any]
@@ -49,6 +50,8 @@ IDLE = {
 QUANTITY = re.compile(
     r"\s*(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(?P<unit>[^\s\d,].*?)?\s*"
 )
+# Characters of a number with its unit: the time that the pattern takes grows with their square.
+LONGEST = 1000
 
 
 class Absent:
@@ -70,7 +73,7 @@ def quantity(value: object) -> tuple[float, str] | None:
         return None
     if isinstance(value, int | float):
         return float(value), ""
-    if isinstance(value, str) and (found := QUANTITY.fullmatch(value)):
+    if isinstance(value, str) and len(value) <= LONGEST and (found := QUANTITY.fullmatch(value)):
         return float(found["number"]), found["unit"] or ""
     return None
 
@@ -117,7 +120,9 @@ def look(tables: Tables, key: str) -> Any:
                 key=key,
             )
         raise StudyError(
-            f"`{key}` leads nowhere: `{path}` is {here!r}", help=f"vary `{path}` itself", key=key
+            f"`{key}` leads nowhere: `{path}` is {shown(here)}",
+            help=f"vary `{path}` itself",
+            key=key,
         )
     return here
 

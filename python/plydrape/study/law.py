@@ -61,8 +61,12 @@ class Whole:
             2
 
         """
-        count = self.upper - self.lower + 1
-        return self.lower + min(int(u * count), count - 1)
+        return self.lower + min(int(u * self.count), self.count - 1)
+
+    @property
+    def count(self) -> int:
+        """How many numbers there are."""
+        return self.upper - self.lower + 1
 
     def grid(self, points: int) -> list[Value]:
         """So many whole numbers from end to end, none twice.
@@ -72,6 +76,8 @@ class Whole:
             [1, 4, 7, 10]
 
         """
+        if points >= self.count:
+            return list(range(self.lower, self.upper + 1))
         even = Uniform(self.lower, self.upper).grid(points)
         return list(dict.fromkeys(round(float(x)) for x in even))
 
@@ -150,6 +156,20 @@ class Input:
             return list(self.law.values)
         assert not isinstance(self.law, Normal) and self.points is not None
         return self.law.grid(self.points)
+
+    @property
+    def count(self) -> int:
+        """How many numbers it has on a grid, without making them.
+
+        Example:
+            >>> Input("motion.steps", Whole(1, 10), points=4).count
+            4
+
+        """
+        if isinstance(self.law, Choice):
+            return len(self.law.values)
+        assert self.points is not None
+        return min(self.points, self.law.count) if isinstance(self.law, Whole) else self.points
 
     def probes(self) -> list[Value]:
         """Its middle and its ends, to see whether a scene takes them."""

@@ -81,15 +81,26 @@ class Local:
             return [process.pid for process in self._processes]
 
     def _look_after(self) -> None:
-        """Feeds one worker; a new one takes the place of a dead one."""
+        """Feeds one worker; nobody waits for a thread that has ended."""
+        try:
+            self._feed()
+        except StudyError as error:
+            self._ended.put(error)
+        except Exception as error:
+            fault = f"the thread of a worker failed: {type(error).__name__}: {error}"
+            self._ended.put(StudyError(fault))
+
+    def _feed(self) -> None:
+        """Gives chunks to one worker; a new one takes the place of a dead one.
+
+        Raises:
+            StudyError: no worker can be started.
+
+        """
         process: subprocess.Popen[bytes] | None = None
         while (job := self._jobs.get()) is not None and not self._closed:
             chunk, values = job
-            try:
-                process = process or self._begin()
-            except StudyError as error:
-                self._ended.put(error)
-                return
+            process = process or self._begin()
             try:
                 answer = _ask(process, (chunk.first, values))
             except (EOFError, OSError, pickle.UnpicklingError):
@@ -110,18 +121,24 @@ class Local:
         """A process that is ready to work.
 
         Raises:
-            StudyError: it ends before that, three times.
+            StudyError: the system starts none, or it ends before that, three times.
 
         """
         for _ in range(BEGINNINGS):
-            process = subprocess.Popen(
-                [sys.executable, "-c", START, *(path or os.getcwd() for path in sys.path)],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                env=os.environ | THREADS,
-                # Ctrl-C is for the client alone.
-                start_new_session=True,
-            )
+            try:
+                process = subprocess.Popen(
+                    [sys.executable, "-c", START, *(path or os.getcwd() for path in sys.path)],
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    env=os.environ | THREADS,
+                    # Ctrl-C is for the client alone.
+                    start_new_session=True,
+                )
+            except OSError as error:
+                raise StudyError(
+                    f"a worker process cannot be started: {error.strerror or error}",
+                    help="take fewer with --workers",
+                ) from error
             with self._lock:
                 self._processes.add(process)
                 if self._closed:

@@ -19,6 +19,8 @@ class Outcome:
     Attributes:
         title: of the study.
         folder: where it stands, or None if it is in memory only.
+        ran: number of scenarios that the run had left; 0 where the study was finished before.
+        written: names of the files that the run wrote there besides rows.
 
     Example:
         >>> outcome = plydrape.study.read("study.results")  # doctest: +SKIP
@@ -33,6 +35,8 @@ class Outcome:
         self._rows = rows
         self.title = title
         self.folder = folder
+        self.ran = 0
+        self.written: list[str] = []
         self._inputs = inputs
 
     def __repr__(self) -> str:
@@ -118,5 +122,5 @@ def read(folder: str | os.PathLike[str]) -> Outcome:
     parts = Folder(path).parts()
     if not parts:
         raise StudyError(f"`{path}` has no rows yet", help="run the study")
-    rows = table.joined([read_part(part) for _, _, part in parts])
+    rows = table.joined([read_part(*part) for part in parts])
     return Outcome(rows, definition["title"], path)

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from .carry import Executor, carry_out
 from .definition import Study
 from .error import StudyError, require
-from .folder import Folder, missing, text
-from .outcome import Outcome
+from .folder import FINISHED, Folder, missing, text
+from .outcome import LAST, Outcome
 from .progress import Progress
 from .scenario import Batch
+
+# Processes of one machine; a slip of the pen is likelier than more.
+MOST_WORKERS = 1024
+REMOVE = "remove it: the scenarios that its name says are then run again"
 
 
 def run(
@@ -28,7 +32,8 @@ def run(
 ) -> Outcome:
     """Runs every scenario of a study that has no row yet.
 
-    The same study gives the same rows, whatever runs it and however often it was interrupted.
+    The same study gives the same rows, whatever runs it and however often it was interrupted. A
+    finished study is only read; `ran` of the outcome is then 0.
 
     Args:
         study: a study file, a dict with its keys, or a `Study`.
@@ -43,7 +48,8 @@ def run(
         All rows, with their summary.
 
     Raises:
-        StudyError: the definition, the folder or the cluster is refused.
+        StudyError: the definition, the folder or the cluster is refused, or a file cannot be
+            written. Finished rows are in the folder; the same call goes on.
         SceneError: the scene is refused.
         KeyboardInterrupt: on Ctrl-C. Finished rows are in the folder; the same call goes on.
 
@@ -57,6 +63,11 @@ def run(
         study = Study.of(study) if isinstance(study, Mapping) else Study.read(study)
     if workers is not None and workers < 1:
         raise StudyError(f"{workers} workers can do nothing", help="give 1 or more")
+    if workers is not None and workers > MOST_WORKERS:
+        raise StudyError(
+            f"{workers} workers are more than one machine can have",
+            help=f"give {MOST_WORKERS} or fewer, or the address of a Dask scheduler",
+        )
     if output is None and study.file is None:
         with tempfile.TemporaryDirectory(prefix="plydrape-study-") as hidden:
             outcome = _run(study, Path(hidden), scheduler, workers, progress, every)
@@ -84,8 +95,16 @@ def _run(
     folder = Folder(path)
     try:
         folder.begin(study)
-        todo = missing(folder.parts(), len(study))
+        parts = folder.parts()
+        if parts and parts[-1][1] > len(study):
+            raise StudyError(
+                f"`{parts[-1][2]}`: the study has {len(study)} scenarios, which count from 0",
+                help="remove it: it is not of this study",
+            )
+        todo = missing(parts, len(study))
         left = sum(stop - first for first, stop in todo)
+        for part in parts if left else []:
+            compare(read_part(*part, columns=known(study)), *part, study)
         bar = Progress(len(study), len(study) - left, progress)
 
         def keep(batch: Batch) -> None:
@@ -101,32 +120,93 @@ def _run(
                 executor.close()
                 bar.close()
 
-        rows = table.joined([read_part(part) for _, _, part in folder.parts()])
+        tables = []
+        for part in folder.parts():
+            tables.append(read_part(*part))
+            compare(tables[-1], *part, study)
+        rows = table.joined(tables)
         outcome = Outcome(rows, study.title, path)
-        folder.write("study.parquet", table.content(rows))
-        folder.write("summary.json", text(outcome.summary))
-        folder.write("summary.html", page.html(outcome, study).encode())
+        make: dict[str, Callable[[], bytes]] = {
+            "study.parquet": lambda: table.content(rows),
+            "summary.json": lambda: text(outcome.summary),
+            "summary.html": lambda: page.html(outcome, study).encode(),
+        }
+        # What a finished study has is left as it is, with what its user may have added.
+        wanted = FINISHED if left else folder.missing()
+        outcome.ran = left
+        outcome.written = folder.finish({name: make[name]() for name in wanted})
         return outcome
     finally:
         folder.close()
 
 
-def read_part(path: Path) -> Any:
-    """The rows of a part file.
+def read_part(first: int, stop: int, path: Path, columns: list[str] | None = None) -> Any:
+    """The rows of a part file, which are those of the scenarios that its name says.
+
+    Args:
+        first: the first scenario.
+        stop: the one behind the last.
+        path: the file.
+        columns: those that are read, if the file has them; all unless given.
 
     Raises:
-        StudyError: it is damaged.
+        StudyError: it is damaged, or holds other scenarios.
 
     """
     from . import table
 
     try:
-        return table.read(path)
+        rows = table.read(path, columns)
+        held = rows["scenario"].to_pylist()
+        absent = [name for name in LAST if not columns and name not in rows.column_names]
+        if absent:
+            raise KeyError(f"it has no column {absent[0]}")
+    except MemoryError:
+        raise
     except Exception as error:
+        raise StudyError(f"`{path}` cannot be read: {error}", help=REMOVE) from error
+    if len(held) != stop - first or held != list(range(first, stop)):
+        said = f"the scenarios {first} to {stop - 1}" if stop - first > 1 else f"scenario {first}"
         raise StudyError(
-            f"`{path}` cannot be read: {error}",
-            help="remove it: its scenarios are then run again",
-        ) from error
+            f"`{path}` should hold {said}, as its name says, and holds {ranged(held)}",
+            help=REMOVE,
+        )
+    return rows
+
+
+def ranged(held: list[int]) -> str:
+    """The scenarios of a part in words.
+
+    Example:
+        >>> ranged([24, 25, 26]), ranged([7])
+        ('24 to 26', '7')
+
+    """
+    if not held or None in held:
+        return "rows without a scenario" if held else "no rows"
+    if held == list(range(held[0], held[0] + len(held))):
+        return f"{held[0]} to {held[-1]}" if len(held) > 1 else str(held[0])
+    return f"{len(held)} rows between {min(held)} and {max(held)}"
+
+
+def known(study: Study) -> list[str]:
+    """The columns that are known before anything runs."""
+    return ["scenario", "seed", "version", *(x.key for x in study.inputs)]
+
+
+def compare(rows: Any, first: int, stop: int, path: Path, study: Study) -> None:
+    """Compares what a part holds with what is known of its scenarios.
+
+    Raises:
+        StudyError: the part is of another study.
+
+    """
+    begun = [study.task.begun(k, study.values[k]) for k in range(first, stop)]
+    for name in known(study):
+        if name not in rows.column_names or rows[name].to_pylist() != [row[name] for row in begun]:
+            raise StudyError(
+                f"`{path}` is not of this study: the column `{name}` is another", help=REMOVE
+            )
 
 
 def _executor(study: Study, scheduler: str | None, workers: int) -> Executor:

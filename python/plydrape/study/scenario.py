@@ -7,6 +7,7 @@ scenario becomes the `error` of its row.
 from __future__ import annotations
 
 import hashlib
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -194,11 +195,13 @@ def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
     `worst_…` and `final_…` are those of all steps and of the last, `stopped` says why a drape ended
     where no ply would have survived it. Of each limit there is
     `value_…`, `limit_…` (both in the unit added to `units`), `ok_…`, and `margin_…`: what is
-    left of the limit as a share of it, negative where it is exceeded, None where it is zero.
+    left of the limit as a share of it, negative where it is exceeded, None where it is zero. Where
+    the value is not finite, the limit is not kept and the drape not accepted.
     """
     summary = result.summary
+    sound = {limit["name"]: math.isfinite(limit["value"]) for limit in result.limits}
     row: Line = {
-        "accepted": result.accepted,
+        "accepted": result.accepted and all(sound.values()),
         "converged": result.converged,
         "stopped": summary["stopped"],
     }
@@ -215,7 +218,7 @@ def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
         left = value - allowed if is_least(name) else allowed - value
         row[f"value_{name}"] = value
         row[f"limit_{name}"] = allowed
-        row[f"ok_{name}"] = bool(limit["ok"])
+        row[f"ok_{name}"] = bool(limit["ok"]) and sound[name]
         row[f"margin_{name}"] = left / allowed if allowed else None
         units[f"value_{name}"] = units[f"limit_{name}"] = str(limit["unit"])
     return row

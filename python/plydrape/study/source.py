@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ import plydrape
 from .error import StudyError, toml
 from .keys import SCENE, Tables, nearest
 from .law import Choice, Input
+from .words import shown
 
 SCENE_KEY = 'name one: scene = "scene.toml"'
 
@@ -28,15 +30,54 @@ def document(path: Path, kind: str) -> dict[str, Any]:
     """
     reader = toml()
     try:
-        return dict(reader.loads(path.read_text(encoding="utf-8")))
+        text = path.read_text(encoding="utf-8")
     except FileNotFoundError as error:
         raise StudyError(
             f"there is no {kind} `{path}`", help="check its name and folder"
         ) from error
     except (OSError, UnicodeDecodeError) as error:
         raise StudyError(f"the {kind} `{path}` cannot be read: {error}") from error
+    try:
+        return dict(reader.loads(text))
     except reader.TOMLDecodeError as error:
         raise StudyError(f"the {kind} `{path}` is no TOML: {error}") from error
+    except ValueError as error:  # Python converts no digits beyond a few thousands.
+        raise StudyError(
+            f"the {kind} `{path}` has a whole number of too many digits{digits(text)}",
+            help="write a number that a scene can have",
+        ) from error
+    except RecursionError as error:
+        raise StudyError(
+            f"the {kind} `{path}` is nested too deep{brackets(text)}",
+            help="look for brackets that are not closed",
+        ) from error
+
+
+def digits(text: str) -> str:
+    """Where the first number stands that has more digits than any other that is meant."""
+    found = re.search(r"\d[\d_]{999}", text)
+    return place(text, found.start()) if found else ""
+
+
+def brackets(text: str) -> str:
+    """Where the brackets, also those within texts, are first open 100 times."""
+    depth = 0
+    for found in re.finditer(r"[\[{\]}]", text):
+        depth = depth + 1 if found[0] in "[{" else max(depth - 1, 0)
+        if depth == 100:
+            return place(text, found.start())
+    return ""
+
+
+def place(text: str, at: int) -> str:
+    r"""A place as the reader of TOML says it.
+
+    Example:
+        >>> place("a = 1\nb = 22", 10)
+        ' (at line 2, column 5)'
+
+    """
+    return f" (at line {text.count(chr(10), 0, at) + 1}, column {at - text.rfind(chr(10), 0, at)})"
 
 
 def scene(given: object, base: Path) -> tuple[dict[str, Any], Path]:
@@ -69,14 +110,14 @@ def scene(given: object, base: Path) -> tuple[dict[str, Any], Path]:
         path = base / given
         if not path.is_file():
             raise StudyError(
-                f"`scene` = {str(given)!r}: there is no such file",
+                f"`scene` = {shown(str(given))}: there is no such file",
                 help=f"the path is relative to {base.resolve()}",
                 key="scene",
             )
         # Read by plydrape first: its messages point at the line.
         plydrape.Scene.read(str(path))
         return document(path, "scene"), path.parent
-    what = "is missing" if given is None else f"= {given!r} is no scene"
+    what = "is missing" if given is None else f"= {shown(given)} is no scene"
     raise StudyError(f"`scene` {what}", help=SCENE_KEY, key="scene")
 
 

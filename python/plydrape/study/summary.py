@@ -51,14 +51,15 @@ def summary(rows: pa.Table, inputs: list[str]) -> dict[str, Any]:
     """
     count = rows.num_rows
     draped = rows.filter(pc.is_null(rows["error"]))
-    hits = sum(value is True for value in flags(draped, "accepted"))
+    hits = int(verdicts(draped).sum())
     units = table.units(rows)
     causes = {name: x for name in inputs if (x := numbers(draped, name)) is not None}
     about = {}
     for name in draped.column_names:
         if name in inputs or name in ASIDE or name.startswith(("limit_", "margin_", "ok_")):
             continue
-        if (values := numbers(draped, name)) is not None and np.isfinite(values).any():
+        values = verdicts(draped).astype(float) if name == "accepted" else numbers(draped, name)
+        if values is not None and np.isfinite(values).any():
             about[name] = measure(name, values, causes, draped, units)
     kinds = Counter(
         (kind, pattern(text))
@@ -106,9 +107,36 @@ def measure(
         assert allowed is not None
         kept = allowed[np.isfinite(allowed)]
         about["limit"] = float(kept[0]) if kept.size and (kept == kept[0]).all() else None
-        oks = [value for value in flags(draped, f"ok_{limit}") if value is not None]
+        oks = [ok for ok in kept_limit(draped, limit) if ok is not None]
         about["exceeded"] = sum(not ok for ok in oks) / len(oks) if oks else None
     return about
+
+
+def verdicts(draped: pa.Table) -> np.ndarray[Any, Any]:
+    """Which drapes are accepted: those that say so and break no limit, as booleans."""
+    accepted = np.array([value is True for value in flags(draped, "accepted")], dtype=bool)
+    for name in draped.column_names:
+        if name.startswith("value_"):
+            oks = kept_limit(draped, name.removeprefix("value_"))
+            accepted &= np.array([ok is not False for ok in oks], dtype=bool)
+    return accepted
+
+
+def kept_limit(draped: pa.Table, limit: str) -> list[bool | None]:
+    """Whether each drape keeps a limit: not with a value that is not finite; None where not judged.
+
+    Example:
+        >>> rows = {"value_slack": [0.1, math.nan, None], "ok_slack": [True, True, None]}
+        >>> kept_limit(pa.table(rows), "slack")
+        [True, False, None]
+
+    """
+    values = draped[f"value_{limit}"].to_pylist()
+    oks = flags(draped, f"ok_{limit}") or [None] * len(values)
+    return [
+        ok if value is None or math.isfinite(value) else False
+        for value, ok in zip(values, oks, strict=True)
+    ]
 
 
 def correlation(x: np.ndarray[Any, Any], y: np.ndarray[Any, Any]) -> float | None:
@@ -153,9 +181,12 @@ def spread(values: np.ndarray[Any, Any] | None) -> dict[str, Any]:
         return {}
     values = values[np.isfinite(values)]
     percentiles = np.percentile(values, QUANTILES)
+    # Scaled, since the sum of the largest numbers overflows.
+    scale = float(np.abs(values).max()) if np.abs(values).max() > 1e290 else 1.0
+    mean = (values / scale).mean() * scale
     return {
         "count": int(values.size),
-        "mean": float(values.mean()),
+        "mean": float(mean),
         "percentiles": {str(q): float(p) for q, p in zip(QUANTILES, percentiles, strict=True)},
     }
 

@@ -8,6 +8,7 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from .error import StudyError
 from .law import Input
 from .scenario import Line
 
@@ -68,11 +69,21 @@ def joined(tables: list[pa.Table]) -> pa.Table:
     """Parts as one table in the order of its scenarios.
 
     A part whose scenarios all failed lacks the measures; they are empty there.
+
+    Raises:
+        StudyError: a column has different types in them.
+
     """
     tables = sorted(tables, key=lambda part: part["scenario"][0].as_py())
     # Columns stand as the first part that drapes has them.
     fullest = max(tables, key=lambda part: part.num_columns)
-    whole = pa.concat_tables([fullest.slice(0, 0), *tables], promote_options="default")
+    try:
+        whole = pa.concat_tables([fullest.slice(0, 0), *tables], promote_options="default")
+    except pa.ArrowException as error:
+        raise StudyError(
+            f"the parts in `rows` do not fit together: {error}",
+            help="remove those that are not of this study: their scenarios are then run again",
+        ) from error
     first = [name for name in whole.column_names if name not in LAST]
     return whole.select([*first, *LAST]).combine_chunks()
 
@@ -93,12 +104,12 @@ def content(rows: pa.Table) -> bytes:
     return bytes(memoryview(sink.getvalue()))
 
 
-def read(path: Any) -> pa.Table:
-    """A table of a Parquet file.
+def read(path: Any, columns: list[str] | None = None) -> pa.Table:
+    """A table of a Parquet file, or some of its columns.
 
     Raises:
         OSError: it cannot be read.
         pyarrow.ArrowInvalid: it is no Parquet.
 
     """
-    return pq.ParquetFile(path).read()
+    return pq.ParquetFile(path).read(columns)

@@ -10,12 +10,17 @@ from .error import StudyError
 from .keys import ABSENT, WHOLE, Tables, Value, idle, look, quantity
 from .law import Choice, Input, Law, Normal, Uniform, Whole, finite
 from .placement import LENGTHS, Placement
+from .words import shown
 
 FORMS = (
     'write { from = "60 mm", to = "90 mm" }, { values = [...] }, { deviation = "1 mm" }, '
     "or { relative = [0.8, 1.2] }"
 )
 RELATIVE = "write relative = [0.8, 1.2], or the same with { from, to }, { values } or { deviation }"
+# Placement errors end where sizes of a scene do (m).
+FARTHEST = 1e4
+# Whole numbers up to here are exact also as floating-point numbers.
+EXACT = 2**53
 PLACEMENT = 'write placement = { deviation = "1 mm" }, or { from = "-1 mm", to = "1 mm" }'
 
 
@@ -68,12 +73,14 @@ def placement(varied: Mapping[str, Any], command: str, sampling: str) -> Placeme
             key="placement",
         )
     if not isinstance(spec, Mapping):
-        raise StudyError(f"`placement` = {spec!r} is no table", help=PLACEMENT, key="placement")
+        raise StudyError(
+            f"`placement` = {shown(spec)} is no table", help=PLACEMENT, key="placement"
+        )
     keys = set(spec) - {"axes"}
     axes = spec.get("axes", "xyz")
     if not isinstance(axes, str) or not axes or axes not in ("xyz", "xy", "xz", "yz", *"xyz"):
         raise StudyError(
-            f"`placement.axes` = {axes!r} are no axes",
+            f"`placement.axes` = {shown(axes)} are no axes",
             help='write "xyz" or some of them in this order, as in "xy"',
             key="placement",
         )
@@ -83,7 +90,7 @@ def placement(varied: Mapping[str, Any], command: str, sampling: str) -> Placeme
         kind, given = "uniform", [spec["from"], spec["to"]]
     else:
         raise StudyError(
-            f"`placement` = {dict(spec)!r} says no law", help=PLACEMENT, key="placement"
+            f"`placement` = {shown(dict(spec))} says no law", help=PLACEMENT, key="placement"
         )
     numbers, unit = _numbers("placement", given)
     if unit not in LENGTHS:
@@ -93,7 +100,15 @@ def placement(varied: Mapping[str, Any], command: str, sampling: str) -> Placeme
             key="placement",
         )
     if (kind == "normal" and numbers[0] <= 0) or (kind == "uniform" and numbers[0] >= numbers[1]):
-        raise StudyError(f"`placement` = {dict(spec)!r} is empty", help=PLACEMENT, key="placement")
+        raise StudyError(
+            f"`placement` = {shown(dict(spec))} is empty", help=PLACEMENT, key="placement"
+        )
+    if max(map(abs, numbers)) * LENGTHS[unit] > FARTHEST:
+        raise StudyError(
+            f"`placement` = {shown(dict(spec))} is more than {FARTHEST / 1000:g} km",
+            help='write how far grippers err, as in "1 mm": is the unit right?',
+            key="placement",
+        )
     return Placement(kind, tuple(numbers), unit, axes)
 
 
@@ -114,12 +129,12 @@ class _Spec:
                 key=key,
             )
         if not isinstance(spec, Mapping):
-            raise StudyError(f"`{key}` = {spec!r} is no law", help=FORMS, key=key)
+            raise StudyError(f"`{key}` = {shown(spec)} is no law", help=FORMS, key=key)
         self.spec = dict(spec)
 
     def complain(self, what: str, remedy: str) -> StudyError:
         """The error for this line."""
-        return StudyError(f"`{self.key}` = {self.spec!r} {what}", help=remedy, key=self.key)
+        return StudyError(f"`{self.key}` = {shown(self.spec)} {what}", help=remedy, key=self.key)
 
     def input(self) -> Input:
         """The input that the line describes."""
@@ -131,6 +146,7 @@ class _Spec:
             law, unit = self._relative(spec["relative"])
         else:
             law, unit = self._law(spec, self.own)
+        self._bounded(law)
         if self.key in WHOLE:
             law = self._whole(law)
         if self.sampling == "grid":
@@ -191,7 +207,7 @@ class _Spec:
         """Factors on the scene's own number become numbers."""
         own = quantity(self.own)
         if own is None or own[0] == 0 or not finite(own[0]):
-            what = "gives none" if self.own is ABSENT else f"has {self.own!r}"
+            what = "gives none" if self.own is ABSENT else f"has {shown(self.own)}"
             raise self.complain(
                 f"is relative to the scene's own number, and the scene {what}",
                 "write the number into the scene, or its range here",
@@ -212,8 +228,32 @@ class _Spec:
         assert isinstance(law, Choice)
         return Choice(tuple(number * float(value) for value in law.values)), unit
 
+    def _bounded(self, law: Law) -> None:
+        """Refuses numbers that overflow: as factors, as the width of a range, far off the mean."""
+        if isinstance(law, Uniform):
+            sound = finite(law.lower, law.upper, law.upper - law.lower)
+        elif isinstance(law, Normal):
+            sound = finite(abs(law.mean) + 10 * law.deviation)
+        else:
+            numbers = law.values if isinstance(law, Choice) and Input("", law).numeric else ()
+            sound = finite(*map(float, numbers))
+        if not sound:
+            raise self.complain(
+                "goes beyond the largest floating-point number, 1.8e308",
+                "write numbers that a scene can have",
+            )
+
     def _whole(self, law: Law) -> Law:
         """The law of a number that counts something."""
+        ends: tuple[Value, ...] = ()
+        if isinstance(law, Uniform):
+            ends = (law.lower, law.upper)
+        elif isinstance(law, Choice) and Input("", law).numeric:
+            ends = law.values
+        if any(abs(float(end)) > EXACT for end in ends):
+            raise self.complain(
+                f"goes beyond {EXACT}, the largest whole number that can vary", "write less"
+            )
         if isinstance(law, Uniform):
             law = Whole(round(law.lower), round(law.upper))
         elif isinstance(law, Choice) and Input("", law).numeric:
@@ -230,7 +270,7 @@ def _numbers(key: str, given: list[Value]) -> tuple[list[float], str]:
         split = quantity(value)
         if split is None or not finite(split[0]):
             raise StudyError(
-                f"`{key}`: {value!r} is no number",
+                f"`{key}`: {shown(value)} is no number",
                 help='write a number, or a number with its unit as in "98 mm"',
                 key=key,
             )

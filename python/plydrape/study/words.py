@@ -7,6 +7,8 @@ import math
 # the package itself is still being loaded when it loads this
 from plydrape._plydrape import measures
 
+# Most characters of a value in a message.
+MOST = 80
 # Names of columns that are neither their key with spaces nor those of a measure.
 NAMES = {
     "placement.rms": "placement error, rms",
@@ -30,6 +32,21 @@ def amount(x: float) -> str:
     if abs(x) < 1e-9:
         return f"{x:.0e}"
     return f"{x:.4g}"
+
+
+def shown(value: object) -> str:
+    """A value as a message has it: as Python writes it, with the middle left out of a long one.
+
+    Example:
+        >>> shown("75 mm"), shown("9" * 5000)[:3], len(shown("9" * 5000))
+        ("'75 mm'", "'99", 80)
+
+    """
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):  # too many digits, or nested too deep
+        return f"a {type(value).__name__} too long to show"
+    return text if len(text) <= MOST else f"{text[: MOST - 16]}…{text[-15:]}"
 
 
 def name(key: str) -> str:

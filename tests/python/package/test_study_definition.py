@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import plydrape
 import plydrape.study
 import pytest
 from plydrape.study import Study, StudyError
+from plydrape.study.__main__ import main
 from studies import PAPER, grid, study, table, write
 
 
@@ -19,12 +21,27 @@ def vary(**more: Any) -> dict[str, Any]:
     return {"vary": {key.replace("__", "."): spec for key, spec in more.items()}}
 
 
+def nested(levels: int) -> list[Any]:
+    """A list in a list in a list …"""
+    inner: list[Any] = []
+    for _ in range(levels):
+        inner = [inner]
+    return inner
+
+
 HEIGHT = {"from": "60 mm", "to": "90 mm"}
 REFUSED: list[tuple[dict[str, Any], list[str]]] = [
     ({"sample": 3}, ["`sample` is no key", "did you mean `samples`"]),
     ({"samples": 0}, ["`samples` = 0", "whole number of 1 or more"]),
     ({"samples": 2.5}, ["`samples` = 2.5"]),
-    ({"samples": 10**8}, ["100000000 scenarios"]),
+    ({"samples": 10**12}, ["`samples` = 1000000000000", "3 PB", "max_scenarios = 1000000000000"]),
+    ({"samples": 10**5000}, ["`samples` is a whole number of about 5000 digits", "the largest"]),
+    ({"samples": 9, "max_scenarios": 8}, ["`samples` = 9", "more than 8", "max_scenarios = 9"]),
+    ({"max_scenarios": 0}, ["`max_scenarios` = 0"]),
+    ({"samples": 2**31, "max_scenarios": 2**31, "sampling": "sobol"}, ["no 2147483648 points"]),
+    ({"seed": 2**63}, ["`seed` is a whole number of about 19 digits", "9223372036854775807"]),
+    ({"seed": float("inf")}, ["`seed` = inf"]),
+    ({"title": nested(40)}, ["`title.0.0.", "more than 32 levels deep"]),
     ({"seed": -1}, ["`seed` = -1"]),
     ({"sampling": "sobel"}, ["'sobel'", "did you mean `sobol`"]),
     ({"command": "run"}, ["`command` = 'run'", '"simulate", "plan", "follow"']),
@@ -52,6 +69,18 @@ REFUSED: list[tuple[dict[str, Any], list[str]]] = [
     (vary(motion__kind={"relative": [0.9, 1.1]}), ["has 'straight'"]),
     (vary(plan__seed={"from": 1, "to": 9}), ["`plan.seed` changes nothing"]),
     (vary(motion__steps={"deviation": 3}), ["no law of whole numbers"]),
+    (vary(grippers__height={"from": 1e400, "to": 2}), ["`grippers.height`: inf is no number"]),
+    (vary(grippers__height={"from": "1e400 mm", "to": "2 mm"}), ["'1e400 mm' is no number"]),
+    (vary(grippers__height={"from": "9" * 5000 + " mm", "to": "2 mm"}), ["'999", "999 mm' is no"]),
+    (vary(grippers__height={"values": [10**400]}), ["`vary.grippers.height.values.0` is a whole"]),
+    (vary(grippers__height={"from": "-1.7e308 m", "to": "1.7e308 m"}), ["1.8e308"]),
+    (vary(grippers__height={"mean": "1e308 m", "deviation": "1e308 m"}), ["1.8e308"]),
+    (vary(grippers__height={"relative": [1e308, 1.7e308]}), ["1e+308", "1.8e308"]),
+    (vary(motion__steps={"from": 1, "to": 1e300}), ["`motion.steps`", "9007199254740992"]),
+    (vary(motion__steps={"from": 1, "to": 10**30}), ["`vary.motion.steps.to` is a whole number"]),
+    (vary(motion__steps={"values": [10, 2**62]}), ["`motion.steps`", "9007199254740992"]),
+    (vary(placement={"deviation": "1e400 mm"}), ["`placement`: '1e400 mm' is no number"]),
+    (vary(placement={"from": "-1.7e308 m", "to": "1.7e308 m"}), ["`placement`", "10 km"]),
     (vary(placement={"deviation": "1 s"}), ["`s`", "no length"]),
     (vary(placement={"deviation": "1 mm", "axes": "yx"}), ["'yx' are no axes"]),
     (vary(placement={"to": "1 mm"}), ["says no law"]),
@@ -69,6 +98,80 @@ def test_a_wrong_study_is_refused(change: dict[str, Any], words: list[str]) -> N
     for word in words:
         assert word in str(refused.value)
     assert isinstance(refused.value, plydrape.PlydrapeError | ValueError)
+
+
+def test_a_long_value_is_cut_in_a_message() -> None:
+    """A hundred characters say which it is."""
+    with pytest.raises(StudyError) as refused:
+        study(**vary(grippers__height={"from": "9" * 5000 + " mm", "to": "2 mm"}))
+    assert len(refused.value.message) < 200
+
+
+def test_studies_may_be_larger_if_they_say_so() -> None:
+    """The limit is a million; `max_scenarios` changes no row and no check sum."""
+    with pytest.raises(StudyError, match=r"1000001 scenarios.* 3 GB .*max_scenarios = 1000001"):
+        study(10**6 + 1)
+    assert len(study(10**6 + 1, max_scenarios=10**6 + 1, sampling="sobol")) == 10**6 + 1
+    assert study(5, max_scenarios=5).checksum == study(5).checksum
+
+
+POINTS = {"from": "60 mm", "to": "90 mm", "points": 10**12}
+ABSURD: list[tuple[dict[str, Any], str]] = [
+    ({"samples": 10**12}, "`samples` = 1000000000000 makes"),
+    ({"vary": {"grippers.height": POINTS}}, "the grid makes 1000000000000 scenarios"),
+    (
+        {"vary": {f"grippers.spacing.{k}": POINTS for k in (0, 1)}},
+        "the grid makes about 1e24 scenarios",
+    ),
+    (
+        {"vary": {"motion.steps": {"from": 1, "to": 10**9, "points": 10**9}}},
+        "the grid makes 1000000000 scenarios",
+    ),
+]
+
+
+@pytest.mark.parametrize(("change", "words"), ABSURD, ids=[words for _, words in ABSURD])
+def test_an_absurd_number_of_scenarios_takes_no_memory(
+    tmp_path: Path, change: dict[str, Any], words: str
+) -> None:
+    """It is refused with exit code 2 where 2 GB are all there is, before anything is made."""
+    resource = pytest.importorskip("resource")
+    path = write(tmp_path, **({"samples": 1} | change))
+    if "samples" not in change:
+        lines = path.read_text().splitlines()
+        path.write_text("\n".join(["sampling = 'grid'", *(x for x in lines if "samples" not in x)]))
+    done = subprocess.run(
+        [sys.executable, "-m", "plydrape.study", str(path)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2 * 10**9, 2 * 10**9)),
+    )
+    assert done.returncode == 2, done.stderr
+    assert words in done.stderr and "max_scenarios = " in done.stderr
+    assert not (tmp_path / "study.results").exists()
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        (f"seed = {'9' * 5000}", "too many digits (at line 2, column 8)"),
+        (f"title = {'[' * 5000}{']' * 5000}", "nested too deep (at line 2, column 108)"),
+        (f"title = {'[' * 50}{']' * 50}", "more than 32 levels deep"),
+        (f"[{'.'.join('a' * 5000)}]", "`a` is no key of a study"),
+        (f"[vary.{'.'.join('a' * 5000)}]", "more than 32 levels deep"),
+    ],
+    ids=["digits", "brackets", "lists", "keys", "vary"],
+)
+def test_a_file_that_python_cannot_parse_is_one_message(
+    tmp_path: Path, line: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Exit code 2 with the place; no traceback."""
+    path = tmp_path / "study.toml"
+    path.write_text(f"samples = 8\n{line}\n")
+    assert main([str(path)]) == 2
+    said = capsys.readouterr().err
+    assert words in said and said.count("×") == 1 and "help: " in said
 
 
 def test_a_grid_says_what_it_needs() -> None:

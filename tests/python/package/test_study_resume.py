@@ -4,22 +4,36 @@ from __future__ import annotations
 
 import json
 import os
+import re
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import plydrape.study
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from plydrape.study import Study, StudyError
-from plydrape.study.folder import Folder
+from plydrape.study.__main__ import main
+from plydrape.study.folder import FINISHED, Folder
 from plydrape.study.run import run
 from studies import study, write
 
 SAMPLES = 240
 RUN = "import sys, plydrape.study as s; s.run(sys.argv[1], workers=2, every=0.05, progress=False)"
+
+
+def workers_of(client: subprocess.Popen[bytes]) -> list[int]:
+    """Process ids of the workers of a client."""
+    if not Path(f"/proc/{client.pid}/task/{client.pid}/children").exists():
+        client.kill()
+        pytest.skip("NOT CHECKED: this system does not list the children of a process")
+    threads = Path(f"/proc/{client.pid}/task").iterdir()
+    return [int(p) for t in threads for p in (t / "children").read_text().split()]
 
 
 def begin(path: Path) -> subprocess.Popen[bytes]:
@@ -60,12 +74,7 @@ def test_a_killed_client_repeats_and_loses_no_row(tmp_path: Path) -> None:
 def test_workers_end_with_their_client(tmp_path: Path) -> None:
     """Nobody goes on computing for a client that is gone."""
     client = begin(write(tmp_path, 4000))
-    children = Path(f"/proc/{client.pid}/task/{client.pid}/children")
-    if not children.exists():
-        client.kill()
-        pytest.skip("NOT CHECKED: this system does not list the children of a process")
-    threads = Path(f"/proc/{client.pid}/task").iterdir()
-    workers = [int(p) for t in threads for p in (t / "children").read_text().split()]
+    workers = workers_of(client)
     assert len(workers) == 2
     client.kill()
     client.wait()
@@ -93,6 +102,192 @@ def test_a_finished_study_runs_nothing_again(tmp_path: Path) -> None:
     outcome = run(path, workers=1)
     assert {p.name: p.stat().st_mtime_ns for p in rows.iterdir()} == times
     assert outcome.table().num_rows == 8
+
+
+def test_a_finished_study_is_left_as_it_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A note in its page stays, no file is written; one line says so, the exit code is 0."""
+    path = write(tmp_path, 8)
+    assert main([str(path), "--workers", "1"]) == 0
+    first = capsys.readouterr().out
+    results = tmp_path / "study.results"
+    with open(results / "summary.html", "a", encoding="utf-8") as page:
+        page.write("<!-- my note -->")
+    before = {p: (p.stat().st_mtime_ns, p.read_bytes()) for p in results.rglob("*") if p.is_file()}
+    assert main([str(path)]) == 0
+    after = {p: (p.stat().st_mtime_ns, p.read_bytes()) for p in results.rglob("*") if p.is_file()}
+    assert after == before
+    # The same figures; instead of the files that were written, one line.
+    second = capsys.readouterr().out
+    said = f"{results} was finished before: nothing was run or written\n"
+    assert second == first[: first.index("wrote ")] + said
+
+
+def test_only_what_is_missing_of_a_finished_study_is_written(tmp_path: Path) -> None:
+    """Each of its three files, byte for byte as before; the others keep a note."""
+    path = write(tmp_path, 4)
+    run(path, workers=1)
+    results = tmp_path / "study.results"
+    for name in FINISHED:
+        content = (results / name).read_bytes()
+        others = [results / other for other in FINISHED if other != name]
+        for other in others:
+            other.write_bytes(other.read_bytes() + b"note")
+        noted = [other.read_bytes() for other in others]
+        (results / name).unlink()
+        assert run(path, workers=1).written == [name]
+        assert (results / name).read_bytes() == content
+        assert [other.read_bytes() for other in others] == noted
+        for other in others:
+            other.write_bytes(other.read_bytes().removesuffix(b"note"))
+
+
+def test_a_changed_file_is_not_written_over_by_rows_that_are_run_again(tmp_path: Path) -> None:
+    """The rows are finished, the note stays, and the message says what to do."""
+    path = write(tmp_path, 6)
+    run(path, workers=1)
+    results = tmp_path / "study.results"
+    (results / "summary.json").write_text("mine")
+    next(results.glob("rows/part-000000-*")).unlink()
+    # Without the change the command says what it did.
+    shutil.copytree(tmp_path, tmp_path / "copy", ignore=shutil.ignore_patterns("summary.json"))
+    outcome = run(tmp_path / "copy" / "study.toml", workers=1)
+    assert outcome.ran >= 1 and outcome.written == ["summary.json"]
+    with pytest.raises(StudyError, match=r"summary\.json` is not what the rows give.*move it away"):
+        run(path, workers=1)
+    assert (results / "summary.json").read_text() == "mine"
+    assert plydrape.study.read(results).table().num_rows == 6
+
+
+def part(first: int, last: int) -> str:
+    """Name of a part file."""
+    return f"part-{first:06}-{last:06}.parquet"
+
+
+def parts(tmp_path: Path) -> Path:
+    """A study of 12 scenarios whose parts hold 1, 4 and 7 of them; their folder."""
+    run(write(tmp_path, 12), workers=1, every=1e9)
+    rows = tmp_path / "study.results" / "rows"
+    whole = pq.read_table(tmp_path / "study.results" / "study.parquet")
+    for old in rows.iterdir():
+        old.unlink()
+    for first, stop in ((0, 1), (1, 5), (5, 12)):
+        pq.write_table(whole.slice(first, stop - first), rows / part(first, stop - 1))
+    return rows
+
+
+def copied(rows: Path) -> str:
+    """A part over another."""
+    shutil.copy(rows / part(5, 11), rows / part(0, 0))
+    return r"part-000000-000000.parquet` should hold scenario 0, .* holds 5 to 11; remove it"
+
+
+def renamed(rows: Path) -> str:
+    """A part under a name that promises less."""
+    (rows / part(5, 11)).rename(rows / part(5, 9))
+    return "part-000005-000009.parquet` should hold the scenarios 5 to 9, .* holds 5 to 11"
+
+
+def mixed(rows: Path) -> str:
+    """Rows in another order."""
+    table = pq.read_table(rows / part(1, 4))
+    pq.write_table(table.take([0, 2, 1, 3]), rows / part(1, 4))
+    return "scenarios 1 to 4, .* holds 4 rows between 1 and 4"
+
+
+def emptied(rows: Path) -> str:
+    """No rows, as many as the name says."""
+    (rows / part(0, 0)).unlink()
+    pq.write_table(pq.read_table(rows / part(1, 4)).slice(0, 0), rows / part(2, 1))
+    return "part-000002-000001.parquet`: the name ends with a scenario before its first"
+
+
+def stripped(rows: Path) -> str:
+    """No numbers of scenarios."""
+    pq.write_table(pq.read_table(rows / part(1, 4)).drop(["scenario"]), rows / part(1, 4))
+    return "part-000001-000004.parquet` cannot be read.*remove it"
+
+
+def unjudged(rows: Path) -> str:
+    """No column that says why there is no result."""
+    pq.write_table(pq.read_table(rows / part(1, 4)).drop(["error"]), rows / part(1, 4))
+    return "part-000001-000004.parquet` cannot be read: .*no column error.*remove it"
+
+
+def other_types(rows: Path) -> str:
+    """Texts in a column of numbers."""
+    table = pq.read_table(rows / part(1, 4))
+    at = table.column_names.index("worst_slack_mm")
+    texts = pa.array(["a", "b", "c", "d"])
+    pq.write_table(table.set_column(at, "worst_slack_mm", texts), rows / part(1, 4))
+    return "parts in `rows` do not fit together: .*worst_slack_mm.*remove those"
+
+
+def beyond(rows: Path) -> str:
+    """Scenarios that the study has not."""
+    table = pq.read_table(rows / part(5, 11))
+    later = table.set_column(0, "scenario", pa.array(range(12, 19)))
+    pq.write_table(later, rows / part(12, 18))
+    return "part-000012-000018.parquet`: the study has 12 scenarios"
+
+
+def foreign(rows: Path) -> str:
+    """The right numbers, of a study with other heights."""
+    table = pq.read_table(rows / part(1, 4))
+    at = table.column_names.index("grippers.height")
+    other = pa.array([80.0, 81.0, 82.0, 83.0])
+    pq.write_table(table.set_column(at, "grippers.height", other), rows / part(1, 4))
+    return "part-000001-000004.parquet` is not of this study: the column `grippers.height`"
+
+
+HARMS = [copied, renamed, mixed, emptied, stripped, beyond, foreign, unjudged, other_types]
+# What is seen in the columns that are read before scenarios are run.
+EARLY = [copied, mixed, emptied, stripped, beyond, foreign]
+
+
+@pytest.mark.parametrize(
+    ("harm", "complete"), [*((h, True) for h in HARMS), *((h, False) for h in EARLY)]
+)
+def test_a_part_that_does_not_agree_with_its_name_is_refused(
+    tmp_path: Path, harm: Callable[[Path], str], complete: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Exit code 2 and one message, whether scenarios are left to run or not; nothing is written."""
+    rows = parts(tmp_path)
+    match = harm(rows)
+    if not complete:
+        (rows / part(5, 11)).unlink()
+    before = {p: p.stat().st_mtime_ns for p in (tmp_path / "study.results").rglob("*")}
+    assert main([str(tmp_path / "study.toml"), "--quiet"]) == 2
+    said = capsys.readouterr()
+    assert re.search(match.replace("; remove it", r"\n  help: remove it"), said.err, re.DOTALL)
+    assert said.out == "" and said.err.count("×") == 1
+    assert {p: p.stat().st_mtime_ns for p in (tmp_path / "study.results").rglob("*")} == before
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ('{"a":' * 100_000 + "1" + "}" * 100_000, "study.json` cannot be read: .* too deep"),
+        ('{"seed": ' + "9" * 5000 + "}", "study.json` cannot be read"),
+        ('{"format": "plydrape-study"}', "study.json` has no definition"),
+        ("[]", "study.json` is no study of plydrape"),
+    ],
+    ids=["deep", "long", "short", "foreign"],
+)
+def test_a_damaged_study_json_is_one_message(
+    tmp_path: Path, content: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With exit code 2, and for readers of the rows too."""
+    path = write(tmp_path, 2)
+    run(path, workers=1)
+    (tmp_path / "study.results" / "study.json").write_text(content)
+    if "no definition" not in words:
+        assert main([str(path)]) == 2
+        said = capsys.readouterr().err
+        assert re.search(words, said) and "help: choose another folder" in said
+    with pytest.raises(StudyError, match=words):
+        plydrape.study.read(tmp_path / "study.results")
 
 
 def test_a_changed_definition_is_refused(tmp_path: Path) -> None:
@@ -150,18 +345,41 @@ def test_a_damaged_part_is_named(tmp_path: Path) -> None:
     assert (tmp_path / "study.results" / "study.parquet").read_bytes() == whole
 
 
-def test_ctrl_c_keeps_what_is_finished(tmp_path: Path) -> None:
-    """Exit code 130, and a word on how to go on; going on works."""
+@pytest.mark.parametrize("how", ["Ctrl-C", "SIGTERM", "SIGTERM twice"])
+def test_an_interrupted_study_keeps_what_is_finished(tmp_path: Path, how: str) -> None:
+    """Exit code 130, a word on how to go on, no worker left, nothing half; going on works."""
     path = write(tmp_path, 3000)
     command = [sys.executable, "-m", "plydrape.study", str(path), "--workers", "2"]
     client = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
-    rows = tmp_path / "study.results" / "rows"
+    results = tmp_path / "study.results"
     deadline = time.monotonic() + 30
-    while len(list(rows.glob("part-*"))) < 3:
+    while len(list(results.glob("rows/part-*"))) < 3:
         assert client.poll() is None and time.monotonic() < deadline
         time.sleep(0.01)
-    os.killpg(client.pid, signal.SIGINT)
+    workers = workers_of(client)
+    assert len(workers) == 2 and all(alive(pid) for pid in workers)
+    if how == "Ctrl-C":
+        os.killpg(client.pid, signal.SIGINT)
+    else:
+        # To the client alone, as `kill` sends it; twice, as `timeout` does.
+        os.kill(client.pid, signal.SIGTERM)
+        if how == "SIGTERM twice":
+            time.sleep(0.01)
+            os.kill(client.pid, signal.SIGTERM)
     _, said = client.communicate(timeout=30)
+    # The client has waited for its workers: they are gone when it is.
+    assert not any(alive(pid) for pid in workers)
     assert client.returncode == 130, said.decode()
     assert "the same command goes on" in said.decode() and "Traceback" not in said.decode()
-    assert 3 <= plydrape.study.read(tmp_path / "study.results").table().num_rows < 3000
+    assert not list(results.rglob("*.tmp"))
+    kept = {p.name: p.stat().st_mtime_ns for p in results.glob("rows/*")}
+    assert 3 <= plydrape.study.read(results).table().num_rows < 3000
+    again = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
+    deadline = time.monotonic() + 30
+    while len(list(results.glob("rows/part-*"))) < len(kept) + 2:
+        assert again.poll() is None and time.monotonic() < deadline
+        time.sleep(0.01)
+    again.terminate()
+    again.communicate(timeout=30)
+    assert again.returncode == 130
+    assert kept.items() < {p.name: p.stat().st_mtime_ns for p in results.glob("rows/*")}.items()

@@ -25,6 +25,21 @@ def test_a_grid_is_the_product_of_its_numbers() -> None:
     assert made.values == list(wanted) and len(made) == 12
 
 
+def test_the_size_of_a_grid_is_known_before_it_is_made() -> None:
+    """Against the numbers themselves, for ranges that have fewer and more whole numbers."""
+    for lower in (-3, 0, 5):
+        for width in range(12):
+            for points in range(1, 30):
+                x = Input("motion.steps", Whole(lower, lower + width), points=points)
+                even = (
+                    np.linspace(lower, lower + width, points) if points > 1 else [lower + width / 2]
+                )
+                assert x.count == len(x.grid()), (lower, width, points)
+                assert set(x.grid()) == {round(float(number)) for number in even}
+    assert Input("a", Uniform(0.0, 1.0), points=7).count == 7
+    assert Input("a", Choice((1, 2, 3))).count == 3
+
+
 def test_a_latin_hypercube_has_one_scenario_in_each_stratum() -> None:
     """N samples, N strata of equal probability, for each input on its own."""
     made = study(40)

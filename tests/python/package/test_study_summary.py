@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import json
+import math
 import re
 from html.parser import HTMLParser
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -12,7 +16,8 @@ import pytest
 from plydrape.study import Outcome, Study
 from plydrape.study.figures import Axis, edges, span
 from plydrape.study.run import run
-from plydrape.study.summary import correlation, pattern, wilson
+from plydrape.study.scenario import measures
+from plydrape.study.summary import correlation, pattern, spread, wilson
 from scipy import stats
 from studies import PAPER, study, table
 
@@ -44,6 +49,49 @@ def test_a_planted_driver_is_found(seed: int) -> None:
     assert abs(outcome.correlations["value_slack"]["a"]) < 0.2  # type: ignore[arg-type]
     wanted = stats.spearmanr(outcome.table()["b"], outcome.table()["value_slack"]).statistic
     assert outcome.correlations["value_slack"]["b"] == pytest.approx(wanted, abs=1e-11)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_a_value_that_is_not_finite_is_not_accepted(value: float) -> None:
+    """Whatever the row says: neither in the share, nor at its limit, nor in what drives it."""
+    random = np.random.default_rng(3)
+    count, harmed = 40, 10
+    measure = random.uniform(0.0, 1.0, count)
+    measure[:harmed] = value
+    texts = {name: pa.array([None] * count, pa.string()) for name in ("error", "error_kind")}
+    columns: dict[str, Any] = {"scenario": range(count), "a": np.arange(count) >= harmed}
+    columns |= {"accepted": [True] * count, "value_slack": measure, "ok_slack": [True] * count}
+    columns |= {"limit_slack": [2.0] * count, "seed": [1] * count, "version": ["0"] * count}
+    outcome = Outcome(pa.table(columns | texts), "planted", None)
+    about = outcome.summary
+    assert about["accepted"]["count"] == count - harmed
+    assert about["accepted"]["interval"] == wilson(count - harmed, count)
+    assert about["measures"]["value_slack"]["exceeded"] == harmed / count
+    assert about["measures"]["value_slack"]["count"] == count - harmed
+    assert about["measures"]["accepted"]["correlations"]["a"] == pytest.approx(1.0)
+    json.dumps(about, allow_nan=False)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_a_row_with_a_value_that_is_not_finite_is_not_accepted(value: float) -> None:
+    """Even where the drape says that it keeps the limit."""
+    limit = {"name": "tilt", "limit": 40.0, "unit": "°", "ok": True}
+    for given, wanted in ((30.0, True), (value, False)):
+        result = SimpleNamespace(
+            accepted=True,
+            converged=True,
+            summary={"stopped": None, "worst": {}, "final": {}},
+            limits=[limit | {"value": given}],
+        )
+        row = measures(result, {})  # type: ignore[arg-type]
+        assert row["ok_tilt"] is wanted and row["accepted"] is wanted
+
+
+def test_the_largest_numbers_have_a_mean() -> None:
+    """Their sum overflows, and summary.json holds finite numbers alone."""
+    assert spread(np.array([1.0e308, 1.7e308, 0.0]))["mean"] == pytest.approx(0.9e308)
+    small = np.random.default_rng(1).normal(size=100)
+    assert spread(small)["mean"] == small.mean()
 
 
 def test_noise_has_a_driver_about_as_often_as_chance_has_it() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import random
 import signal
+import sys
 from collections import deque
 from typing import Any
 
@@ -119,6 +120,20 @@ def test_a_killed_worker_costs_no_row() -> None:
     rows = [row for batch in sorted(kept, key=lambda batch: batch.first) for row in batch.rows]
     assert rows == [made.task.row(k, made.values[k], {}) for k in range(120)]
     assert not executor.pids
+
+
+def test_a_worker_that_cannot_be_started_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody waits for it forever."""
+    monkeypatch.setattr(sys, "executable", "/no/such/python")
+    made = study(2)
+    executor = Local(made.task, workers=1)
+    executor.start(Chunk(0, 2), made.values)
+    try:
+        ended = executor._ended.get(timeout=20)
+    finally:
+        executor.close()
+    assert isinstance(ended, StudyError)
+    assert "a worker process cannot be started: No such file or directory" in str(ended)
 
 
 def test_a_worker_killed_while_it_starts_is_begun_again(monkeypatch: pytest.MonkeyPatch) -> None:
