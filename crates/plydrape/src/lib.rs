@@ -1,7 +1,7 @@
 //! How an array of grippers must move to lay a carbon-fibre ply on a mold without wrinkles.
 //!
 //! The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh,
-//! Jakobsen and Sherwood 2018; the equations are numbered in `docs/theory.md`. Modules follow the
+//! Jakobsen and Sherwood 2018; the equations are numbered in `docs/theory`. Modules follow the
 //! stages of the method, and data flows one way:
 //!
 //! 1. [`scene`]: a file becomes a checked [`scene::Scene`];

@@ -116,7 +116,7 @@ fn null_as_infinite<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D:
     Ok(<Option<f64> as serde::Deserialize>::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
-/// How shared slopes are found, eqs. (9) and (10) of `docs/theory.md`.
+/// How shared slopes are found, eqs. (9) and (10) of `docs/theory/equilibrium.md`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]

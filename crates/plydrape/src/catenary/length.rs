@@ -1,4 +1,4 @@
-//! Arc length of a span, eq. (4) of `docs/theory.md`, with exact derivatives.
+//! Arc length of a span, eq. (4) of `docs/theory/span.md`, with exact derivatives.
 //!
 //! What is integrated is the excess over the chord. With w = z' − θ and σ = √(1+θ²),
 //! `√(1+z'²) − σ − θw/σ = w² / (σ(σ√(1+z'²) + 1 + θz'))`, and w has zero mean: every term is positive

@@ -1,6 +1,6 @@
 //! One span of ply between two held points: a small-sag catenary with bending stiffness.
 //!
-//! Solves `H z'' − EI z'''' = q` in closed form, eq. (1) of `docs/theory.md`, after Krogh et al. 2018,
+//! Solves `H z'' − EI z'''' = q` in closed form, eq. (1) of `docs/theory/span.md`, after Krogh et al. 2018,
 //! eq. (2), for every sign of H: a short stiff span with slack is in compression. The files follow the
 //! derivation: [`Span`] states the problem, `profile` is the closed form at a given H, `length` its arc
 //! length with exact derivatives, `solve` finds the H of a given length, `shape` reads off the result.

@@ -1,6 +1,6 @@
 //! The closed form of a span at a given H: amplitudes of the basis from the end conditions.
 //!
-//! Each end gives one row of a 2×2 system for (α, β), eq. (3) of `docs/theory.md`. Everything else is
+//! Each end gives one row of a 2×2 system for (α, β), eq. (3) of `docs/theory/span.md`. Everything else is
 //! linear in (θ, ρ, s₁, s₂), so all first and second derivatives follow from the same small matrix.
 
 use super::basis::{Form, Values};

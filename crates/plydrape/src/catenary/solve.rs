@@ -1,4 +1,4 @@
-//! The horizontal force at which a span has its length, eq. (5) of `docs/theory.md`.
+//! The horizontal force at which a span has its length, eq. (5) of `docs/theory/span.md`.
 //!
 //! The excess over the chord behaves like D/(H − a)² nearly everywhere: D = q²ℓ²cos³θ/24 far from
 //! buckling, a close to the buckling force. Each iteration fits D and a to the excess and its

@@ -1,6 +1,6 @@
 //! Height, slope and arc length along a span with exact derivatives to what the span depends on.
 //!
-//! At a fixed fraction t of the run all three follow from eq. (2) of `docs/theory.md`: the slope is linear in
+//! At a fixed fraction t of the run all three follow from eq. (2) of `docs/theory/span.md`: the slope is linear in
 //! (θ, ρ, α, β), the height is its integral, and the arc length ℓ∫₀ᵗ√(1+z'²) is differentiated under the
 //! integral, as in eq. (4a). The amplitudes' response carries the end conditions along.
 

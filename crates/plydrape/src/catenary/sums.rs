@@ -1,5 +1,5 @@
 //! The integrals over a span from which its length and all derivatives follow, eq. (4a) of
-//! `docs/theory.md`, summed panel by panel.
+//! `docs/theory/span.md`, summed panel by panel.
 //!
 //! Four sums: the length alone ([`LengthSum`]), the excess with its derivative to H ([`ExcessSum`]), the solver's
 //! inner loop ([`UnknownsSum`]), and everything ([`AllSum`]).

@@ -1,6 +1,6 @@
 //! What hangs where: the spans of a ply at given gripper positions, and what holds their ends.
 //!
-//! The slope rules of the paper (section 2.2), eqs. (6)–(8) of `docs/theory.md`. Everything that
+//! The slope rules of the paper (section 2.2), eqs. (6)–(8) of `docs/theory/ply.md`. Everything that
 //! depends on a position is a [`Number`], so the same code gives the assembly and its derivative.
 
 use super::Number;

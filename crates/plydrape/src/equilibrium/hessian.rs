@@ -1,4 +1,4 @@
-//! The quadratic model of ½‖H‖² over the shared slopes, eq. (9b) of `docs/theory.md`, and its minimum
+//! The quadratic model of ½‖H‖² over the shared slopes, eq. (9b) of `docs/theory/equilibrium.md`, and its minimum
 //! within the bounds.
 //!
 //! The Hessian is never formed: it is a 2×2 matrix for each element and a list of the joints that its

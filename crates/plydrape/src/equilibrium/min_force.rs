@@ -1,5 +1,5 @@
 //! The paper's rule: shared slopes of the smallest norm of the horizontal forces, eq. (9) of
-//! `docs/theory.md`.
+//! `docs/theory/equilibrium.md`.
 //!
 //! With every length met, ½‖H‖² is a function of the shared slopes alone. Its gradient and Hessian are
 //! sums over elements: an edge sees two slopes; a diagonal sees the four edge slopes of its ends, of

@@ -4,7 +4,7 @@
 //! slopes are solved for together. `assembly` states what hangs where, `slopes` what holds it,
 //! `element` differentiates one span,
 //! `min_force` and `moment_balance` are the two rules for the slopes, eqs. (9) and (10) of
-//! `docs/theory.md`, and `tangent` is the exact derivative of the solved state along a `direction`.
+//! `docs/theory/equilibrium.md`, and `tangent` is the exact derivative of the solved state along a `direction`.
 //! `status` says how a solve ended and `tuning` holds every constant of the method.
 
 mod assembly;

@@ -1,5 +1,5 @@
 //! The physical rule: a ball joint passes no moment, so EI z'' is continuous across each gripper along
-//! each line of edges, eq. (10) of `docs/theory.md`.
+//! each line of edges, eq. (10) of `docs/theory/equilibrium.md`.
 //!
 //! One equation for each shared slope, tridiagonal line by line. A slope at its limit carries the jump
 //! of moment instead. Newton's method on the active set; each edge force follows its own length.

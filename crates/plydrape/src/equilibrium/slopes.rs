@@ -1,5 +1,5 @@
 //! The slope rules of the paper (section 2.2): what holds the ends of edges and diagonals, eq. (8) of
-//! `docs/theory.md`.
+//! `docs/theory/ply.md`.
 //!
 //! A free slope on the boundary, a shared one inside, the plane through two edges for a diagonal, and the plane
 //! of a shearing cell for all that meet its stretched diagonal's grippers.
@@ -12,7 +12,7 @@ use crate::ply::{Catenary, Kind, Laid, shear};
 use crate::scene::ContactEnd;
 
 impl<T: Number> Assembly<T> {
-    /// The planes of shearing cells at the grippers of their stretched diagonals, eq. (8a) of `docs/theory.md`.
+    /// The planes of shearing cells at the grippers of their stretched diagonals, eq. (8a) of `docs/theory/ply.md`.
     ///
     /// A shearing cell is a taut sheet: its plane contains the stretched diagonal and the direction between the
     /// two other grippers. Where several cells meet, their planes are averaged by their weights w, and the

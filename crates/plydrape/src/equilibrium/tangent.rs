@@ -1,5 +1,5 @@
 //! Exact derivatives of the solved state, by the implicit function theorem, eq. (11) of
-//! `docs/theory.md`.
+//! `docs/theory/equilibrium.md`.
 //!
 //! A direction of change of positions, lengths or material is carried as a dual number through the
 //! same assembly and the same rule; what it does to the rule's residual at fixed slopes gives the slopes'

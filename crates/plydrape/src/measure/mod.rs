@@ -1,4 +1,4 @@
-//! What is measured of a drape, section 13 of `docs/theory.md`: each measure is a type in a file of its own.
+//! What is measured of a drape, section 13 of `docs/theory`: each measure is a type in a file of its own.
 //!
 //! A [`Measure`] says what it is called, in which unit, which way it is bounded ([`Sense`]), when it counts
 //! ([`Scope`]), which limit of the scene bounds it, and how it is found on the ply of one step ([`State`]). Verdicts,

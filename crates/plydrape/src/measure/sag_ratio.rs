@@ -1,6 +1,6 @@
 //! Sag: how deep the deepest span hangs below its chord, as a share of its run.
 //!
-//! It says whether (1) of `docs/theory.md` is valid there: small-sag theory is usually trusted to 1/8, and holds to about 1/4.
+//! It says whether (1) of `docs/theory` is valid there: small-sag theory is usually trusted to 1/8, and holds to about 1/4.
 
 use super::{Found, Measure, Most, Site, State, Unit};
 

@@ -1,4 +1,4 @@
-//! Shear: the largest shear angle of a cell, (6) of `docs/theory.md`.
+//! Shear: the largest shear angle of a cell, (6) of `docs/theory`.
 
 use super::{Found, Measure, Most, Site, State, Unit, Worth};
 use crate::mold::vector::between;

@@ -1,6 +1,6 @@
 //! Slope: the steepest that a span leaves its end against its own chord, rise over run.
 //!
-//! It says whether (1) of `docs/theory.md` is valid there: its curvature is that of small slopes.
+//! It says whether (1) of `docs/theory` is valid there: its curvature is that of small slopes.
 
 use super::{Found, Measure, Most, Site, State, Unit};
 

@@ -1,5 +1,5 @@
 //! Shear of a cell: the trellis of sides a, b whose one diagonal is stretched, eqs. (6)–(8) of
-//! `docs/theory.md`, after Krogh et al. 2018, section 2.3.
+//! `docs/theory/ply.md`, after Krogh et al. 2018, section 2.3.
 
 use num_dual::DualNum;
 

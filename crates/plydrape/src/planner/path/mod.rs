@@ -1,4 +1,4 @@
-//! Whole trajectories, judged by complete drapes, section 17 of `docs/theory.md`.
+//! Whole trajectories, judged by complete drapes, section 17 of `docs/theory`.
 
 mod formation;
 mod quick;

@@ -43,7 +43,7 @@ impl Sensitivity<'_> {
         Quantity { value: way.iter().map(|c| c * c).sum::<f64>().sqrt(), gradient }
     }
 
-    /// Angle between the ply's normal at a gripper and the vertical (rad), eq. (13a) of `docs/theory.md`. A
+    /// Angle between the ply's normal at a gripper and the vertical (rad), eq. (13a) of `docs/theory/measures.md`. A
     /// level gripper's has no derivative and gets zeros.
     #[must_use]
     pub fn tilt(&self, gripper: usize) -> Quantity {

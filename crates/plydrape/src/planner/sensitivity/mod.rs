@@ -1,6 +1,6 @@
 //! What a plan looks at in a solved ply, each with its exact gradient to all gripper positions.
 //!
-//! The equilibrium is differentiated by the implicit function theorem, eq. (11) of `docs/theory.md`: one
+//! The equilibrium is differentiated by the implicit function theorem, eq. (11) of `docs/theory/equilibrium.md`: one
 //! tangent for each gripper coordinate gives how every span's force, end slopes, run, rise and length
 //! follow. All else is the chain rule. Contact segments stay fixed; exact wherever the state is
 //! differentiable: not where a diagonal just begins to shear, a slope just reaches its limit, or a point
