@@ -10,7 +10,7 @@ use plydrape::planner::obstacles::obstacles;
 use plydrape::planner::{self, Memory, Planned, Progress};
 use plydrape::scene::PlanMethod;
 use plydrape_io::scene::{SceneError, SceneFile};
-use plydrape_io::{ResultFile, plan, table};
+use plydrape_io::{Folder, NAMES, ResultFile, plan, table};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -110,6 +110,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         // the pool cannot be set a second time, and has not been set before
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
+    let folder = Folder::claim(&results.folder("plan"), "plan")?;
+    folder.spare(&NAMES, &scene.files)?;
     let tell = !quiet && !results.json;
     if tell {
         let mut out = io::stdout().lock();
@@ -135,7 +137,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let planned = planned?;
 
     let result = ResultFile::planned(&scene, scene.input.clone(), &planned);
-    let files = plan::write_all(&result, &planned.memory, &results.folder("plan"))?;
+    let files = plan::write_into(folder, &result, &planned.memory, &scene.files)?;
     let printed = Printed {
         method: planned.record.method,
         plan_time_s,

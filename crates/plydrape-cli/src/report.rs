@@ -29,7 +29,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         _ => PathBuf::from("."),
     };
     let folder = arguments.output.clone().unwrap_or_else(beside);
-    let files = folder::add(&folder, &[("report.html", html.as_bytes())])?;
+    let files = folder::add(&folder, "report", &[("report.html", html.as_bytes())])?;
     if !quiet {
         results::list(&files)?;
     }

@@ -4,7 +4,7 @@ use crate::diagnostic::Done;
 use crate::outcome::{Printed, exit_code};
 use crate::results::Results;
 use crate::watch::{Interrupt, bar};
-use plydrape_io::{ResultFile, table, write_all};
+use plydrape_io::{Folder, NAMES, ResultFile, table, write_into};
 
 /// Drape the ply along the trajectories of a scene; table of steps, verdict, files.
 #[derive(Debug, clap::Args)]
@@ -25,6 +25,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let interrupt = Interrupt::listen();
     let scene = plydrape_io::scene::read(&results.scene)?;
 
+    let folder = Folder::claim(&results.folder("results"), "simulate")?;
+    folder.spare(&NAMES[..5], &scene.files)?;
+
     let steps = scene.motion.positions.len();
     let bar = bar(steps, "draping {bar:40} step {pos} of {len}, {eta} left", quiet);
     let drape = plydrape::draping::simulate(&scene, |done| {
@@ -35,7 +38,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 
     let solving = drape.solving;
     let result = ResultFile::new(&scene, scene.input.clone(), drape);
-    let files = write_all(&result, &results.folder("results"))?;
+    let files = write_into(folder, &result, &[], &scene.files)?;
     let (title, steps) = (&result.scene.title, table::steps_table(&result));
     let text = format!("{title}\n\n{steps}\n{}", table::verdict(&result));
     results.print(quiet, &Printed::of(&result, solving), &text, &files)?;

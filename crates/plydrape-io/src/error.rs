@@ -20,6 +20,23 @@ pub enum OutputError {
         /// The file.
         path: PathBuf,
     },
+    /// Another run writes into the folder.
+    #[error(
+        "{} is being written by {owner}: wait until that has ended, or choose another folder with -o",
+        path.display()
+    )]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+        /// Who writes.
+        owner: String,
+    },
+    /// The run would replace what it has read.
+    #[error("{} is read by this run, whose results would replace it: choose another folder with -o", path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+    },
     /// The output path is, or runs through, a file.
     #[error("{} is not a folder: choose another one with -o", path.display())]
     NotAFolder {

@@ -55,5 +55,5 @@ pub fn write(result: &ResultFile, format: Format, dir: &Path) -> Result<Vec<Path
     let files = files(result, format)?;
     let files: Vec<(&str, &[u8])> =
         files.iter().map(|(name, content)| (name.as_str(), content.as_slice())).collect();
-    folder::add(dir, &files)
+    folder::add(dir, "export", &files)
 }

@@ -1,46 +1,226 @@
-//! A folder of results, written whole or not at all, and never over a file of the user's.
+//! A folder of results: one run at a time, written whole or not at all, and never over a file of the user's.
 //!
-//! plydrape keeps a small list `.plydrape` in the folder: the checksum and length of each file it put
-//! there. A file may be replaced only if it is still what the list says. New files are staged in a
-//! hidden folder beside their place, brought to the disk, and moved in by renaming; if that fails in
-//! the middle, the earlier files come back. The list names old and new contents while files are moved,
-//! so that a power cut leaves files that the next run still knows as its own.
+//! plydrape keeps a small list `.plydrape` in the folder: who wrote each file, with its checksum and length. A file
+//! may be replaced only if it is still what the list says. New files are staged in a hidden folder beside their
+//! place, brought to the disk, and moved in by renaming; if that fails in the middle, the earlier files come back.
+//! While files are moved, the list names old and new contents and has no seal: a power cut leaves files that the next
+//! run still knows as its own, and a list that says that they are mixed. The sealed list comes last.
+//!
+//! A run claims the folder with a lock of the operating system, which ends with the process, however it ends. What
+//! runs that were killed have left is cleared by the next one.
 
 use super::OutputError;
 use super::manifest::{Manifest, NAME as MANIFEST};
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// Writes a set of files (plain name and content) into a folder, all of them or none.
-///
-/// The folder is made if it is missing. Files of an earlier run that are listed, unchanged and not
-/// written now are removed. Returns the paths written, in the order given.
-///
-/// # Errors
-/// [`OutputError::Foreign`] if a file in the way was not written by plydrape or was changed since;
-/// the other variants where the folder or the disk refuses.
-pub fn write(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
-    put(dir, files, true)
+/// How the names of hidden folders begin in which files are staged.
+const STAGE: &str = ".plydrape-";
+
+/// The file of a stage that says whose it is.
+const OWNER: &str = "owner";
+
+/// A folder that one run has claimed.
+#[derive(Debug)]
+pub struct Folder {
+    dir: PathBuf,
+    /// The command that writes, such as `simulate`.
+    by: &'static str,
+    /// The folder was made for this run.
+    made: bool,
+    stage: Option<TempDir>,
+    /// Held as long as the claim.
+    _lock: File,
 }
 
-/// The same, but files of an earlier run that are not written now stay.
-///
-/// # Errors
-/// As [`write()`].
-pub fn add(dir: &Path, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
-    put(dir, files, false)
-}
-
-fn put(dir: &Path, files: &[(&str, &[u8])], alone: bool) -> Result<Vec<PathBuf>, OutputError> {
-    let made = make(dir)?;
-    let written = replace(dir, files, alone);
-    if made && written.is_err() {
-        // Only an empty folder goes, and only the one made here.
-        let _ = fs::remove_dir(dir);
+impl Folder {
+    /// Claims a folder for files that a command writes; it is made if it is missing.
+    ///
+    /// # Errors
+    /// [`OutputError::Busy`] if another run has claimed it, the other variants where the folder or the disk refuses.
+    pub fn claim(dir: &Path, by: &'static str) -> Result<Folder, OutputError> {
+        let made = make(dir)?;
+        let unreadable = |e| OutputError::io("open the folder", dir, e);
+        let lock = File::open(dir).map_err(unreadable)?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(OutputError::Busy { path: dir.into(), owner: owner(dir) });
+            }
+            // a disk without locks: two runs at a time are then not noticed
+            Err(TryLockError::Error(_)) => {}
+        }
+        for stage in stages(dir) {
+            // left by a run that was killed: whoever staged it would hold the lock
+            let _ = fs::remove_dir_all(stage);
+        }
+        let stage = tempfile::Builder::new().prefix(STAGE).tempdir_in(dir);
+        let stage = stage.map_err(|e| OutputError::io("write into", dir, e));
+        if stage.is_err() && made {
+            let _ = fs::remove_dir(dir);
+        }
+        let stage = stage?;
+        let text = format!("`plydrape {by}`, process {}", std::process::id());
+        let noted = fs::write(stage.path().join(OWNER), text);
+        noted.map_err(|e| OutputError::io("write into", dir, e))?;
+        Ok(Folder { dir: dir.into(), by, made, stage: Some(stage), _lock: lock })
     }
-    written
+
+    /// Refuses to replace a file that the run itself has read: `names` are those that it will write.
+    ///
+    /// # Errors
+    /// [`OutputError::Input`] with the first such file.
+    pub fn spare(&self, names: &[&str], read: &[PathBuf]) -> Result<(), OutputError> {
+        let same = |name: &&&str| {
+            let place = fs::canonicalize(self.dir.join(name)).ok();
+            place.is_some() && read.iter().any(|file| fs::canonicalize(file).ok() == place)
+        };
+        match names.iter().find(same) {
+            Some(name) => Err(OutputError::Input { path: self.dir.join(name) }),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes a set of files (plain name and content), all of them or none, and returns their paths in the order
+    /// given.
+    ///
+    /// Files that the same command has left here before, that are unchanged, not written now and not among those
+    /// that this run has `read`, are removed.
+    ///
+    /// # Errors
+    /// [`OutputError::Foreign`] if a file in the way was not written by plydrape or was changed since;
+    /// the other variants where the folder or the disk refuses.
+    pub fn write(
+        mut self,
+        files: &[(&str, &[u8])],
+        read: &[PathBuf],
+    ) -> Result<Vec<PathBuf>, OutputError> {
+        self.put(files, Some(read))
+    }
+
+    /// The same, but files of an earlier run that are not written now stay.
+    ///
+    /// # Errors
+    /// As [`Folder::write`].
+    pub fn add(mut self, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
+        self.put(files, None)
+    }
+
+    fn put(
+        &mut self,
+        files: &[(&str, &[u8])],
+        read: Option<&[PathBuf]>,
+    ) -> Result<Vec<PathBuf>, OutputError> {
+        // Nothing is touched before every name is known to be free or our own.
+        let dir = self.dir.clone();
+        let earlier = Manifest::read(&dir)?;
+        for (name, _) in files {
+            let path = dir.join(name);
+            if !Manifest::is_plain(name) {
+                return Err(OutputError::Foreign { path });
+            }
+            if fs::symlink_metadata(&path).is_ok() && !earlier.holds(&dir, name) {
+                return Err(OutputError::Foreign { path });
+            }
+        }
+        let is_read = |name: &str| {
+            let place = fs::canonicalize(dir.join(name)).ok();
+            read.is_some_and(|read| read.iter().any(|file| fs::canonicalize(file).ok() == place))
+        };
+        let stale: Vec<String> = earlier
+            .names_of(self.by)
+            .filter(|name| read.is_some() && files.iter().all(|(new, _)| new != name))
+            .filter(|name| earlier.holds(&dir, name) && !is_read(name))
+            .map(str::to_owned)
+            .collect();
+
+        // Stage everything on the disk, beside its place.
+        let Some(stage) = self.stage.take() else { return Ok(Vec::new()) };
+        let new = Manifest::of(self.by, files);
+        let both = earlier.with(&new);
+        // files that went were ours, and files that came are: what stays is listed as it was
+        let sealed = read.is_some() || earlier.is_sealed();
+        let own = earlier.without(&stale).replaced_by(&new, sealed);
+        for (name, content) in files {
+            stage_file(&stage, &dir, name, content)?;
+        }
+        stage_file(&stage, &dir, "both", both.text()?.as_bytes())?;
+        stage_file(&stage, &dir, "sealed", own.text()?.as_bytes())?;
+
+        // Move in, the list first: a cut in power from here on leaves only files that it knows.
+        let mut moves = Moves::new(&dir, stage);
+        let moved = moves.put("both", MANIFEST).and_then(|()| {
+            for (name, _) in files {
+                moves.put(name, name)?;
+            }
+            stale.iter().try_for_each(|name| moves.take(name))?;
+            moves.put("sealed", MANIFEST)
+        });
+        if let Err(fault) = moved {
+            return Err(moves.undo(fault));
+        }
+        self.made = false;
+        let _ = File::open(&dir).and_then(|folder| folder.sync_all());
+        Ok(files.iter().map(|(name, _)| dir.join(name)).collect())
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        drop(self.stage.take());
+        if self.made {
+            // Only an empty folder goes, and only the one made for this run.
+            let _ = fs::remove_dir(&self.dir);
+        }
+    }
+}
+
+/// Claims a folder and writes a set of files into it, see [`Folder::write`].
+///
+/// # Errors
+/// As [`Folder::claim`] and [`Folder::write`].
+pub fn write(
+    dir: &Path,
+    by: &'static str,
+    files: &[(&str, &[u8])],
+) -> Result<Vec<PathBuf>, OutputError> {
+    Folder::claim(dir, by)?.write(files, &[])
+}
+
+/// Claims a folder and adds a set of files to it, see [`Folder::add`].
+///
+/// # Errors
+/// As [`Folder::claim`] and [`Folder::add`].
+pub fn add(
+    dir: &Path,
+    by: &'static str,
+    files: &[(&str, &[u8])],
+) -> Result<Vec<PathBuf>, OutputError> {
+    Folder::claim(dir, by)?.add(files)
+}
+
+/// Whether the files of a folder belong together: false where a run was cut off while it replaced them.
+#[must_use]
+pub fn is_sealed(dir: &Path) -> bool {
+    Manifest::read(dir).map_or(true, |list| list.is_sealed())
+}
+
+/// Hidden folders of a folder in which files are or were staged.
+fn stages(dir: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = fs::read_dir(dir) else { return Vec::new() };
+    let staged = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        name.starts_with(STAGE) && path.is_dir() && path.join(OWNER).is_file()
+    };
+    entries.filter_map(|entry| Some(entry.ok()?.path())).filter(staged).collect()
+}
+
+/// Who writes into a folder, as far as that is known.
+fn owner(dir: &Path) -> String {
+    let read = |stage: &PathBuf| fs::read_to_string(stage.join(OWNER)).ok();
+    stages(dir).iter().find_map(read).unwrap_or_else(|| "another run".into())
 }
 
 /// Makes the folder; true if it was not there before.
@@ -56,58 +236,6 @@ fn make(dir: &Path) -> Result<bool, OutputError> {
             Err(e) => Err(OutputError::io("make the folder", dir, e)),
         },
     }
-}
-
-fn replace(dir: &Path, files: &[(&str, &[u8])], alone: bool) -> Result<Vec<PathBuf>, OutputError> {
-    // Nothing is touched before every name is known to be free or our own.
-    let earlier = Manifest::read(dir)?;
-    for (name, _) in files {
-        let path = dir.join(name);
-        if !Manifest::is_plain(name) {
-            return Err(OutputError::Foreign { path });
-        }
-        if fs::symlink_metadata(&path).is_ok() && !earlier.holds(dir, name) {
-            return Err(OutputError::Foreign { path });
-        }
-    }
-    let stale: Vec<String> = earlier
-        .names()
-        .filter(|name| {
-            alone && files.iter().all(|(new, _)| new != name) && earlier.holds(dir, name)
-        })
-        .map(str::to_owned)
-        .collect();
-
-    // Stage everything on the disk, beside its place.
-    let stage = tempfile::Builder::new()
-        .prefix(".plydrape-")
-        .tempdir_in(dir)
-        .map_err(|e| OutputError::io("write into", dir, e))?;
-    let new = Manifest::of(files);
-    let (both, own) = (earlier.with(&new).text()?, new.text()?);
-    for (name, content) in files {
-        stage_file(&stage, dir, name, content)?;
-    }
-    stage_file(&stage, dir, "both", both.as_bytes())?;
-    stage_file(&stage, dir, "alone", own.as_bytes())?;
-
-    // Move in, the list first: a cut in power from here on leaves only files that it knows.
-    let mut moves = Moves::new(dir, stage);
-    let moved = moves.put("both", MANIFEST).and_then(|()| {
-        for (name, _) in files {
-            moves.put(name, name)?;
-        }
-        stale.iter().try_for_each(|name| moves.take(name))
-    });
-    if let Err(fault) = moved {
-        return Err(moves.undo(fault));
-    }
-    if alone {
-        // The list with old names too is valid, so a failure to shorten it loses nothing.
-        let _ = moves.put("alone", MANIFEST);
-    }
-    let _ = File::open(dir).and_then(|folder| folder.sync_all());
-    Ok(files.iter().map(|(name, _)| dir.join(name)).collect())
 }
 
 fn stage_file(stage: &TempDir, dir: &Path, name: &str, content: &[u8]) -> Result<(), OutputError> {
@@ -175,11 +303,10 @@ impl<'a> Moves<'a> {
             failed |= back.is_err();
         }
         if failed {
-            OutputError::Torn {
-                path: self.dir.into(),
-                kept: self.stage.keep(),
-                cause: Box::new(fault),
-            }
+            let kept = self.stage.keep();
+            // without its owner no later run takes it for one that may be cleared
+            let _ = fs::remove_file(kept.join(OWNER));
+            OutputError::Torn { path: self.dir.into(), kept, cause: Box::new(fault) }
         } else {
             fault
         }

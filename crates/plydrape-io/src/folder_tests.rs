@@ -23,12 +23,12 @@ fn names(dir: &Path) -> Vec<String> {
 fn a_rerun_replaces_its_own_files() {
     let home = tempfile::tempdir().unwrap();
     let dir = home.path().join("deep/out");
-    write(&dir, &[("result.json", b"one"), ("old.svg", b"stale")]).unwrap();
-    let paths = write(&dir, &[("result.json", b"two"), ("steps.csv", b"s")]).unwrap();
+    write(&dir, "simulate", &[("result.json", b"one"), ("old.svg", b"stale")]).unwrap();
+    let paths = write(&dir, "simulate", &[("result.json", b"two"), ("steps.csv", b"s")]).unwrap();
     assert_eq!(paths, [dir.join("result.json"), dir.join("steps.csv")]);
     assert_eq!(names(&dir), [".plydrape", "result.json", "steps.csv"]);
     assert_eq!(fs::read(dir.join("result.json")).unwrap(), b"two");
-    write(&dir, &[("result.json", b"two")]).unwrap();
+    write(&dir, "simulate", &[("result.json", b"two")]).unwrap();
     assert_eq!(names(&dir), [".plydrape", "result.json"]);
 }
 
@@ -38,7 +38,8 @@ fn a_file_of_the_users_is_never_overwritten() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("result.json"), "mine").unwrap();
     let before = contents(dir.path());
-    let fault = write(dir.path(), &[("steps.csv", b"s"), ("result.json", b"r")]).unwrap_err();
+    let fault =
+        write(dir.path(), "simulate", &[("steps.csv", b"s"), ("result.json", b"r")]).unwrap_err();
     assert!(matches!(&fault, OutputError::Foreign { path } if path.ends_with("result.json")));
     assert!(fault.to_string().contains("-o"), "{fault}");
     assert_eq!(contents(dir.path()), before);
@@ -48,12 +49,12 @@ fn a_file_of_the_users_is_never_overwritten() {
 #[test]
 fn an_edited_file_is_the_users() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), &[("a", b"1"), ("b", b"2")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1"), ("b", b"2")]).unwrap();
     fs::write(dir.path().join("b"), "9").unwrap();
     let before = contents(dir.path());
-    assert!(write(dir.path(), &[("a", b"3"), ("b", b"4")]).is_err());
+    assert!(write(dir.path(), "simulate", &[("a", b"3"), ("b", b"4")]).is_err());
     assert_eq!(contents(dir.path()), before);
-    write(dir.path(), &[("a", b"3")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"3")]).unwrap();
     assert_eq!(fs::read(dir.path().join("b")).unwrap(), b"9");
 }
 
@@ -61,10 +62,10 @@ fn an_edited_file_is_the_users() {
 #[test]
 fn a_folder_in_the_way_leaves_everything_as_it_was() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), &[("a", b"1")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1")]).unwrap();
     fs::create_dir(dir.path().join("c")).unwrap();
     let before = contents(dir.path());
-    assert!(write(dir.path(), &[("a", b"2"), ("b", b"2"), ("c", b"2")]).is_err());
+    assert!(write(dir.path(), "simulate", &[("a", b"2"), ("b", b"2"), ("c", b"2")]).is_err());
     assert_eq!(contents(dir.path()), before);
 }
 
@@ -72,7 +73,7 @@ fn a_folder_in_the_way_leaves_everything_as_it_was() {
 #[test]
 fn a_move_that_fails_in_the_middle_is_undone() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), &[("a", b"1"), ("gone", b"1")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1"), ("gone", b"1")]).unwrap();
     let before = contents(dir.path());
     let stage = tempfile::Builder::new().prefix(".plydrape-").tempdir_in(dir.path()).unwrap();
     for name in ["a", "b"] {
@@ -92,12 +93,12 @@ fn a_move_that_fails_in_the_middle_is_undone() {
 #[test]
 fn a_cut_between_list_and_files_leaves_a_folder_that_a_rerun_knows() {
     let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), &[("a", b"1"), ("b", b"1")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"1"), ("b", b"1")]).unwrap();
     let old = Manifest::read(dir.path()).unwrap();
-    let both = old.with(&Manifest::of(&[("a", b"2"), ("b", b"2")]));
+    let both = old.with(&Manifest::of("simulate", &[("a", b"2"), ("b", b"2")]));
     fs::write(dir.path().join(MANIFEST), both.text().unwrap()).unwrap();
     fs::write(dir.path().join("a"), "2").unwrap();
-    write(dir.path(), &[("a", b"3"), ("b", b"3")]).unwrap();
+    write(dir.path(), "simulate", &[("a", b"3"), ("b", b"3")]).unwrap();
     assert_eq!(fs::read(dir.path().join("b")).unwrap(), b"3");
 }
 
@@ -110,12 +111,12 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
     fs::write(home.path().join("victim"), "v").unwrap();
     let list = format!(r#"{{"../victim":[{{"crc32":{},"length":1}}]}}"#, crc32fast::hash(b"v"));
     fs::write(dir.join(MANIFEST), list).unwrap();
-    assert!(write(&dir, &[("a", b"1")]).is_err());
+    assert!(write(&dir, "simulate", &[("a", b"1")]).is_err());
     assert!(home.path().join("victim").exists());
     fs::write(dir.join(MANIFEST), "my own notes").unwrap();
-    assert!(matches!(write(&dir, &[("a", b"1")]), Err(OutputError::Foreign { .. })));
+    assert!(matches!(write(&dir, "simulate", &[("a", b"1")]), Err(OutputError::Foreign { .. })));
     for name in ["", "..", "../a", "a/b", "/a", ".plydrape"] {
-        assert!(write(home.path(), &[(name, b"1")]).is_err(), "{name:?}");
+        assert!(write(home.path(), "simulate", &[(name, b"1")]).is_err(), "{name:?}");
     }
 }
 
@@ -125,10 +126,10 @@ fn a_list_that_reaches_out_of_its_folder_is_refused() {
 fn a_link_is_not_followed() {
     let home = tempfile::tempdir().unwrap();
     let dir = home.path().join("out");
-    write(&dir, &[("a", b"1")]).unwrap();
+    write(&dir, "simulate", &[("a", b"1")]).unwrap();
     fs::rename(dir.join("a"), home.path().join("a")).unwrap();
     std::os::unix::fs::symlink(home.path().join("a"), dir.join("a")).unwrap();
-    assert!(matches!(write(&dir, &[("a", b"2")]), Err(OutputError::Foreign { .. })));
+    assert!(matches!(write(&dir, "simulate", &[("a", b"2")]), Err(OutputError::Foreign { .. })));
 }
 
 /// A path that is a file, or runs through one, says so.

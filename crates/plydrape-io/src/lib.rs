@@ -37,6 +37,7 @@ mod sample;
 
 pub use error::OutputError;
 
+pub use folder::Folder;
 pub use result::ResultFile;
 
 use std::path::{Path, PathBuf};
@@ -53,14 +54,30 @@ pub const PROGRAM: &str = concat!("plydrape ", env!("CARGO_PKG_VERSION"));
 /// [`OutputError`] if a number is not finite, a file in the way is not plydrape's, or the disk refuses;
 /// the folder is then as it was.
 pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
-    write_with(result, &[], dir)
+    write_into(Folder::claim(dir, "simulate")?, result, &[], &[])
 }
 
-/// As [`write_all`], with more files (plain name and content) behind them.
-fn write_with(
+/// The names of the files of [`write_all`], and of those that a plan has beside them.
+pub const NAMES: [&str; 7] = [
+    "result.json",
+    "steps.csv",
+    "trajectory.csv",
+    "figure.svg",
+    "report.html",
+    "motion.csv",
+    "plan.json",
+];
+
+/// As [`write_all`] into a folder that is claimed already, with `more` files (plain name and content) behind them; files
+/// that the run has `read` are not removed.
+///
+/// # Errors
+/// As [`write_all`].
+pub fn write_into(
+    folder: Folder,
     result: &ResultFile,
     more: &[(&str, &[u8])],
-    dir: &Path,
+    read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, OutputError> {
     // First of all: it proves every number finite.
     let json = json::text(result)?;
@@ -78,7 +95,7 @@ fn write_with(
     files.push(("figure.svg", figure.as_bytes()));
     files.push(("report.html", page.as_bytes()));
     files.extend(more);
-    folder::write(dir, &files)
+    folder.write(&files, read)
 }
 
 #[cfg(test)]

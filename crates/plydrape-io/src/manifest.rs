@@ -1,4 +1,4 @@
-//! The list `.plydrape` of what plydrape wrote into a folder: checksum and length of each file.
+//! The list `.plydrape` of what plydrape wrote into a folder: by which command, checksum and length of each file.
 
 use super::OutputError;
 use serde::{Deserialize, Serialize};
@@ -17,11 +17,29 @@ struct Stamp {
     length: u64,
 }
 
-/// Contents that plydrape has written, by file name; more than one while files are being replaced.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
+/// What plydrape has written under one name.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    /// The command that wrote it.
+    by: String,
+    /// Its contents; more than one while files are being replaced.
+    contents: Vec<Stamp>,
+}
+
+/// What plydrape has written into a folder, by file name.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(super) struct Manifest {
-    files: BTreeMap<String, Vec<Stamp>>,
+    /// All files are of finished runs: false while they are being replaced.
+    sealed: bool,
+    files: BTreeMap<String, Entry>,
+}
+
+impl Default for Manifest {
+    fn default() -> Self {
+        Manifest { sealed: true, files: BTreeMap::new() }
+    }
 }
 
 impl Stamp {
@@ -45,22 +63,47 @@ impl Manifest {
         if list.names().all(Self::is_plain) { Ok(list) } else { Err(OutputError::Foreign { path }) }
     }
 
-    /// The list of a set of files.
-    pub(super) fn of(files: &[(&str, &[u8])]) -> Self {
-        let stamps =
-            files.iter().map(|(name, content)| ((*name).to_owned(), vec![Stamp::of(content)]));
-        Manifest { files: stamps.collect() }
+    /// The list of a set of files that a command writes.
+    pub(super) fn of(by: &str, files: &[(&str, &[u8])]) -> Self {
+        let entry = |content: &[u8]| Entry { by: by.into(), contents: vec![Stamp::of(content)] };
+        let files = files.iter().map(|(name, content)| ((*name).to_owned(), entry(content)));
+        Manifest { sealed: true, files: files.collect() }
     }
 
-    /// Both lists together.
+    /// Both lists together, without a seal: while files of one are replaced by those of the other.
     pub(super) fn with(&self, other: &Manifest) -> Manifest {
-        let mut both = self.clone();
-        for (name, stamps) in &other.files {
-            let known = both.files.entry(name.clone()).or_default();
-            known.retain(|stamp| !stamps.contains(stamp));
-            known.extend(stamps);
+        let mut both = Manifest { sealed: false, ..self.clone() };
+        for (name, entry) in &other.files {
+            let known = both.files.entry(name.clone()).or_insert_with(|| entry.clone());
+            known.by.clone_from(&entry.by);
+            known.contents.retain(|stamp| !entry.contents.contains(stamp));
+            known.contents.extend(&entry.contents);
         }
         both
+    }
+
+    /// The list without some names.
+    pub(super) fn without(mut self, names: &[String]) -> Manifest {
+        self.files.retain(|name, _| !names.contains(name));
+        self
+    }
+
+    /// The list once files of another one have come in their places, with or without a seal.
+    pub(super) fn replaced_by(mut self, other: &Manifest, sealed: bool) -> Manifest {
+        self.files.extend(other.files.clone());
+        self.sealed = sealed;
+        self
+    }
+
+    /// Whether all files are of finished runs.
+    pub(super) fn is_sealed(&self) -> bool {
+        self.sealed
+    }
+
+    /// The names that a command has written.
+    pub(super) fn names_of<'a>(&'a self, by: &'a str) -> impl Iterator<Item = &'a str> {
+        let own = move |(name, entry): (&'a String, &'a Entry)| (entry.by == by).then_some(&**name);
+        self.files.iter().filter_map(own)
     }
 
     /// The names listed.
@@ -71,11 +114,11 @@ impl Manifest {
     /// True if the file of that name is a plain file with a listed content.
     pub(super) fn holds(&self, dir: &Path, name: &str) -> bool {
         let path = dir.join(name);
-        let Some(stamps) = self.files.get(name) else {
+        let Some(Entry { contents, .. }) = self.files.get(name) else {
             return false;
         };
         fs::symlink_metadata(&path).is_ok_and(|found| found.is_file())
-            && fs::read(&path).is_ok_and(|content| stamps.contains(&Stamp::of(&content)))
+            && fs::read(&path).is_ok_and(|content| contents.contains(&Stamp::of(&content)))
     }
 
     /// The list as JSON, one line.

@@ -1,6 +1,6 @@
 //! The files of a plan: those of its drape, the motion, and `plan.json`, what a later search can go on from.
 
-use super::{OutputError, json, result::ResultFile, write_with};
+use super::{Folder, OutputError, ResultFile, json};
 use plydrape::planner::Memory;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -81,6 +81,19 @@ pub fn write_all(
     search: &Memory,
     dir: &Path,
 ) -> Result<Vec<PathBuf>, OutputError> {
+    write_into(Folder::claim(dir, "plan")?, result, search, &[])
+}
+
+/// The same into a folder that is claimed already; files that the run has `read` are not removed.
+///
+/// # Errors
+/// As [`write_all`].
+pub fn write_into(
+    folder: Folder,
+    result: &ResultFile,
+    search: &Memory,
+    read: &[PathBuf],
+) -> Result<Vec<PathBuf>, OutputError> {
     let plan = text(search)?;
-    write_with(result, &[("plan.json", plan.as_bytes())], dir)
+    super::write_into(folder, result, &[("plan.json", plan.as_bytes())], read)
 }

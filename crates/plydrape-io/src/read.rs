@@ -3,6 +3,7 @@
 //! Everything that is made of a result is made of these numbers, so a file that was cut short, edited or
 //! written by another version is no basis. The check sum stands for all its bytes but white space at the end.
 
+use super::folder;
 use super::json::{CHECKSUM, checksum};
 use crate::result::{FORMAT, ResultFile, VERSION};
 use serde::Deserialize;
@@ -58,6 +59,12 @@ pub enum ReadError {
         /// The program that wrote it.
         program: String,
     },
+    /// Beside files of another run: the last one was cut off while it replaced them.
+    #[error("the files of `{}` are of two runs: the last one was cut off while it wrote them", path.display())]
+    Mixed {
+        /// The folder.
+        path: PathBuf,
+    },
     /// Changed since it was written.
     #[error("`{}` was changed since plydrape wrote it{}", path.display(), reason)]
     Changed {
@@ -81,6 +88,7 @@ impl ReadError {
                 "give the result.json of `plydrape simulate` or `plydrape plan`"
             }
             ReadError::Newer { .. } => "update plydrape, or run the scene again with this version",
+            ReadError::Mixed { .. } => "run the scene again into that folder",
             ReadError::Older { .. } => "run the scene again with this version",
             ReadError::Changed { .. } => {
                 "put the file back as it was, or run `plydrape simulate` or `plydrape plan` again"
@@ -104,6 +112,10 @@ struct Head {
 pub fn read(path: &Path) -> Result<ResultFile, ReadError> {
     let fault = |source| ReadError::Unreadable { path: path.into(), source };
     let bytes = std::fs::read(path).map_err(fault)?;
+    let folder = path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."));
+    if !folder::is_sealed(folder) {
+        return Err(ReadError::Mixed { path: folder.into() });
+    }
     parse(&bytes, path)
 }
 

@@ -389,7 +389,8 @@ impl Result {
         let text = self.html(py)?;
         let place = path.parent().filter(|dir| !dir.as_os_str().is_empty());
         let place = place.map_or_else(|| PathBuf::from("."), PathBuf::from);
-        folder::add(&place, &[(name, text.as_bytes())]).map_err(|fault| error::output(&fault))?;
+        folder::add(&place, "report", &[(name, text.as_bytes())])
+            .map_err(|fault| error::output(&fault))?;
         Ok(path)
     }
 

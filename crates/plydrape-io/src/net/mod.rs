@@ -45,7 +45,7 @@ pub fn write_all(
         ("net.vtu", cells.as_bytes()),
     ];
     files.extend(surface.iter().map(|text| ("mold.vtu", text.as_bytes())));
-    folder::write(dir, &files)
+    folder::write(dir, "net", &files)
 }
 
 /// Shear at a node (rad): mean magnitude of the whole cells around it; none beside missing nodes only.

@@ -7,7 +7,7 @@ use super::located::{Count, Located};
 use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::trajectory::trajectory;
-use super::{SceneFile, material, mold, start, target};
+use super::{SceneFile, material, mold, named, start, target};
 use plydrape::mold::Mold;
 use plydrape::ply::{Direction, Grid, Ply};
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Settings, SlopeRule, Stepping, Target};
@@ -60,6 +60,7 @@ pub(super) fn scene(
     Ok(SceneFile {
         scene: Scene { title, ply, mold, motion, target, settings, limits, plan },
         input: Some(document.text.clone()),
+        files: named(document, base),
         mesh,
         plan_refusal: file.motion.as_ref().and_then(|table| unplanned(&table.value, document)),
     })

@@ -46,7 +46,7 @@ use plydrape::mold::{MeshReport, Mold};
 use plydrape::ply::Ply;
 use plydrape::scene::Scene;
 use std::ops::{Deref, DerefMut};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A commented scene to start from.
@@ -58,7 +58,9 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 /// The first fault found, with its place and a remedy.
 pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
     let (document, base) = open(path)?;
-    scene(&document, base)
+    let mut scene = scene(&document, base)?;
+    scene.files.push(path.into());
+    Ok(scene)
 }
 
 /// Reads of a scene file what its ideal drape needs, `[ply]`, `[mold]`, `[target]` and `[limits]`, and
@@ -121,6 +123,27 @@ fn scene(document: &error::Document, base: &Path) -> Result<SceneFile, SceneErro
     check::scene(&keys(document)?, None, document, base)
 }
 
+/// Files that a text may name: every value that is the path of one, relative to `base`.
+fn named(document: &error::Document, base: &Path) -> Vec<PathBuf> {
+    fn search(value: &toml::Value, base: &Path, out: &mut Vec<PathBuf>) {
+        match value {
+            toml::Value::String(name) => {
+                out.extend(Some(base.join(name)).filter(|path| path.is_file()));
+            }
+            toml::Value::Array(values) => values.iter().for_each(|value| search(value, base, out)),
+            toml::Value::Table(table) => {
+                table.values().for_each(|value| search(value, base, out));
+            }
+            _ => {}
+        }
+    }
+    let mut out = Vec::new();
+    if let Ok(table) = document.text.parse::<toml::Table>() {
+        search(&toml::Value::Table(table), base, &mut out);
+    }
+    out
+}
+
 fn keys(document: &error::Document) -> Result<file::SceneKeys, SceneError> {
     if document.text.trim().is_empty() {
         return Err(document.error_anywhere(
@@ -138,6 +161,8 @@ pub struct SceneFile {
     pub scene: Scene,
     /// The text of the file; none of a scene that was made in a program.
     pub input: Option<Arc<str>>,
+    /// The file itself and those that it names, as far as they are there.
+    pub files: Vec<PathBuf>,
     /// What was found and repaired while the mold was read, if it is a mesh.
     pub mesh: Option<MeshReport>,
     /// Why no plan is looked for: what the scene says of its own motion and a planned one would not keep.
