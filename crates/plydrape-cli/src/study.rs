@@ -55,16 +55,20 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let python = env::var_os("PLYDRAPE_PYTHON").filter(|name| !name.is_empty());
     let python = python.unwrap_or_else(|| "python3".into());
 
-    // Ctrl-C reaches both: Python keeps what is finished and says how to go on; here it is waited for.
-    let _ = ctrlc::set_handler(|| ());
-    let status = Command::new(&python)
+    let unknown = |fault| Failure::Argument {
+        message: format!("Python cannot be run as `{}`: {fault}", python.display()),
+        help: "install Python 3.10 or newer, or name it in PLYDRAPE_PYTHON".into(),
+    };
+    let mut child = Command::new(&python)
         .args(["-c", PROGRAM])
         .args(words(arguments, quiet))
-        .status()
-        .map_err(|fault| Failure::Argument {
-            message: format!("Python cannot be run as `{}`: {fault}", python.display()),
-            help: "install Python 3.10 or newer, or name it in PLYDRAPE_PYTHON".into(),
-        })?;
+        .spawn()
+        .map_err(unknown)?;
+    // Python keeps what is finished and says how to go on; here it is waited for. Ctrl-C reaches both, what is sent to
+    // this process alone is passed on.
+    let id = child.id();
+    let _ = ctrlc::set_handler(move || terminate(id));
+    let status = child.wait().map_err(unknown)?;
     match status.code() {
         Some(MISSING) => Err(Failure::Argument {
             message: format!("the Python `{}` has no package plydrape", python.display()),
@@ -75,6 +79,20 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         code => Ok(ExitCode::from(code.and_then(|code| u8::try_from(code).ok()).unwrap_or(130))),
     }
 }
+
+/// Asks a process to end.
+#[cfg(unix)]
+fn terminate(id: u32) {
+    use rustix::process::{Pid, Signal, kill_process};
+    if let Some(process) = i32::try_from(id).ok().and_then(Pid::from_raw) {
+        // it may have ended just now
+        let _ = kill_process(process, Signal::TERM);
+    }
+}
+
+/// Asks a process to end; without signals it is just waited for.
+#[cfg(not(unix))]
+fn terminate(_: u32) {}
 
 /// The arguments once more, for Python.
 fn words(arguments: &Arguments, quiet: bool) -> Vec<OsString> {

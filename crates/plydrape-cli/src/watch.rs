@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Ctrl-C as a question that work asks now and then, instead of an end in the middle of it.
+/// Ctrl-C, or a request of the system to end (SIGTERM), as a question that work asks now and then, instead of an end in
+/// the middle of it.
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {

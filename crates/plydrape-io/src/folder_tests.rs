@@ -139,7 +139,7 @@ fn a_path_that_is_a_file_is_refused_by_name() {
     let file = home.path().join("file");
     fs::write(&file, "f").unwrap();
     for path in [file.clone(), file.join("below")] {
-        let fault = write(&path, &[("a", b"1")]).unwrap_err();
+        let fault = write(&path, "simulate", &[("a", b"1")]).unwrap_err();
         assert!(matches!(fault, OutputError::NotAFolder { .. }), "{fault}");
     }
     assert_eq!(fs::read(&file).unwrap(), b"f");
@@ -149,7 +149,7 @@ fn a_path_that_is_a_file_is_refused_by_name() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_folder_that_takes_no_files_is_an_error_with_a_remedy() {
-    let fault = write(Path::new("/proc/self"), &[("a", b"1")]).unwrap_err();
+    let fault = write(Path::new("/proc/self"), "simulate", &[("a", b"1")]).unwrap_err();
     assert!(fault.to_string().contains("/proc/self"), "{fault}");
     assert!(fault.to_string().contains("-o"), "{fault}");
 }
@@ -173,7 +173,7 @@ proptest! {
                 let bytes = [content];
                 let files: Vec<(&str, &[u8])> = chosen.iter().map(|n| (*n, &bytes[..])).collect();
                 let before = contents(dir.path());
-                match write(dir.path(), &files) {
+                match write(dir.path(), "simulate", &files) {
                     Ok(_) => {
                         let mut expected = users.clone();
                         expected.extend(chosen.iter().map(|n| ((*n).to_owned(), bytes.to_vec())));
@@ -199,14 +199,84 @@ proptest! {
 fn added_files_stand_beside_earlier_ones() {
     let home = tempfile::tempdir().unwrap();
     let dir = home.path();
-    write(dir, &[("a.csv", b"1"), ("b.csv", b"2")]).unwrap();
-    add(dir, &[("c.csv", b"3"), ("b.csv", b"4")]).unwrap();
+    write(dir, "simulate", &[("a.csv", b"1"), ("b.csv", b"2")]).unwrap();
+    add(dir, "report", &[("c.csv", b"3"), ("b.csv", b"4")]).unwrap();
     let read = |name: &str| std::fs::read(dir.join(name)).unwrap();
     assert_eq!([read("a.csv"), read("b.csv"), read("c.csv")], [b"1", b"4", b"3"]);
     std::fs::write(dir.join("c.csv"), "mine").unwrap();
-    assert!(matches!(add(dir, &[("c.csv", b"5")]), Err(OutputError::Foreign { .. })));
-    add(dir, &[("b.csv", b"6")]).unwrap();
-    write(dir, &[("d.csv", b"7")]).unwrap();
-    assert!(!dir.join("a.csv").exists() && !dir.join("b.csv").exists());
-    assert_eq!(read("c.csv"), b"mine");
+    assert!(matches!(add(dir, "report", &[("c.csv", b"5")]), Err(OutputError::Foreign { .. })));
+    add(dir, "report", &[("b.csv", b"6")]).unwrap();
+    write(dir, "simulate", &[("d.csv", b"7")]).unwrap();
+    // the one that the other command has replaced is that command's now
+    assert!(!dir.join("a.csv").exists());
+    assert_eq!([&read("b.csv")[..], &read("c.csv")[..]], [&b"6"[..], &b"mine"[..]]);
+}
+
+/// A second run is refused while the first holds its claim, and is told who that is; afterwards it may write.
+#[test]
+fn a_claimed_folder_is_refused_with_who_holds_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let first = Folder::claim(dir.path(), "simulate").unwrap();
+    let Err(fault) = Folder::claim(dir.path(), "plan") else { panic!("two claims") };
+    let said = fault.to_string();
+    assert!(said.contains("`plydrape simulate`"), "{said}");
+    assert!(said.contains(&std::process::id().to_string()), "{said}");
+    drop(first);
+    Folder::claim(dir.path(), "plan").unwrap().write(&[("a", b"1")], &[]).unwrap();
+}
+
+/// A claim that writes nothing leaves nothing, not even the folder that it made.
+#[test]
+fn a_claim_without_files_leaves_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path().join("out");
+    drop(Folder::claim(&dir, "simulate").unwrap());
+    assert!(!dir.exists());
+}
+
+/// What a run that was killed has staged is cleared; a folder of the user's with such a name stays.
+#[test]
+fn stages_of_dead_runs_are_cleared() {
+    let dir = tempfile::tempdir().unwrap();
+    let (dead, mine) = (dir.path().join(".plydrape-dead"), dir.path().join(".plydrape-mine"));
+    for folder in [&dead, &mine] {
+        fs::create_dir(folder).unwrap();
+        fs::write(folder.join("new-result.json"), "half").unwrap();
+    }
+    fs::write(dead.join(OWNER), "`plydrape simulate`, process 1").unwrap();
+    write(dir.path(), "simulate", &[("a", b"1")]).unwrap();
+    assert!(!dead.exists() && mine.exists());
+}
+
+/// A kill between two renames leaves a list without a seal; a whole run seals it again, an addition does not.
+#[test]
+fn the_seal_comes_last() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "simulate", &[("a", b"1"), ("b", b"1")]).unwrap();
+    assert!(is_sealed(dir.path()));
+    let both = Manifest::read(dir.path()).unwrap();
+    let both = both.with(&Manifest::of("simulate", &[("a", b"2"), ("b", b"2")]));
+    fs::write(dir.path().join(MANIFEST), both.text().unwrap()).unwrap();
+    fs::write(dir.path().join("a"), "2").unwrap();
+    assert!(!is_sealed(dir.path()));
+    add(dir.path(), "report", &[("c", b"3")]).unwrap();
+    assert!(!is_sealed(dir.path()));
+    write(dir.path(), "simulate", &[("a", b"3"), ("b", b"3")]).unwrap();
+    assert!(is_sealed(dir.path()));
+}
+
+/// A command removes old files of its own only, and nothing that the run has read.
+#[test]
+fn old_files_of_other_commands_and_inputs_stay() {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "plan", &[("result.json", b"1"), ("plan.json", b"1"), ("old", b"1")])
+        .unwrap();
+    write(dir.path(), "simulate", &[("result.json", b"2"), ("more", b"2"), ("in", b"2")]).unwrap();
+    assert_eq!(names(dir.path()), [".plydrape", "in", "more", "old", "plan.json", "result.json"]);
+    let folder = Folder::claim(dir.path(), "simulate").unwrap();
+    let read = [dir.path().join("in")];
+    assert!(matches!(folder.spare(&["a", "in"], &read), Err(OutputError::Input { .. })));
+    folder.spare(&["a"], &read).unwrap();
+    folder.write(&[("result.json", b"3")], &read).unwrap();
+    assert_eq!(names(dir.path()), [".plydrape", "in", "old", "plan.json", "result.json"]);
 }

@@ -57,10 +57,18 @@ impl Manifest {
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Self::default()),
             Err(e) => return Err(OutputError::io("read", &path, e)),
         };
-        let list: Manifest = serde_json::from_slice(&text)
+        let list = serde_json::from_slice(&text)
+            .or_else(|_| serde_json::from_slice(&text).map(Self::earlier))
             .map_err(|_| OutputError::Foreign { path: path.clone() })?;
         // A name with a path in it could reach out of the folder.
         if list.names().all(Self::is_plain) { Ok(list) } else { Err(OutputError::Foreign { path }) }
+    }
+
+    /// The list as it was before it named commands.
+    fn earlier(files: BTreeMap<String, Vec<Stamp>>) -> Self {
+        let entry = |contents| Entry { by: String::new(), contents };
+        let files = files.into_iter().map(|(name, contents)| (name, entry(contents)));
+        Manifest { sealed: true, files: files.collect() }
     }
 
     /// The list of a set of files that a command writes.

@@ -1,20 +1,56 @@
-//! How an array of grippers must move to lay a carbon-fibre ply on a mold without wrinkles.
+//! How an array of grippers must move to lay a carbon-fibre ply on a curved mold without wrinkles.
 //!
-//! The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh,
-//! Jakobsen and Sherwood 2018; the equations are numbered in `docs/theory`. Modules follow the
-//! stages of the method, and data flows one way:
+//! The ply is a net of catenaries with bending stiffness hung between the grippers, with large shear and mold
+//! contact, after Krogh, Jakobsen and Sherwood 2018 (arXiv:1810.07619). A span of ply with horizontal force *H*,
+//! flexural rigidity *EI* and load *q* per horizontal length has the shape *z*(*x*) with
 //!
-//! 1. [`scene`]: a file becomes a checked [`scene::Scene`];
-//! 2. [`mold`], [`catenary`]: the surface, and one span of ply;
-//! 3. [`net`]: the ideal drape, where every point of the fabric should end on the mold;
-//! 4. [`ply`]: grippers, edges, diagonals, shear and the slope rules;
+//! *H z″ − EI z⁗ = q*
+//!
+//! and *H* follows from its length. The forces of all spans and the slopes that they share at the grippers are the
+//! solution of a small nonlinear program. Equations are numbered in `docs/theory` of the project.
+//!
+//! # One span
+//!
+//! 100 mm of ply between two grippers 98 mm apart pull with 0.4173 N and sag by 8.7 mm:
+//!
+//! ```
+//! use plydrape::catenary::{EndCondition, Profile, Span};
+//!
+//! let span = Span {
+//!     run: 0.098,
+//!     rise: 0.0,
+//!     length: 0.1,
+//!     ends: [EndCondition::Free; 2],
+//!     weight: 0.3143 * 9.8,
+//!     flexural_rigidity: 9e-6,
+//!     axial_stiffness: f64::INFINITY,
+//! };
+//! let force = span.solve(None).force.expect("a span with slack hangs");
+//! let sag = -Profile::new(&span, force).station(0.5 * span.run).z;
+//! assert!((force - 0.41728).abs() < 1e-5 && (sag - 8.7022e-3).abs() < 1e-7);
+//! ```
+//!
+//! # A drape
+//!
+//! [`simulate`] moves the grippers of a [`Scene`] and follows the ply, [`plan`] finds the motion. The crate `plydrape-io`
+//! reads scenes from files and writes results; `examples/drape.rs` makes a scene without a file.
+//!
+//! # Modules
+//!
+//! They follow the stages of the method, and data flows one way:
+//!
+//! 1. [`mold`], [`catenary`]: the surface, and one span of ply;
+//! 2. [`net`]: the ideal drape, where every point of the fabric should end on the mold;
+//! 3. [`material`], [`ply`]: grippers, edges, diagonals and shear;
+//! 4. [`scene`]: everything that one drape needs;
 //! 5. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
-//! 6. [`draping`]: the motion step by step, contact with the mold, the measures;
-//! 7. [`motion`]: positions step by step become smooth in time, within limits of speed, acceleration, jerk;
-//! 8. [`planner`]: gripper trajectories, and what no trajectory can do;
-//! 9. [`output`]: result files and the figure.
+//! 6. [`draping`]: the motion step by step, with contact;
+//! 7. [`measure`]: what is measured of a step, limits, and the verdict;
+//! 8. [`motion`]: positions step by step become smooth in time, within limits of speed, acceleration, jerk;
+//! 9. [`planner`]: gripper trajectories, and limits that no trajectory can keep.
 //!
-//! SI units throughout, z up, gravity along −z.
+//! SI units throughout, z up, gravity along −z. This crate reads and writes no files; with the feature `serde` its types
+//! can be written by serde.
 
 pub mod catenary;
 pub mod draping;
@@ -27,3 +63,11 @@ pub mod net;
 pub mod planner;
 pub mod ply;
 pub mod scene;
+
+pub use draping::{Drape, simulate};
+pub use equilibrium::Solver;
+pub use material::Material;
+pub use mold::Mold;
+pub use planner::{Planned, plan};
+pub use ply::Ply;
+pub use scene::{Limits, Motion, Plan, Scene, Settings, Target};

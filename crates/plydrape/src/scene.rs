@@ -103,6 +103,19 @@ pub struct Settings {
     pub contact: Contact,
 }
 
+/// Of new scenes: moments are passed on at ball joints that tilt by 40° at most, EA = 100 kN, g = 9.81 m/s².
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            slopes: SlopeRule::MomentBalance,
+            axial_stiffness: 1e5,
+            gravity: 9.81,
+            max_tilt: 40_f64.to_radians(),
+            contact: Contact::default(),
+        }
+    }
+}
+
 #[cfg(feature = "serde")]
 /// An infinite value on purpose becomes null; any other number stays.
 fn infinite_as_null<S: serde::Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
@@ -218,4 +231,38 @@ pub struct Limits {
     pub jerk: f64,
     /// Longest time that a motion may take (s).
     pub duration: Option<f64>,
+}
+
+impl Limits {
+    /// The limits of a ply that a scene starts from; the tilt and the penetration that it allows are those of its
+    /// settings.
+    #[must_use]
+    pub fn of(ply: &Ply, settings: &Settings) -> Self {
+        Limits {
+            slack_ratio: 0.0005,
+            bridging: 1e-3,
+            overstretch: 0.001,
+            landing_contact: 2e-3,
+            landing_gripper: 5e-4,
+            fibre_angle: 3_f64.to_radians(),
+            shear: ply.material.locking_angle.unwrap_or(45_f64.to_radians()),
+            landing_shear: 3_f64.to_radians(),
+            strain: 0.005,
+            penetration: settings.contact.tolerance,
+            tilt: settings.max_tilt,
+            // our assumption of a passive joint, from no data sheet
+            tilt_rate: 90_f64.to_radians(),
+            force: None,
+            // a vacuum cup of 30 mm holds more, and slips sideways at 4 to 10 N
+            gripper_load: 10.0,
+            gripper_pull: None,
+            contact_share: 0.95,
+            gripper_distance: 0.5 * ply.cell[0].min(ply.cell[1]),
+            workspace: None,
+            speed: 0.25,
+            acceleration: 1.0,
+            jerk: 10.0,
+            duration: None,
+        }
+    }
 }

@@ -301,3 +301,86 @@ fn a_step_without_a_solution_exits_with_three() {
     }
     assert!(codes.contains(&Some(3)), "{codes:?}");
 }
+
+/// A plan's folder keeps plan.json and motion.csv when a simulation that follows motion.csv writes there.
+#[test]
+fn a_simulation_into_the_folder_of_its_plan_keeps_what_it_follows() {
+    let home = tempfile::tempdir().unwrap();
+    let (plan, scene) = (home.path().join("scene.toml"), home.path().join("follow.toml"));
+    let few = std::fs::read_to_string(headline()).unwrap();
+    std::fs::write(&plan, format!("{few}\n[plan]\nsteps = 8\nevaluations = 1\n")).unwrap();
+    let out = home.path().join("out");
+    let run = |arguments: &[&std::path::Path], name: &str| {
+        let mut command = command();
+        command.arg(name).args(arguments).arg("--quiet").arg("-o").arg(&out).output().unwrap()
+    };
+    assert!(run(&[&plan], "plan").status.code().is_some_and(|code| code < 2));
+    let follow = |file: &str| {
+        // the file says where the grippers start
+        let (ply, rest) = few.split_once("[grippers]").unwrap();
+        let target = rest.split_once("[target]").unwrap().1.split_once("[motion]").unwrap().0;
+        format!("{ply}[target]{target}[motion]\nkind = \"file\"\nfile = \"out/{file}\"\n")
+    };
+    std::fs::write(&scene, follow("motion.csv")).unwrap();
+    let before = std::fs::read(out.join("motion.csv")).unwrap();
+    let output = run(&[&scene], "simulate");
+    assert!(output.status.code().is_some_and(|code| code < 2), "{}", text(&output.stderr));
+    assert_eq!(std::fs::read(out.join("motion.csv")).unwrap(), before);
+    assert!(out.join("plan.json").exists());
+    // results would take the place of the file that is followed
+    std::fs::write(&scene, follow("trajectory.csv")).unwrap();
+    let before = std::fs::read(out.join("trajectory.csv")).unwrap();
+    let output = run(&[&scene], "simulate");
+    assert_eq!(output.status.code(), Some(2));
+    let said = words(&output.stderr);
+    assert!(said.contains("trajectory.csv is read by this run") && said.contains("-o"), "{said}");
+    assert_eq!(std::fs::read(out.join("trajectory.csv")).unwrap(), before);
+}
+
+/// A long run holds its folder: a second one is refused with who holds it. SIGTERM ends it as Ctrl-C does.
+#[cfg(unix)]
+#[test]
+fn a_second_run_into_a_folder_is_refused_and_a_termination_is_an_interrupt() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, out) = (folder.path().join("scene.toml"), folder.path().join("out"));
+    let large = std::fs::read_to_string(headline())
+        .unwrap()
+        .replace("grippers = [4, 2]", "grippers = [40, 40]")
+        .replace("steps = 30", "steps = 3000");
+    std::fs::write(&scene, large).unwrap();
+    let mut first = command();
+    first.args(["simulate", "--quiet"]).arg(&scene).arg("-o").arg(&out);
+    let first = first.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    // until it has claimed its folder
+    let start = std::time::Instant::now();
+    while !out.exists() && start.elapsed().as_secs() < 60 {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    let mut second = command();
+    let second = second.arg("simulate").arg(headline()).arg("-o").arg(&out).output().unwrap();
+    assert_eq!(second.status.code(), Some(2));
+    let said = words(&second.stderr);
+    let owner = format!("`plydrape simulate`, process {}", first.id());
+    assert!(said.contains("is being written by") && said.contains(&owner), "{said}");
+    let kill = Command::new("kill").args(["-TERM", &first.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    assert_eq!(first.wait_with_output().unwrap().status.code(), Some(130));
+    assert_eq!(files(&out), FILES);
+}
+
+/// A kill between two renames leaves files of two runs: what reads them says so.
+#[test]
+fn mixed_files_are_no_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut simulate = command();
+    simulate.args(["simulate", "--quiet"]).arg(headline()).arg("-o").arg(&out).output().unwrap();
+    let list = std::fs::read_to_string(out.join(".plydrape")).unwrap();
+    assert!(list.contains("\"sealed\":true"), "{list}");
+    let torn = list.replace("\"sealed\":true", "\"sealed\":false");
+    std::fs::write(out.join(".plydrape"), torn).unwrap();
+    let output = command().arg("report").arg(out.join("result.json")).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(words(&output.stderr).contains("are of two runs"), "{}", text(&output.stderr));
+}

@@ -67,3 +67,20 @@ fn no_workers_are_refused_before_python_starts() {
     assert_eq!(output.status.code(), Some(2));
     assert!(!text(&output.stderr).contains("/no/such/python"));
 }
+
+/// SIGTERM to this process alone reaches Python, whose exit code is passed on.
+#[test]
+fn a_termination_is_passed_on_to_python() {
+    let home = tempfile::tempdir().unwrap();
+    let python = python(home.path(), "trap 'exit 130' TERM; while :; do sleep 0.05; done");
+    let child = command()
+        .args(["study", "study.toml"])
+        .env("PLYDRAPE_PYTHON", python)
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let kill = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    assert_eq!(child.wait_with_output().unwrap().status.code(), Some(130));
+}

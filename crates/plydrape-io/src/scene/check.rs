@@ -15,8 +15,6 @@ use std::path::Path;
 
 /// Most grippers along u or v.
 const MOST_GRIPPERS: i64 = 1000;
-/// Largest gripper tilt unless given, as in Krogh et al. 2018 (rad).
-pub(super) const MAX_TILT: f64 = 40.0 * std::f64::consts::PI / 180.0;
 /// Smallest and largest finite axial stiffness (N).
 const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
 /// Smallest and largest gravity (m/s²).
@@ -37,11 +35,10 @@ pub(super) fn scene(
         }
         None => (given, None),
     };
-    let max_tilt = match file.grippers.as_ref().map(|g| &g.value.max_tilt) {
-        Some(Some(tilt)) => acute(tilt, document)?,
-        _ => MAX_TILT,
-    };
-    let settings = Settings { max_tilt, ..settings(file, &ply, document)? };
+    let mut settings = settings(file, &ply, document)?;
+    if let Some(Some(tilt)) = file.grippers.as_ref().map(|g| &g.value.max_tilt) {
+        settings.max_tilt = acute(tilt, document)?;
+    }
     let target = match &file.target {
         Some(table) => Some(target::target(table, &ply, mold.as_ref(), document, base)?),
         None => None,
@@ -54,7 +51,7 @@ pub(super) fn scene(
         base,
     };
     let motion = places.motion(file, target.as_ref())?;
-    let limits = limits(&file.limits, &ply, max_tilt, settings.contact.tolerance, document)?;
+    let limits = limits(&file.limits, &ply, &settings, document)?;
     let plan = plan(&file.plan, ply.grid, document)?;
     let title = file.title.clone().unwrap_or_else(|| title(document, base));
     Ok(SceneFile {
@@ -171,15 +168,15 @@ fn placing_key(keys: &GrippersTable) -> Option<&'static str> {
 }
 
 fn settings(file: &SceneKeys, ply: &Ply, document: &Document) -> Result<Settings, SceneError> {
-    let model = &file.model;
+    let (model, usual) = (&file.model, Settings::default());
     let axial_stiffness = match &model.axial_stiffness {
         Some(stiffness) if stiffness.si_or_infinite(document)? == f64::INFINITY => f64::INFINITY,
         Some(stiffness) => stiffness.within(document, AXIAL_STIFFNESS)?,
-        None => 1e5,
+        None => usual.axial_stiffness,
     };
     let gravity = match &model.gravity {
         Some(gravity) => gravity.within(document, GRAVITY)?,
-        None => 9.81,
+        None => usual.gravity,
     };
     let contact = &file.contact;
     let tolerance = match &contact.tolerance {
@@ -195,7 +192,7 @@ fn settings(file: &SceneKeys, ply: &Ply, document: &Document) -> Result<Settings
             }
             value
         }
-        None => Contact::default().tolerance,
+        None => usual.contact.tolerance,
     };
     Ok(Settings {
         slopes: match model.slopes {
@@ -204,7 +201,7 @@ fn settings(file: &SceneKeys, ply: &Ply, document: &Document) -> Result<Settings
         },
         axial_stiffness,
         gravity,
-        max_tilt: MAX_TILT,
+        max_tilt: usual.max_tilt,
         contact: Contact {
             tolerance,
             stepping: match contact.stepping {

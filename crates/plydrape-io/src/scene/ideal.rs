@@ -1,6 +1,6 @@
 //! The ideal drape alone: of a scene, what says how the ply is laid on the mold.
 
-use super::check::{MAX_TILT, ply, title};
+use super::check::{ply, title};
 use super::error::{Document, SceneError};
 use super::file::SceneKeys;
 use super::limits::limits;
@@ -8,7 +8,7 @@ use super::{mold, target};
 use plydrape::mold::Mold;
 use plydrape::net::Net;
 use plydrape::ply::Ply;
-use plydrape::scene::Contact;
+use plydrape::scene::Settings;
 use std::path::Path;
 
 /// The ideal drape of a scene, whether or not grippers could bring the ply there.
@@ -54,7 +54,7 @@ pub(super) fn ideal_drape(
         ));
     }
     let net = target::net(table, &ply, &mold, document)?;
-    let limits = limits(&file.limits, &ply, MAX_TILT, Contact::default().tolerance, document)?;
+    let limits = limits(&file.limits, &ply, &Settings::default(), document)?;
     let shear_limit = limits.shear;
     let title = file.title.clone().unwrap_or_else(|| title(document, base));
     Ok(IdealDrape { title, ply, mold, net, shear_limit })

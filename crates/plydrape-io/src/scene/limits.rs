@@ -7,19 +7,8 @@ use super::located::Fixed;
 use super::motion::DURATIONS;
 use super::quantity::{Angle, AngularRate, Force, Length, Measure, Quantity, Ratio};
 use plydrape::ply::Ply;
-use plydrape::scene::Limits;
+use plydrape::scene::{Limits, Settings};
 
-/// Largest angle between landed edges and the fibres of the ideal drape unless given (rad).
-const FIBRE_ANGLE: f64 = 3.0 * std::f64::consts::PI / 180.0;
-/// Largest shear angle where neither the scene nor the material names one (rad).
-const SHEAR: f64 = 45.0 * std::f64::consts::PI / 180.0;
-/// Largest change of a cell's shear after its diagonal landed unless given (rad).
-const LANDING_SHEAR: f64 = 3.0 * std::f64::consts::PI / 180.0;
-/// Largest angular rate of a ball joint unless given (rad/s): our assumption of a passive joint, from no data sheet.
-const TILT_RATE: f64 = 90.0 * std::f64::consts::PI / 180.0;
-/// Largest vertical load at a gripper unless given (N): a vacuum cup of 30 mm holds more, and slips sideways at 4 to
-/// 10 N.
-const GRIPPER_LOAD: f64 = 10.0;
 /// Smallest and largest angular rate of a ball joint (rad/s).
 const TILT_RATES: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest speed of a gripper (m/s).
@@ -29,15 +18,14 @@ const ACCELERATIONS: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest jerk of a gripper (m/s³).
 const JERKS: [f64; 2] = [1e-6, 1e7];
 
-/// Checks the table `[limits]`; unless the table says otherwise the largest gripper tilt is `max_tilt` (rad), the
-/// deepest penetration the contact `tolerance` (m).
+/// Checks the table `[limits]`; what it does not say is as in [`Limits::of`].
 pub(super) fn limits(
     table: &LimitsTable,
     ply: &Ply,
-    max_tilt: f64,
-    tolerance: f64,
+    settings: &Settings,
     document: &Document,
 ) -> Result<Limits, SceneError> {
+    let usual = Limits::of(ply, settings);
     let angle = |key: &Option<Quantity<Angle>>, default: f64| match key {
         Some(angle) => acute(angle, document),
         None => Ok(default),
@@ -51,39 +39,44 @@ pub(super) fn limits(
         None => Ok(default),
     };
     Ok(Limits {
-        slack_ratio: share(table.slack_ratio.as_ref(), 0.0005, document)?,
-        bridging: length(&table.bridging, 1e-3)?,
-        overstretch: share(table.overstretch.as_ref(), 0.001, document)?,
-        landing_contact: length(&table.landing_contact, 2e-3)?,
-        landing_gripper: length(&table.landing_gripper, 5e-4)?,
-        fibre_angle: angle(&table.fibre_angle, FIBRE_ANGLE)?,
-        shear: angle(&table.shear, ply.material.locking_angle.unwrap_or(SHEAR))?,
-        landing_shear: angle(&table.landing_shear, LANDING_SHEAR)?,
-        strain: share(table.strain.as_ref(), 0.005, document)?,
+        slack_ratio: share(table.slack_ratio.as_ref(), usual.slack_ratio, document)?,
+        bridging: length(&table.bridging, usual.bridging)?,
+        overstretch: share(table.overstretch.as_ref(), usual.overstretch, document)?,
+        landing_contact: length(&table.landing_contact, usual.landing_contact)?,
+        landing_gripper: length(&table.landing_gripper, usual.landing_gripper)?,
+        fibre_angle: angle(&table.fibre_angle, usual.fibre_angle)?,
+        shear: angle(&table.shear, usual.shear)?,
+        landing_shear: angle(&table.landing_shear, usual.landing_shear)?,
+        strain: share(table.strain.as_ref(), usual.strain, document)?,
         penetration: match &table.penetration {
             Some(depth) => depth.size(document)?,
-            None => tolerance,
+            None => usual.penetration,
         },
-        tilt: angle(&table.tilt, max_tilt)?,
+        tilt: angle(&table.tilt, usual.tilt)?,
         tilt_rate: match &table.tilt_rate {
             Some(rate) => tilt_rate(rate, document)?,
-            None => TILT_RATE,
+            None => usual.tilt_rate,
         },
         force: force(&table.force)?,
-        gripper_load: force(&table.gripper_load)?.unwrap_or(GRIPPER_LOAD),
+        gripper_load: force(&table.gripper_load)?.unwrap_or(usual.gripper_load),
         gripper_pull: force(&table.gripper_pull)?,
-        contact_share: share(table.contact_share.as_ref(), 0.95, document)?,
+        contact_share: share(table.contact_share.as_ref(), usual.contact_share, document)?,
         gripper_distance: match &table.gripper_distance {
             Some(distance) => distance.size(document)?,
-            None => 0.5 * ply.cell[0].min(ply.cell[1]),
+            None => usual.gripper_distance,
         },
         workspace: match &table.workspace {
             Some(sides) => Some(workspace(sides, document)?),
             None => None,
         },
-        speed: rate(table.speed.as_ref(), 0.25, SPEEDS, document)?,
-        acceleration: rate(table.acceleration.as_ref(), 1.0, ACCELERATIONS, document)?,
-        jerk: rate(table.jerk.as_ref(), 10.0, JERKS, document)?,
+        speed: rate(table.speed.as_ref(), usual.speed, SPEEDS, document)?,
+        acceleration: rate(
+            table.acceleration.as_ref(),
+            usual.acceleration,
+            ACCELERATIONS,
+            document,
+        )?,
+        jerk: rate(table.jerk.as_ref(), usual.jerk, JERKS, document)?,
         duration: match &table.duration {
             Some(duration) => Some(duration.within_for(document, DURATIONS, "a motion")?),
             None => None,

@@ -187,10 +187,8 @@ fn a_scene_with_a_duration_says_why_it_is_not_planned() {
     let text = scene::TEMPLATE.replace("# duration = \"29 s\"", "duration = \"8 s\"");
     let scene = parse(&text).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(scene.motion.times.last(), Some(&8.0));
-    let refusal =
-        plydrape::planner::plan(&scene, None, &mut |_| std::ops::ControlFlow::Continue(()));
-    let refusal =
-        refusal.err().unwrap_or_else(|| panic!("a plan ignored the duration")).to_string();
+    let refusal = scene.plan_refusal.as_ref().expect("a plan would ignore the duration");
+    let refusal = format!("{}; {}", refusal.message, refusal.help);
     assert!(refusal.contains("\"8 s\"") && refusal.contains("[limits]"), "{refusal}");
 }
 
