@@ -18,8 +18,8 @@ def parser() -> argparse.ArgumentParser:
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     parser = argparse.ArgumentParser(
         prog="scripts/fuzz",
-        description="Runs plydrape on damaged and strange input. The same seed, the same cases. Exit codes: 0 all "
-        "promises were kept, 1 some were broken; the cases are kept.",
+        description="Runs plydrape on damaged and strange input. The same seed, the same cases. "
+        "Exit codes: 0 all promises were kept, 1 some were broken; the cases are kept.",
     )
     parser.add_argument("--seed", type=int, default=0, help="of all cases (default 0)")
     parser.add_argument("--seconds", type=float, help="time to run; 60 unless --cases is given")

@@ -27,7 +27,6 @@ from .process import Ended, Program
 NAMES = ("scene", "table", "mesh", "result", "study")
 # A study starts Python, so there are fewer of them.
 ROUND = ("scene", "table", "mesh", "result") * 6 + ("study",)
-TIMES_SMALLER = 12
 
 
 @contextmanager
@@ -177,12 +176,10 @@ class Fuzzer:
         def shows(other: Case) -> bool:
             return any(fault.key(ended.command[0]) == key for fault, ended in self.judge(other))
 
-        tries = 0
         if case.outlet is not Outlet.KEPT and shows(case.plainly()):
             case = case.plainly()
         for step in reversed(range(len(case.steps))):
-            tries += 1
-            if tries <= TIMES_SMALLER and shows(case.without(step)):
+            if shows(case.without(step)):
                 case = case.without(step)
         return case
 

@@ -1,7 +1,7 @@
 """A case: sound files, what is done to them, and the command that gets them.
 
-Everything of a case follows from its seed, kind and number. Each mutation has a seed of its own, so that one can
-be left out and the others still do what they did.
+Everything of a case follows from its seed, kind and number. Each mutation has a seed of its own, so
+that one can be left out and the others still do what they did.
 """
 
 from __future__ import annotations

@@ -133,7 +133,7 @@ def of_folder(ended: Ended, folder: Path, outlet: Outlet) -> Iterator[Fault]:
     if command == "check" or ended.code not in DONE:
         if out.exists():
             left = sorted(p.name for p in out.rglob("*"))
-            yield Fault("written whole or not at all", f"exit {ended.code}, but {left}")
+            yield Fault("written whole or not at all", f"exit {ended.code}, but a folder\n{left}")
         return
     if ended.code == 3 and not out.exists():
         return  # no solution, and nothing to show
@@ -155,7 +155,7 @@ def of_manifest(out: Path, names: set[str]) -> Iterator[Fault]:
         return
     if set(listed) != names - {".plydrape"}:
         yield Fault(
-            "written whole or not at all", f"listed {sorted(listed)}, found {sorted(names)}"
+            "written whole or not at all", f"not as listed\n{sorted(listed)}\n{sorted(names)}"
         )
         return
     for name, stamps in listed.items():

@@ -1,4 +1,4 @@
-"""Meshes: STL, OBJ, PLY and Abaqus files of a shallow mold; vertices, faces, counts and keywords changed."""
+"""Meshes: STL, OBJ, PLY and Abaqus files; vertices, faces, counts and keywords changed."""
 
 from __future__ import annotations
 
@@ -112,7 +112,8 @@ def ply(points: list[Point], faces: list[Face]) -> bytes:
     """PLY as text: not read by plydrape, so it has to be refused."""
     head = (
         f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
-        f"property float z\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+        f"property float z\nelement face {len(faces)}\n"
+        "property list uchar int vertex_indices\nend_header\n"
     )
     said = ["{!r} {!r} {!r}".format(*p) for p in points]
     said += [f"{len(face)} " + " ".join(map(str, face)) for face in faces]

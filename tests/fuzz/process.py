@@ -14,7 +14,7 @@ from time import monotonic
 
 from .case import Outlet
 
-# What a drape of a small scene may take. One that takes longer is asked to end (Ctrl-C), and then has to.
+# What a drape may take (s). One that takes longer is asked to end (Ctrl-C), and then has to.
 PATIENCE = 5.0
 # From then to the end (s); for commands that read and write only, all of their time.
 GRACE = 10.0
@@ -46,7 +46,7 @@ class Program:
     def run(
         self, command: Sequence[str], folder: Path, outlet: Outlet = Outlet.KEPT, room: int = FILE
     ) -> Ended:
-        """Runs it in a folder. `room` is what the disk takes of a file, if there is an end to it."""
+        """Runs it in a folder. `room` is what a full disk takes of a file (bytes)."""
         words = [str(self.binary), *command]
         surroundings = {
             "PATH": os.environ.get("PATH", ""),

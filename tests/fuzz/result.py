@@ -1,4 +1,4 @@
-"""Results: written by the command itself, changed, and sealed again, so that their contents are judged.
+"""Results: written by the command, changed, and sealed again, so that their contents are judged.
 
 The check sum of a result file is the CRC-32 of its text with an empty check sum in it.
 """
@@ -35,7 +35,7 @@ def json_text(result: Any) -> str:
 
 
 def change(rng: Random, files: Files) -> str:
-    """Changes values anywhere in the result, and seals it."""
+    """Changes a value anywhere in the result, most often a number, and seals it."""
     content = files[NAME]
     if isinstance(content, case.Odd):
         return "no result to change"
@@ -43,7 +43,7 @@ def change(rng: Random, files: Files) -> str:
         result = json.loads(content)
     except (ValueError, RecursionError):
         return "no result to change"
-    what = tree.change(rng, result)
+    what = (tree.change if rng.random() < 0.3 else tree.change_number)(rng, result)
     files[NAME] = json_text(result).encode(errors="replace")
     return what
 
@@ -60,17 +60,11 @@ def everywhere(rng: Random, files: Files) -> str:
     chosen = tree.choose(rng, result)
     if chosen is None:
         return "nothing to change"
-    alike = [
-        path for path in tree.paths(result) if path[-1] == chosen[-1] and isinstance(path[-1], str)
-    ]
     other = tree.like(rng, tree.get(result, chosen))
-    for path in alike:
-        try:
-            tree.put(result, path, other)
-        except (KeyError, TypeError, IndexError):
-            continue  # it stood in what was put elsewhere
+    key = next(part for part in reversed(chosen) if isinstance(part, str))
+    tree.put_everywhere(result, key, other)
     files[NAME] = json_text(result).encode(errors="replace")
-    return f"every {chosen[-1]} = {other!r:.60}"
+    return f"every {key} = {other!r:.60}"
 
 
 def damage(rng: Random, files: Files) -> str:

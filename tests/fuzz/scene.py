@@ -1,4 +1,4 @@
-"""Scenes: the examples, the template, and scenes made after the schema; their keys, values and units changed."""
+"""Scenes: the examples and the template; keys, values, units changed, and added by the schema."""
 
 from __future__ import annotations
 
@@ -64,11 +64,11 @@ def table(files: Files) -> dict[str, Any] | None:
 
 
 def change(rng: Random, files: Files) -> str:
-    """Changes a value, a unit, a type or a key."""
+    """Changes a value, a unit, a type or a key; half the time a number."""
     scene = table(files)
     if scene is None:
         return "no scene to change"
-    what = tree.change(rng, scene)
+    what = (tree.change if rng.random() < 0.5 else tree.change_number)(rng, scene)
     files[NAME] = toml.text(scene).encode()
     return what
 
@@ -165,13 +165,14 @@ def large(rng: Random, files: Files) -> str:
         )
     )
     section, keys = what
-    scene[section] = ({} if section == "mold" else scene.get(section, {})) | keys
+    here = scene.get(section)
+    scene[section] = (here if isinstance(here, dict) and section != "mold" else {}) | keys
     files[NAME] = toml.text(scene).encode()
     return f"[{section}] {keys!r:.60}"
 
 
 def places(rng: Random, files: Files) -> str:
-    """Puts grippers by a table of positions: in one point, in a line, very far away, one above the other."""
+    """Puts grippers by a table: in one point, in a line, very far away, one above the other."""
     scene = table(files)
     if scene is None:
         return "no scene to place"

@@ -27,9 +27,16 @@ def start(rng: Random) -> Rows:
 def motion(rng: Random) -> Rows:
     """Four steps of 3 × 2 grippers, from above onto the mold."""
     head = ["t (s)", "gripper", "x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"]
+    level = ["0", "0", "0", "1"]
     rows = [
-        [str(t), f"{i}-{j}", f"{0.099 * i:.4f}", f"{0.099 * j:.4f}", f"{0.06 - 0.02 * t:.4f}"]
-        + ["0", "0", "0", "1"]
+        [
+            str(t),
+            f"{i}-{j}",
+            f"{0.099 * i:.4f}",
+            f"{0.099 * j:.4f}",
+            f"{0.06 - 0.02 * t:.4f}",
+            *level,
+        ]
         for t in range(4)
         for j in range(2)
         for i in range(3)

@@ -13,18 +13,6 @@ from . import values
 Path = tuple[str | int, ...]
 
 
-def paths(tree: Any, at: Path = ()) -> Iterator[Path]:
-    """Every place below the root, tables and lists too."""
-    below: Iterator[tuple[str | int, Any]] = iter(())
-    if isinstance(tree, dict):
-        below = iter(tree.items())
-    elif isinstance(tree, list):
-        below = iter(enumerate(tree))
-    for key, value in below:
-        yield (*at, key)
-        yield from paths(value, (*at, key))
-
-
 def get(tree: Any, path: Path) -> Any:
     """What stands at a path."""
     for key in path:
@@ -35,6 +23,15 @@ def get(tree: Any, path: Path) -> Any:
 def put(tree: Any, path: Path, value: Any) -> None:
     """Puts a value where another stands."""
     get(tree, path[:-1])[path[-1]] = value
+
+
+def put_everywhere(tree: Any, key: str, value: Any) -> None:
+    """Puts a value wherever a key stands."""
+    for at in tree if isinstance(tree, dict) else range(len(tree)):
+        if at == key:
+            tree[at] = value
+        elif isinstance(tree[at], (dict, list)):
+            put_everywhere(tree[at], key, value)
 
 
 def name(path: Path) -> str:
@@ -79,6 +76,32 @@ def change(rng: Random, tree: Any) -> str:
             other = like(rng, value)
     put(tree, path, other)
     return f"{name(path)} = {json.dumps(other, default=str)[:60]}"
+
+
+def change_number(rng: Random, tree: Any) -> str:
+    """Gives another size to a number, or to all that stand in the same place of a list's items."""
+    alike: dict[str, list[Path]] = {}
+    for path in numbers(tree):
+        alike.setdefault(name(tuple(key for key in path if isinstance(key, str))), []).append(path)
+    if not alike:
+        return "no number to change"
+    place = rng.choice(sorted(alike))
+    paths = alike[place] if rng.random() < 0.25 else [rng.choice(alike[place])]
+    value = like(rng, get(tree, paths[0]))
+    for path in paths:
+        put(tree, path, value)
+    return f"{name(paths[0])} = {value!r}" + (f", and {len(paths) - 1} others" if paths[1:] else "")
+
+
+def numbers(tree: Any, at: Path = ()) -> Iterator[Path]:
+    """The places of all numbers, and of texts that begin with one."""
+    if isinstance(tree, (dict, list)):
+        for key in tree if isinstance(tree, dict) else range(len(tree)):
+            yield from numbers(tree[key], (*at, key))
+    elif (isinstance(tree, (int, float)) and not isinstance(tree, bool)) or (
+        isinstance(tree, str) and tree[:1].lstrip("-").isdigit()
+    ):
+        yield at
 
 
 def misspelt(rng: Random, key: str) -> str:
