@@ -94,7 +94,7 @@ class Fuzzer:
                 command = "simulate" if number % 3 else "plan"
                 self.program.run((command, scene.NAME, "-o", "out", "-q"), place)
                 found = place / "out" / result.NAME
-                if found.is_file() and found.stat().st_size < 600_000:
+                if found.is_file() and found.stat().st_size < 250_000:
                     written.append(found.read_bytes())
         if not written:
             raise SystemExit("fuzz: the program wrote no result of any example")

@@ -35,8 +35,9 @@ WRITTEN = {
     "study": {"study.parquet", "summary.json", "summary.html"},
 }
 LONGEST_MESSAGE = 20_000
-# Below the message, or in its sentence where a file cannot be written.
+# Below the message; or in its sentence, where a file cannot be made or a scene of a study is refused.
 REMEDY = re.compile(r"^ +help: |choose|make room|^  × \S+:\d+:\d+: .*; ", re.MULTILINE)
+IN_SENTENCE = re.compile(r"[:;] +[│\s]*[a-z]+\s")
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,11 @@ def of_words(ended: Ended, outlet: Outlet) -> Iterator[Fault]:
         usage = said.startswith("error: ")  # of the command line itself
         if len(heads) != 1 and not usage:
             yield Fault("one message", f"{len(heads)} messages: {said[:500]}")
-        elif not usage and not REMEDY.search(said):
+        elif (
+            not usage
+            and not REMEDY.search(said)
+            and not (ended.command[0] in ("export", "report") and IN_SENTENCE.search(said))
+        ):
             yield Fault("a remedy", said[:500].strip())
     if ended.code in (0, 1) and "  × " in said:
         yield Fault("one message", f"exit {ended.code} with a message: {said[:500]}")
