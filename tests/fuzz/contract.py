@@ -1,7 +1,7 @@
 """What plydrape promises of every run, and how a run broke it.
 
 - It ends, in time, by itself, with a documented exit code.
-- Bad input gets one message with a remedy, in printable letters.
+- Bad input gets one printable message with a remedy, and is not called a fault of plydrape.
 - A folder is written whole or not at all, nothing else is left behind, and inputs stay as they are.
 - Files can be read, and hold no NaN and no infinity.
 """
@@ -35,7 +35,7 @@ WRITTEN = {
     "study": {"study.parquet", "summary.json", "summary.html"},
 }
 LONGEST_MESSAGE = 20_000
-# Below the message; or in its sentence, where a file cannot be made or a scene of a study is refused.
+# Below the message; or in its sentence, where a file cannot be made, or a study's scene is refused.
 REMEDY = re.compile(r"^ +help: |choose|make room|^  × \S+:\d+:\d+: .*; ", re.MULTILINE)
 IN_SENTENCE = re.compile(r"[:;] +[│\s]*[a-z]+\s")
 
@@ -107,6 +107,8 @@ def of_words(ended: Ended, outlet: Outlet) -> Iterator[Fault]:
             and not (ended.command[0] in ("export", "report") and IN_SENTENCE.search(said))
         ):
             yield Fault("a remedy", said[:500].strip())
+    if "please report it" in " ".join(said.replace("│", "").split()):
+        yield Fault("no fault of its own", said[:500])
     if ended.code in (0, 1) and "  × " in said:
         yield Fault("one message", f"exit {ended.code} with a message: {said[:500]}")
 

@@ -88,6 +88,8 @@ def change_number(rng: Random, tree: Any) -> str:
     place = rng.choice(sorted(alike))
     paths = alike[place] if rng.random() < 0.25 else [rng.choice(alike[place])]
     value = like(rng, get(tree, paths[0]))
+    if rng.random() < 0.3 and isinstance(value, float):
+        value = float(rng.choice((0, -1, 1e-308, 1e-9, 1e9, 1e15, 1e200, 1e308)))
     for path in paths:
         put(tree, path, value)
     return f"{name(paths[0])} = {value!r}" + (f", and {len(paths) - 1} others" if paths[1:] else "")

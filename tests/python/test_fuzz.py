@@ -36,6 +36,10 @@ FAULTS = {
     "ends with a code of its own": ("sys.exit(77)", "a documented exit code"),
     "refuses without a word": ("sys.exit(2)", "one message"),
     "has no remedy": ('print("  × wrong", file=sys.stderr); sys.exit(2)', "a remedy"),
+    "calls bad input its own fault": (
+        'print("  × NaN, please\\n  │ report it\\n  help: no", file=sys.stderr); sys.exit(2)',
+        "no fault of its own",
+    ),
     "repeats escape sequences": (
         'print("  × \\x1b[31mred\\n  help: none", file=sys.stderr); sys.exit(2)',
         "printable words",
