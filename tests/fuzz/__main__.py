@@ -28,6 +28,9 @@ def parser() -> argparse.ArgumentParser:
         "--case", type=int, help="run this one only, as a report names it; needs --kind"
     )
     parser.add_argument("--kind", choices=NAMES, help="of input; all in turn unless given")
+    parser.add_argument(
+        "--patience", type=float, default=5.0, help="seconds until a drape gets Ctrl-C (default 5)"
+    )
     parser.add_argument("--jobs", type=int, default=2, help="processes (default 2)")
     parser.add_argument(
         "--binary",
@@ -56,7 +59,8 @@ def main() -> int:
         parser().error("--case needs the --kind of the case")
     venv = ROOT / ".venv" / "bin" / "python"
     python = os.environ.get("PLYDRAPE_PYTHON") or (str(venv) if venv.is_file() else "python3")
-    fuzzer = Fuzzer(Program(binary, python), options.seed, options.keep, options.kind)
+    program = Program(binary, python, options.patience)
+    fuzzer = Fuzzer(program, options.seed, options.keep, options.kind)
 
     if options.case is not None:
         found = fuzzer.run(options.case)

@@ -68,12 +68,13 @@ def of_ending(ended: Ended) -> Iterator[Fault]:
     words = ended.stderr.decode(errors="replace")
     if "panicked at" in words or ended.code == 101:
         yield Fault("no panic", words[-600:] or "exit 101")
+    elif ended.killed:
+        doing = "waits" if ended.cpu < 0.2 else "computes"
+        yield Fault("ends in time", f"it still {doing} after {ended.seconds:.0f} s")
     elif "Traceback (most recent call last)" in words:
         yield Fault(
             "no traceback", "\n".join(words.strip().splitlines()[-1:]) + "\n" + words[-1500:]
         )
-    elif ended.killed:
-        yield Fault("ends in time", f"still ran after {ended.seconds:.0f} s")
     elif ended.code < 0:
         yield Fault("no signal", f"signal {-ended.code}: {words[-300:]}")
     elif ended.code not in CODES:

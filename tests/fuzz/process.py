@@ -14,10 +14,6 @@ from time import monotonic
 
 from .case import Outlet
 
-# What a drape may take (s). One that takes longer is asked to end (Ctrl-C), and then has to.
-PATIENCE = 5.0
-# From then to the end (s); for commands that read and write only, all of their time.
-GRACE = 10.0
 MEMORY = 2 << 30  # bytes of address space; Python with its libraries needs twice that
 FILE = 256 << 20  # bytes of the largest file
 INTERRUPTED = ("simulate", "plan")
@@ -32,6 +28,7 @@ class Ended:
     stdout: bytes
     stderr: bytes
     seconds: float
+    cpu: float
     interrupted: bool
     killed: bool
 
@@ -42,6 +39,9 @@ class Program:
 
     binary: Path
     python: str
+    # What a drape or a plan may take (s) before it is asked to end by Ctrl-C. Then, and for commands
+    # that only read and write, there is twice that time.
+    patience: float = 5.0
 
     def run(
         self, command: Sequence[str], folder: Path, outlet: Outlet = Outlet.KEPT, room: int = FILE
@@ -68,7 +68,7 @@ class Program:
         with contextlib.ExitStack() as stack:
             full = stack.enter_context(Path("/dev/full").open("wb"))
             both = outlet is Outlet.BOTH_FULL
-            began = monotonic()
+            began, cpu = monotonic(), children()
             child = subprocess.Popen(
                 words,
                 cwd=folder,
@@ -84,20 +84,31 @@ class Program:
             interrupted = killed = False
             try:
                 can = command[0] in INTERRUPTED
-                stdout, stderr = child.communicate(timeout=PATIENCE if can else GRACE)
+                stdout, stderr = child.communicate(timeout=self.patience * (1 if can else 2))
             except subprocess.TimeoutExpired:
                 interrupted = True
                 child.send_signal(signal.SIGINT)
                 try:
-                    stdout, stderr = child.communicate(timeout=GRACE if can else 1.0)
+                    stdout, stderr = child.communicate(timeout=self.patience * 2 if can else 1.0)
                 except subprocess.TimeoutExpired:
                     killed = True
                     os.killpg(child.pid, signal.SIGKILL)
                     stdout, stderr = child.communicate()
         if not can and interrupted:
             killed = True  # it was not meant to need that long
-        taken = monotonic() - began
-        command = tuple(command)
         return Ended(
-            command, child.returncode, stdout or b"", stderr or b"", taken, interrupted, killed
+            command=tuple(command),
+            code=child.returncode,
+            stdout=stdout or b"",
+            stderr=stderr or b"",
+            seconds=monotonic() - began,
+            cpu=children() - cpu,
+            interrupted=interrupted,
+            killed=killed,
         )
+
+
+def children() -> float:
+    """Time that the processor spent on child processes that have ended (s)."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime

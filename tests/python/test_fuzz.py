@@ -32,6 +32,7 @@ FAULTS = {
         "no panic: crates/a/src/b.rs:7",
     ),
     "crashes": ("os.kill(os.getpid(), signal.SIGSEGV)", "no signal: signal"),
+    "waits for ever": ("import time; time.sleep(60)", "ends in time: it still waits"),
     "raises": ("raise KeyError(3)", "no traceback: KeyError"),
     "ends with a code of its own": ("sys.exit(77)", "a documented exit code"),
     "refuses without a word": ("sys.exit(2)", "one message"),
@@ -100,7 +101,8 @@ def test_a_broken_promise_is_reported_and_repeats(tmp_path: Path, fault: str) ->
     binary = program(tmp_path, body)
     # what shows in few cases needs more of them
     rare = promise in ("the same again", "check refuses what cannot be draped")
-    done = fuzz(binary, "--cases", "60" if rare else "12")
+    slow = ("--patience", "1") if "time" in promise else ()
+    done = fuzz(binary, "--cases", "60" if rare else "3" if slow else "12", *slow)
     assert done.returncode == 1, done.stdout + done.stderr
     lines = done.stdout.splitlines()
     start = next(n for n, line in enumerate(lines) if line.startswith("BROKEN") and promise in line)
@@ -109,7 +111,7 @@ def test_a_broken_promise_is_reported_and_repeats(tmp_path: Path, fault: str) ->
     kept = [path.read_text() for path in tmp_path.glob("kept/scene-0-*/fault.txt")]
     assert any(promise in text and again.strip() in text for text in kept)
 
-    repeated = fuzz(binary, "--case", again.split()[-1])
+    repeated = fuzz(binary, "--case", again.split()[-1], *slow)
     assert repeated.returncode == 1
     assert any("BROKEN" in line and promise in line for line in repeated.stdout.splitlines())
 
