@@ -39,8 +39,8 @@ class Program:
 
     binary: Path
     python: str
-    # What a drape or a plan may take (s) before it is asked to end by Ctrl-C. Then, and for commands
-    # that only read and write, there is twice that time.
+    # What a drape or a plan may take (s) before it is asked to end by Ctrl-C; then, and for all
+    # commands that only read and write, twice that time.
     patience: float = 5.0
 
     def run(
