@@ -85,10 +85,12 @@ def change_number(rng: Random, tree: Any) -> str:
         alike.setdefault(name(tuple(key for key in path if isinstance(key, str))), []).append(path)
     if not alike:
         return "no number to change"
-    place = rng.choice(sorted(alike))
+    # every section is as likely as each other, however many numbers it has
+    section = rng.choice(sorted({place.split(".")[0] for place in alike}))
+    place = rng.choice(sorted(place for place in alike if place.split(".")[0] == section))
     paths = alike[place] if rng.random() < 0.25 else [rng.choice(alike[place])]
     value = like(rng, get(tree, paths[0]))
-    if rng.random() < 0.3 and isinstance(value, float):
+    if rng.random() < 0.5 and isinstance(value, float):
         value = float(rng.choice((0, -1, 1e-308, 1e-9, 1e9, 1e15, 1e200, 1e308)))
     for path in paths:
         put(tree, path, value)
