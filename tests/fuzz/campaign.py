@@ -12,7 +12,7 @@ import zlib
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from multiprocessing.queues import SimpleQueue
 from pathlib import Path
@@ -84,6 +84,7 @@ class Fuzzer:
     def results(self) -> list[bytes]:
         """Results of the program itself: drapes and plans of short examples."""
         written = []
+        program = replace(self.program, patience=60.0)
         with workshop() as folder:
             for number, files in enumerate(scene.examples()):
                 place = folder / str(number)
@@ -92,7 +93,7 @@ class Fuzzer:
                     assert isinstance(content, bytes)
                     (place / name).write_bytes(content)
                 command = "simulate" if number % 3 else "plan"
-                self.program.run((command, scene.NAME, "-o", "out", "-q"), place)
+                program.run((command, scene.NAME, "-o", "out", "-q"), place)
                 found = place / "out" / result.NAME
                 if found.is_file() and found.stat().st_size < 250_000:
                     written.append(found.read_bytes())
@@ -248,7 +249,11 @@ def campaign(
         worker.start()
     done, codes, found, running = 0, Counter[str](), Counter[str](), jobs
     while running:
-        match out.get():
+        try:
+            told = out.get()
+        except KeyboardInterrupt:
+            continue  # the workers end too, and say how far they came
+        match told:
             case Broken() as broken:
                 if not found[broken.key]:
                     tell(broken)

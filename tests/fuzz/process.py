@@ -94,6 +94,10 @@ class Program:
                     killed = True
                     os.killpg(child.pid, signal.SIGKILL)
                     stdout, stderr = child.communicate()
+            finally:
+                if child.returncode is None:  # someone ends the fuzzer
+                    os.killpg(child.pid, signal.SIGKILL)
+                    child.wait()
         if not can and interrupted:
             killed = True  # it was not meant to need that long
         return Ended(
