@@ -20,7 +20,7 @@ from random import Random
 from time import monotonic
 
 from . import contract, mesh, result, scene, study, table
-from .case import Case, Kind, Outlet
+from .case import Case, Kind, Occupied, Outlet
 from .contract import Fault
 from .process import Ended, Program
 
@@ -150,8 +150,8 @@ class Fuzzer:
         folder.mkdir()
         case.write(folder)
         before = {
-            path.name: path.read_bytes()
-            for path in folder.iterdir()
+            str(path.relative_to(folder)): path.read_bytes()
+            for path in folder.rglob("*")
             if path.is_file() and not path.is_symlink() and path.stat().st_size < 1 << 26
         }
         ended = self.program.run(case.command, folder, case.outlet, room)
@@ -177,8 +177,12 @@ class Fuzzer:
         def shows(other: Case) -> bool:
             return any(fault.key(ended.command[0]) == key for fault, ended in self.judge(other))
 
-        if case.outlet is not Outlet.KEPT and shows(case.plainly()):
-            case = case.plainly()
+        for plainer in (
+            replace(case, outlet=Outlet.KEPT),
+            replace(case, occupied=Occupied.NOTHING),
+        ):
+            if plainer != case and shows(plainer):
+                case = plainer
         for step in reversed(range(len(case.steps))):
             if shows(case.without(step)):
                 case = case.without(step)

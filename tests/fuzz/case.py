@@ -9,7 +9,7 @@ from __future__ import annotations
 import enum
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from random import Random
 
@@ -41,6 +41,22 @@ class Outlet(enum.Enum):
     NO_ROOM = "no room for files"
 
 
+class Occupied(enum.Enum):
+    """What is of the user's where the output folder goes."""
+
+    NOTHING = "nothing"
+    FILE = "`out` is a file"
+    FOREIGN = "`out` holds other files of the same names"
+    GARBAGE = "`out` holds a list of files that is none"
+
+
+# Names that commands write.
+NAMES = (
+    *("result.json", "steps.csv", "trajectory.csv", "figure.svg", "report.html", "plan.json"),
+    *("net.vtu", "mold.vtu", "ply.inp", "drape.pvd", "trajectory.yaml"),
+)
+
+
 @dataclass(frozen=True)
 class Kind:
     """One kind of input: sound files, mutations with their weights, commands with theirs."""
@@ -59,6 +75,7 @@ class Case:
     steps: tuple[tuple[Mutation, str], ...]
     command: tuple[str, ...]
     outlet: Outlet = Outlet.KEPT
+    occupied: Occupied = Occupied.NOTHING
 
     @classmethod
     def of(cls, kind: Kind, name: str) -> Case:
@@ -71,16 +88,18 @@ class Case:
         commands = [c for _, c in kind.commands]
         command = rng.choices(commands, [w for w, _ in kind.commands])[0]
         outlet = Outlet.KEPT if rng.random() < 0.96 else rng.choice(list(Outlet))
-        return cls(name, lambda: kind.files(Random(f"{name} files")), steps, tuple(command), outlet)
+        occupied = Occupied.NOTHING
+        if "-o" in command and command[0] != "study" and rng.random() < 0.05:
+            occupied = rng.choice(list(Occupied))
+
+        def files() -> Files:
+            return kind.files(Random(f"{name} files"))
+
+        return cls(name, files, steps, tuple(command), outlet, occupied)
 
     def without(self, step: int) -> Case:
         """The same case with one mutation less."""
-        steps = self.steps[:step] + self.steps[step + 1 :]
-        return Case(self.name, self.files, steps, self.command, self.outlet)
-
-    def plainly(self) -> Case:
-        """The same case with its output kept."""
-        return Case(self.name, self.files, self.steps, self.command)
+        return replace(self, steps=self.steps[:step] + self.steps[step + 1 :])
 
     def write(self, folder: Path) -> list[str]:
         """Writes the mutated files into an empty folder; what was done to them."""
@@ -88,7 +107,25 @@ class Case:
         said = [mutate(Random(seed), files) for mutate, seed in self.steps]
         for name, content in files.items():
             place(folder / name, content)
+        self.occupy(folder / "out")
+        if self.occupied is not Occupied.NOTHING:
+            said.append(self.occupied.value)
         return said
+
+    def occupy(self, out: Path) -> None:
+        """Puts what is the user's in the way."""
+        match self.occupied:
+            case Occupied.FILE:
+                out.write_text("mine\n")
+            case Occupied.FOREIGN:
+                out.mkdir()
+                for name in NAMES:
+                    (out / name).write_text("mine\n")
+            case Occupied.GARBAGE:
+                out.mkdir()
+                (out / ".plydrape").write_text("mine\n")
+            case Occupied.NOTHING:
+                pass
 
 
 def place(path: Path, content: bytes | Odd) -> None:

@@ -60,7 +60,7 @@ def faults(ended: Ended, folder: Path, before: dict[str, bytes], outlet: Outlet)
     found = [*of_ending(ended), *of_words(ended, outlet), *of_inputs(folder, before)]
     if found and ended.killed:
         return found  # what a killed program leaves is no fault of its own
-    return found + list(of_folder(ended, folder, outlet))
+    return found + list(of_folder(ended, folder, before))
 
 
 def of_ending(ended: Ended) -> Iterator[Fault]:
@@ -122,9 +122,16 @@ def of_inputs(folder: Path, before: dict[str, bytes]) -> Iterator[Fault]:
             yield Fault("inputs stay as they are", f"{name} was changed")
 
 
-def of_folder(ended: Ended, folder: Path, outlet: Outlet) -> Iterator[Fault]:
+def of_folder(ended: Ended, folder: Path, before: dict[str, bytes]) -> Iterator[Fault]:
     """Faults of the folder that was written, and of what is left beside it."""
     out, command = folder / "out", ended.command[0]
+    if any(Path(name).parts[0] == "out" for name in before):
+        found = {str(path.relative_to(folder)) for path in out.rglob("*")}
+        if ended.code in DONE:
+            yield Fault("what is the user's stays", f"exit {ended.code}, though it is in the way")
+        elif more := found - set(before):
+            yield Fault("what is the user's stays", f"exit {ended.code}, but more\n{sorted(more)}")
+        return
     for path in folder.rglob("*"):
         if path.name.startswith((".plydrape-", ".tmp")) or path.suffix in (".tmp", ".part"):
             yield Fault(
