@@ -134,7 +134,7 @@ class Fuzzer:
                     )
                     found.append((fault, ended))
             wrote = one / "out" / result.NAME
-            if wrote.is_file() and follow < 0.15:
+            if ended.code in contract.DONE and wrote.is_file() and follow < 0.15:
                 found += self.read_back(wrote, folder, rng)
             if follow > 0.95 and command[0] != "study" and not ended.interrupted:
                 two = folder / "two"
