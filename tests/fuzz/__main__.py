@@ -7,7 +7,7 @@ import os
 import sys
 from pathlib import Path
 
-from .campaign import NAMES, Broken, Fuzzer, campaign
+from .campaign import NAMES, ROUND, Broken, Fuzzer, campaign
 from .process import Program
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -60,7 +60,15 @@ def main() -> int:
     venv = ROOT / ".venv" / "bin" / "python"
     python = os.environ.get("PLYDRAPE_PYTHON") or (str(venv) if venv.is_file() else "python3")
     program = Program(binary, python, options.patience)
-    fuzzer = Fuzzer(program, options.seed, options.keep, options.kind)
+    kinds: tuple[str, ...] = (options.kind,) if options.kind else ROUND
+    if "study" in kinds and not program.has_studies():
+        if options.kind:
+            parser().error(
+                f"{python} has no package plydrape; name one that has by PLYDRAPE_PYTHON"
+            )
+        print(f"NO STUDIES: {python} has no package plydrape")
+        kinds = tuple(kind for kind in kinds if kind != "study")
+    fuzzer = Fuzzer(program, options.seed, options.keep, kinds)
 
     if options.case is not None:
         found = fuzzer.run(options.case)

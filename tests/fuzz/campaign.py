@@ -57,13 +57,14 @@ class Fuzzer:
     program: Program
     seed: int
     keep: Path
-    only: str | None = None
+    # the kinds of the cases, one after the other
+    kinds_in_turn: tuple[str, ...] = ROUND
     seen: set[str] = field(default_factory=set)
     codes: Counter[str] = field(default_factory=Counter)
 
     def kind(self, number: int) -> str:
         """The kind of a case."""
-        return self.only or ROUND[number % len(ROUND)]
+        return self.kinds_in_turn[number % len(self.kinds_in_turn)]
 
     def case(self, kind: str, number: int) -> Case:
         """The case of a number."""
@@ -241,7 +242,7 @@ def campaign(
     fuzzer: Fuzzer, jobs: int, most: int, seconds: float, tell: Callable[[Broken], None]
 ) -> tuple[int, Counter[str], Counter[str]]:
     """Runs cases on several workers: how many, how they ended, and the faults found by key."""
-    if fuzzer.only in (None, "result"):
+    if "result" in fuzzer.kinds_in_turn:
         assert fuzzer.results  # once, for all workers
     out: SimpleQueue[object] = multiprocessing.SimpleQueue()
     until = monotonic() + seconds

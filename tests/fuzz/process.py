@@ -43,6 +43,14 @@ class Program:
     # commands that only read and write, twice that time.
     patience: float = 5.0
 
+    def has_studies(self) -> bool:
+        """Whether Python has the package that runs studies."""
+        words = [self.python, "-c", "import plydrape.study"]
+        try:
+            return subprocess.run(words, capture_output=True, check=False).returncode == 0
+        except OSError:
+            return False
+
     def run(
         self, command: Sequence[str], folder: Path, outlet: Outlet = Outlet.KEPT, room: int = FILE
     ) -> Ended:
