@@ -180,8 +180,9 @@ def of_manifest(out: Path, names: set[str]) -> Iterator[Fault]:
             yield Fault("written whole or not at all", f"{name} is not what the list says")
 
 
-# NaN or infinity as a word of its own, not in a name or in quotes.
+# NaN or infinity as a word of its own, not in a name or in quotes; in SVG also behind a letter.
 NOT_A_NUMBER = re.compile(r"(?i)(?<![\w.\"'#])[-+.]*(nan|inf|infinity)(?![\w\"'])")
+IN_SVG = re.compile(r"(?<![a-z])[-+]?(NaN|inf)(?![a-z])")
 
 
 def of_file(path: Path) -> Iterator[Fault]:
@@ -190,20 +191,14 @@ def of_file(path: Path) -> Iterator[Fault]:
     try:
         if path.suffix == ".json":
             json.loads(path.read_bytes(), parse_constant=refuse)
-        elif path.suffix == ".html":
+        elif name == "report.html":
             of_page(path.read_text())
         elif path.suffix in (".svg", ".pvd"):
-            for item in ElementTree.fromstring(path.read_bytes()).iter():
-                for key, value in item.attrib.items():
-                    if key != "Name" and NOT_A_NUMBER.search(value):
-                        refuse(f"{key} of {item.tag}")
+            of_xml(path.read_text())
         elif path.suffix in (".vtp", ".vtu"):
             of_vtk(path.read_bytes())
         elif path.suffix in (".csv", ".yaml", ".inp"):
-            for number, line in enumerate(path.read_text().splitlines(), 1):
-                said = line if path.suffix != ".inp" or line[:2] != "**" else ""
-                if (found := NOT_A_NUMBER.search(said)) and '"' not in said[: found.start()]:
-                    refuse(f"line {number}: {line[:80]}")
+            of_text(path.read_text(), "**" if path.suffix == ".inp" else "#")
     except NotFiniteError as error:
         yield Fault("no NaN and no infinity", f"{name}: {error}")
     except (ValueError, ElementTree.ParseError, struct.error, KeyError) as error:
@@ -219,13 +214,36 @@ def refuse(where: str) -> NoReturn:
     raise NotFiniteError(where)
 
 
+def of_text(text: str, comment: str) -> None:
+    """No number in a table or a deck is NaN or infinite."""
+    said = text.lower()
+    if "nan" not in said and "inf" not in said:
+        return
+    for number, line in enumerate(text.splitlines(), 1):
+        found = None if line.startswith(comment) else NOT_A_NUMBER.search(line)
+        if found and '"' not in line[: found.start()]:
+            refuse(f"line {number}: {line[:80]}")
+
+
+def of_xml(text: str) -> None:
+    """No attribute holds NaN or infinity."""
+    root = ElementTree.fromstring(text)
+    if "NaN" not in text and "inf" not in text:
+        return
+    for item in root.iter():
+        for key, value in item.attrib.items():
+            if IN_SVG.search(value):
+                refuse(f"{key} of {item.tag}")
+
+
 def of_page(text: str) -> None:
     """The data in a page are JSON, and end where they should."""
     marked = re.search(
         r'<script type="application/json" id="plydrape-data">(.*?)</script>', text, re.S
     )
-    if marked:
-        json.loads(marked[1], parse_constant=refuse)
+    if not marked:
+        raise ValueError("no data in it")
+    json.loads(marked[1], parse_constant=refuse)
 
 
 def of_vtk(content: bytes) -> None:

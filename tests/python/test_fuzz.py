@@ -50,6 +50,15 @@ FAULTS = {
     "leaves its stage": (f'os.mkdir(".plydrape-a1"); {REFUSE}', "nothing is left behind"),
     "writes NaN into a table": ('write(steps_csv="step,x\\n1,NaN\\n")', "no NaN and no infinity"),
     "writes infinity as JSON": ('write(a_json="[1, Infinity]")', "no NaN and no infinity"),
+    "writes NaN into a path": (
+        """write(a_svg='<svg><path d="M1 2LNaN 3"/></svg>')""",
+        "no NaN and no infinity",
+    ),
+    "writes infinity into a deck": (
+        'write(a_inp="*NODE\\n1, inf, 0\\n")',
+        "no NaN and no infinity",
+    ),
+    "writes a page without data": ('write(report_html="<p>")', "files can be read"),
     "writes broken XML": ('write(a_svg="<svg>")', "files can be read"),
     "changes its input": (
         f'open("scene.toml", "a").write("#"); {REFUSE}',
