@@ -127,7 +127,8 @@ class Fuzzer:
             self.codes[f"{command[0]}: exit {ended.code}"] += 1
             if found or case.outlet is not Outlet.KEPT:
                 return found
-            if command[0] == "simulate" and ended.code == 2 and follow < 0.3:
+            free = case.occupied is Occupied.NOTHING
+            if command[0] == "simulate" and ended.code == 2 and free and follow < 0.3:
                 check = self.program.run(("check", scene.NAME), one)
                 if check.code == 0:
                     fault = Fault(
