@@ -43,7 +43,7 @@ def change(rng: Random, files: Files) -> str:
         result = json.loads(content)
     except (ValueError, RecursionError):
         return "no result to change"
-    what = (tree.change if rng.random() < 0.3 else tree.change_number)(rng, result)
+    what = (tree.change if rng.random() < 0.15 else tree.change_number)(rng, result)
     files[NAME] = json_text(result).encode(errors="replace")
     return what
 
@@ -83,9 +83,9 @@ def kind(written: Callable[[], list[bytes]]) -> Kind:
     """The kind, with results that the command wrote."""
     return Kind(
         files=lambda rng: {NAME: rng.choice(written())},
-        mutations=((10, change), (4, everywhere), (2, damage), (0.2, case.odd_file)),
+        mutations=((12, change), (2, everywhere), (1, damage), (0.1, case.odd_file)),
         commands=(
-            (10, ("report", NAME, "-o", "out")),
+            (20, ("report", NAME, "-o", "out")),
             *(
                 (6, ("export", NAME, "--to", to, "-o", "out"))
                 for to in ("csv", "svg", "inp", "ros2", "vtk")
