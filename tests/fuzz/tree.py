@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 from collections.abc import Iterator
 from random import Random
 from typing import Any
@@ -85,9 +86,12 @@ def change_number(rng: Random, tree: Any) -> str:
         alike.setdefault(name(tuple(key for key in path if isinstance(key, str))), []).append(path)
     if not alike:
         return "no number to change"
-    # every section is as likely as each other, however many numbers it has
-    section = rng.choice(sorted({place.split(".")[0] for place in alike}))
-    place = rng.choice(sorted(place for place in alike if place.split(".")[0] == section))
+    # a section of many numbers is not much more likely than one of few
+    sections: dict[str, list[str]] = {}
+    for place in sorted(alike):
+        sections.setdefault(place.split(".")[0], []).append(place)
+    weights = [math.sqrt(len(places)) for places in sections.values()]
+    place = rng.choice(rng.choices(list(sections.values()), weights)[0])
     paths = alike[place] if rng.random() < 0.25 else [rng.choice(alike[place])]
     value = like(rng, get(tree, paths[0]))
     if rng.random() < 0.5 and isinstance(value, float):
