@@ -36,8 +36,8 @@ WRITTEN = {
 }
 LONGEST_MESSAGE = 20_000
 # Below the message; or in its sentence, where a file cannot be made, or a study's scene is refused.
-REMEDY = re.compile(r"^ +help: |choose|make room|^  × \S+:\d+:\d+: .*; ", re.MULTILINE)
-IN_SENTENCE = re.compile(r"[:;] +[│\s]*[a-z]+\s")
+REMEDY = re.compile(r"^ +help: |choose|make room|^  × \S+\.toml:.*; ", re.MULTILINE)
+IN_SENTENCE = re.compile(r"[:;][│\s]+[a-z]+\s")
 
 
 @dataclass(frozen=True)
