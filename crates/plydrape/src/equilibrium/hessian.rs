@@ -5,7 +5,7 @@
 //! ends follow.
 
 use super::problem::{End, Problem, SlopeSource};
-use super::rule::Iterate;
+use super::rule::{Iterate, Step};
 use super::state::State;
 use super::status::EarlyEnds;
 use super::tuning::Tuning;
@@ -19,9 +19,7 @@ pub struct Hessian {
     rows: Vec<[[(usize, f64); 2]; 2]>,
     diagonal: Vec<f64>,
     vectors: [Vec<f64>; 4],
-    right: Vec<f64>,
-    product: Vec<f64>,
-    free: Vec<f64>,
+    step: [Vec<f64>; 3],
 }
 
 impl Hessian {
@@ -141,21 +139,10 @@ impl Hessian {
 
     /// The step p that minimizes ½pᵀBp + gᵀp within the bounds of the slopes, by a primal-dual active set:
     /// a slope is at its bound if its step would leave it, and stays while its multiplier pushes outwards.
-    pub fn bounded_step(
-        &mut self,
-        from: &Iterate,
-        active: &mut [bool],
-        tolerance: f64,
-        tuning: &Tuning,
-        early_ends: &mut EarlyEnds,
-        step: &mut [f64],
-    ) {
-        let (count, bound) = (step.len(), from.bound);
-        let (mut right, mut product, mut free) = (
-            std::mem::take(&mut self.right),
-            std::mem::take(&mut self.product),
-            std::mem::take(&mut self.free),
-        );
+    pub fn bounded_step(&mut self, from: &Iterate, tolerance: f64, out: &mut Step) {
+        let Step { active, change: step, early_ends } = out;
+        let (count, bound, tuning) = (step.len(), from.bound, from.tuning);
+        let [mut right, mut product, mut free] = std::mem::take(&mut self.step);
         product.resize(count, 0.0);
         free.resize(count, 0.0);
         step.fill(0.0);
@@ -197,7 +184,7 @@ impl Hessian {
             }
         }
         early_ends.active_sets += u32::from(!found);
-        (self.right, self.product, self.free) = (right, product, free);
+        self.step = [right, product, free];
     }
 }
 

@@ -9,7 +9,7 @@
 use super::Number;
 use super::hessian::Hessian;
 use super::problem::{End, Problem, SlopeSource};
-use super::rule::{Iterate, Response, Rule, Trial};
+use super::rule::{Iterate, Response, Rule, Step, Trial};
 use super::state::State;
 use super::status::EarlyEnds;
 use super::tuning::Tuning;
@@ -30,15 +30,11 @@ impl Rule for MinForce {
         state.half_square()
     }
 
-    fn residual_change(
-        &self,
-        problem: &Problem<Dual64>,
-        responses: &[Response<Dual64>],
-    ) -> Vec<f64> {
+    fn residual_change(&self, problem: &Problem<Dual64>, along: &[Response<Dual64>]) -> Vec<f64> {
         let zero = Dual64::from(0.0);
         let mut out = vec![zero; problem.shared_slopes().len()];
         let mut adjoint = vec![[zero; 2]; problem.elements.len()];
-        gradient(problem, |n| responses[n], &mut out, &mut adjoint);
+        gradient(problem, |n| along[n], &mut out, &mut adjoint);
         out.iter().map(|g| g.eps).collect()
     }
 
@@ -50,22 +46,13 @@ impl Rule for MinForce {
         self.hessian.diagonal(slope)
     }
 
-    fn step(
-        &mut self,
-        from: &Iterate,
-        active: &mut [bool],
-        tuning: &Tuning,
-        early_ends: &mut EarlyEnds,
-        out: &mut [f64],
-    ) {
+    fn step(&mut self, from: &Iterate, step: &mut Step) {
         // looser far away: a Newton step is worth no more digits than it will have
-        let [least, most] = tuning.linear_tolerance;
-        let tolerance = if out.len() <= tuning.few_unknowns {
-            tuning.linear_exact
-        } else {
-            (tuning.linear_share * from.last_step).clamp(least, most)
-        };
-        self.hessian.bounded_step(from, active, tolerance, tuning, early_ends, out);
+        let Tuning { few_unknowns, linear_exact, linear_share, .. } = *from.tuning;
+        let [least, most] = from.tuning.linear_tolerance;
+        let few = from.slopes.len() <= few_unknowns;
+        let loose = (linear_share * from.last_step).clamp(least, most);
+        self.hessian.bounded_step(from, if few { linear_exact } else { loose }, step);
     }
 
     fn improves(&self, trial: &Trial, tuning: &Tuning) -> bool {
@@ -73,17 +60,13 @@ impl Rule for MinForce {
         after <= before + tuning.decrease * promise + tuning.objective_rounding * before
     }
 
-    fn respond(
-        &mut self,
-        change: &[f64],
-        active: &[bool],
-        tuning: &Tuning,
-        out: &mut [f64],
-    ) -> bool {
+    fn respond(&mut self, change: &[f64], active: &[bool], tuning: &Tuning) -> (Vec<f64>, bool) {
         let held = change.iter().zip(active);
         let right: Vec<f64> = held.map(|(g, held)| if *held { 0.0 } else { -g }).collect();
-        let mut ends = EarlyEnds::default();
-        self.hessian.solve(&right, active, tuning.tangent_tolerance, tuning, &mut ends, out)
+        let (mut out, mut ends) = (vec![0.0; right.len()], EarlyEnds::default());
+        let tolerance = tuning.tangent_tolerance;
+        let solved = self.hessian.solve(&right, active, tolerance, tuning, &mut ends, &mut out);
+        (out, solved)
     }
 }
 

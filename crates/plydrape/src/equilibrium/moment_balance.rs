@@ -7,9 +7,8 @@
 
 use super::Number;
 use super::problem::{End, Problem, SharedSlope};
-use super::rule::{Iterate, Response, Rule, Trial};
+use super::rule::{Iterate, Response, Rule, Step, Trial};
 use super::state::State;
-use super::status::EarlyEnds;
 use super::tuning::Tuning;
 use num_dual::Dual64;
 use std::ops::Range;
@@ -19,15 +18,11 @@ use std::ops::Range;
 pub struct MomentBalance {
     /// Rows of the tridiagonal matrix: below, on and above the diagonal.
     rows: Vec<[f64; 3]>,
-    right: Vec<f64>,
     ratio: Vec<f64>,
 }
 
 /// The elements before and after a gripper, each with its end there and the sign of its moment.
-fn sides<T>(problem: &Problem<T>, at: &SharedSlope, slope: usize) -> [(usize, usize, f64); 2]
-where
-    T: Copy,
-{
+fn sides<T>(problem: &Problem<T>, at: &SharedSlope, slope: usize) -> [(usize, usize, f64); 2] {
     [(0, 1.0), (1, -1.0)].map(|(n, sign)| {
         let element = at.elements[n];
         let is_first =
@@ -73,13 +68,8 @@ impl Rule for MomentBalance {
         0.0
     }
 
-    fn residual_change(
-        &self,
-        problem: &Problem<Dual64>,
-        responses: &[Response<Dual64>],
-    ) -> Vec<f64> {
-        let jumps = jumps(problem, |element, end| responses[element].curvature[end]);
-        jumps.map(|jump| jump.eps).collect()
+    fn residual_change(&self, problem: &Problem<Dual64>, along: &[Response<Dual64>]) -> Vec<f64> {
+        jumps(problem, |element, end| along[element].curvature[end]).map(|jump| jump.eps).collect()
     }
 
     fn linearize(&mut self, problem: &Problem<f64>, state: &State) {
@@ -104,20 +94,11 @@ impl Rule for MomentBalance {
     }
 
     /// Where the state is no stable one, the diagonal is raised until the step goes down the energy.
-    fn step(
-        &mut self,
-        from: &Iterate,
-        active: &mut [bool],
-        tuning: &Tuning,
-        early_ends: &mut EarlyEnds,
-        out: &mut [f64],
-    ) {
-        let mut right = std::mem::take(&mut self.right);
-        right.clear();
-        right.extend(from.residual.iter().map(|jump| -jump));
+    fn step(&mut self, from: &Iterate, step: &mut Step) {
+        let (tuning, Step { active, change, early_ends }) = (from.tuning, step);
         let largest = self.rows.iter().map(|row| row[1].abs()).fold(0.0, f64::max);
         let mut shift = 0.0;
-        while !self.solve(&right, active, shift, out) {
+        while !self.solve(from.residual, active, shift, change) {
             early_ends.negative_curvatures += u32::from(shift == 0.0);
             if shift > tuning.largest_shift * largest {
                 early_ends.damping_limits += 1;
@@ -126,10 +107,9 @@ impl Rule for MomentBalance {
             let first = tuning.first_shift * largest;
             shift = if shift == 0.0 { first } else { tuning.shift_growth * shift };
         }
-        self.right = right;
-        let size = out.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+        let size = change.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
         if size > tuning.longest_step {
-            out.iter_mut().for_each(|x| *x *= tuning.longest_step / size);
+            change.iter_mut().for_each(|x| *x *= tuning.longest_step / size);
         }
     }
 
@@ -139,32 +119,33 @@ impl Rule for MomentBalance {
         uphill <= tuning.uphill * promise.abs()
     }
 
-    fn respond(&mut self, change: &[f64], active: &[bool], _: &Tuning, out: &mut [f64]) -> bool {
-        let right: Vec<f64> = change.iter().map(|c| -c).collect();
-        self.solve(&right, active, 0.0, out)
+    fn respond(&mut self, change: &[f64], active: &[bool], _: &Tuning) -> (Vec<f64>, bool) {
+        let mut out = vec![0.0; change.len()];
+        let stable = self.solve(change, active, 0.0, &mut out);
+        (out, stable)
     }
 }
 
 impl MomentBalance {
-    /// Solves the tridiagonal system J x = right with the rows of active bounds replaced by x = 0.
+    /// Solves the tridiagonal system J x = −`jumps` with the rows of active bounds replaced by x = 0.
     ///
     /// Every line of edges is a block of its own: the couplings between lines are zero.
     ///
     /// `shift` is added to the diagonal; returns false if a pivot is not positive, as on the way to a state
     /// that is no stable one.
-    fn solve(&mut self, right: &[f64], active: &[bool], shift: f64, out: &mut [f64]) -> bool {
+    fn solve(&mut self, jumps: &[f64], active: &[bool], shift: f64, out: &mut [f64]) -> bool {
         let (ratio, mut stable) = (&mut self.ratio, true);
-        ratio.resize(right.len(), 0.0);
-        for n in 0..right.len() {
+        ratio.resize(jumps.len(), 0.0);
+        for n in 0..jumps.len() {
             let ([below, on, above], value) =
-                if active[n] { ([0.0, 1.0, 0.0], 0.0) } else { (self.rows[n], right[n]) };
+                if active[n] { ([0.0, 1.0, 0.0], 0.0) } else { (self.rows[n], -jumps[n]) };
             let (last, before) = if n > 0 { (ratio[n - 1], out[n - 1]) } else { (0.0, 0.0) };
             let pivot = on + shift - below * last;
             stable &= pivot > 0.0;
             ratio[n] = above / pivot;
             out[n] = (value - below * before) / pivot;
         }
-        for n in (0..right.len().saturating_sub(1)).rev() {
+        for n in (0..jumps.len().saturating_sub(1)).rev() {
             out[n] -= ratio[n] * out[n + 1];
         }
         stable

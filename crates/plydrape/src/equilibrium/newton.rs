@@ -5,7 +5,7 @@
 //! slope, is below the tolerance.
 
 use super::problem::Problem;
-use super::rule::{Iterate, Rule, Trial};
+use super::rule::{Iterate, Rule, Step, Trial};
 use super::state::State;
 use super::status::{EarlyEnds, Equilibrium, Status};
 use super::tuning::Tuning;
@@ -14,8 +14,7 @@ use super::tuning::Tuning;
 #[derive(Debug, Clone, Default)]
 pub struct Newton {
     residual: Vec<f64>,
-    active: Vec<bool>,
-    step: Vec<f64>,
+    step: Step,
     start: Vec<f64>,
     start_residual: Vec<f64>,
 }
@@ -45,17 +44,17 @@ impl Newton {
     ) -> Equilibrium {
         let count = problem.shared_slopes().len();
         self.residual.resize(count, 0.0);
-        self.step.resize(count, 0.0);
-        let mut early_ends = EarlyEnds::default();
+        self.step.change.resize(count, 0.0);
+        self.step.early_ends = EarlyEnds::default();
         rule.prepare(problem, state);
-        let (status, iterations, residual) =
-            self.iterate(rule, problem, state, bound, tuning, &mut early_ends);
+        let (status, iterations, residual) = self.iterate(rule, problem, state, bound, tuning);
         let all = problem.elements.len();
         state.evaluate(problem, rule.elements(problem).end..all);
         let length_residual = state.measure_lengths(problem);
         // a span that could not meet its length spoils the whole
         let met = length_residual <= tuning.length_tolerance;
         let status = if met { status } else { Status::LengthNotMet };
+        let early_ends = self.step.early_ends;
         Equilibrium { status, iterations, residual, length_residual, early_ends }
     }
 
@@ -66,7 +65,6 @@ impl Newton {
         state: &mut State,
         bound: f64,
         tuning: &Tuning,
-        early_ends: &mut EarlyEnds,
     ) -> (Status, usize, f64) {
         let mut merit = self.evaluate(rule, problem, state);
         if state.slopes().is_empty() {
@@ -76,7 +74,7 @@ impl Newton {
         loop {
             // the matrix, and what is left of the residual
             iterations += 1;
-            mark_active(bound, state.slopes(), &self.residual, &mut self.active);
+            mark_active(bound, state.slopes(), &self.residual, &mut self.step.active);
             rule.linearize(problem, state);
             let left = self.slope_residual(rule);
             if left <= tuning.slope_tolerance {
@@ -92,9 +90,8 @@ impl Newton {
             }
 
             // the step
-            let from =
-                Iterate { slopes: state.slopes(), residual: &self.residual, bound, last_step };
-            rule.step(&from, &mut self.active, tuning, early_ends, &mut self.step);
+            let (slopes, residual) = (state.slopes(), &self.residual);
+            rule.step(&Iterate { slopes, residual, bound, last_step, tuning }, &mut self.step);
             self.start.clear();
             self.start.extend_from_slice(state.slopes());
             self.start_residual.clear();
@@ -103,8 +100,8 @@ impl Newton {
             // halved until it leads to a better state
             let (mut share, mut better) = (1.0, false);
             while !better && share > tuning.smallest_share {
-                let way = self.start.iter().zip(&self.step);
-                state.put(way.map(|(start, step)| (start + share * step).clamp(-bound, bound)));
+                let way = self.start.iter().zip(&self.step.change);
+                state.put(way.map(|(start, change)| (start + share * change).clamp(-bound, bound)));
                 if share == 1.0 {
                     let way = state.slopes().iter().zip(&self.start).map(|(s, start)| s - start);
                     last_step = way.fold(0.0, |size: f64, way| size.max(way.abs()));
@@ -122,7 +119,7 @@ impl Newton {
                 // none is left to find: converged as far as rounding lets a sum tell, or stalled
                 state.put(self.start.iter().copied());
                 self.evaluate(rule, problem, state);
-                early_ends.line_searches += 1;
+                self.step.early_ends.line_searches += 1;
                 let rounding = left <= tuning.rounding_residual;
                 let status = if rounding { Status::Converged } else { Status::Stalled };
                 return (status, iterations, left);
@@ -139,7 +136,7 @@ impl Newton {
     /// The residual that is left at slopes that no bound holds, as a change of slope: divided by its own derivative
     /// to the slope. Infinite where that derivative is not positive, as in a state that is no minimum, or not stable.
     fn slope_residual(&self, rule: &dyn Rule) -> f64 {
-        let free = (0..self.residual.len()).filter(|n| !self.active[*n]);
+        let free = (0..self.residual.len()).filter(|n| !self.step.active[*n]);
         let left = free.map(|n| match (self.residual[n], rule.diagonal(n)) {
             (residual, diagonal) if diagonal > 0.0 => (residual / diagonal).abs(),
             // nothing depends on this slope

@@ -1,7 +1,7 @@
 //! A rule for the shared slopes s: a residual R(s) that vanishes, and the step that Newton's method takes to it.
 //!
 //! Within the bounds |s| ≤ tan φ_max a rule asks for R = 0, and for a residual that pushes outwards at a bound. There
-//! are two: [`super::min_force`], eq. (9) of `docs/theory.md`, and [`super::moment_balance`], eq. (10).
+//! are two: `min_force`, eq. (9) of `docs/theory.md`, and `moment_balance`, eq. (10).
 
 use super::Number;
 use super::force::Evaluated;
@@ -51,9 +51,22 @@ pub struct Iterate<'a> {
     pub bound: f64,
     /// Largest change of a slope in the step before; infinite in the first.
     pub last_step: f64,
+    /// Constants of the method.
+    pub tuning: &'a Tuning,
 }
 
-/// Where a step ends.
+/// A step of the slopes.
+#[derive(Debug, Clone, Default)]
+pub struct Step {
+    /// Which slopes are held at their bounds.
+    pub active: Vec<bool>,
+    /// Change of each slope.
+    pub change: Vec<f64>,
+    /// What was cut short on the way to it, and to those before it.
+    pub early_ends: EarlyEnds,
+}
+
+/// How a step went.
 pub struct Trial {
     /// The rule's merit at its start and at its end.
     pub merit: [f64; 2],
@@ -75,11 +88,7 @@ pub trait Rule {
     fn residual(&mut self, problem: &Problem<f64>, state: &State, out: &mut [f64]) -> f64;
 
     /// Change of R along a direction that is carried by the problem and the elements.
-    fn residual_change(
-        &self,
-        problem: &Problem<Dual64>,
-        responses: &[Response<Dual64>],
-    ) -> Vec<f64>;
+    fn residual_change(&self, problem: &Problem<Dual64>, along: &[Response<Dual64>]) -> Vec<f64>;
 
     /// Makes the matrix R_s of an evaluated state whose residual was taken last.
     fn linearize(&mut self, problem: &Problem<f64>, state: &State);
@@ -87,26 +96,13 @@ pub trait Rule {
     /// Diagonal entry of R_s.
     fn diagonal(&self, slope: usize) -> f64;
 
-    /// Writes the step from an iterate; `active` says which slopes are held at their bounds.
-    fn step(
-        &mut self,
-        from: &Iterate,
-        active: &mut [bool],
-        tuning: &Tuning,
-        early_ends: &mut EarlyEnds,
-        out: &mut [f64],
-    );
+    /// Writes the step from an iterate, whose active bounds are marked in it.
+    fn step(&mut self, from: &Iterate, step: &mut Step);
 
     /// Whether a step has led to a better state.
     fn improves(&self, trial: &Trial, tuning: &Tuning) -> bool;
 
-    /// Answer of the slopes to a change of R: −R_s⁻¹ `change`, active slopes held. Returns whether there is one: where
+    /// Answer of the slopes to a change of R: −R_s⁻¹ `change`, active slopes held. Also whether there is one: where
     /// R_s is not positive the state is no strict minimum, or not stable, and the slopes have no derivative.
-    fn respond(
-        &mut self,
-        change: &[f64],
-        active: &[bool],
-        tuning: &Tuning,
-        out: &mut [f64],
-    ) -> bool;
+    fn respond(&mut self, change: &[f64], active: &[bool], tuning: &Tuning) -> (Vec<f64>, bool);
 }

@@ -125,11 +125,10 @@ impl<'a> Linearization<'a> {
 
         // what the direction does to the rule at fixed slopes
         let at = solver.slopes();
-        let mut slopes = vec![0.0; at.len()];
-        pass.run(problem, jets, at, &slopes);
+        pass.run(problem, jets, at, &vec![0.0; at.len()]);
         let change = rule.get().residual_change(problem, &pass.responses);
         // what the slopes answer, and with it everything else
-        let is_sound = rule.get().respond(&change, active, solver.tuning(), &mut slopes);
+        let (slopes, is_sound) = rule.get().respond(&change, active, solver.tuning());
         pass.run(problem, jets, at, &slopes);
         let gripper_slope = |gripper: usize, direction: usize| {
             let heading = heading(solver.grid(), moving, gripper, direction)?;
