@@ -196,7 +196,7 @@ pub fn equilibria(
                 slopes: (0..grid.catenaries()).map(|n| [straight(grid, positions, n); 2]).collect(),
                 shear: shear_angles(&ply, solver),
             };
-            for (n, element) in solver.assembly().elements.iter().enumerate() {
+            for (n, element) in solver.problem().elements.iter().enumerate() {
                 if let Some(force) = solver.force(n) {
                     found.forces[element.catenary] = force;
                     found.slopes[element.catenary] = solver.end_slopes(n);

@@ -206,7 +206,7 @@ impl Equilibrium {
             directions.iter().map(|direction| linearized.along(direction)).collect()
         });
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        let stretched = state.solver.assembly().shearing.iter().map(|s| s.map(|(path, _)| path));
+        let stretched = state.solver.problem().shearing.iter().map(|s| s.map(|(path, _)| path));
         Ok(Jacobian {
             axes,
             names,

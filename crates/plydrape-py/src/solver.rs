@@ -181,6 +181,6 @@ impl Solver {
 
 /// Shear angle of each cell (rad), 0 where no diagonal is stretched.
 pub fn shear_angles(ply: &ply::Ply, solver: &equilibrium::Solver) -> Vec<f64> {
-    let stretched = solver.assembly().shearing.iter();
+    let stretched = solver.problem().shearing.iter();
     stretched.map(|s| s.map_or(0.0, |(path, _)| shear::angle(ply.cell, path))).collect()
 }

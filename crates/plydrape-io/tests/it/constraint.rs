@@ -102,7 +102,7 @@ fn a_sheared_ply_in_an_inclined_plane_has_its_normal_at_every_constrained_grippe
                 let expected = [-sin * towards.cos(), -sin * towards.sin(), cos];
                 let mut constrained = 0;
                 for gripper in 0..grid.grippers() {
-                    let Some(constraint) = solver.assembly().constraints[gripper] else {
+                    let Some(constraint) = solver.problem().constraints[gripper] else {
                         continue;
                     };
                     constrained += 1;
@@ -127,7 +127,7 @@ fn a_level_sheared_ply_has_level_constrained_grippers() {
     let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce));
     solver.solve(&positions, &free(&ply));
     for gripper in 0..8 {
-        if solver.assembly().constraints[gripper].is_some() {
+        if solver.problem().constraints[gripper].is_some() {
             for d in 0..2 {
                 let slope = solver.gripper_slope(&positions, gripper, d).expect("an edge");
                 assert!(slope == 0.0 && slope.is_sign_positive(), "{slope}");
@@ -146,7 +146,7 @@ fn where_shearing_cells_meet_their_planes_are_averaged() {
     positions[5][2] = 0.03;
     let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce));
     solver.solve(&positions, &free(&ply));
-    let at = |n: usize| solver.assembly().constraints[n].expect("on a stretched diagonal").normal;
+    let at = |n: usize| solver.problem().constraints[n].expect("on a stretched diagonal").normal;
     // gripper 4 ends the first cell's diagonal, 1 begins the second's, 0 and 5 see one cell alone
     assert_eq!(at(0), at(4));
     assert_eq!(at(1), at(5));
@@ -157,7 +157,7 @@ fn where_shearing_cells_meet_their_planes_are_averaged() {
     }
     let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce));
     solver.solve(&positions, &free(&ply));
-    let at = |n: usize| solver.assembly().constraints[n].expect("on a stretched diagonal").normal;
+    let at = |n: usize| solver.problem().constraints[n].expect("on a stretched diagonal").normal;
     // the middle gripper: lower left cell's plane (level) and upper right one's
     let sum = [0, 1, 2].map(|k| at(0)[k] + at(8)[k]);
     let size = sum.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -177,7 +177,7 @@ fn crooked(grid: Grid, angle: f64) -> Vec<Point> {
 
 /// Slopes at all ends of edges at all grippers.
 fn all_slopes(solver: &Solver) -> Vec<f64> {
-    let edges = solver.assembly().edge_elements;
+    let edges = solver.problem().edge_elements;
     (0..edges).flat_map(|n| solver.end_slopes(n)).collect()
 }
 
@@ -268,9 +268,9 @@ fn derivatives_in_the_onset_agree_with_central_differences() {
                 (solver, moved)
             };
             let h = 2e-5;
-            let ((mut middle, _), (low, below), (high, above)) =
+            let ((middle, _), (low, below), (high, above)) =
                 (solved(0.0), solved(-h), solved(h));
-            assert!(middle.assembly().is_partly_constrained(), "not in the onset");
+            assert!(middle.problem().is_partly_constrained(), "not in the onset");
             let mut linearized = middle.linearize(&positions, &laid);
             let tangent = linearized.along(&direction);
             assert!(tangent.is_sound && linearized.is_sound());
@@ -279,7 +279,7 @@ fn derivatives_in_the_onset_agree_with_central_differences() {
                 let scale = scale.max(difference.abs());
                 assert!((found - difference).abs() < 1e-4 * scale, "{found} {difference}");
             };
-            for n in 0..middle.assembly().elements.len() {
+            for n in 0..middle.problem().elements.len() {
                 for end in 0..2 {
                     let slopes = [&low, &high].map(|s| s.end_slopes(n)[end]);
                     close(tangent.end_slopes[n][end], slopes[0], slopes[1], 1.0);

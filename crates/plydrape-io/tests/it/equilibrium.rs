@@ -46,11 +46,11 @@ fn level(grid: Grid, spacing: f64) -> Vec<[f64; 3]> {
 
 fn forces(solver: &Solver, kind: Kind) -> Vec<f64> {
     let grid_kind = |n: usize| {
-        let element = &solver.assembly().elements[n];
+        let element = &solver.problem().elements[n];
         (element.catenary, solver.force(n).expect("it hangs"))
     };
     let grid = Grid { nu: 4, nv: 2 };
-    (0..solver.assembly().elements.len())
+    (0..solver.problem().elements.len())
         .map(grid_kind)
         .filter(|(catenary, _)| grid.catenary(*catenary).kind == kind)
         .map(|(_, force)| force)
@@ -119,18 +119,18 @@ fn any_rule() -> impl Strategy<Value = Settings> {
 
 /// Sum of squares of all forces with the shared slopes put where the caller wants them.
 fn norm_at(solver: &Solver, slopes: &[f64]) -> f64 {
-    let assembly = solver.assembly();
-    let mut outcome = vec![[0.0; 2]; assembly.elements.len()];
+    let problem = solver.problem();
+    let mut outcome = vec![[0.0; 2]; problem.elements.len()];
     let mut sum = 0.0;
-    for (n, element) in assembly.elements.iter().enumerate() {
+    for (n, element) in problem.elements.iter().enumerate() {
         let mut span = solver.span(n);
         for end in 0..2 {
             let slope = match element.ends[end] {
-                End::Joint(j) => slopes[j],
+                End::Shared(j) => slopes[j],
                 End::Plane(plane) => {
                     let at = |source| match source {
                         plydrape::equilibrium::SlopeSource::Given(s) => s,
-                        plydrape::equilibrium::SlopeSource::Joint(j) => slopes[j],
+                        plydrape::equilibrium::SlopeSource::Shared(j) => slopes[j],
                         plydrape::equilibrium::SlopeSource::Outcome(e, k) => {
                             let pair: [f64; 2] = outcome[e];
                             pair[k]
@@ -169,7 +169,7 @@ proptest! {
         let outcome = solver.solve(&positions, &laid);
         prop_assert_eq!(outcome.status, Status::Converged, "{:?}", outcome);
         prop_assert!(outcome.residual < 1e-8);
-        for n in 0..solver.assembly().elements.len() {
+        for n in 0..solver.problem().elements.len() {
             let Some(force) = solver.force(n) else { continue };
             let span = solver.span(n);
             let chord = span.chord() / span.run;
@@ -190,7 +190,7 @@ proptest! {
                 }
             } else {
                 let moment = |k: usize| {
-                    let element = solver.assembly().joints[joint].elements[k];
+                    let element = solver.problem().shared_slopes()[joint].elements[k];
                     let span = solver.span(element);
                     let profile = Profile::new(&span, solver.force(element).expect("hangs"));
                     profile.station(if k == 0 { span.run } else { 0.0 }).moment
@@ -204,7 +204,7 @@ proptest! {
                     let force = solver.force(*element).expect("hangs").abs();
                     (solver.span(*element).flexural_rigidity * force).sqrt()
                 };
-                let stiffness = solver.assembly().joints[joint].elements.iter().map(root).fold(0.0, f64::max);
+                let stiffness = solver.problem().shared_slopes()[joint].elements.iter().map(root).fold(0.0, f64::max);
                 let small = (before - after).abs() < 1e-7 * stiffness + 1e-9 * scale;
                 prop_assert!(small || carried, "joint {}: {} {}", joint, before, after);
             }
@@ -224,7 +224,7 @@ proptest! {
         for (a, b) in warm.slopes().iter().zip(cold.slopes()) {
             prop_assert!((a - b).abs() < 1e-7, "{a} {b}");
         }
-        for n in 0..cold.assembly().elements.len() {
+        for n in 0..cold.problem().elements.len() {
             let (a, b) = (warm.force(n).unwrap_or(0.0), cold.force(n).unwrap_or(0.0));
             prop_assert!((a - b).abs() < 1e-6 * b.abs().max(0.1), "{n}: {a} {b}");
         }
@@ -273,14 +273,14 @@ proptest! {
             (solver, outcome)
         };
         let h = 1e-5;
-        let ((mut middle, outcome), (low, _), (high, _)) = (at(0.0), at(-h), at(h));
+        let ((middle, outcome), (low, _), (high, _)) = (at(0.0), at(-h), at(h));
         prop_assume!(outcome.status == Status::Converged);
         // the state is differentiable here: the same spans, shear and active bounds on both sides
         let bound = settings.max_tilt.tan();
         let kind = |s: &Solver| (
-            s.assembly().shearing.iter().map(|s| s.map(|(_, f)| f)).collect::<Vec<_>>(),
+            s.problem().shearing.iter().map(|s| s.map(|(_, f)| f)).collect::<Vec<_>>(),
             s.slopes().iter().map(|s| s.abs() >= bound).collect::<Vec<_>>(),
-            s.assembly().elements.iter().map(|e| e.state).collect::<Vec<_>>(),
+            s.problem().elements.iter().map(|e| e.state).collect::<Vec<_>>(),
         );
         prop_assume!(kind(&low) == kind(&middle) && kind(&high) == kind(&middle));
         // min-force may have several minima (mirror images in a symmetric ply): all on one of them
@@ -291,7 +291,7 @@ proptest! {
             let difference = (high.slopes()[j] - low.slopes()[j]) / (2.0 * h);
             prop_assert!((slope - difference).abs() < 1e-4 * (1.0 + difference.abs()), "slope {j}: {slope} {difference}");
         }
-        for n in 0..middle.assembly().elements.len() {
+        for n in 0..middle.problem().elements.len() {
             let Some(force) = middle.force(n) else { continue };
             let difference = (high.force(n).unwrap_or(0.0) - low.force(n).unwrap_or(0.0)) / (2.0 * h);
             let scale = force.abs() + difference.abs();

@@ -65,7 +65,7 @@ fn flung(grid: Grid, spacing: f64, noise: f64, seed: u64) -> Vec<Point> {
 /// Relative error of every length at the forces that are returned, by the arc length itself.
 fn length_errors(solver: &Solver) -> f64 {
     let mut worst = 0.0_f64;
-    for n in 0..solver.assembly().elements.len() {
+    for n in 0..solver.problem().elements.len() {
         let Some(force) = solver.force(n) else { continue };
         let span = solver.span(n);
         let stretch = force * span.chord() / (span.run * span.axial_stiffness);
@@ -131,18 +131,18 @@ fn a_solve_that_is_cut_short_says_so() {
 
 /// Half the sum of squares of the forces with the shared slopes put where the caller wants them.
 fn objective(solver: &Solver, slopes: &[f64]) -> f64 {
-    let assembly = solver.assembly();
-    let mut outcome = vec![[0.0; 2]; assembly.elements.len()];
+    let problem = solver.problem();
+    let mut outcome = vec![[0.0; 2]; problem.elements.len()];
     let mut sum = 0.0;
-    for (n, element) in assembly.elements.iter().enumerate() {
+    for (n, element) in problem.elements.iter().enumerate() {
         let mut span = solver.span(n);
         for end in 0..2 {
             let slope = match element.ends[end] {
-                End::Joint(j) => slopes[j],
+                End::Shared(j) => slopes[j],
                 End::Plane(plane) => {
                     let at = |source| match source {
                         plydrape::equilibrium::SlopeSource::Given(s) => s,
-                        plydrape::equilibrium::SlopeSource::Joint(j) => slopes[j],
+                        plydrape::equilibrium::SlopeSource::Shared(j) => slopes[j],
                         plydrape::equilibrium::SlopeSource::Outcome(e, k) => {
                             let pair: [f64; 2] = outcome[e];
                             pair[k]
@@ -240,10 +240,10 @@ fn balanced_moments_are_a_stable_state() {
         let jumps = |slopes: &[f64]| -> Vec<f64> {
             let joint = |j: usize| {
                 let moment = |k: usize| {
-                    let element = solver.assembly().joints[j].elements[k];
+                    let element = solver.problem().shared_slopes()[j].elements[k];
                     let mut span = solver.span(element);
                     for end in 0..2 {
-                        if let End::Joint(other) = solver.assembly().elements[element].ends[end] {
+                        if let End::Shared(other) = solver.problem().elements[element].ends[end] {
                             span.ends[end] = EndCondition::Slope(slopes[other]);
                         }
                     }
@@ -310,7 +310,7 @@ fn a_scaled_ply_hangs_in_the_same_shape() {
             for scale in [0.1, 10.0] {
                 let (other, outcome) = solved(scale);
                 assert_eq!(first.iterations, outcome.iterations);
-                for n in 0..one.assembly().elements.len() {
+                for n in 0..one.problem().elements.len() {
                     let (a, b) = (one.end_slopes(n), other.end_slopes(n));
                     assert!((0..2).all(|k| (a[k] - b[k]).abs() < 1e-7), "{a:?} {b:?}");
                     if let (Some(a), Some(b)) = (one.force(n), other.force(n)) {

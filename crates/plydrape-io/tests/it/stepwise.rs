@@ -193,12 +193,12 @@ fn quantities(ply: &Ply, solved: &mut Solved) -> Vec<(String, Quantity)> {
 
 /// What must be the same on both sides of a point for the state to be differentiable there.
 fn kind(ply: &Ply, solved: &Solved) -> (Vec<Option<bool>>, Vec<bool>, Vec<bool>, usize) {
-    let (assembly, bound) = (solved.solver.assembly(), ply.scene.settings.max_tilt.tan());
+    let (problem, bound) = (solved.solver.problem(), ply.scene.settings.max_tilt.tan());
     (
-        assembly.shearing.iter().map(|s| s.map(|(_, falling)| falling)).collect(),
+        problem.shearing.iter().map(|s| s.map(|(_, falling)| falling)).collect(),
         solved.solver.slopes().iter().map(|s| s.abs() >= bound).collect(),
-        assembly.sides.iter().flatten().flatten().map(|s| matches!(s, Side::Fixed(_))).collect(),
-        assembly.elements.len(),
+        problem.sides().iter().flatten().flatten().map(|s| matches!(s, Side::Fixed(_))).collect(),
+        problem.elements.len(),
     )
 }
 

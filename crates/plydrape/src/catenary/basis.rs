@@ -13,9 +13,7 @@ use super::Span;
 use super::decay::decay;
 use super::entire::{curvature, entire, entire_at, slope, terms};
 use super::quadrature::Rule;
-
-/// κ from which the exponential form is used.
-const TAUT_KAPPA: f64 = 25.0;
+use super::tuning::TUNING;
 
 /// The functions of one span at one H.
 #[derive(Debug, Clone, Copy)]
@@ -135,7 +133,7 @@ impl Form {
             return Form::Limp;
         }
         let kappa = force * span.run * span.run / span.flexural_rigidity;
-        if kappa < TAUT_KAPPA {
+        if kappa < TUNING.taut_kappa {
             let terms = terms(kappa.abs());
             return Form::Stiff { kappa, terms, c: entire(kappa, terms) };
         }
@@ -265,7 +263,7 @@ impl Form {
                 near[0] = 1.0;
                 for n in 1..N {
                     let next = step * near[n - 1];
-                    if next < NOTHING {
+                    if next < TUNING.vanishing_layer {
                         break;
                     }
                     near[n] = next;
@@ -339,14 +337,8 @@ impl Form {
     }
 }
 
-/// Exponents of boundary layers beyond this no longer count: e^(−45) = 3e-20.
-const NEGLIGIBLE: f64 = 45.0;
-
-/// Shares of a boundary layer below this no longer count.
-const NOTHING: f64 = 1e-20;
-
 /// e^(−x), 0 where it no longer counts.
 #[inline]
 fn layer(x: f64) -> f64 {
-    if x > NEGLIGIBLE { 0.0 } else { (-x).exp() }
+    if x > TUNING.vanishing_exponent { 0.0 } else { (-x).exp() }
 }

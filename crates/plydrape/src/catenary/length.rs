@@ -7,7 +7,7 @@
 use super::basis::{Form, Sum};
 use super::jet::{Chain, Jet};
 use super::profile::Profile;
-use super::quadrature::{LONG, SHORT, Stretches, stretches};
+use super::quadrature::{Interval, LONG, SHORT, Stretches};
 use super::sums::{AllSum, ExcessSum, LengthSum, ToForce, UnknownsSum};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -33,19 +33,11 @@ impl<S: Sum> WithSimd for Integral<'_, S> {
 
     #[inline(always)]
     fn with_simd<T: Simd>(self, _: T) {
-        for stretch in self.stretches.iter() {
-            let width = (stretch.end - stretch.start) / stretch.panels as f64;
-            for panel in 0..stretch.panels {
-                let start = stretch.start + panel as f64 * width;
-                let width = width.min(self.end - start);
-                if width <= 0.0 {
-                    return;
-                }
-                if stretch.short {
-                    self.form.add_panel(&SHORT, start, width, self.sum);
-                } else {
-                    self.form.add_panel(&LONG, start, width, self.sum);
-                }
+        for Interval { start, width, short } in self.stretches.panels(self.end) {
+            if short {
+                self.form.add_panel(&SHORT, start, width, self.sum);
+            } else {
+                self.form.add_panel(&LONG, start, width, self.sum);
             }
         }
     }
@@ -62,7 +54,7 @@ impl Profile {
     /// machine has: the same operations in the same order, several points at a time.
     #[inline(always)]
     fn integrate_to(&self, end: f64, sum: &mut impl Sum) {
-        Arch::new().dispatch(Integral { form: &self.form, stretches: stretches(self), end, sum });
+        Arch::new().dispatch(Integral { form: &self.form, stretches: self.stretches(), end, sum });
     }
 
     /// Excess of the arc length over the chord, with its derivative to H alone.

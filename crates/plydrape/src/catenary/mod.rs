@@ -3,7 +3,7 @@
 //! Solves `H z'' − EI z'''' = q` in closed form, eq. (1) of `docs/theory/span.md`, after Krogh et al. 2018,
 //! eq. (2), for every sign of H: a short stiff span with slack is in compression. The files follow the
 //! derivation: [`Span`] states the problem, `profile` is the closed form at a given H, `length` its arc
-//! length with exact derivatives, `solve` finds the H of a given length, `shape` reads off the result.
+//! length with exact derivatives, `solve` finds the H of a given length, `shape` reads off the result. `tuning` holds every constant of the method.
 
 mod basis;
 mod decay;
@@ -16,6 +16,7 @@ mod shape;
 mod solve;
 mod station;
 mod sums;
+mod tuning;
 
 pub use jet::{Jet, Variable};
 pub(crate) use jet::{compose, power, product, variable};
@@ -24,6 +25,7 @@ pub use profile::Profile;
 pub use shape::Station;
 pub use solve::{Root, SpanState};
 pub use station::{Graded, Stations};
+pub use tuning::{TUNING, Tuning};
 
 /// A free length of ply between two ends in one vertical plane.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,6 +4,7 @@
 //! linear in (θ, ρ, s₁, s₂), so all first and second derivatives follow from the same small matrix.
 
 use super::basis::{Form, Values};
+use super::quadrature::{Stretches, Sweep};
 use super::{EndCondition, Span};
 
 /// Inner parameters of a span, in this order: shape χ, load ρ, chord slope θ, end slopes s₁, s₂.
@@ -180,6 +181,26 @@ impl Profile {
     pub fn end_slope(&self, end: usize) -> f64 {
         let [u, v, g] = self.form.slope(end as f64).value;
         self.theta + self.rho * g + self.amplitude[0] * u + self.amplitude[1] * v
+    }
+
+    /// Where the arc length of the span is sampled.
+    pub(super) fn stretches(&self) -> Stretches {
+        let [alpha, beta] = self.amplitude;
+        let load = self.rho.abs();
+        Stretches::new(match self.form {
+            Form::Taut { k, .. } => {
+                Sweep::Layered { k, load, amplitude: alpha.abs().max(beta.abs()) }
+            }
+            Form::Limp => Sweep::Even(load),
+            Form::Stiff { .. } => {
+                // how far the slope would sweep at its fastest, from nine samples
+                let t: [f64; 9] = std::array::from_fn(|n| n as f64 / 8.0);
+                let slope = |[u, v, g]: [f64; 3]| self.rho * g + alpha * u + beta * v;
+                let slopes = self.form.slopes(&t).map(slope);
+                let fastest = (1..9).map(|n| (slopes[n] - slopes[n - 1]).abs()).fold(0.0, f64::max);
+                Sweep::Even(8.0 * fastest)
+            }
+        })
     }
 
     /// Horizontal force H (N).

@@ -2,10 +2,9 @@
 //!
 //! The arc length integrand √(1+z'²) is analytic; what slows convergence is a boundary layer e^(−kt) and
 //! a slope that sweeps past ±1 (the branch points are at z' = ±i). Panels are cut so that neither
-//! happens within one.
+//! happens within one. How the slope behaves is all that is known here of a span: see [`Sweep`].
 
-use super::basis::Form;
-use super::profile::Profile;
+use super::tuning::{GRADES, TUNING};
 
 /// A Gauss–Legendre rule on [0, 1], its points ascending and symmetric.
 pub struct Rule<const P: usize> {
@@ -143,39 +142,41 @@ pub static LONG: Rule<32> = Rule {
     ],
 };
 
-/// Slope range that one panel takes to the last digits.
-const SWEEP: f64 = 3.0;
-
-/// Width in units of 1/k beyond which a boundary layer no longer counts: e^(−24) = 4e-11.
-const LAYER: f64 = 24.0;
-
-/// Where the layer's panel is cut if its amplitude is large, in units of 1/k.
-const GRADES: [f64; 3] = [3.0, 9.0, LAYER];
-
-/// k(0.6 + amplitude) up to which one panel of the long rule takes both layers of a span to about 1e-11.
-const SINGLE_PANEL: f64 = 55.0;
-
-/// The same of the short rule, with a slope that sweeps less than [`SHORT_SWEEP`].
-const SHORT_PANEL: f64 = 28.0;
-
-/// Slope range that the short rule takes to the last digits.
-const SHORT_SWEEP: f64 = 2.0;
-
-/// Amplitude up to which one panel takes a whole layer to about 1e-11.
-const WEAK_LAYER: f64 = 1.0;
+/// How the slope of a span behaves over its run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sweep {
+    /// It sweeps evenly, over so much if it did all along what it does at its fastest.
+    Even(f64),
+    /// A part that grows evenly by `load`, and boundary layers e^(−kt) and e^(−k(1−t)).
+    Layered {
+        /// k = ℓ√(H/EI).
+        k: f64,
+        /// Sweep of the even part.
+        load: f64,
+        /// Larger amplitude of the two layers.
+        amplitude: f64,
+    },
+}
 
 /// Most stretches that a span is cut into.
-const STRETCHES: usize = 2 * GRADES.len() + 1;
+const STRETCHES: usize = 2 * GRADES + 1;
 
-/// A stretch [start, end] of a span, cut into `panels` equal panels.
+/// A stretch [start, end] of a span, cut into equal panels.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Stretch {
+struct Stretch {
+    start: f64,
+    end: f64,
+    panels: usize,
+    short: bool,
+}
+
+/// A panel from t = `start` to `start + width`.
+#[derive(Debug, Clone, Copy)]
+pub struct Interval {
     /// First t.
     pub start: f64,
-    /// Last t.
-    pub end: f64,
-    /// Equal panels.
-    pub panels: usize,
+    /// Width in t.
+    pub width: f64,
     /// Whether the short rule does.
     pub short: bool,
 }
@@ -188,69 +189,64 @@ pub struct Stretches {
 }
 
 impl Stretches {
+    /// Where the arc length of a span is sampled whose slope behaves like this.
+    pub fn new(slope: Sweep) -> Stretches {
+        let mut out = Stretches::default();
+        let (k, load, amplitude) = match slope {
+            Sweep::Even(sweep) => {
+                out.push(0.0, 1.0, sweep);
+                return out;
+            }
+            Sweep::Layered { k, load, amplitude } => (k, load, amplitude),
+        };
+        let sharpness = k * (0.6 + amplitude);
+        if sharpness <= TUNING.single_panel {
+            out.push(0.0, 1.0, load + amplitude);
+            let even = load + amplitude <= TUNING.short_sweep;
+            out.list[0].short = sharpness <= TUNING.short_panel && even;
+            return out;
+        }
+        // a layer from each end, graded if it is strong, and what is between
+        let mut cuts = [0.0; GRADES + 1];
+        for (cut, width) in cuts[1..].iter_mut().zip(TUNING.layer_grades) {
+            *cut = (width / k).min(0.5);
+        }
+        let first = if amplitude <= TUNING.weak_layer { GRADES - 1 } else { 0 };
+        cuts[first] = 0.0;
+        let layer = &cuts[first..];
+        let sweep = |a: f64, b: f64| amplitude * (-k * a).exp() + load * (b - a);
+        for ab in layer.windows(2) {
+            out.push(ab[0], ab[1], sweep(ab[0], ab[1]));
+        }
+        let inner = layer[layer.len() - 1];
+        out.push(inner, 1.0 - inner, load);
+        for ab in layer.windows(2).rev() {
+            out.push(1.0 - ab[1], 1.0 - ab[0], sweep(ab[0], ab[1]));
+        }
+        out
+    }
+
     fn push(&mut self, start: f64, end: f64, sweep: f64) {
         if end <= start {
             return;
         }
-        // a slope of thousands is a fold that no quadrature needs to resolve
-        let panels = (sweep / SWEEP).ceil().clamp(1.0, 256.0) as usize;
+        let panels = (sweep / TUNING.sweep).ceil().clamp(1.0, TUNING.panels) as usize;
         self.list[self.count] = Stretch { start, end, panels, short: false };
         self.count += 1;
     }
 
-    /// The stretches, ascending.
-    pub fn iter(&self) -> impl Iterator<Item = &Stretch> {
-        self.list[..self.count].iter()
+    /// The panels up to t = `end`, ascending.
+    #[inline(always)]
+    pub fn panels(&self, end: f64) -> impl Iterator<Item = Interval> {
+        let panels = self.list[..self.count].iter().flat_map(move |stretch| {
+            let width = (stretch.end - stretch.start) / stretch.panels as f64;
+            (0..stretch.panels).map(move |panel| {
+                let start = stretch.start + panel as f64 * width;
+                Interval { start, width: width.min(end - start), short: stretch.short }
+            })
+        });
+        panels.take_while(|panel| panel.width > 0.0)
     }
-}
-
-/// Where the arc length of a span is sampled.
-pub fn stretches(profile: &Profile) -> Stretches {
-    let mut out = Stretches::default();
-    let rho = profile.rho.abs();
-    let [alpha, beta] = profile.amplitude.map(f64::abs);
-    let Form::Taut { k, .. } = profile.form else {
-        let sweep = match profile.form {
-            Form::Limp => rho,
-            _ => fastest_sweep(profile),
-        };
-        out.push(0.0, 1.0, sweep);
-        return out;
-    };
-    let amplitude = alpha.max(beta);
-    if k * (0.6 + amplitude) <= SINGLE_PANEL {
-        out.push(0.0, 1.0, rho + amplitude);
-        let easy = k * (0.6 + amplitude) <= SHORT_PANEL && rho + amplitude <= SHORT_SWEEP;
-        out.list[0].short = easy;
-        return out;
-    }
-    // a layer from each end, graded if it is strong, and what is between
-    let mut cuts = [0.0; GRADES.len() + 1];
-    for (cut, width) in cuts[1..].iter_mut().zip(GRADES) {
-        *cut = (width / k).min(0.5);
-    }
-    let first = if amplitude <= WEAK_LAYER { GRADES.len() - 1 } else { 0 };
-    cuts[first] = 0.0;
-    let layer = &cuts[first..];
-    let sweep = |a: f64, b: f64| amplitude * (-k * a).exp() + rho * (b - a);
-    for ab in layer.windows(2) {
-        out.push(ab[0], ab[1], sweep(ab[0], ab[1]));
-    }
-    let inner = layer[layer.len() - 1];
-    out.push(inner, 1.0 - inner, rho);
-    for ab in layer.windows(2).rev() {
-        out.push(1.0 - ab[1], 1.0 - ab[0], sweep(ab[0], ab[1]));
-    }
-    out
-}
-
-/// How far the slope would sweep over the whole span at its fastest, from nine samples.
-fn fastest_sweep(profile: &Profile) -> f64 {
-    let [alpha, beta] = profile.amplitude;
-    let t: [f64; 9] = std::array::from_fn(|n| n as f64 / 8.0);
-    let slope = |[u, v, g]: [f64; 3]| profile.rho * g + alpha * u + beta * v;
-    let slopes = profile.form.slopes(&t).map(slope);
-    8.0 * (1..9).map(|n| (slopes[n] - slopes[n - 1]).abs()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! compliance; for an inextensible span this is Newton's method on (L − chord)^(−1/2). A bracket keeps
 //! it on the hanging branch, from H = +∞ down to buckling.
 
+use super::tuning::TUNING;
 use super::{Excess, Profile, Span};
 
 /// How a span holds its length.
@@ -32,12 +33,6 @@ pub struct Root {
     pub residual: f64,
 }
 
-/// Evaluations after which the search gives up; bisection alone needs about 60.
-const MAX_EVALUATIONS: usize = 100;
-
-/// Relative step below which the next error is lost in rounding.
-const SMALL_STEP: f64 = 1e-9;
-
 /// Excess to reach, per run: e₀ + c H.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Goal {
@@ -61,7 +56,7 @@ impl Span {
     pub fn state(&self) -> SpanState {
         // a chord that equals the length but for rounding is taut, not hanging
         let slack = self.length - self.chord();
-        match (slack > 1e-13 * self.length, self.axial_stiffness.is_infinite()) {
+        match (slack > TUNING.slack * self.length, self.axial_stiffness.is_infinite()) {
             (true, _) => SpanState::Hanging,
             (false, true) => SpanState::Straight,
             (false, false) if slack < 0.0 => SpanState::Overstretched,
@@ -108,7 +103,7 @@ impl Span {
             force = step_up(low, low);
         }
         let mut residual = f64::INFINITY;
-        for evaluations in 1..=MAX_EVALUATIONS {
+        for evaluations in 1..=TUNING.evaluations {
             let excess = Profile::new(self, force).excess();
             let error = excess.value - goal.excess - goal.compliance * force;
             residual = (error * self.run / self.length).abs();
@@ -121,7 +116,9 @@ impl Span {
             // where the excess does not fall with H, or the step leaves the bracket: halve
             let falls = excess.to_force < 0.0 && next.is_finite();
             if !(falls && next > low && next < high) {
-                if falls && (next - force).abs() <= SMALL_STEP * (force - self.buckling_force()) {
+                if falls
+                    && (next - force).abs() <= TUNING.small_step * (force - self.buckling_force())
+                {
                     return Root { force: Some(force), state, evaluations, residual };
                 }
                 next = if high.is_infinite() { step_up(force, low) } else { 0.5 * (low + high) };
@@ -129,14 +126,14 @@ impl Span {
                     // the bracket has closed to neighbouring numbers
                     return Root { force: Some(force), state, evaluations, residual };
                 }
-            } else if (next - force).abs() <= SMALL_STEP * (next - self.buckling_force()) {
+            } else if (next - force).abs() <= TUNING.small_step * (next - self.buckling_force()) {
                 // quadratic convergence: the error of `next` is the square of this step
-                let error = residual * SMALL_STEP;
+                let error = residual * TUNING.small_step;
                 return Root { force: Some(next), state, evaluations, residual: error };
             }
             force = next;
         }
-        Root { force: Some(force), state, evaluations: MAX_EVALUATIONS, residual }
+        Root { force: Some(force), state, evaluations: TUNING.evaluations, residual }
     }
 }
 

@@ -7,7 +7,7 @@
 use super::basis::Values;
 use super::jet::Chain;
 use super::profile::{INNER, Profile, Response};
-use super::quadrature::{LONG, stretches};
+use super::quadrature::LONG;
 use super::{Span, Variable};
 
 /// A value with its gradient to the eight [`Variable`]s, the fabric length having no part in it.
@@ -66,22 +66,14 @@ impl Stations<'_> {
     #[must_use]
     pub fn arc(&self, t: f64) -> Graded {
         let (mut value, mut first) = (0.0, [0.0; INNER]);
-        for stretch in stretches(self.profile).iter() {
-            let width = (stretch.end - stretch.start) / stretch.panels as f64;
-            for panel in 0..stretch.panels {
-                let start = stretch.start + panel as f64 * width;
-                let width = width.min(t - start);
-                if width <= 0.0 {
-                    break;
-                }
-                for (s, weight) in LONG.t.iter().zip(&LONG.weight) {
-                    let basis = self.profile.form.slope(start + width * s);
-                    let slope = self.profile.local(&self.response, &basis, 1.0);
-                    let secant = slope.value.hypot(1.0);
-                    value += width * weight * secant;
-                    for n in 0..INNER {
-                        first[n] += width * weight * slope.value / secant * slope.first[n];
-                    }
+        for panel in self.profile.stretches().panels(t) {
+            for (s, weight) in LONG.t.iter().zip(&LONG.weight) {
+                let basis = self.profile.form.slope(panel.start + panel.width * s);
+                let slope = self.profile.local(&self.response, &basis, 1.0);
+                let (secant, weight) = (slope.value.hypot(1.0), panel.width * weight);
+                value += weight * secant;
+                for n in 0..INNER {
+                    first[n] += weight * slope.value / secant * slope.first[n];
                 }
             }
         }

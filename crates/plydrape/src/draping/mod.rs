@@ -291,7 +291,7 @@ impl<'a> Draping<'a> {
     }
 
     fn shear(&self) -> Vec<Option<CellShear>> {
-        let shearing = self.solver.assembly().shearing.iter().enumerate();
+        let shearing = self.solver.problem().shearing.iter().enumerate();
         let shear = |(cell, stretched): (usize, &Option<(f64, bool)>)| {
             let (path, falling) = (*stretched)?;
             let sides = self.scene.ply.sides(cell, &self.laid);
@@ -403,7 +403,7 @@ impl<'a> Draping<'a> {
     fn diagonal(&self, catenary: usize) -> Option<Diagonal> {
         let grid: Grid = self.scene.ply.grid;
         let cell = catenary.checked_sub(grid.edges())? / 2;
-        let shearing = self.solver.assembly().shearing[cell];
+        let shearing = self.solver.problem().shearing[cell];
         let sides = self.scene.ply.sides(cell, &self.laid);
         let shear = shearing.map_or(0.0, |(path, falling)| {
             CellShear { angle: shear::angle(sides, path), path, falling }.signed()

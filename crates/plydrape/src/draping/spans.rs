@@ -158,14 +158,14 @@ pub fn shape(
     laid: &[Option<Laid>],
 ) -> Shape {
     let grid = ply.grid;
-    let assembly = solver.assembly();
-    let mut elements = assembly.elements.iter().enumerate().peekable();
+    let problem = solver.problem();
+    let mut elements = problem.elements.iter().enumerate().peekable();
     let mut spans = Vec::with_capacity(2 * grid.catenaries());
     for catenary in 0..grid.catenaries() {
         let c = grid.catenary(catenary);
         let grippers = [c.from, c.to].map(|g| positions[grid.index(g)]);
         let stretched = (catenary >= grid.edges())
-            .then(|| assembly.shearing[(catenary - grid.edges()) / 2])
+            .then(|| problem.shearing[(catenary - grid.edges()) / 2])
             .flatten()
             .filter(|(_, falling)| *falling == (c.kind == Kind::Falling))
             .filter(|_| laid[catenary].is_none());
@@ -203,7 +203,7 @@ pub fn shape(
             if let Some((path, _)) = stretched {
                 span.length = path;
             } else if let Some((n, element)) =
-                elements.next_if(|(_, e)| e.catenary == catenary && e.rest == rest)
+                elements.next_if(|(_, e)| e.catenary == catenary && e.segment == rest)
             {
                 span.element = Some(n);
                 span.length = element.length;

@@ -1,183 +1,112 @@
 //! The paper's rule: shared slopes of the smallest norm of the horizontal forces, eq. (9) of
 //! `docs/theory/equilibrium.md`.
 //!
-//! With every length met, ½‖H‖² is a function of the shared slopes alone. Its gradient and Hessian are
-//! sums over elements: an edge sees two slopes; a diagonal sees the four edge slopes of its ends, of
-//! which the free ones follow their edge. Sequential quadratic programming on the slopes: `hessian`
-//! minimizes the quadratic model within the bounds by conjugate gradients, so that cost grows with the
-//! number of cells.
+//! With every length met, ½‖H‖² is a function of the shared slopes alone. The residual is its gradient and the matrix
+//! its Hessian, eq. (9b): sums over elements. An edge sees two slopes; a diagonal sees the four edge slopes of its
+//! ends, of which the free ones follow their edge. A step minimizes the quadratic model within the bounds, which is
+//! sequential quadratic programming on the slopes; its cost grows with the number of cells.
 
 use super::Number;
-use super::assembly::{Assembly, End, SlopeSource};
-use super::hessian::{assemble, bounded_step, solve_linear};
-use super::solver::{Solver, Work};
-use super::status::{EarlyEnds, Equilibrium, Status};
+use super::hessian::Hessian;
+use super::problem::{End, Problem, SlopeSource};
+use super::rule::{Iterate, Response, Rule, Step, Trial};
+use super::state::State;
+use super::status::EarlyEnds;
+use super::tuning::Tuning;
+use num_dual::Dual64;
 
-/// An element's force and end slopes with their derivatives to its own end slopes.
-#[derive(Debug, Clone, Copy)]
-pub struct Response<T> {
-    /// H and ∂H/∂s (N).
-    pub force: (T, [T; 2]),
-    /// End slopes and their derivatives.
-    pub slope: [(T, [T; 2]); 2],
+/// The rule of least forces.
+#[derive(Debug, Clone, Default)]
+pub struct MinForce {
+    /// Gradient of ½‖H‖² to the free end slopes of every edge element.
+    adjoint: Vec<[f64; 2]>,
+    hessian: Hessian,
+}
+
+impl Rule for MinForce {
+    fn residual(&mut self, problem: &Problem<f64>, state: &State, out: &mut [f64]) -> f64 {
+        self.adjoint.resize(problem.elements.len(), [0.0; 2]);
+        gradient(problem, |n| Response::from(state.element(n)), out, &mut self.adjoint);
+        state.half_square()
+    }
+
+    fn residual_change(&self, problem: &Problem<Dual64>, along: &[Response<Dual64>]) -> Vec<f64> {
+        let zero = Dual64::from(0.0);
+        let mut out = vec![zero; problem.shared_slopes().len()];
+        let mut adjoint = vec![[zero; 2]; problem.elements.len()];
+        gradient(problem, |n| along[n], &mut out, &mut adjoint);
+        out.iter().map(|g| g.eps).collect()
+    }
+
+    fn linearize(&mut self, problem: &Problem<f64>, state: &State) {
+        self.hessian.assemble(problem, state, &self.adjoint);
+    }
+
+    fn diagonal(&self, slope: usize) -> f64 {
+        self.hessian.diagonal(slope)
+    }
+
+    fn step(&mut self, from: &Iterate, step: &mut Step) {
+        // looser far away: a Newton step is worth no more digits than it will have
+        let Tuning { few_unknowns, linear_exact, linear_share, .. } = *from.tuning;
+        let [least, most] = from.tuning.linear_tolerance;
+        let few = from.slopes.len() <= few_unknowns;
+        let loose = (linear_share * from.last_step).clamp(least, most);
+        self.hessian.bounded_step(from, if few { linear_exact } else { loose }, step);
+    }
+
+    fn improves(&self, trial: &Trial, tuning: &Tuning) -> bool {
+        let ([before, after], [promise, _]) = (trial.merit, trial.work);
+        after <= before + tuning.decrease * promise + tuning.objective_rounding * before
+    }
+
+    fn respond(&mut self, change: &[f64], active: &[bool], tuning: &Tuning) -> (Vec<f64>, bool) {
+        let held = change.iter().zip(active);
+        let right: Vec<f64> = held.map(|(g, held)| if *held { 0.0 } else { -g }).collect();
+        let (mut out, mut ends) = (vec![0.0; right.len()], EarlyEnds::default());
+        let tolerance = tuning.tangent_tolerance;
+        let solved = self.hessian.solve(&right, active, tolerance, tuning, &mut ends, &mut out);
+        (out, solved)
+    }
 }
 
 /// Gradient of ½‖H‖² to the shared slopes (N²), and on the way its gradient to the free end slopes
 /// of every edge element.
-pub fn gradient<T: Number>(
-    assembly: &Assembly<T>,
+fn gradient<T: Number>(
+    problem: &Problem<T>,
     response: impl Fn(usize) -> Response<T>,
     out: &mut [T],
     adjoint: &mut [[T; 2]],
 ) {
     out.fill(T::from(0.0));
     adjoint.fill([T::from(0.0); 2]);
-    for (n, element) in assembly.elements.iter().enumerate().skip(assembly.edge_elements) {
+    for (n, element) in problem.elements.iter().enumerate().skip(problem.edge_elements) {
         let (force, slopes) = response(n).force;
         for end in 0..2 {
             let End::Plane(plane) = element.ends[end] else {
                 continue;
             };
-            let pull = force * slopes[end];
+            let weight = force * slopes[end];
             for (share, source) in plane.share.into_iter().zip(plane.source) {
                 match source {
                     SlopeSource::Given(_) => {}
-                    SlopeSource::Joint(joint) => out[joint] += pull * share,
-                    SlopeSource::Outcome(edge, end) => adjoint[edge][end] += pull * share,
+                    SlopeSource::Shared(shared) => out[shared] += weight * share,
+                    SlopeSource::Outcome(edge, end) => adjoint[edge][end] += weight * share,
                 }
             }
         }
     }
-    for (n, element) in assembly.elements[..assembly.edge_elements].iter().enumerate() {
+    for (n, element) in problem.elements[..problem.edge_elements].iter().enumerate() {
         for end in 0..2 {
-            let End::Joint(joint) = element.ends[end] else {
+            let End::Shared(shared) = element.ends[end] else {
                 continue;
             };
-            let Response { force: (force, slopes), slope } = response(n);
+            let Response { force: (force, slopes), slope, .. } = response(n);
             let mut sum = force * slopes[end];
             for other in 0..2 {
                 sum += adjoint[n][other] * slope[other].1[end];
             }
-            out[joint] += sum;
+            out[shared] += sum;
         }
     }
-}
-
-/// Derivative of the slopes for a change of the gradient: −B⁻¹ `change`, active bounds held. The Hessian B
-/// must have been assembled at the solution. Returns whether the system could be solved: where B is not
-/// positive the state is no strict minimum, and the slopes have no derivative.
-pub(super) fn respond(solver: &mut Solver, change: &[f64], out: &mut [f64]) -> bool {
-    let right: Vec<f64> =
-        change.iter().zip(&solver.work.active).map(|(g, a)| if *a { 0.0 } else { -g }).collect();
-    solve_linear(solver, &right, 1e-14, out)
-}
-
-impl Solver {
-    /// Evaluates every element, ½‖H‖² (N²) and its gradient.
-    fn evaluate(&mut self) -> f64 {
-        let (edges, all) = (self.assembly.edge_elements, self.assembly.elements.len());
-        self.evaluate_elements(0..edges);
-        self.evaluate_elements(edges..all);
-        let evaluated = &self.evaluated;
-        self.work.gradient.resize(self.slopes.len(), 0.0);
-        self.work.adjoint.resize(all, [0.0; 2]);
-        let response = |n: usize| Response {
-            force: (evaluated[n].force.value, evaluated[n].force.gradient),
-            slope: evaluated[n].slope.map(|s| (s.value, s.gradient)),
-        };
-        gradient(&self.assembly, response, &mut self.work.gradient, &mut self.work.adjoint);
-        0.5 * evaluated.iter().map(|s| s.force.value * s.force.value).sum::<f64>()
-    }
-
-    /// The gradient that is left at slopes that are not at their limits, as a change of slope: divided by the
-    /// diagonal of the Hessian.
-    fn slope_residual(&self) -> f64 {
-        let Work { gradient, diagonal, active, .. } = &self.work;
-        let left = gradient.iter().zip(diagonal).zip(active).map(|((g, d), active)| match active {
-            true => 0.0,
-            false if *d > 0.0 => (g / d).abs(),
-            false if *g == 0.0 => 0.0,
-            false => f64::INFINITY,
-        });
-        left.fold(0.0, f64::max)
-    }
-}
-
-/// Minimizes ½‖H‖² over the shared slopes.
-pub fn solve(solver: &mut Solver) -> Equilibrium {
-    let (count, bound) = (solver.slopes.len(), solver.bound());
-    let ended = |status, iterations, residual| Equilibrium {
-        status,
-        iterations,
-        residual,
-        length_residual: 0.0,
-        early_ends: EarlyEnds::default(),
-    };
-    let mut objective = solver.evaluate();
-    if count == 0 {
-        return ended(Status::Converged, 1, 0.0);
-    }
-    let tuning = solver.tuning;
-    let mut before = f64::INFINITY;
-    for iterations in 1.. {
-        solver.mark_active();
-        assemble(solver);
-        let residual = solver.slope_residual();
-        if iterations > tuning.iterations && residual > tuning.slope_tolerance {
-            return ended(Status::IterationLimit, iterations, residual);
-        }
-        if residual <= tuning.slope_tolerance {
-            if solver.is_sharp() {
-                return ended(Status::Converged, iterations, residual);
-            }
-            objective = solver.evaluate();
-            continue;
-        }
-        let mut step = std::mem::take(&mut solver.work.step);
-        let mut kept = std::mem::take(&mut solver.work.trial);
-        step.resize(count, 0.0);
-        kept.clear();
-        kept.extend_from_slice(&solver.work.gradient);
-        // looser far away: a Newton step is worth no more digits than it will have
-        let tolerance = if count <= 64 { 1e-13 } else { (0.01 * before).clamp(1e-12, 1e-4) };
-        bounded_step(solver, tolerance, &mut step);
-        let mut start = std::mem::take(&mut solver.work.start);
-        start.clear();
-        start.extend_from_slice(&solver.slopes);
-        let projected =
-            |fraction: f64, n: usize| (start[n] + fraction * step[n]).clamp(-bound, bound);
-        before = (0..count).map(|n| (projected(1.0, n) - start[n]).abs()).fold(0.0, f64::max);
-        let (mut accepted, mut fraction) = (false, 1.0);
-        while fraction > tuning.smallest_share {
-            solver.slopes.clear();
-            solver.slopes.extend((0..count).map(|n| projected(fraction, n)));
-            let way = solver.slopes.iter().zip(&start).map(|(s, start)| s - start);
-            let descent: f64 = kept.iter().zip(way).map(|(g, way)| g * way).sum();
-            let next = solver.evaluate();
-            let rounding = tuning.objective_rounding * objective;
-            if next <= objective + tuning.decrease * descent + rounding {
-                objective = next;
-                accepted = true;
-                break;
-            }
-            fraction *= 0.5;
-        }
-        if !accepted {
-            solver.slopes.clear();
-            solver.slopes.extend_from_slice(&start);
-            solver.evaluate();
-            solver.work.early_ends.line_searches += 1;
-        }
-        solver.work.step = step;
-        solver.work.start = start;
-        solver.work.trial = kept;
-        if !accepted {
-            // no descent left to find: converged as far as the objective can tell, or stalled
-            solver.mark_active();
-            let rounding = residual <= tuning.rounding_residual;
-            let status = if rounding { Status::Converged } else { Status::Stalled };
-            return ended(status, iterations, residual);
-        }
-    }
-    unreachable!("the loop ends at the limit of iterations")
 }

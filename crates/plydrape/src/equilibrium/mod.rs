@@ -1,31 +1,41 @@
 //! All horizontal forces and shared slopes of a ply at given gripper positions.
 //!
 //! Given the shared slopes, every edge force is a scalar root and the diagonals follow, so only the
-//! slopes are solved for together. `assembly` states what hangs where, `slopes` what holds it,
-//! `element` differentiates one span,
-//! `min_force` and `moment_balance` are the two rules for the slopes, eqs. (9) and (10) of
-//! `docs/theory/equilibrium.md`, and `tangent` is the exact derivative of the solved state along a `direction`.
-//! `status` says how a solve ended and `tuning` holds every constant of the method.
+//! slopes are solved for together. The files follow the method:
+//!
+//! - `problem` states what hangs where and what holds it, eqs. (6)–(8) of `docs/theory/ply.md`; no solve changes it.
+//! - `force` gives one element's force with its derivatives to the slopes that hold it, eq. (9a), and `state` all of
+//!   them at given shared slopes.
+//! - `rule` is what a rule for the slopes has to give, a residual and a step: `min_force`, eq. (9), with its `hessian`,
+//!   and `moment_balance`, eq. (10).
+//! - `newton` is the iteration of either rule, and `status` says how it ended.
+//! - `solver` goes from step to step, with a `memory` of earlier solutions, and by continuation where it must.
+//! - `sensitivity` is the exact derivative of a solved state along a `direction`, eq. (11).
+//! - `tuning` holds every constant of the method.
 
-mod assembly;
 mod direction;
-mod element;
+mod force;
 mod hessian;
+mod memory;
 mod min_force;
 mod moment_balance;
-mod slopes;
+mod newton;
+mod problem;
+mod rule;
+mod sensitivity;
 mod solver;
+mod state;
 mod status;
-mod tangent;
 mod tuning;
 
-pub use assembly::{
-    Assembly, Constraint, Element, End, Joint, PlaneSlope, Side, SlopeSource, heading, neighbours,
-};
 pub use direction::{Direction, Property};
+pub use problem::{
+    Constraint, Element, End, PlaneSlope, Problem, SharedSlope, Side, SlopeSource, Stretched,
+    heading, neighbours,
+};
+pub use sensitivity::{Linearized, StateTangent};
 pub use solver::Solver;
 pub use status::{EarlyEnds, Equilibrium, Status};
-pub use tangent::{Linearized, StateTangent};
 pub use tuning::Tuning;
 
 use num_dual::DualNum;

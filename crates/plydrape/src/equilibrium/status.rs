@@ -44,6 +44,28 @@ pub struct Equilibrium {
     pub early_ends: EarlyEnds,
 }
 
+impl Equilibrium {
+    /// A state that rests on another one: both must have converged.
+    #[must_use]
+    pub fn and(self, other: Equilibrium) -> Equilibrium {
+        Equilibrium {
+            status: if self.status == Status::Converged { other.status } else { self.status },
+            iterations: self.iterations + other.iterations,
+            residual: other.residual.max(self.residual),
+            length_residual: other.length_residual.max(self.length_residual),
+            early_ends: self.early_ends.plus(other.early_ends),
+        }
+    }
+
+    /// The next solve of a continuation: its outcome, with the iterations and early ends of all.
+    #[must_use]
+    pub fn then(self, next: Equilibrium) -> Equilibrium {
+        let mut early_ends = self.early_ends.plus(next.early_ends);
+        early_ends.continuation += 1;
+        Equilibrium { iterations: self.iterations + next.iterations, early_ends, ..next }
+    }
+}
+
 /// How often a part of a solve ended early or was replaced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct EarlyEnds {

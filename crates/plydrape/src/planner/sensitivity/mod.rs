@@ -121,14 +121,14 @@ struct State {
 
 impl State {
     fn new(solver: &Solver, positions: &[Point]) -> Self {
-        let (assembly, width) = (solver.assembly(), 3 * positions.len());
+        let (problem, width) = (solver.problem(), 3 * positions.len());
         let quantity = |value| Quantity { value, gradient: vec![0.0; width] };
         let slope = |gripper, d| solver.gripper_slope(positions, gripper, d).map(quantity);
         let slopes = (0..positions.len()).map(|n| [0, 1].map(|d| slope(n, d))).collect();
         State {
             width,
-            rows: vec![0.0; ROWS * assembly.elements.len() * width],
-            paths: assembly.shearing.iter().map(|s| s.map(|(path, _)| quantity(path))).collect(),
+            rows: vec![0.0; ROWS * problem.elements.len() * width],
+            paths: problem.shearing.iter().map(|s| s.map(|(path, _)| quantity(path))).collect(),
             slopes,
         }
     }

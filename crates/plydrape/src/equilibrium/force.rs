@@ -1,18 +1,15 @@
-//! One span of the ply with its force as a function of what holds it.
+//! The force of one span as a function of what holds it, eq. (9a) of `docs/theory/equilibrium.md`.
 //!
 //! The force H of a span is given implicitly by its length, C(H, x) = L − L_set(1 + H sec θ/EA) = 0.
 //! Its derivatives follow from those of C: `H_x = −C_x/C_H` and, differentiating once more,
 //! `H_xy = −(C_xy + C_Hx H_y + C_Hy H_x + C_HH H_x H_y)/C_H`.
 
-use super::Number;
-use super::assembly::{Element, End};
-use crate::catenary::{
-    EndCondition, Excess, Jet, Profile, Span, Variable, compose, power, product, variable,
-};
+use super::tuning::Tuning;
+use crate::catenary::{Excess, Jet, Profile, Span, Variable, compose, power, product, variable};
 
 /// What is needed of an element beside its force.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Wanted {
+pub struct Needs {
     /// Slopes at its ends.
     pub slope: [bool; 2],
     /// Curvatures at its ends.
@@ -21,10 +18,10 @@ pub struct Wanted {
     pub derivatives: bool,
 }
 
-impl Wanted {
+impl Needs {
     /// Whether all of another's needs are among these.
-    pub fn covers(self, other: Wanted) -> bool {
-        let all = |own: [bool; 2], wanted: [bool; 2]| (0..2).all(|n| own[n] || !wanted[n]);
+    pub fn cover(self, other: Needs) -> bool {
+        let all = |own: [bool; 2], needed: [bool; 2]| (0..2).all(|n| own[n] || !needed[n]);
         all(self.slope, other.slope)
             && all(self.curvature, other.curvature)
             && (self.derivatives || !other.derivatives)
@@ -60,23 +57,46 @@ impl<const M: usize> Default for Evaluated<M> {
     }
 }
 
-impl<T: Number> Element<T> {
-    /// The span at given end slopes; an empty list leaves the ends free.
-    pub fn span(&self, axial_stiffness: f64, slopes: &[f64]) -> Span {
-        let end = |n: usize| match (self.ends[n], slopes.get(n)) {
-            (End::Free, _) | (_, None) => EndCondition::Free,
-            (_, Some(slope)) => EndCondition::Slope(*slope),
-        };
-        Span {
-            run: self.run.re(),
-            rise: self.rise.re(),
-            length: self.length.re(),
-            ends: [end(0), end(1)],
-            weight: self.weight.re(),
-            flexural_rigidity: self.rigidity.re(),
-            axial_stiffness,
+impl Evaluated<2> {
+    /// The force at end slopes that are changed by `step`, by its second-order series.
+    pub fn force_at(&self, step: [f64; 2]) -> f64 {
+        series(&self.force, step)
+    }
+
+    /// Carries everything to end slopes that are changed by `step`, by second-order series; the length is to be
+    /// measured again.
+    pub fn carry(&mut self, step: [f64; 2]) {
+        let Evaluated { force, slope, curvature, carried, length_residual } = self;
+        for jet in [force].into_iter().chain(slope).chain(curvature) {
+            jet.value = series(jet, step);
+            for i in 0..2 {
+                jet.gradient[i] += jet.hessian[i][0] * step[0] + jet.hessian[i][1] * step[1];
+            }
+        }
+        *carried += step[0].abs().max(step[1].abs());
+        *length_residual = f64::NAN;
+    }
+
+    /// The values and derivatives of a wider evaluation at the same place.
+    pub fn refined(&self, jets: &Evaluated<7>) -> Evaluated<2> {
+        Evaluated {
+            force: jets.force.first(),
+            slope: jets.slope.map(|jet| jet.first()),
+            curvature: jets.curvature.map(|jet| jet.first()),
+            ..*self
         }
     }
+}
+
+/// Second-order series of a jet about its point.
+fn series(jet: &Jet<2>, step: [f64; 2]) -> f64 {
+    let [a, b] = step;
+    let [[aa, ab], [_, bb]] = jet.hessian;
+    jet.value
+        + jet.gradient[0] * a
+        + jet.gradient[1] * b
+        + 0.5 * (aa * a * a + bb * b * b)
+        + ab * a * b
 }
 
 /// The constraint C with derivatives to H, s₁, s₂ (`N` = 3) or to all eight variables (`N` = 8).
@@ -165,40 +185,29 @@ fn moved<const N: usize>(q: Jet<N>, step: f64) -> Jet<N> {
     out
 }
 
-/// Relative step of H over which the derivatives may be carried by their own derivatives. Their error is its
-/// square; it vanishes as the slopes converge, because H is then predicted ever better.
-const NEAR: f64 = 0.01;
-
-/// Relative step of H up to which the length measured before the step bounds the error after it: the steps
-/// contract quadratically.
-const SMALL_STEP: f64 = 1e-7;
-
-/// Relative step of H after which the error of the next force is lost in rounding.
-const EXACT_STEP: f64 = 3e-6;
-
-/// Evaluations of the length that a force close to the solution may take before it is searched anew.
-const FEW: usize = 4;
-
 /// Finds the force of a span near `force` (N) (`None`: from scratch) with its derivatives.
 pub fn evaluate<const N: usize, const M: usize>(
     span: &Span,
     force: Option<f64>,
-    wanted: Wanted,
+    needs: Needs,
+    tuning: &Tuning,
 ) -> Evaluated<M> {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let sound = |h: f64| h > pole && h.is_finite();
     let relative = |step: f64, h: f64| step.abs() / (h - pole).max(f64::MIN_POSITIVE);
-    let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| approach(span, span.first_guess()));
+    let mut h =
+        force.filter(|h| sound(*h)).unwrap_or_else(|| approach(span, span.first_guess(), tuning));
     let mut searched = false;
     let (profile, c, next) = loop {
         let profile = Profile::new(span, h);
         let (c, excess) = constraint::<N>(&profile, span);
         let next = span.advance(goal, h, excess);
-        let near = sound(next) && excess.to_force < 0.0 && relative(next - h, h) <= NEAR;
+        let near =
+            sound(next) && excess.to_force < 0.0 && relative(next - h, h) <= tuning.series_force;
         if near || searched {
             break (profile, c, if near { next } else { h });
         }
-        h = approach(span, h);
+        h = approach(span, h, tuning);
         searched = true;
     };
     // what the derivatives need is near enough; the force itself is taken to its last digits, because the
@@ -206,8 +215,8 @@ pub fn evaluate<const N: usize, const M: usize>(
     let error = |excess: f64, h: f64| excess - goal.excess - goal.compliance * h;
     let (mut last, mut measured) = (next - h, c.value.abs() / span.length);
     let mut next = next;
-    for _ in 0..FEW {
-        if relative(last, next) <= EXACT_STEP {
+    for _ in 0..tuning.force_steps {
+        if relative(last, next) <= tuning.exact_force {
             break;
         }
         let excess = Profile::new(span, next).excess();
@@ -220,15 +229,16 @@ pub fn evaluate<const N: usize, const M: usize>(
         next = better;
     }
     let step = next - h;
-    let length_residual = if relative(last, next) <= SMALL_STEP { measured } else { f64::NAN };
+    let length_residual =
+        if relative(last, next) <= tuning.small_force { measured } else { f64::NAN };
     let force = implicit::<N, M>(&moved(c, step), next);
     let carried = relative(step, h);
     let mut out = Evaluated { force, carried, length_residual, ..Evaluated::default() };
     for end in 0..2 {
-        if wanted.slope[end] {
+        if needs.slope[end] {
             out.slope[end] = follow(&moved(profile.end_slope_jet::<N>(end), step), &force);
         }
-        if wanted.curvature[end] {
+        if needs.curvature[end] {
             let curvature = moved(profile.end_curvature_jet::<N>(end), step);
             out.curvature[end] = follow(&curvature, &force);
         }
@@ -237,10 +247,15 @@ pub fn evaluate<const N: usize, const M: usize>(
 }
 
 /// Finds the force of a span that no unknown slope moves: no derivatives.
-pub fn evaluate_still(span: &Span, force: Option<f64>, wanted: Wanted) -> Evaluated<2> {
+pub fn evaluate_still(
+    span: &Span,
+    force: Option<f64>,
+    needs: Needs,
+    tuning: &Tuning,
+) -> Evaluated<2> {
     let mut out = Evaluated::default();
-    (out.force.value, out.length_residual) = meet_length(span, force);
-    if wanted.slope != [false; 2] {
+    (out.force.value, out.length_residual) = meet_length(span, force, tuning);
+    if needs.slope != [false; 2] {
         let profile = Profile::new(span, out.force.value);
         for end in 0..2 {
             out.slope[end].value = profile.end_slope(end);
@@ -251,11 +266,11 @@ pub fn evaluate_still(span: &Span, force: Option<f64>, wanted: Wanted) -> Evalua
 
 /// The force (N) that gives a span its length, from one close to it (`None`: from scratch), and the measured
 /// relative error of the length: at that force, or one contracting step before it.
-pub fn meet_length(span: &Span, force: Option<f64>) -> (f64, f64) {
+pub fn meet_length(span: &Span, force: Option<f64>, tuning: &Tuning) -> (f64, f64) {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let sound = |h: f64| h > pole && h.is_finite();
     let mut h = force.filter(|h| sound(*h)).unwrap_or_else(|| span.first_guess());
-    for _ in 0..FEW {
+    for _ in 0..tuning.force_steps {
         if !sound(h) {
             break;
         }
@@ -267,7 +282,7 @@ pub fn meet_length(span: &Span, force: Option<f64>) -> (f64, f64) {
         let step = next - h;
         let error = (excess.value - goal.excess - goal.compliance * h) * span.run / span.length;
         h = next;
-        if step.abs() <= SMALL_STEP * (h - pole) {
+        if step.abs() <= tuning.small_force * (h - pole) {
             return (h, error.abs());
         }
     }
@@ -283,17 +298,17 @@ pub fn length_residual(span: &Span, force: f64) -> f64 {
 }
 
 /// A force close enough to start from, by a few cheap steps from a guess.
-fn approach(span: &Span, guess: f64) -> f64 {
+fn approach(span: &Span, guess: f64, tuning: &Tuning) -> f64 {
     let (pole, goal) = (span.buckling_force(), span.goal());
     let mut h = guess;
-    for _ in 0..FEW - 1 {
+    for _ in 1..tuning.force_steps {
         if !(h > pole && h.is_finite()) {
             break;
         }
         let next = span.advance(goal, h, Profile::new(span, h).excess());
         let step = (next - h).abs() / (h - pole);
         h = next;
-        if step <= 3.0 * NEAR {
+        if step <= 3.0 * tuning.series_force {
             return h;
         }
     }

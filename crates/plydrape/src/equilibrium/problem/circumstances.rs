@@ -1,0 +1,184 @@
+//! What the equilibrium is asked for: a ply, its grippers' places and its contact with the mold.
+//!
+//! Everything that depends on a position or on the ply's numbers is a [`Number`], so that the same code gives
+//! the problem and its derivative along a direction.
+
+use super::element::{Element, End, class};
+use super::line::Line;
+use crate::catenary::SpanState;
+use crate::equilibrium::{Number, Tuning};
+use crate::ply::{Catenary, Grid, Kind, Laid, Ply};
+use crate::scene::{ContactEnd, Settings};
+
+/// The ply at given gripper positions, from which a [`super::Problem`] is built.
+pub struct Circumstances<'a, T> {
+    /// The ply.
+    pub ply: &'a Ply,
+    /// Rules of the model.
+    pub settings: &'a Settings,
+    /// Constants of the method.
+    pub tuning: &'a Tuning,
+    /// Positions of the grippers (m).
+    pub positions: &'a [[T; 3]],
+    /// What of each catenary is in contact.
+    pub laid: &'a [Option<Laid>],
+    /// What multiplies the ply's numbers: 1, but for their derivatives.
+    pub factors: Factors<T>,
+    /// Slopes at both ends of every element in the equilibrium without constraints, where it is known.
+    pub free: &'a [[T; 2]],
+    /// Whether shearing cells constrain slopes.
+    pub constrained: bool,
+}
+
+/// Factors on what a ply is, each for lines along u, lines along v and diagonals.
+#[derive(Debug, Clone, Copy)]
+pub struct Factors<T> {
+    /// On fabric lengths.
+    pub length: [T; 3],
+    /// On the weight.
+    pub weight: [T; 3],
+    /// On the flexural rigidity.
+    pub rigidity: [T; 3],
+}
+
+fn constant<T: Number>(p: [f64; 3]) -> [T; 3] {
+    p.map(T::from)
+}
+
+impl<T: Number> Circumstances<'_, T> {
+    /// The grid of grippers.
+    pub fn grid(&self) -> Grid {
+        self.ply.grid
+    }
+
+    fn ends(&self, c: &Catenary) -> [[T; 3]; 2] {
+        [c.from, c.to].map(|g| self.positions[self.grid().index(g)])
+    }
+
+    /// From the first gripper of a catenary to its second (m).
+    pub fn chord(&self, catenary: usize) -> [T; 3] {
+        let [from, to] = self.ends(&self.grid().catenary(catenary));
+        [0, 1, 2].map(|n| to[n] - from[n])
+    }
+
+    /// Sides of a cell as its diagonals measure it (m).
+    pub fn sides(&self, cell: usize) -> [T; 2] {
+        let [along_u, along_v, _] = self.factors.length;
+        let [a, b] = self.ply.sides(cell, self.laid);
+        [along_u * a, along_v * b]
+    }
+
+    /// Fabric length of a catenary in the flat ply (m).
+    pub fn flat_length(&self, kind: Kind) -> T {
+        self.factors.length[class(kind)] * self.ply.flat_length(kind)
+    }
+
+    /// Whether the lines of edges along a direction have bending stiffness.
+    pub fn is_rigid(&self, direction: usize) -> bool {
+        let kind = if direction == 0 { Kind::EdgeU } else { Kind::EdgeV };
+        self.ply.line(kind).flexural_rigidity > 0.0
+    }
+
+    /// Whether the free segment at an end of a catenary in contact hangs: it has not lain down, nor is it a fold.
+    pub fn hangs(&self, catenary: usize, laid: &Laid, end: usize) -> bool {
+        let place = self.ends(&self.grid().catenary(catenary))[end];
+        laid.hangs(end) && !laid.is_folded(end, place.map(|x| x.re()))
+    }
+
+    /// The straight line of the free segment at an end of a catenary, from its first to its second end.
+    pub fn segment_line(&self, catenary: usize, end: usize) -> Line<T> {
+        let ends = self.ends(&self.grid().catenary(catenary));
+        match &self.laid[catenary] {
+            None => Line::new(ends[0], ends[1]),
+            // one that lies, or has no length, has no direction of its own: it goes on as the contact segment ends
+            Some(laid)
+                if (laid.rest(end) <= 0.0 || laid.lying[end]) && laid.line.length() > 0.0 =>
+            {
+                let [a, b] = laid.end_piece(end).map(constant);
+                Line::new(a, b)
+            }
+            Some(laid) => {
+                // a touch at the very gripper has no direction: the other free segment leaves from there
+                let point = laid.line.length() <= 0.0 && laid.rest(end) <= 0.0;
+                if (end == 0) != point {
+                    Line::new(ends[0], constant(laid.point()[0]))
+                } else {
+                    Line::new(constant(laid.point()[1]), ends[1])
+                }
+            }
+        }
+    }
+
+    /// Taut path from end to end (m): straight, and along the mold where the ply lies.
+    pub fn taut_path(&self, catenary: usize) -> T {
+        let c = self.grid().catenary(catenary);
+        let ends = self.ends(&c);
+        match &self.laid[catenary] {
+            None => Line::new(ends[0], ends[1]).chord,
+            Some(laid) => {
+                let [a, b] = laid.point().map(constant);
+                let along = laid.line.length() + laid.arch[0] + laid.arch[1];
+                let factor = self.factors.length[class(c.kind)];
+                Line::new(ends[0], a).chord + Line::new(b, ends[1]).chord + factor * along
+            }
+        }
+    }
+
+    /// A span of a catenary along a line, with free ends.
+    pub fn element(
+        &self,
+        catenary: usize,
+        segment: usize,
+        line: &Line<T>,
+        length: T,
+    ) -> Element<T> {
+        let kind = self.grid().catenary(catenary).kind;
+        let (section, class) = (self.ply.line(kind), class(kind));
+        let mut element = Element {
+            catenary,
+            kind,
+            segment,
+            run: line.run,
+            rise: line.rise,
+            length,
+            weight: self.factors.weight[class] * (section.mass * self.settings.gravity),
+            rigidity: self.factors.rigidity[class] * section.flexural_rigidity,
+            ends: [End::Free; 2],
+            state: SpanState::Straight,
+        };
+        let longest = length.re().max(line.chord.re());
+        if line.run.re() > self.tuning.vertical_run * longest {
+            element.state = element.span(self.settings.axial_stiffness, &[]).state();
+        }
+        element
+    }
+
+    /// The free segment at an end of a catenary in contact; what holds it at its gripper is left free.
+    pub fn free_segment(
+        &self,
+        catenary: usize,
+        laid: &Laid,
+        end: usize,
+        line: &Line<T>,
+    ) -> Element<T> {
+        let kind = self.grid().catenary(catenary).kind;
+        let length = T::from(laid.rest(end)) * self.factors.length[class(kind)];
+        let mut element = self.element(catenary, end, line, length);
+        element.ends[1 - end] = self.contact_end(kind, laid, end, line);
+        element
+    }
+
+    /// What holds a free segment where it leaves the mold.
+    fn contact_end(&self, kind: Kind, laid: &Laid, end: usize, line: &Line<T>) -> End<T> {
+        match self.settings.contact.end {
+            ContactEnd::Free => End::Free,
+            ContactEnd::Tangent => {
+                let ([nx, ny, nz], heading) = (laid.normal[end], line.heading());
+                if self.ply.line(kind).flexural_rigidity == 0.0 || nz <= 0.0 {
+                    return End::Free;
+                }
+                End::Given((heading[0] * -nx + heading[1] * -ny) / nz)
+            }
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Straight lines between places, and the headings of the lines of edges in plan.
+
+use crate::equilibrium::Number;
+use crate::ply::Grid;
+
+/// A straight line from one place to another.
+#[derive(Clone, Copy)]
+pub struct Line<T> {
+    delta: [T; 2],
+    /// Horizontal length ℓ (m).
+    pub run: T,
+    /// Height of its second end above its first h (m).
+    pub rise: T,
+    /// Length √(ℓ²+h²) (m).
+    pub chord: T,
+}
+
+/// √(x²), which at 0 has the derivative 0.
+fn root<T: Number>(square: T) -> T {
+    if square.re() > 0.0 { square.sqrt() } else { T::from(0.0) }
+}
+
+impl<T: Number> Line<T> {
+    /// From one place to another (m).
+    pub fn new(from: [T; 3], to: [T; 3]) -> Line<T> {
+        let delta = [to[0] - from[0], to[1] - from[1]];
+        let rise = to[2] - from[2];
+        let square = delta[0] * delta[0] + delta[1] * delta[1];
+        Line { delta, run: root(square), rise, chord: root(square + rise * rise) }
+    }
+
+    /// Slope from the first end to the second; 0 if they coincide.
+    pub fn slope(&self) -> T {
+        if self.run.re() > 0.0 { self.rise / self.run } else { T::from(0.0) }
+    }
+
+    /// From the first end to the second (m).
+    pub fn vector(&self) -> [T; 3] {
+        [self.delta[0], self.delta[1], self.rise]
+    }
+
+    /// Horizontal unit vector from the first end to the second; zero if it is upright.
+    pub fn heading(&self) -> [T; 2] {
+        if self.run.re() > 0.0 { self.delta.map(|d| d / self.run) } else { [T::from(0.0); 2] }
+    }
+}
+
+/// The grippers before and behind one along a direction (0: u, 1: v); itself on the boundary.
+#[must_use]
+pub fn neighbours(grid: Grid, gripper: usize, direction: usize) -> [usize; 2] {
+    let [i, j] = grid.id(gripper);
+    let (index, count) = if direction == 0 { (i, grid.nu) } else { (j, grid.nv) };
+    let at = |k: usize| grid.index(if direction == 0 { [k, j] } else { [i, k] });
+    [at(index.saturating_sub(1)), at((index + 1).min(count - 1))]
+}
+
+/// Horizontal unit vector of the line through a gripper along a direction (0: u, 1: v): from the gripper
+/// before it to the one behind it.
+pub fn heading<T: Number>(
+    grid: Grid,
+    positions: &[[T; 3]],
+    gripper: usize,
+    direction: usize,
+) -> Option<[T; 2]> {
+    let [before, after] = neighbours(grid, gripper, direction);
+    let line = Line::new(positions[before], positions[after]);
+    (line.run.re() > 0.0).then(|| line.heading())
+}

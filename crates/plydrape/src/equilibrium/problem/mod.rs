@@ -1,0 +1,232 @@
+//! What hangs where: the free spans of a ply at given gripper positions, and what holds their ends.
+//!
+//! The slope rules of the paper (section 2.2), eqs. (6)–(8) of `docs/theory/ply.md`. [`Circumstances`] say what is asked
+//! for, `constraint` which slopes shearing cells prescribe, and `slopes` which ones are unknown.
+
+mod circumstances;
+mod constraint;
+mod element;
+mod line;
+mod slopes;
+
+pub use circumstances::{Circumstances, Factors};
+pub use constraint::{Constraint, Stretched};
+pub use element::{Element, End, PlaneSlope, SlopeSource};
+pub use line::{heading, neighbours};
+pub use slopes::{SharedSlope, Side};
+
+use super::Number;
+use crate::catenary::SpanState;
+use crate::ply::{Kind, shear};
+use slopes::Slopes;
+
+/// The free spans of a ply at given gripper positions. A solve does not change it.
+#[derive(Debug, Clone)]
+pub struct Problem<T> {
+    /// All free spans: those of edges first, then those of diagonals.
+    pub elements: Vec<Element<T>>,
+    /// Number of edge elements.
+    pub edge_elements: usize,
+    /// The stretched diagonal of each cell.
+    pub shearing: Vec<Stretched<T>>,
+    /// The plane that shearing cells prescribe at each gripper, where they do.
+    pub constraints: Vec<Option<Constraint<T>>>,
+    slopes: Slopes<T>,
+    is_rigid: [bool; 2],
+}
+
+impl<T> Default for Problem<T> {
+    fn default() -> Self {
+        Problem {
+            elements: Vec::new(),
+            edge_elements: 0,
+            shearing: Vec::new(),
+            constraints: Vec::new(),
+            slopes: Slopes::default(),
+            is_rigid: [true; 2],
+        }
+    }
+}
+
+impl<T: Number> Problem<T> {
+    /// States the problem anew, in place.
+    pub fn rebuild(&mut self, around: &Circumstances<T>) {
+        let grid = around.grid();
+        self.elements.clear();
+        self.is_rigid = [0, 1].map(|direction| around.is_rigid(direction));
+        self.shear(around);
+        constraint::constrain(around, &self.shearing, &mut self.constraints);
+        self.slopes.reset(grid.grippers());
+        for catenary in 0..grid.edges() {
+            self.edge(around, catenary);
+        }
+        self.edge_elements = self.elements.len();
+        self.slopes.hold_edges(around, &self.constraints, &mut self.elements);
+        for catenary in grid.edges()..grid.catenaries() {
+            self.diagonal(around, catenary);
+        }
+        if !around.constrained {
+            self.stretched_diagonals(around);
+        }
+    }
+
+    /// Which diagonal of each cell is stretched.
+    fn shear(&mut self, around: &Circumstances<T>) {
+        let grid = around.grid();
+        self.shearing.clear();
+        for cell in 0..grid.cells() {
+            let [rising, falling] = [0, 1].map(|n| around.taut_path(grid.edges() + 2 * cell + n));
+            let longer = if falling.re() > rising.re() { (falling, true) } else { (rising, false) };
+            let shears = shear::is_shearing(around.ply.sides(cell, around.laid), longer.0.re());
+            self.shearing.push(shears.then_some(longer));
+        }
+    }
+
+    /// The elements of an edge, and what its grippers see of it.
+    fn edge(&mut self, around: &Circumstances<T>, catenary: usize) {
+        let (grid, first) = (around.grid(), self.elements.len());
+        let c = grid.catenary(catenary);
+        let seen = [0, 1].map(|end| {
+            let line = around.segment_line(catenary, end);
+            match &around.laid[catenary] {
+                // one span from gripper to gripper
+                None if end == 0 => {
+                    let length = around.flat_length(c.kind);
+                    self.elements.push(around.element(catenary, 0, &line, length));
+                }
+                Some(laid) if around.hangs(catenary, laid, end) => {
+                    self.elements.push(around.free_segment(catenary, laid, end, &line));
+                }
+                _ => {}
+            }
+            let new = self.elements[first..].last();
+            let own = new.filter(|e| around.laid[catenary].is_none() || e.segment == end);
+            let side = match own {
+                Some(e) if e.state != SpanState::Straight => {
+                    Side::Hanging(self.elements.len() - 1, end)
+                }
+                _ => Side::Fixed(line.slope()),
+            };
+            (side, line.heading())
+        });
+        let grippers = [c.from, c.to].map(|g| grid.index(g));
+        self.slopes.see(grippers, usize::from(c.kind == Kind::EdgeV), seen);
+    }
+
+    /// The elements of a diagonal, unless it is stretched straight.
+    fn diagonal(&mut self, around: &Circumstances<T>, catenary: usize) {
+        let grid = around.grid();
+        let cell = (catenary - grid.edges()) / 2;
+        let kind = grid.catenary(catenary).kind;
+        let length = match self.shearing[cell] {
+            // once it has landed, its free segments are spans like any other
+            Some((_, falling))
+                if falling == (kind == Kind::Falling) && around.laid[catenary].is_none() =>
+            {
+                return;
+            }
+            Some((path, _)) => shear::partner_length(around.sides(cell), path),
+            None => around.flat_length(kind),
+        };
+        self.hang_diagonal(around, catenary, length);
+    }
+
+    /// The stretched diagonals as spans of the flat cell's length, behind all other elements.
+    ///
+    /// Just before the onset of shear a taut diagonal draws all slopes by its large force. Without constraints it
+    /// does so still, so that these slopes do not jump at the onset.
+    fn stretched_diagonals(&mut self, around: &Circumstances<T>) {
+        let grid = around.grid();
+        for cell in 0..grid.cells() {
+            if let Some((_, falling)) = self.shearing[cell] {
+                let catenary = grid.edges() + 2 * cell + usize::from(falling);
+                let flat = around.flat_length(grid.catenary(catenary).kind);
+                self.hang_diagonal(around, catenary, flat);
+            }
+        }
+    }
+
+    /// The elements of a diagonal of a given fabric length (m).
+    fn hang_diagonal(&mut self, around: &Circumstances<T>, catenary: usize, length: T) {
+        for segment in 0..2 {
+            let line = around.segment_line(catenary, segment);
+            let number = self.elements.len();
+            let held = |end: usize| {
+                let place = [number, end];
+                self.slopes.diagonal_end(around, &self.constraints, catenary, place, &line)
+            };
+            match &around.laid[catenary] {
+                None => {
+                    let mut element = around.element(catenary, 0, &line, length);
+                    element.ends = [held(0), held(1)];
+                    self.elements.push(element);
+                    return;
+                }
+                Some(laid) if around.hangs(catenary, laid, segment) => {
+                    let mut element = around.free_segment(catenary, laid, segment, &line);
+                    element.ends[segment] = held(segment);
+                    self.elements.push(element);
+                }
+                Some(_) => {}
+            }
+        }
+    }
+
+    /// Slope of the ply at a gripper along a direction (0: u, 1: v), `heading` in plan; none where the ply has no
+    /// edge in that direction. `free` and `held` are the slopes at both ends of an element, without constraints and with.
+    ///
+    /// That of the plane of the shearing cells, or the shared one; on the boundary that of the one edge; where two
+    /// edges keep slopes of their own (a limp ply, or one side in contact) their mean.
+    pub fn gripper_slope(
+        &self,
+        gripper: usize,
+        direction: usize,
+        heading: [T; 2],
+        free: impl Fn(usize) -> Option<[T; 2]>,
+        held: impl Fn(usize) -> Option<[T; 2]>,
+    ) -> Option<T> {
+        let sides = self.slopes.sides()[gripper][direction];
+        match self.constraints[gripper].filter(|_| self.is_rigid[direction]) {
+            Some(constraint) => Some(constraint.blend(mean(sides, free), heading)),
+            None => mean(sides, held),
+        }
+    }
+
+    /// Whether a gripper's slopes are still mixed with those of the unconstrained ply.
+    #[must_use]
+    pub fn is_partly_constrained(&self) -> bool {
+        self.constraints.iter().flatten().any(Constraint::is_partial)
+    }
+
+    /// The unknown slopes, line by line: u-lines first, each in ascending order.
+    #[must_use]
+    pub fn shared_slopes(&self) -> &[SharedSlope] {
+        self.slopes.shared()
+    }
+
+    /// The unknown slope of a gripper along a direction, if it has one.
+    #[must_use]
+    pub fn shared_slope(&self, gripper: usize, direction: usize) -> Option<usize> {
+        self.slopes.shared_at(gripper, direction)
+    }
+
+    /// The edges around each gripper: `[direction][before, after]`.
+    #[must_use]
+    pub fn sides(&self) -> &[[[Side<T>; 2]; 2]] {
+        self.slopes.sides()
+    }
+}
+
+/// Mean slope of the edges on both sides of a gripper, `ends` the slopes at both ends of an element.
+fn mean<T: Number>(sides: [Side<T>; 2], ends: impl Fn(usize) -> Option<[T; 2]>) -> Option<T> {
+    let (mut sum, mut count) = (T::from(0.0), 0.0);
+    for side in sides {
+        sum += match side {
+            Side::None => continue,
+            Side::Hanging(element, end) => ends(element)?[end],
+            Side::Fixed(slope) => slope,
+        };
+        count += 1.0;
+    }
+    (count > 0.0).then(|| sum / count)
+}

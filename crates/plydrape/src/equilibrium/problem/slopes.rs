@@ -1,0 +1,169 @@
+//! The slope rules of the paper (section 2.2): what holds the ends of edges and diagonals, eq. (8) of
+//! `docs/theory/ply.md`.
+//!
+//! A free slope on the boundary, a shared one inside, the plane through two edges for a diagonal, and the plane
+//! of a shearing cell for all that meet its stretched diagonal's grippers.
+
+use super::circumstances::Circumstances;
+use super::constraint::Constraint;
+use super::element::{Element, End, PlaneSlope, SlopeSource};
+use super::line::Line;
+use crate::equilibrium::Number;
+
+/// An unknown slope: that of a line of edges at a gripper, which two hanging edges share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SharedSlope {
+    /// Index of the gripper.
+    pub gripper: usize,
+    /// 0 along u, 1 along v.
+    pub direction: usize,
+    /// The elements that end and begin here.
+    pub elements: [usize; 2],
+}
+
+/// An edge of the ply on one side of a gripper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Side<T> {
+    /// The ply ends here.
+    None,
+    /// It hangs: this element, by this end.
+    Hanging(usize, usize),
+    /// It is straight or lies on the mold, at this slope.
+    Fixed(T),
+}
+
+/// How the edges meet at the grippers.
+#[derive(Debug, Clone)]
+pub struct Slopes<T> {
+    /// Unknown slopes, line by line: u-lines first, each in ascending order.
+    shared: Vec<SharedSlope>,
+    /// The unknown slope of each gripper along u and v.
+    shared_at: Vec<[Option<usize>; 2]>,
+    /// The edges around each gripper: `[direction][before, after]`.
+    sides: Vec<[[Side<T>; 2]; 2]>,
+    /// Heading of each edge at its two ends.
+    headings: Vec<[[T; 2]; 2]>,
+}
+
+impl<T> Default for Slopes<T> {
+    fn default() -> Self {
+        let (shared, shared_at) = (Vec::new(), Vec::new());
+        Slopes { shared, shared_at, sides: Vec::new(), headings: Vec::new() }
+    }
+}
+
+impl<T: Number> Slopes<T> {
+    /// Forgets all edges, for so many grippers.
+    pub fn reset(&mut self, grippers: usize) {
+        self.shared.clear();
+        self.headings.clear();
+        self.shared_at.clear();
+        self.shared_at.resize(grippers, [None; 2]);
+        self.sides.clear();
+        self.sides.resize(grippers, [[Side::None; 2]; 2]);
+    }
+
+    /// Notes what the grippers of the next edge see of it, and its headings there.
+    pub fn see(&mut self, grippers: [usize; 2], along: usize, seen: [(Side<T>, [T; 2]); 2]) {
+        for (end, gripper) in grippers.into_iter().enumerate() {
+            self.sides[gripper][along][1 - end] = seen[end].0;
+        }
+        self.headings.push(seen.map(|(_, heading)| heading));
+    }
+
+    /// Unknown slopes, line by line.
+    pub fn shared(&self) -> &[SharedSlope] {
+        &self.shared
+    }
+
+    /// The unknown slope of a gripper along a direction, if it has one.
+    pub fn shared_at(&self, gripper: usize, direction: usize) -> Option<usize> {
+        self.shared_at[gripper][direction]
+    }
+
+    /// The edges around each gripper: `[direction][before, after]`.
+    pub fn sides(&self) -> &[[[Side<T>; 2]; 2]] {
+        &self.sides
+    }
+
+    /// Holds the ends of all edges: by a slope that both sides of a gripper share, or by a shearing cell's plane.
+    pub fn hold_edges(
+        &mut self,
+        around: &Circumstances<T>,
+        constraints: &[Option<Constraint<T>>],
+        elements: &mut [Element<T>],
+    ) {
+        let grid = around.grid();
+        let lines = (0..grid.nv).map(|j| (0, j)).chain((0..grid.nu).map(|i| (1, i)));
+        for (direction, fixed) in lines.filter(|(direction, _)| around.is_rigid(*direction)) {
+            let count = if direction == 0 { grid.nu } else { grid.nv };
+            for moving in 0..count {
+                let id = if direction == 0 { [moving, fixed] } else { [fixed, moving] };
+                let gripper = grid.index(id);
+                let sides = self.sides[gripper][direction];
+                if let Some(constraint) = constraints[gripper] {
+                    for side in sides {
+                        if let Side::Hanging(element, end) = side {
+                            let heading = self.headings[elements[element].catenary][end];
+                            let free = around.free.get(element).map(|slopes| slopes[end]);
+                            let slope = constraint.blend(free, heading);
+                            elements[element].ends[end] = End::Given(slope);
+                        }
+                    }
+                } else if let [Side::Hanging(a, end_a), Side::Hanging(b, end_b)] = sides {
+                    let slope = self.shared.len();
+                    self.shared.push(SharedSlope { gripper, direction, elements: [a, b] });
+                    self.shared_at[gripper][direction] = Some(slope);
+                    elements[a].ends[end_a] = End::Shared(slope);
+                    elements[b].ends[end_b] = End::Shared(slope);
+                }
+            }
+        }
+    }
+
+    /// The end of a diagonal, which is to be element number `element`, along a line: the plane through the two edge
+    /// slopes of its cell at the gripper, or the plane of the shearing cells.
+    ///
+    /// Free where those edges are parallel in plan and define no plane, and in a limp ply.
+    pub fn diagonal_end(
+        &self,
+        around: &Circumstances<T>,
+        constraints: &[Option<Constraint<T>>],
+        catenary: usize,
+        [element, end]: [usize; 2],
+        line: &Line<T>,
+    ) -> End<T> {
+        let (grid, along) = (around.grid(), line.heading());
+        let c = grid.catenary(catenary);
+        if around.ply.line(c.kind).flexural_rigidity == 0.0 {
+            return End::Free;
+        }
+        let gripper = if end == 0 { c.from } else { c.to };
+        let g = grid.index(gripper);
+        if let Some(constraint) = constraints[g] {
+            let free = around.free.get(element).map(|slopes| slopes[end]);
+            return End::Given(constraint.blend(free, along));
+        }
+        let cell = (catenary - grid.edges()) / 2;
+        let (i, j) = (cell % (grid.nu - 1), cell / (grid.nu - 1));
+        // the cell's edges at this gripper: it stands at their start (0) or at their end (1)
+        let at = [gripper[0] - i, gripper[1] - j];
+        let edges = [grid.edge_u([i, gripper[1]]), grid.edge_v([gripper[0], j])];
+        let [u, v] = [self.headings[edges[0]][at[0]], self.headings[edges[1]][at[1]]];
+        let determinant = u[0] * v[1] - u[1] * v[0];
+        if determinant.re().abs() < around.tuning.parallel_edges {
+            return End::Free;
+        }
+        let share = [
+            (along[0] * v[1] - along[1] * v[0]) / determinant,
+            (u[0] * along[1] - u[1] * along[0]) / determinant,
+        ];
+        let source = [0, 1].map(|d| match (self.shared_at[g][d], self.sides[g][d][1 - at[d]]) {
+            (Some(slope), _) => SlopeSource::Shared(slope),
+            (None, Side::Hanging(element, end)) => SlopeSource::Outcome(element, end),
+            (None, Side::Fixed(slope)) => SlopeSource::Given(slope),
+            (None, Side::None) => SlopeSource::Given(T::from(0.0)),
+        });
+        End::Plane(PlaneSlope { share, source })
+    }
+}
