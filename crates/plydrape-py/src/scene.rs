@@ -220,7 +220,8 @@ impl Scene {
     ///     title: Name for reports, unless it stays.
     ///
     /// Raises:
-    ///     ValueError: If the shapes do not fit, a number is not finite, or times do not ascend.
+    ///     ValueError: If the shapes do not fit, times do not ascend, a coordinate is not a number up to 10⁶ m, or
+    ///         neighbours stand (all but) straight above each other, where the model has no solution.
     ///
     /// Example:
     ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
@@ -236,27 +237,16 @@ impl Scene {
     ) -> PyResult<Scene> {
         let times = list(&times, "times")?;
         let positions = steps(&positions, "positions", self.0.ply.grid.grippers())?;
-        if times.len() != positions.len() || times.is_empty() {
-            return Err(PyValueError::new_err(format!(
-                "there are {} times and {} steps of positions; as many of both are wanted, at least one",
-                times.len(),
-                positions.len()
-            )));
-        }
-        if let Some(n) = (1..times.len()).find(|n| times[*n] <= times[n - 1]) {
-            return Err(PyValueError::new_err(format!(
-                "times[{n}] is {} s, not after {} s before it; times ascend",
-                times[n],
-                times[n - 1]
-            )));
-        }
+        let motion = Motion { times, positions };
+        let fault = self.0.ply.check_motion(&motion);
+        fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
         let mut scene = (*self.0).clone();
         scene.input = None;
         scene.plan_refusal = None;
         if let Some(title) = title {
             scene.title = title;
         }
-        scene.motion = Motion { times, positions };
+        scene.motion = motion;
         Ok(scene.into())
     }
 

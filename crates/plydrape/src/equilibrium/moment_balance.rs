@@ -113,7 +113,9 @@ impl Solver {
         let largest = (0..count).map(|n| row(self, n)[1].abs()).fold(0.0, f64::max);
         while !solve_linear(self, &right, shift, &mut ratio, &mut step) {
             self.work.early_ends.negative_curvatures += u32::from(shift == 0.0);
-            if shift > self.tuning.largest_shift * largest {
+            // no shift grows from zero or beyond infinity
+            let grows = largest > 0.0 && largest.is_finite();
+            if !grows || shift > self.tuning.largest_shift * largest {
                 self.work.early_ends.damping_limits += 1;
                 break;
             }
