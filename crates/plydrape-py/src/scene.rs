@@ -7,6 +7,7 @@ use crate::ply::Ply;
 use crate::{error, table};
 use plydrape::scene::Motion;
 use plydrape_io::scene::{self, SceneFile};
+use plydrape_io::{shown, size};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -240,6 +241,14 @@ impl Scene {
         let motion = Motion { times, positions };
         let fault = self.0.ply.check_motion(&motion);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
+        size::drape(&self.0.ply, motion.times.len())
+            .map_err(|fault| PyValueError::new_err(format!("{fault}; {}", fault.remedy())))?;
+        if let Some(found) = title.as_deref().and_then(shown::control) {
+            return Err(PyValueError::new_err(format!(
+                "title holds the control character {}: remove it, one line of plain text is wanted",
+                found.escape_unicode()
+            )));
+        }
         let mut scene = (*self.0).clone();
         scene.input = None;
         scene.plan_refusal = None;
