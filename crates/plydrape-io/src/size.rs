@@ -25,13 +25,13 @@ const UNITS: [(&str, f64); 8] = [
 ];
 
 /// Memory that a catenary of a step of a result takes (bytes), in memory and while its files are made.
-const CATENARY: f64 = 6e3;
+const CATENARY: f64 = 5e3;
 /// Memory that a gripper of a step takes (bytes).
-const GRIPPER: f64 = 2e3;
+const GRIPPER: f64 = 1e3;
 /// Memory that a triangle of a mold takes while a mesh is built (bytes).
 const TRIANGLE: f64 = 500.0;
 /// Memory per byte of a result file that is read and made into something else.
-const RESULT: f64 = 6.0;
+const RESULT: f64 = 4.0;
 
 /// Why work is refused before it is begun.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
