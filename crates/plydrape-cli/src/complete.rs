@@ -22,7 +22,9 @@ pub struct Man {}
 pub fn completions(arguments: &Completions) -> Done {
     let mut text = Vec::new();
     clap_complete::generate(arguments.shell, &mut Cli::command(), "plydrape", &mut text);
-    io::stdout().write_all(&text)?;
+    let mut out = io::stdout().lock();
+    out.write_all(&text)?;
+    out.flush()?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -30,6 +32,8 @@ pub fn completions(arguments: &Completions) -> Done {
 pub fn man(_: &Man) -> Done {
     let mut text = Vec::new();
     clap_mangen::Man::new(Cli::command()).render(&mut text)?;
-    io::stdout().write_all(&text)?;
+    let mut out = io::stdout().lock();
+    out.write_all(&text)?;
+    out.flush()?;
     Ok(ExitCode::SUCCESS)
 }

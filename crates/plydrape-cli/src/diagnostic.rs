@@ -5,9 +5,10 @@ use miette::{
     SourceCode, SourceSpan, SpanContents,
 };
 use plydrape_io::scene::SceneError;
+use plydrape_io::shown;
 use std::fmt;
-use std::io;
-use std::path::Path;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// What a subcommand returns: an exit code, or why it could not go on.
@@ -54,9 +55,16 @@ pub enum Failure {
     /// A result file was refused.
     #[error(transparent)]
     Read(#[from] plydrape_io::read::ReadError),
-    /// Standard output could not be written.
-    #[error("the output cannot be written: {0}")]
-    Stdout(#[from] io::Error),
+    /// Standard output could not be written; the files are.
+    #[error("standard output cannot be written: {reason}")]
+    Stdout {
+        /// What kind of fault it is.
+        kind: io::ErrorKind,
+        /// What the system says.
+        reason: String,
+        /// The files that were written before.
+        files: Vec<PathBuf>,
+    },
 }
 
 impl Failure {
@@ -74,25 +82,39 @@ impl Failure {
         Failure::Output { file: file.display().to_string(), reason, help: help.into() }
     }
 
+    /// Standard output that could not be written, after these files were.
+    pub fn stdout(error: &io::Error, files: &[PathBuf]) -> Self {
+        let (kind, reason) = (error.kind(), error.to_string());
+        Failure::Stdout { kind, reason, files: files.to_vec() }
+    }
+
     /// Shows the failure on standard error and gives its exit code.
     pub fn report(&self) -> ExitCode {
         // A reader that has seen enough, such as `head`, is no failure.
-        if let Failure::Stdout(error) = self
-            && error.kind() == io::ErrorKind::BrokenPipe
-        {
+        if matches!(self, Failure::Stdout { kind: io::ErrorKind::BrokenPipe, .. }) {
             return ExitCode::SUCCESS;
         }
-        eprint!("{}", Rendered(self));
+        // where standard error cannot be written either, the exit code is all that can be said
+        let _ = write!(io::stderr(), "{}", Rendered(&Shown(self)));
         ExitCode::from(match self {
             Failure::NoSolution { .. } => 3,
+            Failure::Stdout { .. } => 4,
             _ => 2,
         })
     }
 }
 
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Failure::stdout(&error, &[])
+    }
+}
+
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
-        Failure::Scene(Box::new(Refused(error)))
+        let text = shown::blanked(&error.text).into();
+        let file = shown::name(&error.file);
+        Failure::Scene(Box::new(Refused(SceneError { text, file, ..error })))
     }
 }
 
@@ -104,7 +126,20 @@ impl Diagnostic for Failure {
             | Failure::NoSolution { help, .. }
             | Failure::Output { help, .. } => Some(Box::new(help)),
             Failure::Read(refused) => Some(Box::new(refused.remedy())),
-            Failure::Plan(_) | Failure::Results(_) | Failure::Stdout(_) => None,
+            Failure::Stdout { files, .. } => Some(Box::new(match files[..] {
+                [] => "give it a place with room, as in > FILE; no file was written".to_owned(),
+                [ref file] => format!("`{}` is written and complete", file.display()),
+                [ref first, ..] => {
+                    let names = files.iter().filter_map(|file| file.file_name());
+                    let names: Vec<_> = names.map(|name| name.to_string_lossy()).collect();
+                    let folder = first.parent().unwrap_or(Path::new("")).display();
+                    format!(
+                        "the result files are written and complete: {} in `{folder}`",
+                        names.join(", ")
+                    )
+                }
+            })),
+            Failure::Plan(_) | Failure::Results(_) => None,
         }
     }
 
@@ -124,8 +159,39 @@ impl Diagnostic for Failure {
     }
 }
 
+/// A failure whose words hold no control characters, whatever names of files are in them.
+#[derive(Debug)]
+struct Shown<'a>(&'a Failure);
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&shown::escaped(&self.0.to_string()))
+    }
+}
+
+impl std::error::Error for Shown<'_> {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.0.source()
+    }
+}
+
+impl Diagnostic for Shown<'_> {
+    fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
+        let help = self.0.help()?.to_string();
+        Some(Box::new(shown::escaped(&help)))
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.0.source_code()
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.0.labels()
+    }
+}
+
 /// A failure drawn by miette, with colours only on a terminal that wants them.
-struct Rendered<'a>(&'a Failure);
+struct Rendered<'a>(&'a Shown<'a>);
 
 impl fmt::Display for Rendered<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -39,6 +39,7 @@ Exit codes:
   1    done, but a limit of the scene is exceeded
   2    bad input: the message names the file, the line and the remedy
   3    no solution was found
+  4    standard output could not be written; the message says which files are
   130  interrupted";
 
 #[derive(Debug, Subcommand)]

@@ -2,9 +2,10 @@
 
 use crate::diagnostic::{Done, Failure};
 use plydrape_io::scene::TEMPLATE;
-use std::fs::{self, File};
-use std::io::{self, Write};
-use std::path::PathBuf;
+use plydrape_io::shown;
+use std::fs;
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Write a commented scene to start from.
@@ -22,15 +23,40 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     } else {
         name.join("scene.toml")
     };
-    if let Some(folder) = file.parent() {
-        fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
+    let folder = file.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    let made = !folder.exists();
+    fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
+    if let Err(error) = put(&file, folder) {
+        if made {
+            // only an empty folder goes, and only the one made here
+            let _ = fs::remove_dir(folder);
+        }
+        return Err(Failure::output(&file, &error));
     }
-    File::create_new(&file)
-        .and_then(|mut new| new.write_all(TEMPLATE.as_bytes()))
-        .map_err(|error| Failure::output(&file, &error))?;
     if !quiet {
-        let shown = file.display();
-        writeln!(io::stdout(), "{shown} is written; next: plydrape check {shown}")?;
+        let shown = shown::path(&file);
+        let mut out = io::stdout().lock();
+        writeln!(out, "{shown} is written; next: plydrape check {shown}")
+            .map_err(|error| Failure::stdout(&error, &[file]))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes the scene whole or not at all: beside its place, then moved there if nothing is in the way.
+fn put(file: &Path, folder: &Path) -> io::Result<()> {
+    if file.symlink_metadata().is_ok() {
+        return Err(ErrorKind::AlreadyExists.into());
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".plydrape-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // as any new file: what the umask leaves of it
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut new = builder.tempfile_in(folder)?;
+    new.write_all(TEMPLATE.as_bytes())?;
+    new.as_file().sync_all()?;
+    new.persist_noclobber(file).map(drop).map_err(|fault| fault.error)
 }

@@ -10,7 +10,7 @@ use plydrape::planner::obstacles::obstacles;
 use plydrape::planner::{self, Memory, Planned, Progress};
 use plydrape::scene::PlanMethod;
 use plydrape_io::scene::{SceneError, SceneFile};
-use plydrape_io::{Folder, NAMES, ResultFile, plan, table};
+use plydrape_io::{Folder, NAMES, ResultFile, input, plan, table};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -186,6 +186,9 @@ fn scene(arguments: &Arguments) -> Result<SceneFile, Failure> {
     Ok(scene)
 }
 
+/// Largest plan.json that is read (bytes).
+const LARGEST_MEMORY: u64 = 1 << 30;
+
 /// What an earlier search left in its folder.
 fn memory(folder: &Path) -> Result<Memory, Failure> {
     let file = folder.join("plan.json");
@@ -193,7 +196,7 @@ fn memory(folder: &Path) -> Result<Memory, Failure> {
         message: format!("there is no plan to go on from in `{}`: {reason}", folder.display()),
         help: help.into(),
     };
-    let text = std::fs::read_to_string(&file).map_err(|error| {
+    let text = input::text(&file, LARGEST_MEMORY).map_err(|error| {
         let help = "--continue takes the folder of an earlier `plydrape plan`, with its plan.json";
         refused(format!("plan.json cannot be read, {error}"), help)
     })?;

@@ -1,15 +1,20 @@
 //! What every command that leaves a folder of results takes, and how it prints what it found.
 
 use crate::diagnostic::Failure;
-use plydrape_io::{OutputError, json};
+use plydrape_io::{OutputError, json, shown};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Prints the files that were written.
-pub fn list(files: &[PathBuf]) -> io::Result<()> {
+pub fn list(files: &[PathBuf]) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
-    files.iter().try_for_each(|file| writeln!(out, "wrote {}", file.display()))
+    wrote(&mut out, files).map_err(|error| Failure::stdout(&error, files))
+}
+
+fn wrote(out: &mut impl Write, files: &[PathBuf]) -> io::Result<()> {
+    files.iter().try_for_each(|file| writeln!(out, "wrote {}", shown::path(file)))?;
+    out.flush()
 }
 
 /// The scene, and where its results go.
@@ -42,16 +47,16 @@ impl Results {
         text: &str,
         files: &[PathBuf],
     ) -> Result<(), Failure> {
+        let json = match self.json {
+            true => Some(json::of(object).map_err(OutputError::from)?),
+            false => None,
+        };
         let mut out = io::stdout().lock();
-        if self.json {
-            write!(out, "{}", json::of(object).map_err(OutputError::from)?)?;
-        } else if !quiet {
-            writeln!(out, "{text}")?;
-            for file in files {
-                writeln!(out, "wrote {}", file.display())?;
-            }
-        }
-        out.flush()?;
-        Ok(())
+        let written = match json {
+            Some(json) => write!(out, "{json}").and_then(|()| out.flush()),
+            None if quiet => Ok(()),
+            None => writeln!(out, "{text}").and_then(|()| wrote(&mut out, files)),
+        };
+        written.map_err(|error| Failure::stdout(&error, files))
     }
 }

@@ -10,6 +10,8 @@ pub struct Arguments {}
 
 /// Prints the schema.
 pub fn run(_: &Arguments) -> Done {
-    io::stdout().write_all(plydrape_io::scene::schema().as_bytes())?;
+    let mut out = io::stdout().lock();
+    out.write_all(plydrape_io::scene::schema().as_bytes())?;
+    out.flush()?;
     Ok(ExitCode::SUCCESS)
 }

@@ -9,7 +9,12 @@ use std::fmt::{self, Display};
 
 /// Refuses a value that holds a NaN or an infinity.
 pub(super) fn check<T: Serialize + ?Sized>(value: &T) -> Result<(), JsonError> {
-    let mut walk = Walk::default();
+    within(value, f64::MAX)
+}
+
+/// Refuses a value that holds a NaN, or a number beyond `most` in size.
+pub(super) fn within<T: Serialize + ?Sized>(value: &T, most: f64) -> Result<(), JsonError> {
+    let mut walk = Walk { path: Vec::new(), most };
     value.serialize(&mut walk).map_err(|fault| match fault {
         Fault::Number(value) => JsonError::NotFinite { key: walk.key(), value },
         Fault::Other(what) => JsonError::Serde(ser::Error::custom(what)),
@@ -24,9 +29,10 @@ enum Part {
 }
 
 /// The path to where the serializer is; left standing at the first fault.
-#[derive(Default)]
 struct Walk {
     path: Vec<Part>,
+    /// Largest number in size.
+    most: f64,
 }
 
 impl Walk {
@@ -44,7 +50,7 @@ impl Walk {
     }
 
     fn number(&self, value: f64) -> Result<(), Fault> {
-        if value.is_finite() { Ok(()) } else { Err(Fault::Number(value)) }
+        if value.abs() <= self.most { Ok(()) } else { Err(Fault::Number(value)) }
     }
 
     fn at<T: Serialize + ?Sized>(&mut self, part: Part, value: &T) -> Result<(), Fault> {

@@ -6,7 +6,8 @@
 //! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
 //! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`]: everything else is made from a result;
 //! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan; [`table`] prints for people;
-//! 5. [`folder`] writes files whole or not at all.
+//! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
+//!    the memory.
 
 pub mod csv;
 mod error;
@@ -17,6 +18,7 @@ pub mod folder;
 pub mod formula;
 pub mod ground;
 pub mod inp;
+pub mod input;
 pub mod json;
 mod manifest;
 pub mod mesh;
@@ -28,6 +30,8 @@ pub mod read;
 pub mod result;
 pub mod ros2;
 pub mod scene;
+pub mod shown;
+pub mod size;
 pub mod surface;
 pub mod table;
 pub mod vtk;

@@ -160,7 +160,8 @@ impl Equilibria {
 ///     One equilibrium a row; those not found say so in `converged`.
 ///
 /// Raises:
-///     ValueError: If the shape does not fit or a number is not finite.
+///     ValueError: If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbours stand (all but)
+///         straight above each other, where the model has no solution; it names the row.
 ///
 /// Example:
 ///     >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
@@ -182,6 +183,10 @@ pub fn equilibria(
 ) -> PyResult<Equilibria> {
     let (fresh, ply) = (solver.fresh(), solver.ply());
     let positions = steps(&positions, "positions", ply.grid.grippers())?;
+    for (n, places) in positions.iter().enumerate() {
+        let fault = ply.check_places(places);
+        fault.map_err(|fault| PyValueError::new_err(format!("positions[{n}]: {fault}")))?;
+    }
     let pool = pool(threads)?;
     let grid = ply.grid;
     let found = run(py, progress, move |watch| {

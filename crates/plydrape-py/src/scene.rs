@@ -7,6 +7,7 @@ use crate::ply::Ply;
 use crate::{error, table};
 use plydrape::scene::Motion;
 use plydrape_io::scene::{self, SceneFile};
+use plydrape_io::{shown, size};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -220,7 +221,8 @@ impl Scene {
     ///     title: Name for reports, unless it stays.
     ///
     /// Raises:
-    ///     ValueError: If the shapes do not fit, a number is not finite, or times do not ascend.
+    ///     ValueError: If the shapes do not fit, times do not ascend, a coordinate is not a number up to 10⁶ m, or
+    ///         neighbours stand (all but) straight above each other, where the model has no solution.
     ///
     /// Example:
     ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
@@ -236,18 +238,15 @@ impl Scene {
     ) -> PyResult<Scene> {
         let times = list(&times, "times")?;
         let positions = steps(&positions, "positions", self.0.ply.grid.grippers())?;
-        if times.len() != positions.len() || times.is_empty() {
+        let motion = Motion { times, positions };
+        let fault = self.0.ply.check_motion(&motion);
+        fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
+        size::drape(&self.0.ply, motion.times.len())
+            .map_err(|fault| PyValueError::new_err(format!("{fault}; {}", fault.remedy())))?;
+        if let Some(found) = title.as_deref().and_then(shown::control) {
             return Err(PyValueError::new_err(format!(
-                "there are {} times and {} steps of positions; as many of both are wanted, at least one",
-                times.len(),
-                positions.len()
-            )));
-        }
-        if let Some(n) = (1..times.len()).find(|n| times[*n] <= times[n - 1]) {
-            return Err(PyValueError::new_err(format!(
-                "times[{n}] is {} s, not after {} s before it; times ascend",
-                times[n],
-                times[n - 1]
+                "title holds the control character {}: remove it, one line of plain text is wanted",
+                found.escape_unicode()
             )));
         }
         let mut scene = (*self.0).clone();
@@ -256,7 +255,7 @@ impl Scene {
         if let Some(title) = title {
             scene.title = title;
         }
-        scene.motion = Motion { times, positions };
+        scene.motion = motion;
         Ok(scene.into())
     }
 

@@ -145,7 +145,8 @@ impl Solver {
     ///     check: Whether an equilibrium that was not found is an error, or just says so in its `status`.
     ///
     /// Raises:
-    ///     ValueError: If the shape does not fit or a number is not finite.
+    ///     ValueError: If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbours stand (all
+    ///         but) straight above each other, where the model has no solution.
     ///     SolveError: If no equilibrium was found.
     ///
     /// Example:
@@ -156,12 +157,8 @@ impl Solver {
     fn solve(&self, positions: Table<'_>, check: bool) -> PyResult<Equilibrium> {
         let positions = points(&positions, "positions")?;
         let mut state = self.state();
-        let count = state.ply.grid.grippers();
-        if positions.len() != count {
-            let text =
-                format!("there are {} positions; the ply has {count} grippers", positions.len());
-            return Err(PyValueError::new_err(text));
-        }
+        let fault = state.ply.check_places(&positions);
+        fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
         let laid = Arc::clone(&state.laid);
         let outcome = state.solver.solve(&positions, &laid);
         if check && outcome.status != Status::Converged {

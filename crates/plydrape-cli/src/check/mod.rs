@@ -10,6 +10,7 @@ use crate::numbers::{degrees, millimetres, short};
 use plydrape::material::{Material, Section, ShearCurve};
 use plydrape::ply::Direction;
 use plydrape_io::scene::SceneFile;
+use plydrape_io::shown;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -39,7 +40,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         out.flush()?;
     }
     for warning in warnings::warnings(&scene) {
-        eprintln!("warning: {warning}");
+        // standard error that cannot be written is no fault of the scene
+        let _ = writeln!(io::stderr(), "warning: {}", shown::escaped(&warning.to_string()));
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -4,6 +4,7 @@ mod broken_scenes;
 mod check;
 mod commands;
 mod common;
+mod doors;
 mod export;
 mod net;
 mod plan;

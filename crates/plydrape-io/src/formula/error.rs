@@ -3,6 +3,9 @@
 use plydrape::mold::formula::FUNCTIONS;
 use std::ops::Range;
 
+/// Most bytes of a formula: its value is found anew at every point, with all of its operations.
+pub(super) const MOST_TEXT: usize = 10_000;
+
 /// Units that a formula might be taken to need.
 const LENGTHS: [&str; 4] = ["mm", "cm", "m", "in"];
 
@@ -46,6 +49,9 @@ pub enum FormulaFault {
     /// A function without brackets behind it.
     #[error("`{0}` has no argument in brackets")]
     Argument(String),
+    /// More text than any surface needs.
+    #[error("the formula is {0} characters long; {MOST_TEXT} are the most")]
+    Long(usize),
     /// Brackets in brackets in brackets.
     #[error("the formula is nested too deeply")]
     Depth,
@@ -89,6 +95,7 @@ impl FormulaFault {
             FormulaFault::Operator(_) => "write products with a star, as in 2*x".into(),
             FormulaFault::Bracket => "open and close as many round brackets".into(),
             FormulaFault::Argument(name) => format!("write {name}(…), as in {name}(x)"),
+            FormulaFault::Long(_) => "give a height grid or a mesh instead".into(),
             FormulaFault::Depth => "write it with fewer brackets in brackets".into(),
         }
     }

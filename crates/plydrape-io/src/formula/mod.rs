@@ -5,6 +5,7 @@ mod parser;
 #[cfg(test)]
 mod tests;
 
+use error::MOST_TEXT;
 pub use error::{FormulaError, FormulaFault};
 
 use plydrape::mold::formula::Formula;
@@ -18,6 +19,9 @@ use plydrape::mold::formula::Formula;
 /// # Errors
 /// Where the text is no formula, and why.
 pub fn read(text: &str) -> Result<Formula, FormulaError> {
+    if text.len() > MOST_TEXT {
+        return Err(FormulaError { at: 0..text.len(), fault: FormulaFault::Long(text.len()) });
+    }
     let depth = || FormulaError { at: 0..text.len(), fault: FormulaFault::Depth };
     Formula::new(text, parser::program(text)?).ok_or_else(depth)
 }

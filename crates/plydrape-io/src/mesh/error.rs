@@ -1,5 +1,6 @@
 //! What can be wrong with a mesh file or its surface.
 
+use crate::size::SizeError;
 use plydrape::mold::MeshError;
 
 /// Why a mesh file cannot serve as a mold. Lines and numbers count from 1, places are in metres.
@@ -143,6 +144,38 @@ pub enum MeshFileError {
         /// The parts there are.
         known: String,
     },
+    /// A face has so many corners that cutting it into triangles would take too long.
+    #[error("{file}, line {line}: face {number} has {corners} corners; {most} are the most")]
+    Corners {
+        /// The file.
+        file: String,
+        /// The line.
+        line: usize,
+        /// The face.
+        number: u64,
+        /// Its corners.
+        corners: usize,
+        /// Most corners of a face.
+        most: usize,
+    },
+    /// All faces together would take too long to cut.
+    #[error(
+        "{file}: its faces of up to {corners} corners would take too long to cut into triangles"
+    )]
+    Cutting {
+        /// The file.
+        file: String,
+        /// Corners of its largest face.
+        corners: usize,
+    },
+    /// The mesh would not fit the memory that is allowed.
+    #[error("{file}: {source}")]
+    Size {
+        /// The file.
+        file: String,
+        /// What is too large.
+        source: SizeError,
+    },
     /// What the file holds is no mold.
     #[error("{file}: {source}")]
     Mesh {
@@ -168,6 +201,10 @@ impl MeshFileError {
             MeshFileError::NodeTwice { .. } => "give it a number of its own".into(),
             MeshFileError::Keyword { remedy, .. } => (*remedy).into(),
             MeshFileError::Part { known, .. } => format!("parts are {known}"),
+            MeshFileError::Corners { .. } | MeshFileError::Cutting { .. } => {
+                "export the surface as triangles or quadrilaterals".into()
+            }
+            MeshFileError::Size { source, .. } => source.remedy().into(),
             MeshFileError::Mesh { source, .. } => source.remedy(),
             _ => "correct the file, or export the mold's surface anew".into(),
         }

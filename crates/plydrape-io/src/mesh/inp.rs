@@ -9,6 +9,7 @@ use super::MeshFileError;
 use super::element::surface;
 use super::instance::{Placing, turned};
 use super::text::Lines;
+use crate::size;
 use plydrape::mold::mesh::Soup;
 use std::collections::HashMap;
 
@@ -339,6 +340,17 @@ impl Reader<'_> {
     fn soup(self) -> Result<Soup, MeshFileError> {
         let mut soup = Soup::new("element");
         let Reader { file, flat, parts, instances, .. } = self;
+        // an instance is a line, and all elements of its part once more
+        let triangles = |scope: &Scope| -> f64 {
+            scope.elements.iter().map(|element| element.count as f64 - 2.0).sum()
+        };
+        let of_parts: Vec<f64> = parts.iter().map(triangles).collect();
+        let mut all = triangles(&flat);
+        for instance in &instances {
+            all += instance.part.map_or(0.0, |part| of_parts[part]) + triangles(&instance.own);
+        }
+        let too_large = |source| MeshFileError::Size { file: file.to_owned(), source };
+        size::mesh(all).map_err(too_large)?;
         add(&mut soup, file, &flat, &Placing::default())?;
         for instance in &instances {
             if let Some(part) = instance.part {

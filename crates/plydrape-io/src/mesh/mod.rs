@@ -10,9 +10,13 @@ mod text;
 
 pub use error::MeshFileError;
 
+use crate::size;
 use plydrape::mold::mesh::{Mesh, MeshReport};
 use plydrape::mold::{MeshError, Pose};
 use std::path::Path;
+
+/// Largest mesh file that is read (bytes).
+pub(crate) const LARGEST: u64 = 1 << 30;
 
 /// Reads a mesh from an STL, OBJ or Abaqus file, told by the end of its name.
 ///
@@ -23,7 +27,7 @@ use std::path::Path;
 pub fn read(path: &Path, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), MeshFileError> {
     let file = path.display().to_string();
     let unreadable = |source| MeshFileError::Unreadable { file: file.clone(), source };
-    let bytes = std::fs::read(path).map_err(unreadable)?;
+    let bytes = crate::input::bytes(path, LARGEST).map_err(unreadable)?;
     parse(&file, &bytes, scale, pose)
 }
 
@@ -37,6 +41,7 @@ pub fn parse(
     scale: f64,
     pose: &Pose,
 ) -> Result<(Mesh, MeshReport), MeshFileError> {
+    let too_large = |source| MeshFileError::Size { file: file.to_owned(), source };
     let no_mold = |source| MeshFileError::Mesh { file: file.to_owned(), source };
     let extension = Path::new(file).extension().unwrap_or_default().to_string_lossy();
     if bytes.trim_ascii().is_empty() && !extension.is_empty() {
@@ -52,5 +57,6 @@ pub fn parse(
             return Err(MeshFileError::Format { file, extension });
         }
     };
+    size::mesh(soup.triangles.len() as f64).map_err(too_large)?;
     Mesh::of_soup(soup, scale, pose).map_err(no_mold)
 }

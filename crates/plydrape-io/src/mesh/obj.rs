@@ -4,6 +4,10 @@ use super::MeshFileError;
 use super::text::Lines;
 use plydrape::mold::mesh::Soup;
 
+/// Most corners of a face: a cut looks at every corner from every other, so its time grows with their cube.
+const MOST_CORNERS: usize = 1000;
+/// Most looks of all cuts, cubes of corners summed; they take about a minute.
+const MOST_CUTS: f64 = 2e10;
 /// Statements that say nothing about the surface.
 const IGNORED: [&str; 20] = [
     "vt",
@@ -83,6 +87,24 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Soup, MeshFileError> {
     }
     if !continued.is_empty() {
         return Err(lines.ends("the line after `\\`"));
+    }
+
+    // how long the cutting takes is known before the first cut
+    let (mut start, mut largest, mut cuts) = (0, 0, 0.0);
+    for (&(line, end), number) in faces.iter().zip(1..) {
+        let corners = end - start;
+        if corners > MOST_CORNERS {
+            let file = file.to_owned();
+            return Err(MeshFileError::Corners { file, line, number, corners, most: MOST_CORNERS });
+        }
+        largest = largest.max(corners);
+        if corners > 4 {
+            cuts += (corners as f64).powi(3);
+        }
+        start = end;
+    }
+    if cuts > MOST_CUTS {
+        return Err(MeshFileError::Cutting { file: file.to_owned(), corners: largest });
     }
 
     let mut start = 0;

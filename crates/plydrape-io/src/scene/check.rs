@@ -8,9 +8,11 @@ use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::trajectory::trajectory;
 use super::{SceneFile, material, mold, named, start, target};
+use crate::{shown, size};
 use plydrape::mold::Mold;
 use plydrape::ply::{Direction, Grid, Ply};
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Settings, SlopeRule, Stepping, Target};
+use std::ops::Range;
 use std::path::Path;
 
 /// Most grippers along u or v.
@@ -51,9 +53,10 @@ pub(super) fn scene(
         base,
     };
     let motion = places.motion(file, target.as_ref())?;
+    places.fits(&file.ply.grippers.span, motion.positions.len())?;
     let limits = limits(&file.limits, &ply, &settings, document)?;
     let plan = plan(&file.plan, ply.grid, document)?;
-    let title = file.title.clone().unwrap_or_else(|| title(document, base));
+    let title = title(file.title.as_ref(), document, base)?;
     Ok(SceneFile {
         scene: Scene { title, ply, mold, motion, target, settings, limits, plan },
         input: Some(document.text.clone()),
@@ -63,12 +66,32 @@ pub(super) fn scene(
     })
 }
 
-/// The file's name without its ending; its folder's, if the file is just `scene.toml`.
-pub(super) fn title(document: &Document, base: &Path) -> String {
+/// The title that is given, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.
+pub(super) fn title(
+    given: Option<&Located<String>>,
+    document: &Document,
+    base: &Path,
+) -> Result<String, SceneError> {
+    if let Some(given) = given {
+        return line(given, document);
+    }
     let stem = Path::new(&document.file).file_stem().unwrap_or_default();
-    match base.file_name() {
-        Some(folder) if stem == "scene" => folder.to_string_lossy().into_owned(),
-        _ => stem.to_string_lossy().into_owned(),
+    let name = match base.file_name() {
+        Some(folder) if stem == "scene" => folder,
+        _ => stem,
+    };
+    Ok(shown::name(&name.to_string_lossy()))
+}
+
+/// A text for people, of one line: control characters would move the cursor of a terminal.
+pub(super) fn line(text: &Located<String>, document: &Document) -> Result<String, SceneError> {
+    match shown::control(&text.value) {
+        None => Ok(text.value.clone()),
+        Some(found) => Err(document.error(
+            text.span.clone(),
+            format!("this text holds the control character {}", found.escape_unicode()),
+            "remove it: one line of plain text is wanted",
+        )),
     }
 }
 
@@ -117,6 +140,12 @@ pub(super) struct Surroundings<'a> {
 }
 
 impl Surroundings<'_> {
+    /// Refuses a drape of so many steps if its result would be too large; `span` is what the scene says of that.
+    pub fn fits(&self, span: &Range<usize>, steps: usize) -> Result<(), SceneError> {
+        size::drape(self.ply, steps)
+            .map_err(|fault| self.document.error(span.clone(), fault.to_string(), fault.remedy()))
+    }
+
     fn motion(&self, file: &SceneKeys, target: Option<&Target>) -> Result<Motion, SceneError> {
         let &Surroundings { ply, document, base, .. } = self;
         let from_file = file.motion.as_ref().filter(|m| m.value.kind == MotionKind::File);
@@ -151,6 +180,11 @@ impl Surroundings<'_> {
             }
         };
         start::check(&start, self)?;
+        if let Some(steps) = file.motion.as_ref().and_then(|table| table.value.steps.as_ref()) {
+            // before so many positions are made
+            let Count(count) = steps.value;
+            self.fits(&steps.span, usize::try_from(count).unwrap_or(0))?;
+        }
         motion(file.motion.as_ref(), &start, target, ply, document)
     }
 }

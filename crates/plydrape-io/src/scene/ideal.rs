@@ -56,6 +56,6 @@ pub(super) fn ideal_drape(
     let net = target::net(table, &ply, &mold, document)?;
     let limits = limits(&file.limits, &ply, &Settings::default(), document)?;
     let shear_limit = limits.shear;
-    let title = file.title.clone().unwrap_or_else(|| title(document, base));
+    let title = title(file.title.as_ref(), document, base)?;
     Ok(IdealDrape { title, ply, mold, net, shear_limit })
 }

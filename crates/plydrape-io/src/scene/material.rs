@@ -1,5 +1,6 @@
 //! A material by name, by file or in place.
 
+use super::check::line;
 use super::choice::MaterialChoice;
 use super::error::{Document, SceneError};
 use super::file::{MaterialTable, ShearCurveTable};
@@ -7,6 +8,7 @@ use super::located::Located;
 use super::quantity::{Measure, Quantity};
 use super::read;
 use super::units::Dimension;
+use crate::shown;
 use plydrape::material::{Material, Section, ShearCurve};
 use std::ops::Range;
 use std::path::Path;
@@ -110,9 +112,12 @@ fn from_table(
         Some(curve) => Some(shear_curve(curve, document)?),
         None => None,
     };
-    let mut source = table.source.clone().unwrap_or_else(|| "stated in the scene".into());
+    let given =
+        |text: &Option<Located<String>>| text.as_ref().map(|text| line(text, document)).transpose();
+    let mut source = given(&table.source)?.unwrap_or_else(|| "stated in the scene".into());
     let locking_angle = match (&table.locking_angle, &table.locking_test) {
         (Some(angle), Some(test)) => {
+            let test = line(test, document)?;
             source = format!("{source}; locking angle: {test}");
             angle.positive(document)?;
             Some(angle.below_right_angle(document)?)
@@ -127,7 +132,7 @@ fn from_table(
         (None, _) => None,
     };
     Ok(Material {
-        name: table.name.clone().unwrap_or_else(|| name.into()),
+        name: given(&table.name)?.unwrap_or_else(|| shown::name(name)),
         source,
         section: section(table, document, place)?,
         shear_curve,

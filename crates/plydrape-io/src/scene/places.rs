@@ -7,15 +7,12 @@ use super::located::Located;
 use super::quantity::rounded;
 use super::read;
 use super::units::Dimension;
-use plydrape::ply::{Grid, GripperId, Kind, Ply};
+use plydrape::ply::{Grid, GripperId, Kind, PlaceError, Ply};
 use std::ops::Range;
 use std::path::Path;
 
 /// Largest coordinate of a gripper (m).
 const FARTHEST: f64 = 1e4;
-/// Least horizontal distance of neighbours as a share of the fabric between them: a span has no
-/// solution straight up.
-const STEEPEST: f64 = 0.01;
 /// A chord this much longer than its fabric, as a share, is taut and not too long.
 const TAUT: f64 = 1e-9;
 
@@ -93,16 +90,10 @@ impl Places {
         })
     }
 
-    /// Refuses neighbours (all but) straight above each other.
+    /// Refuses what [`Ply::check_places`] does, neighbours (all but) straight above each other above all.
     pub fn check_run(&self, ply: &Ply, when: &str) -> Result<(), SceneError> {
-        for_neighbours(ply, |kind, a, b| {
-            let length = ply.flat_length(kind);
-            let (from, to) = self.pair(ply.grid, a, b);
-            let run = norm([to[0] - from[0], to[1] - from[1], 0.0]);
-            if run >= STEEPEST * length {
-                return Ok(());
-            }
-            Err(self.error(
+        ply.check_places(&self.points).map_err(|fault| match fault {
+            PlaceError::Steep { a, b, run, length, .. } => self.error(
                 ply.grid.index(b),
                 format!(
                     "grippers {a:?} and {b:?} are only {:.3} mm apart in plan {when}; the ply between them is {:.2} mm",
@@ -110,7 +101,13 @@ impl Places {
                     length * 1e3
                 ),
                 "move them apart: a span needs a horizontal distance of 1 % of its fabric or more",
-            ))
+            ),
+            PlaceError::Far { gripper, position, .. } => self.error(
+                ply.grid.index(gripper),
+                format!("gripper {gripper:?} is at {position:?} m {when}, out of all scale"),
+                "coordinates are finite numbers: is the unit right?",
+            ),
+            other => self.document.error_anywhere(other.to_string(), "give every gripper one position"),
         })
     }
 

@@ -2,18 +2,15 @@
 
 use super::complaint;
 use super::error::{Document, SceneError};
+use crate::input;
 use serde::de::DeserializeOwned;
-use std::fs::File;
-use std::io::Read;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Largest TOML file that is read (bytes).
 pub(super) const LARGEST_TOML: u64 = 16 << 20;
 /// Largest CSV file that is read (bytes).
 pub(super) const LARGEST_CSV: u64 = 1 << 30;
-
-/// Largest mesh file that is read (bytes).
-pub(super) const LARGEST_MESH: u64 = 1 << 30;
 
 /// Reads a file, named `name` in messages.
 pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, SceneError> {
@@ -24,21 +21,16 @@ pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, Sc
             "name the file inside it, e.g. scene.toml",
         ));
     }
-    let mut bytes = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(largest + 1).read_to_end(&mut bytes));
-    if let Err(error) = read {
-        return Err(nothing.error_anywhere(
-            format!("`{name}` cannot be read: {}", reason(&error)),
-            format!("looked for {}", path.display()),
-        ));
-    }
-    if bytes.len() as u64 > largest {
-        return Err(nothing.error_anywhere(
+    input::bytes(path, largest).map_err(|error| match error.kind() {
+        ErrorKind::FileTooLarge => nothing.error_anywhere(
             format!("`{name}` is larger than {} MiB", largest >> 20),
             "is it the right file? large tables of gripper positions belong into a CSV file",
-        ));
-    }
-    Ok(bytes)
+        ),
+        _ => nothing.error_anywhere(
+            format!("`{name}` cannot be read: {}", reason(&error)),
+            format!("looked for {}", path.display()),
+        ),
+    })
 }
 
 /// Reads a text file, named `name` in messages.

@@ -2,6 +2,7 @@
 
 mod constraint;
 mod curved;
+mod doors;
 mod draping;
 mod equilibrium;
 mod examples;

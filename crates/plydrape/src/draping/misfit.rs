@@ -34,16 +34,16 @@ impl Misfit {
     /// Fabric beyond the way (m), not negative.
     #[must_use]
     pub fn slack(&self) -> f64 {
-        // what rounding leaves of a taut line is none
+        // what rounding leaves of a taut line is none; what is no number stays it
         let slack = self.excess();
-        if slack > 1e-12 * self.whole { slack } else { 0.0 }
+        if slack <= 1e-12 * self.whole { 0.0 } else { slack }
     }
 
     /// Way beyond the fabric (m), not negative.
     #[must_use]
     pub fn overstretch(&self) -> f64 {
         let short = -self.excess();
-        if short > 1e-12 * self.whole { short } else { 0.0 }
+        if short <= 1e-12 * self.whole { 0.0 } else { short }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Where the grippers are: apart from each other, and within the workspace of their robot.
 
 use super::spans::Point;
-use crate::measure::{Found, Site};
+use crate::measure::{Found, Sense, Site};
 use crate::mold::distance;
 
 /// What rounding puts outside a box is inside (m).
@@ -36,16 +36,18 @@ pub(crate) fn outside(positions: &[Point], workspace: [[f64; 2]; 3]) -> Option<F
     let beyond = |point: &Point| {
         let excess = |n: usize| {
             let [from, to] = workspace[n];
-            (from - point[n]).max(point[n] - to).max(0.0)
+            // NaN is within no bounds, and stays
+            if (from..=to).contains(&point[n]) { 0.0 } else { (from - point[n]).max(point[n] - to) }
         };
         let far = excess(0).hypot(excess(1)).hypot(excess(2));
-        if far > ROUNDING { far } else { 0.0 }
+        if far <= ROUNDING { 0.0 } else { far }
     };
     let all = positions.iter().enumerate().map(|(n, point)| (beyond(point), n));
     // the first of several that are equal
-    let (far, n) = all.reduce(|most, next| if next.0 > most.0 { next } else { most })?;
+    let (far, n) =
+        all.reduce(|most, next| if Sense::AtMost.is_worse(next.0, most.0) { next } else { most })?;
     let found = Found { value: far * 1e3, site: Site::Gripper(n), place: Some(positions[n]) };
-    Some(if far > 0.0 { found } else { Found::NONE })
+    Some(if far == 0.0 { Found::NONE } else { found })
 }
 
 #[cfg(test)]

@@ -14,13 +14,24 @@ const ASTRAY: f64 = 0.1;
 /// Whether an edge of a step is stretched beyond what any ply bears.
 pub fn tears(state: &State) -> bool {
     let worst = Name::Overstretch.measure().evaluate(state);
-    worst.is_some_and(|worst| worst.value > TORN)
+    worst.is_some_and(|worst| is_torn(worst.value))
+}
+
+/// A stretch that is no number is beyond all, too.
+fn is_torn(stretch: f64) -> bool {
+    stretch.is_nan() || stretch > TORN
 }
 
 /// Why a drape ends with its last step, and what would help; none if it need not end.
 pub fn reason(scene: &Scene, steps: &[Step]) -> Option<String> {
     let last = steps.last()?;
-    let worst = last.measures.get(Name::Overstretch).filter(|worst| worst.value > TORN)?;
+    let worst = last.measures.get(Name::Overstretch).filter(|worst| is_torn(worst.value))?;
+    if !worst.value.is_finite() {
+        return Some(format!(
+            "the stretch of {} is {} in step {}: the drape ends here; bring grippers closer together",
+            worst.at, worst.value, last.step
+        ));
+    }
     let mut text = format!(
         "{} is stretched by {:.0} % in step {}: no ply survives that, and the drape ends here",
         worst.at,

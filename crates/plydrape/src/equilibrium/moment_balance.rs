@@ -98,9 +98,11 @@ impl Rule for MomentBalance {
         let (tuning, Step { active, change, early_ends }) = (from.tuning, step);
         let largest = self.rows.iter().map(|row| row[1].abs()).fold(0.0, f64::max);
         let mut shift = 0.0;
+        // no shift grows from zero or beyond infinity
+        let grows = largest > 0.0 && largest.is_finite();
         while !self.solve(from.residual, active, shift, change) {
             early_ends.negative_curvatures += u32::from(shift == 0.0);
-            if shift > tuning.largest_shift * largest {
+            if !grows || shift > tuning.largest_shift * largest {
                 early_ends.damping_limits += 1;
                 break;
             }

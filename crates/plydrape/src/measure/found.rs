@@ -1,5 +1,6 @@
 //! A worst value and the part of the ply that has it.
 
+use super::Sense;
 use crate::draping::spans::Point;
 use crate::ply::Grid;
 
@@ -62,14 +63,14 @@ impl Found {
     pub const NONE: Found = Found { value: 0.0, site: Site::Nowhere, place: None };
 }
 
-/// Collects the largest of several values, the first of those that are equal.
+/// Collects the largest of several values, the first of those that are equal; one that is no number is the largest.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Most(Option<Found>);
 
 impl Most {
     /// Another value.
     pub fn meet(&mut self, value: f64, site: Site, place: Point) {
-        if self.0.is_none_or(|most| value > most.value) {
+        if self.0.is_none_or(|most| Sense::AtMost.is_worse(value, most.value)) {
             self.0 = Some(Found { value, site, place: Some(place) });
         }
     }

@@ -27,7 +27,9 @@ impl Measure for Gap {
         let mut most = Most::default();
         for (span, points) in state.snapshot.shape.spans.iter().zip(state.stations()) {
             for point in points {
-                let gap = mold.signed_distance(*point).max(0.0);
+                // a distance that is no number stays it
+                let gap = mold.signed_distance(*point);
+                let gap = if gap <= 0.0 { 0.0 } else { gap };
                 most.meet(gap, Site::Catenary(span.catenary), *point);
             }
         }

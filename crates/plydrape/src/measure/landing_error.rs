@@ -1,7 +1,7 @@
 //! Landing error: how far a landed point or gripper is from its place in the ideal drape, the larger of
 //! `landing_contact.rs` and `landing_gripper.rs`, in every step.
 
-use super::{Found, Measure, State, Unit};
+use super::{Found, Measure, Sense, State, Unit};
 use super::landing_contact::LandingContact;
 use super::landing_gripper::landed_gripper;
 
@@ -27,6 +27,6 @@ impl Measure for LandingError {
 
     fn evaluate(&self, state: &State) -> Option<Found> {
         let both = [LandingContact.evaluate(state), landed_gripper(state, true)];
-        both.into_iter().flatten().reduce(|most, next| if next.value > most.value { next } else { most })
+        both.into_iter().flatten().reduce(|most, next| if Sense::AtMost.is_worse(next.value, most.value) { next } else { most })
     }
 }

@@ -59,8 +59,10 @@ impl Measure for LandingShear {
             });
             let end = signed_angle(scene.ply.sides(cell, &snapshot.laid), rising, falling);
             let errors = landed.into_iter().flatten().map(|landed| (end - landed.shear).abs());
-            let error = errors.fold(0.0, f64::max).to_degrees();
-            most.meet(error, Site::Cell(cell), between(ends[0][0], ends[0][1], 0.5));
+            for error in errors {
+                let place = between(ends[0][0], ends[0][1], 0.5);
+                most.meet(error.to_degrees(), Site::Cell(cell), place);
+            }
         }
         Some(most.found().unwrap_or(Found::NONE))
     }

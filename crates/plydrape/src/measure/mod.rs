@@ -32,6 +32,19 @@ pub enum Sense {
     AtLeast,
 }
 
+impl Sense {
+    /// Whether a value is worse than another; nothing is worse than one that is no number, so that it is not lost.
+    #[must_use]
+    pub fn is_worse(self, value: f64, than: f64) -> bool {
+        match self {
+            _ if than.is_nan() => false,
+            _ if value.is_nan() => true,
+            Sense::AtMost => value > than,
+            Sense::AtLeast => value < than,
+        }
+    }
+}
+
 /// When a measure counts for the verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {

@@ -47,16 +47,20 @@ impl Measure for Penetration {
             most.meet(depth, Site::Catenary(catenary), place);
         }
         let found = most.in_units_of(1e-3)?;
-        Some(if found.value > 0.0 { found } else { Found::NONE })
+        Some(if found.value <= 0.0 { Found::NONE } else { found })
     }
 }
+
+/// Most parts of a way that are looked at; a way of 1 m that slides on the mold needs half a million.
+const MOST_PARTS: usize = 4_000_000;
 
 /// Greatest depth (m) along a straight way and its place, to a resolution (m); 0 where all of it is outside.
 fn deepest(mold: &Mold, from: Point, to: Point, resolution: f64) -> (f64, Point) {
     let depth = |p: Point| -mold.signed_distance(p);
     let mut best = (0.0, to);
     let mut meet = |depth: f64, place: Point| {
-        if depth > best.0 {
+        // what is no number is deeper than all
+        if depth > best.0 || depth.is_nan() {
             best = (depth, place);
         }
         best.0
@@ -65,9 +69,14 @@ fn deepest(mold: &Mold, from: Point, to: Point, resolution: f64) -> (f64, Point)
     meet(start, from);
     meet(end, to);
     let mut open = vec![([from, to], [start, end])];
-    while let Some(([a, b], [da, db])) = open.pop() {
+    for _ in 0..MOST_PARTS {
+        let Some(([a, b], [da, db])) = open.pop() else { break };
         let reach = 0.5 * (da + db + distance(a, b));
         let middle = between(a, b, 0.5);
+        // a way out of all range has no parts that tell more
+        if !reach.is_finite() {
+            return (f64::INFINITY, middle);
+        }
         if reach <= meet(0.0, middle) + resolution {
             continue;
         }
@@ -75,6 +84,10 @@ fn deepest(mold: &Mold, from: Point, to: Point, resolution: f64) -> (f64, Point)
         meet(dm, middle);
         open.push(([a, middle], [da, dm]));
         open.push(([middle, b], [dm, db]));
+    }
+    // what was not looked at counts as deep as it could be
+    for ([a, b], [da, db]) in open {
+        meet(0.5 * (da + db + distance(a, b)), between(a, b, 0.5));
     }
     best
 }

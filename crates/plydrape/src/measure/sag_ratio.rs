@@ -31,7 +31,9 @@ impl Measure for SagRatio {
             for (n, point) in points.iter().enumerate() {
                 let chord = a[2] + (b[2] - a[2]) * n as f64 / last;
                 let sag = (chord - point[2]) / span.run();
-                most.meet(sag.max(0.0), Site::Catenary(span.catenary), *point);
+                // a sag that is no number stays it
+                let sag = if sag <= 0.0 { 0.0 } else { sag };
+                most.meet(sag, Site::Catenary(span.catenary), *point);
             }
         }
         most.found()

@@ -37,10 +37,12 @@ impl Verdict {
     pub fn of(name: Name, worst: Worst, limit: f64, step: Option<usize>) -> Verdict {
         let (measure, Worst { value, at, place }) = (name.measure(), worst);
         let unit = measure.unit();
-        let ok = match measure.sense() {
-            Sense::AtMost => value <= limit * (1.0 + ROUNDING),
-            Sense::AtLeast => value >= limit * (1.0 - ROUNDING),
-        };
+        // a value that is no finite number says nothing of the ply, so it keeps no limit
+        let ok = value.is_finite()
+            && match measure.sense() {
+                Sense::AtMost => value <= limit * (1.0 + ROUNDING),
+                Sense::AtLeast => value >= limit * (1.0 - ROUNDING),
+            };
         let [value, limit] = [value, limit].map(|value| value * unit.factor);
         Verdict { name, value, limit, unit: unit.shown.into(), ok, step, at, place }
     }
@@ -57,6 +59,9 @@ impl Verdict {
     pub fn ratio(&self) -> f64 {
         let Verdict { value, limit, .. } = *self;
         let whole = self.name.measure().unit().factor;
+        if !value.is_finite() {
+            return f64::INFINITY;
+        }
         let ratio = match self.is_least() {
             true if whole != 1.0 => (whole - value) / (whole - limit).max(1e-5 * whole),
             true => limit / value.max(f64::MIN_POSITIVE),
@@ -137,8 +142,7 @@ impl<'a> Judge<'a> {
         let measure = name.measure();
         let beaten = self.worst.get(name).is_some_and(|(_, before)| match measure.sense() {
             _ if measure.scope() == Scope::End => false,
-            Sense::AtMost => found.value <= before.value,
-            Sense::AtLeast => found.value >= before.value,
+            sense => !sense.is_worse(found.value, before.value),
         });
         if !beaten {
             self.worst.set(name, Some((step, found)));
@@ -171,11 +175,8 @@ pub fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
     for measures in steps {
         for (name, worst) in measures.iter() {
             let slot = &mut out[name as usize];
-            let better = |before: f64| match name.measure().sense() {
-                Sense::AtMost => worst.value > before,
-                Sense::AtLeast => worst.value < before,
-            };
-            if slot.is_none_or(better) {
+            let sense = name.measure().sense();
+            if slot.is_none_or(|before| sense.is_worse(worst.value, before)) {
                 *slot = Some(worst.value);
             }
         }
@@ -212,6 +213,40 @@ mod tests {
         assert!((verdict(Name::Tilt, 10.0, 40.0).ratio() - 0.25).abs() < 1e-12);
         let workspace = verdict(Name::Workspace, 3.0, 0.0);
         assert!(!workspace.ok && workspace.ratio() == 4.0);
+    }
+
+    /// NaN compares with nothing, and an infinite value says that something overflowed: neither keeps a limit, whichever way it
+    /// bounds, not even one that is infinite itself.
+    #[test]
+    fn a_value_that_is_not_finite_is_never_accepted() {
+        for name in Name::ALL {
+            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                for limit in [0.0, 1.0, f64::INFINITY] {
+                    let verdict = verdict(*name, value, limit);
+                    assert!(!verdict.ok, "{name:?} {value} {limit}");
+                    assert!(verdict.ratio() > 1.0);
+                }
+            }
+        }
+    }
+
+    /// Of several values NaN is the worst, wherever it stands: else it would be lost among sound ones.
+    #[test]
+    fn a_value_that_is_no_number_is_not_lost() {
+        for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
+            let mut most = super::super::Most::default();
+            for value in values {
+                most.meet(value, super::super::Site::AllEdges, [0.0; 3]);
+            }
+            assert!(most.found().unwrap().value.is_nan());
+            for name in [Name::Overstretch, Name::GripperDistance] {
+                let of = |value| Worst { value, at: String::new(), place: None };
+                let steps: Vec<Measures> =
+                    values.iter().map(|v| [(name, of(*v))].into_iter().collect()).collect();
+                let worst = worst_numbers(steps.iter());
+                assert!(worst.value(name).is_some_and(f64::is_nan), "{name:?}");
+            }
+        }
     }
 
     /// A value beyond its limit by rounding alone is within it, above and below.

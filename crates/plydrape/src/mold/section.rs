@@ -14,6 +14,8 @@ const TURN: f64 = 0.01;
 const MOST_TURN: f64 = 0.012;
 /// Most points of a curve.
 const MOST_POINTS: usize = 20_000;
+/// Most steps that are tried for a curve, those that were too long among them.
+const MOST_TRIES: usize = 10 * MOST_POINTS;
 /// Distance to the mold at which a point counts as lying on it (m).
 const ON_MOLD: f64 = 1e-13;
 
@@ -78,7 +80,14 @@ pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until
         return strand;
     };
     let (mut p, mut arc, mut step) = (from, 0.0, total);
-    while strand.points.len() < MOST_POINTS {
+    // a length that is no finite number has no curve
+    if !total.is_finite() {
+        return strand;
+    }
+    for _ in 0..MOST_TRIES {
+        if strand.points.len() >= MOST_POINTS {
+            break;
+        }
         let left = match until {
             Until::Length(length) => length - arc,
             Until::Run(run) => {

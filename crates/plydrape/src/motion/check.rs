@@ -3,6 +3,7 @@
 use super::path::Vector;
 use super::spacing::farthest;
 use super::{Bounds, MotionError};
+use crate::ply::{FARTHEST, is_near};
 
 /// Most steps of a motion.
 pub const MOST_STEPS: usize = 1_000_000;
@@ -10,8 +11,6 @@ pub const MOST_STEPS: usize = 1_000_000;
 /// Most gripper positions of a motion: steps times grippers.
 pub const MOST_POSITIONS: usize = 50_000_000;
 
-/// Largest coordinate (m): a path's derivatives stay far from the end of the numbers.
-const FARTHEST: f64 = 1e6;
 /// Range of each bound (SI).
 const RANGE: [f64; 2] = [1e-6, 1e9];
 /// A step shorter than this share of the mean step would be a stop on the way.
@@ -31,8 +30,7 @@ pub(super) fn positions(planned: &[Vec<Vector>]) -> Result<(), MotionError> {
         if step.len() != expected {
             return Err(MotionError::Unequal { step: k + 1, found: step.len(), expected });
         }
-        // NaN is within no bound.
-        let strange = step.iter().position(|p| !p.iter().all(|x| x.abs() <= FARTHEST));
+        let strange = step.iter().position(|place| !is_near(place));
         if let Some(gripper) = strange {
             let position = step[gripper];
             return Err(MotionError::Place { step: k + 1, gripper, position, most: FARTHEST });

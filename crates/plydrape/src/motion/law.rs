@@ -123,12 +123,13 @@ impl Law {
         if s > 0.5 * self.length {
             return self.duration - self.time(self.length - s);
         }
-        // s grows: halve until the doubles have no middle.
+        // s grows: halve until the doubles have no middle, which takes fewer times than they have exponents and digits
+        const HALVINGS: usize = 2200;
         let (mut low, mut high) = (0.0, 0.5 * self.duration);
-        loop {
+        for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
-                return high;
+                break;
             }
             if self.at(middle)[0] < s {
                 low = middle;
@@ -136,6 +137,7 @@ impl Law {
                 high = middle;
             }
         }
+        high
     }
 
     /// Times at which the jerk may jump (s), ascending, with 0 and T.

@@ -2,11 +2,13 @@
 
 mod grid;
 mod laid;
+mod places;
 mod ruck;
 pub mod shear;
 
 pub use grid::{Catenary, Grid, GripperId, Kind};
 pub use laid::{Laid, LandedCell};
+pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
 pub use ruck::Ruck;
 
 use crate::material::{Line, Material, Section};

@@ -1,4 +1,5 @@
 //! What the engine does, as one program.
 
 mod mold;
+mod places;
 mod span;

@@ -30,7 +30,7 @@ use serde::Deserialize;
 #[schemars(title = "plydrape scene", rename = "Scene")]
 pub(super) struct SceneKeys {
     /// Name for reports; the file's name unless given.
-    pub title: Option<String>,
+    pub title: Option<Located<String>>,
     /// What hangs between the grippers.
     pub ply: PlyTable,
     /// What the ply is laid on. Without it the ply just hangs.
@@ -95,9 +95,9 @@ impl From<Warp> for Direction {
 #[schemars(rename = "Material")]
 pub(super) struct MaterialTable {
     /// Name for reports.
-    pub name: Option<String>,
+    pub name: Option<Located<String>>,
     /// Where the numbers come from; wanted in a material file.
-    pub source: Option<String>,
+    pub source: Option<Located<String>>,
     /// Mass per length (kg/m) or per area (kg/m²).
     pub mass: Quantity<Mass>,
     /// Flexural rigidity EI of a line of ply (N·m²); goes with a mass per length.
@@ -111,7 +111,7 @@ pub(super) struct MaterialTable {
     /// Shear angle at which the weave locks (rad).
     pub locking_angle: Option<Quantity<Angle>>,
     /// The test that found the locking angle.
-    pub locking_test: Option<String>,
+    pub locking_test: Option<Located<String>>,
 }
 
 /// Measured points (`angle` and `force`), or a `polynomial`.

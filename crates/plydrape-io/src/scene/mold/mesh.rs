@@ -17,7 +17,7 @@ pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), Scene
     let at_file =
         |error: MeshFileError| document.error(file.span.clone(), error.to_string(), error.remedy());
     let path = base.join(&file.value);
-    let bytes = read::bytes(&path, &file.value, read::LARGEST_MESH).map_err(|error| {
+    let bytes = read::bytes(&path, &file.value, mesh::LARGEST).map_err(|error| {
         let help = format!("paths are relative to the scene's folder; {}", error.help);
         document.error(file.span.clone(), error.message, help)
     })?;

@@ -1,0 +1,179 @@
+//! How much memory work will take, estimated before it is begun, against a budget that a user can raise.
+//!
+//! Estimates are of the right order, not exact: they shall keep a small file from filling the memory of a machine. The bytes of
+//! each kind of work were measured as the largest resident size of a release build, divided by the number of parts.
+
+use plydrape::ply::Ply;
+use std::env;
+
+/// Environment variable that holds another budget, as in `16 GB`.
+pub const VARIABLE: &str = "PLYDRAPE_MEMORY";
+
+/// Budget (bytes) unless [`VARIABLE`] says another.
+pub const BUDGET: f64 = 4e9;
+
+/// Units of a budget (bytes).
+const UNITS: [(&str, f64); 8] = [
+    ("kB", 1e3),
+    ("MB", 1e6),
+    ("GB", 1e9),
+    ("TB", 1e12),
+    ("KiB", 1024.0),
+    ("MiB", 1_048_576.0),
+    ("GiB", 1_073_741_824.0),
+    ("TiB", 1_099_511_627_776.0),
+];
+
+/// Memory that a catenary of a step of a result takes (bytes), in memory and while its files are made.
+const CATENARY: f64 = 5e3;
+/// Memory that a gripper of a step takes (bytes).
+const GRIPPER: f64 = 1e3;
+/// Memory that a triangle of a mold takes while a mesh is built (bytes).
+const TRIANGLE: f64 = 500.0;
+/// Memory per byte of a result file that is read and made into something else.
+const RESULT: f64 = 4.0;
+
+/// Why work is refused before it is begun.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SizeError {
+    /// It would take more memory than the budget.
+    #[error("{what} would take about {} of memory; {} are allowed", shown(*estimate), shown(*budget))]
+    TooLarge {
+        /// What is too large, with its numbers.
+        what: String,
+        /// Memory that it would take (bytes).
+        estimate: f64,
+        /// Memory that it may take (bytes).
+        budget: f64,
+    },
+    /// The budget is no size.
+    #[error("the environment variable {VARIABLE} is {text:?}, which is no size above 0")]
+    Budget {
+        /// What it is.
+        text: String,
+    },
+}
+
+impl SizeError {
+    /// What would help.
+    #[must_use]
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            SizeError::TooLarge { .. } => {
+                "make it smaller, or allow more with the environment variable PLYDRAPE_MEMORY, as in PLYDRAPE_MEMORY=\"16 GB\""
+            }
+            SizeError::Budget { .. } => {
+                "write a number and a unit, as in PLYDRAPE_MEMORY=\"16 GB\""
+            }
+        }
+    }
+}
+
+/// A size with two digits and its unit.
+fn shown(bytes: f64) -> String {
+    let (unit, size) =
+        UNITS[..4].iter().rev().find(|(_, size)| bytes >= *size).unwrap_or(&UNITS[0]);
+    let value = bytes / size;
+    if value < 10.0 { format!("{value:.1} {unit}") } else { format!("{value:.0} {unit}") }
+}
+
+/// A size as a user writes it, in bytes.
+fn parse(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let digits = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());
+    let (number, unit) = (text[..digits].parse::<f64>().ok()?, text[digits..].trim());
+    let size = match unit {
+        "" | "B" => 1.0,
+        unit => UNITS.iter().find(|(name, _)| name.eq_ignore_ascii_case(unit))?.1,
+    };
+    Some(number * size).filter(|bytes| *bytes > 0.0 && bytes.is_finite())
+}
+
+/// The budget (bytes).
+///
+/// # Errors
+/// [`SizeError::Budget`] if [`VARIABLE`] is set and no size.
+pub fn budget() -> Result<f64, SizeError> {
+    match env::var_os(VARIABLE).filter(|text| !text.is_empty()) {
+        None => Ok(BUDGET),
+        Some(text) => {
+            let text = text.to_string_lossy();
+            parse(&text).ok_or_else(|| SizeError::Budget { text: text.into_owned() })
+        }
+    }
+}
+
+/// Refuses work that would take so many bytes, if that is beyond the budget; `what` names it with its numbers.
+///
+/// # Errors
+/// [`SizeError`] if it would, or if the budget is no size.
+pub fn check(estimate: f64, what: impl FnOnce() -> String) -> Result<(), SizeError> {
+    let budget = budget()?;
+    if estimate <= budget {
+        return Ok(());
+    }
+    Err(SizeError::TooLarge { what: what(), estimate, budget })
+}
+
+/// Refuses a drape whose result would be too large.
+///
+/// # Errors
+/// As [`check`].
+pub fn drape(ply: &Ply, steps: usize) -> Result<(), SizeError> {
+    let (grippers, catenaries) = (ply.grid.grippers(), ply.grid.catenaries());
+    let step = GRIPPER * grippers as f64 + CATENARY * catenaries as f64;
+    check(step * steps as f64, || {
+        format!("the result of {steps} steps with {grippers} grippers and {catenaries} catenaries")
+    })
+}
+
+/// Refuses a mesh of so many triangles.
+///
+/// # Errors
+/// As [`check`].
+pub fn mesh(triangles: f64) -> Result<(), SizeError> {
+    check(TRIANGLE * triangles, || format!("a mesh of {triangles:.0} triangles"))
+}
+
+/// Refuses a result file of so many bytes.
+///
+/// # Errors
+/// As [`check`].
+pub fn result(bytes: u64) -> Result<(), SizeError> {
+    check(RESULT * bytes as f64, || format!("a result file of {}", shown(bytes as f64)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By the meaning of the units.
+    #[test]
+    fn a_budget_is_a_number_with_a_unit() {
+        for (text, bytes) in [
+            ("16 GB", 16e9),
+            ("16gb", 16e9),
+            ("1.5 TB", 1.5e12),
+            ("2 GiB", 2_147_483_648.0),
+            ("4000000", 4e6),
+            (" 5 B ", 5.0),
+        ] {
+            assert_eq!(parse(text), Some(bytes), "{text}");
+        }
+        for text in ["", "GB", "-1 GB", "0 GB", "16 parsecs", "1e9", "nan", "1..5 GB", "inf"] {
+            assert_eq!(parse(text), None, "{text}");
+        }
+    }
+
+    /// The message says what, how much, how much is allowed and how to allow more.
+    #[test]
+    fn what_is_too_large_is_refused_with_its_estimate_and_a_remedy() {
+        assert_eq!(check(BUDGET, || unreachable!()), Ok(()));
+        let refused = check(2.5 * BUDGET, || "a heap".into()).unwrap_err();
+        assert_eq!(
+            refused.to_string(),
+            "a heap would take about 10 GB of memory; 4.0 GB are allowed"
+        );
+        assert!(refused.remedy().contains("PLYDRAPE_MEMORY=\"16 GB\""));
+    }
+}

@@ -1,0 +1,281 @@
+//! What comes in through files: results with a forged check sum, files without end, and texts that would grow beyond all memory.
+
+use plydrape::draping;
+use plydrape_io::export::{self, Format};
+use plydrape_io::mesh::{self, MeshFileError};
+use plydrape_io::scene::{self, SceneError};
+use plydrape_io::{ResultFile, formula, input, json, page, read};
+use serde_json::Value;
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+const SCENE: &str = "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n\
+     [mold]\nkind = \"plane\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"20 mm\"\n\
+     [target]\norigin = [0, 0]\nshear = \"20 deg\"\n[motion]\nkind = \"straight\"\nsteps = 3\n";
+
+fn parse(text: &str) -> Result<scene::SceneFile, SceneError> {
+    scene::parse(text, Path::new(""), "scene.toml")
+}
+
+fn draped() -> ResultFile {
+    let scene = parse(SCENE).unwrap();
+    let drape = draping::simulate(&scene, |_| ControlFlow::Continue(()));
+    ResultFile::new(&scene, scene.input.clone(), drape)
+}
+
+/// Every place of a value that holds a number or a list, as a JSON pointer.
+fn places(value: &Value, at: &str, out: &mut Vec<String>) {
+    match value {
+        Value::Number(_) => out.push(at.into()),
+        Value::Array(items) => {
+            out.push(at.into());
+            // the first two and the last of a long list stand for the others
+            let count = items.len();
+            for (n, item) in items.iter().enumerate() {
+                if n < 2 || n + 1 == count {
+                    places(item, &format!("{at}/{n}"), out);
+                }
+            }
+        }
+        Value::Object(items) => {
+            for (key, item) in items {
+                places(item, &format!("{at}/{key}"), out);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// A result is read back as signed text, as someone who forges it would leave it.
+fn reread(value: &Value) -> Option<ResultFile> {
+    let forged: ResultFile = serde_json::from_value(value.clone()).ok()?;
+    let text = json::text(&forged).ok()?;
+    read::parse(text.as_bytes(), Path::new("result.json")).ok()
+}
+
+/// Whatever number or list of a result is replaced and signed anew: it is refused, or everything can be made of it, without a
+/// panic and without a number that is none.
+#[test]
+fn a_forged_result_is_refused_or_harmless() {
+    let value = serde_json::to_value(draped()).unwrap();
+    let text = json::text(&draped()).unwrap();
+    read::parse(text.as_bytes(), Path::new("result.json")).unwrap();
+    assert!(reread(&value).is_some());
+    let mut all = Vec::new();
+    places(&value, "", &mut all);
+    assert!(all.len() > 300);
+    let folder = tempfile::tempdir().unwrap();
+    let mut faults = Vec::new();
+    for place in &all {
+        let old = value.pointer(place).unwrap();
+        let others: Vec<Value> = match old {
+            Value::Array(items) => vec![Value::Array(Vec::new()), items[..items.len() / 2].into()],
+            _ => [0.0, -1.0, 1e300, 1e9]
+                .iter()
+                .map(|x| Value::from(*x))
+                .chain([0.into(), 1_000_000.into()])
+                .collect(),
+        };
+        for other in others {
+            let mut forged = value.clone();
+            *forged.pointer_mut(place).unwrap() = other.clone();
+            let made = catch_unwind(AssertUnwindSafe(|| {
+                let Some(result) = reread(&forged) else { return String::new() };
+                let mut all =
+                    page::html(&result).map(drop).err().map_or(String::new(), |e| e.to_string());
+                for format in [Format::Csv, Format::Inp, Format::Svg, Format::Ros2, Format::Vtk] {
+                    match export::write(&result, format, folder.path()) {
+                        Err(error) => all += &format!("{format:?}: {error}"),
+                        Ok(files) => {
+                            for file in files {
+                                let text = std::fs::read(&file).unwrap();
+                                let text = String::from_utf8_lossy(&text);
+                                let number = |w: &str| matches!(w, "NaN" | "inf" | "-inf" | "nan");
+                                let inp = file
+                                    .extension()
+                                    .is_some_and(|e| e == "inp" || e == "csv" || e == "yaml");
+                                if inp && text.split([',', ' ', '\n']).any(number) {
+                                    all += &format!("NaN in {}", file.display());
+                                }
+                            }
+                        }
+                    }
+                }
+                if all.contains("NaN in") { all } else { String::new() }
+            }));
+            match made {
+                Err(_) => faults.push(format!("{place} = {other}: panic")),
+                Ok(text) if !text.is_empty() => faults.push(format!("{place} = {other}: {text}")),
+                Ok(_) => {}
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// The case that was found: a cell of 0 under a check sum made anew.
+#[test]
+fn a_result_with_a_cell_of_zero_is_refused() {
+    for spoil in [
+        (|r| r.scene.cell[0] = 0.0) as fn(&mut ResultFile),
+        |r| r.scene.cell[1] = f64::MAX,
+        |r| r.scene.grid.nu = usize::MAX,
+        |r| r.steps[1].grippers[0].position[0] = 1e200,
+        |r| r.steps[1].grippers[0].quaternion = [0.0; 4],
+        |r| r.steps.clear(),
+        |r| r.steps[2].time = 0.0,
+        |r| r.summary.limits[0].step = Some(99),
+        |r| r.scene.title = "\u{1b}[31m".into(),
+    ] {
+        let mut result = draped();
+        spoil(&mut result);
+        let text = json::text(&result).unwrap();
+        let refused = read::parse(text.as_bytes(), Path::new("result.json")).unwrap_err();
+        assert!(matches!(refused, read::ReadError::Changed { .. }), "{refused}");
+    }
+}
+
+/// A device has no end and a pipe may have no writer: neither is opened, whoever asks.
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_refused_before_it_is_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = |name: &str| {
+        let path = folder.path().join(name);
+        assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+        path
+    };
+    let no_file = |text: String| assert!(text.contains("not a regular file"), "{text}");
+    for path in [pipe("pipe.json"), "/dev/zero".into()] {
+        no_file(input::bytes(&path, 1 << 20).unwrap_err().to_string());
+        no_file(read::read(&path).unwrap_err().to_string());
+    }
+    no_file(scene::read(&pipe("scene.toml")).unwrap_err().to_string());
+    let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
+    no_file(mesh::read(&pipe("mold.stl"), 1.0, &pose).unwrap_err().to_string());
+    for (old, new) in [
+        ("material = \"krogh2018\"", "material = \"pipe.toml\""),
+        ("kind = \"plane\"", "kind = \"mesh\"\nfile = \"mold.stl\"\nunit = \"mm\""),
+        ("spacing = [\"98 mm\", \"98 mm\"]\nheight = \"20 mm\"", "positions = \"pipe.csv\""),
+    ] {
+        let _ = std::fs::remove_file(folder.path().join("pipe.toml"));
+        let _ = std::fs::remove_file(folder.path().join("pipe.csv"));
+        pipe("pipe.toml");
+        pipe("pipe.csv");
+        let text = SCENE.replace(old, new);
+        assert_ne!(text, SCENE);
+        no_file(scene::parse(&text, folder.path(), "scene.toml").unwrap_err().to_string());
+    }
+}
+
+/// A grid of elements in one part, and many lines that each place it once more.
+fn deck(side: usize, instances: usize) -> String {
+    let mut text = "*Part, name=p\n*Node\n".to_owned();
+    for n in 0..=side {
+        for m in 0..=side {
+            text += &format!("{}, {n}, {m}, 0\n", n * (side + 1) + m + 1);
+        }
+    }
+    text += "*Element, type=S4\n";
+    for n in 0..side {
+        for m in 0..side {
+            let a = n * (side + 1) + m + 1;
+            text += &format!(
+                "{}, {a}, {}, {}, {}\n",
+                n * side + m + 1,
+                a + side + 1,
+                a + side + 2,
+                a + 1
+            );
+        }
+    }
+    text += "*End Part\n";
+    for n in 0..instances {
+        text += &format!("*Instance, name=i{n}, part=p\n{}, 0, 0\n*End Instance\n", n * (side + 1));
+    }
+    text
+}
+
+/// 10 000 elements in 10 000 places are 200 million triangles: the deck has 1 MB and says so before any is made.
+#[test]
+fn a_deck_that_grows_beyond_memory_is_refused_by_its_count() {
+    let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
+    let parse = |text: &str| mesh::parse("deck.inp", text.as_bytes(), 1e-3, &pose);
+    let refused = parse(&deck(100, 10_000)).unwrap_err();
+    assert!(matches!(refused, MeshFileError::Size { .. }), "{refused}");
+    let text = refused.to_string();
+    assert!(text.contains("200000000 triangles") && text.contains("4.0 GB are allowed"), "{text}");
+    assert!(refused.remedy().contains("PLYDRAPE_MEMORY"));
+    assert!(!matches!(parse(&deck(3, 2)), Err(MeshFileError::Size { .. })));
+}
+
+/// Cutting a polygon takes the cube of its corners.
+#[test]
+fn a_polygon_of_ten_thousand_corners_is_refused_with_its_line() {
+    let ring = |corners: usize| {
+        let vertices: String = (0..corners)
+            .map(|n| {
+                let (y, x) = (n as f64 / corners as f64 * std::f64::consts::TAU).sin_cos();
+                format!("v {x} {y} 0\n")
+            })
+            .collect();
+        let face: String = (1..=corners).map(|n| format!(" {n}")).collect();
+        format!("{vertices}f{face}\n")
+    };
+    let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
+    let parse = |text: &str| mesh::parse("mold.obj", text.as_bytes(), 1.0, &pose);
+    let refused = parse(&ring(10_000)).unwrap_err();
+    assert!(
+        matches!(refused, MeshFileError::Corners { line: 10_001, corners: 10_000, .. }),
+        "{refused}"
+    );
+    assert!(refused.remedy().contains("triangles"));
+    let (mesh, _) = parse(&ring(100)).unwrap();
+    assert_eq!(mesh.triangles().len(), 98);
+    // many of them, each within the bound
+    let (vertices, face) =
+        ring(1000).split_once('f').map(|(v, f)| (v.to_owned(), format!("f{f}"))).unwrap();
+    let many = vertices + &face.repeat(30);
+    assert!(matches!(parse(&many), Err(MeshFileError::Cutting { corners: 1000, .. })));
+}
+
+#[test]
+fn a_formula_of_400_kilobytes_is_refused() {
+    let long = "x + ".repeat(100_000) + "y";
+    let refused = formula::read(&long).unwrap_err();
+    assert_eq!(refused.fault, formula::FormulaFault::Long(long.len()));
+    assert!(formula::read(&("x + ".repeat(2_000) + "y")).is_ok());
+}
+
+/// A million steps of four grippers are tens of gigabytes, and a thousand are not.
+#[test]
+fn a_million_steps_are_refused_with_their_estimate() {
+    let steps = |count: usize| parse(&SCENE.replace("steps = 3", &format!("steps = {count}")));
+    let refused = steps(1_000_000).unwrap_err();
+    assert_eq!(refused.line_column().map(|(line, _)| line), Some(15));
+    assert!(
+        refused.message.contains("1000000 steps") && refused.help.contains("PLYDRAPE_MEMORY"),
+        "{refused}"
+    );
+    assert!(steps(1000).is_ok());
+}
+
+/// Texts for people are plain; names of files, which a user may not choose, are shown escaped.
+#[test]
+fn control_characters_in_titles_are_refused_and_those_of_names_are_escaped() {
+    for text in [
+        format!("title = \"a\\u001b[31mred\"\n{SCENE}"),
+        SCENE.replace(
+            "\"krogh2018\"",
+            "{ name = \"\\u0007\", mass = \"1 kg/m\", flexural_rigidity = 1 }",
+        ),
+    ] {
+        let refused = parse(&text).unwrap_err();
+        assert!(refused.message.contains("control character \\u{"), "{refused}");
+        assert!(refused.line_column().is_some());
+    }
+    assert!(parse(&format!("title = \"Größe µ → 2\"\n{SCENE}")).is_ok());
+    let scene = scene::parse(SCENE, Path::new(""), "a\u{1b}[31mred.toml").unwrap();
+    assert_eq!(scene.title, "a\\u{1b}[31mred");
+}

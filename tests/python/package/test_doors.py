@@ -1,0 +1,77 @@
+"""Programs are held to what scene files are: positions without a solution are refused, with place, value and remedy."""
+
+from pathlib import Path
+
+import numpy as np
+import plydrape
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+EXAMPLES = ROOT / "examples"
+FAR = [np.nan, np.inf, -np.inf, 1e159, 1e200, -1.1e6]
+
+
+def strip() -> plydrape.Scene:
+    return plydrape.Scene.read(EXAMPLES / "02_hanging_strip" / "scene.toml")
+
+
+@pytest.mark.parametrize("value", FAR)
+def test_a_coordinate_out_of_all_range_is_refused_at_every_door(value: float) -> None:
+    """What overflows was accepted once, and on a dome it never came back."""
+    solver = plydrape.Solver.of(strip())
+    far = [[0.0, 0.0, 0.0], [value, 0.0, 0.0]]
+    with pytest.raises(ValueError, match="finite numbers"):
+        solver.solve(far)
+    with pytest.raises(ValueError, match="finite numbers"):
+        plydrape.batch.equilibria(solver, [far])
+    for name in ["02_hanging_strip", "04_dome", "05_cylinder"]:
+        scene = plydrape.Scene.read(EXAMPLES / name / "scene.toml")
+        positions = scene.positions.copy()
+        positions[-1, 1, 0] = value
+        with pytest.raises(ValueError, match="finite numbers"):
+            scene.with_motion(scene.times, positions)
+
+
+def test_grippers_at_one_place_are_refused_at_every_door() -> None:
+    """A span straight up has no solution: once it converged, to a force that is no number."""
+    scene = strip()
+    solver = plydrape.Solver.of(scene)
+    here = [[0.1, 0.2, 0.3]] * 2
+    for call in (
+        lambda: solver.solve(here),
+        lambda: plydrape.batch.equilibria(solver, [[[0, 0, 0], [0.098, 0, 0]], here]),
+        lambda: scene.with_motion([0.0], [here]),
+    ):
+        with pytest.raises(ValueError, match=r"\[0, 0\] and \[1, 0\] are only 0.000 mm apart.*move them apart"):
+            call()
+    with pytest.raises(ValueError, match=r"positions\[1\]"):
+        plydrape.batch.equilibria(solver, [[[0, 0, 0], [0.098, 0, 0]], here])
+
+
+def test_the_fault_names_step_gripper_and_value() -> None:
+    scene = plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold" / "scene.toml")
+    positions = scene.positions.copy()
+    positions[4, 5, 2] = 1e200
+    with pytest.raises(ValueError, match=r"gripper \[1, 1\].*1e200.*in step 5.*up to 1e6 m"):
+        scene.with_motion(scene.times, positions)
+    times = scene.times.copy()
+    times[7] = times[6]
+    with pytest.raises(ValueError, match="time of step 8"):
+        scene.with_motion(times, scene.positions)
+
+
+def test_what_is_far_too_large_is_refused_before_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = strip()
+    steps = 20_000
+    positions = np.repeat(scene.positions[:1], steps, axis=0)
+    monkeypatch.setenv("PLYDRAPE_MEMORY", "1 MB")
+    with pytest.raises(ValueError, match=r"20000 steps.*PLYDRAPE_MEMORY"):
+        scene.with_motion(np.arange(steps), positions)
+    monkeypatch.delenv("PLYDRAPE_MEMORY")
+    assert scene.with_motion(np.arange(steps), positions).times.shape == (steps,)
+
+
+def test_a_title_is_one_line_of_plain_text() -> None:
+    scene = strip()
+    with pytest.raises(ValueError, match="control character"):
+        scene.with_motion(scene.times, scene.positions, title="\x1b[31mred")
