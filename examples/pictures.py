@@ -121,7 +121,7 @@ def make(results: Path) -> None:
             kept[picture] = numbers(folder)
         (EXAMPLES / name / "numbers.json").write_text(json.dumps(kept, indent=1) + "\n")
         print(f"examples/{name}: straight.png, planned.png, numbers.json")
-    draw(results / "hemisphere_net" / "figure.svg", EXAMPLES.parent / "docs/hemisphere_shear.png")
+    draw(results / "hemisphere_net" / "shear.svg", EXAMPLES.parent / "docs/hemisphere_shear.png")
 
 
 def main(arguments: list[str]) -> int:

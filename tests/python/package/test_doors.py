@@ -1,4 +1,7 @@
-"""Programs are held to what scene files are: positions without a solution are refused, with place, value and remedy."""
+"""Programs are held to what scene files are.
+
+Positions without a solution are refused, with place, value and remedy.
+"""
 
 from pathlib import Path
 
@@ -12,6 +15,7 @@ FAR = [np.nan, np.inf, -np.inf, 1e159, 1e200, -1.1e6]
 
 
 def strip() -> plydrape.Scene:
+    """Two grippers, no mold."""
     return plydrape.Scene.read(EXAMPLES / "02_hanging_strip" / "scene.toml")
 
 
@@ -37,18 +41,22 @@ def test_grippers_at_one_place_are_refused_at_every_door() -> None:
     scene = strip()
     solver = plydrape.Solver.of(scene)
     here = [[0.1, 0.2, 0.3]] * 2
+    both = np.array([[[0, 0, 0], [0.098, 0, 0]], here])
     for call in (
         lambda: solver.solve(here),
-        lambda: plydrape.batch.equilibria(solver, [[[0, 0, 0], [0.098, 0, 0]], here]),
+        lambda: plydrape.batch.equilibria(solver, both),
         lambda: scene.with_motion([0.0], [here]),
     ):
-        with pytest.raises(ValueError, match=r"\[0, 0\] and \[1, 0\] are only 0.000 mm apart.*move them apart"):
+        with pytest.raises(
+            ValueError, match=r"\[0, 0\] and \[1, 0\] are only 0.000 mm apart.*move them apart"
+        ):
             call()
     with pytest.raises(ValueError, match=r"positions\[1\]"):
-        plydrape.batch.equilibria(solver, [[[0, 0, 0], [0.098, 0, 0]], here])
+        plydrape.batch.equilibria(solver, both)
 
 
 def test_the_fault_names_step_gripper_and_value() -> None:
+    """Of positions and of times."""
     scene = plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold" / "scene.toml")
     positions = scene.positions.copy()
     positions[4, 5, 2] = 1e200
@@ -61,6 +69,7 @@ def test_the_fault_names_step_gripper_and_value() -> None:
 
 
 def test_what_is_far_too_large_is_refused_before_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The budget is the user's to raise."""
     scene = strip()
     steps = 20_000
     positions = np.repeat(scene.positions[:1], steps, axis=0)
@@ -72,6 +81,7 @@ def test_what_is_far_too_large_is_refused_before_the_work(monkeypatch: pytest.Mo
 
 
 def test_a_title_is_one_line_of_plain_text() -> None:
+    """It goes to terminals, which obey control characters."""
     scene = strip()
     with pytest.raises(ValueError, match="control character"):
         scene.with_motion(scene.times, scene.positions, title="\x1b[31mred")
