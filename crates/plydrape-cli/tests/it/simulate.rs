@@ -240,7 +240,7 @@ fn an_interrupt_leaves_complete_files_of_the_steps_done() {
         .replace("steps = 30", "steps = 3000");
     std::fs::write(&scene, large).unwrap();
     let mut command = command();
-    command.arg("simulate").arg(&scene).arg("--json");
+    command.arg("simulate").arg(&scene).arg("--json").env("PLYDRAPE_MEMORY", "200 GB");
     let child =
         command.arg("-o").arg(&out).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_millis(700));
@@ -350,6 +350,7 @@ fn a_second_run_into_a_folder_is_refused_and_a_termination_is_an_interrupt() {
     std::fs::write(&scene, large).unwrap();
     let mut first = command();
     first.args(["simulate", "--quiet"]).arg(&scene).arg("-o").arg(&out);
+    first.env("PLYDRAPE_MEMORY", "200 GB");
     let first = first.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     // until it has claimed its folder
     let start = std::time::Instant::now();
