@@ -268,8 +268,7 @@ fn derivatives_in_the_onset_agree_with_central_differences() {
                 (solver, moved)
             };
             let h = 2e-5;
-            let ((mut middle, _), (low, below), (high, above)) =
-                (solved(0.0), solved(-h), solved(h));
+            let ((middle, _), (low, below), (high, above)) = (solved(0.0), solved(-h), solved(h));
             assert!(middle.problem().is_partly_constrained(), "not in the onset");
             let mut linearized = middle.linearize(&positions, &laid);
             let tangent = linearized.along(&direction);

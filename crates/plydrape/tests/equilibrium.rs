@@ -273,7 +273,7 @@ proptest! {
             (solver, outcome)
         };
         let h = 1e-5;
-        let ((mut middle, outcome), (low, _), (high, _)) = (at(0.0), at(-h), at(h));
+        let ((middle, outcome), (low, _), (high, _)) = (at(0.0), at(-h), at(h));
         prop_assume!(outcome.status == Status::Converged);
         // the state is differentiable here: the same spans, shear and active bounds on both sides
         let bound = settings.max_tilt.tan();
