@@ -33,13 +33,18 @@ impl<S: Sum> WithSimd for Integral<'_, S> {
 
     #[inline(always)]
     fn with_simd<T: Simd>(self, _: T) {
-        for Interval { start, width, short } in self.stretches.panels(self.end) {
-            if short {
-                self.form.add_panel(&SHORT, start, width, self.sum);
-            } else {
-                self.form.add_panel(&LONG, start, width, self.sum);
-            }
-        }
+        let Integral { form, stretches, end, sum } = self;
+        stretches.for_each_panel(
+            end,
+            #[inline(always)]
+            |Interval { start, width, short }| {
+                if short {
+                    form.add_panel(&SHORT, start, width, sum);
+                } else {
+                    form.add_panel(&LONG, start, width, sum);
+                }
+            },
+        );
     }
 }
 

@@ -235,17 +235,20 @@ impl Stretches {
         self.count += 1;
     }
 
-    /// The panels up to t = `end`, ascending.
+    /// Hands over the panels up to t = `end`, ascending.
     #[inline(always)]
-    pub fn panels(&self, end: f64) -> impl Iterator<Item = Interval> {
-        let panels = self.list[..self.count].iter().flat_map(move |stretch| {
+    pub fn for_each_panel(&self, end: f64, mut take: impl FnMut(Interval)) {
+        for stretch in &self.list[..self.count] {
             let width = (stretch.end - stretch.start) / stretch.panels as f64;
-            (0..stretch.panels).map(move |panel| {
+            for panel in 0..stretch.panels {
                 let start = stretch.start + panel as f64 * width;
-                Interval { start, width: width.min(end - start), short: stretch.short }
-            })
-        });
-        panels.take_while(|panel| panel.width > 0.0)
+                let width = width.min(end - start);
+                if width <= 0.0 {
+                    return;
+                }
+                take(Interval { start, width, short: stretch.short });
+            }
+        }
     }
 }
 

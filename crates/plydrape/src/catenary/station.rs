@@ -66,7 +66,7 @@ impl Stations<'_> {
     #[must_use]
     pub fn arc(&self, t: f64) -> Graded {
         let (mut value, mut first) = (0.0, [0.0; INNER]);
-        for panel in self.profile.stretches().panels(t) {
+        self.profile.stretches().for_each_panel(t, |panel| {
             for (s, weight) in LONG.t.iter().zip(&LONG.weight) {
                 let basis = self.profile.form.slope(panel.start + panel.width * s);
                 let slope = self.profile.local(&self.response, &basis, 1.0);
@@ -76,7 +76,7 @@ impl Stations<'_> {
                     first[n] += weight * slope.value / secant * slope.first[n];
                 }
             }
-        }
+        });
         self.times_run(value, &first)
     }
 }

@@ -16,7 +16,7 @@ pub struct FreeSpan {
     pub catenary: usize,
     /// 0 for a whole catenary or the rest before the contact segment, 1 for the rest after it.
     pub rest: usize,
-    /// The element of the solver's assembly that it is; none for a line that a stretched diagonal draws.
+    /// The element of the solver's problem that it is; none for a line that a stretched diagonal draws.
     pub element: Option<usize>,
     /// Its ends (m).
     pub ends: [Point; 2],

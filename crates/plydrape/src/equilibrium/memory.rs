@@ -13,8 +13,11 @@ pub struct Memory {
     /// Height of each free segment's force above buckling, as a multiple of the parabola's, by catenary.
     ratios: Vec<[Option<f64>; 2]>,
     /// The last solution of each free segment: one that has not moved needs no other.
-    solved: Vec<[Option<(Element<f64>, Evaluation)>; 2]>,
+    solved: Vec<[Option<Solved>; 2]>,
 }
+
+/// A free segment as it was solved.
+type Solved = (Element<f64>, Evaluation);
 
 impl Memory {
     /// Nothing remembered.

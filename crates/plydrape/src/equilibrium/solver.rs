@@ -40,7 +40,7 @@ pub struct Solver {
 #[derive(Debug, Clone)]
 pub enum SceneRule {
     /// Least forces.
-    MinForce(MinForce),
+    MinForce(Box<MinForce>),
     /// Balanced moments.
     MomentBalance(MomentBalance),
 }
@@ -48,7 +48,7 @@ pub enum SceneRule {
 impl SceneRule {
     fn new(rule: SlopeRule) -> SceneRule {
         match rule {
-            SlopeRule::MinForce => SceneRule::MinForce(MinForce::default()),
+            SlopeRule::MinForce => SceneRule::MinForce(Box::default()),
             SlopeRule::MomentBalance => SceneRule::MomentBalance(MomentBalance::default()),
         }
     }
@@ -56,7 +56,7 @@ impl SceneRule {
     /// The rule itself.
     pub fn get(&mut self) -> &mut dyn Rule {
         match self {
-            SceneRule::MinForce(rule) => rule,
+            SceneRule::MinForce(rule) => rule.as_mut(),
             SceneRule::MomentBalance(rule) => rule,
         }
     }
