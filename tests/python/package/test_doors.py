@@ -42,7 +42,9 @@ def test_grippers_at_one_place_are_refused_at_every_door() -> None:
         lambda: plydrape.batch.equilibria(solver, [[[0, 0, 0], [0.098, 0, 0]], here]),
         lambda: scene.with_motion([0.0], [here]),
     ):
-        with pytest.raises(ValueError, match=r"\[0, 0\] and \[1, 0\] are only 0.000 mm apart.*move them apart"):
+        with pytest.raises(
+            ValueError, match=r"\[0, 0\] and \[1, 0\] are only 0.000 mm apart.*move them apart"
+        ):
             call()
     with pytest.raises(ValueError, match=r"positions\[1\]"):
         plydrape.batch.equilibria(solver, [[[0, 0, 0], [0.098, 0, 0]], here])
