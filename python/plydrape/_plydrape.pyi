@@ -1205,7 +1205,8 @@ class Scene:
             title: Name for reports, unless it stays.
 
         Raises:
-            ValueError: If the shapes do not fit, a number is not finite, or times do not ascend.
+            ValueError: If the shapes do not fit, times do not ascend, a coordinate is not a number up to 10⁶ m, or
+                neighbours stand (all but) straight above each other, where the model has no solution.
 
         Example:
             >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
@@ -1279,7 +1280,8 @@ class Solver:
             check: Whether an equilibrium that was not found is an error, or just says so in its `status`.
 
         Raises:
-            ValueError: If the shape does not fit or a number is not finite.
+            ValueError: If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbours stand (all
+                but) straight above each other, where the model has no solution.
             SolveError: If no equilibrium was found.
 
         Example:
@@ -1413,7 +1415,8 @@ def equilibria(
         One equilibrium a row; those not found say so in `converged`.
 
     Raises:
-        ValueError: If the shape does not fit or a number is not finite.
+        ValueError: If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbours stand (all but)
+            straight above each other, where the model has no solution; it names the row.
 
     Example:
         >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")

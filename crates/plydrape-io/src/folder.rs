@@ -104,7 +104,7 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::write`].
-    pub fn add(mut self, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
+    pub fn write_more(mut self, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
         self.put(files, None)
     }
 
@@ -189,16 +189,16 @@ pub fn write(
     Folder::claim(dir, by)?.write(files, &[])
 }
 
-/// Claims a folder and adds a set of files to it, see [`Folder::add`].
+/// Claims a folder and adds a set of files to it, see [`Folder::write_more`].
 ///
 /// # Errors
-/// As [`Folder::claim`] and [`Folder::add`].
+/// As [`Folder::claim`] and [`Folder::write_more`].
 pub fn add(
     dir: &Path,
     by: &'static str,
     files: &[(&str, &[u8])],
 ) -> Result<Vec<PathBuf>, OutputError> {
-    Folder::claim(dir, by)?.add(files)
+    Folder::claim(dir, by)?.write_more(files)
 }
 
 /// Whether the files of a folder belong together: false where a run was cut off while it replaced them.

@@ -278,7 +278,7 @@ fn of_steps(result: &ResultFile) -> Option<String> {
         return Some("it has no step".into());
     }
     if let Some(n) =
-        (1..result.steps.len()).find(|n| !(result.steps[*n].time > result.steps[n - 1].time))
+        (1..result.steps.len()).find(|n| result.steps[*n].time <= result.steps[n - 1].time)
     {
         return Some(format!("the time of step {} is not after that of the step before", n + 1));
     }
@@ -305,7 +305,7 @@ fn of_steps(result: &ResultFile) -> Option<String> {
                 ));
             }
             let length = gripper.quaternion.iter().map(|q| q * q).sum::<f64>().sqrt();
-            if !((length - 1.0).abs() <= 1e-3) {
+            if (length - 1.0).abs() > 1e-3 {
                 return Some(format!(
                     "the quaternion of gripper {:?} has the length {length}",
                     gripper.id
@@ -333,7 +333,7 @@ fn of_catenary(grid: Grid, index: usize, line: &CatenaryState) -> Option<String>
         return Some(format!("catenary {index} does not lead from {from:?} to {to:?}"));
     }
     let name = || format!("catenary {from:?}–{to:?}");
-    if !(line.length > 0.0) {
+    if line.length <= 0.0 {
         return Some(format!("{} has the length {}", name(), line.length));
     }
     for span in &line.spans {
