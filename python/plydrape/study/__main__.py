@@ -116,7 +116,8 @@ def interruptible() -> Iterator[None]:
         yield
     finally:
         for number, handler in before:
-            signal.signal(number, handler)
+            # After an interruption the process ends: a second signal finds nothing to end.
+            signal.signal(number, handler if last == -math.inf else signal.SIG_IGN)
 
 
 def show(text: str) -> int:
