@@ -106,15 +106,25 @@ pub fn shape(line: &CatenaryState, curves: &[Vec<Point>], ends: [Point; 2]) -> V
 /// Slack ratio below which a lying rest counts as contact, not as a wrinkle.
 const FLAT: f64 = 5e-4;
 
-/// The lines in which a catenary touches the mold: its contact segment, and segments that lie flat beside it.
-pub(crate) fn touching<'a>(
-    line: &'a CatenaryState,
-    curves: &'a [Vec<Point>],
-) -> impl Iterator<Item = &'a [Point]> {
+/// The line in which a catenary touches the mold, first to last (m): its contact segment, and segments that lie flat beside
+/// it; none where it does not touch.
+fn touching(line: &CatenaryState, curves: &[Vec<Point>]) -> Option<Vec<Point>> {
+    let contact = line.contact.as_ref()?;
     let flat = |span: &SpanState| span.hold == Hold::Lying && span.slack_ratio(line.length) < FLAT;
-    let segment = line.contact.iter().map(|contact| contact.points.as_slice());
-    let beside = line.spans.iter().zip(curves).filter(move |(span, _)| flat(span));
-    segment.chain(beside.map(|(_, curve)| curve.as_slice()))
+    let beside = |segment: usize| {
+        let spans = line.spans.iter().zip(curves);
+        let lying = spans.filter(move |(span, _)| span.segment == segment && flat(span));
+        lying.flat_map(|(_, curve)| curve)
+    };
+    Some(beside(0).chain(&contact.points).chain(beside(1)).copied().collect())
+}
+
+/// The lines in which the ply touches the mold in a step (m), one for each of its first `count` catenaries that does.
+#[must_use]
+pub fn contact_lines(result: &ResultFile, step: &Step, count: usize) -> Vec<Vec<Point>> {
+    let curves = result.curves(step);
+    let lines = step.catenaries.iter().zip(&curves).take(count);
+    lines.filter_map(|(line, curves)| touching(line, curves)).collect()
 }
 
 /// Points of a polyline at equal shares of its horizontal way (of its length, if it is upright).

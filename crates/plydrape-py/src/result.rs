@@ -127,6 +127,12 @@ impl Result {
         (self.0.scene.ply.grid.nu, self.0.scene.ply.grid.nv)
     }
 
+    /// Fabric length of a cell along u and v (m).
+    #[getter]
+    fn cell(&self) -> (f64, f64) {
+        self.0.scene.ply.cell.into()
+    }
+
     /// Its mold, if any.
     #[getter]
     fn mold(&self) -> Option<Mold> {
@@ -273,6 +279,19 @@ impl Result {
             Array::rows(&[points.len(), 3], points)
         };
         Ok(step.catenaries.iter().zip(&curves).map(line).collect())
+    }
+
+    /// The lines in which the ply touches the mold in a step (m), one for each catenary that does, arrays of
+    /// shape (n, 3).
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> len(result.contact_lines(1)), len(result.contact_lines(26))
+    ///     (0, 3)
+    fn contact_lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
+        let lines = surface::contact_lines(&self.0, self.step(step)?, usize::MAX);
+        Ok(lines.into_iter().map(|line| Array::rows(&[line.len(), 3], line)).collect())
     }
 
     /// The ply of a step as a surface with so many intervals along each side of a cell.

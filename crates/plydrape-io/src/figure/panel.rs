@@ -274,9 +274,7 @@ impl Stage<'_> {
         let radius = (0.045 * cell * view.scale()).min(MOST_MARK);
         let apart = (MARKS_APART * cell).max(5.0 * radius / view.scale());
         let count = self.drawn(detail);
-        let curves = self.result.curves(step);
-        let lines = step.catenaries.iter().zip(&curves).take(count);
-        for line in lines.flat_map(|(line, curves)| surface::touching(line, curves)) {
+        for line in surface::contact_lines(self.result, step, count) {
             let [Some(first), Some(last)] = [line.first(), line.last()] else {
                 continue;
             };
@@ -284,10 +282,10 @@ impl Stage<'_> {
             let marks = (square.sqrt() / apart).floor().min(50.0) as usize;
             let spots = match marks {
                 0 => vec![line[line.len() / 2]],
-                _ => surface::stations(line, marks),
+                _ => surface::stations(&line, marks),
             };
             if line.len() > 1 {
-                let thick = surface::stations(line, detail.pieces);
+                let thick = surface::stations(&line, detail.pieces);
                 thread(pieces, view, &thick, lift, RED, 0.65 * radius);
             }
             // On a large array the lines alone can tell.

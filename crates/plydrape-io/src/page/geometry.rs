@@ -3,7 +3,7 @@
 use super::block::Block;
 use crate::ground::ground;
 use crate::result::ResultFile;
-use crate::surface::{Surface, lines, stations, touching};
+use crate::surface::{Surface, contact_lines, lines, stations};
 use plydrape::draping::record::Step;
 use plydrape::ply::Direction;
 use rayon::prelude::*;
@@ -201,13 +201,11 @@ fn contacts(result: &ResultFile, step: &Step) -> Vec<[f64; 3]> {
     let marks = if result.scene.ply.grid.cells() <= SMALL { MARKS } else { 1.0 };
     let apart = a.min(b) / marks;
     let mut out = Vec::new();
-    let curves = result.curves(step);
-    let lines = step.catenaries.iter().zip(&curves);
-    for line in lines.flat_map(|(line, curves)| touching(line, curves)) {
+    for line in contact_lines(result, step, usize::MAX) {
         let (Some(first), Some(last)) = (line.first(), line.last()) else { continue };
         match (plydrape::mold::distance(*first, *last) / apart).round() as usize {
             0 => out.push(line[line.len() / 2]),
-            count => out.extend(stations(line, count)),
+            count => out.extend(stations(&line, count)),
         }
     }
     out

@@ -36,7 +36,7 @@ pub(super) struct Document<'a, S, C> {
 }
 
 /// The catenaries of the grid: edges along u, edges along v, then two diagonals a cell.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Catenaries {
     kind: Vec<Kind>,
@@ -45,13 +45,23 @@ pub(super) struct Catenaries {
 }
 
 impl Catenaries {
-    pub(super) fn of(grid: Grid) -> Self {
-        let lines = || (0..grid.catenaries()).map(|n| grid.catenary(n));
+    /// Those of the first step, if there is one.
+    fn named(steps: &[Step]) -> Self {
+        let lines = || steps.iter().take(1).flat_map(|step| &step.catenaries);
         Catenaries {
             kind: lines().map(|line| line.kind).collect(),
             from: lines().map(|line| line.from).collect(),
             to: lines().map(|line| line.to).collect(),
         }
+    }
+
+    /// Whether they are the catenaries of a grid.
+    pub(super) fn are_of(&self, grid: Grid) -> bool {
+        let count = grid.catenaries();
+        [self.kind.len(), self.from.len(), self.to.len()] == [count; 3]
+            && (0..count).map(|n| grid.catenary(n)).enumerate().all(|(n, line)| {
+                (line.kind, line.from, line.to) == (self.kind[n], self.from[n], self.to[n])
+            })
     }
 }
 
@@ -74,7 +84,8 @@ struct Sum<'a>(&'a RefCell<crc32fast::Hasher>);
 
 impl Serialize for Sum<'_> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(&shown(self.0.borrow().clone()))
+        let sum = self.0.borrow().clone();
+        to.serialize_str(&shown(sum))
     }
 }
 
@@ -110,7 +121,7 @@ impl ResultFile {
             scene: Cow::Borrowed(&self.scene),
             plan: Cow::Borrowed(&self.plan),
             summary: Cow::Borrowed(&self.summary),
-            catenaries: Catenaries::of(self.scene.ply.grid),
+            catenaries: Catenaries::named(&self.steps),
             steps: Steps(&self.steps),
             checksum,
         }

@@ -6,7 +6,7 @@
 //! The file is read as a stream, three times: for its version, for its contents, for its check sum.
 
 use super::check::fault;
-use super::document::{Catenaries, Document, shown};
+use super::document::{Document, shown};
 use super::step::StepColumns;
 use super::{FORMAT, ResultFile, VERSION};
 use crate::size::{self, SizeError};
@@ -222,7 +222,7 @@ fn from_columns(read: ReadDocument) -> Result<(ResultFile, String), String> {
     if let Some(what) = super::check::of_ply(&read.scene) {
         return Err(what);
     }
-    if read.catenaries != Catenaries::of(grid) {
+    if !read.catenaries.are_of(grid) {
         return Err(format!("its catenaries are not those of {} × {} grippers", grid.nu, grid.nv));
     }
     let mut known = Vec::new();

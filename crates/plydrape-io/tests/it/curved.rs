@@ -95,7 +95,7 @@ fn drift(result: &ResultFile, along: impl Fn(f64) -> ([f64; 3], [f64; 3])) -> f6
     for (n, catenary) in last.catenaries.iter().enumerate() {
         let contact = catenary.contact.as_ref().expect("it has been rolled on");
         let last = contact.points.len() - 1;
-        for (arc, point) in contact.arc.iter().zip([contact.points[0], contact.points[last]]) {
+        for (arc, point) in contact.ends().iter().zip([contact.points[0], contact.points[last]]) {
             worst = worst.max(distance(point, along(0.1 * n as f64 + arc).0));
         }
     }
