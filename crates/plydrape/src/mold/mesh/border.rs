@@ -77,6 +77,6 @@ fn next_on_border(
 fn border(points: &[[f64; 3]], vertices: Vec<u32>, surface: usize) -> Border {
     let at = |n: usize| points[vertices[n % vertices.len()] as usize];
     let length = (0..vertices.len()).map(|n| distance(at(n), at(n + 1))).sum();
-    let bounds = super::bounds(vertices.iter().map(|n| &points[*n as usize]));
+    let bounds = super::bounds(vertices.iter().map(|n| points[*n as usize]));
     Border { vertices, length, bounds, surface, hole: false }
 }

@@ -1,9 +1,9 @@
 //! From loose triangles to a mold: placing, joining, turning, borders.
 
 use super::orient::{neighbours, orient};
-use super::query::Tree;
 use super::report::MeshReport;
 use super::soup::Soup;
+use super::tree::Tree;
 use super::{Mesh, MeshError, border, bounds, fan, join, normals};
 use crate::mold::Pose;
 use crate::mold::vector::distance;
@@ -64,7 +64,7 @@ fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), 
         // what no triangle uses shall not count for the size
         *point = if *used { pose.place(point.map(|x| scale * x)) } else { [f64::NAN; 3] };
     }
-    let [low, high] = bounds(soup.points.iter());
+    let [low, high] = bounds(soup.points.iter().copied());
     let size = distance(low, high);
     let mut report =
         MeshReport { skipped: std::mem::take(&mut soup.skipped), ..MeshReport::default() };
@@ -88,7 +88,7 @@ fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), 
     let vertex_normals = normals::of_vertices(&vertices, &triangles, &triangle_normals);
     let borders = border::borders(&vertices, &triangles, &neighbours, &component, &components);
     let tree = Tree::new(
-        triangles.iter().map(|corners| bounds(corners.iter().map(|n| &vertices[*n as usize]))),
+        triangles.iter().map(|corners| bounds(corners.iter().map(|n| vertices[*n as usize]))),
     );
     report.vertices = vertices.len();
     report.triangles = triangles.len();

@@ -10,7 +10,7 @@ impl Mesh {
     #[must_use]
     pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
         let mut top: Option<f64> = None;
-        for triangle in self.tree.over([x, y]) {
+        for triangle in self.tree.touching([[x, y, f64::NEG_INFINITY], [x, y, f64::INFINITY]]) {
             let corners = self.corners(triangle as usize);
             // weights of the corners in plan, times twice the area there
             let weights = [1, 2, 0].map(|k| {

@@ -4,9 +4,8 @@
 //! edge, the angle-weighted sum around a vertex (Bærentzen and Aanæs 2005). The normal that is
 //! reported is another one: it is blended from the vertices, so that it turns smoothly.
 
-use super::closest::{Weights, closest};
 use super::orient::NONE;
-use super::query::Near;
+use super::triangle::{Closest, Weights};
 use super::{Mesh, fan};
 use crate::mold::vector::{cross, dot, norm, sub, unit};
 use crate::mold::{Foot, Separation};
@@ -63,11 +62,8 @@ impl Mesh {
 
     /// The same, if the square of its distance is less than `most` (m²).
     fn spot_within(&self, p: [f64; 3], most: f64) -> Option<Spot> {
-        let near = |triangle: u32| {
-            let (weights, point, square) = closest(self.corners(triangle as usize), p);
-            Near { square, what: (weights, point) }
-        };
-        let (triangle, Near { what: (weights, point), .. }) = self.tree.nearest(p, most, near)?;
+        let corners = |triangle| self.corners(triangle as usize);
+        let (triangle, Closest { weights, point, .. }) = self.tree.closest(p, most, corners)?;
         Some(Spot { triangle: triangle as usize, weights, point })
     }
 

@@ -7,7 +7,6 @@
 
 mod border;
 mod build;
-mod closest;
 mod curvature;
 mod drop;
 mod error;
@@ -16,10 +15,11 @@ mod foot;
 mod join;
 mod normals;
 mod orient;
-mod query;
 mod report;
 mod section;
 mod soup;
+mod tree;
+mod triangle;
 
 pub use border::Border;
 pub use error::MeshError;
@@ -46,7 +46,7 @@ pub struct Mesh {
     bounds: [[f64; 3]; 2],
     /// Diagonal of the box around the mesh (m).
     size: f64,
-    tree: query::Tree,
+    tree: tree::Tree,
     /// Shape operator of each vertex, once asked for.
     shapes: OnceLock<Vec<curvature::Symmetric>>,
 }
@@ -90,7 +90,9 @@ impl Mesh {
 
     /// Places of a triangle's corners (m).
     fn corners(&self, triangle: usize) -> [[f64; 3]; 3] {
-        self.triangles[triangle].map(|n| self.vertices[n as usize])
+        // `map` is not inlined, which the search for closest points would feel
+        let [a, b, c] = self.triangles[triangle];
+        [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
     }
 }
 
@@ -113,7 +115,7 @@ impl fmt::Debug for Mesh {
 }
 
 /// Lowest and highest coordinates of some points; points that are no numbers do not count.
-fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
+fn bounds(points: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
     points.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[low, high], p| {
         [[0, 1, 2].map(|n| low[n].min(p[n])), [0, 1, 2].map(|n| high[n].max(p[n]))]
     })

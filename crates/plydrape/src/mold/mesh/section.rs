@@ -144,7 +144,8 @@ impl Cut<'_> {
     fn start(&self, p: [f64; 3]) -> Option<usize> {
         let tolerance = ON_LINE * self.mesh.size;
         let mut best: Option<(f64, usize)> = None;
-        for triangle in self.mesh.tree.touching(p, tolerance) {
+        let near = [p.map(|x| x - tolerance), p.map(|x| x + tolerance)];
+        for triangle in self.mesh.tree.touching(near) {
             let triangle = triangle as usize;
             let ends = (self.crossing(triangle, true), self.crossing(triangle, false));
             let (Some((_, a)), Some((_, b))) = ends else { continue };
