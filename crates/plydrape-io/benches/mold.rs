@@ -68,7 +68,7 @@ fn thousand_feet_on_200k_triangles(bencher: Bencher, off: u32) {
     LazyLock::force(&MESH);
     let mut next = points(f64::from(off) * 1e-3);
     let points: Vec<_> = (0..1000).map(|_| next()).collect();
-    let ask = || points.iter().map(|p| MESH.foot(*p).distance).sum::<f64>();
+    let ask = || points.iter().map(|p| MESH.closest_point(*p).distance).sum::<f64>();
     bencher.bench_local(|| black_box(ask()));
 }
 
@@ -87,5 +87,5 @@ fn section_of_100_mm_on_200k_triangles(bencher: Bencher) {
 fn drop_to_200k_triangles(bencher: Bencher) {
     LazyLock::force(&MESH);
     let next = points(0.0);
-    bencher.with_inputs(next).bench_local_values(|[x, y, _]| MESH.drop_to(black_box([x, y])));
+    bencher.with_inputs(next).bench_local_values(|[x, y, _]| MESH.highest_point(black_box([x, y])));
 }

@@ -6,7 +6,7 @@
 //! the end thus makes a fold, all of it slack, and never stretch. A segment that lies has the way along the mold.
 
 use super::spans::{FreeSpan, Point};
-use crate::mold::{Mold, Strand, distance};
+use crate::mold::{Mold, SurfaceCurve, distance};
 use crate::ply::Laid;
 
 /// Fit of one free or lying segment between what holds it.
@@ -75,7 +75,7 @@ pub struct LyingSegment {
     /// How its fabric fits.
     pub misfit: Misfit,
     /// The taut line between its ends, from first to last.
-    pub line: Strand,
+    pub line: SurfaceCurve,
 }
 
 /// The segments of a catenary that do not hang.
@@ -93,12 +93,12 @@ pub fn lying_segments(
     if !laid.is_whole() && laid.hangs(0) && laid.hangs(1) {
         return Vec::new();
     }
-    let straight = |a, b| Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
+    let straight = |a, b| SurfaceCurve { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
     let foot = |gripper: Point| {
-        let foot = mold.foot(gripper);
+        let foot = mold.closest_point(gripper);
         (foot.distance <= tolerance).then_some(foot.point)
     };
-    let fit = |length, way, line: &Strand| {
+    let fit = |length, way, line: &SurfaceCurve| {
         let place = middle(line.points[0], line.end());
         Misfit { catenary, length, way, whole: laid.length, place }
     };

@@ -1,13 +1,13 @@
 //! Molds that are a height over a plane, z = f(x, y): closest points by Newton's method.
 
 use super::formula::Formula;
+use super::front_surface::FrontSurface;
 use super::height::{Height, Steepness};
 use super::height_grid::HeightGrid;
-use super::lifted::Lifted;
 use super::pose::Pose;
 use super::saddle::Saddle;
 use super::vector::{distance, dot, sub, unit};
-use super::{Curvatures, Foot, Separation};
+use super::{ClosestPoint, Curvatures, Separation};
 
 /// A height over the local xy plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,8 +32,8 @@ pub enum Surface {
     },
     /// Heights on a grid.
     HeightGrid(HeightGrid),
-    /// Heights on a grid, lifted ahead of a front.
-    Lifted(Lifted),
+    /// Heights on a grid, raised ahead of a front.
+    Front(FrontSurface),
 }
 
 /// Newton steps for a closest point; from above a mold it takes three to six.
@@ -47,7 +47,7 @@ impl Surface {
             Surface::Saddle(saddle) => saddle.at(x, y),
             Surface::Formula { z } => z.at(x, y),
             Surface::HeightGrid(heights) => heights.at(x, y),
-            Surface::Lifted(lifted) => lifted.at(x, y),
+            Surface::Front(surface) => surface.at(x, y),
         }
     }
 }
@@ -67,7 +67,7 @@ impl Graph {
     /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies above all of it, from how far
     /// `p` is away; zero if no such ball is known.
     ///
-    /// The closest point that [`Graph::foot`] finds downhill may not be the closest of all. Where the Hessian of
+    /// The closest point that [`Graph::closest_point`] finds downhill may not be the closest of all. Where the Hessian of
     /// f is nowhere larger than b, it is: the lower half of a sphere of radius r ≤ 1/b that touches the graph from
     /// above is a height whose Hessian is nowhere smaller than 1/r, so their difference is convex, and smallest
     /// where they touch. From farther away only the slope s bounds the distance: a point at a height h above
@@ -92,9 +92,9 @@ impl Graph {
         if clear > 0.0 { clear.min(apart.distance) } else { 0.0 }
     }
 
-    /// The foot of `p` (m): the closest point that is found downhill from the one straight below.
+    /// What lies closest to `p` (m): the point that is found downhill from the one straight below.
     #[must_use]
-    pub fn foot(&self, p: [f64; 3]) -> Foot {
+    pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
         let p = self.pose.local(p);
         let inside = |xy: [f64; 2]| match self.domain {
             Some(range) => [0, 1].map(|n| xy[n].clamp(range[n][0], range[n][1])),
@@ -135,13 +135,13 @@ impl Graph {
         let normal = upward(&height);
         let off = sub(p, point);
         let above = dot(off, normal);
-        // at the border the way to the mold may lead sideways: there is no mold below
-        let on_border = self
+        // at the boundary the way to the mold may lead sideways: there is no mold below
+        let on_boundary = self
             .domain
             .is_some_and(|range| (0..2).any(|n| xy[n] <= range[n][0] || xy[n] >= range[n][1]));
         let far = distance(p, point);
-        let beyond = on_border && far - above.abs() > 1e-12 * far + 1e-18;
-        Foot {
+        let beyond = on_boundary && far - above.abs() > 1e-12 * far + 1e-18;
+        ClosestPoint {
             point: self.pose.place(point),
             normal: self.pose.turn(normal),
             distance: if beyond { far } else { above },
@@ -151,7 +151,7 @@ impl Graph {
 
     /// Where the vertical line through (x, y) (m) meets the mold, if it does.
     #[must_use]
-    pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
+    pub fn highest_point(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
         let [down, from] =
             [self.pose.turn_back([0.0, 0.0, 1.0]), self.pose.local([x, y, self.pose.position[2]])];
         let mut t = -from[2] / down[2];
@@ -199,7 +199,7 @@ fn upward(height: &Height) -> [f64; 3] {
     unit([-fx, -fy, 1.0]).unwrap_or([0.0, 0.0, 1.0])
 }
 
-/// The step towards the closest point; none where nothing comes closer. Directions in which the border
+/// The step towards the closest point; none where nothing comes closer. Directions in which the boundary
 /// holds the point are left out.
 fn newton(
     xy: [f64; 2],

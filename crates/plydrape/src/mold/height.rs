@@ -1,4 +1,4 @@
-//! The height of a mold z = f(x, y) with its derivatives, carried through arithmetic.
+//! The height of a mold z = f(x, y) with its first and second derivatives.
 
 /// Height of a surface at a place (x, y), with first and second derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,10 +5,10 @@
 //! in metres, positive outside; normals are unit vectors out of the mold, towards the ply.
 
 pub mod formula;
+mod front_surface;
 mod graph;
 mod height;
 mod height_grid;
-mod lifted;
 pub mod mesh;
 pub mod patch;
 mod plane;
@@ -19,10 +19,10 @@ mod section;
 pub mod vector;
 
 pub use formula::Formula;
+pub use front_surface::{FrontSurface, Rise};
 pub use graph::{Graph, Surface};
 pub use height::{Height, Steepness};
 pub use height_grid::{HeightGrid, HeightGridError};
-pub use lifted::{Lift, Lifted};
 pub use mesh::{Mesh, MeshError, MeshReport};
 pub use plane::Plane;
 pub use pose::Pose;
@@ -53,36 +53,36 @@ pub enum Mold {
 
 /// What lies closest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foot {
+pub struct ClosestPoint {
     /// The closest point of the mold (m).
     pub point: [f64; 3],
     /// Smooth unit normal of the mold there, out of it.
     pub normal: [f64; 3],
-    /// Distance (m), negative inside the mold; beyond an open border the plain distance to the border.
+    /// Distance (m), negative inside the mold; beyond an open boundary the plain distance to the boundary.
     pub distance: f64,
-    /// The point is off to the side of an open border: there is no mold.
+    /// The point is off to the side of an open boundary: there is no mold.
     pub beyond: bool,
 }
 
 /// How far a point is from a mold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Separation {
-    /// Distance (m), as in [`Foot`].
+    /// Distance (m), as in [`ClosestPoint`].
     pub distance: f64,
-    /// The point is off to the side of an open border, as in [`Foot`].
+    /// The point is off to the side of an open boundary, as in [`ClosestPoint`].
     pub beyond: bool,
 }
 
 /// A line of fabric on a mold.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Strand {
+pub struct SurfaceCurve {
     /// Its points, all on the mold (m).
     pub points: Vec<[f64; 3]>,
     /// Arc length at each point (m), ascending.
     pub arc: Vec<f64>,
 }
 
-impl Strand {
+impl SurfaceCurve {
     /// Appends a point (m) at an arc length (m).
     pub fn push(&mut self, point: [f64; 3], arc: f64) {
         self.points.push(point);
@@ -165,14 +165,14 @@ impl Curvatures {
 impl Mold {
     /// What lies closest to `p` (m).
     #[must_use]
-    pub fn foot(&self, p: [f64; 3]) -> Foot {
+    pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
         match self {
-            Mold::Plane(plane) => plane.foot(p),
-            Mold::Cylinder(cylinder) => cylinder.foot(p),
-            Mold::Sphere(sphere) => sphere.foot(p),
-            Mold::Torus(torus) => torus.foot(p),
-            Mold::Graph(graph) => graph.foot(p),
-            Mold::Mesh(mesh) => mesh.foot(p),
+            Mold::Plane(plane) => plane.closest_point(p),
+            Mold::Cylinder(cylinder) => cylinder.closest_point(p),
+            Mold::Sphere(sphere) => sphere.closest_point(p),
+            Mold::Torus(torus) => torus.closest_point(p),
+            Mold::Graph(graph) => graph.closest_point(p),
+            Mold::Mesh(mesh) => mesh.closest_point(p),
         }
     }
 
@@ -185,7 +185,7 @@ impl Mold {
         }
     }
 
-    /// How far `p` (m) is from the mold, as [`Mold::foot`] says it.
+    /// How far `p` (m) is from the mold, as [`Mold::closest_point`] says it.
     ///
     /// It is known to be no farther than `most` (m), perhaps infinite, which saves a search among triangles.
     #[must_use]
@@ -197,7 +197,7 @@ impl Mold {
             Mold::Torus(torus) => torus.separation(p),
             Mold::Mesh(mesh) => mesh.separation(p, most),
             Mold::Graph(graph) => {
-                let Foot { distance, beyond, .. } = graph.foot(p);
+                let ClosestPoint { distance, beyond, .. } = graph.closest_point(p);
                 Separation { distance, beyond }
             }
         }
@@ -214,7 +214,7 @@ impl Mold {
 
     /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies outside of it, from how far
     /// `p` is away and [`Mold::steepness`]; zero if no such ball is known, and for a point inside the
-    /// mold or to the side of its border.
+    /// mold or to the side of its boundary.
     #[must_use]
     pub fn clear(&self, p: [f64; 3], apart: Separation, bound: Steepness) -> f64 {
         match self {
@@ -224,16 +224,10 @@ impl Mold {
         }
     }
 
-    /// The point of the mold closest to `p` (m).
-    #[must_use]
-    pub fn closest_point(&self, p: [f64; 3]) -> [f64; 3] {
-        self.foot(p).point
-    }
-
     /// Smooth unit normal of the mold at its point closest to `p` (m).
     #[must_use]
     pub fn normal(&self, p: [f64; 3]) -> [f64; 3] {
-        self.foot(p).normal
+        self.closest_point(p).normal
     }
 
     /// Principal curvatures of the mold at its point closest to `p` (m).
@@ -249,23 +243,23 @@ impl Mold {
             Mold::Cylinder(cylinder) => cylinder.curvatures(p),
             Mold::Sphere(sphere) => sphere.curvatures(p),
             Mold::Torus(torus) => torus.curvatures(p),
-            Mold::Graph(graph) => graph.curvatures(self.foot(p).point),
+            Mold::Graph(graph) => graph.curvatures(self.closest_point(p).point),
             Mold::Mesh(mesh) => mesh.curvatures(p),
         }
     }
 
     /// The line on which fabric of arc length `length` (m) comes to lie that is laid along the mold from
     /// its point `from` (m), in the vertical plane of the horizontal unit vector `heading`; a negative
-    /// length is laid against it. It ends early at an open border.
+    /// length is laid against it. It ends early at an open boundary.
     #[must_use]
-    pub fn lay(&self, from: [f64; 3], heading: [f64; 2], length: f64) -> Strand {
+    pub fn lay(&self, from: [f64; 3], heading: [f64; 2], length: f64) -> SurfaceCurve {
         let heading = if length < 0.0 { heading.map(|c| -c) } else { heading };
         match self {
             Mold::Plane(plane) => {
                 let slope = plane.slope(heading);
                 let run = length.abs() / slope.hypot(1.0);
                 let end = along(from, run, [heading[0], heading[1], slope]);
-                Strand { points: vec![from, end], arc: vec![0.0, length.abs()] }
+                SurfaceCurve { points: vec![from, end], arc: vec![0.0, length.abs()] }
             }
             Mold::Mesh(mesh) => mesh.section(from, heading, length.abs()),
             _ => trace(self, from, heading, Until::Length(length.abs())),
@@ -273,11 +267,11 @@ impl Mold {
     }
 
     /// The line along the mold from one of its points to another (m) in the vertical plane of both; none
-    /// where it leads over an open border or onto another part of the mold.
+    /// where it leads over an open boundary or onto another part of the mold.
     #[must_use]
-    pub fn path(&self, a: [f64; 3], b: [f64; 3]) -> Option<Strand> {
+    pub fn path(&self, a: [f64; 3], b: [f64; 3]) -> Option<SurfaceCurve> {
         let run = (b[0] - a[0]).hypot(b[1] - a[1]);
-        let straight = || Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
+        let straight = || SurfaceCurve { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
         match self {
             Mold::Plane(_) => Some(straight()),
             _ if distance(a, b) < 1e-12 => Some(straight()),
@@ -303,15 +297,15 @@ impl Mold {
 
     /// The highest point of the mold at the place (x, y) (m), if it has one there.
     #[must_use]
-    pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
+    pub fn highest_point(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
         let (position, reach) = match self {
             Mold::Plane(plane) => {
                 let [nx, ny, nz] = plane.normal;
                 let [px, py, pz] = plane.point;
                 return Some([x, y, pz - (nx * (x - px) + ny * (y - py)) / nz]);
             }
-            Mold::Graph(graph) => return graph.drop_to([x, y]),
-            Mold::Mesh(mesh) => return mesh.drop_to([x, y]),
+            Mold::Graph(graph) => return graph.highest_point([x, y]),
+            Mold::Mesh(mesh) => return mesh.highest_point([x, y]),
             Mold::Cylinder(cylinder) => (cylinder.pose.position, None),
             Mold::Sphere(sphere) => (sphere.pose.position, Some(sphere.radius)),
             Mold::Torus(torus) => {
@@ -329,16 +323,17 @@ impl Mold {
         let mut p = [x, y, position[2] + reach + 1e-3];
         let floor = position[2] - 2.0 * reach - 1.0;
         for _ in 0..2000 {
-            let foot = self.foot(p);
-            if foot.distance.abs() < 1e-4 * reach && !foot.beyond && foot.normal[2] > 1e-3 {
-                let step = foot.distance / foot.normal[2];
+            let closest = self.closest_point(p);
+            if closest.distance.abs() < 1e-4 * reach && !closest.beyond && closest.normal[2] > 1e-3
+            {
+                let step = closest.distance / closest.normal[2];
                 p[2] -= step;
                 if step.abs() < 1e-15 * (1.0 + p[2].abs()) {
                     return Some(p);
                 }
                 continue;
             }
-            p[2] -= foot.distance.abs().max(1e-9);
+            p[2] -= closest.distance.abs().max(1e-9);
             if p[2] < floor {
                 return None;
             }

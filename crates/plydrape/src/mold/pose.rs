@@ -59,7 +59,7 @@ impl Pose {
 mod tests {
     use super::*;
 
-    /// A quarter turn about x and then about z carries y to z and x to y.
+    /// A quarter turn about x and then about z turns y to z and x to y.
     #[test]
     fn turns_are_about_the_fixed_axes_in_the_order_x_y_z() {
         let quarter = std::f64::consts::FRAC_PI_2;

@@ -6,7 +6,7 @@
 //! mold's strongest bend; after each step the point is put back on the mold within the plane. The error of an arc is then some 1e-11 of its length.
 
 use super::vector::{along, cross, distance, dot, unit};
-use super::{Foot, Mold, Strand};
+use super::{ClosestPoint, Mold, SurfaceCurve};
 
 /// Turn of tangent or normal that a step aims at (rad).
 const TURN: f64 = 0.01;
@@ -69,23 +69,23 @@ struct Section<'a> {
 
 /// Follows the section of a mold from a point of it (m) along the horizontal unit vector `heading`.
 ///
-/// The curve ends early at an open border, and where the mold stands upright across the plane.
-pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until) -> Strand {
+/// The curve ends early at an open boundary, and where the mold stands upright across the plane.
+pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until) -> SurfaceCurve {
     let section = Section { mold, heading, across: [-heading[1], heading[0], 0.0] };
-    let mut strand = Strand { points: vec![from], arc: vec![0.0] };
+    let mut curve = SurfaceCurve { points: vec![from], arc: vec![0.0] };
     let total = match until {
         Until::Length(length) | Until::Run(length) => length,
     };
-    let Some(mut course) = section.course(&mold.foot(from)) else {
-        return strand;
+    let Some(mut course) = section.course(&mold.closest_point(from)) else {
+        return curve;
     };
     let (mut p, mut arc, mut step) = (from, 0.0, total);
     // a length that is no finite number has no curve
     if !total.is_finite() {
-        return strand;
+        return curve;
     }
     for _ in 0..MOST_TRIES {
-        if strand.points.len() >= MOST_POINTS {
+        if curve.points.len() >= MOST_POINTS {
             break;
         }
         let left = match until {
@@ -122,18 +122,18 @@ pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until
                     break;
                 }
                 step += miss / section.run([0.0; 3], there.tangent).max(1e-3);
-                let Some(found) = section.step(p, course, step) else { return strand };
+                let Some(found) = section.step(p, course, step) else { return curve };
                 (next, there) = (found.end, found.course);
             }
-            strand.push(next, arc + step);
+            curve.push(next, arc + step);
             break;
         }
         arc = if matches!(until, Until::Length(_)) && step >= left { total } else { arc + step };
-        strand.push(next, arc);
+        curve.push(next, arc);
         (p, course) = (next, there);
         step *= (TURN / turn.max(1e-12)).clamp(0.5, 2.0);
     }
-    strand
+    curve
 }
 
 impl Section<'_> {
@@ -142,15 +142,15 @@ impl Section<'_> {
         (b[0] - a[0]) * self.heading[0] + (b[1] - a[1]) * self.heading[1]
     }
 
-    fn course(&self, foot: &Foot) -> Option<Course> {
+    fn course(&self, closest: &ClosestPoint) -> Option<Course> {
         // horizontal normals along `across`: the mold touches the plane
-        let tangent = unit(cross(self.across, foot.normal)).filter(|_| !foot.beyond)?;
-        Some(Course { tangent, normal: foot.normal })
+        let tangent = unit(cross(self.across, closest.normal)).filter(|_| !closest.beyond)?;
+        Some(Course { tangent, normal: closest.normal })
     }
 
     /// One step along the curve.
     fn step(&self, p: [f64; 3], course: Course, length: f64) -> Option<Step> {
-        let at = |p| self.course(&self.mold.foot(p));
+        let at = |p| self.course(&self.mold.closest_point(p));
         let k1 = course.tangent;
         let k2 = at(along(p, 0.5 * length, k1))?.tangent;
         let half_way = at(along(p, 0.5 * length, k2))?;
@@ -160,18 +160,18 @@ impl Section<'_> {
         let mut next = along(p, length, mean);
         // back onto the mold, within the plane
         for _ in 0..6 {
-            let foot = self.mold.foot(next);
-            if foot.beyond {
+            let closest = self.mold.closest_point(next);
+            if closest.beyond {
                 return None;
             }
-            let sideways = dot(foot.normal, self.across);
-            let within = along(foot.normal, -sideways, self.across);
-            if foot.distance.abs() <= ON_MOLD {
-                return Some(Step { end: next, course: self.course(&foot)?, half_way });
+            let sideways = dot(closest.normal, self.across);
+            let within = along(closest.normal, -sideways, self.across);
+            if closest.distance.abs() <= ON_MOLD {
+                return Some(Step { end: next, course: self.course(&closest)?, half_way });
             }
-            next = along(next, -foot.distance / dot(within, within), within);
+            next = along(next, -closest.distance / dot(within, within), within);
         }
-        let foot = self.mold.foot(next);
-        Some(Step { end: next, course: self.course(&foot)?, half_way })
+        let closest = self.mold.closest_point(next);
+        Some(Step { end: next, course: self.course(&closest)?, half_way })
     }
 }

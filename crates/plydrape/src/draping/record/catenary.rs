@@ -8,7 +8,7 @@ use std::fmt;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum CatenaryKind {
-    /// Along a fibre direction, between two cells or at the ply's border.
+    /// Along a fibre direction, between two cells or at the ply's boundary.
     Edge,
     /// Across a cell.
     Diagonal,

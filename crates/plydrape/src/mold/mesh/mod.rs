@@ -1,19 +1,19 @@
 //! A mold given by triangles.
 //!
 //! Triangles are taken as they come ([`Soup`]), vertices are merged, its triangles turned to face one way
-//! and its borders found; what was repaired stands in the [`MeshReport`]. The mesh then answers
+//! and its boundaries found; what was repaired stands in the [`MeshReport`]. The mesh then answers
 //! what any mold is asked: the closest point and which side it is on, a smooth normal, curvatures, lines along
 //! it in a vertical plane, and its highest point at a place.
 
-mod border;
+mod boundary;
 mod build;
+mod closest_point;
 mod curvature;
-mod drop;
 mod error;
-mod fan;
-mod foot;
+mod highest_point;
 mod join;
 mod normals;
+mod one_ring;
 mod orient;
 mod report;
 mod section;
@@ -21,7 +21,7 @@ mod soup;
 mod tree;
 mod triangle;
 
-pub use border::Border;
+pub use boundary::Boundary;
 pub use error::MeshError;
 pub use report::{Finding, MeshReport};
 pub use soup::Soup;
@@ -39,10 +39,10 @@ pub struct Mesh {
     /// Triangles across the edges from corner k to corner k + 1, or none.
     neighbours: Vec<[u32; 3]>,
     /// First corner of the triangles around each vertex.
-    fans: Vec<fan::Corner>,
+    first_corners: Vec<one_ring::Corner>,
     triangle_normals: Vec<[f64; 3]>,
     vertex_normals: Vec<[f64; 3]>,
-    borders: Vec<Border>,
+    boundaries: Vec<Boundary>,
     bounds: [[f64; 3]; 2],
     /// Diagonal of the box around the mesh (m).
     size: f64,
@@ -64,7 +64,7 @@ impl Mesh {
         &self.triangles
     }
 
-    /// The triangle across each edge of a triangle, from corner k to corner k + 1; none at a border.
+    /// The triangle across each edge of a triangle, from corner k to corner k + 1; none at a boundary.
     #[must_use]
     pub fn neighbours(&self, triangle: usize) -> [Option<usize>; 3] {
         self.neighbours[triangle].map(|n| (n != orient::NONE).then_some(n as usize))
@@ -76,10 +76,10 @@ impl Mesh {
         &self.vertex_normals
     }
 
-    /// The borders of its open surfaces, holes included.
+    /// The boundaries of its open surfaces, holes included.
     #[must_use]
-    pub fn borders(&self) -> &[Border] {
-        &self.borders
+    pub fn boundaries(&self) -> &[Boundary] {
+        &self.boundaries
     }
 
     /// Corners of the box around it (m): lowest and highest coordinates.

@@ -1,6 +1,6 @@
 //! What was found and repaired while a mesh was read.
 
-use super::border::Border;
+use super::boundary::Boundary;
 use std::fmt;
 
 /// What was found and repaired while a mesh was read.
@@ -13,7 +13,7 @@ pub struct MeshReport {
     pub triangles: usize,
     /// Its connected surfaces.
     pub surfaces: usize,
-    /// Those of them without a border.
+    /// Those of them without a boundary.
     pub closed: usize,
     /// Corners of the box around the mold (m): lowest and highest coordinates.
     pub bounds: [[f64; 3]; 2],
@@ -25,8 +25,8 @@ pub struct MeshReport {
     pub duplicate: Finding,
     /// Triangles whose corners ran the wrong way round, turned over.
     pub flipped: Finding,
-    /// Borders inside the outer one of their surface.
-    pub holes: Vec<Border>,
+    /// Boundaries inside the outer one of their surface.
+    pub holes: Vec<Boundary>,
     /// Elements that are no surface, left out: their type and how many lines of data they had.
     pub skipped: Vec<(String, usize)>,
 }

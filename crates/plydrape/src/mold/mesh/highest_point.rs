@@ -8,7 +8,7 @@ const OUTSIDE: f64 = 1e-12;
 impl Mesh {
     /// The highest point of the mesh at the place (x, y) (m); none beside the mesh.
     #[must_use]
-    pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
+    pub fn highest_point(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
         let mut top: Option<f64> = None;
         for triangle in self.tree.touching([[x, y, f64::NEG_INFINITY], [x, y, f64::INFINITY]]) {
             let corners = self.corners(triangle as usize);
