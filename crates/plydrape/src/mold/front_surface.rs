@@ -31,9 +31,6 @@ pub struct Rise {
     pub slope: f64,
 }
 
-/// Rounds the tip of r = 0 (m).
-const TIP: f64 = 1e-4;
-
 impl FrontSurface {
     /// The height at (x, y) (m).
     #[must_use]
@@ -62,7 +59,7 @@ impl Rise {
         let [dx, dy] = [x - self.centre[0], y - self.centre[1]];
         let [q0, q1, q2] = self.metric;
         let half = [q0 * dx + q1 * dy, q1 * dx + q2 * dy];
-        let r = (half[0] * dx + half[1] * dy + TIP * TIP).sqrt();
+        let r = (half[0] * dx + half[1] * dy).max(0.0).sqrt();
         let ahead = r - self.front;
         if ahead <= 0.0 {
             return Height::constant(0.0);

@@ -6,7 +6,8 @@ use super::height::{Height, Steepness};
 use super::height_grid::HeightGrid;
 use super::pose::Pose;
 use super::saddle::Saddle;
-use super::vector::{distance, dot, sub, unit};
+use super::tuning::TUNING;
+use super::vector::{distance, dot, norm, sub, unit};
 use super::{ClosestPoint, Curvatures, Separation};
 
 /// A height over the local xy plane.
@@ -35,9 +36,6 @@ pub enum Surface {
     /// Heights on a grid, raised ahead of a front.
     Front(FrontSurface),
 }
-
-/// Newton steps for a closest point; from above a mold it takes three to six.
-const STEPS: usize = 60;
 
 impl Surface {
     /// The height at local (x, y) (m).
@@ -106,28 +104,28 @@ impl Graph {
         let mut xy = inside([p[0], p[1]]);
         let mut height = self.surface.at(xy[0], xy[1]);
         let mut value = square(xy, height.z);
-        for _ in 0..STEPS {
+        for _ in 0..TUNING.newton_steps {
             let Some(step) = newton(xy, &height, p, self.domain) else { break };
             let size = step[0].hypot(step[1]);
-            let scale = 1.0 + xy[0].abs() + xy[1].abs();
+            let scale = sizes(xy, p);
             // halved until it comes closer; a step too small to show in the distance is just taken
             let mut part = 1.0;
             let found = loop {
                 let next = inside([xy[0] + part * step[0], xy[1] + part * step[1]]);
                 let there = self.surface.at(next[0], next[1]);
                 let closer = square(next, there.z);
-                if closer < value || size < 1e-6 * scale {
+                if closer < value || size < TUNING.unseen_step * scale {
                     break Some((next, there, closer));
                 }
                 part *= 0.5;
-                if part < 1e-6 {
+                if part < TUNING.smallest_share {
                     break None;
                 }
             };
             let Some((next, there, closer)) = found else { break };
             (xy, height, value) = (next, there, closer);
             // quadratic convergence: what is left is below rounding
-            if size < 1e-7 * scale {
+            if size < TUNING.newton_step * scale {
                 break;
             }
         }
@@ -140,7 +138,7 @@ impl Graph {
             .domain
             .is_some_and(|range| (0..2).any(|n| xy[n] <= range[n][0] || xy[n] >= range[n][1]));
         let far = distance(p, point);
-        let beyond = on_boundary && far - above.abs() > 1e-12 * far + 1e-18;
+        let beyond = on_boundary && far - above.abs() > TUNING.aside_of_domain * far;
         ClosestPoint {
             point: self.pose.place(point),
             normal: self.pose.turn(normal),
@@ -154,14 +152,16 @@ impl Graph {
     pub fn highest_point(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
         let [down, from] =
             [self.pose.turn_back([0.0, 0.0, 1.0]), self.pose.local([x, y, self.pose.position[2]])];
+        let extent =
+            self.domain.map_or(0.0, |range| range.as_flattened().iter().map(|c| c.abs()).sum());
         let mut t = -from[2] / down[2];
-        for _ in 0..STEPS {
+        for _ in 0..TUNING.newton_steps {
             let q = [0, 1, 2].map(|n| from[n] + t * down[n]);
             let height = self.surface.at(q[0], q[1]);
             let rate = down[2] - height.gradient[0] * down[0] - height.gradient[1] * down[1];
             let step = (height.z - q[2]) / rate;
             t += step;
-            if step.abs() <= 1e-15 * (1.0 + t.abs()) {
+            if step.abs() <= TUNING.rounding * (extent + norm(from) + t.abs()) {
                 let q = [0, 1, 2].map(|n| from[n] + t * down[n]);
                 let held = self.domain.is_none_or(|range| {
                     (0..2).all(|n| (range[n][0]..=range[n][1]).contains(&q[n]))
@@ -193,6 +193,11 @@ impl Graph {
     }
 }
 
+/// The size of the numbers that a closest point is computed from (m), which its rounding is relative to.
+fn sizes(xy: [f64; 2], p: [f64; 3]) -> f64 {
+    xy[0].abs() + xy[1].abs() + norm(p)
+}
+
 /// Unit normal of a height, upwards.
 fn upward(height: &Height) -> [f64; 3] {
     let [fx, fy] = height.gradient;
@@ -214,7 +219,7 @@ fn newton(
             !(xy[n] <= range[n][0] && slope[n] > 0.0 || xy[n] >= range[n][1] && slope[n] < 0.0)
         })
     });
-    let scale = 1e-16 * (1.0 + xy[0].abs() + xy[1].abs() + p[2].abs());
+    let scale = TUNING.stationary * sizes(xy, p);
     if (0..2).all(|n| !free[n] || slope[n].abs() <= scale) {
         return None;
     }
@@ -224,11 +229,12 @@ fn newton(
     match free {
         [true, true] => {
             let determinant = |[a, b, c]: [f64; 3]| a * c - b * b;
-            let [a, b, c] = if whole[0] > 0.0 && determinant(whole) > 1e-3 * determinant(flat) {
-                whole
-            } else {
-                flat
-            };
+            let [a, b, c] =
+                if whole[0] > 0.0 && determinant(whole) > TUNING.positive * determinant(flat) {
+                    whole
+                } else {
+                    flat
+                };
             let d = determinant([a, b, c]);
             Some([-(c * slope[0] - b * slope[1]) / d, -(a * slope[1] - b * slope[0]) / d])
         }

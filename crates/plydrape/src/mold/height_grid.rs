@@ -160,7 +160,7 @@ impl HeightGrid {
 }
 
 /// Largest size of (a³ − a)/6 for 0 ≤ a ≤ 1, at a = 1/√3.
-const BELLY: f64 = 0.064_150_029_909_958_43;
+const LARGEST_CUBIC: f64 = 0.064_150_029_909_958_43;
 
 impl HeightGrid {
     /// Bounds of its slope and bend over ranges of x and y (m) within the grid.
@@ -175,7 +175,7 @@ impl HeightGrid {
         }
         let nx = self.x.len();
         let value = |ends: [f64; 2], m: [f64; 2], h: f64| {
-            ends[0].abs().max(ends[1].abs()) + BELLY * h * h * (m[0].abs() + m[1].abs())
+            ends[0].abs().max(ends[1].abs()) + LARGEST_CUBIC * h * h * (m[0].abs() + m[1].abs())
         };
         let slope = |ends: [f64; 2], m: [f64; 2], h: f64| {
             (ends[1] - ends[0]).abs() / h + h / 3.0 * (m[0].abs() + m[1].abs())

@@ -16,6 +16,7 @@ mod pose;
 mod round;
 mod saddle;
 mod section;
+mod tuning;
 pub mod vector;
 
 pub use formula::Formula;
@@ -32,7 +33,8 @@ pub use vector::distance;
 
 use section::{Until, trace};
 use std::sync::Arc;
-use vector::{along, dot};
+use tuning::TUNING;
+use vector::{along, dot, norm};
 
 /// A mold.
 #[derive(Debug, Clone, PartialEq)]
@@ -271,16 +273,17 @@ impl Mold {
     #[must_use]
     pub fn path(&self, a: [f64; 3], b: [f64; 3]) -> Option<SurfaceCurve> {
         let run = (b[0] - a[0]).hypot(b[1] - a[1]);
-        let straight = || SurfaceCurve { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
+        let chord = distance(a, b);
+        let straight = || SurfaceCurve { points: vec![a, b], arc: vec![0.0, chord] };
         match self {
             Mold::Plane(_) => Some(straight()),
-            _ if distance(a, b) < 1e-12 => Some(straight()),
-            _ if run < 1e-9 => None,
+            _ if chord <= TUNING.same_point * (norm(a) + norm(b)) => Some(straight()),
+            _ if run < TUNING.above * chord => None,
             Mold::Mesh(mesh) => mesh.section_to(a, b),
             _ => {
                 let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
                 let line = trace(self, a, heading, Until::Run(run));
-                (distance(line.end(), b) < 1e-6 * (1.0 + run)).then_some(line)
+                (distance(line.end(), b) < TUNING.arrival * chord).then_some(line)
             }
         }
     }
@@ -312,33 +315,40 @@ impl Mold {
                 (torus.pose.position, Some(torus.ring_radius + torus.tube_radius))
             }
         };
-        self.fall([x, y], position, reach)
+        self.trace_down([x, y], position, reach)
     }
 
-    /// Falls from above by as much as the distance to the mold allows, then by Newton's method.
-    fn fall(&self, [x, y]: [f64; 2], position: [f64; 3], reach: Option<f64>) -> Option<[f64; 3]> {
-        // an endless cylinder may be inclined: start above its axis there
+    /// Sphere tracing from above (Hart 1996): down by as much as the distance to the mold allows, then by Newton's
+    /// method.
+    fn trace_down(
+        &self,
+        [x, y]: [f64; 2],
+        position: [f64; 3],
+        reach: Option<f64>,
+    ) -> Option<[f64; 3]> {
+        // an endless cylinder may be inclined: ten times as high is above slopes of up to 84°
         let aside = (x - position[0]).hypot(y - position[1]);
-        let reach = reach.unwrap_or(10.0 * aside + self.signed_distance([x, y, position[2]]).abs());
-        let mut p = [x, y, position[2] + reach + 1e-3];
-        let floor = position[2] - 2.0 * reach - 1.0;
-        for _ in 0..2000 {
+        let beside = self.signed_distance([x, y, position[2]]).abs();
+        let reach = reach.unwrap_or(10.0 * (aside + beside));
+        let mut p = [x, y, position[2] + 1.01 * reach];
+        let floor = position[2] - 3.0 * reach;
+        for _ in 0..TUNING.tracing_steps {
             let closest = self.closest_point(p);
-            if closest.distance.abs() < 1e-4 * reach && !closest.beyond && closest.normal[2] > 1e-3
-            {
+            let is_near = closest.distance.abs() < TUNING.tracing_end * reach;
+            if is_near && !closest.beyond && closest.normal[2] > TUNING.upright {
                 let step = closest.distance / closest.normal[2];
                 p[2] -= step;
-                if step.abs() < 1e-15 * (1.0 + p[2].abs()) {
+                if step.abs() < TUNING.tracing_tolerance * reach {
                     return Some(p);
                 }
                 continue;
             }
-            p[2] -= closest.distance.abs().max(1e-9);
+            p[2] -= closest.distance.abs().max(TUNING.tracing_step * reach);
             if p[2] < floor {
                 return None;
             }
         }
-        (self.signed_distance(p).abs() < 1e-12).then_some(p)
+        (self.signed_distance(p).abs() < TUNING.tracing_tolerance * reach).then_some(p)
     }
 
     /// A distance (m) from the mold that no point of a curve of `length` (m) between `a` and `b` falls

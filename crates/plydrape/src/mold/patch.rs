@@ -56,7 +56,7 @@ fn sampled(
     high: [f64; 2],
     most: usize,
 ) -> Triangles {
-    let wide = [0, 1].map(|c| (high[c] - low[c]).max(1e-9));
+    let wide = [0, 1].map(|c| high[c] - low[c]);
     let side = (2.0 * wide[0] * wide[1] / most.max(2) as f64).sqrt();
     let count = wide.map(|w| ((w / side).floor() as usize).clamp(1, most.max(2) / 2));
     let plan = |[i, j]: [usize; 2]| {

@@ -5,19 +5,9 @@
 //! steps over which neither T nor n turns by more than about a hundredth of a radian, nor would n along the
 //! mold's strongest bend; after each step the point is put back on the mold within the plane. The error of an arc is then some 1e-11 of its length.
 
-use super::vector::{along, cross, distance, dot, unit};
+use super::tuning::TUNING;
+use super::vector::{along, cross, distance, dot, norm, unit};
 use super::{ClosestPoint, Mold, SurfaceCurve};
-
-/// Turn of tangent or normal that a step aims at (rad).
-const TURN: f64 = 0.01;
-/// A step that turns more than this is tried again shorter (rad).
-const MOST_TURN: f64 = 0.012;
-/// Most points of a curve.
-const MOST_POINTS: usize = 20_000;
-/// Most steps that are tried for a curve, those that were too long among them.
-const MOST_TRIES: usize = 10 * MOST_POINTS;
-/// Distance to the mold at which a point counts as lying on it (m).
-const ON_MOLD: f64 = 1e-13;
 
 /// How far a curve is followed.
 #[derive(Debug, Clone, Copy)]
@@ -84,44 +74,45 @@ pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until
     if !total.is_finite() {
         return curve;
     }
-    for _ in 0..MOST_TRIES {
-        if curve.points.len() >= MOST_POINTS {
+    for _ in 0..TUNING.curve_trials {
+        if curve.points.len() >= TUNING.curve_points {
             break;
         }
         let left = match until {
             Until::Length(length) => length - arc,
             Until::Run(run) => {
-                (run - section.run(from, p)) / section.run([0.0; 3], course.tangent).max(1e-3)
+                (run - section.run(from, p))
+                    / section.run([0.0; 3], course.tangent).max(TUNING.upright)
             }
         };
-        if left <= 1e-15 * total {
+        if left <= TUNING.rounding * total {
             break;
         }
         // where the curve itself hardly turns the mold may still bend across it
         let bend = mold.curvatures(p).principal.map(f64::abs).into_iter().fold(0.0, f64::max);
-        step = step.min(left).min(MOST_TURN / bend.max(1e-12));
+        step = step.min(left).min(TUNING.largest_turn / bend);
         let Some(Step { end: mut next, course: mut there, half_way }) =
             section.step(p, course, step)
         else {
             step *= 0.5;
-            if step < 1e-9 * total { break } else { continue }
+            if step < TUNING.shortest_step * total { break } else { continue }
         };
         // by way of the middle: an S turns too
         let turn = course.turn(&half_way) + half_way.turn(&there);
-        if turn > MOST_TURN && step > 1e-6 * total {
+        if turn > TUNING.largest_turn && step > TUNING.kink_step * total {
             step *= 0.5;
             continue;
         }
         // the last step over a run is as long as it takes
         if let Until::Run(run) = until
-            && section.run(from, next) >= run * (1.0 - 1e-9)
+            && section.run(from, next) >= run * (1.0 - TUNING.shortest_step)
         {
-            for _ in 0..8 {
+            for _ in 0..TUNING.run_steps {
                 let miss = run - section.run(from, next);
-                if miss.abs() <= 1e-15 * run {
+                if miss.abs() <= TUNING.rounding * run {
                     break;
                 }
-                step += miss / section.run([0.0; 3], there.tangent).max(1e-3);
+                step += miss / section.run([0.0; 3], there.tangent).max(TUNING.upright);
                 let Some(found) = section.step(p, course, step) else { return curve };
                 (next, there) = (found.end, found.course);
             }
@@ -131,7 +122,7 @@ pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until
         arc = if matches!(until, Until::Length(_)) && step >= left { total } else { arc + step };
         curve.push(next, arc);
         (p, course) = (next, there);
-        step *= (TURN / turn.max(1e-12)).clamp(0.5, 2.0);
+        step *= (TUNING.turn / turn).clamp(0.5, 2.0);
     }
     curve
 }
@@ -158,15 +149,16 @@ impl Section<'_> {
         let k4 = at(along(p, length, k3))?.tangent;
         let mean = [0, 1, 2].map(|n| (k1[n] + 2.0 * (k2[n] + k3[n]) + k4[n]) / 6.0);
         let mut next = along(p, length, mean);
+        let on_mold = TUNING.on_mold * (length + norm(p));
         // back onto the mold, within the plane
-        for _ in 0..6 {
+        for _ in 0..TUNING.on_mold_steps {
             let closest = self.mold.closest_point(next);
             if closest.beyond {
                 return None;
             }
             let sideways = dot(closest.normal, self.across);
             let within = along(closest.normal, -sideways, self.across);
-            if closest.distance.abs() <= ON_MOLD {
+            if closest.distance.abs() <= on_mold {
                 return Some(Step { end: next, course: self.course(&closest)?, half_way });
             }
             next = along(next, -closest.distance / dot(within, within), within);

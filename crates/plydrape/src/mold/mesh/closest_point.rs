@@ -7,16 +7,9 @@
 use super::orient::NONE;
 use super::triangle::{Closest, Weights};
 use super::{Mesh, one_ring};
+use crate::mold::tuning::TUNING;
 use crate::mold::vector::{cross, dot, norm, sub, unit};
 use crate::mold::{ClosestPoint, Separation};
-
-/// How far (share of the mesh) a point may lie off to the side of a boundary and still count as over it.
-const ASIDE: f64 = 1e-9;
-/// The same as a share of its distance.
-const ASIDE_SLOPE: f64 = 1e-9;
-
-/// Share by which the square of a bound on a distance is taken larger.
-const WITHIN: f64 = 1e-6;
 
 /// A point of the mesh: its triangle and its weights there.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +34,7 @@ impl Mesh {
     #[must_use]
     pub fn separation(&self, p: [f64; 3], most: f64) -> Separation {
         // a margin for rounding; should the bound be wrong all the same, everything is searched
-        let place = self.surface_point_within(p, most * most * (1.0 + WITHIN));
+        let place = self.surface_point_within(p, most * most * (1.0 + TUNING.bound_margin));
         self.separation_from(&place.unwrap_or_else(|| self.surface_point(p)), p)
     }
 
@@ -100,7 +93,7 @@ impl Mesh {
             let corners = self.corners(t);
             let edge = sub(corners[(k + 1) % 3], corners[k]);
             let aside = cross(edge, self.triangle_normals[t]);
-            let limit = ASIDE * self.size + ASIDE_SLOPE * distance;
+            let limit = TUNING.aside * (self.size + distance);
             self.neighbours[t][k] == NONE && dot(off, aside) > limit * norm(aside)
         };
         match place.feature() {

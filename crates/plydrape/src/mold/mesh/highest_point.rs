@@ -1,9 +1,7 @@
 //! The highest point of a mesh at a place.
 
 use super::Mesh;
-
-/// Share of a triangle by which a place may lie outside of it in plan.
-const OUTSIDE: f64 = 1e-12;
+use crate::mold::tuning::TUNING;
 
 impl Mesh {
     /// The highest point of the mesh at the place (x, y) (m); none beside the mesh.
@@ -20,7 +18,7 @@ impl Mesh {
             let area: f64 = weights.iter().sum();
             let weights = weights.map(|w| w / area);
             // an upright triangle has no area in plan; its upper edge belongs to its neighbour as well
-            if weights.iter().all(|w| *w >= -OUTSIDE) {
+            if weights.iter().all(|w| *w >= -TUNING.outside_in_plan) {
                 let z = (0..3).map(|k| weights[k] * corners[k][2]).sum();
                 top = Some(top.map_or(z, |top: f64| top.max(z)));
             }

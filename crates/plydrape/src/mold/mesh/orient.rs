@@ -7,13 +7,11 @@
 use super::MeshError;
 use super::join::Joined;
 use super::report::MeshReport;
+use crate::mold::tuning::TUNING;
 use crate::mold::vector::{cross, dot, norm, sub};
 
 /// No triangle: a boundary.
 pub(super) const NONE: u32 = u32::MAX;
-/// An open surface whose vector area points less upwards than this share of its area faces sideways.
-const SIDEWAYS: f64 = 0.01;
-
 /// For each triangle its neighbours across the edges from corner k to corner k + 1.
 pub(super) type Neighbours = Vec<[u32; 3]>;
 
@@ -105,7 +103,7 @@ pub(super) fn orient(
             sides.volume < 0.0
         } else {
             let upwards = sides.vector_area[2] / sides.area;
-            if upwards.abs() < SIDEWAYS {
+            if upwards.abs() < TUNING.sideways {
                 return Err(MeshError::Sideways {
                     noun,
                     number: mesh.numbers[seed],

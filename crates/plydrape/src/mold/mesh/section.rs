@@ -9,17 +9,8 @@
 use super::Mesh;
 use super::orient::NONE;
 use crate::mold::SurfaceCurve;
+use crate::mold::tuning::TUNING;
 use crate::mold::vector::{along, distance, dot, sub};
-
-/// Vertices closer to the plane than this share of the mesh are in it.
-const IN_PLANE: f64 = 1e-13;
-/// Points closer to the line than this share of the mesh are on it.
-const ON_LINE: f64 = 1e-9;
-/// A line to a point gives up after this many times the chord.
-const DETOUR: f64 = 4.0;
-/// A line around a closed mesh ends after this many points for each triangle; it crosses each at most
-/// once a round.
-const ROUNDS: usize = 4;
 
 /// A vertical plane, with the side that its vertices count to.
 #[derive(Clone, Copy)]
@@ -62,14 +53,15 @@ impl Mesh {
     pub fn section_to(&self, a: [f64; 3], b: [f64; 3]) -> Option<SurfaceCurve> {
         let run = (b[0] - a[0]).hypot(b[1] - a[1]);
         let chord = distance(a, b);
-        if chord <= ON_LINE * self.size {
+        if chord <= TUNING.on_curve * self.size {
             return Some(SurfaceCurve { points: vec![a, b], arc: vec![0.0, chord] });
         }
         let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
         if !heading[0].is_finite() || !heading[1].is_finite() {
             return None;
         }
-        let (curve, end) = self.follow(a, heading, Goal::Point { point: b, most: DETOUR * chord });
+        let (curve, end) =
+            self.follow(a, heading, Goal::Point { point: b, most: TUNING.longest_way * chord });
         (end == End::Goal).then_some(curve)
     }
 
@@ -123,7 +115,7 @@ impl Cut<'_> {
                 Goal::Point { most, .. } if arc > most => return End::Boundary,
                 _ => {}
             }
-            if step > IN_PLANE * mesh.size {
+            if step > TUNING.in_plane * mesh.size {
                 curve.push(next, arc + step);
                 idle = 0;
             } else {
@@ -131,7 +123,7 @@ impl Cut<'_> {
             }
             match mesh.neighbours[triangle][edge] {
                 NONE => return End::Boundary,
-                _ if idle.max(curve.points.len() / ROUNDS) > mesh.triangles.len() => {
+                _ if idle.max(curve.points.len() / TUNING.rounds) > mesh.triangles.len() => {
                     return End::Boundary;
                 }
                 other => triangle = other as usize,
@@ -142,7 +134,7 @@ impl Cut<'_> {
 
     /// The crossed triangle that `p` (m) lies in.
     fn start(&self, p: [f64; 3]) -> Option<usize> {
-        let tolerance = ON_LINE * self.mesh.size;
+        let tolerance = TUNING.on_curve * self.mesh.size;
         let mut best: Option<(f64, usize)> = None;
         let near = [p.map(|x| x - tolerance), p.map(|x| x + tolerance)];
         for triangle in self.mesh.tree.touching(near) {
@@ -181,11 +173,11 @@ impl Cut<'_> {
     /// Distance of `p` to the left of the plane (m).
     fn side(&self, p: [f64; 3]) -> f64 {
         let s = self.left[0] * (p[0] - self.from[0]) + self.left[1] * (p[1] - self.from[1]);
-        if s.abs() <= IN_PLANE * self.mesh.size { 0.0 } else { s }
+        if s.abs() <= TUNING.in_plane * self.mesh.size { 0.0 } else { s }
     }
 
     fn is_on(&self, a: [f64; 3], b: [f64; 3], p: [f64; 3]) -> bool {
-        off_segment(a, b, p) <= ON_LINE * self.mesh.size
+        off_segment(a, b, p) <= TUNING.on_curve * self.mesh.size
     }
 }
 
