@@ -148,7 +148,7 @@ impl Curvatures {
     /// From the second fundamental form (1/m) over two unit tangents at right angles: its components
     /// (1,1), (1,2) and (2,2).
     #[must_use]
-    pub fn of_form([a, b, c]: [f64; 3], [s, t]: [[f64; 3]; 2]) -> Self {
+    fn of_form([a, b, c]: [f64; 3], [s, t]: [[f64; 3]; 2]) -> Self {
         let angle = 0.5 * (2.0 * b).atan2(a - c);
         let (sin, cos) = angle.sin_cos();
         let (mean, radius) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
@@ -236,12 +236,7 @@ impl Mold {
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
         match self {
-            Mold::Plane(plane) => {
-                let normal = plane.normal;
-                let axis = if normal[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-                let first = vector::unit(vector::cross(axis, normal)).unwrap_or(axis);
-                Curvatures::new([0.0; 2], [first, vector::cross(normal, first)])
-            }
+            Mold::Plane(plane) => Curvatures::new([0.0; 2], vector::tangents(plane.normal)),
             Mold::Cylinder(cylinder) => cylinder.curvatures(p),
             Mold::Sphere(sphere) => sphere.curvatures(p),
             Mold::Torus(torus) => torus.curvatures(p),

@@ -83,8 +83,7 @@ pub const FUNCTIONS: [(&str, Function); 13] = [
 
 impl Operation {
     /// Heights that it takes from the stack.
-    #[must_use]
-    pub fn operands(self) -> usize {
+    pub(super) fn operands(self) -> usize {
         match self {
             Operation::Number(_) | Operation::X | Operation::Y => 0,
             Operation::Whole(_) | Operation::Real(_) | Operation::Negate | Operation::Call(_) => 1,
@@ -92,20 +91,13 @@ impl Operation {
         }
     }
 
-    /// Heights on the stack behind the operation, from those before it.
-    #[must_use]
-    pub fn top(self, top: usize) -> usize {
-        match self {
-            Operation::Number(_) | Operation::X | Operation::Y => top + 1,
-            Operation::Whole(_) | Operation::Real(_) | Operation::Negate | Operation::Call(_) => {
-                top
-            }
-            _ => top - 1,
-        }
+    /// Heights on the stack behind the operation, from those before it: it takes its operands and leaves one.
+    pub(super) fn top(self, top: usize) -> usize {
+        top + 1 - self.operands()
     }
 
     /// What the operation leaves on the stack, from the height in its place and the one above.
-    pub fn result(self, a: Height, above: Option<&Height>, [x, y]: [f64; 2]) -> Height {
+    pub(super) fn result(self, a: Height, above: Option<&Height>, [x, y]: [f64; 2]) -> Height {
         let zero = Height::constant(0.0);
         let b = above.unwrap_or(&zero);
         match self {

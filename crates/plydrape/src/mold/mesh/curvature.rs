@@ -6,7 +6,7 @@
 
 use super::Mesh;
 use crate::mold::Curvatures;
-use crate::mold::vector::{cross, dot, norm, sub, unit};
+use crate::mold::vector::{cross, dot, norm, sub, tangents};
 
 /// A symmetric matrix: its components xx, xy, xz, yy, yz, zz.
 pub(super) type Symmetric = [f64; 6];
@@ -75,13 +75,6 @@ impl Mesh {
         let form = [(right[0] - uv * b) / uu, b, (right[2] - uv * b) / vv];
         form.iter().all(|x| x.is_finite()).then_some(form)
     }
-}
-
-/// Two unit vectors at right angles to each other and to a normal.
-fn tangents(normal: [f64; 3]) -> [[f64; 3]; 2] {
-    let axis = if normal[0].abs() < 0.8 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-    let first = unit(cross(axis, normal)).unwrap_or([0.0, 0.0, 1.0]);
-    [first, cross(normal, first)]
 }
 
 /// A tangent turned by the shortest rotation from one unit normal to another.

@@ -40,7 +40,9 @@ pub struct Mesh {
     neighbours: Vec<[u32; 3]>,
     /// First corner of the triangles around each vertex.
     first_corners: Vec<one_ring::Corner>,
+    /// Unit normal of each triangle, outwards.
     triangle_normals: Vec<[f64; 3]>,
+    /// Smooth unit normal of each vertex, outwards.
     vertex_normals: Vec<[f64; 3]>,
     boundaries: Vec<Boundary>,
     bounds: [[f64; 3]; 2],
@@ -62,18 +64,6 @@ impl Mesh {
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
-    }
-
-    /// The triangle across each edge of a triangle, from corner k to corner k + 1; none at a boundary.
-    #[must_use]
-    pub fn neighbours(&self, triangle: usize) -> [Option<usize>; 3] {
-        self.neighbours[triangle].map(|n| (n != orient::NONE).then_some(n as usize))
-    }
-
-    /// Smooth unit normal of each vertex, outwards.
-    #[must_use]
-    pub fn vertex_normals(&self) -> &[[f64; 3]] {
-        &self.vertex_normals
     }
 
     /// The boundaries of its open surfaces, holes included.

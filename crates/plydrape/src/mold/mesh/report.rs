@@ -53,17 +53,6 @@ impl Finding {
     }
 }
 
-impl MeshReport {
-    /// Whether the file had to be repaired, or its surface has holes.
-    #[must_use]
-    pub fn remarkable(&self) -> bool {
-        let findings = [&self.merged, &self.degenerate, &self.duplicate, &self.flipped];
-        findings.iter().any(|finding| finding.count > 0)
-            || !self.holes.is_empty()
-            || !self.skipped.is_empty()
-    }
-}
-
 /// One line for the mold and one for each kind of finding.
 impl fmt::Display for MeshReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
