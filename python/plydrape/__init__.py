@@ -14,8 +14,8 @@ Example:
 
 from plydrape import batch, study
 from plydrape._plydrape import (
+    ClosestPoints,
     Equilibrium,
-    Foot,
     Jacobian,
     Material,
     Measure,
@@ -50,9 +50,9 @@ from plydrape.study.error import StudyError
 
 __all__ = [
     "CadError",
+    "ClosestPoints",
     "Equilibrium",
     "ExtraError",
-    "Foot",
     "Jacobian",
     "Material",
     "Measure",

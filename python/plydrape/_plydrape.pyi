@@ -21,9 +21,9 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "__version__",
+    "ClosestPoints",
     "Equilibria",
     "Equilibrium",
-    "Foot",
     "Jacobian",
     "Material",
     "Measure",
@@ -50,6 +50,38 @@ __version__: Final[str]
 """
 Version of the package and of the library in it.
 """
+
+@final
+class ClosestPoints:
+    """
+    What lies closest to points.
+
+    Example:
+        >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+        >>> closest = mold.closest_points([[0, 0, 0.1]])
+        >>> bool(np.isclose(np.linalg.norm(closest.points - [0, 0, 0.1]), abs(closest.distances[0])))
+        True
+    """
+    @property
+    def beyond(self, /) -> NDArray[bool_]:
+        """
+        Where a point is off to the side of an open boundary: there is no mold, shape (n,).
+        """
+    @property
+    def distances(self, /) -> NDArray[float64]:
+        """
+        Distances (m), negative inside the mold, shape (n,).
+        """
+    @property
+    def normals(self, /) -> NDArray[float64]:
+        """
+        Smooth unit normals of the mold there, out of it, shape (n, 3).
+        """
+    @property
+    def points(self, /) -> NDArray[float64]:
+        """
+        The closest points of the mold (m), shape (n, 3).
+        """
 
 @final
 class Equilibria:
@@ -181,38 +213,6 @@ class Equilibrium:
     def status(self, /) -> str:
         """
         How the solve ended: converged, "stalled", "iteration-limit" or "length-not-met".
-        """
-
-@final
-class Foot:
-    """
-    What lies closest to points.
-
-    Example:
-        >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
-        >>> foot = mold.foot([[0, 0, 0.1]])
-        >>> bool(np.isclose(np.linalg.norm(foot.points - [0, 0, 0.1]), abs(foot.distances[0])))
-        True
-    """
-    @property
-    def beyond(self, /) -> NDArray[bool_]:
-        """
-        Where a point is off to the side of an open border: there is no mold, shape (n,).
-        """
-    @property
-    def distances(self, /) -> NDArray[float64]:
-        """
-        Distances (m), negative inside the mold, shape (n,).
-        """
-    @property
-    def normals(self, /) -> NDArray[float64]:
-        """
-        Smooth unit normals of the mold there, out of it, shape (n, 3).
-        """
-    @property
-    def points(self, /) -> NDArray[float64]:
-        """
-        The closest points of the mold (m), shape (n, 3).
         """
 
 @final
@@ -407,14 +407,14 @@ class Mold:
         'sphere'
     """
     def __repr__(self, /) -> str: ...
-    def foot(self, /, points: ArrayLike) -> Foot:
+    def closest_points(self, /, points: ArrayLike) -> ClosestPoints:
         """
         What lies closest to points (m), shape (n, 3).
 
         Example:
             >>> mold = plydrape.Scene.read("examples/03_tilted_plane/scene.toml").mold
-            >>> foot = mold.foot([[0, 0, 1]])
-            >>> foot.points.shape, foot.distances.shape
+            >>> closest = mold.closest_points([[0, 0, 1]])
+            >>> closest.points.shape, closest.distances.shape
             ((1, 3), (1,))
         """
     def heights(self, /, places: ArrayLike) -> NDArray[float64]:

@@ -64,11 +64,11 @@ fn load_200k_triangles(bencher: Bencher) {
 
 /// A thousand closest points with normal and side, from all over the mesh, that far from it at most (mm).
 #[divan::bench(args = [1, 10, 100])]
-fn thousand_feet_on_200k_triangles(bencher: Bencher, off: u32) {
+fn thousand_closest_points_on_200k_triangles(bencher: Bencher, off: u32) {
     LazyLock::force(&MESH);
     let mut next = points(f64::from(off) * 1e-3);
     let points: Vec<_> = (0..1000).map(|_| next()).collect();
-    let ask = || points.iter().map(|p| MESH.foot(*p).distance).sum::<f64>();
+    let ask = || points.iter().map(|p| MESH.closest_point(*p).distance).sum::<f64>();
     bencher.bench_local(|| black_box(ask()));
 }
 
@@ -84,8 +84,8 @@ fn section_of_100_mm_on_200k_triangles(bencher: Bencher) {
 
 /// The highest point at a place.
 #[divan::bench]
-fn drop_to_200k_triangles(bencher: Bencher) {
+fn highest_point_of_200k_triangles(bencher: Bencher) {
     LazyLock::force(&MESH);
     let next = points(0.0);
-    bencher.with_inputs(next).bench_local_values(|[x, y, _]| MESH.drop_to(black_box([x, y])));
+    bencher.with_inputs(next).bench_local_values(|[x, y, _]| MESH.highest_point(black_box([x, y])));
 }

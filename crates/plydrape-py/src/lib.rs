@@ -39,7 +39,7 @@ mod _plydrape {
     #[pymodule_export]
     use crate::measure::{Measure, measures};
     #[pymodule_export]
-    use crate::mold::{Foot, Mold};
+    use crate::mold::{ClosestPoints, Mold};
     #[pymodule_export]
     use crate::net::Net;
     #[pymodule_export]

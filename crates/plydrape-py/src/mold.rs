@@ -21,36 +21,36 @@ pub struct Mold(pub mold::Mold);
 ///
 /// Example:
 ///     >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
-///     >>> foot = mold.foot([[0, 0, 0.1]])
-///     >>> bool(np.isclose(np.linalg.norm(foot.points - [0, 0, 0.1]), abs(foot.distances[0])))
+///     >>> closest = mold.closest_points([[0, 0, 0.1]])
+///     >>> bool(np.isclose(np.linalg.norm(closest.points - [0, 0, 0.1]), abs(closest.distances[0])))
 ///     True
 #[pyclass(frozen, module = "plydrape")]
-pub struct Foot(Vec<mold::Foot>);
+pub struct ClosestPoints(Vec<mold::ClosestPoint>);
 
 #[pymethods]
-impl Foot {
+impl ClosestPoints {
     /// The closest points of the mold (m), shape (n, 3).
     #[getter]
     fn points(&self) -> Array<f64> {
-        Array::rows(&[self.0.len(), 3], self.0.iter().map(|foot| foot.point))
+        Array::rows(&[self.0.len(), 3], self.0.iter().map(|closest| closest.point))
     }
 
     /// Smooth unit normals of the mold there, out of it, shape (n, 3).
     #[getter]
     fn normals(&self) -> Array<f64> {
-        Array::rows(&[self.0.len(), 3], self.0.iter().map(|foot| foot.normal))
+        Array::rows(&[self.0.len(), 3], self.0.iter().map(|closest| closest.normal))
     }
 
     /// Distances (m), negative inside the mold, shape (n,).
     #[getter]
     fn distances(&self) -> Array<f64> {
-        Array::new(&[self.0.len()], self.0.iter().map(|foot| foot.distance).collect())
+        Array::new(&[self.0.len()], self.0.iter().map(|closest| closest.distance).collect())
     }
 
-    /// Where a point is off to the side of an open border: there is no mold, shape (n,).
+    /// Where a point is off to the side of an open boundary: there is no mold, shape (n,).
     #[getter]
     fn beyond(&self) -> Array<bool> {
-        Array::new(&[self.0.len()], self.0.iter().map(|foot| foot.beyond).collect())
+        Array::new(&[self.0.len()], self.0.iter().map(|closest| closest.beyond).collect())
     }
 }
 
@@ -121,13 +121,13 @@ impl Mold {
     ///
     /// Example:
     ///     >>> mold = plydrape.Scene.read("examples/03_tilted_plane/scene.toml").mold
-    ///     >>> foot = mold.foot([[0, 0, 1]])
-    ///     >>> foot.points.shape, foot.distances.shape
+    ///     >>> closest = mold.closest_points([[0, 0, 1]])
+    ///     >>> closest.points.shape, closest.distances.shape
     ///     ((1, 3), (1,))
     #[pyo3(signature = (points))]
-    fn foot(&self, py: Python<'_>, points: Table<'_>) -> PyResult<Foot> {
+    fn closest_points(&self, py: Python<'_>, points: Table<'_>) -> PyResult<ClosestPoints> {
         let points = crate::arrays::points(&points, "points")?;
-        Ok(Foot(py.detach(|| points.iter().map(|p| self.0.foot(*p)).collect())))
+        Ok(ClosestPoints(py.detach(|| points.iter().map(|p| self.0.closest_point(*p)).collect())))
     }
 
     /// Height of its highest point over places of the plan (m), nan where there is none.
@@ -146,7 +146,7 @@ impl Mold {
             return Err(crate::arrays::wrong_shape("places", "(n, 2)", &[rows, columns]));
         }
         let at: Vec<[f64; 2]> = view.rows().into_iter().map(|p| [p[0], p[1]]).collect();
-        let height = |p: &[f64; 2]| self.0.drop_to(*p).map_or(f64::NAN, |point| point[2]);
+        let height = |p: &[f64; 2]| self.0.highest_point(*p).map_or(f64::NAN, |point| point[2]);
         Ok(Array::new(&[rows], py.detach(|| at.iter().map(height).collect())))
     }
 

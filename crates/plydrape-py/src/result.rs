@@ -9,7 +9,7 @@ use crate::surface::Surface;
 use plydrape::draping::record::{CatenaryState, Step};
 use plydrape::equilibrium::Status;
 use plydrape::measure::{Name, Scope};
-use plydrape_io::ground::ground;
+use plydrape_io::mold_patch::mold_patch;
 use plydrape_io::{ResultFile, export, figure, folder, page, read, surface};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
@@ -323,7 +323,7 @@ impl Result {
     ///     (3, True)
     #[pyo3(signature = (*, most = 20_000))]
     fn mold_surface(&self, py: Python<'_>, most: usize) -> Option<(Array<f64>, Array<u32>)> {
-        py.detach(|| ground(&self.0, most)).map(triangles)
+        py.detach(|| mold_patch(&self.0, most)).map(triangles)
     }
 
     /// Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, and of a plan motion.csv, into a

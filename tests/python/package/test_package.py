@@ -127,7 +127,7 @@ def test_a_mold_of_triangles_is_the_mold_of_its_file(tmp_path: Path) -> None:
     points, corners = from_file.mold.patch((low[0], low[1]), (high[0], high[1]), most=1 << 30)
     mold = plydrape.Mold.triangles(points, corners)
     places = np.random.default_rng(1).uniform(low + 10, high - 10, (100, 3))
-    ours, theirs = mold.foot(places), from_file.mold.foot(places)
+    ours, theirs = mold.closest_points(places), from_file.mold.closest_points(places)
     assert np.allclose(ours.points, theirs.points, rtol=0, atol=1e-12)
     assert np.allclose(ours.normals, theirs.normals, rtol=0, atol=1e-9)
 

@@ -47,14 +47,14 @@ pub(super) fn mold(scene: &SceneFile) -> Vec<Line> {
                     let [nx, ny] = grid.size();
                     format!("grid of {nx} × {ny} heights")
                 }
-                Surface::Lifted(_) => "mold lifted ahead of a front".into(),
+                Surface::Front(_) => "mold raised ahead of a front".into(),
             };
             let range = match graph.domain {
                 Some([x, y]) => {
                     let [x, y] = [x, y].map(|ends| ends.map(millimetres).join(" to "));
                     format!("x from {x} mm, y from {y} mm")
                 }
-                None => "without border".into(),
+                None => "without boundary".into(),
             };
             format!("{surface}, {range}, {}", standing("origin", &graph.pose))
         }

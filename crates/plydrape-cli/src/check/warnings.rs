@@ -74,7 +74,7 @@ fn mass(scene: &Scene) -> Option<String> {
 
 /// Depth of a place below the mold (m); none beside it, where nothing is above or below.
 fn depth(mold: &Mold, place: [f64; 3]) -> f64 {
-    match mold.drop_to([place[0], place[1]]) {
+    match mold.highest_point([place[0], place[1]]) {
         Some(_) => -mold.signed_distance(place),
         None => f64::NEG_INFINITY,
     }

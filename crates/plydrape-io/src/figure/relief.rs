@@ -11,7 +11,7 @@ use super::colour::{MOLD_DARK, MOLD_EDGE, MOLD_LIGHT};
 use super::piece::{Form, Piece, grown, paint};
 use super::projection::{Point, View};
 use plydrape::mold::Mold;
-use plydrape::mold::patch::border;
+use plydrape::mold::patch::boundary;
 
 /// Quads along the longer side of the plan.
 const QUADS: usize = 30;
@@ -62,7 +62,7 @@ impl Relief {
         let count = count.map(|n| n.next_multiple_of(APART));
         let side = [0, 1].map(|c| wide[c] / count[c] as f64);
         let on = |x: f64, y: f64| {
-            let point = mold.drop_to([x, y])?;
+            let point = mold.highest_point([x, y])?;
             (point.iter().all(|c| c.is_finite()) && point[2] > floor && point[2] < roof)
                 .then_some(point)
         };
@@ -186,8 +186,8 @@ impl Quad {
             let next = (n + 1) % 4;
             let side = match (found[n], found[next]) {
                 (Some(a), Some(b)) => Some([a, b]),
-                (Some(a), None) => Some([a, border(a, places[n], places[next], on)]),
-                (None, Some(b)) => Some([border(b, places[next], places[n], on), b]),
+                (Some(a), None) => Some([a, boundary(a, places[n], places[next], on)]),
+                (None, Some(b)) => Some([boundary(b, places[next], places[n], on), b]),
                 (None, None) => None,
             };
             let Some(side) = side else { continue };
@@ -244,7 +244,7 @@ mod tests {
             // along the line of sight as seen from above: −1 the back rim, 1 the front rim
             let run = towards[0].hypot(towards[1]);
             let [x, y] = [towards[0], towards[1]].map(|c| 0.2 * share * c / run);
-            ball().drop_to([x, y]).unwrap()
+            ball().highest_point([x, y]).unwrap()
         };
         // the line of sight touches where the slope is that of the view, 32°
         let limit = 32.0_f64.to_radians().sin();
@@ -263,7 +263,7 @@ mod tests {
         assert!(!relief.hides(&view, [x, y, z + 0.1]));
     }
 
-    /// Where the mold ends within a quad, its outline ends on the border.
+    /// Where the mold ends within a quad, its outline ends on the boundary.
     #[test]
     fn a_patch_ends_where_the_mold_does() {
         let relief = Relief::of(&ball(), [-0.3, -0.3], [0.3, 0.3], [-1.0, 1.0]).unwrap();

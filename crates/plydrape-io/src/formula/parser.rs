@@ -35,7 +35,7 @@ struct State<'a> {
 /// The operations of a formula.
 pub(super) fn program(text: &str) -> Result<Program, FormulaError> {
     let input = Input { input: LocatingSlice::new(text), state: State { text, depth: 0 } };
-    let end = alt((eof.void(), stray));
+    let end = alt((eof.void(), misplaced));
     delimited(spaces, formula, end).parse(input).map_err(|error| error.into_inner())
 }
 
@@ -89,7 +89,7 @@ fn bracket(i: &mut Input) -> Parsed<Program> {
     if i.is_empty() {
         return refuse(open..open + 1, FormulaFault::Bracket);
     }
-    alt((")".void(), stray)).parse_next(i)?;
+    alt((")".void(), misplaced)).parse_next(i)?;
     i.state.depth -= 1;
     Ok(inner)
 }
@@ -179,7 +179,7 @@ fn before(i: &Input) -> Range<usize> {
 }
 
 /// What is wrong with what stands behind a whole value.
-fn stray(i: &mut Input) -> Parsed<()> {
+fn misplaced(i: &mut Input) -> Parsed<()> {
     if let Some((word, at)) = opt(alt((word, "(")).with_span()).parse_next(i)? {
         return refuse(at, FormulaFault::Operator(word.into()));
     }

@@ -80,9 +80,16 @@ fn derivatives_are_those_of_central_differences() {
 
 #[test]
 fn powers_and_products_are_smooth_at_the_origin() {
-    for text in ["x^2 - y^2", "x*y", "x^3 + y^4", "0.1 - x^2*y^2"] {
+    for text in ["x^2 - y^2", "x*y", "x^3 + y^4", "0.1 - x^2*y^2", "(x + y)^3", "(x + y)^2.5"] {
         assert!(read(text).at(0.0, 0.0).is_finite(), "{text}");
     }
+}
+
+/// The hyperbolic tangent is 1 long before sinh and cosh are too large for a number.
+#[test]
+fn the_hyperbolic_tangent_levels_off() {
+    let height = read("tanh(x)").at(1e3, 0.0);
+    assert_eq!((height.z, height.gradient[0], height.hessian[0]), (1.0, 0.0, 0.0));
 }
 
 #[test]

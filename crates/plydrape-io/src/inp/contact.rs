@@ -6,7 +6,7 @@
 //! contact tolerance.
 
 use super::text::{Deck, number};
-use crate::ground::extent;
+use crate::mold_patch::extent;
 use crate::result::ResultFile;
 use plydrape::mold::patch::{Triangles, patch};
 

@@ -18,7 +18,7 @@ use std::path::Path;
 /// Largest mesh file that is read (bytes).
 pub(crate) const LARGEST: u64 = 1 << 30;
 
-/// Reads a mesh from an STL, OBJ or Abaqus file, told by the end of its name.
+/// Reads a mesh from an STL, OBJ or Abaqus file, recognised by the end of its name.
 ///
 /// Coordinates are multiplied by `scale` (m per unit of the file), then placed by `pose`.
 ///
@@ -31,7 +31,7 @@ pub fn read(path: &Path, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), 
     parse(&file, &bytes, scale, pose)
 }
 
-/// The same from the contents of a file; its name tells the format and stands in messages.
+/// The same from the contents of a file; its name states the format and stands in messages.
 ///
 /// # Errors
 /// As [`read`].

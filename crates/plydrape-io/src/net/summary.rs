@@ -33,7 +33,7 @@ pub struct Summary {
     pub max_edge_error: f64,
     /// Nodes with a place on the mold.
     pub placed: usize,
-    /// Nodes beyond the mold's border.
+    /// Nodes beyond the mold's boundary.
     pub off_mold: usize,
     /// Nodes where the ply folds.
     pub folded: usize,
@@ -147,7 +147,7 @@ impl Summary {
             faults.push("the ply folds".to_owned());
         }
         if self.off_mold > 0 {
-            faults.push(format!("{} of its nodes lie beyond the mold's border", self.off_mold));
+            faults.push(format!("{} of its nodes lie beyond the mold's boundary", self.off_mold));
         }
         match (self.max_shear_deg, self.shear_limit_deg) {
             (Some(largest), Some(limit)) if largest > limit => {
@@ -178,7 +178,7 @@ fn missing_words(count: usize, first: &Missing) -> String {
     let [i, j] = first.node;
     let text = format!("{count} nodes; next to the seed [{i}, {j}]");
     match (first.beyond, first.near) {
-        (Some(beyond), _) => format!("{text}, {:.1} mm beyond the border", beyond * 1e3),
+        (Some(beyond), _) => format!("{text}, {:.1} mm beyond the boundary", beyond * 1e3),
         (None, Some(near)) => format!("{text} at {} mm", at(near)),
         (None, None) => text,
     }

@@ -113,6 +113,6 @@ fn a_net_is_refused_beyond_its_shear_limit_and_beyond_its_mold() {
     assert!(!tight.accepted);
     assert!(tight.verdict().starts_with("not accepted: shear 5"), "{}", tight.verdict());
     let beyond = Summary::of(large, None);
-    assert!(!beyond.accepted && beyond.verdict().contains("beyond the mold's border"));
+    assert!(!beyond.accepted && beyond.verdict().contains("beyond the mold's boundary"));
     assert!(beyond.table().lines().all(|l| l.chars().count() <= 100), "{}", beyond.table());
 }

@@ -105,7 +105,7 @@ fn mold(mold: &Mold) -> String {
                 let [nx, ny] = grid.size();
                 format!("heights on a grid of {nx} × {ny}")
             }
-            Surface::Lifted(_) => "a lifted surface".into(),
+            Surface::Front(_) => "a mold raised ahead of a front".into(),
         },
         Mold::Mesh(mesh) => format!("mesh of {} triangles", mesh.triangles().len()),
     }

@@ -1,7 +1,7 @@
 //! What the page draws: ply, grippers, contact and mold, in micrometres and hundredths of a degree.
 
 use super::block::Block;
-use crate::ground::ground;
+use crate::mold_patch::mold_patch;
 use crate::result::ResultFile;
 use crate::surface::{Surface, contact_lines, lines, stations};
 use plydrape::draping::record::Step;
@@ -213,7 +213,7 @@ fn contacts(result: &ResultFile, step: &Step) -> Vec<[f64; 3]> {
 
 /// The mold around the ply.
 fn mold(result: &ResultFile) -> Option<Mold> {
-    let found = ground(result, MOST_TRIANGLES)?;
+    let found = mold_patch(result, MOST_TRIANGLES)?;
     // the nearest micrometre in the fewest digits
     let short = |c: &f64| (c * MICRO).round() / MICRO;
     Some(Mold {

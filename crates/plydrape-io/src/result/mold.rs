@@ -44,7 +44,7 @@ impl<'a> Record<'a> {
                         SurfaceRecord::HeightGrid { x, y, z }
                     }
                     // a search's own, which no result holds
-                    Surface::Lifted(_) => return None,
+                    Surface::Front(_) => return None,
                 };
                 Record::Graph { pose: *pose, surface, domain: *domain }
             }

@@ -6,7 +6,7 @@
 use super::FRAME;
 use super::message::{ColorRgba, Header, Marker, MarkerArray, Pose, Vector3};
 use crate::figure;
-use crate::ground::ground;
+use crate::mold_patch::mold_patch;
 use crate::result::ResultFile;
 use crate::surface::Surface;
 use plydrape::draping::record::{Gripper, Step};
@@ -87,7 +87,7 @@ pub(super) fn ply(result: &ResultFile, step: &Step, paint: &Paint) -> MarkerArra
 
 /// The mold under the drape, if there is one.
 pub(super) fn mold(result: &ResultFile) -> Option<MarkerArray> {
-    let found = ground(result, MOLD_TRIANGLES)?;
+    let found = mold_patch(result, MOLD_TRIANGLES)?;
     let corners = found.triangles.iter().flatten();
     let points: Vec<Vector3> =
         corners.filter_map(|n| found.vertices.get(*n as usize)).map(|p| (*p).into()).collect();

@@ -48,7 +48,7 @@ pub(super) fn layup(
         Some(origin) => coordinates(&origin.value, document)?,
         None => [0.0; 2],
     };
-    let Some(place) = mold.drop_to(origin) else {
+    let Some(place) = mold.highest_point(origin) else {
         let [x, y] = origin.map(|c| format!("{} mm", round(c * 1e3)));
         return Err(document.error(
             keys.origin.as_ref().map_or(table.clone(), |origin| origin.span.clone()),

@@ -204,7 +204,7 @@ pub(super) fn check(places: &Places, around: &Surroundings) -> Result<(), SceneE
     };
     let mut help = "start above the mold: raise the grippers or lower the mold".to_string();
     // a level start clears the mold above its highest point under a gripper
-    let tops = places.points.iter().filter_map(|&[x, y, _]| mold.drop_to([x, y]));
+    let tops = places.points.iter().filter_map(|&[x, y, _]| mold.highest_point([x, y]));
     let top = tops.map(|top| top[2]).fold(f64::NEG_INFINITY, f64::max);
     if places.height.is_some() && !matches!(mold, Mold::Plane(_)) && top.is_finite() {
         help += &format!("; below the grippers it reaches up to z = {:.1} mm", top * 1e3);

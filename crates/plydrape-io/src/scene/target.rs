@@ -129,11 +129,11 @@ fn at_grippers(
         Some((Reason::OffMold, beyond)) => (
             match beyond {
                 Some(beyond) => {
-                    format!("lies {} mm beyond the border of the mold", round(beyond * 1e3))
+                    format!("lies {} mm beyond the boundary of the mold", round(beyond * 1e3))
                 }
-                None => "lies beyond the border of the mold".into(),
+                None => "lies beyond the boundary of the mold".into(),
             },
-            "the ply reaches over the mold's border: move `origin` or turn `direction`, or take a larger mold or a smaller ply",
+            "the ply reaches over the mold's boundary: move `origin` or turn `direction`, or take a larger mold or a smaller ply",
         ),
         Some((Reason::Folded, _)) => (
             "lies where the net folds".into(),

@@ -323,7 +323,7 @@ fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it
         let heights = HeightGrid::new(axis.clone(), axis.clone(), z).expect("a grid");
         let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::HeightGrid(heights));
         let mold = Mold::Graph(Graph { pose, surface, domain: Some([[-0.3, 0.3]; 2]) });
-        let place = mold.drop_to([0.0; 2]).expect("the middle");
+        let place = mold.highest_point([0.0; 2]).expect("the middle");
         let net = Net::drape(&mold, Layup { place, ..layup }).expect("a net");
         let divisions = (0.1 / layup.mesh[0]).round() as usize;
         let node = |n: usize| net.node([n % 4 * divisions, n / 4 * divisions]).expect("a node");

@@ -154,8 +154,9 @@ fn the_net_on_the_cubic_lies_on_the_printed_polynomial() {
         assert!((z - height).abs() < 1e-12, "{z} {height}");
     }
     // "slopes up to 63 deg" are the mold's own, in its corner
-    let steepest = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.5, 0.5]]
-        .map(|place| mold.normal(mold.drop_to(place).expect("on the mold"))[2].acos().to_degrees());
+    let steepest = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.5, 0.5]].map(|place| {
+        mold.normal(mold.highest_point(place).expect("on the mold"))[2].acos().to_degrees()
+    });
     assert!(steepest.iter().any(|slope| (slope - 63.0).abs() < 0.5), "{steepest:?}");
     straight_paths_leave_wrinkles(&scene, 1e-9);
 }
@@ -170,7 +171,7 @@ fn the_stl_has_the_targets_of_its_formula() {
     let pose = Pose::new([0.0; 3], [0.0; 3]);
     let smooth = Mold::Graph(Graph { pose, surface: Surface::Formula { z }, domain: None });
     let mut layup = net.layup;
-    layup.place = smooth.drop_to([layup.place[0], layup.place[1]]).expect("on the mold");
+    layup.place = smooth.highest_point([layup.place[0], layup.place[1]]).expect("on the mold");
     let ideal = Net::drape(&smooth, layup).expect("a net");
     let divisions = [0, 1].map(|n| (scene.ply.cell[n] / layup.mesh[n]).round() as usize);
     for (n, place) in target.grippers.iter().enumerate() {

@@ -41,7 +41,7 @@ fn above(grid: Grid, mold: &Mold, spacing: f64) -> Vec<[f64; 3]> {
     let place = |k: usize| {
         let [i, j] = grid.id(k);
         let plan = [(i as f64 - middle[0]) * spacing, (j as f64 - middle[1]) * spacing];
-        mold.drop_to(plan).expect("mold below the grid")
+        mold.highest_point(plan).expect("mold below the grid")
     };
     (0..grid.grippers()).map(place).collect()
 }
@@ -113,7 +113,7 @@ fn a_shear_map_says_what_its_net_reports() {
             nodes,
             mesh: [mesh; 2],
             seed,
-            place: mold.closest_point([0.0, 0.0, down]),
+            place: mold.closest_point([0.0, 0.0, down]).point,
             heading: 0.3,
             shear: shear.to_radians(),
             generators: Generators::Geodesic,

@@ -1,7 +1,7 @@
 //! A front that lays the ply: the lifted mold, the formation of grippers on it, and corrections by gradients.
 
 use plydrape::measure::Name;
-use plydrape::mold::{HeightGrid, Lift, Lifted};
+use plydrape::mold::{FrontSurface, HeightGrid, Rise};
 use plydrape::planner::board::Board;
 use plydrape::planner::judge;
 use plydrape::planner::path::{Formation, Ground, Strategy, correction, longest_move, trajectory};
@@ -41,8 +41,8 @@ fn a_lifted_mold_has_the_derivatives_of_its_height() {
     let ground =
         Arc::new(HeightGrid::new(axis.clone(), axis.clone(), z.collect()).expect("a grid"));
     let metric = [0.7, -0.2, 0.9];
-    let lift = Lift { centre: [0.02, -0.03], metric, front: 0.06, curvature: 4.0, slope: 0.3 };
-    let lifted = Lifted { ground, lift };
+    let lift = Rise { centre: [0.02, -0.03], metric, front: 0.06, curvature: 4.0, slope: 0.3 };
+    let lifted = FrontSurface { mold: ground, rise: lift };
     let h = 1e-5;
     for (x, y) in [(0.03, -0.02), (0.1, 0.07), (-0.15, 0.12), (0.02, -0.19), (-0.11, -0.13)] {
         let here = lifted.at(x, y);
@@ -63,9 +63,9 @@ fn a_lifted_mold_has_the_derivatives_of_its_height() {
         }
     }
     // far ahead it is no steeper than it may be
-    let far = Lift { front: 0.0, metric: [1.0, 0.0, 1.0], ..lift };
-    let flat = Lifted { lift: far, ground: Arc::clone(&lifted.ground) };
-    let rise = (flat.raised(0.2, -0.03) - flat.raised(0.19, -0.03)) / 0.01;
+    let far = Rise { front: 0.0, metric: [1.0, 0.0, 1.0], ..lift };
+    let flat = FrontSurface { rise: far, mold: Arc::clone(&lifted.mold) };
+    let rise = (flat.rise_at(0.2, -0.03) - flat.rise_at(0.19, -0.03)) / 0.01;
     assert!(rise < 0.3 && rise > 0.25, "{rise}");
 }
 

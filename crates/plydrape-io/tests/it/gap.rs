@@ -93,7 +93,7 @@ fn span(mold: &Mold, n: usize, above: f64, scale: f64) -> FreeSpan {
     let middle = [3.0, 5.0].map(|prime| 0.3 * scale * (scatter(n, prime) - 0.5));
     let heading = [angle.cos(), angle.sin()];
     let plan = [-0.5, 0.5].map(|side| [0, 1].map(|c| middle[c] + side * run * heading[c]));
-    let on = |place: [f64; 2]| mold.drop_to(place).expect("the mold is there")[2];
+    let on = |place: [f64; 2]| mold.highest_point(place).expect("the mold is there")[2];
     // from far below the ends of the chord to somewhat above, tilted
     let ends = [0, 1].map(|e| {
         let tilt = 0.02 * scale * (scatter(n, 7.0 + 4.0 * e as f64) - 0.3);
@@ -359,12 +359,12 @@ fn a_ball_that_is_called_clear_holds_nothing_of_the_mold() {
         let bound = mold.steepness();
         for n in 1..300 {
             let [x, y] = [2.0, 3.0].map(|prime| 0.6 * (scatter(n, prime) - 0.5));
-            let Some(on) = mold.drop_to([x, y]) else { continue };
+            let Some(on) = mold.highest_point([x, y]) else { continue };
             let p = [x, y, on[2] + 0.4 * scatter(n, 5.0).powi(2)];
             let clear = mold.clear(p, mold.separation(p, f64::INFINITY), bound);
             for k in 1..400 {
                 let [u, v] = [7.0, 11.0].map(|prime| 0.6 * (scatter(k, prime) - 0.5));
-                let Some(q) = mold.drop_to([u, v]) else { continue };
+                let Some(q) = mold.highest_point([u, v]) else { continue };
                 let apart = (0..3).map(|c| (p[c] - q[c]).powi(2)).sum::<f64>().sqrt();
                 assert!(apart >= clear * (1.0 - 1e-9), "{name} {n} {k}: {apart} in {clear}");
             }

@@ -2,7 +2,7 @@
 //! against the surfaces that the meshes approximate.
 
 use plydrape::mold::mesh::{Mesh, MeshReport};
-use plydrape::mold::{Pose, Strand};
+use plydrape::mold::{Pose, SurfaceCurve};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::collections::HashMap;
@@ -155,7 +155,7 @@ fn corners(mesh: &Mesh, triangle: usize) -> [Point; 3] {
 
 /// How far a point is off the triangles (m).
 fn off(mesh: &Mesh, p: Point) -> f64 {
-    mesh.foot(p).distance.abs()
+    mesh.closest_point(p).distance.abs()
 }
 
 proptest! {
@@ -180,15 +180,15 @@ proptest! {
         let triangles: Vec<[usize; 3]> =
             (0..kept.len() / 3).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect();
         let (mesh, _) = mesh(&kept, &triangles);
-        let foot = mesh.foot(p);
+        let closest = mesh.closest_point(p);
         let expected = kept
             .chunks(3)
             .map(|t| by_search([t[0], t[1], t[2]], p))
             .fold(f64::INFINITY, f64::min);
         // ternary search finds the place of a minimum to half the digits, its value to nearly all
-        prop_assert!((foot.distance.abs() - expected).abs() < 1e-9, "{foot:?} {expected}");
-        prop_assert!((distance(foot.point, p) - foot.distance.abs()).abs() < 1e-14);
-        prop_assert!((norm(foot.normal) - 1.0).abs() < 1e-14);
+        prop_assert!((closest.distance.abs() - expected).abs() < 1e-9, "{closest:?} {expected}");
+        prop_assert!((distance(closest.point, p) - closest.distance.abs()).abs() < 1e-14);
+        prop_assert!((norm(closest.normal) - 1.0).abs() < 1e-14);
     }
 
     /// The distance to a cube in closed form, with points on edges and corners among them.
@@ -201,9 +201,9 @@ proptest! {
         let outside = norm(p.map(|x| (x - x.clamp(0.0, 1.0)).abs()));
         let inside = p.iter().map(|x| x.min(1.0 - x)).fold(f64::INFINITY, f64::min);
         let expected = if outside > 0.0 { outside } else { -inside };
-        let foot = cube().foot(p);
-        prop_assert!((foot.distance - expected).abs() < 1e-15, "{p:?} {foot:?} {expected}");
-        prop_assert!(!foot.beyond);
+        let closest = cube().closest_point(p);
+        prop_assert!((closest.distance - expected).abs() < 1e-15, "{p:?} {closest:?} {expected}");
+        prop_assert!(!closest.beyond);
     }
 }
 
@@ -213,8 +213,8 @@ fn normals_of_a_fine_sphere_are_radial_to_half_a_degree() {
     let sphere = sphere(16);
     let mut worst: f64 = 0.0;
     for p in scatter(4000, 1.0) {
-        let foot = sphere.foot(unit(p));
-        worst = worst.max(distance(foot.normal, unit(foot.point)));
+        let closest = sphere.closest_point(unit(p));
+        worst = worst.max(distance(closest.normal, unit(closest.point)));
     }
     assert!(worst.to_degrees() < 0.5, "{}", worst.to_degrees());
 }
@@ -224,10 +224,10 @@ fn normals_of_a_fine_sphere_are_radial_to_half_a_degree() {
 fn distances_to_a_fine_sphere_are_signed_and_close() {
     let sphere = sphere(16);
     for p in scatter(4000, 1.5) {
-        let foot = sphere.foot(p);
+        let closest = sphere.closest_point(p);
         let exact = norm(p) - 1.0;
-        assert!((foot.distance - exact).abs() < 0.0012, "{p:?} {foot:?}");
-        assert!(exact.abs() < 0.0012 || foot.distance.signum() == exact.signum());
+        assert!((closest.distance - exact).abs() < 0.0012, "{p:?} {closest:?}");
+        assert!(exact.abs() < 0.0012 || closest.distance.signum() == exact.signum());
     }
 }
 
@@ -240,10 +240,10 @@ fn a_point_before_a_sharp_edge_is_outside() {
     assert_eq!(report.closed, 1);
     for x in [0.1, 0.5, 0.9] {
         for (y, z) in [(0.01, 0.001), (-0.01, 0.001), (0.1, 0.0051), (-0.1, 0.0051)] {
-            let foot = mesh.foot([x, y, z]);
-            assert!((foot.distance - f64::hypot(y, z)).abs() < 1e-15, "{foot:?}");
+            let closest = mesh.closest_point([x, y, z]);
+            assert!((closest.distance - f64::hypot(y, z)).abs() < 1e-15, "{closest:?}");
         }
-        assert!(mesh.foot([x, 0.0, -0.01]).distance < 0.0);
+        assert!(mesh.closest_point([x, 0.0, -0.01]).distance < 0.0);
     }
 }
 
@@ -253,35 +253,35 @@ fn a_point_to_the_side_of_a_border_is_beyond_the_mold() {
     let square = grid(5, 5, true, |u, v| [u, v, 0.0]);
     for p in scatter(2000, 1.0) {
         let p = [p[0] + 0.5, p[1] + 0.5, p[2]];
-        let foot = square.foot(p);
+        let closest = square.closest_point(p);
         let over = p[..2].iter().all(|x| (0.0..=1.0).contains(x));
-        assert_eq!(foot.beyond, !over, "{p:?} {foot:?}");
+        assert_eq!(closest.beyond, !over, "{p:?} {closest:?}");
         let expected = if over {
             p[2]
         } else {
             norm([p[0] - p[0].clamp(0.0, 1.0), p[1] - p[1].clamp(0.0, 1.0), p[2]])
         };
-        assert!((foot.distance - expected).abs() < 1e-14, "{p:?} {foot:?}");
+        assert!((closest.distance - expected).abs() < 1e-14, "{p:?} {closest:?}");
     }
-    // exactly above the border and a corner there still is a mold
+    // exactly above the boundary and a corner there still is a mold
     for p in [[0.0, 0.3, 0.2], [1.0, 1.0, -0.2], [0.0, 0.0, 0.1], [0.4, 1.0, 0.0]] {
-        let foot = square.foot(p);
-        assert!(!foot.beyond && (foot.distance - p[2]).abs() < 1e-15, "{foot:?}");
+        let closest = square.closest_point(p);
+        assert!(!closest.beyond && (closest.distance - p[2]).abs() < 1e-15, "{closest:?}");
     }
 }
 
-/// All points of a strand are on the triangles, and its arc is the sum of its chords.
-fn check(mesh: &Mesh, strand: &Strand) {
-    assert_eq!(strand.points.len(), strand.arc.len());
-    assert_eq!(strand.arc[0], 0.0);
-    for n in 0..strand.points.len() {
-        assert!(off(mesh, strand.points[n]) < 1e-12, "{:?}", strand.points[n]);
+/// All points of a curve are on the triangles, and its arc is the sum of its chords.
+fn check(mesh: &Mesh, curve: &SurfaceCurve) {
+    assert_eq!(curve.points.len(), curve.arc.len());
+    assert_eq!(curve.arc[0], 0.0);
+    for n in 0..curve.points.len() {
+        assert!(off(mesh, curve.points[n]) < 1e-12, "{:?}", curve.points[n]);
         if n > 0 {
-            let step = strand.arc[n] - strand.arc[n - 1];
+            let step = curve.arc[n] - curve.arc[n - 1];
             assert!(step > 0.0, "{step}");
-            assert!((step - distance(strand.points[n - 1], strand.points[n])).abs() < 1e-13);
+            assert!((step - distance(curve.points[n - 1], curve.points[n])).abs() < 1e-13);
             // the middle of a chord is on the mesh as well: no triangle is skipped
-            let middle = [0, 1, 2].map(|c| 0.5 * (strand.points[n - 1][c] + strand.points[n][c]));
+            let middle = [0, 1, 2].map(|c| 0.5 * (curve.points[n - 1][c] + curve.points[n][c]));
             assert!(off(mesh, middle) < 1e-12, "{middle:?}");
         }
     }
@@ -305,8 +305,8 @@ fn sections_of_a_plane_are_straight_lines_of_exact_length() {
                 let heading = [angle.cos(), angle.sin()];
                 let from = place(u, v);
                 for length in [0.2, -0.2, 1e-5] {
-                    let strand = mesh.section(from, heading, length);
-                    check(&mesh, &strand);
+                    let curve = mesh.section(from, heading, length);
+                    check(&mesh, &curve);
                     let slope = 0.2 * heading[0] - 0.1 * heading[1];
                     let run = length / slope.hypot(1.0);
                     let end = [
@@ -314,9 +314,9 @@ fn sections_of_a_plane_are_straight_lines_of_exact_length() {
                         from[1] + run * heading[1],
                         from[2] + run * slope,
                     ];
-                    let found = strand.end();
+                    let found = curve.end();
                     assert!(distance(found, end) < 1e-12, "{degrees} {from:?} {found:?} {end:?}");
-                    assert!((strand.length() - length.abs()).abs() < 1e-15);
+                    assert!((curve.length() - length.abs()).abs() < 1e-15);
                     let back = mesh.section_to(from, end).unwrap();
                     check(&mesh, &back);
                     assert!((back.length() - length.abs()).abs() < 1e-12);
@@ -328,7 +328,7 @@ fn sections_of_a_plane_are_straight_lines_of_exact_length() {
     assert_eq!(along_edges, 60);
 }
 
-/// Along the border itself, in both directions, whichever side the mesh is on, and then off its end.
+/// Along the boundary itself, in both directions, whichever side the mesh is on, and then off its end.
 #[test]
 fn sections_run_along_a_border_to_its_end() {
     for turn in [0.0f64, 0.5, 1.2, 2.9, -0.7] {
@@ -346,11 +346,11 @@ fn sections_run_along_a_border_to_its_end() {
             ([0.3, 0.2], [0.0, 1.0], [0.3, 1.0]),
             ([0.3, 0.0], [0.0, -1.0], [0.3, 0.0]),
         ] {
-            let strand = mesh.section(place(start[0], start[1]), about(heading), 3.0);
+            let curve = mesh.section(place(start[0], start[1]), about(heading), 3.0);
             let expected = f64::hypot(end[0] - start[0], end[1] - start[1]);
-            check(&mesh, &strand);
-            assert!(distance(strand.end(), place(end[0], end[1])) < 1e-12, "{turn} {start:?}");
-            assert!((strand.length() - expected).abs() < 1e-12);
+            check(&mesh, &curve);
+            assert!(distance(curve.end(), place(end[0], end[1])) < 1e-12, "{turn} {start:?}");
+            assert!((curve.length() - expected).abs() < 1e-12);
         }
         assert!(mesh.section_to(place(0.5, 0.5), [9.0, 9.0, 0.3]).is_none());
     }
@@ -371,9 +371,9 @@ fn a_section_changes_sides_where_the_border_does() {
     let (mesh, report) = mesh(&vertices, &triangles);
     assert_eq!((report.surfaces, report.holes.len()), (1, 0));
     for (from, heading) in [([0.25, 0.0, 0.0], 1.0), ([2.75, 0.0, 0.0], -1.0)] {
-        let strand = mesh.section(from, [heading, 0.0], 2.5);
-        check(&mesh, &strand);
-        assert!(distance(strand.end(), [from[0] + 2.5 * heading, 0.0, 0.0]) < 1e-15);
+        let curve = mesh.section(from, [heading, 0.0], 2.5);
+        check(&mesh, &curve);
+        assert!(distance(curve.end(), [from[0] + 2.5 * heading, 0.0, 0.0]) < 1e-15);
     }
 }
 
@@ -386,18 +386,18 @@ fn sections_over_a_sphere_converge_to_great_circles_as_the_square_of_the_mesh_si
         let heading = [0.6, 0.8];
         let at = |angle: f64| {
             let p = [angle.sin() * heading[0], angle.sin() * heading[1], angle.cos()];
-            sphere.foot(p).point
+            sphere.closest_point(p).point
         };
-        // feet of points in a plane of the circle are in it only about; start where the ray drops
-        let [a, b] = [at(-0.7), at(0.7)].map(|p| sphere.drop_to([p[0], p[1]]).unwrap());
+        // closest points of points in a plane of the circle are in it only about; start where the ray drops
+        let [a, b] = [at(-0.7), at(0.7)].map(|p| sphere.highest_point([p[0], p[1]]).unwrap());
         let run = [0, 1].map(|n| b[n] - a[n]);
-        let strand = sphere.section_to(a, b).unwrap();
-        check(&sphere, &strand);
+        let curve = sphere.section_to(a, b).unwrap();
+        check(&sphere, &curve);
         assert!(f64::hypot(run[0], run[1]) > 1.2);
-        errors.push(1.4 - strand.length());
+        errors.push(1.4 - curve.length());
         // all around, back to the start
         let round = sphere.section([0.0, 0.0, 1.0], heading, 2.0 * PI);
-        assert!(distance(round.end(), sphere.drop_to([0.0, 0.0]).unwrap()) < 0.04);
+        assert!(distance(round.end(), sphere.highest_point([0.0, 0.0]).unwrap()) < 0.04);
         check(&sphere, &round);
     }
     for pair in errors.windows(2) {
@@ -410,12 +410,12 @@ fn sections_over_a_sphere_converge_to_great_circles_as_the_square_of_the_mesh_si
 fn a_section_goes_over_a_ridge_and_along_it() {
     let tent = grid(4, 6, false, |u, v| [u - 0.5, v, 0.5 - (u - 0.5).abs()]);
     let slope = 2f64.sqrt();
-    let strand = tent.section_to([-0.4, 0.31, 0.1], [0.3, 0.31, 0.2]).unwrap();
-    check(&tent, &strand);
-    assert!((strand.length() - slope * 0.7).abs() < 1e-14);
-    let strand = tent.section([0.0, 0.0, 0.5], [0.0, 1.0], 0.9);
-    check(&tent, &strand);
-    assert!(distance(strand.end(), [0.0, 0.9, 0.5]) < 1e-15);
+    let curve = tent.section_to([-0.4, 0.31, 0.1], [0.3, 0.31, 0.2]).unwrap();
+    check(&tent, &curve);
+    assert!((curve.length() - slope * 0.7).abs() < 1e-14);
+    let curve = tent.section([0.0, 0.0, 0.5], [0.0, 1.0], 0.9);
+    check(&tent, &curve);
+    assert!(distance(curve.end(), [0.0, 0.9, 0.5]) < 1e-15);
 }
 
 /// R = 1: both curvatures are +1 outside, −1 for a bowl, everywhere within 3 %.
@@ -430,7 +430,7 @@ fn a_sphere_of_5120_triangles_has_its_curvature_to_three_percent() {
     }
 }
 
-/// A trough of radius 0.5 along y, seen from above: −2 across, 0 along, away from its borders.
+/// A trough of radius 0.5 along y, seen from above: −2 across, 0 along, away from its boundaries.
 #[test]
 fn a_trough_is_curved_across_and_straight_along() {
     let trough = grid(60, 20, true, |u, v| {
@@ -454,16 +454,16 @@ fn a_trough_is_curved_across_and_straight_along() {
 fn the_highest_point_is_that_of_the_upper_surface() {
     let sphere = sphere(16);
     for p in scatter(500, 0.7) {
-        let [x, y, z] = sphere.drop_to([p[0], p[1]]).unwrap();
+        let [x, y, z] = sphere.highest_point([p[0], p[1]]).unwrap();
         assert_eq!([x, y], [p[0], p[1]]);
         assert!((z - (1.0 - x * x - y * y).max(0.0).sqrt()).abs() < 0.003, "{z}");
         assert!(off(&sphere, [x, y, z]) < 1e-14);
     }
-    assert!(sphere.drop_to([0.9, 0.9]).is_none());
-    // on vertices, on edges and on the border of a grid
+    assert!(sphere.highest_point([0.9, 0.9]).is_none());
+    // on vertices, on edges and on the boundary of a grid
     let square = grid(4, 4, false, |u, v| [u, v, u + 2.0 * v]);
     for [x, y] in [[0.0, 0.0], [0.25, 0.5], [0.3, 0.25], [1.0, 1.0], [1.0, 0.1], [0.3, 0.3]] {
-        let [_, _, z] = square.drop_to([x, y]).unwrap();
+        let [_, _, z] = square.highest_point([x, y]).unwrap();
         assert!((z - (x + 2.0 * y)).abs() < 1e-15);
     }
 }
@@ -473,8 +473,8 @@ fn the_highest_point_is_that_of_the_upper_surface() {
 fn odd_questions_get_an_answer() {
     let sphere = sphere(4);
     for x in [f64::NAN, f64::INFINITY, 1e300, -1e160] {
-        let _ = sphere.foot([x, 0.0, 0.0]);
-        let _ = sphere.drop_to([x, 0.0]);
+        let _ = sphere.closest_point([x, 0.0, 0.0]);
+        let _ = sphere.highest_point([x, 0.0]);
         let _ = sphere.section([x, 0.0, 0.0], [1.0, 0.0], 1.0);
         let _ = sphere.section([0.0, 0.0, 1.0], [1.0, 0.0], x.min(1e3));
         let _ = sphere.section([0.0, 0.0, 1.0], [x, 0.0], 1.0);
@@ -485,17 +485,17 @@ fn odd_questions_get_an_answer() {
     assert!(sphere.section_to([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]).is_none());
 }
 
-/// Every triangle and its neighbours agree about their common edge.
+/// Every edge of a closed mesh is run along once in either direction.
 #[test]
 fn neighbours_run_along_their_edge_in_opposite_directions() {
     let sphere = sphere(4);
+    let edges = sphere.triangles().iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let edges: Vec<[u32; 2]> = edges.collect();
+    for [a, b] in &edges {
+        assert_eq!(edges.iter().filter(|edge| **edge == [*b, *a]).count(), 1);
+        assert_eq!(edges.iter().filter(|edge| **edge == [*a, *b]).count(), 1);
+    }
     for t in 0..sphere.triangles().len() {
-        for k in 0..3 {
-            let other = sphere.neighbours(t)[k].expect("a sphere has no border");
-            let [a, b] = [k, (k + 1) % 3].map(|n| sphere.triangles()[t][n]);
-            let theirs = sphere.triangles()[other];
-            assert!((0..3).any(|n| theirs[n] == b && theirs[(n + 1) % 3] == a));
-        }
         let [a, b, c] = corners(&sphere, t);
         let (u, v) = (sub(b, a), sub(c, a));
         let normal =

@@ -13,7 +13,7 @@ fn still() -> Pose {
 }
 
 /// A fault and its remedy on one line.
-fn told(fault: &MeshFileError) -> String {
+fn message(fault: &MeshFileError) -> String {
     format!("{fault}; {}\n", fault.remedy())
 }
 
@@ -83,8 +83,8 @@ fn stl_is_read_as_text_and_as_binary() {
     ] {
         close(&sorted(&mesh), &CORNERS, 0.0);
         assert_eq!((report.triangles, report.vertices, report.surfaces), (2, 4, 1));
-        assert!(!report.remarkable(), "{report}");
-        assert!((mesh.foot([0.5, 0.5, 1.0]).distance - 0.75).abs() < 1e-15);
+        assert_eq!(report.to_string().lines().count(), 1, "nothing was repaired: {report}");
+        assert!((mesh.closest_point([0.5, 0.5, 1.0]).distance - 0.75).abs() < 1e-15);
     }
 }
 
@@ -123,7 +123,7 @@ fn obj_is_read_with_polygons_negative_indices_and_all_that_stands_beside() {
         let (mesh, report) = read("a.obj", text);
         close(&sorted(&mesh), &CORNERS, 0.0);
         assert_eq!(report.triangles, 2);
-        assert!(!report.remarkable(), "{report}");
+        assert_eq!(report.to_string().lines().count(), 1, "nothing was repaired: {report}");
     }
 }
 
@@ -235,7 +235,7 @@ fn the_blade_like_mold_is_one_open_surface() {
         plydrape_io::mesh::read(path, 1.0, &still()).unwrap_or_else(|e| panic!("{e}"));
     // its sets say 1 to 3510 and 1 to 6764
     assert_eq!((report.vertices, report.triangles), (3510, 6764));
-    assert_eq!((report.surfaces, report.closed, mesh.borders().len()), (1, 0, 1));
+    assert_eq!((report.surfaces, report.closed, mesh.boundaries().len()), (1, 0, 1));
     assert!(mesh.triangles().len() == 6764 && report.holes.is_empty(), "{report}");
 }
 
@@ -282,23 +282,23 @@ fn a_hole_is_told_from_the_outer_border() {
         text += &format!("f {} {} {} {}\n", a, a + 4, a + 5, a + 1);
     }
     let (mesh, report) = read("a.obj", text);
-    assert_eq!((mesh.borders().len(), report.holes.len()), (2, 1));
+    assert_eq!((mesh.boundaries().len(), report.holes.len()), (2, 1));
     let hole = &report.holes[0];
     assert!((hole.length - 4.0).abs() < 1e-15);
     assert_eq!(hole.bounds, [[1.0, 1.0, 0.0], [2.0, 2.0, 0.0]]);
     assert_eq!(report.flipped.count, 16);
-    let foot = mesh.foot([1.4, 1.5, 0.3]);
-    assert!(foot.beyond && (foot.distance - 0.5).abs() < 1e-15, "{foot:?}");
-    assert!(mesh.foot([0.5, 0.5, 0.1]).distance > 0.0);
-    // the surface is to the left of each border: the outer one runs anticlockwise
-    for border in mesh.borders() {
+    let closest = mesh.closest_point([1.4, 1.5, 0.3]);
+    assert!(closest.beyond && (closest.distance - 0.5).abs() < 1e-15, "{closest:?}");
+    assert!(mesh.closest_point([0.5, 0.5, 0.1]).distance > 0.0);
+    // the surface is to the left of each boundary: the outer one runs anticlockwise
+    for boundary in mesh.boundaries() {
         let points: Vec<Point> =
-            border.vertices.iter().map(|n| mesh.vertices()[*n as usize]).collect();
+            boundary.vertices.iter().map(|n| mesh.vertices()[*n as usize]).collect();
         let area: f64 = (0..points.len())
             .map(|n| (points[n], points[(n + 1) % points.len()]))
             .map(|(p, q)| 0.5 * (p[0] * q[1] - p[1] * q[0]))
             .sum();
-        assert_eq!(area, if border.hole { -1.0 } else { 9.0 });
+        assert_eq!(area, if boundary.hole { -1.0 } else { 9.0 });
     }
     insta::assert_snapshot!("hole", report);
 }
@@ -309,26 +309,29 @@ fn closed_surfaces_face_outwards() {
     let inward = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
     let (mesh, report) = read("a.obj", inward);
     assert_eq!((report.closed, report.flipped.count), (1, 4));
-    assert!(mesh.foot([0.1, 0.1, 0.1]).distance < 0.0);
-    assert!(mesh.foot([-0.1, 0.1, 0.1]).distance > 0.0);
+    assert!(mesh.closest_point([0.1, 0.1, 0.1]).distance < 0.0);
+    assert!(mesh.closest_point([-0.1, 0.1, 0.1]).distance > 0.0);
 
     let two = inward.to_owned()
         + "v 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
     let (mesh, report) = read("a.obj", two);
     assert_eq!((report.surfaces, report.closed, report.flipped.count), (2, 2, 4));
-    assert!(mesh.foot([0.1, 0.1, 0.1]).distance < 0.0 && mesh.foot([5.1, 0.1, 0.1]).distance < 0.0);
+    assert!(
+        mesh.closest_point([0.1, 0.1, 0.1]).distance < 0.0
+            && mesh.closest_point([5.1, 0.1, 0.1]).distance < 0.0
+    );
 }
 
-/// Two squares that touch in one corner: their borders must not run into one another.
+/// Two squares that touch in one corner: their boundaries must not run into one another.
 #[test]
 fn surfaces_that_touch_in_a_vertex_only_are_parted() {
     let text =
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 1 0\nv 2 2 0\nv 1 2 0\nf 1 2 3 4\nf 3 5 6 7\n";
     let (mesh, report) = read("a.obj", text);
-    assert_eq!((report.surfaces, report.vertices, mesh.borders().len()), (2, 8, 2));
-    assert!(mesh.borders().iter().all(|border| (border.length - 4.0).abs() < 1e-15));
-    assert!(!mesh.foot([1.0, 1.0, 0.5]).beyond);
-    assert!(mesh.foot([1.2, 0.8, 0.5]).beyond);
+    assert_eq!((report.surfaces, report.vertices, mesh.boundaries().len()), (2, 8, 2));
+    assert!(mesh.boundaries().iter().all(|boundary| (boundary.length - 4.0).abs() < 1e-15));
+    assert!(!mesh.closest_point([1.0, 1.0, 0.5]).beyond);
+    assert!(mesh.closest_point([1.2, 0.8, 0.5]).beyond);
 }
 
 /// Files with something wrong, and what is said about them.
@@ -411,15 +414,15 @@ fn broken_files_are_refused_with_place_and_remedy() {
     for (file, contents) in &cases {
         match parse(file, contents) {
             Ok((_, report)) => panic!("{file} passes: {report}"),
-            Err(fault) => messages += &told(&fault),
+            Err(fault) => messages += &message(&fault),
         }
     }
     let missing = plydrape_io::mesh::read(Path::new("nowhere/mold.stl"), 1.0, &still());
-    messages += &told(&missing.unwrap_err());
+    messages += &message(&missing.unwrap_err());
     for scale in [0.0, f64::NAN] {
         let fault =
             plydrape_io::mesh::parse("a.obj", square.as_bytes(), scale, &still()).unwrap_err();
-        messages += &told(&fault);
+        messages += &message(&fault);
     }
     insta::assert_snapshot!("messages", messages);
 }

@@ -80,7 +80,7 @@ fn every_edge_has_its_length_and_every_node_lies_on_the_mold() {
     {
         for generators in BOTH_GENERATORS {
             for edges in BOTH_RULES {
-                let place = mold.drop_to(start).expect("mold below");
+                let place = mold.highest_point(start).expect("mold below");
                 let mesh = [0.05, 0.04];
                 let layup = Layup {
                     generators,
@@ -113,7 +113,7 @@ fn net_on_a_plane_is_affine() {
                     nodes: [12, 9],
                     mesh: [0.03, 0.02],
                     seed: [11, 3],
-                    place: mold.drop_to([0.5, -0.4]).expect("a plane is everywhere"),
+                    place: mold.highest_point([0.5, -0.4]).expect("a plane is everywhere"),
                     heading,
                     shear,
                     generators,
@@ -162,7 +162,7 @@ fn net_on_a_cylinder_is_the_flat_one() {
                 nodes: [30, 20],
                 mesh: [0.02, 0.03],
                 seed: [4, 13],
-                place: mold.drop_to([0.25, 0.0]).expect("mold below"),
+                place: mold.highest_point([0.25, 0.0]).expect("mold below"),
                 heading,
                 shear,
                 generators,
@@ -221,7 +221,7 @@ fn geodesic_generators_of_a_sphere_are_great_circles() {
     let mold = sphere(0.8);
     for edges in BOTH_RULES {
         let layup = Layup {
-            place: mold.drop_to([0.2, -0.3]).expect("mold below"),
+            place: mold.highest_point([0.2, -0.3]).expect("mold below"),
             heading: 0.7,
             generators: Generators::Geodesic,
             edges,
@@ -302,7 +302,7 @@ fn net_moves_with_its_mold() {
     let (here, there) = (torus(level()), torus(moved));
     for generators in BOTH_GENERATORS {
         for edges in BOTH_RULES {
-            let place = here.drop_to([0.8, 0.5]).expect("mold below");
+            let place = here.highest_point([0.8, 0.5]).expect("mold below");
             let layup = Layup {
                 place,
                 heading: 0.2,
@@ -338,7 +338,7 @@ fn shear_on_a_torus_is_its_total_curvature() {
             nodes: [cells + 1; 2],
             mesh: [d, d],
             seed: [0, 0],
-            place: mold.drop_to([0.9, 0.2]).expect("mold below"),
+            place: mold.highest_point([0.9, 0.2]).expect("mold below"),
             heading: 0.2,
             shear: 0.0,
             generators: Generators::Geodesic,
@@ -393,19 +393,19 @@ fn nodes_beyond_the_border_are_named() {
         // along x five meshes of 40 mm take less than 0.2 m in plan, along y too
         assert_eq!(first.reason, Reason::OffMold);
         assert_eq!(first.node[0].abs_diff(10) + first.node[1].abs_diff(10), 6);
-        assert!(first.to_string().contains("beyond the border of the mold"), "{first}");
+        assert!(first.to_string().contains("beyond the boundary of the mold"), "{first}");
         for ([i, j], p) in nodes(&net) {
             assert!(p[0].abs() <= 0.3 + 1e-12 && p[1].abs() <= 0.2 + 1e-12, "{i} {j} {p:?}");
         }
         for missing in &net.missing {
             let p = missing.near.expect("it was looked for");
             assert!(p[0].abs() > 0.3 || p[1].abs() > 0.2, "{missing}");
-            // on the tangent plane of the border
-            let border = mold.foot(p);
-            let beyond = missing.beyond.expect("beyond the border");
-            assert!(beyond > 0.0 && (beyond - distance(p, border.point)).abs() < 1e-12);
-            let side = [0, 1, 2].map(|n| p[n] - border.point[n]);
-            assert!(dot(side, border.normal).abs() < 1e-12, "{missing}");
+            // on the tangent plane of the boundary
+            let boundary = mold.closest_point(p);
+            let beyond = missing.beyond.expect("beyond the boundary");
+            assert!(beyond > 0.0 && (beyond - distance(p, boundary.point)).abs() < 1e-12);
+            let side = [0, 1, 2].map(|n| p[n] - boundary.point[n]);
+            assert!(dot(side, boundary.normal).abs() < 1e-12, "{missing}");
         }
         assert_eq!(net.place(&mold, [0.0, 0.0]), None);
         assert!(net.place(&mold, [0.4, 0.4]).is_some() && net.place(&mold, [0.81, 0.4]).is_none());
@@ -518,7 +518,7 @@ fn net_on_a_mesh_of_a_sphere_tends_to_that_on_the_sphere() {
                     nodes: [41, 41],
                     mesh: [0.015, 0.015],
                     seed: [20, 20],
-                    place: mold.drop_to([0.0123, -0.0071]).expect("mold below"),
+                    place: mold.highest_point([0.0123, -0.0071]).expect("mold below"),
                     heading: 0.3,
                     generators,
                     edges,
@@ -529,8 +529,10 @@ fn net_on_a_mesh_of_a_sphere_tends_to_that_on_the_sphere() {
                 assert!(net.report.largest_edge_error < 1e-12, "{:?}", net.report);
                 assert!(nodes(&net).all(|(_, p)| mold.signed_distance(p).abs() < 1e-12));
                 let smooth = sphere(radius);
-                let ideal =
-                    drape(&smooth, Layup { place: smooth.closest_point(layup.place), ..layup });
+                let ideal = drape(
+                    &smooth,
+                    Layup { place: smooth.closest_point(layup.place).point, ..layup },
+                );
                 nodes(&net)
                     .map(|(n, p)| distance(p, ideal.node(n).expect("placed")))
                     .fold(0.0, f64::max)
@@ -547,7 +549,7 @@ fn a_ply_larger_than_its_mesh_leaves_it_at_the_border() {
         nodes: [31, 31],
         mesh: [0.04, 0.04],
         seed: [15, 15],
-        place: mold.drop_to([0.0, 0.0]).expect("mold below"),
+        place: mold.highest_point([0.0, 0.0]).expect("mold below"),
         generators: Generators::Geodesic,
         edges: EdgeRule::Along,
         ..published()

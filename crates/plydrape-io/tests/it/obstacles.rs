@@ -153,5 +153,5 @@ fn a_hole_under_the_ply_is_named_though_every_gripper_has_a_place() {
     let text = "[ply]\ngrippers = [2, 2]\ncell = [0.2, 0.2]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"mesh\"\nfile = \"mold.obj\"\nunit = \"mm\"\n[target]\n";
     let found = found(folder.path(), text);
     let at = only(&found, "missing_nodes", 25.0, 0.0, None);
-    assert!(at.contains("beyond the border of the mold, at ("), "{at}");
+    assert!(at.contains("beyond the boundary of the mold, at ("), "{at}");
 }

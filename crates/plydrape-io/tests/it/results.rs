@@ -70,7 +70,7 @@ fn molds_survive_the_file() {
         let Some(mold) = &scene.mold else { continue };
         let back = again(&drape(&scene)).scene.mold.unwrap();
         for p in scene.motion.positions.iter().flatten() {
-            assert_eq!(back.foot(*p), mold.foot(*p), "{} at {p:?}", scene.title);
+            assert_eq!(back.closest_point(*p), mold.closest_point(*p), "{} at {p:?}", scene.title);
         }
     }
 }

@@ -5,7 +5,7 @@ use plydrape::draping::simulate;
 use plydrape::draping::spans::{Shape, shape};
 use plydrape::equilibrium::{Side, Solver, Status};
 use plydrape::measure::Name;
-use plydrape::mold::{Face, Mold, Plane, Pose, Sphere, Strand};
+use plydrape::mold::{Face, Mold, Plane, Pose, Sphere, SurfaceCurve};
 use plydrape::planner::sensitivity::{Quantity, Sensitivity};
 use plydrape::planner::stepwise::{Outcome, Stepwise, stepwise};
 use plydrape::ply::{Grid, Laid};
@@ -54,10 +54,10 @@ fn caught(mold: &Mold, [a, b]: [Point; 2], length: f64, what: Caught) -> Option<
     };
     let run = (b[0] - a[0]).hypot(b[1] - a[1]);
     let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
-    let start = mold.drop_to([0, 1].map(|n| a[n] + from * (b[n] - a[n])))?;
+    let start = mold.highest_point([0, 1].map(|n| a[n] + from * (b[n] - a[n])))?;
     let laid = mold.lay(start, heading, (to - from) * length);
     let arc = laid.arc.iter().map(|s| s + from * length).collect();
-    let line = Strand { points: laid.points, arc };
+    let line = SurfaceCurve { points: laid.points, arc };
     let normal = [line.points[0], line.end()].map(|p| mold.normal(p));
     let tangent = normal.map(|[nx, ny, nz]| {
         let slope = -(nx * heading[0] + ny * heading[1]) / nz;
@@ -112,7 +112,7 @@ fn any_ply() -> impl Strategy<Value = Ply> {
                     let (sin, cos) = f64::sin_cos(shear);
                     let r = |k: usize| random[3 * n + k];
                     let at = [i + j * sin + 5e-4 * r(0), j * cos + 5e-4 * r(1)];
-                    let ground = mold.drop_to(at).expect("the mold is everywhere");
+                    let ground = mold.highest_point(at).expect("the mold is everywhere");
                     [at[0], at[1], ground[2] + 0.008 + 0.005 * r(2)]
                 })
                 .collect();

@@ -13,7 +13,7 @@
 use super::gap::{GapSamples, Run, farthest, largest_gap};
 use super::spans::{FreeSpan, Point};
 use crate::mold::vector::{cross, unit};
-use crate::mold::{Mold, Strand, distance};
+use crate::mold::{Mold, SurfaceCurve, distance};
 use crate::ply::{Laid, LandedCell, shear};
 use crate::scene::Contact;
 
@@ -71,8 +71,8 @@ pub struct Look {
 
 /// One line from two that start at the same point, at fabric arc length `arc` (m): the first is gone
 /// back along.
-fn joined(back: Option<Strand>, arc: f64, on: Option<Strand>) -> Strand {
-    let mut line = Strand::default();
+fn joined(back: Option<SurfaceCurve>, arc: f64, on: Option<SurfaceCurve>) -> SurfaceCurve {
+    let mut line = SurfaceCurve::default();
     if let Some(back) = back {
         let from = usize::from(on.is_some());
         for n in (from..back.points.len()).rev() {
@@ -89,8 +89,8 @@ fn joined(back: Option<Strand>, arc: f64, on: Option<Strand>) -> Strand {
 }
 
 /// The line of a catenary that lies whole, from foot to foot of its grippers (m), over its fabric length.
-fn whole(mold: &Mold, a: [f64; 3], b: [f64; 3], length: f64) -> Strand {
-    let straight = || Strand { points: vec![a, b], arc: vec![0.0, length] };
+fn whole(mold: &Mold, a: [f64; 3], b: [f64; 3], length: f64) -> SurfaceCurve {
+    let straight = || SurfaceCurve { points: vec![a, b], arc: vec![0.0, length] };
     let Some(mut line) = mold.path(a, b).filter(|line| line.length() > 0.0) else {
         return straight();
     };
@@ -145,12 +145,12 @@ pub fn first_touch(
     let length = landed.map_or(span.length, |(length, _)| length);
     let arc = |t: f64| length / span.length * span.arc(t);
     let (held_first, held_last) = (run.from <= 0.0, run.to >= 1.0);
-    let [a, b] = span.ends.map(|end| mold.closest_point(end));
+    let [a, b] = span.ends.map(|end| mold.closest_point(end).point);
     // where laying starts: at a gripper that stands on the mold, else at the deepest point
     let (seed, seed_arc) = match (held_first, held_last) {
         (true, _) => (a, 0.0),
         (false, true) => (b, length),
-        (false, false) => (mold.closest_point(span.point(run.deepest)), arc(run.deepest)),
+        (false, false) => (mold.closest_point(span.point(run.deepest)).point, arc(run.deepest)),
     };
     let piece_to = |arc: f64| mold.lay(seed, heading, arc - seed_arc);
     let piece = |t: f64| piece_to(arc(t));
@@ -235,7 +235,7 @@ pub fn next_touch(
     let mut laid = laid.clone();
     if run.from <= 0.0 && run.to >= 1.0 {
         laid.lying[rest] = true;
-        let (gripper, point) = (mold.closest_point(span.ends[rest]), span.ends[1 - rest]);
+        let (gripper, point) = (mold.closest_point(span.ends[rest]).point, span.ends[1 - rest]);
         laid.arch[rest] = mold.path_length(gripper, point) - distance(gripper, point);
         look.laid = Some(laid);
         return look;

@@ -73,7 +73,7 @@ impl Seen {
     /// What is known of the distance of a point `moved` (m) away.
     fn gap(&self, moved: f64) -> Gap {
         let most = self.size + moved;
-        // a point that may have come past a border or through the mold is no deeper than it is far
+        // a point that may have come past a boundary or through the mold is no deeper than it is far
         let least = if self.clear > moved { self.clear - moved } else { -most };
         Gap::between(least, most.max(least))
     }
@@ -108,7 +108,7 @@ impl GapMemory {
         let mut look =
             Look { span, mold, steepness: self.steepness, gaps: [UNKNOWN; STATIONS], seen };
         let samples = look.samples(tolerance);
-        // what is deep in a mold that the whole span keeps clear of is below its border
+        // what is deep in a mold that the whole span keeps clear of is below its boundary
         if is_known && samples.depth() > tolerance && ends() > tolerance {
             return GapSamples::default();
         }

@@ -2,7 +2,7 @@
 
 use super::spans::Point;
 use crate::mold::vector::{cross, dot, norm, sub, unit};
-use crate::mold::{Strand, distance};
+use crate::mold::{SurfaceCurve, distance};
 use crate::ply::Laid;
 use crate::scene::Scene;
 
@@ -22,7 +22,7 @@ pub struct Landing {
 impl Landing {
     /// The largest distance (m) and the point of the segment that has it.
     #[must_use]
-    pub fn worst(&self, line: &Strand) -> Option<(f64, Point)> {
+    pub fn worst(&self, line: &SurfaceCurve) -> Option<(f64, Point)> {
         let known = self.errors.iter().zip(&line.points).filter_map(|(e, p)| e.map(|e| (e, *p)));
         known.max_by(|a, b| a.0.total_cmp(&b.0))
     }

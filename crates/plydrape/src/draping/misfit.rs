@@ -6,7 +6,7 @@
 //! the end thus makes a fold, all of it slack, and never stretch. A segment that lies has the way along the mold.
 
 use super::spans::{FreeSpan, Point};
-use crate::mold::{Mold, Strand, distance};
+use crate::mold::{Mold, SurfaceCurve, distance};
 use crate::ply::Laid;
 
 /// Fit of one free or lying segment between what holds it.
@@ -78,7 +78,7 @@ pub struct LyingSegment {
     /// How its fabric fits.
     pub misfit: Misfit,
     /// The taut line between its ends, from first to last.
-    pub line: Strand,
+    pub line: SurfaceCurve,
 }
 
 /// The segments of a catenary that do not hang.
@@ -96,7 +96,7 @@ pub fn lying_segments(
     if !laid.is_whole() && laid.hangs(0) && laid.hangs(1) {
         return Vec::new();
     }
-    let fit = |length, way, line: &Strand| {
+    let fit = |length, way, line: &SurfaceCurve| {
         let place = middle(line.points[0], line.end());
         Misfit { catenary, length, way, whole: laid.length, place }
     };
@@ -132,7 +132,7 @@ pub fn taut(
     gripper: Point,
     mold: &Mold,
     tolerance: f64,
-) -> (Strand, Option<Point>) {
+) -> (SurfaceCurve, Option<Point>) {
     let stands = standing(gripper, mold, tolerance);
     let place = stands.unwrap_or(gripper);
     let [a, b] = if which == 0 { [place, end] } else { [end, place] };
@@ -142,10 +142,10 @@ pub fn taut(
 
 /// The surface point that a gripper stands on, within a tolerance (m).
 fn standing(gripper: Point, mold: &Mold, tolerance: f64) -> Option<Point> {
-    let foot = mold.foot(gripper);
+    let foot = mold.closest_point(gripper);
     (foot.distance <= tolerance).then_some(foot.point)
 }
 
-fn straight(a: Point, b: Point) -> Strand {
-    Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] }
+fn straight(a: Point, b: Point) -> SurfaceCurve {
+    SurfaceCurve { points: vec![a, b], arc: vec![0.0, distance(a, b)] }
 }

@@ -1,4 +1,4 @@
-//! Off the mold: how far a target that was given is beyond the mold's border or inside it.
+//! Off the mold: how far a target that was given is beyond the mold's boundary or inside it.
 
 use super::{Measure, Scope, Unit};
 

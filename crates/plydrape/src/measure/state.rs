@@ -85,7 +85,7 @@ impl<'a> State<'a> {
             let one = |n: usize| {
                 let own = attitude(self.solver, grid, positions, n, before(n));
                 let Some(mold) = &self.scene.mold else { return own };
-                let foot = mold.foot(positions[n]);
+                let foot = mold.closest_point(positions[n]);
                 if foot.beyond || foot.normal[2] <= 0.0 {
                     return own;
                 }

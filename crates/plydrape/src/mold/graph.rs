@@ -1,13 +1,14 @@
 //! Molds that are a height over a plane, z = f(x, y): closest points by Newton's method.
 
 use super::formula::Formula;
+use super::front_surface::FrontSurface;
 use super::height::{Height, Steepness};
 use super::height_grid::HeightGrid;
-use super::lifted::Lifted;
 use super::pose::Pose;
 use super::saddle::Saddle;
-use super::vector::{distance, dot, sub, unit};
-use super::{Curvatures, Foot, Separation};
+use super::tuning::TUNING;
+use super::vector::{distance, dot, norm, sub, unit};
+use super::{ClosestPoint, Curvatures, Separation};
 
 /// A height over the local xy plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,12 +33,9 @@ pub enum Surface {
     },
     /// Heights on a grid.
     HeightGrid(HeightGrid),
-    /// Heights on a grid, lifted ahead of a front.
-    Lifted(Lifted),
+    /// Heights on a grid, raised ahead of a front.
+    Front(FrontSurface),
 }
-
-/// Newton steps for a closest point; from above a mold it takes three to six.
-const STEPS: usize = 60;
 
 impl Surface {
     /// The height at local (x, y) (m).
@@ -47,7 +45,7 @@ impl Surface {
             Surface::Saddle(saddle) => saddle.at(x, y),
             Surface::Formula { z } => z.at(x, y),
             Surface::HeightGrid(heights) => heights.at(x, y),
-            Surface::Lifted(lifted) => lifted.at(x, y),
+            Surface::Front(surface) => surface.at(x, y),
         }
     }
 }
@@ -67,7 +65,7 @@ impl Graph {
     /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies above all of it, from how far
     /// `p` is away; zero if no such ball is known.
     ///
-    /// The closest point that [`Graph::foot`] finds downhill may not be the closest of all. Where the Hessian of
+    /// The closest point that [`Graph::closest_point`] finds downhill may not be the closest of all. Where the Hessian of
     /// f is nowhere larger than b, it is: the lower half of a sphere of radius r ≤ 1/b that touches the graph from
     /// above is a height whose Hessian is nowhere smaller than 1/r, so their difference is convex, and smallest
     /// where they touch. From farther away only the slope s bounds the distance: a point at a height h above
@@ -92,9 +90,9 @@ impl Graph {
         if clear > 0.0 { clear.min(apart.distance) } else { 0.0 }
     }
 
-    /// The foot of `p` (m): the closest point that is found downhill from the one straight below.
+    /// What lies closest to `p` (m): the point that is found downhill from the one straight below.
     #[must_use]
-    pub fn foot(&self, p: [f64; 3]) -> Foot {
+    pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
         let p = self.pose.local(p);
         let inside = |xy: [f64; 2]| match self.domain {
             Some(range) => [0, 1].map(|n| xy[n].clamp(range[n][0], range[n][1])),
@@ -106,28 +104,28 @@ impl Graph {
         let mut xy = inside([p[0], p[1]]);
         let mut height = self.surface.at(xy[0], xy[1]);
         let mut value = square(xy, height.z);
-        for _ in 0..STEPS {
+        for _ in 0..TUNING.newton_steps {
             let Some(step) = newton(xy, &height, p, self.domain) else { break };
             let size = step[0].hypot(step[1]);
-            let scale = 1.0 + xy[0].abs() + xy[1].abs();
+            let scale = sizes(xy, p);
             // halved until it comes closer; a step too small to show in the distance is just taken
             let mut part = 1.0;
             let found = loop {
                 let next = inside([xy[0] + part * step[0], xy[1] + part * step[1]]);
                 let there = self.surface.at(next[0], next[1]);
                 let closer = square(next, there.z);
-                if closer < value || size < 1e-6 * scale {
+                if closer < value || size < TUNING.unseen_step * scale {
                     break Some((next, there, closer));
                 }
                 part *= 0.5;
-                if part < 1e-6 {
+                if part < TUNING.smallest_share {
                     break None;
                 }
             };
             let Some((next, there, closer)) = found else { break };
             (xy, height, value) = (next, there, closer);
             // quadratic convergence: what is left is below rounding
-            if size < 1e-7 * scale {
+            if size < TUNING.newton_step * scale {
                 break;
             }
         }
@@ -135,13 +133,13 @@ impl Graph {
         let normal = upward(&height);
         let off = sub(p, point);
         let above = dot(off, normal);
-        // at the border the way to the mold may lead sideways: there is no mold below
-        let on_border = self
+        // at the boundary the way to the mold may lead sideways: there is no mold below
+        let on_boundary = self
             .domain
             .is_some_and(|range| (0..2).any(|n| xy[n] <= range[n][0] || xy[n] >= range[n][1]));
         let far = distance(p, point);
-        let beyond = on_border && far - above.abs() > 1e-12 * far + 1e-18;
-        Foot {
+        let beyond = on_boundary && far - above.abs() > TUNING.aside_of_domain * far;
+        ClosestPoint {
             point: self.pose.place(point),
             normal: self.pose.turn(normal),
             distance: if beyond { far } else { above },
@@ -151,17 +149,19 @@ impl Graph {
 
     /// Where the vertical line through (x, y) (m) meets the mold, if it does.
     #[must_use]
-    pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
+    pub fn highest_point(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
         let [down, from] =
             [self.pose.turn_back([0.0, 0.0, 1.0]), self.pose.local([x, y, self.pose.position[2]])];
+        let extent =
+            self.domain.map_or(0.0, |range| range.as_flattened().iter().map(|c| c.abs()).sum());
         let mut t = -from[2] / down[2];
-        for _ in 0..STEPS {
+        for _ in 0..TUNING.newton_steps {
             let q = [0, 1, 2].map(|n| from[n] + t * down[n]);
             let height = self.surface.at(q[0], q[1]);
             let rate = down[2] - height.gradient[0] * down[0] - height.gradient[1] * down[1];
             let step = (height.z - q[2]) / rate;
             t += step;
-            if step.abs() <= 1e-15 * (1.0 + t.abs()) {
+            if step.abs() <= TUNING.rounding * (extent + norm(from) + t.abs()) {
                 let q = [0, 1, 2].map(|n| from[n] + t * down[n]);
                 let held = self.domain.is_none_or(|range| {
                     (0..2).all(|n| (range[n][0]..=range[n][1]).contains(&q[n]))
@@ -193,13 +193,18 @@ impl Graph {
     }
 }
 
+/// The size of the numbers that a closest point is computed from (m), which its rounding is relative to.
+fn sizes(xy: [f64; 2], p: [f64; 3]) -> f64 {
+    xy[0].abs() + xy[1].abs() + norm(p)
+}
+
 /// Unit normal of a height, upwards.
 fn upward(height: &Height) -> [f64; 3] {
     let [fx, fy] = height.gradient;
     unit([-fx, -fy, 1.0]).unwrap_or([0.0, 0.0, 1.0])
 }
 
-/// The step towards the closest point; none where nothing comes closer. Directions in which the border
+/// The step towards the closest point; none where nothing comes closer. Directions in which the boundary
 /// holds the point are left out.
 fn newton(
     xy: [f64; 2],
@@ -214,7 +219,7 @@ fn newton(
             !(xy[n] <= range[n][0] && slope[n] > 0.0 || xy[n] >= range[n][1] && slope[n] < 0.0)
         })
     });
-    let scale = 1e-16 * (1.0 + xy[0].abs() + xy[1].abs() + p[2].abs());
+    let scale = TUNING.stationary * sizes(xy, p);
     if (0..2).all(|n| !free[n] || slope[n].abs() <= scale) {
         return None;
     }
@@ -224,11 +229,12 @@ fn newton(
     match free {
         [true, true] => {
             let determinant = |[a, b, c]: [f64; 3]| a * c - b * b;
-            let [a, b, c] = if whole[0] > 0.0 && determinant(whole) > 1e-3 * determinant(flat) {
-                whole
-            } else {
-                flat
-            };
+            let [a, b, c] =
+                if whole[0] > 0.0 && determinant(whole) > TUNING.positive * determinant(flat) {
+                    whole
+                } else {
+                    flat
+                };
             let d = determinant([a, b, c]);
             Some([-(c * slope[0] - b * slope[1]) / d, -(a * slope[1] - b * slope[0]) / d])
         }

@@ -1,4 +1,6 @@
-//! The height of a mold z = f(x, y) with its derivatives, carried through arithmetic.
+//! The height of a mold z = f(x, y) with its first and second derivatives.
+
+use num_dual::Dual2_64;
 
 /// Height of a surface at a place (x, y), with first and second derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,8 +82,9 @@ impl Height {
         }
     }
 
-    /// h(f) from h, h′ and h″ at f, by the chain rule.
-    pub(super) fn chain(&self, [h, h1, h2]: [f64; 3]) -> Self {
+    /// h(f) from h at f, as a dual number with h′ and h″, by the chain rule.
+    pub(super) fn chain(&self, h: Dual2_64) -> Self {
+        let (h, h1, h2) = (h.re, h.v1, h.v2);
         let [fx, fy] = self.gradient;
         let squares = [fx * fx, fx * fy, fy * fy];
         Height {

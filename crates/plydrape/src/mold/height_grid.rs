@@ -133,7 +133,7 @@ impl HeightGrid {
         [&self.x, &self.y].map(|axis| [axis[0], axis[axis.len() - 1]])
     }
 
-    /// The height at (x, y) (m). Beyond the grid the cubics at its border go on.
+    /// The height at (x, y) (m). Beyond the grid the cubics at its boundary go on.
     #[must_use]
     pub fn at(&self, x: f64, y: f64) -> Height {
         let (i, along_x) = weights(&self.x, x);
@@ -160,7 +160,7 @@ impl HeightGrid {
 }
 
 /// Largest size of (a³ − a)/6 for 0 ≤ a ≤ 1, at a = 1/√3.
-const BELLY: f64 = 0.064_150_029_909_958_43;
+const LARGEST_CUBIC: f64 = 0.064_150_029_909_958_43;
 
 impl HeightGrid {
     /// Bounds of its slope and bend over ranges of x and y (m) within the grid.
@@ -175,7 +175,7 @@ impl HeightGrid {
         }
         let nx = self.x.len();
         let value = |ends: [f64; 2], m: [f64; 2], h: f64| {
-            ends[0].abs().max(ends[1].abs()) + BELLY * h * h * (m[0].abs() + m[1].abs())
+            ends[0].abs().max(ends[1].abs()) + LARGEST_CUBIC * h * h * (m[0].abs() + m[1].abs())
         };
         let slope = |ends: [f64; 2], m: [f64; 2], h: f64| {
             (ends[1] - ends[0]).abs() / h + h / 3.0 * (m[0].abs() + m[1].abs())
@@ -187,7 +187,7 @@ impl HeightGrid {
             let node = |a: usize, b: usize, part: usize| self.nodes[(j + b) * nx + i + a][part];
             let along_x = |b: usize, part: usize| [node(0, b, part), node(1, b, part)];
             let along_y = |a: usize, part: usize| [node(a, 0, part), node(a, 1, part)];
-            // slope along x on both grid lines, carried across by a cubic along y
+            // slope along x on both grid lines, interpolated by a cubic along y
             let fx =
                 [0, 2].map(|part| [0, 1].map(|b| slope(along_x(b, part), along_x(b, part + 1), h)));
             let fy =
@@ -311,7 +311,7 @@ mod tests {
         };
         for n in [4, 5, 9] {
             let grid = grid(n, |x, y| exact(x, y).z);
-            // inside, at a node, at the border and beyond it
+            // inside, at a node, at the boundary and beyond it
             for [x, y] in [[0.31, 1.23], [grid.x[2], grid.y[1]], [0.0, 2.0], [1.2, -0.1]] {
                 let error = worst(&grid.at(x, y), &exact(x, y));
                 assert!(error < 1e-11, "{n} ({x}, {y}): {error:e}");

@@ -5,10 +5,10 @@
 //! in metres, positive outside; normals are unit vectors out of the mold, towards the ply.
 
 pub mod formula;
+mod front_surface;
 mod graph;
 mod height;
 mod height_grid;
-mod lifted;
 pub mod mesh;
 pub mod patch;
 mod plane;
@@ -16,13 +16,14 @@ mod pose;
 mod round;
 mod saddle;
 mod section;
+mod tuning;
 pub mod vector;
 
 pub use formula::Formula;
+pub use front_surface::{FrontSurface, Rise};
 pub use graph::{Graph, Surface};
 pub use height::{Height, Steepness};
 pub use height_grid::{HeightGrid, HeightGridError};
-pub use lifted::{Lift, Lifted};
 pub use mesh::{Mesh, MeshError, MeshReport};
 pub use plane::Plane;
 pub use pose::Pose;
@@ -32,7 +33,8 @@ pub use vector::distance;
 
 use section::{Until, trace};
 use std::sync::Arc;
-use vector::{along, dot};
+use tuning::TUNING;
+use vector::{along, dot, norm};
 
 /// A mold.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,36 +55,36 @@ pub enum Mold {
 
 /// What lies closest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foot {
+pub struct ClosestPoint {
     /// The closest point of the mold (m).
     pub point: [f64; 3],
     /// Smooth unit normal of the mold there, out of it.
     pub normal: [f64; 3],
-    /// Distance (m), negative inside the mold; beyond an open border the plain distance to the border.
+    /// Distance (m), negative inside the mold; beyond an open boundary the plain distance to the boundary.
     pub distance: f64,
-    /// The point is off to the side of an open border: there is no mold.
+    /// The point is off to the side of an open boundary: there is no mold.
     pub beyond: bool,
 }
 
 /// How far a point is from a mold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Separation {
-    /// Distance (m), as in [`Foot`].
+    /// Distance (m), as in [`ClosestPoint`].
     pub distance: f64,
-    /// The point is off to the side of an open border, as in [`Foot`].
+    /// The point is off to the side of an open boundary, as in [`ClosestPoint`].
     pub beyond: bool,
 }
 
 /// A line of fabric on a mold.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Strand {
+pub struct SurfaceCurve {
     /// Its points, all on the mold (m).
     pub points: Vec<[f64; 3]>,
     /// Arc length at each point (m), ascending.
     pub arc: Vec<f64>,
 }
 
-impl Strand {
+impl SurfaceCurve {
     /// Appends a point (m) at an arc length (m).
     pub fn push(&mut self, point: [f64; 3], arc: f64) {
         self.points.push(point);
@@ -146,7 +148,7 @@ impl Curvatures {
     /// From the second fundamental form (1/m) over two unit tangents at right angles: its components
     /// (1,1), (1,2) and (2,2).
     #[must_use]
-    pub fn of_form([a, b, c]: [f64; 3], [s, t]: [[f64; 3]; 2]) -> Self {
+    fn of_form([a, b, c]: [f64; 3], [s, t]: [[f64; 3]; 2]) -> Self {
         let angle = 0.5 * (2.0 * b).atan2(a - c);
         let (sin, cos) = angle.sin_cos();
         let (mean, radius) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
@@ -165,14 +167,14 @@ impl Curvatures {
 impl Mold {
     /// What lies closest to `p` (m).
     #[must_use]
-    pub fn foot(&self, p: [f64; 3]) -> Foot {
+    pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
         match self {
-            Mold::Plane(plane) => plane.foot(p),
-            Mold::Cylinder(cylinder) => cylinder.foot(p),
-            Mold::Sphere(sphere) => sphere.foot(p),
-            Mold::Torus(torus) => torus.foot(p),
-            Mold::Graph(graph) => graph.foot(p),
-            Mold::Mesh(mesh) => mesh.foot(p),
+            Mold::Plane(plane) => plane.closest_point(p),
+            Mold::Cylinder(cylinder) => cylinder.closest_point(p),
+            Mold::Sphere(sphere) => sphere.closest_point(p),
+            Mold::Torus(torus) => torus.closest_point(p),
+            Mold::Graph(graph) => graph.closest_point(p),
+            Mold::Mesh(mesh) => mesh.closest_point(p),
         }
     }
 
@@ -185,7 +187,7 @@ impl Mold {
         }
     }
 
-    /// How far `p` (m) is from the mold, as [`Mold::foot`] says it.
+    /// How far `p` (m) is from the mold, as [`Mold::closest_point`] says it.
     ///
     /// It is known to be no farther than `most` (m), perhaps infinite, which saves a search among triangles.
     #[must_use]
@@ -197,7 +199,7 @@ impl Mold {
             Mold::Torus(torus) => torus.separation(p),
             Mold::Mesh(mesh) => mesh.separation(p, most),
             Mold::Graph(graph) => {
-                let Foot { distance, beyond, .. } = graph.foot(p);
+                let ClosestPoint { distance, beyond, .. } = graph.closest_point(p);
                 Separation { distance, beyond }
             }
         }
@@ -214,7 +216,7 @@ impl Mold {
 
     /// Radius (m) of a ball around `p` (m) that holds nothing of the mold and lies outside of it, from how far
     /// `p` is away and [`Mold::steepness`]; zero if no such ball is known, and for a point inside the
-    /// mold or to the side of its border.
+    /// mold or to the side of its boundary.
     #[must_use]
     pub fn clear(&self, p: [f64; 3], apart: Separation, bound: Steepness) -> f64 {
         match self {
@@ -224,48 +226,37 @@ impl Mold {
         }
     }
 
-    /// The point of the mold closest to `p` (m).
-    #[must_use]
-    pub fn closest_point(&self, p: [f64; 3]) -> [f64; 3] {
-        self.foot(p).point
-    }
-
     /// Smooth unit normal of the mold at its point closest to `p` (m).
     #[must_use]
     pub fn normal(&self, p: [f64; 3]) -> [f64; 3] {
-        self.foot(p).normal
+        self.closest_point(p).normal
     }
 
     /// Principal curvatures of the mold at its point closest to `p` (m).
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
         match self {
-            Mold::Plane(plane) => {
-                let normal = plane.normal;
-                let axis = if normal[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-                let first = vector::unit(vector::cross(axis, normal)).unwrap_or(axis);
-                Curvatures::new([0.0; 2], [first, vector::cross(normal, first)])
-            }
+            Mold::Plane(plane) => Curvatures::new([0.0; 2], vector::tangents(plane.normal)),
             Mold::Cylinder(cylinder) => cylinder.curvatures(p),
             Mold::Sphere(sphere) => sphere.curvatures(p),
             Mold::Torus(torus) => torus.curvatures(p),
-            Mold::Graph(graph) => graph.curvatures(self.foot(p).point),
+            Mold::Graph(graph) => graph.curvatures(self.closest_point(p).point),
             Mold::Mesh(mesh) => mesh.curvatures(p),
         }
     }
 
     /// The line on which fabric of arc length `length` (m) comes to lie that is laid along the mold from
     /// its point `from` (m), in the vertical plane of the horizontal unit vector `heading`; a negative
-    /// length is laid against it. It ends early at an open border.
+    /// length is laid against it. It ends early at an open boundary.
     #[must_use]
-    pub fn lay(&self, from: [f64; 3], heading: [f64; 2], length: f64) -> Strand {
+    pub fn lay(&self, from: [f64; 3], heading: [f64; 2], length: f64) -> SurfaceCurve {
         let heading = if length < 0.0 { heading.map(|c| -c) } else { heading };
         match self {
             Mold::Plane(plane) => {
                 let slope = plane.slope(heading);
                 let run = length.abs() / slope.hypot(1.0);
                 let end = along(from, run, [heading[0], heading[1], slope]);
-                Strand { points: vec![from, end], arc: vec![0.0, length.abs()] }
+                SurfaceCurve { points: vec![from, end], arc: vec![0.0, length.abs()] }
             }
             Mold::Mesh(mesh) => mesh.section(from, heading, length.abs()),
             _ => trace(self, from, heading, Until::Length(length.abs())),
@@ -273,20 +264,21 @@ impl Mold {
     }
 
     /// The line along the mold from one of its points to another (m) in the vertical plane of both; none
-    /// where it leads over an open border or onto another part of the mold.
+    /// where it leads over an open boundary or onto another part of the mold.
     #[must_use]
-    pub fn path(&self, a: [f64; 3], b: [f64; 3]) -> Option<Strand> {
+    pub fn path(&self, a: [f64; 3], b: [f64; 3]) -> Option<SurfaceCurve> {
         let run = (b[0] - a[0]).hypot(b[1] - a[1]);
-        let straight = || Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
+        let chord = distance(a, b);
+        let straight = || SurfaceCurve { points: vec![a, b], arc: vec![0.0, chord] };
         match self {
             Mold::Plane(_) => Some(straight()),
-            _ if distance(a, b) < 1e-12 => Some(straight()),
-            _ if run < 1e-9 => None,
+            _ if chord <= TUNING.same_point * (norm(a) + norm(b)) => Some(straight()),
+            _ if run < TUNING.above * chord => None,
             Mold::Mesh(mesh) => mesh.section_to(a, b),
             _ => {
                 let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
                 let line = trace(self, a, heading, Until::Run(run));
-                (distance(line.end(), b) < 1e-6 * (1.0 + run)).then_some(line)
+                (distance(line.end(), b) < TUNING.arrival * chord).then_some(line)
             }
         }
     }
@@ -303,47 +295,55 @@ impl Mold {
 
     /// The highest point of the mold at the place (x, y) (m), if it has one there.
     #[must_use]
-    pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
+    pub fn highest_point(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
         let (position, reach) = match self {
             Mold::Plane(plane) => {
                 let [nx, ny, nz] = plane.normal;
                 let [px, py, pz] = plane.point;
                 return Some([x, y, pz - (nx * (x - px) + ny * (y - py)) / nz]);
             }
-            Mold::Graph(graph) => return graph.drop_to([x, y]),
-            Mold::Mesh(mesh) => return mesh.drop_to([x, y]),
+            Mold::Graph(graph) => return graph.highest_point([x, y]),
+            Mold::Mesh(mesh) => return mesh.highest_point([x, y]),
             Mold::Cylinder(cylinder) => (cylinder.pose.position, None),
             Mold::Sphere(sphere) => (sphere.pose.position, Some(sphere.radius)),
             Mold::Torus(torus) => {
                 (torus.pose.position, Some(torus.ring_radius + torus.tube_radius))
             }
         };
-        self.fall([x, y], position, reach)
+        self.trace_down([x, y], position, reach)
     }
 
-    /// Falls from above by as much as the distance to the mold allows, then by Newton's method.
-    fn fall(&self, [x, y]: [f64; 2], position: [f64; 3], reach: Option<f64>) -> Option<[f64; 3]> {
-        // an endless cylinder may be inclined: start above its axis there
+    /// Sphere tracing from above (Hart 1996): down by as much as the distance to the mold allows, then by Newton's
+    /// method.
+    fn trace_down(
+        &self,
+        [x, y]: [f64; 2],
+        position: [f64; 3],
+        reach: Option<f64>,
+    ) -> Option<[f64; 3]> {
+        // an endless cylinder may be inclined: ten times as high is above slopes of up to 84°
         let aside = (x - position[0]).hypot(y - position[1]);
-        let reach = reach.unwrap_or(10.0 * aside + self.signed_distance([x, y, position[2]]).abs());
-        let mut p = [x, y, position[2] + reach + 1e-3];
-        let floor = position[2] - 2.0 * reach - 1.0;
-        for _ in 0..2000 {
-            let foot = self.foot(p);
-            if foot.distance.abs() < 1e-4 * reach && !foot.beyond && foot.normal[2] > 1e-3 {
-                let step = foot.distance / foot.normal[2];
+        let beside = self.signed_distance([x, y, position[2]]).abs();
+        let reach = reach.unwrap_or(10.0 * (aside + beside));
+        let mut p = [x, y, position[2] + 1.01 * reach];
+        let floor = position[2] - 3.0 * reach;
+        for _ in 0..TUNING.tracing_steps {
+            let closest = self.closest_point(p);
+            let is_near = closest.distance.abs() < TUNING.tracing_end * reach;
+            if is_near && !closest.beyond && closest.normal[2] > TUNING.upright {
+                let step = closest.distance / closest.normal[2];
                 p[2] -= step;
-                if step.abs() < 1e-15 * (1.0 + p[2].abs()) {
+                if step.abs() < TUNING.tracing_tolerance * reach {
                     return Some(p);
                 }
                 continue;
             }
-            p[2] -= foot.distance.abs().max(1e-9);
+            p[2] -= closest.distance.abs().max(TUNING.tracing_step * reach);
             if p[2] < floor {
                 return None;
             }
         }
-        (self.signed_distance(p).abs() < 1e-12).then_some(p)
+        (self.signed_distance(p).abs() < TUNING.tracing_tolerance * reach).then_some(p)
     }
 
     /// A distance (m) from the mold that no point of a curve of `length` (m) between `a` and `b` falls

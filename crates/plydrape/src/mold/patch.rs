@@ -1,7 +1,7 @@
 //! A part of a mold in triangles, for pictures and other programs.
 //!
 //! Triangles of a mesh are given as they are. Any other mold is sampled from above: its highest points over the
-//! corners of a grid, and where it ends within a cell of the grid, its border, found by bisection.
+//! corners of a grid, and where it ends within a cell of the grid, its boundary, found by bisection.
 
 use super::Mold;
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ pub fn patch(mold: &Mold, low: [f64; 2], high: [f64; 2], most: usize) -> Triangl
             return used(mesh.vertices(), &triangles);
         }
     }
-    sampled(&|[x, y]| mold.drop_to([x, y]), low, high, most)
+    sampled(&|[x, y]| mold.highest_point([x, y]), low, high, most)
 }
 
 /// Triangles with only the corners that they use, in the order in which they use them.
@@ -56,20 +56,21 @@ fn sampled(
     high: [f64; 2],
     most: usize,
 ) -> Triangles {
-    let wide = [0, 1].map(|c| (high[c] - low[c]).max(1e-9));
+    let wide = [0, 1].map(|c| high[c] - low[c]);
     let side = (2.0 * wide[0] * wide[1] / most.max(2) as f64).sqrt();
     let count = wide.map(|w| ((w / side).floor() as usize).clamp(1, most.max(2) / 2));
     let plan = |[i, j]: [usize; 2]| {
         [(0, i), (1, j)].map(|(c, k)| low[c] + wide[c] * k as f64 / count[c] as f64)
     };
     let mut out = Triangles::default();
-    // corners and border points by what they lie between
+    // corners and boundary points by what they lie between
     let mut number: BTreeMap<[[usize; 2]; 2], Option<u32>> = BTreeMap::new();
     let mut point = |a: [usize; 2], b: [usize; 2], out: &mut Triangles| {
         *number.entry([a, b]).or_insert_with(|| {
             let inside = on(plan(a)).filter(|p| p.iter().all(|c| c.is_finite()))?;
             let [end, without] = [a, b].map(plan);
-            let p = if a == b { inside } else { border(inside, end, without, &|x, y| on([x, y])) };
+            let p =
+                if a == b { inside } else { boundary(inside, end, without, &|x, y| on([x, y])) };
             out.vertices.push(p);
             Some(out.vertices.len() as u32 - 1)
         })
@@ -98,7 +99,7 @@ fn sampled(
 
 /// The last point of the mold (m) on the way from a place with one to a place without.
 #[must_use]
-pub fn border(
+pub fn boundary(
     mut last: [f64; 3],
     mut with: [f64; 2],
     mut without: [f64; 2],
@@ -131,7 +132,7 @@ mod tests {
         patch.triangles.iter().map(|t| 0.5 * twice(t.map(|n| patch.vertices[n as usize]))).sum()
     }
 
-    /// From above, a ball of 0.2 m is a disc: its triangles face up, lie on it, end at its rim and cover πr².
+    /// From above, a ball of 0.2 m is a disc: its triangles face up, lie on it, end at its equator and cover πr².
     #[test]
     fn a_ball_is_a_disc_from_above() {
         let patch = patch(&ball(), [-0.3, -0.3], [0.3, 0.3], 20_000);

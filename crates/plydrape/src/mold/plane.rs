@@ -1,6 +1,6 @@
 //! A flat mold of any position and tilt.
 
-use super::Foot;
+use super::ClosestPoint;
 
 /// The plane through `point` with unit normal `normal`, whose z component is positive.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,12 +19,12 @@ impl Plane {
         (0..3).map(|n| self.normal[n] * (p[n] - self.point[n])).sum()
     }
 
-    /// The foot of `p` (m).
+    /// What lies closest to `p` (m).
     #[must_use]
-    pub fn foot(&self, p: [f64; 3]) -> Foot {
+    pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
         let distance = self.signed_distance(p);
         let point = [0, 1, 2].map(|n| p[n] - distance * self.normal[n]);
-        Foot { point, normal: self.normal, distance, beyond: false }
+        ClosestPoint { point, normal: self.normal, distance, beyond: false }
     }
 
     /// Slope of the mold along the horizontal unit vector `heading`.

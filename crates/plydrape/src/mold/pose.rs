@@ -50,7 +50,7 @@ impl Pose {
 
     /// A direction in space in local coordinates.
     #[must_use]
-    pub fn turn_back(&self, d: [f64; 3]) -> [f64; 3] {
+    pub(super) fn turn_back(&self, d: [f64; 3]) -> [f64; 3] {
         self.axes.map(|axis| super::vector::dot(axis, d))
     }
 }
@@ -59,7 +59,7 @@ impl Pose {
 mod tests {
     use super::*;
 
-    /// A quarter turn about x and then about z carries y to z and x to y.
+    /// A quarter turn about x and then about z turns y to z and x to y.
     #[test]
     fn turns_are_about_the_fixed_axes_in_the_order_x_y_z() {
         let quarter = std::f64::consts::FRAC_PI_2;

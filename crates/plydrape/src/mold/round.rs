@@ -2,7 +2,7 @@
 
 use super::pose::Pose;
 use super::vector::dot;
-use super::{Curvatures, Foot, Separation};
+use super::{ClosestPoint, Curvatures, Separation};
 
 /// Which side of a round mold the ply lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,7 +11,7 @@ use super::{Curvatures, Foot, Separation};
 pub enum Face {
     /// On the whole of it, from outside.
     Outside,
-    /// In its lower half (local z ≤ 0), from inside: a trough, a bowl or a channel with an open border.
+    /// In its lower half (local z ≤ 0), from inside: a trough, a bowl or a channel with an open boundary.
     Inside,
 }
 
@@ -53,7 +53,7 @@ pub struct Torus {
     pub face: Face,
 }
 
-/// The foot of a point on a circle about the origin of the plane (h, z).
+/// What lies closest to a point on a circle about the origin of the plane (h, z).
 struct Arc {
     point: [f64; 2],
     normal: [f64; 2],
@@ -110,7 +110,7 @@ fn sign(face: Face) -> f64 {
     }
 }
 
-/// Length of a vector of ordinary size; `hypot` would spend most of a foot on guarding against overflow.
+/// Length of a vector of ordinary size; `hypot` would spend most of a closest point on guarding against overflow.
 fn length(a: f64, b: f64) -> f64 {
     (a * a + b * b).sqrt()
 }
@@ -121,8 +121,8 @@ fn radial(x: f64, y: f64) -> (f64, [f64; 2]) {
     if rho > 0.0 { (rho, [x / rho, y / rho]) } else { (0.0, [1.0, 0.0]) }
 }
 
-fn foot(pose: &Pose, point: [f64; 3], normal: [f64; 3], arc: &Arc) -> Foot {
-    Foot {
+fn placed(pose: &Pose, point: [f64; 3], normal: [f64; 3], arc: &Arc) -> ClosestPoint {
+    ClosestPoint {
         point: pose.place(point),
         normal: pose.turn(normal),
         distance: arc.distance,
@@ -138,19 +138,19 @@ impl Cylinder {
         arc(y, z, self.radius, self.face).separation()
     }
 
-    /// The foot of `p` (m).
+    /// What lies closest to `p` (m).
     #[must_use]
-    pub fn foot(&self, p: [f64; 3]) -> Foot {
+    pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
         let [x, y, z] = self.pose.local(p);
         let arc = arc(y, z, self.radius, self.face);
         let ([h, v], [nh, nv]) = (arc.point, arc.normal);
-        foot(&self.pose, [x, h, v], [0.0, nh, nv], &arc)
+        placed(&self.pose, [x, h, v], [0.0, nh, nv], &arc)
     }
 
     /// Principal curvatures at a point of the mold (m).
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
-        let around = super::vector::cross(self.foot(p).normal, self.pose.axes[0]);
+        let around = super::vector::cross(self.closest_point(p).normal, self.pose.axes[0]);
         Curvatures::new([sign(self.face) / self.radius, 0.0], [around, self.pose.axes[0]])
     }
 }
@@ -163,21 +163,21 @@ impl Sphere {
         arc(length(x, y), z, self.radius, self.face).separation()
     }
 
-    /// The foot of `p` (m).
+    /// What lies closest to `p` (m).
     #[must_use]
-    pub fn foot(&self, p: [f64; 3]) -> Foot {
+    pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
         let [x, y, z] = self.pose.local(p);
         let (rho, [cos, sin]) = radial(x, y);
         let arc = arc(rho, z, self.radius, self.face);
         let ([h, v], [nh, nv]) = (arc.point, arc.normal);
-        foot(&self.pose, [h * cos, h * sin, v], [nh * cos, nh * sin, nv], &arc)
+        placed(&self.pose, [h * cos, h * sin, v], [nh * cos, nh * sin, nv], &arc)
     }
 
     /// Principal curvatures at a point of the mold (m).
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
         let curvature = sign(self.face) / self.radius;
-        let normal = self.foot(p).normal;
+        let normal = self.closest_point(p).normal;
         // any tangent is principal: the one closest to the local x axis
         let axis = self.pose.axes[usize::from(dot(normal, self.pose.axes[0]).abs() > 0.9)];
         let across = super::vector::unit(super::vector::cross(normal, axis)).unwrap_or(axis);
@@ -193,23 +193,23 @@ impl Torus {
         arc(length(x, y) - self.ring_radius, z, self.tube_radius, self.face).separation()
     }
 
-    /// The foot of `p` (m).
+    /// What lies closest to `p` (m).
     #[must_use]
-    pub fn foot(&self, p: [f64; 3]) -> Foot {
+    pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
         let [x, y, z] = self.pose.local(p);
         let (rho, [cos, sin]) = radial(x, y);
         let arc = arc(rho - self.ring_radius, z, self.tube_radius, self.face);
         let ([h, v], [nh, nv]) = (arc.point, arc.normal);
         let out = self.ring_radius + h;
-        foot(&self.pose, [out * cos, out * sin, v], [nh * cos, nh * sin, nv], &arc)
+        placed(&self.pose, [out * cos, out * sin, v], [nh * cos, nh * sin, nv], &arc)
     }
 
     /// Principal curvatures at a point of the mold (m).
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
-        let [x, y, _] = self.pose.local(self.foot(p).point);
+        let [x, y, _] = self.pose.local(self.closest_point(p).point);
         let (rho, [cos, sin]) = radial(x, y);
-        let normal = self.foot(p).normal;
+        let normal = self.closest_point(p).normal;
         let around = self.pose.turn([-sin, cos, 0.0]);
         // along the ring: the normal's part that points away from the axis, over the distance to it
         let outward = dot(self.pose.turn([cos, sin, 0.0]), normal);

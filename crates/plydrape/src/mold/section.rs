@@ -5,19 +5,9 @@
 //! steps over which neither T nor n turns by more than about a hundredth of a radian, nor would n along the
 //! mold's strongest bend; after each step the point is put back on the mold within the plane. The error of an arc is then some 1e-11 of its length.
 
-use super::vector::{along, cross, distance, dot, unit};
-use super::{Foot, Mold, Strand};
-
-/// Turn of tangent or normal that a step aims at (rad).
-const TURN: f64 = 0.01;
-/// A step that turns more than this is tried again shorter (rad).
-const MOST_TURN: f64 = 0.012;
-/// Most points of a curve.
-const MOST_POINTS: usize = 20_000;
-/// Most steps that are tried for a curve, those that were too long among them.
-const MOST_TRIES: usize = 10 * MOST_POINTS;
-/// Distance to the mold at which a point counts as lying on it (m).
-const ON_MOLD: f64 = 1e-13;
+use super::tuning::TUNING;
+use super::vector::{along, cross, distance, dot, norm, unit};
+use super::{ClosestPoint, Mold, SurfaceCurve};
 
 /// How far a curve is followed.
 #[derive(Debug, Clone, Copy)]
@@ -69,71 +59,72 @@ struct Section<'a> {
 
 /// Follows the section of a mold from a point of it (m) along the horizontal unit vector `heading`.
 ///
-/// The curve ends early at an open border, and where the mold stands upright across the plane.
-pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until) -> Strand {
+/// The curve ends early at an open boundary, and where the mold stands upright across the plane.
+pub(super) fn trace(mold: &Mold, from: [f64; 3], heading: [f64; 2], until: Until) -> SurfaceCurve {
     let section = Section { mold, heading, across: [-heading[1], heading[0], 0.0] };
-    let mut strand = Strand { points: vec![from], arc: vec![0.0] };
+    let mut curve = SurfaceCurve { points: vec![from], arc: vec![0.0] };
     let total = match until {
         Until::Length(length) | Until::Run(length) => length,
     };
-    let Some(mut course) = section.course(&mold.foot(from)) else {
-        return strand;
+    let Some(mut course) = section.course(&mold.closest_point(from)) else {
+        return curve;
     };
     let (mut p, mut arc, mut step) = (from, 0.0, total);
     // a length that is no finite number has no curve
     if !total.is_finite() {
-        return strand;
+        return curve;
     }
-    for _ in 0..MOST_TRIES {
-        if strand.points.len() >= MOST_POINTS {
+    for _ in 0..TUNING.curve_trials {
+        if curve.points.len() >= TUNING.curve_points {
             break;
         }
         let left = match until {
             Until::Length(length) => length - arc,
             Until::Run(run) => {
-                (run - section.run(from, p)) / section.run([0.0; 3], course.tangent).max(1e-3)
+                (run - section.run(from, p))
+                    / section.run([0.0; 3], course.tangent).max(TUNING.upright)
             }
         };
-        if left <= 1e-15 * total {
+        if left <= TUNING.rounding * total {
             break;
         }
         // where the curve itself hardly turns the mold may still bend across it
         let bend = mold.curvatures(p).principal.map(f64::abs).into_iter().fold(0.0, f64::max);
-        step = step.min(left).min(MOST_TURN / bend.max(1e-12));
+        step = step.min(left).min(TUNING.largest_turn / bend);
         let Some(Step { end: mut next, course: mut there, half_way }) =
             section.step(p, course, step)
         else {
             step *= 0.5;
-            if step < 1e-9 * total { break } else { continue }
+            if step < TUNING.shortest_step * total { break } else { continue }
         };
         // by way of the middle: an S turns too
         let turn = course.turn(&half_way) + half_way.turn(&there);
-        if turn > MOST_TURN && step > 1e-6 * total {
+        if turn > TUNING.largest_turn && step > TUNING.kink_step * total {
             step *= 0.5;
             continue;
         }
         // the last step over a run is as long as it takes
         if let Until::Run(run) = until
-            && section.run(from, next) >= run * (1.0 - 1e-9)
+            && section.run(from, next) >= run * (1.0 - TUNING.shortest_step)
         {
-            for _ in 0..8 {
+            for _ in 0..TUNING.run_steps {
                 let miss = run - section.run(from, next);
-                if miss.abs() <= 1e-15 * run {
+                if miss.abs() <= TUNING.rounding * run {
                     break;
                 }
-                step += miss / section.run([0.0; 3], there.tangent).max(1e-3);
-                let Some(found) = section.step(p, course, step) else { return strand };
+                step += miss / section.run([0.0; 3], there.tangent).max(TUNING.upright);
+                let Some(found) = section.step(p, course, step) else { return curve };
                 (next, there) = (found.end, found.course);
             }
-            strand.push(next, arc + step);
+            curve.push(next, arc + step);
             break;
         }
         arc = if matches!(until, Until::Length(_)) && step >= left { total } else { arc + step };
-        strand.push(next, arc);
+        curve.push(next, arc);
         (p, course) = (next, there);
-        step *= (TURN / turn.max(1e-12)).clamp(0.5, 2.0);
+        step *= (TUNING.turn / turn).clamp(0.5, 2.0);
     }
-    strand
+    curve
 }
 
 impl Section<'_> {
@@ -142,15 +133,15 @@ impl Section<'_> {
         (b[0] - a[0]) * self.heading[0] + (b[1] - a[1]) * self.heading[1]
     }
 
-    fn course(&self, foot: &Foot) -> Option<Course> {
+    fn course(&self, closest: &ClosestPoint) -> Option<Course> {
         // horizontal normals along `across`: the mold touches the plane
-        let tangent = unit(cross(self.across, foot.normal)).filter(|_| !foot.beyond)?;
-        Some(Course { tangent, normal: foot.normal })
+        let tangent = unit(cross(self.across, closest.normal)).filter(|_| !closest.beyond)?;
+        Some(Course { tangent, normal: closest.normal })
     }
 
     /// One step along the curve.
     fn step(&self, p: [f64; 3], course: Course, length: f64) -> Option<Step> {
-        let at = |p| self.course(&self.mold.foot(p));
+        let at = |p| self.course(&self.mold.closest_point(p));
         let k1 = course.tangent;
         let k2 = at(along(p, 0.5 * length, k1))?.tangent;
         let half_way = at(along(p, 0.5 * length, k2))?;
@@ -158,20 +149,21 @@ impl Section<'_> {
         let k4 = at(along(p, length, k3))?.tangent;
         let mean = [0, 1, 2].map(|n| (k1[n] + 2.0 * (k2[n] + k3[n]) + k4[n]) / 6.0);
         let mut next = along(p, length, mean);
+        let on_mold = TUNING.on_mold * (length + norm(p));
         // back onto the mold, within the plane
-        for _ in 0..6 {
-            let foot = self.mold.foot(next);
-            if foot.beyond {
+        for _ in 0..TUNING.on_mold_steps {
+            let closest = self.mold.closest_point(next);
+            if closest.beyond {
                 return None;
             }
-            let sideways = dot(foot.normal, self.across);
-            let within = along(foot.normal, -sideways, self.across);
-            if foot.distance.abs() <= ON_MOLD {
-                return Some(Step { end: next, course: self.course(&foot)?, half_way });
+            let sideways = dot(closest.normal, self.across);
+            let within = along(closest.normal, -sideways, self.across);
+            if closest.distance.abs() <= on_mold {
+                return Some(Step { end: next, course: self.course(&closest)?, half_way });
             }
-            next = along(next, -foot.distance / dot(within, within), within);
+            next = along(next, -closest.distance / dot(within, within), within);
         }
-        let foot = self.mold.foot(next);
-        Some(Step { end: next, course: self.course(&foot)?, half_way })
+        let closest = self.mold.closest_point(next);
+        Some(Step { end: next, course: self.course(&closest)?, half_way })
     }
 }

@@ -48,3 +48,10 @@ pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     let length = norm(a);
     (length > 1e-12).then(|| a.map(|x| x / length))
 }
+
+/// Two unit vectors at right angles to each other and to a normal.
+pub(super) fn tangents(normal: [f64; 3]) -> [[f64; 3]; 2] {
+    let axis = if normal[0].abs() < 0.8 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+    let first = unit(cross(axis, normal)).unwrap_or([0.0, 0.0, 1.0]);
+    [first, cross(normal, first)]
+}

@@ -7,10 +7,10 @@ use std::fmt;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Reason {
-    /// It lies beyond the mold's border.
+    /// It lies beyond the mold's boundary.
     OffMold,
     /// Its two edges have no common end on the mold, or only with a cell shut or turned over; beyond the
-    /// border that counts as [`Reason::OffMold`].
+    /// boundary that counts as [`Reason::OffMold`].
     Folded,
     /// It hangs on a node that folded.
     Unreached,
@@ -26,7 +26,7 @@ pub struct Missing {
     pub reason: Reason,
     /// Where it was looked for (m); none for a node that was not.
     pub near: Option<[f64; 3]>,
-    /// How far beyond the mold's border it lies (m); none for a node that was not looked for.
+    /// How far beyond the mold's boundary it lies (m); none for a node that was not looked for.
     pub beyond: Option<f64>,
 }
 
@@ -37,7 +37,7 @@ impl fmt::Display for Missing {
             Reason::OffMold => {
                 let far = self.beyond.map(|beyond| format!("{:.2} mm ", 1e3 * beyond));
                 let far = far.unwrap_or_default();
-                write!(f, "node [{i}, {j}] lies {far}beyond the border of the mold")?;
+                write!(f, "node [{i}, {j}] lies {far}beyond the boundary of the mold")?;
             }
             Reason::Folded => write!(f, "the cell before node [{i}, {j}] shuts: the ply folds")?,
             Reason::Unreached => write!(f, "node [{i}, {j}] lies behind a fold")?,

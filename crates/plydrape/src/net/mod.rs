@@ -46,7 +46,7 @@ pub struct Net {
     pub shear: Vec<Option<CellShear>>,
     /// The net in a few numbers.
     pub report: Report,
-    /// Nodes beyond the mold's border included.
+    /// Nodes beyond the mold's boundary included.
     #[cfg_attr(feature = "serde", serde(skip))]
     spots: Vec<Option<Spot>>,
 }

@@ -21,7 +21,7 @@ impl Net {
     pub fn place(&self, mold: &Mold, uv: [f64; 2]) -> Option<[f64; 3]> {
         let (patch, at) = self.patch(uv)?;
         let [p, q] = [0, 1].map(|n| weights(at[n], patch.size[n]).0);
-        let foot = mold.foot(self.sum(&patch, p, q));
+        let foot = mold.closest_point(self.sum(&patch, p, q));
         (!foot.beyond).then_some(foot.point)
     }
 
@@ -30,7 +30,7 @@ impl Net {
     pub fn fibres(&self, mold: &Mold, uv: [f64; 2]) -> Option<[[f64; 3]; 2]> {
         let (patch, at) = self.patch(uv)?;
         let [(p, dp), (q, dq)] = [0, 1].map(|n| weights(at[n], patch.size[n]));
-        let foot = mold.foot(self.sum(&patch, p, q));
+        let foot = mold.closest_point(self.sum(&patch, p, q));
         if foot.beyond {
             return None;
         }

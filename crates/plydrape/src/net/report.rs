@@ -11,7 +11,7 @@ use super::spot::Spot;
 pub struct Report {
     /// Nodes with a place on the mold.
     pub placed: usize,
-    /// Nodes beyond the mold's border.
+    /// Nodes beyond the mold's boundary.
     pub off_mold: usize,
     /// Nodes where the ply folds.
     pub folded: usize,

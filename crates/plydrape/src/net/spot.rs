@@ -1,4 +1,4 @@
-//! Where a node lies, on the mold or on what carries on beyond its border.
+//! Where a node lies, on the mold or on what carries on beyond its boundary.
 
 use crate::mold::Mold;
 use crate::mold::vector::{along, dot, sub};
@@ -11,11 +11,11 @@ pub(super) struct Spot {
     pub point: [f64; 3],
     /// Unit normal, towards the ply.
     pub normal: [f64; 3],
-    /// Distance beyond the mold's border (m); 0 on the mold.
+    /// Distance beyond the mold's boundary (m); 0 on the mold.
     pub beyond: f64,
 }
 
-/// A mold that carries on beyond its open border, there along its tangent planes.
+/// A mold that carries on beyond its open boundary, there along its tangent planes.
 ///
 /// So a ply that leaves the mold at one place comes back to it at another where it would on flat ground, and
 /// a gripper outside still has a place.
@@ -33,14 +33,14 @@ impl<'a> Ground<'a> {
     /// What lies closest to `p` (m).
     pub fn under(&self, p: [f64; 3]) -> Spot {
         self.feet.set(self.feet.get() + 1);
-        let foot = self.mold.foot(p);
+        let foot = self.mold.closest_point(p);
         if !foot.beyond {
             return Spot { point: foot.point, normal: foot.normal, beyond: 0.0 };
         }
         let height = dot(sub(p, foot.point), foot.normal);
         let point = along(p, -height, foot.normal);
         let aside = sub(point, foot.point);
-        // never 0: a place beyond the border is no place of the mold
+        // never 0: a place beyond the boundary is no place of the mold
         let beyond = dot(aside, aside).sqrt().max(f64::MIN_POSITIVE);
         Spot { point, normal: foot.normal, beyond }
     }

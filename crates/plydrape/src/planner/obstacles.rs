@@ -144,19 +144,22 @@ fn missing_nodes(target: &Target) -> Option<Verdict> {
     beyond(Name::MissingNodes, 0.0, Some(found))
 }
 
-/// Targets given beyond the mold's border, or deeper in it than touching it; those of the net lie on it.
+/// Targets given beyond the mold's boundary, or deeper in it than touching it; those of the net lie on it.
 fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     if target.drape.is_some() {
         return None;
     }
     let off = |place: [f64; 3]| {
-        let foot = mold.foot(place);
+        let foot = mold.closest_point(place);
         if foot.beyond { foot.distance } else { -foot.distance }
     };
     let worst = largest(target.grippers.iter().enumerate().map(|(n, place)| (off(*place), n)));
     let found = worst.map(|(far, n)| {
-        let side =
-            if mold.foot(target.grippers[n]).beyond { "beyond its border" } else { "inside it" };
+        let side = if mold.closest_point(target.grippers[n]).beyond {
+            "beyond its boundary"
+        } else {
+            "inside it"
+        };
         (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(scene.ply.grid)))
     });
     beyond(Name::OffMold, scene.settings.contact.tolerance * 1e3, found)
@@ -166,7 +169,7 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
 fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     let tolerance = scene.settings.contact.tolerance;
     let tilt = |place: [f64; 3]| {
-        let foot = mold.foot(place);
+        let foot = mold.closest_point(place);
         let stands = !foot.beyond && foot.distance.abs() <= tolerance;
         stands.then(|| foot.normal[2].clamp(-1.0, 1.0).acos())
     };

@@ -1,6 +1,6 @@
 //! What the mold has caught of a catenary.
 
-use crate::mold::Strand;
+use crate::mold::SurfaceCurve;
 use crate::mold::vector::{dot, sub};
 
 /// The contact segment of a catenary: fixed in space and in fabric arc length.
@@ -12,7 +12,7 @@ pub struct Laid {
     /// Length of the catenary (m); from the first touch on it no longer follows the shear.
     pub length: f64,
     /// The segment's line on the mold; fabric arc lengths from the first gripper (m).
-    pub line: Strand,
+    pub line: SurfaceCurve,
     /// Unit normal of the mold at the segment's ends.
     pub normal: [[f64; 3]; 2],
     /// Whether each rest has lain down whole: it is no span any more.
@@ -123,7 +123,7 @@ mod tests {
     /// It is continuous where the two meet.
     #[test]
     fn the_way_has_the_sign_of_the_side_that_the_gripper_is_on() {
-        let line = Strand { points: vec![[1.0, 2.0, 0.0]; 2], arc: vec![0.02, 0.08] };
+        let line = SurfaceCurve { points: vec![[1.0, 2.0, 0.0]; 2], arc: vec![0.02, 0.08] };
         let outward = [[-0.6, -0.8, 0.0], [0.6, 0.8, 0.0]];
         let laid = Laid {
             length: 0.1,

@@ -22,12 +22,18 @@ fn level(position: [f64; 3]) -> Pose {
 
 /// One of every kind, turned and moved, as a ply would meet them.
 fn molds() -> Vec<(&'static str, Mold)> {
-    let pose = Pose::new([0.1, -0.2, 0.05], [0.15, -0.1, 0.7]);
-    let saddle = Surface::Saddle(Saddle { radii: [0.6, 0.9] });
-    let radius = 0.6;
+    molds_of_size(1.0)
+}
+
+/// The same, so many times as large.
+fn molds_of_size(size: f64) -> Vec<(&'static str, Mold)> {
+    let at = |place: [f64; 3]| Pose::new(place.map(|c| size * c), [0.15, -0.1, 0.7]);
+    let pose = at([0.1, -0.2, 0.05]);
+    let saddle = Surface::Saddle(Saddle { radii: [0.6 * size, 0.9 * size] });
+    let radius = 0.6 * size;
     // the middle of the tube lies under the places that are tried
-    let aside = Pose::new([0.9, -0.2, 0.05], [0.15, -0.1, 0.7]);
-    let (ring_radius, tube_radius) = (0.85, 0.5);
+    let aside = at([0.9, -0.2, 0.05]);
+    let (ring_radius, tube_radius) = (0.85 * size, 0.5 * size);
     vec![
         ("plane", Mold::Plane(Plane { point: [0.0; 3], normal: [-0.28, 0.0, 0.96] })),
         ("cylinder", Mold::Cylinder(Cylinder { pose, radius, face: Face::Outside })),
@@ -56,26 +62,59 @@ fn every_mold_lies_under_the_places_that_are_tried() {
     }
 }
 
+/// No tolerance is a length: a mold a thousand times smaller or larger gives the same answers in its own size. What
+/// two sizes are rounded to differs, which Newton's method and steps along a curve may enlarge to 1e-11.
+#[test]
+fn a_scaled_mold_gives_scaled_answers() {
+    let answers = |mold: &Mold, size: f64| {
+        let start = mold.highest_point([0.0, -0.15 * size]).expect("the mold is there");
+        let off = mold.closest_point([0.1, 0.05, 0.4].map(|c| size * c));
+        let line = mold.lay(start, [0.6, 0.8], 0.2 * size);
+        let way = mold.path(start, line.end()).expect("a way back").length();
+        let lengths = [start, off.point, line.end(), [off.distance, way, 0.0]];
+        lengths.map(|p| p.map(|c| c / size))
+    };
+    let own = molds();
+    for size in [1e-3, 1e3] {
+        for ((name, mold), (_, scaled)) in own.iter().zip(molds_of_size(size)) {
+            let pairs = answers(mold, 1.0).into_iter().zip(answers(&scaled, size));
+            let worst = pairs.map(|(a, b)| norm(sub(a, b))).fold(0.0, f64::max);
+            assert!(worst < 1e-11, "{name} at {size}: {worst:e}");
+        }
+    }
+}
+
+/// Above a place of the axis of a cylinder of slope tan φ lies its surface at R/cos φ.
+#[test]
+fn an_inclined_cylinder_is_found_from_above() {
+    for tilt in [0.0_f64, 0.5, 1.0, 1.3] {
+        let pose = Pose::new([0.3, 0.2, 0.1], [0.0, -tilt, 0.0]);
+        let mold = Mold::Cylinder(Cylinder { pose, radius: 0.5, face: Face::Outside });
+        let top = mold.highest_point([0.3, 0.2]).expect("a cylinder without ends")[2];
+        assert!((top - 0.1 - 0.5 / tilt.cos()).abs() < 1e-12, "{tilt}: {top}");
+    }
+}
+
 /// A place on the upper side of a mold near (x, y).
 fn place(mold: &Mold, x: f64, y: f64) -> Option<[f64; 3]> {
-    mold.drop_to([x, y])
+    mold.highest_point([x, y])
 }
 
 proptest! {
     #![proptest_config(Config { cases: 200, failure_persistence: None, rng_seed: RngSeed::Fixed(2018), ..Config::default() })]
 
-    /// A point lifted off a mold along its normal by less than the radii of curvature has its foot where
-    /// it came from, at the distance it was lifted, on either side.
+    /// A point raised off a mold along its normal by less than the radii of curvature has its closest point
+    /// where it came from, at the distance it was raised, on either side.
     #[test]
-    fn a_point_lifted_along_the_normal_falls_back(
+    fn a_point_moved_along_the_normal_has_its_origin_as_closest_point(
         x in -0.25..0.35_f64, y in -0.4..0.1_f64, lift in -0.1..0.1_f64,
     ) {
         for (name, mold) in molds() {
             let Some(p) = place(&mold, x, y) else { continue };
-            let foot = mold.foot(p);
-            prop_assert!(norm(sub(foot.point, p)) < 1e-13, "{name}: {foot:?}");
-            let off = [0, 1, 2].map(|n| p[n] + lift * foot.normal[n]);
-            let back = mold.foot(off);
+            let closest = mold.closest_point(p);
+            prop_assert!(norm(sub(closest.point, p)) < 1e-13, "{name}: {closest:?}");
+            let off = [0, 1, 2].map(|n| p[n] + lift * closest.normal[n]);
+            let back = mold.closest_point(off);
             prop_assert!((back.distance - lift).abs() < 1e-12, "{name}: {} {lift}", back.distance);
             prop_assert!(norm(sub(back.point, p)) < 1e-11, "{name}: {:?} {p:?}", back.point);
             prop_assert!((norm(back.normal) - 1.0).abs() < 1e-13, "{name}");
@@ -90,12 +129,12 @@ proptest! {
         for (name, mold) in molds() {
             let Some(p) = place(&mold, x, y) else { continue };
             let p = [p[0], p[1], p[2] + lift];
-            let foot = mold.foot(p);
+            let closest = mold.closest_point(p);
             let h = 1e-5;
             for n in 0..3 {
                 let at = |s: f64| { let mut q = p; q[n] += s; mold.signed_distance(q) };
                 let slope = (at(h) - at(-h)) / (2.0 * h);
-                prop_assert!((slope - foot.normal[n]).abs() < 1e-8, "{name}: {slope} {:?}", foot.normal);
+                prop_assert!((slope - closest.normal[n]).abs() < 1e-8, "{name}: {slope} {:?}", closest.normal);
             }
         }
     }
@@ -133,7 +172,7 @@ proptest! {
                 // it ends where the mold does
                 let [p, q] = [line.points[line.points.len() - 2], line.end()];
                 let on = [0, 1, 2].map(|n| q[n] + 1e-4 * (q[n] - p[n]) / norm(sub(q, p)));
-                prop_assert!(mold.foot(on).beyond, "{name}: {} {length}", line.length());
+                prop_assert!(mold.closest_point(on).beyond, "{name}: {} {length}", line.length());
                 continue;
             }
             prop_assert!(line.length() == length, "{name}: {}", line.length());
@@ -173,25 +212,25 @@ fn fabric_laid_over_a_circle_spans_its_chord() {
     }
 }
 
-/// Beyond the border of a trough and of a bounded saddle there is no mold: the distance is that to the
-/// border, and fabric that is laid ends there.
+/// Beyond the boundary of a trough and of a bounded saddle there is no mold: the distance is that to the
+/// boundary, and fabric that is laid ends there.
 #[test]
-fn beyond_an_open_border_there_is_no_mold() {
+fn beyond_an_open_boundary_there_is_no_mold() {
     let trough =
         Mold::Cylinder(Cylinder { pose: level([0.0, 0.0, 0.5]), radius: 0.5, face: Face::Inside });
-    let foot = trough.foot([0.0, 0.3, 0.6]);
-    assert!(foot.beyond && (foot.distance - 0.2_f64.hypot(0.1)).abs() < 1e-15, "{foot:?}");
+    let closest = trough.closest_point([0.0, 0.3, 0.6]);
+    assert!(closest.beyond && (closest.distance - 0.2_f64.hypot(0.1)).abs() < 1e-15, "{closest:?}");
     let line = trough.lay([0.0; 3], [0.0, 1.0], 1.0);
     assert!((line.length() - 0.25 * std::f64::consts::PI).abs() < 1e-6, "{}", line.length());
 
     let surface = Surface::Saddle(Saddle { radii: [0.5, 0.5] });
     let domain = Some([[-0.1, 0.1], [-0.1, 0.1]]);
     let saddle = Mold::Graph(Graph { pose: level([0.0; 3]), surface, domain });
-    let foot = saddle.foot([0.15, 0.0, -0.2]);
-    assert!(foot.beyond && foot.distance > 0.0, "{foot:?}");
-    assert!((foot.point[0] - 0.1).abs() < 1e-15, "{foot:?}");
-    assert!(!saddle.foot([0.05, 0.05, 0.1]).beyond);
-    assert!(saddle.drop_to([0.2, 0.0]).is_none());
+    let closest = saddle.closest_point([0.15, 0.0, -0.2]);
+    assert!(closest.beyond && closest.distance > 0.0, "{closest:?}");
+    assert!((closest.point[0] - 0.1).abs() < 1e-15, "{closest:?}");
+    assert!(!saddle.closest_point([0.05, 0.05, 0.1]).beyond);
+    assert!(saddle.highest_point([0.2, 0.0]).is_none());
     let line = saddle.lay([0.0; 3], [1.0, 0.0], 1.0);
     assert!((line.end()[0] - 0.1).abs() < 1e-6 && line.length() < 0.103, "{:?}", line.end());
 }

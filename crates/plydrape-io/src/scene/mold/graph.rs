@@ -72,7 +72,7 @@ fn range(keys: &Keys) -> Result<Option<[[f64; 2]; 2]>, SceneError> {
             return Err(keys.document.error(
                 one.span.clone(),
                 format!("the mold has a range `{given}` and no `{other}`"),
-                format!("add {other} = [\"-0.2 m\", \"0.2 m\"], or remove `{given}`: the mold then has no border"),
+                format!("add {other} = [\"-0.2 m\", \"0.2 m\"], or remove `{given}`: the mold then has no boundary"),
             ));
         }
     };

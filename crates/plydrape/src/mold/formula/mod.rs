@@ -11,6 +11,7 @@ mod polynomial;
 pub use operation::{FUNCTIONS, Function, Operation};
 
 use super::height::{Height, Steepness};
+use super::tuning::TUNING;
 use interval::{Interval, Range};
 use polynomial::Polynomial;
 use std::fmt;
@@ -83,10 +84,11 @@ impl Formula {
     pub fn steepness(&self, range: [[f64; 2]; 2]) -> Steepness {
         let part = |n: usize, k: usize| {
             let [low, high] = range[n];
-            let at = |k: usize| low + (high - low) * k as f64 / PARTS as f64;
+            let at = |k: usize| low + (high - low) * k as f64 / TUNING.formula_parts as f64;
             Interval(at(k), at(k + 1))
         };
-        let parts = (0..PARTS).flat_map(|j| (0..PARTS).map(move |i| [i, j]));
+        let parts =
+            (0..TUNING.formula_parts).flat_map(|j| (0..TUNING.formula_parts).map(move |i| [i, j]));
         parts.fold(Steepness::default(), |most, [i, j]| {
             let Range { gradient: [fx, fy], hessian, .. } = self.range([part(0, i), part(1, j)]);
             let [xx, xy, yy] = hessian.map(Interval::size);
@@ -113,22 +115,16 @@ impl Formula {
     pub fn undefined_within(&self, range: [[f64; 2]; 2]) -> Option<[f64; 2]> {
         let place = |n: usize, k: usize| {
             let [low, high] = range[n];
-            let t = k as f64 / SAMPLES as f64;
+            let t = k as f64 / TUNING.formula_samples as f64;
             // the middle and both ends are met to the last bit
             low * (1.0 - t) + high * t
         };
-        (0..=SAMPLES)
-            .flat_map(|j| (0..=SAMPLES).map(move |i| [i, j]))
+        (0..=TUNING.formula_samples)
+            .flat_map(|j| (0..=TUNING.formula_samples).map(move |i| [i, j]))
             .map(|[i, j]| [place(0, i), place(1, j)])
             .find(|&[x, y]| !self.at(x, y).is_finite())
     }
 }
-
-/// Steps along x and along y in which a formula is looked through, an even number.
-const SAMPLES: usize = 64;
-
-/// Parts along x and along y over each of which a formula is bounded: the bounds are the closer the smaller these are.
-const PARTS: usize = 8;
 
 impl fmt::Debug for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

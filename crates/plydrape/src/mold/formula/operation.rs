@@ -1,6 +1,8 @@
-//! The operations of a formula, each done on heights together with their derivatives.
+//! The operations of a formula, each done on heights together with their derivatives. Those of a function of one number
+//! are taken by second-order dual numbers.
 
 use crate::mold::height::Height;
+use num_dual::{Dual2_64, DualNum};
 
 /// One operation on the stack of heights.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,8 +83,7 @@ pub const FUNCTIONS: [(&str, Function); 13] = [
 
 impl Operation {
     /// Heights that it takes from the stack.
-    #[must_use]
-    pub fn operands(self) -> usize {
+    pub(super) fn operands(self) -> usize {
         match self {
             Operation::Number(_) | Operation::X | Operation::Y => 0,
             Operation::Whole(_) | Operation::Real(_) | Operation::Negate | Operation::Call(_) => 1,
@@ -90,20 +91,13 @@ impl Operation {
         }
     }
 
-    /// Heights on the stack behind the operation, from those before it.
-    #[must_use]
-    pub fn top(self, top: usize) -> usize {
-        match self {
-            Operation::Number(_) | Operation::X | Operation::Y => top + 1,
-            Operation::Whole(_) | Operation::Real(_) | Operation::Negate | Operation::Call(_) => {
-                top
-            }
-            _ => top - 1,
-        }
+    /// Heights on the stack behind the operation, from those before it: it takes its operands and leaves one.
+    pub(super) fn top(self, top: usize) -> usize {
+        top + 1 - self.operands()
     }
 
     /// What the operation leaves on the stack, from the height in its place and the one above.
-    pub fn result(self, a: Height, above: Option<&Height>, [x, y]: [f64; 2]) -> Height {
+    pub(super) fn result(self, a: Height, above: Option<&Height>, [x, y]: [f64; 2]) -> Height {
         let zero = Height::constant(0.0);
         let b = above.unwrap_or(&zero);
         match self {
@@ -113,15 +107,12 @@ impl Operation {
             Operation::Add => a.plus(1.0, b),
             Operation::Subtract => a.plus(-1.0, b),
             Operation::Multiply => a.times(b),
-            Operation::Divide => {
-                let inverse = 1.0 / b.z;
-                let square = inverse * inverse;
-                a.times(&b.chain([inverse, -square, 2.0 * square * inverse]))
-            }
-            Operation::Whole(n) => whole(&a, n),
+            Operation::Divide => a.times(&b.chain(variable(b.z).recip())),
+            Operation::Whole(n) => a.chain(variable(a.z).powi(n)),
             Operation::Real(n) => {
+                // also at zero, where `DualNum::powf` divides by it
                 let power = |shift: f64| a.z.powf(n - shift);
-                a.chain([power(0.0), n * power(1.0), n * (n - 1.0) * power(2.0)])
+                a.chain(Dual2_64::new(power(0.0), n * power(1.0), n * (n - 1.0) * power(2.0)))
             }
             Operation::Power => Function::Exp.of(&b.times(&Function::Ln.of(&a))),
             Operation::Negate => zero.plus(-1.0, &a),
@@ -130,66 +121,33 @@ impl Operation {
     }
 }
 
-/// aⁿ.
-fn whole(a: &Height, n: i32) -> Height {
-    match n {
-        0 => Height::constant(1.0),
-        1 => *a,
-        2 => a.chain([a.z * a.z, 2.0 * a.z, 2.0]),
-        _ => {
-            let (m, base) = (f64::from(n), a.z.powi(n - 2));
-            a.chain([base * a.z * a.z, m * base * a.z, m * (m - 1.0) * base])
-        }
-    }
+/// A number as the variable of second-order dual numbers: what is computed from it has both derivatives.
+fn variable(z: f64) -> Dual2_64 {
+    Dual2_64::new(z, 1.0, 0.0)
 }
 
 impl Function {
     /// The function of a height.
     fn of(self, a: &Height) -> Height {
-        let z = a.z;
+        let z = variable(a.z);
         a.chain(match self {
-            Function::Sqrt => {
-                let root = z.sqrt();
-                [root, 0.5 / root, -0.25 / (z * root)]
-            }
-            Function::Exp => [z.exp(); 3],
-            Function::Ln => [z.ln(), 1.0 / z, -1.0 / (z * z)],
-            Function::Log10 => {
-                let scale = std::f64::consts::LOG10_E;
-                [z.log10(), scale / z, -scale / (z * z)]
-            }
-            Function::Sin => {
-                let (sin, cos) = z.sin_cos();
-                [sin, cos, -sin]
-            }
-            Function::Cos => {
-                let (sin, cos) = z.sin_cos();
-                [cos, -sin, -cos]
-            }
-            Function::Tan => {
-                let tan = z.tan();
-                let rate = 1.0 + tan * tan;
-                [tan, rate, 2.0 * tan * rate]
-            }
-            Function::Asin | Function::Acos => {
-                let rest = 1.0 - z * z;
-                let rate = 1.0 / rest.sqrt();
-                if self == Function::Asin {
-                    [z.asin(), rate, z * rate / rest]
-                } else {
-                    [z.acos(), -rate, -z * rate / rest]
-                }
-            }
-            Function::Atan => {
-                let rate = 1.0 / (1.0 + z * z);
-                [z.atan(), rate, -2.0 * z * rate * rate]
-            }
-            Function::Sinh => [z.sinh(), z.cosh(), z.sinh()],
-            Function::Cosh => [z.cosh(), z.sinh(), z.cosh()],
+            Function::Sqrt => z.sqrt(),
+            Function::Exp => z.exp(),
+            Function::Ln => z.ln(),
+            Function::Log10 => z.log10(),
+            Function::Sin => z.sin(),
+            Function::Cos => z.cos(),
+            Function::Tan => z.tan(),
+            Function::Asin => z.asin(),
+            Function::Acos => z.acos(),
+            Function::Atan => z.atan(),
+            Function::Sinh => z.sinh(),
+            Function::Cosh => z.cosh(),
             Function::Tanh => {
-                let tanh = z.tanh();
+                // also where sinh and cosh, of which `DualNum::tanh` is made, are too large for a number
+                let tanh = a.z.tanh();
                 let rate = 1.0 - tanh * tanh;
-                [tanh, rate, -2.0 * tanh * rate]
+                Dual2_64::new(tanh, rate, -2.0 * tanh * rate)
             }
         })
     }

@@ -1,10 +1,10 @@
-//! From loose triangles to a mold: placing, joining, turning, borders.
+//! From loose triangles to a mold: placing, joining, turning, boundaries.
 
 use super::orient::{neighbours, orient};
-use super::query::Tree;
 use super::report::MeshReport;
 use super::soup::Soup;
-use super::{Mesh, MeshError, border, bounds, fan, join, normals};
+use super::tree::Tree;
+use super::{Mesh, MeshError, boundary, bounds, join, normals, one_ring};
 use crate::mold::Pose;
 use crate::mold::vector::distance;
 use std::sync::OnceLock;
@@ -64,7 +64,7 @@ fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), 
         // what no triangle uses shall not count for the size
         *point = if *used { pose.place(point.map(|x| scale * x)) } else { [f64::NAN; 3] };
     }
-    let [low, high] = bounds(soup.points.iter());
+    let [low, high] = bounds(soup.points.iter().copied());
     let size = distance(low, high);
     let mut report =
         MeshReport { skipped: std::mem::take(&mut soup.skipped), ..MeshReport::default() };
@@ -81,29 +81,30 @@ fn build(mut soup: Soup, scale: f64, pose: &Pose) -> Result<(Mesh, MeshReport), 
     let mut neighbours = neighbours(&joined, noun)?;
     let (component, components) = orient(&mut joined, &mut neighbours, noun, &mut report)?;
     joined.renumber();
-    let fans = fan::split(&mut joined, &neighbours);
+    let first_corners = one_ring::split(&mut joined, &neighbours);
 
     let join::Joined { vertices, triangles, .. } = joined;
     let triangle_normals = normals::of_triangles(&vertices, &triangles);
     let vertex_normals = normals::of_vertices(&vertices, &triangles, &triangle_normals);
-    let borders = border::borders(&vertices, &triangles, &neighbours, &component, &components);
+    let boundaries =
+        boundary::boundaries(&vertices, &triangles, &neighbours, &component, &components);
     let tree = Tree::new(
-        triangles.iter().map(|corners| bounds(corners.iter().map(|n| &vertices[*n as usize]))),
+        triangles.iter().map(|corners| bounds(corners.iter().map(|n| vertices[*n as usize]))),
     );
     report.vertices = vertices.len();
     report.triangles = triangles.len();
     report.surfaces = components.len();
     report.closed = components.iter().filter(|component| component.closed).count();
     report.bounds = [low, high];
-    report.holes = borders.iter().filter(|border| border.hole).cloned().collect();
+    report.holes = boundaries.iter().filter(|boundary| boundary.hole).cloned().collect();
     let mesh = Mesh {
         vertices,
         triangles,
         neighbours,
-        fans,
+        first_corners,
         triangle_normals,
         vertex_normals,
-        borders,
+        boundaries,
         bounds: [low, high],
         size,
         tree,

@@ -5,9 +5,8 @@
 //! triangles are averaged by area, and blended between vertices.
 
 use super::Mesh;
-use super::foot::Spot;
 use crate::mold::Curvatures;
-use crate::mold::vector::{cross, dot, norm, sub, unit};
+use crate::mold::vector::{cross, dot, norm, sub, tangents};
 
 /// A symmetric matrix: its components xx, xy, xz, yy, yz, zz.
 pub(super) type Symmetric = [f64; 6];
@@ -16,14 +15,14 @@ impl Mesh {
     /// Principal curvatures of the smooth surface at the point closest to `p` (m).
     #[must_use]
     pub fn curvatures(&self, p: [f64; 3]) -> Curvatures {
-        let spot: Spot = self.spot(p);
+        let place = self.surface_point(p);
         let shapes = self.shapes.get_or_init(|| self.vertex_shapes());
         let mut shape = [0.0; 6];
-        for (corner, weight) in self.triangles[spot.triangle].iter().zip(spot.weights) {
+        for (corner, weight) in self.triangles[place.triangle].iter().zip(place.weights) {
             let own = &shapes[*corner as usize];
             (0..6).for_each(|n| shape[n] += weight * own[n]);
         }
-        let frame = tangents(self.normal_at(&spot));
+        let frame = tangents(self.normal_at(&place));
         Curvatures::of_form(form(&shape, frame), frame)
     }
 
@@ -37,8 +36,8 @@ impl Mesh {
             let frame = tangents(self.triangle_normals[t]);
             let Some(own) = self.triangle_form(t, frame) else { continue };
             for corner in corners.map(|n| n as usize) {
-                let turned =
-                    frame.map(|s| carry(s, self.triangle_normals[t], self.vertex_normals[corner]));
+                let turned = frame
+                    .map(|s| transport(s, self.triangle_normals[t], self.vertex_normals[corner]));
                 let shape = outer(own, turned);
                 (0..6).for_each(|n| shapes[corner][n] += area * shape[n]);
                 areas[corner] += area;
@@ -78,15 +77,8 @@ impl Mesh {
     }
 }
 
-/// Two unit vectors at right angles to each other and to a normal.
-fn tangents(normal: [f64; 3]) -> [[f64; 3]; 2] {
-    let axis = if normal[0].abs() < 0.8 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-    let first = unit(cross(axis, normal)).unwrap_or([0.0, 0.0, 1.0]);
-    [first, cross(normal, first)]
-}
-
-/// A tangent carried along the shortest turn from one unit normal to another.
-fn carry(tangent: [f64; 3], from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
+/// A tangent turned by the shortest rotation from one unit normal to another.
+fn transport(tangent: [f64; 3], from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
     let axis = cross(from, to);
     let cos = dot(from, to);
     let across = cross(axis, tangent);

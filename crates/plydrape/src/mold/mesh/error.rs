@@ -85,7 +85,7 @@ impl MeshError {
             MeshError::Size { .. } => "state the unit that the file is written in".into(),
             MeshError::Scale { .. } => "give the metres of one unit of the file".into(),
             MeshError::Branching { noun, .. } => {
-                format!("a mold is one skin: two {noun}s at an edge, or one at its border")
+                format!("a mold is one skin: two {noun}s at an edge, or one at its boundary")
             }
             MeshError::OneSided { .. } => "cut it there".into(),
             MeshError::Sideways { .. } => {

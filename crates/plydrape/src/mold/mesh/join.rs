@@ -2,13 +2,9 @@
 
 use super::report::{Finding, MeshReport};
 use super::soup::Soup;
+use crate::mold::tuning::TUNING;
 use crate::mold::vector::{cross, distance, norm, sub};
 use std::collections::{HashMap, HashSet};
-
-/// Vertices closer than this share of the box around the mesh are one.
-const MERGE: f64 = 1e-6;
-/// A triangle whose height is below this share of its longest side has no area.
-const NEEDLE: f64 = 1e-10;
 
 /// Triangles over shared vertices, each with its number in the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,10 +14,10 @@ pub(super) struct Joined {
     pub numbers: Vec<u64>,
 }
 
-/// Joins triangles whose vertices coincide, exactly or within `MERGE` of `size`, the diagonal of the box
+/// Joins triangles whose vertices coincide, exactly or within a share of `size`, the diagonal of the box
 /// around them (m). Triangles without area and repeated ones are dropped and noted.
 pub(super) fn join(soup: &Soup, size: f64, report: &mut MeshReport) -> Joined {
-    let same = merge(&soup.points, MERGE * size, &mut report.merged);
+    let same = merge(&soup.points, TUNING.merge * size, &mut report.merged);
     let mut joined = Joined { vertices: Vec::new(), triangles: Vec::new(), numbers: Vec::new() };
     let mut seen: HashSet<[u32; 3]> = HashSet::with_capacity(soup.triangles.len());
     let mut index = vec![u32::MAX; soup.points.len()];
@@ -73,7 +69,7 @@ impl Joined {
 fn has_area([a, b, c]: [u32; 3], [p, q, r]: [[f64; 3]; 3]) -> bool {
     let longest = distance(p, q).max(distance(q, r)).max(distance(r, p));
     let double_area = norm(cross(sub(q, p), sub(r, p)));
-    a != b && b != c && c != a && double_area > NEEDLE * longest * longest
+    a != b && b != c && c != a && double_area > TUNING.needle * longest * longest
 }
 
 fn middle([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {

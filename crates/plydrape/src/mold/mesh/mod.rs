@@ -1,27 +1,27 @@
 //! A mold given by triangles.
 //!
 //! Triangles are taken as they come ([`Soup`]), vertices are merged, its triangles turned to face one way
-//! and its borders found; what was repaired stands in the [`MeshReport`]. The mesh then answers
+//! and its boundaries found; what was repaired stands in the [`MeshReport`]. The mesh then answers
 //! what any mold is asked: the closest point and which side it is on, a smooth normal, curvatures, lines along
 //! it in a vertical plane, and its highest point at a place.
 
-mod border;
+mod boundary;
 mod build;
-mod closest;
+mod closest_point;
 mod curvature;
-mod drop;
 mod error;
-mod fan;
-mod foot;
+mod highest_point;
 mod join;
 mod normals;
+mod one_ring;
 mod orient;
-mod query;
 mod report;
 mod section;
 mod soup;
+mod tree;
+mod triangle;
 
-pub use border::Border;
+pub use boundary::Boundary;
 pub use error::MeshError;
 pub use report::{Finding, MeshReport};
 pub use soup::Soup;
@@ -39,14 +39,16 @@ pub struct Mesh {
     /// Triangles across the edges from corner k to corner k + 1, or none.
     neighbours: Vec<[u32; 3]>,
     /// First corner of the triangles around each vertex.
-    fans: Vec<fan::Corner>,
+    first_corners: Vec<one_ring::Corner>,
+    /// Unit normal of each triangle, outwards.
     triangle_normals: Vec<[f64; 3]>,
+    /// Smooth unit normal of each vertex, outwards.
     vertex_normals: Vec<[f64; 3]>,
-    borders: Vec<Border>,
+    boundaries: Vec<Boundary>,
     bounds: [[f64; 3]; 2],
     /// Diagonal of the box around the mesh (m).
     size: f64,
-    tree: query::Tree,
+    tree: tree::Tree,
     /// Shape operator of each vertex, once asked for.
     shapes: OnceLock<Vec<curvature::Symmetric>>,
 }
@@ -64,22 +66,10 @@ impl Mesh {
         &self.triangles
     }
 
-    /// The triangle across each edge of a triangle, from corner k to corner k + 1; none at a border.
+    /// The boundaries of its open surfaces, holes included.
     #[must_use]
-    pub fn neighbours(&self, triangle: usize) -> [Option<usize>; 3] {
-        self.neighbours[triangle].map(|n| (n != orient::NONE).then_some(n as usize))
-    }
-
-    /// Smooth unit normal of each vertex, outwards.
-    #[must_use]
-    pub fn vertex_normals(&self) -> &[[f64; 3]] {
-        &self.vertex_normals
-    }
-
-    /// The borders of its open surfaces, holes included.
-    #[must_use]
-    pub fn borders(&self) -> &[Border] {
-        &self.borders
+    pub fn boundaries(&self) -> &[Boundary] {
+        &self.boundaries
     }
 
     /// Corners of the box around it (m): lowest and highest coordinates.
@@ -90,7 +80,9 @@ impl Mesh {
 
     /// Places of a triangle's corners (m).
     fn corners(&self, triangle: usize) -> [[f64; 3]; 3] {
-        self.triangles[triangle].map(|n| self.vertices[n as usize])
+        // `map` is not inlined, which the search for closest points would feel
+        let [a, b, c] = self.triangles[triangle];
+        [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
     }
 }
 
@@ -113,7 +105,7 @@ impl fmt::Debug for Mesh {
 }
 
 /// Lowest and highest coordinates of some points; points that are no numbers do not count.
-fn bounds<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
+fn bounds(points: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
     points.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[low, high], p| {
         [[0, 1, 2].map(|n| low[n].min(p[n])), [0, 1, 2].map(|n| high[n].max(p[n]))]
     })

@@ -1,19 +1,17 @@
 //! Which triangles touch, and which way they face.
 //!
 //! Two triangles that share an edge face the same way if they run along it in opposite directions. From
-//! one triangle of each surface this is carried over all edges. Then a closed surface is turned so that
+//! one triangle of each surface the others follow, edge by edge. Then a closed surface is turned so that
 //! its volume Σ p·(q × r)/6 is positive, an open one so that its vector area points up.
 
 use super::MeshError;
 use super::join::Joined;
 use super::report::MeshReport;
+use crate::mold::tuning::TUNING;
 use crate::mold::vector::{cross, dot, norm, sub};
 
-/// No triangle: a border.
+/// No triangle: a boundary.
 pub(super) const NONE: u32 = u32::MAX;
-/// An open surface whose vector area points less upwards than this share of its area faces sideways.
-const SIDEWAYS: f64 = 0.01;
-
 /// For each triangle its neighbours across the edges from corner k to corner k + 1.
 pub(super) type Neighbours = Vec<[u32; 3]>;
 
@@ -105,7 +103,7 @@ pub(super) fn orient(
             sides.volume < 0.0
         } else {
             let upwards = sides.vector_area[2] / sides.area;
-            if upwards.abs() < SIDEWAYS {
+            if upwards.abs() < TUNING.sideways {
                 return Err(MeshError::Sideways {
                     noun,
                     number: mesh.numbers[seed],

@@ -1,6 +1,6 @@
 //! What was found and repaired while a mesh was read.
 
-use super::border::Border;
+use super::boundary::Boundary;
 use std::fmt;
 
 /// What was found and repaired while a mesh was read.
@@ -13,7 +13,7 @@ pub struct MeshReport {
     pub triangles: usize,
     /// Its connected surfaces.
     pub surfaces: usize,
-    /// Those of them without a border.
+    /// Those of them without a boundary.
     pub closed: usize,
     /// Corners of the box around the mold (m): lowest and highest coordinates.
     pub bounds: [[f64; 3]; 2],
@@ -25,8 +25,8 @@ pub struct MeshReport {
     pub duplicate: Finding,
     /// Triangles whose corners ran the wrong way round, turned over.
     pub flipped: Finding,
-    /// Borders inside the outer one of their surface.
-    pub holes: Vec<Border>,
+    /// Boundaries inside the outer one of their surface.
+    pub holes: Vec<Boundary>,
     /// Elements that are no surface, left out: their type and how many lines of data they had.
     pub skipped: Vec<(String, usize)>,
 }
@@ -50,17 +50,6 @@ impl Finding {
         if self.first.len() < Self::KEPT {
             self.first.push((number, place));
         }
-    }
-}
-
-impl MeshReport {
-    /// Whether the file had to be repaired, or its surface has holes.
-    #[must_use]
-    pub fn remarkable(&self) -> bool {
-        let findings = [&self.merged, &self.degenerate, &self.duplicate, &self.flipped];
-        findings.iter().any(|finding| finding.count > 0)
-            || !self.holes.is_empty()
-            || !self.skipped.is_empty()
     }
 }
 

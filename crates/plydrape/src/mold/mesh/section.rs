@@ -8,18 +8,9 @@
 
 use super::Mesh;
 use super::orient::NONE;
-use crate::mold::Strand;
+use crate::mold::SurfaceCurve;
+use crate::mold::tuning::TUNING;
 use crate::mold::vector::{along, distance, dot, sub};
-
-/// Vertices closer to the plane than this share of the mesh are in it.
-const IN_PLANE: f64 = 1e-13;
-/// Points closer to the line than this share of the mesh are on it.
-const ON_LINE: f64 = 1e-9;
-/// A line to a point gives up after this many times the chord.
-const DETOUR: f64 = 4.0;
-/// A line around a closed mesh ends after this many points for each triangle; it crosses each at most
-/// once a round.
-const ROUNDS: usize = 4;
 
 /// A vertical plane, with the side that its vertices count to.
 #[derive(Clone, Copy)]
@@ -42,109 +33,111 @@ enum Goal {
 #[derive(PartialEq)]
 enum End {
     Goal,
-    Border,
+    Boundary,
 }
 
 impl Mesh {
     /// The line along the mesh from its point `from` (m), in the vertical plane of the horizontal unit
     /// vector `heading`, over an arc length (m); a negative length leads the other way. It ends early at
-    /// an open border.
+    /// an open boundary.
     #[must_use]
-    pub fn section(&self, from: [f64; 3], heading: [f64; 2], length: f64) -> Strand {
+    pub fn section(&self, from: [f64; 3], heading: [f64; 2], length: f64) -> SurfaceCurve {
         let heading = if length < 0.0 { heading.map(|c| -c) } else { heading };
         let length = if length.is_finite() { length.abs() } else { 0.0 };
         self.follow(from, heading, Goal::Length(length)).0
     }
 
     /// The line along the mesh from one of its points to another (m) in the vertical plane of both; none
-    /// where it runs over a border, or does not get there within four times their distance.
+    /// where it runs over a boundary, or does not get there within four times their distance.
     #[must_use]
-    pub fn section_to(&self, a: [f64; 3], b: [f64; 3]) -> Option<Strand> {
+    pub fn section_to(&self, a: [f64; 3], b: [f64; 3]) -> Option<SurfaceCurve> {
         let run = (b[0] - a[0]).hypot(b[1] - a[1]);
         let chord = distance(a, b);
-        if chord <= ON_LINE * self.size {
-            return Some(Strand { points: vec![a, b], arc: vec![0.0, chord] });
+        if chord <= TUNING.on_curve * self.size {
+            return Some(SurfaceCurve { points: vec![a, b], arc: vec![0.0, chord] });
         }
         let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
         if !heading[0].is_finite() || !heading[1].is_finite() {
             return None;
         }
-        let (strand, end) = self.follow(a, heading, Goal::Point { point: b, most: DETOUR * chord });
-        (end == End::Goal).then_some(strand)
+        let (curve, end) =
+            self.follow(a, heading, Goal::Point { point: b, most: TUNING.longest_way * chord });
+        (end == End::Goal).then_some(curve)
     }
 
-    fn follow(&self, from: [f64; 3], heading: [f64; 2], goal: Goal) -> (Strand, End) {
-        let spot = self.spot(from);
-        let start = spot.point;
-        let mut strand = Strand { points: vec![start], arc: vec![0.0] };
+    fn follow(&self, from: [f64; 3], heading: [f64; 2], goal: Goal) -> (SurfaceCurve, End) {
+        let place = self.surface_point(from);
+        let start = place.point;
+        let mut curve = SurfaceCurve { points: vec![start], arc: vec![0.0] };
         // seen from outside, a heading below an overhang is reversed
-        let ahead = self.normal_at(&spot)[2] >= 0.0;
+        let ahead = self.normal_at(&place)[2] >= 0.0;
         let sign = if ahead { 1.0 } else { -1.0 };
         let left = [-sign * heading[1], sign * heading[0]];
         let mut cut = Cut { mesh: self, from: start, left, in_plane_is_left: true };
-        // where vertices in the plane are a border on one side, the other may go on
+        // where vertices in the plane are a boundary on one side, the other may go on
         let mut idle = 0;
         while idle < 2 {
-            let before = strand.points.len();
-            if cut.walk(&mut strand, goal) == End::Goal {
-                return (strand, End::Goal);
+            let before = curve.points.len();
+            if cut.walk(&mut curve, goal) == End::Goal {
+                return (curve, End::Goal);
             }
-            idle = if strand.points.len() > before { 0 } else { idle + 1 };
+            idle = if curve.points.len() > before { 0 } else { idle + 1 };
             cut.in_plane_is_left = !cut.in_plane_is_left;
         }
-        (strand, End::Border)
+        (curve, End::Boundary)
     }
 }
 
 impl Cut<'_> {
     /// Goes on from the last point of a line.
-    fn walk(&self, strand: &mut Strand, goal: Goal) -> End {
+    fn walk(&self, curve: &mut SurfaceCurve, goal: Goal) -> End {
         let mesh = self.mesh;
-        if matches!(goal, Goal::Length(length) if length <= strand.length()) {
+        if matches!(goal, Goal::Length(length) if length <= curve.length()) {
             return End::Goal;
         }
-        let Some(mut triangle) = self.start(strand.end()) else { return End::Border };
+        let Some(mut triangle) = self.start(curve.end()) else { return End::Boundary };
         // around a vertex that the plane only touches the walk goes in circles
         let mut idle = 0;
         while let Some((edge, next)) = self.crossing(triangle, false) {
-            let from = strand.end();
-            let (step, arc) = (distance(from, next), strand.length());
+            let from = curve.end();
+            let (step, arc) = (distance(from, next), curve.length());
             match goal {
                 Goal::Length(length) if arc + step >= length => {
                     let share = (length - arc) / step;
                     let end = if share >= 1.0 { next } else { along(from, share, sub(next, from)) };
-                    strand.push(end, length);
+                    curve.push(end, length);
                     return End::Goal;
                 }
                 Goal::Point { point, .. } if self.is_on(from, next, point) => {
-                    strand.push(point, arc + distance(from, point));
+                    curve.push(point, arc + distance(from, point));
                     return End::Goal;
                 }
-                Goal::Point { most, .. } if arc > most => return End::Border,
+                Goal::Point { most, .. } if arc > most => return End::Boundary,
                 _ => {}
             }
-            if step > IN_PLANE * mesh.size {
-                strand.push(next, arc + step);
+            if step > TUNING.in_plane * mesh.size {
+                curve.push(next, arc + step);
                 idle = 0;
             } else {
                 idle += 1;
             }
             match mesh.neighbours[triangle][edge] {
-                NONE => return End::Border,
-                _ if idle.max(strand.points.len() / ROUNDS) > mesh.triangles.len() => {
-                    return End::Border;
+                NONE => return End::Boundary,
+                _ if idle.max(curve.points.len() / TUNING.rounds) > mesh.triangles.len() => {
+                    return End::Boundary;
                 }
                 other => triangle = other as usize,
             }
         }
-        End::Border
+        End::Boundary
     }
 
     /// The crossed triangle that `p` (m) lies in.
     fn start(&self, p: [f64; 3]) -> Option<usize> {
-        let tolerance = ON_LINE * self.mesh.size;
+        let tolerance = TUNING.on_curve * self.mesh.size;
         let mut best: Option<(f64, usize)> = None;
-        for triangle in self.mesh.tree.touching(p, tolerance) {
+        let near = [p.map(|x| x - tolerance), p.map(|x| x + tolerance)];
+        for triangle in self.mesh.tree.touching(near) {
             let triangle = triangle as usize;
             let ends = (self.crossing(triangle, true), self.crossing(triangle, false));
             let (Some((_, a)), Some((_, b))) = ends else { continue };
@@ -180,11 +173,11 @@ impl Cut<'_> {
     /// Distance of `p` to the left of the plane (m).
     fn side(&self, p: [f64; 3]) -> f64 {
         let s = self.left[0] * (p[0] - self.from[0]) + self.left[1] * (p[1] - self.from[1]);
-        if s.abs() <= IN_PLANE * self.mesh.size { 0.0 } else { s }
+        if s.abs() <= TUNING.in_plane * self.mesh.size { 0.0 } else { s }
     }
 
     fn is_on(&self, a: [f64; 3], b: [f64; 3], p: [f64; 3]) -> bool {
-        off_segment(a, b, p) <= ON_LINE * self.mesh.size
+        off_segment(a, b, p) <= TUNING.on_curve * self.mesh.size
     }
 }
 

@@ -7,7 +7,7 @@
 use super::strategy::Strategy;
 use crate::draping::spans::Point;
 use crate::mold::vector::{along, dot, sub};
-use crate::mold::{Graph, HeightGrid, Lift, Lifted, Mold, Pose, Surface};
+use crate::mold::{FrontSurface, Graph, HeightGrid, Mold, Pose, Rise, Surface};
 use crate::net::{Layup, Net};
 use crate::ply::Grid;
 use crate::scene::Scene;
@@ -79,7 +79,7 @@ impl<'a> Formation<'a> {
         Some(formation)
     }
 
-    fn lift(&self, front: f64) -> Lift {
+    fn lift(&self, front: f64) -> Rise {
         let Strategy { ratio, angle, curvature, slope, .. } = self.strategy;
         let (sin, cos) = angle.sin_cos();
         let along = 1.0 / (ratio * ratio);
@@ -88,7 +88,7 @@ impl<'a> Formation<'a> {
             (along - 1.0) * sin * cos,
             along * sin * sin + cos * cos,
         ];
-        Lift { centre: self.centre, metric, front, curvature, slope }
+        Rise { centre: self.centre, metric, front, curvature, slope }
     }
 
     /// How far the front has to come to have passed every gripper (m).
@@ -101,10 +101,10 @@ impl<'a> Formation<'a> {
     /// The net on the lifted mold at the grippers (m); none where it folds or there is none.
     fn net(&self, front: f64, pull: f64) -> Option<Vec<Point>> {
         let layup = self.layup?;
-        let lifted = Lifted { ground: Arc::clone(&self.heights), lift: self.lift(front) };
-        let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Lifted(lifted));
+        let lifted = FrontSurface { mold: Arc::clone(&self.heights), rise: self.lift(front) };
+        let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Front(lifted));
         let mold = Mold::Graph(Graph { pose, surface, domain: None });
-        let place = mold.drop_to(self.centre)?;
+        let place = mold.highest_point(self.centre)?;
         let mesh = layup.mesh.map(|width| width * (1.0 + pull));
         let net = Net::drape(&mold, Layup { place, mesh, ..layup }).ok()?;
         let node = |n: usize| net.node(self.grid.id(n).map(|k| k * DIVISIONS));
@@ -116,8 +116,8 @@ impl<'a> Formation<'a> {
     pub fn grippers(&self, front: f64) -> Vec<Point> {
         let Some(net) = self.net(front, self.strategy.pull) else {
             // without a net, straight above where they land
-            let lift = Lifted { ground: Arc::clone(&self.heights), lift: self.lift(front) };
-            let raise = |p: &Point| [p[0], p[1], p[2] + lift.raised(p[0], p[1])];
+            let lift = FrontSurface { mold: Arc::clone(&self.heights), rise: self.lift(front) };
+            let raise = |p: &Point| [p[0], p[1], p[2] + lift.rise_at(p[0], p[1])];
             return self.targets.iter().map(raise).collect();
         };
         let move_in = |(n, p): (usize, Point)| {
@@ -162,17 +162,17 @@ fn heights(mold: &Mold, targets: &[Point]) -> Option<HeightGrid> {
     HeightGrid::new(x, y, z).ok()
 }
 
-/// Height of a mold at (x, y) (m); beyond its border that of the tangent plane there.
+/// Height of a mold at (x, y) (m); beyond its boundary that of the tangent plane there.
 fn height(mold: &Mold, [x, y]: [f64; 2], top: f64) -> f64 {
-    if let Some(place) = mold.drop_to([x, y]) {
+    if let Some(place) = mold.highest_point([x, y]) {
         return place[2];
     }
     let mut z = top;
     for _ in 0..4 {
-        let foot = mold.foot([x, y, z]);
+        let foot = mold.closest_point([x, y, z]);
         let [nx, ny, nz] = foot.normal;
         let fall = nx * (x - foot.point[0]) + ny * (y - foot.point[1]);
-        // an upright border would lead nowhere
+        // an upright boundary would lead nowhere
         z = foot.point[2] - fall / nz.abs().max(0.3);
     }
     z

@@ -10,7 +10,7 @@ use std::borrow::Cow;
 const NODES: usize = 161;
 /// Error (m) of the table from which on it is not used.
 const ERROR: f64 = 1e-7;
-/// Margin around the drape where the formula has no borders, as a share of its size.
+/// Margin around the drape where the formula has no boundaries, as a share of its size.
 const MARGIN: f64 = 0.5;
 
 /// The scene with its mold tabulated, where that is a formula smooth enough; else as it is.

@@ -57,7 +57,7 @@ impl Strategy {
         unit
     }
 
-    /// From such a point; what lies beyond is reflected at the border, so that a search feels no wall.
+    /// From such a point; what lies beyond is reflected at the boundary, so that a search feels no wall.
     #[must_use]
     pub fn of_unit(unit: &[f64]) -> Self {
         let value = |n: usize| {

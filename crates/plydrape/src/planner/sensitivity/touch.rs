@@ -4,17 +4,17 @@ use super::{Place, Quantity, Sensitivity, add};
 use crate::draping::fabric;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, dot, sub};
-use crate::mold::{Foot, Mold};
+use crate::mold::{ClosestPoint, Mold};
 
 /// Distances below this have no direction but the normal's (m).
 const ON_MOLD: f64 = 1e-9;
 
 /// Gradient of the distance from the mold at a point.
-pub(super) fn distance_gradient(point: Point, foot: &Foot) -> [f64; 3] {
+pub(super) fn distance_gradient(point: Point, foot: &ClosestPoint) -> [f64; 3] {
     if foot.distance.abs() < ON_MOLD {
         return foot.normal;
     }
-    // beside an open border it points away from the border
+    // beside an open boundary it points away from the boundary
     sub(point, foot.point).map(|c| c / foot.distance)
 }
 
@@ -24,7 +24,7 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn gap(&self, span: &FreeSpan, t: f64) -> Option<Quantity> {
         let place = self.place(span, t);
-        let foot = self.scene.mold.as_ref()?.foot(place.point);
+        let foot = self.scene.mold.as_ref()?.closest_point(place.point);
         let slope = place.along(distance_gradient(place.point, &foot));
         Some(Quantity { value: foot.distance, ..slope })
     }

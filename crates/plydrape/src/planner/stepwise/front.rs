@@ -50,7 +50,7 @@ impl Front {
         let up = [0.0, 0.0, 1.0];
         let count = targets.len() as f64;
         let mean = [0, 1, 2].map(|n| targets.iter().map(|p| p[n]).sum::<f64>() / count);
-        let middle = scene.mold.as_ref().map_or(mean, |mold| mold.closest_point(mean));
+        let middle = scene.mold.as_ref().map_or(mean, |mold| mold.closest_point(mean).point);
         let normal: Vec<[f64; 3]> =
             targets.iter().map(|p| scene.mold.as_ref().map_or(up, |m| m.normal(*p))).collect();
         let bend = |p: &[f64; 3]| {

@@ -8,7 +8,7 @@
 use super::step::wanted_stretch;
 use crate::draping::spans::{Point, Shape};
 use crate::draping::{Draping, lying_segments, misfit};
-use crate::mold::Strand;
+use crate::mold::SurfaceCurve;
 use crate::mold::vector::{along, norm, sub, unit};
 use crate::planner::program::{MM, Program};
 use crate::scene::Scene;
@@ -59,7 +59,7 @@ impl Rest {
 }
 
 /// Direction out of a line at one of its ends.
-fn outward(line: &Strand, end: usize) -> Option<[f64; 3]> {
+fn outward(line: &SurfaceCurve, end: usize) -> Option<[f64; 3]> {
     let (points, last) = (&line.points, line.points.len() - 1);
     match end {
         0 => unit(sub(points[0], *points.get(1)?)),
@@ -176,7 +176,7 @@ pub fn settled(
     }
     let place = |gripper: usize| {
         let way = [0, 1, 2].map(|n| moves[3 * gripper + n]);
-        mold.closest_point(along(draping.positions[gripper], 1.0 / MM, way))
+        mold.closest_point(along(draping.positions[gripper], 1.0 / MM, way)).point
     };
     Some((0..count).map(place).collect())
 }

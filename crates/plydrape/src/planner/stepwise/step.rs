@@ -202,7 +202,7 @@ fn hollow(scene: &Scene, span: &FreeSpan) -> f64 {
         return 0.0;
     };
     let middle = span.point(0.5);
-    let foot = mold.foot(middle);
+    let foot = mold.closest_point(middle);
     let [a, b] = span.ends;
     let chord = sub(b, a);
     let aside = dot(chord, foot.normal);

@@ -1,4 +1,4 @@
-//! The triangles around a vertex: its fan, which begins and ends at the border if there is one.
+//! The triangles around a vertex: its one-ring, which begins and ends at the boundary if there is one.
 
 use super::join::Joined;
 use super::orient::{NONE, Neighbours};
@@ -6,7 +6,7 @@ use super::orient::{NONE, Neighbours};
 /// Corner `k` of triangle `t`.
 pub(super) type Corner = (usize, usize);
 
-/// The next corner at the same vertex, anticlockwise seen from outside; none at the border.
+/// The next corner at the same vertex, anticlockwise seen from outside; none at the boundary.
 pub(super) fn next(
     triangles: &[[u32; 3]],
     neighbours: &[[u32; 3]],
@@ -15,7 +15,7 @@ pub(super) fn next(
     across(triangles, neighbours, (t, k), (k + 2) % 3)
 }
 
-/// The next corner at the same vertex, clockwise; none at the border.
+/// The next corner at the same vertex, clockwise; none at the boundary.
 fn previous(triangles: &[[u32; 3]], neighbours: &[[u32; 3]], (t, k): Corner) -> Option<Corner> {
     across(triangles, neighbours, (t, k), k)
 }
@@ -31,8 +31,8 @@ fn across(
     Some((other as usize, index))
 }
 
-/// Gives every vertex one fan: a vertex at which several fans meet in a point only is doubled.
-/// Returns the first corner of each fan.
+/// Gives every vertex one one-ring: a vertex at which several of them meet in a point only is doubled.
+/// Returns the first corner of each one-ring.
 pub(super) fn split(mesh: &mut Joined, neighbours: &Neighbours) -> Vec<Corner> {
     let unknown: Corner = (NONE as usize, 0);
     let mut first = vec![unknown; mesh.vertices.len()];

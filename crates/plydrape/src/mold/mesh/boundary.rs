@@ -1,4 +1,4 @@
-//! The borders of an open surface.
+//! The boundaries of an open surface.
 
 use super::orient::{Component, NONE, Neighbours};
 use crate::mold::vector::distance;
@@ -6,7 +6,7 @@ use crate::mold::vector::distance;
 /// A closed line of edges that have a triangle on one side only.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Border {
+pub struct Boundary {
     /// Its vertices in turn, the surface to the left.
     pub vertices: Vec<u32>,
     /// Its length (m).
@@ -15,20 +15,20 @@ pub struct Border {
     pub bounds: [[f64; 3]; 2],
     /// The connected surface it belongs to.
     pub surface: usize,
-    /// Not the longest border of its surface.
+    /// Not the longest boundary of its surface.
     pub hole: bool,
 }
 
-/// All borders: around each surface the longest is the outer one, the others are holes.
-pub(super) fn borders(
+/// All boundaries: around each surface the longest is the outer one, the others are holes.
+pub(super) fn boundaries(
     vertices: &[[f64; 3]],
     triangles: &[[u32; 3]],
     neighbours: &Neighbours,
     component: &[u32],
     components: &[Component],
-) -> Vec<Border> {
+) -> Vec<Boundary> {
     let mut done = vec![[false; 3]; triangles.len()];
-    let mut borders: Vec<Border> = Vec::new();
+    let mut boundaries: Vec<Boundary> = Vec::new();
     for start in 0..triangles.len() {
         for side in 0..3 {
             if neighbours[start][side] != NONE || done[start][side] {
@@ -39,27 +39,27 @@ pub(super) fn borders(
             while !done[t][k] {
                 done[t][k] = true;
                 line.push(triangles[t][k]);
-                (t, k) = next_on_border(triangles, neighbours, t, k);
+                (t, k) = next_on_boundary(triangles, neighbours, t, k);
             }
-            borders.push(border(vertices, line, component[start] as usize));
+            boundaries.push(boundary(vertices, line, component[start] as usize));
         }
     }
     let mut outer: Vec<Option<usize>> = vec![None; components.len()];
-    for (n, border) in borders.iter().enumerate() {
-        let best = &mut outer[border.surface];
-        if best.is_none_or(|m| border.length > borders[m].length) {
+    for (n, boundary) in boundaries.iter().enumerate() {
+        let best = &mut outer[boundary.surface];
+        if best.is_none_or(|m| boundary.length > boundaries[m].length) {
             *best = Some(n);
         }
     }
-    for (n, border) in borders.iter_mut().enumerate() {
-        border.hole = outer[border.surface] != Some(n);
+    for (n, boundary) in boundaries.iter_mut().enumerate() {
+        boundary.hole = outer[boundary.surface] != Some(n);
     }
-    borders
+    boundaries
 }
 
-/// The border edge that begins where border edge k of triangle t ends: around that vertex over the
+/// The boundary edge that begins where boundary edge k of triangle t ends: around that vertex over the
 /// triangles in between.
-fn next_on_border(
+fn next_on_boundary(
     triangles: &[[u32; 3]],
     neighbours: &Neighbours,
     t: usize,
@@ -74,9 +74,9 @@ fn next_on_border(
     (t, k)
 }
 
-fn border(points: &[[f64; 3]], vertices: Vec<u32>, surface: usize) -> Border {
+fn boundary(points: &[[f64; 3]], vertices: Vec<u32>, surface: usize) -> Boundary {
     let at = |n: usize| points[vertices[n % vertices.len()] as usize];
     let length = (0..vertices.len()).map(|n| distance(at(n), at(n + 1))).sum();
-    let bounds = super::bounds(vertices.iter().map(|n| &points[*n as usize]));
-    Border { vertices, length, bounds, surface, hole: false }
+    let bounds = super::bounds(vertices.iter().map(|n| points[*n as usize]));
+    Boundary { vertices, length, bounds, surface, hole: false }
 }

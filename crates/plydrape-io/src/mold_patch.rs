@@ -23,7 +23,7 @@ pub(super) fn extent(result: &ResultFile) -> Option<[[f64; 2]; 2]> {
 
 /// The mold under all steps and the target, in at most so many triangles; none without a mold there.
 #[must_use]
-pub fn ground(result: &ResultFile, most: usize) -> Option<Triangles> {
+pub fn mold_patch(result: &ResultFile, most: usize) -> Option<Triangles> {
     let mold = result.scene.mold.as_ref()?;
     let [low, high] = extent(result)?;
     let more = BEYOND * (high[0] - low[0]).max(high[1] - low[1]);

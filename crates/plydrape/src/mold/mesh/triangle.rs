@@ -6,13 +6,23 @@ use crate::mold::vector::{along, cross, dot, sub};
 /// tell corners, edges and the inside apart.
 pub(super) type Weights = [f64; 3];
 
-/// The point of a triangle closest to `p`: its weights, itself, and the square of its distance.
+/// A point of a triangle that is closest to another.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Closest {
+    pub weights: Weights,
+    /// The point (m).
+    pub point: [f64; 3],
+    /// Square of the distance (m²).
+    pub square: f64,
+}
+
+/// The point of a triangle closest to `p` (m).
 ///
 /// Projected to the plane of the triangle, `p` is inside or beyond an edge. The weights of that
 /// projection are ratios of signed areas; where one is negative, the closest point is on the edge across
 /// from it, or on another edge that meets it.
 #[inline]
-pub(super) fn closest([a, b, c]: [[f64; 3]; 3], p: [f64; 3]) -> (Weights, [f64; 3], f64) {
+pub(super) fn closest([a, b, c]: [[f64; 3]; 3], p: [f64; 3]) -> Closest {
     let (ab, ac, ap) = (sub(b, a), sub(c, a), sub(p, a));
     let (bb, bc, cc) = (dot(ab, ab), dot(ab, ac), dot(ac, ac));
     let (pb, pc) = (dot(ap, ab), dot(ap, ac));
@@ -26,20 +36,20 @@ pub(super) fn closest([a, b, c]: [[f64; 3]; 3], p: [f64; 3]) -> (Weights, [f64; 
         let weights = [1.0 - v - w, v, w];
         let point = along(along(a, v, ab), w, ac);
         let off = sub(p, point);
-        return (weights, point, dot(off, off));
+        return Closest { weights, point, square: dot(off, off) };
     }
     // outside: the nearest of the edges that p lies beyond
-    let mut best = ([1.0, 0.0, 0.0], a, f64::INFINITY);
+    let mut best = Closest { weights: [1.0, 0.0, 0.0], point: a, square: f64::INFINITY };
     let mut edge = |s: [f64; 3], t: [f64; 3], along_edge: f64, square: f64, i: usize, j: usize| {
         let share = (along_edge / square).clamp(0.0, 1.0);
         let point = if share == 1.0 { t } else { along(s, share, sub(t, s)) };
         let off = sub(p, point);
         let distance = dot(off, off);
-        if distance < best.2 {
+        if distance < best.square {
             let mut weights = [0.0; 3];
             weights[i] = 1.0 - share;
             weights[j] = share;
-            best = (weights, point, distance);
+            best = Closest { weights, point, square: distance };
         }
     };
     if w <= 0.0 {

@@ -1,16 +1,14 @@
 //! The highest point of a mesh at a place.
 
 use super::Mesh;
-
-/// Share of a triangle by which a place may lie outside of it in plan.
-const OUTSIDE: f64 = 1e-12;
+use crate::mold::tuning::TUNING;
 
 impl Mesh {
     /// The highest point of the mesh at the place (x, y) (m); none beside the mesh.
     #[must_use]
-    pub fn drop_to(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
+    pub fn highest_point(&self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
         let mut top: Option<f64> = None;
-        for triangle in self.tree.over([x, y]) {
+        for triangle in self.tree.touching([[x, y, f64::NEG_INFINITY], [x, y, f64::INFINITY]]) {
             let corners = self.corners(triangle as usize);
             // weights of the corners in plan, times twice the area there
             let weights = [1, 2, 0].map(|k| {
@@ -20,7 +18,7 @@ impl Mesh {
             let area: f64 = weights.iter().sum();
             let weights = weights.map(|w| w / area);
             // an upright triangle has no area in plan; its upper edge belongs to its neighbour as well
-            if weights.iter().all(|w| *w >= -OUTSIDE) {
+            if weights.iter().all(|w| *w >= -TUNING.outside_in_plan) {
                 let z = (0..3).map(|k| weights[k] * corners[k][2]).sum();
                 top = Some(top.map_or(z, |top: f64| top.max(z)));
             }

@@ -1,5 +1,4 @@
-//! A mold lifted ahead of a front: the surface of a ply that lies inside the front and curves away from
-//! the mold outside it.
+//! The surface of a ply that is in contact with the mold inside a front and curves away from the mold outside it.
 //!
 //! S = f + σ²/A (√(1 + (A e/σ)²) − 1), e = max(0, r − r_f): a curvature A right at the front, and a slope
 //! of no more than σ far ahead of it.
@@ -8,18 +7,18 @@ use super::height::Height;
 use super::height_grid::HeightGrid;
 use std::sync::Arc;
 
-/// A height grid lifted ahead of a front.
+/// A height grid raised ahead of a front.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Lifted {
-    /// The surface that is lifted.
-    pub ground: Arc<HeightGrid>,
+pub struct FrontSurface {
+    /// The surface that is raised.
+    pub mold: Arc<HeightGrid>,
     /// By how much.
-    pub lift: Lift,
+    pub rise: Rise,
 }
 
 /// Height added ahead of an elliptic front.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lift {
+pub struct Rise {
     /// Where the front starts from (m).
     pub centre: [f64; 2],
     /// The metric of the front: r² = q₀ x² + 2 q₁ x y + q₂ y² about the centre.
@@ -32,24 +31,21 @@ pub struct Lift {
     pub slope: f64,
 }
 
-/// Rounds the tip of r = 0 (m).
-const TIP: f64 = 1e-4;
-
-impl Lifted {
+impl FrontSurface {
     /// The height at (x, y) (m).
     #[must_use]
     pub fn at(&self, x: f64, y: f64) -> Height {
-        self.ground.at(x, y).plus(1.0, &self.lift.at(x, y))
+        self.mold.at(x, y).plus(1.0, &self.rise.at(x, y))
     }
 
-    /// By how much it is lifted at (x, y) (m).
+    /// By how much it is raised at (x, y) (m).
     #[must_use]
-    pub fn raised(&self, x: f64, y: f64) -> f64 {
-        self.lift.at(x, y).z
+    pub fn rise_at(&self, x: f64, y: f64) -> f64 {
+        self.rise.at(x, y).z
     }
 }
 
-impl Lift {
+impl Rise {
     /// Distance r of a place from where the front starts (m).
     #[must_use]
     pub fn radius(&self, [x, y]: [f64; 2]) -> f64 {
@@ -63,7 +59,7 @@ impl Lift {
         let [dx, dy] = [x - self.centre[0], y - self.centre[1]];
         let [q0, q1, q2] = self.metric;
         let half = [q0 * dx + q1 * dy, q1 * dx + q2 * dy];
-        let r = (half[0] * dx + half[1] * dy + TIP * TIP).sqrt();
+        let r = (half[0] * dx + half[1] * dy).max(0.0).sqrt();
         let ahead = r - self.front;
         if ahead <= 0.0 {
             return Height::constant(0.0);
