@@ -6,7 +6,7 @@ use plydrape::measure::Name;
 use plydrape::mold::{Cylinder, Face, Graph, HeightGrid, Mold, Pose, Saddle, Sphere, Surface};
 use plydrape::net::{Layup, Net};
 use plydrape::ply::{Grid, Kind};
-use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Stepping};
+use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, Stepping};
 use plydrape_io::ResultFile;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -28,7 +28,12 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// The strip of the examples with `grippers` grippers, on a mold, along a motion.
-fn strip(grippers: usize, mold: Mold, contact: Contact, positions: Vec<Vec<[f64; 3]>>) -> Scene {
+fn strip(
+    grippers: usize,
+    mold: Mold,
+    contact: ContactSettings,
+    positions: Vec<Vec<[f64; 3]>>,
+) -> Scene {
     let mut scene = example("02_hanging_strip");
     scene.ply.grid = Grid { nu: grippers, nv: 1 };
     scene.ply.cell = [0.1; 2];
@@ -86,7 +91,12 @@ fn rolled(
             .collect()
     };
     let positions = (0..steps).map(|n| roll(0.3 * n as f64 / (steps - 1) as f64)).collect();
-    drape(&strip(4, mold, Contact { tolerance, stepping, end: ContactEnd::Free }, positions))
+    drape(&strip(
+        4,
+        mold,
+        ContactSettings { tolerance, stepping, end: ContactEnd::Free },
+        positions,
+    ))
 }
 
 /// Largest distance of what has landed of a strip from where its fabric belongs (mm).
@@ -149,7 +159,7 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
             vec![[-half, 0.0, z], [half, 0.0, z]]
         };
         let tolerance = 1e-6;
-        let contact = Contact { tolerance, stepping: Stepping::Cut, end: ContactEnd::Free };
+        let contact = ContactSettings { tolerance, stepping: Stepping::Cut, end: ContactEnd::Free };
         let positions = (0..20).map(|n| at(f64::from(n) / 19.0)).collect();
         let mut scene = strip(2, trough, contact, positions);
         // a parabola longer than its chord by a part e sags by √(3e/8) of it
@@ -227,7 +237,7 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
     let landed = |steps: usize, tolerance: f64| -> [f64; 2] {
         let mut scene = scene.clone();
         let stepping = Stepping::Cut;
-        scene.settings.contact = Contact { tolerance, stepping, end: ContactEnd::Tangent };
+        scene.settings.contact = ContactSettings { tolerance, stepping, end: ContactEnd::Tangent };
         let at = |t: f64| -> Vec<[f64; 3]> {
             let mix = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
             first.iter().zip(last).map(mix).collect()

@@ -1,7 +1,7 @@
 //! Gap samples against brute force: what is not looked at is never missed, whatever was seen before.
 
 use plydrape::catenary::{EndCondition, Profile, Span, SpanState};
-use plydrape::draping::gap::{GapMemory, GapSamples, Run};
+use plydrape::draping::gap::{GapCache, GapSamples, Run};
 use plydrape::draping::spans::FreeSpan;
 use plydrape::mold::{
     Cylinder, Face, Graph, HeightGrid, Mold, Plane, Pose, Saddle, Sphere, Surface,
@@ -115,7 +115,7 @@ fn span(mold: &Mold, n: usize, above: f64, scale: f64) -> FreeSpan {
     FreeSpan {
         curve: std::sync::OnceLock::new(),
         catenary: 0,
-        rest: 0,
+        segment: 0,
         element: None,
         ends,
         length,
@@ -171,12 +171,12 @@ fn every_station_that_touches_is_found_whatever_was_seen_before() {
     for (name, mold) in molds(1.0) {
         let (mut touched, mut free) = (0, 0);
         for n in 1..60 {
-            let mut memory = GapMemory::new(Some(&mold), 1);
+            let mut cache = GapCache::new(Some(&mold), 1);
             for step in 0..24 {
                 // down, with a jump in the middle, and up again
                 let above = 0.03 - 0.0025 * f64::from(step.min(30 - step)) - 5e-5 * n as f64;
                 let span = span(&mold, n, above, 1.0);
-                let gaps = memory.samples(&span, &mold, tolerance);
+                let gaps = cache.samples(&span, &mold, tolerance);
                 let runs = check(name, &span, &mold, tolerance, &gaps);
                 let fresh = GapSamples::new(&span, &mold, tolerance);
                 assert_eq!(runs, fresh.runs(&span, &mold, tolerance), "{name} {n} {step}");

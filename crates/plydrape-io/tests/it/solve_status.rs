@@ -3,8 +3,8 @@
 use plydrape::catenary::{EndCondition, Profile};
 use plydrape::equilibrium::{Direction, End, Solver, Status, Tuning};
 use plydrape::material::{Material, Section};
-use plydrape::ply::{Direction as Along, Grid, Laid, Ply};
-use plydrape::scene::{Contact, ContactEnd, Settings, SlopeRule, Stepping};
+use plydrape::ply::{ContactSegment, Direction as Along, Grid, Ply};
+use plydrape::scene::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
 
 type Point = [f64; 3];
 
@@ -31,11 +31,15 @@ fn settings(slopes: SlopeRule, axial_stiffness: f64) -> Settings {
         axial_stiffness,
         gravity: 9.8,
         max_tilt: 40f64.to_radians(),
-        contact: Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free },
+        contact: ContactSettings {
+            tolerance: 1e-3,
+            stepping: Stepping::Once,
+            end: ContactEnd::Free,
+        },
     }
 }
 
-fn free(ply: &Ply) -> Vec<Option<Laid>> {
+fn free(ply: &Ply) -> Vec<Option<ContactSegment>> {
     vec![None; ply.grid.catenaries()]
 }
 
@@ -141,7 +145,7 @@ fn objective(solver: &Solver, slopes: &[f64]) -> f64 {
                 End::Shared(j) => slopes[j],
                 End::Plane(plane) => {
                     let at = |source| match source {
-                        plydrape::equilibrium::SlopeSource::Given(s) => s,
+                        plydrape::equilibrium::SlopeSource::Prescribed(s) => s,
                         plydrape::equilibrium::SlopeSource::Shared(j) => slopes[j],
                         plydrape::equilibrium::SlopeSource::Outcome(e, k) => {
                             let pair: [f64; 2] = outcome[e];
@@ -334,8 +338,8 @@ fn derivatives_of_a_state_that_is_no_minimum_are_not_sound() {
         for rule in RULES {
             let mut solver = Solver::new(&ply, &settings(rule, 1e5)).with_tuning(tuning);
             solver.solve(&positions, &free(&ply));
-            let laid = free(&ply);
-            let mut linearized = solver.linearize(&positions, &laid);
+            let contacts = free(&ply);
+            let mut linearized = solver.linearize(&positions, &contacts);
             linearized.along(&Direction::gripper(&ply, 1, 2));
             unsound += u32::from(!linearized.is_sound());
         }

@@ -14,7 +14,7 @@ use super::{Excess, Profile, Span};
 pub enum SpanState {
     /// Longer than its chord.
     Hanging,
-    /// Chord longer than the set length: all but straight, carried by axial stiffness.
+    /// Chord longer than the set length: all but straight, held by the axial stiffness.
     Overstretched,
     /// Inextensible and not longer than its chord: a straight line without a force.
     Straight,

@@ -9,9 +9,9 @@ pub struct Tuning {
     /// κ = Hℓ²/EI from which the exponential form is used. 25: the layers, e^(−5), no longer cancel there, and the
     /// series of the stiff form still has its last digits.
     pub taut_kappa: f64,
-    /// Exponent beyond which a boundary layer is taken for nothing. 45: e^(−45) = 3e-20.
+    /// Exponent beyond which a boundary layer is neglected. 45: e^(−45) = 3e-20.
     pub vanishing_exponent: f64,
-    /// Share of a boundary layer that is taken for nothing: 1e-20, for the same reason.
+    /// Share of a boundary layer that is neglected: 1e-20, for the same reason.
     pub vanishing_layer: f64,
     /// Slope range that one panel of the long rule takes to the last digits.
     pub sweep: f64,

@@ -18,7 +18,7 @@ pub struct Attitude {
 
 /// Heights over the mold, in contact tolerances, between which a gripper turns from the ply's normal to the mold's.
 ///
-/// A gripper stands on the mold from one tolerance on, and what lies there has the mold's normal. The ply's own slope is not resolved just
+/// A gripper stands on the mold from one tolerance on, and the ply that lies there has the mold's normal. The ply's own slope is not resolved just
 /// above: a free segment of twenty tolerances beside the gripper leads down by one of them.
 const LANDING: [f64; 2] = [1.0, 10.0];
 

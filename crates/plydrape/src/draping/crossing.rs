@@ -5,7 +5,7 @@
 
 use super::spans::{FreeSpan, Point};
 use crate::catenary::{EndCondition, Profile, Span};
-use crate::ply::Laid;
+use crate::ply::ContactSegment;
 use crate::scene::Scene;
 use std::sync::OnceLock;
 
@@ -22,12 +22,12 @@ pub fn hanging(span: &FreeSpan) -> Vec<Point> {
 pub fn lowered(
     scene: &Scene,
     spans: &[FreeSpan],
-    laid: &[Option<Laid>],
+    contacts: &[Option<ContactSegment>],
 ) -> Vec<(usize, Vec<Point>)> {
     let grid = scene.ply.grid;
     let mut out = Vec::new();
     for rising in (grid.edges()..grid.catenaries()).step_by(2) {
-        if laid[rising].is_some() || laid[rising + 1].is_some() {
+        if contacts[rising].is_some() || contacts[rising + 1].is_some() {
             continue;
         }
         let n = spans.partition_point(|span| span.catenary < rising);

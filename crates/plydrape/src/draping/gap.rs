@@ -1,16 +1,16 @@
 //! Gap samples: how far a span is from the mold along its run, and where it touches.
 //!
-//! A span is looked at in stations at equal shares of its run; local minima between them that may touch are
+//! A span is sampled in stations at equal shares of its run; local minima between them that may touch are
 //! refined. What follows from the samples (which stations touch, the deepest point of a touch, where it begins and
-//! ends) is decided by the exact distance d(p) of a point from the mold. Most stations need none, because no two points
-//! are farther apart in their distances than in space: from one look at q, in a distance d(q),
+//! ends) is decided by the exact distance d(p) of a point from the mold. Most stations do not need it, because the distances of two
+//! points differ by no more than the points are apart: from one observation at q, with the distance d(q),
 //!
 //! |d(p)| ≤ |d(q)| + |p − q|,  and  d(p) ≥ r − |p − q|
 //!
 //! where a ball of radius r around q is known to hold nothing of the mold and to lie outside of it
-//! ([`Mold::clear`]). Each station keeps such a q from an earlier look at the same span, or takes that of its
-//! neighbour, and is looked at again only where both bounds leave a decision open. The samples that matter are
-//! therefore the same with and without the memory.
+//! ([`Mold::clear`]). Each station keeps such a q from an earlier step, or takes that of its
+//! neighbour, and is evaluated again only where both bounds leave a decision open. The samples that matter are
+//! therefore the same with and without the cache.
 
 use super::contact::Bridge;
 use super::spans::{FreeSpan, Point};
@@ -36,9 +36,9 @@ pub struct Run {
     pub depth: f64,
 }
 
-/// What is known from one look at the mold.
+/// What is known from one evaluation of the mold's distance.
 #[derive(Debug, Clone, Copy)]
-struct Seen {
+struct Observation {
     /// From where (m).
     from: Point,
     /// Distance of the mold from there (m), without its sign.
@@ -69,7 +69,7 @@ impl Gap {
     }
 }
 
-impl Seen {
+impl Observation {
     /// What is known of the distance of a point `moved` (m) away.
     fn gap(&self, moved: f64) -> Gap {
         let most = self.size + moved;
@@ -79,35 +79,35 @@ impl Seen {
     }
 }
 
-/// What has been seen of the mold from the spans of a drape. It changes no sample, only how fast they are found.
+/// Observations of the mold from the spans of a drape. They change no sample, only how fast samples are found.
 #[derive(Debug, Clone)]
-pub struct GapMemory {
+pub struct GapCache {
     /// Bounds of the mold's shape.
     steepness: Steepness,
-    /// By catenary and free segment; empty before the first look.
-    seen: Vec<[Vec<Seen>; 2]>,
+    /// By catenary and free segment; empty before the first sampling.
+    observed: Vec<[Vec<Observation>; 2]>,
 }
 
-impl GapMemory {
+impl GapCache {
     /// For spans of some catenaries over a mold.
     #[must_use]
     pub fn new(mold: Option<&Mold>, catenaries: usize) -> Self {
         let steepness = mold.map_or(Steepness::UNKNOWN, Mold::steepness);
-        GapMemory { steepness, seen: vec![[Vec::new(), Vec::new()]; catenaries] }
+        GapCache { steepness, observed: vec![[Vec::new(), Vec::new()]; catenaries] }
     }
 
     /// The samples of a span; minima that may come closer than `tolerance` (m) are found exactly.
     pub fn samples(&mut self, span: &FreeSpan, mold: &Mold, tolerance: f64) -> GapSamples {
-        let seen = &mut self.seen[span.catenary][span.rest];
+        let observed = &mut self.observed[span.catenary][span.segment];
         // the same bound for the whole span, before it comes near
         let ends = || mold.clearance(span.ends[0], span.ends[1], span.curve_length());
-        if seen.is_empty() && ends() > tolerance {
+        if observed.is_empty() && ends() > tolerance {
             return GapSamples::default();
         }
-        let is_known = !seen.is_empty();
-        let mut look =
-            Look { span, mold, steepness: self.steepness, gaps: [UNKNOWN; STATIONS], seen };
-        let samples = look.samples(tolerance);
+        let is_known = !observed.is_empty();
+        let mut sampling =
+            Sampling { span, mold, steepness: self.steepness, gaps: [UNKNOWN; STATIONS], observed };
+        let samples = sampling.samples(tolerance);
         // what is deep in a mold that the whole span keeps clear of is below its border
         if is_known && samples.depth() > tolerance && ends() > tolerance {
             return GapSamples::default();
@@ -116,15 +116,15 @@ impl GapMemory {
     }
 }
 
-/// One span that is looked at.
-struct Look<'a> {
+/// One span that is being sampled.
+struct Sampling<'a> {
     span: &'a FreeSpan,
     mold: &'a Mold,
     steepness: Steepness,
     /// Bounds at each station.
     gaps: [Gap; STATIONS],
-    /// Where each station was seen from.
-    seen: &'a mut Vec<Seen>,
+    /// The observation from which each station is bounded.
+    observed: &'a mut Vec<Observation>,
 }
 
 /// A point of a span with its gap; the number of its station if it is one.
@@ -140,28 +140,28 @@ fn at(station: usize) -> f64 {
     station as f64 / INTERVALS as f64
 }
 
-impl Look<'_> {
+impl Sampling<'_> {
     fn distance(&self, t: f64) -> f64 {
         self.mold.signed_distance(self.span.point(t))
     }
 
-    /// What is seen of the mold from a point (m), which is no farther than `most` (m) from it, and the distance (m).
-    fn see(&self, from: Point, most: f64) -> (Seen, f64) {
+    /// Observes the mold from a point (m), which is no farther than `most` (m) from it; also the distance (m).
+    fn observe(&self, from: Point, most: f64) -> (Observation, f64) {
         let apart = self.mold.separation(from, most);
         let clear = self.mold.clear(from, apart, self.steepness);
-        (Seen { from, size: apart.distance.abs(), clear }, apart.distance)
+        (Observation { from, size: apart.distance.abs(), clear }, apart.distance)
     }
 
     /// Makes the gap of a station exact.
-    fn settle(&mut self, station: usize) {
+    fn evaluate(&mut self, station: usize) {
         if self.gaps[station].is_exact {
             return;
         }
         let most = self.gaps[station].most;
-        let (seen, distance) = self.see(self.span.point(at(station)), most);
+        let (observation, distance) = self.observe(self.span.point(at(station)), most);
         self.gaps[station] = Gap::exact(distance);
-        if let Some(slot) = self.seen.get_mut(station) {
-            *slot = seen;
+        if let Some(slot) = self.observed.get_mut(station) {
+            *slot = observation;
         }
     }
 
@@ -174,27 +174,27 @@ impl Look<'_> {
                 let distance = plane.signed_distance(places[n]);
                 self.gaps[n] = Gap::between(distance - margin, distance + margin);
                 if is_open(self.gaps[n]) {
-                    self.settle(n);
+                    self.evaluate(n);
                 }
             }
             return;
         }
-        if self.seen.is_empty() {
-            let (middle, _) = self.see(places[STATIONS / 2], f64::INFINITY);
-            self.seen.resize(STATIONS, middle);
+        if self.observed.is_empty() {
+            let (middle, _) = self.observe(places[STATIONS / 2], f64::INFINITY);
+            self.observed.resize(STATIONS, middle);
         }
         for n in 0..STATIONS {
-            let from = |seen: &Seen| seen.gap(distance(places[n], seen.from));
-            self.gaps[n] = from(&self.seen[n]);
+            let from = |seen: &Observation| seen.gap(distance(places[n], seen.from));
+            self.gaps[n] = from(&self.observed[n]);
             if n > 0 && is_open(self.gaps[n]) {
-                // what was seen from the station before may reach here
-                let gap = from(&self.seen[n - 1]);
+                // the observation of the station before may reach here
+                let gap = from(&self.observed[n - 1]);
                 if !is_open(gap) {
-                    (self.gaps[n], self.seen[n]) = (gap, self.seen[n - 1]);
+                    (self.gaps[n], self.observed[n]) = (gap, self.observed[n - 1]);
                 }
             }
             if is_open(self.gaps[n]) {
-                self.settle(n);
+                self.evaluate(n);
             }
         }
     }
@@ -202,7 +202,7 @@ impl Look<'_> {
     /// Whether a touch may hide around a station, between the stations beside it.
     fn may_hide(&self, n: usize, places: &[Point; STATIONS], tolerance: f64) -> bool {
         let [before, here, after] = [self.gaps[n - 1], self.gaps[n], self.gaps[n + 1]];
-        // between stations a curve dips by no more than its neighbours rise
+        // between stations a curve goes down by no more than its neighbours rise
         let reach = 2.0 * here.least - before.most.max(after.most);
         let is_lowest = here.least <= before.most && here.least <= after.most && reach < tolerance;
         // nor by more than it is long, for which twice the chord is ample
@@ -214,9 +214,9 @@ impl Look<'_> {
     fn minima(&mut self, places: &[Point; STATIONS], tolerance: f64) -> Vec<Sample> {
         let mut minima = Vec::new();
         for n in 1..INTERVALS {
-            let open = |look: &mut Self, station: usize| {
-                look.settle(station);
-                look.may_hide(n, places, tolerance)
+            let open = |sampling: &mut Self, station: usize| {
+                sampling.evaluate(station);
+                sampling.may_hide(n, places, tolerance)
             };
             let hides = self.may_hide(n, places, tolerance)
                 && open(self, n)
@@ -248,7 +248,7 @@ impl Look<'_> {
                 let Some((sample, station)) = deeper.and_then(|s| s.station.map(|n| (s, n))) else {
                     break;
                 };
-                self.settle(station);
+                self.evaluate(station);
                 sample.gap = self.gaps[station];
             }
         }
@@ -287,7 +287,7 @@ impl GapSamples {
     #[must_use]
     pub fn new(span: &FreeSpan, mold: &Mold, tolerance: f64) -> Self {
         let span = FreeSpan { catenary: 0, ..span.clone() };
-        GapMemory::new(Some(mold), 1).samples(&span, mold, tolerance)
+        GapCache::new(Some(mold), 1).samples(&span, mold, tolerance)
     }
 
     /// Depth of the lowest point below the mold (m), negative if the span only comes close; without bound if it

@@ -1,8 +1,8 @@
-//! The drape: gripper positions step by step, the equilibrium at each, and what the mold catches.
+//! The drape: gripper positions step by step, the equilibrium at each, and the contact with the mold.
 //!
 //! One loop, the paper's section 4: move the grippers ([`crate::scene::Motion`]), solve the equilibrium
-//! ([`crate::equilibrium`]), look for contact ([`contact`]), measure ([`crate::measure`]) and record
-//! ([`record`]). A search drapes in the same way and keeps the verdicts alone ([`Judged`]).
+//! ([`crate::equilibrium`]), find the contact ([`contact`]), measure ([`crate::measure`]) and record
+//! ([`record`]). A search drapes in the same way and keeps only the verdicts ([`Judged`]).
 
 pub(crate) mod attitude;
 pub mod contact;
@@ -19,12 +19,12 @@ mod stop;
 
 use crate::equilibrium::{Equilibrium, Solver, Status};
 use crate::measure::{Before, Judge, State, Verdict};
-use crate::ply::{Grid, Kind, Laid, shear};
+use crate::ply::{ContactSegment, Grid, Kind, shear};
 use crate::scene::{Scene, Stepping};
 pub(crate) use attitude::attitude;
 use contact::{Bridge, Diagonal};
 pub(crate) use crossing::hanging as stations;
-use gap::{GapMemory, GapSamples};
+use gap::{GapCache, GapSamples};
 pub(crate) use landing::fabric;
 pub(crate) use misfit::{lying_segments, misfit};
 use record::{Step, Summary};
@@ -32,7 +32,7 @@ use spans::{FreeSpan, Point, Shape, shape};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// Smallest part of a step that cutting leaves.
+/// Smallest share of a step to which cutting leads.
 const SMALLEST_CUT: f64 = 1.0 / 256.0;
 
 /// Rounds of contact and equilibrium at one place of the grippers before the step counts as unsolved.
@@ -47,7 +47,7 @@ pub enum ContactStatus {
     Followed,
     /// It still changed when the rounds at one place were spent.
     RoundLimit,
-    /// An edge snapped onto the mold deeper than the tolerance, however short the step was cut: its depth is penetration.
+    /// An edge jumped onto the mold deeper than the tolerance, however short the step was cut: its depth is penetration.
     CutLimit,
 }
 
@@ -74,11 +74,11 @@ pub struct Snapshot {
     pub positions: Vec<Point>,
     /// Free spans and the equilibrium that holds them.
     pub shape: Shape,
-    /// What the mold has caught of each catenary.
-    pub laid: Vec<Option<Laid>>,
+    /// Contact segment of each catenary.
+    pub contacts: Vec<Option<ContactSegment>>,
     /// Touches that the model does not follow, by catenary.
     pub bridges: Vec<Option<Bridge>>,
-    /// Depth of the deepest span below the mold (m), its catenary and the place (m): at the end of the step, and where an edge snapped
+    /// Depth of the deepest span below the mold (m), its catenary and the place (m): at the end of the step, and where an edge jumped
     /// onto the mold on the way. None if all are clear of it.
     pub deepest: Option<(f64, usize, Point)>,
     /// Shear of each cell that shears.
@@ -88,14 +88,14 @@ pub struct Snapshot {
     /// The first equilibrium of this step that did not converge, or else the last one.
     pub solved: Equilibrium,
     /// How the contact was followed.
-    pub contact: ContactStatus,
+    pub contact_status: ContactStatus,
 }
 
 impl Snapshot {
     /// Why this step is no solution, if it is none.
     #[must_use]
     pub fn failure(&self) -> Option<&'static str> {
-        match (self.solved.status, self.contact) {
+        match (self.solved.status, self.contact_status) {
             (Status::Converged, ContactStatus::RoundLimit) => {
                 Some("contact that changes without end")
             }
@@ -150,7 +150,7 @@ pub struct Judged {
 
 /// Drapes the ply of a scene along its motion.
 ///
-/// `progress` is told after each step how many are done; when it breaks, the drape ends there, complete
+/// `progress` is called after each step with the number of steps done; when it breaks, the drape ends there, complete
 /// for the steps done. It also ends where no ply would survive, see `Summary::stopped`.
 pub fn simulate(scene: &Scene, mut progress: impl FnMut(usize) -> ControlFlow<()>) -> Drape {
     let mut draping = Draping::new(scene);
@@ -158,7 +158,7 @@ pub fn simulate(scene: &Scene, mut progress: impl FnMut(usize) -> ControlFlow<()
 }
 
 /// Drapes without keeping more than the verdicts; broken off after the step in which more than `most` equilibria have
-/// been solved. The times of the motion count for nothing.
+/// been solved. The times of the motion have no influence.
 pub(crate) fn judge(
     scene: &Scene,
     most: usize,
@@ -174,7 +174,7 @@ pub(crate) fn judge(
         judge.see(&state, step + 1 == planned);
         unsolved += usize::from(snapshot.failure().is_some());
         done = step + 1;
-        if progress(done).is_break() || draping.equilibria > most || stop::tears(&state) {
+        if progress(done).is_break() || draping.equilibria > most || stop::breaks(&state) {
             break;
         }
         before = Some(state.as_before());
@@ -192,16 +192,16 @@ pub(crate) struct Draping<'a> {
     pub(crate) solver: Solver,
     /// Where the grippers are (m).
     pub(crate) positions: Vec<Point>,
-    /// What the mold has caught of each catenary.
-    pub(crate) laid: Vec<Option<Laid>>,
+    /// Contact segment of each catenary.
+    pub(crate) contacts: Vec<Option<ContactSegment>>,
     bridges: Vec<Option<Bridge>>,
     deepest: Option<(f64, usize, Point)>,
-    /// What has been seen of the mold from the spans.
-    seen: GapMemory,
+    /// Bounds of the gaps of each span from earlier steps.
+    gap_cache: GapCache,
     equilibria: usize,
     /// The first equilibrium of a step that did not converge.
     unsolved: Option<Equilibrium>,
-    contact: ContactStatus,
+    contact_status: ContactStatus,
     /// Equilibria after which a step is not cut any further.
     most: usize,
     solving: Duration,
@@ -214,13 +214,13 @@ impl<'a> Draping<'a> {
             scene,
             solver: Solver::new(&scene.ply, &scene.settings),
             positions: scene.motion.positions[0].clone(),
-            laid: vec![None; count],
+            contacts: vec![None; count],
             bridges: vec![None; count],
             deepest: None,
-            seen: GapMemory::new(scene.mold.as_ref(), count),
+            gap_cache: GapCache::new(scene.mold.as_ref(), count),
             equilibria: 0,
             unsolved: None,
-            contact: ContactStatus::Followed,
+            contact_status: ContactStatus::Followed,
             most: usize::MAX,
             solving: Duration::ZERO,
         }
@@ -248,13 +248,13 @@ impl<'a> Draping<'a> {
     /// Solves the equilibrium at gripper positions.
     fn solve(&mut self, positions: &[Point]) -> Shape {
         let start = Instant::now();
-        let equilibrium: Equilibrium = self.solver.solve(positions, &self.laid);
+        let equilibrium: Equilibrium = self.solver.solve(positions, &self.contacts);
         self.solving += start.elapsed();
         self.equilibria += 1;
         if equilibrium.status != Status::Converged {
             self.unsolved.get_or_insert(equilibrium);
         }
-        shape(&self.scene.ply, &self.solver, equilibrium, positions, &self.laid)
+        shape(&self.scene.ply, &self.solver, equilibrium, positions, &self.contacts)
     }
 
     /// Moves the grippers to the positions of a step, counted from 0.
@@ -266,20 +266,20 @@ impl<'a> Draping<'a> {
             step: step + 1,
             time: self.scene.motion.times[step],
             positions: goal.clone(),
-            laid: self.laid.clone(),
+            contacts: self.contacts.clone(),
             bridges: self.bridges.clone(),
             deepest: self.deepest,
             shear: self.shear(),
             equilibria: self.equilibria - before,
             solved: self.unsolved.unwrap_or(shape.equilibrium),
-            contact: self.contact,
+            contact_status: self.contact_status,
             shape,
         }
     }
 
     /// Moves the grippers and follows the contact, by the scene's rule for steps.
     pub(crate) fn move_to(&mut self, goal: &[Point]) -> Shape {
-        (self.unsolved, self.contact) = (None, ContactStatus::Followed);
+        (self.unsolved, self.contact_status) = (None, ContactStatus::Followed);
         self.deepest = None;
         let shape = match self.scene.settings.contact.stepping {
             Stepping::Once => self.arrive(goal),
@@ -294,17 +294,17 @@ impl<'a> Draping<'a> {
         let shearing = self.solver.problem().shearing.iter().enumerate();
         let shear = |(cell, stretched): (usize, &Option<(f64, bool)>)| {
             let (path, falling) = (*stretched)?;
-            let sides = self.scene.ply.sides(cell, &self.laid);
+            let sides = self.scene.ply.sides(cell, &self.contacts);
             Some(CellShear { angle: shear::angle(sides, path), path, falling })
         };
         shearing.map(shear).collect()
     }
 
-    /// As in the paper: one equilibrium, one look at the contact; solved anew where it has changed.
+    /// As in the paper: one equilibrium, the contact evaluated once; solved anew where it has changed.
     fn arrive(&mut self, goal: &[Point]) -> Shape {
         let mut shape = self.solve(goal);
         let mut gaps = self.gaps(&shape);
-        if self.touch(&shape, &gaps) {
+        if self.update_contact(&shape, &gaps) {
             shape = self.solve(goal);
             gaps = self.gaps(&shape);
         }
@@ -312,8 +312,8 @@ impl<'a> Draping<'a> {
         shape
     }
 
-    /// Cuts the way where the ply would dip deeper than the tolerance, and follows the contact at each
-    /// place until it rests.
+    /// Cuts the move where the ply would penetrate the mold deeper than the tolerance, and follows the contact at each
+    /// position until it no longer changes.
     fn cut_to(&mut self, goal: &[Point]) -> Shape {
         let start = self.positions.clone();
         let at = |fraction: f64| -> Vec<Point> {
@@ -332,23 +332,23 @@ impl<'a> Draping<'a> {
             let mut gaps = self.gaps(&shape);
             let deep = self.deep(&shape, &gaps).filter(|_| start != *goal);
             if deep.is_some() && part > SMALLEST_CUT {
-                // this place is not gone to, and how it was solved says nothing
+                // the grippers do not go to this position, so how it was solved does not count
                 self.unsolved = unsolved;
                 part *= 0.5;
                 continue;
             }
-            // a fibre that snaps so far is penetration, which has a limit; a diagonal is none
+            // a fibre that jumps so far penetrates the mold, which has a limit; a diagonal is no fibre
             if deep.is_some_and(|catenary| catenary < self.scene.ply.grid.edges()) {
-                self.contact = ContactStatus::CutLimit;
+                self.contact_status = ContactStatus::CutLimit;
                 self.note_depth(&shape, &gaps);
             }
             let mut rounds = 0;
-            while self.touch(&shape, &gaps) {
+            while self.update_contact(&shape, &gaps) {
                 shape = self.solve(&place);
                 gaps = self.gaps(&shape);
                 rounds += 1;
                 if rounds == MAX_ROUNDS {
-                    self.contact = ContactStatus::RoundLimit;
+                    self.contact_status = ContactStatus::RoundLimit;
                     break;
                 }
             }
@@ -360,27 +360,27 @@ impl<'a> Draping<'a> {
         }
     }
 
-    /// Where every span touches the mold; none without a mold.
+    /// Gap samples of every span; none without a mold.
     fn gaps(&mut self, shape: &Shape) -> Vec<GapSamples> {
         let Some(mold) = &self.scene.mold else {
             return Vec::new();
         };
         let tolerance = self.scene.settings.contact.tolerance;
-        shape.spans.iter().map(|span| self.seen.samples(span, mold, tolerance)).collect()
+        shape.spans.iter().map(|span| self.gap_cache.samples(span, mold, tolerance)).collect()
     }
 
-    /// The first span that touches anew, deeper below the mold than the tolerance: its catenary. Depths that no contact would
-    /// change are left out: those of the grippers, and second touches; and so are diagonals that have landed: they
-    /// are no fibres, and snap where the slopes at their grippers do.
+    /// The catenary of the first span with a new contact that is deeper below the mold than the tolerance. Depths that no contact would
+    /// change are left out: those of the grippers, and second touches. Diagonals that have landed are left out too, because they
+    /// are no fibres, and jump where the slopes at their grippers do.
     fn deep(&self, shape: &Shape, gaps: &[GapSamples]) -> Option<usize> {
         let mold = self.scene.mold.as_ref()?;
         let tolerance = self.scene.settings.contact.tolerance;
         let deep = |(span, gaps): &(&FreeSpan, &GapSamples)| {
-            let caught = self.laid[span.catenary].is_some();
-            let follows = !caught || span.catenary < self.scene.ply.grid.edges();
+            let in_contact = self.contacts[span.catenary].is_some();
+            let follows = !in_contact || span.catenary < self.scene.ply.grid.edges();
             follows
                 && gaps.depth() > tolerance
-                && contact::new_depth(span, gaps, mold, caught, tolerance) > tolerance
+                && contact::new_depth(span, gaps, mold, in_contact, tolerance) > tolerance
         };
         shape.spans.iter().zip(gaps).find(deep).map(|(span, _)| span.catenary)
     }
@@ -388,7 +388,7 @@ impl<'a> Draping<'a> {
     /// Notes the deepest span of a step; diagonals that have landed are left out, as above.
     fn note_depth(&mut self, shape: &Shape, gaps: &[GapSamples]) {
         for (span, gaps) in shape.spans.iter().zip(gaps) {
-            let landed = self.laid[span.catenary].is_some();
+            let landed = self.contacts[span.catenary].is_some();
             if landed && span.catenary >= self.scene.ply.grid.edges() {
                 continue;
             }
@@ -399,12 +399,12 @@ impl<'a> Draping<'a> {
         }
     }
 
-    /// A diagonal that nothing has caught yet, and the shear of its cell.
+    /// A diagonal without contact, and the shear of its cell.
     fn diagonal(&self, catenary: usize) -> Option<Diagonal> {
         let grid: Grid = self.scene.ply.grid;
         let cell = catenary.checked_sub(grid.edges())? / 2;
         let shearing = self.solver.problem().shearing[cell];
-        let sides = self.scene.ply.sides(cell, &self.laid);
+        let sides = self.scene.ply.sides(cell, &self.contacts);
         let shear = shearing.map_or(0.0, |(path, falling)| {
             CellShear { angle: shear::angle(sides, path), path, falling }.signed()
         });
@@ -412,8 +412,8 @@ impl<'a> Draping<'a> {
         Some(Diagonal { sides: self.scene.ply.cell, shear, sign })
     }
 
-    /// Looks at every span once; true if the contact has changed.
-    fn touch(&mut self, shape: &Shape, gaps: &[GapSamples]) -> bool {
+    /// Updates the contact of every span once; true if it has changed.
+    fn update_contact(&mut self, shape: &Shape, gaps: &[GapSamples]) -> bool {
         let Some(mold) = &self.scene.mold else {
             return false;
         };
@@ -422,22 +422,22 @@ impl<'a> Draping<'a> {
         for bridge in &mut self.bridges {
             *bridge = None;
         }
-        // what lands in one look lands with the shear that its cell had before
+        // diagonals that land together land with the shear that their cell had before
         let diagonals: Vec<Option<Diagonal>> =
             shape.spans.iter().map(|span| self.diagonal(span.catenary)).collect();
         for ((span, gap), diagonal) in shape.spans.iter().zip(gaps).zip(diagonals) {
-            let slot = &mut self.laid[span.catenary];
-            let look = match slot {
-                None => contact::first_touch(span, gap, mold, rule, diagonal),
-                Some(laid) => contact::next_touch(span, gap, laid, mold, rule),
+            let slot = &mut self.contacts[span.catenary];
+            let change = match slot {
+                None => contact::first_contact(span, gap, mold, rule, diagonal),
+                Some(contact) => contact::next_contact(span, gap, contact, mold, rule),
             };
-            if let Some(laid) = look.laid {
-                *slot = Some(laid);
+            if let Some(segment) = change.segment {
+                *slot = Some(segment);
                 changed = true;
             }
             let deeper = |old: &Bridge, new: &Bridge| new.gap > old.gap;
             let bridge = &mut self.bridges[span.catenary];
-            if let Some(new) = look.bridge
+            if let Some(new) = change.bridge
                 && bridge.as_ref().is_none_or(|old| deeper(old, &new))
             {
                 *bridge = Some(new);

@@ -14,7 +14,7 @@ use crate::equilibrium::Solver;
 use crate::measure::{Before, Judge, Name, State, last_numbers, worst_numbers};
 use crate::mold::vector::along;
 use crate::mold::{Mold, distance};
-use crate::ply::{Kind, Laid, Ruck, shear};
+use crate::ply::{ContactSegment, Kind, Ruck, shear};
 use crate::scene::Scene;
 
 /// Collects the steps of a drape.
@@ -41,7 +41,7 @@ impl<'a> Report<'a> {
         let state = State::new(scene, snapshot, solver, self.before.as_ref());
         let measures = self.judge.see_all(&state);
         let mut points = state.stations().to_vec();
-        for (span, through) in lowered(scene, &snapshot.shape.spans, &snapshot.laid) {
+        for (span, through) in lowered(scene, &snapshot.shape.spans, &snapshot.contacts) {
             points[span] = through;
         }
         let mut grippers = Vec::with_capacity(grid.grippers());
@@ -68,13 +68,13 @@ impl<'a> Report<'a> {
                 iterations: equilibrium.iterations,
                 residual: equilibrium.residual,
                 equilibria: snapshot.equilibria,
-                contact: snapshot.contact,
+                contact: snapshot.contact_status,
             },
             catenaries: self.catenaries(&state, points),
             cells: self.cells(snapshot),
             measures,
         });
-        let goes_on = !stop::tears(&state);
+        let goes_on = !stop::breaks(&state);
         self.before = Some(state.as_before());
         goes_on
     }
@@ -88,7 +88,7 @@ impl<'a> Report<'a> {
         for n in 0..grid.catenaries() {
             let c = grid.catenary(n);
             let (kind, direction) = described(c.kind);
-            let laid = snapshot.laid[n].as_ref();
+            let contact = snapshot.contacts[n].as_ref();
             let shear = (n >= grid.edges())
                 .then(|| snapshot.shear[(n - grid.edges()) / 2])
                 .flatten()
@@ -98,7 +98,8 @@ impl<'a> Report<'a> {
                 direction,
                 from: c.from,
                 to: c.to,
-                length: laid.map_or_else(|| scene.ply.flat_length(c.kind), |laid| laid.length),
+                length: contact
+                    .map_or_else(|| scene.ply.flat_length(c.kind), |contact| contact.length),
                 shearing: shear.is_some(),
                 shear_force_n: shear.and_then(|shear| self.shear_force(&shear)),
                 spans: Vec::with_capacity(2),
@@ -110,17 +111,17 @@ impl<'a> Report<'a> {
                 }),
             };
             while let Some((span, points)) = spans.next_if(|(span, _)| span.catenary == n) {
-                if laid.is_none() {
+                if contact.is_none() {
                     line.length = span.length;
                 }
                 if let Some(misfit) = misfits.next() {
                     line.spans.push(self.span_state(span, points, misfit));
                 }
             }
-            if let (Some(laid), Some(mold)) = (laid, &scene.mold) {
-                line.contact = Some(contact_state(laid, landings[n].as_ref()));
+            if let (Some(contact), Some(mold)) = (contact, &scene.mold) {
+                line.contact = Some(contact_state(contact, landings[n].as_ref()));
                 for segment in &state.lying()[n] {
-                    line.spans.push(self.lying_state(laid, segment, mold));
+                    line.spans.push(self.lying_state(contact, segment, mold));
                 }
                 line.spans.sort_by(|a, b| a.arc[0].total_cmp(&b.arc[0]));
             }
@@ -146,8 +147,8 @@ impl<'a> Report<'a> {
                 false => CatenaryDirection::Rising,
             }),
             landed_deg: [0, 1].map(|k| {
-                let laid = snapshot.laid[edges + 2 * n + k].as_ref()?;
-                laid.landed.map(|landed| landed.shear.to_degrees())
+                let contact = snapshot.contacts[edges + 2 * n + k].as_ref()?;
+                contact.landed.map(|landed| landed.shear.to_degrees())
             }),
         };
         snapshot.shear.iter().enumerate().map(cell).collect()
@@ -211,12 +212,17 @@ impl<'a> Report<'a> {
     }
 
     /// A segment that lies on the mold, or one of no length; `None` for a catenary that lies whole.
-    fn lying_state(&self, laid: &Laid, segment: &LyingSegment, mold: &Mold) -> SpanState {
+    fn lying_state(
+        &self,
+        contact: &ContactSegment,
+        segment: &LyingSegment,
+        mold: &Mold,
+    ) -> SpanState {
         let LyingSegment { which, misfit, line } = segment;
         let arc = match which {
-            None => [0.0, laid.length],
-            Some(0) => [0.0, laid.arc()[0]],
-            Some(_) => [laid.arc()[1], laid.length],
+            None => [0.0, contact.length],
+            Some(0) => [0.0, contact.arc()[0]],
+            Some(_) => [contact.arc()[1], contact.length],
         };
         let [a, b] = [line.points[0], line.end()];
         let run = (b[0] - a[0]).hypot(b[1] - a[1]);
@@ -273,12 +279,12 @@ impl<'a> Report<'a> {
     }
 }
 
-fn contact_state(laid: &Laid, landing: Option<&Landing>) -> ContactState {
+fn contact_state(contact: &ContactSegment, landing: Option<&Landing>) -> ContactState {
     let errors = |landing: &Landing| landing.errors.iter().map(|e| e.map(|e| e * 1e3)).collect();
     let angle = landing.and_then(|landing| landing.fibre_angle);
     ContactState {
-        arc: laid.arc(),
-        points: laid.line.points.clone(),
+        arc: contact.arc(),
+        points: contact.line.points.clone(),
         landing_error_mm: landing.map(errors),
         fibre_angle_deg: angle.map(|(angle, _)| angle.to_degrees()),
     }

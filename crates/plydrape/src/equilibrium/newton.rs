@@ -81,7 +81,7 @@ impl Newton {
                 if state.is_sharp() {
                     return (Status::Converged, iterations, left);
                 }
-                // derivatives that were carried too far are renewed
+                // derivatives that were extrapolated too far are renewed
                 merit = self.evaluate(rule, problem, state);
                 continue;
             }
@@ -127,7 +127,7 @@ impl Newton {
         }
     }
 
-    /// Evaluates what the rule looks at, takes the residual, and returns the merit.
+    /// Evaluates the elements that the rule needs, takes the residual, and returns the merit.
     fn evaluate(&mut self, rule: &mut dyn Rule, problem: &Problem<f64>, state: &mut State) -> f64 {
         state.evaluate(problem, rule.elements(problem));
         rule.residual(problem, state, &mut self.residual)

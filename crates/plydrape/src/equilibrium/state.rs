@@ -92,7 +92,7 @@ impl State {
                 match end {
                     End::Shared(_) => self.needs[n].derivatives = true,
                     End::Plane(plane) => self.need_edges(n, &plane),
-                    End::Free | End::Given(_) => {}
+                    End::Free | End::Prescribed(_) => {}
                 }
             }
         }
@@ -115,7 +115,7 @@ impl State {
     fn need_edges(&mut self, diagonal: usize, plane: &PlaneSlope<f64>) {
         for source in plane.source {
             match source {
-                SlopeSource::Given(_) => {}
+                SlopeSource::Prescribed(_) => {}
                 SlopeSource::Shared(_) => self.needs[diagonal].derivatives = true,
                 SlopeSource::Outcome(edge, end) => {
                     self.needs[edge].slope[end] = true;
@@ -171,9 +171,9 @@ impl State {
         self.parabolas[n].ratio(self.elements[n].found.force.value)
     }
 
-    /// Whether no element's derivatives were carried far; if not, the next evaluation renews them.
+    /// Whether no element's derivatives were extrapolated far; if not, the next evaluation renews them.
     pub fn is_sharp(&self) -> bool {
-        self.elements.iter().all(|element| element.found.carried <= self.tuning.carried)
+        self.elements.iter().all(|element| element.found.extrapolation <= self.tuning.extrapolation)
     }
 
     /// Evaluates the elements of a range at the present shared slopes.
@@ -189,14 +189,14 @@ impl State {
             }
             let slopes = [0, 1].map(|end| self.slope_at(element, end));
             let (needs, own) = (self.needs[n], &mut self.elements[n]);
-            if own.known.cover(needs) && own.found.carried <= self.tuning.carried {
+            if own.known.cover(needs) && own.found.extrapolation <= self.tuning.extrapolation {
                 let step = [slopes[0] - own.held[0], slopes[1] - own.held[1]];
-                // nothing that holds it has moved: keep what is known
+                // its held slopes have not moved: the evaluation stays
                 if slopes == own.held {
                     continue;
                 }
                 if needs.derivatives && step.iter().all(|x| x.abs() <= self.tuning.series_slope) {
-                    own.found.carry(step);
+                    own.found.extrapolate(step);
                     own.held = slopes;
                     continue;
                 }
@@ -218,10 +218,10 @@ impl State {
     fn slope_at(&self, element: &Element<f64>, end: usize) -> f64 {
         match element.ends[end] {
             End::Free => 0.0,
-            End::Given(slope) => slope,
+            End::Prescribed(slope) => slope,
             End::Shared(slope) => self.slopes[slope],
             End::Plane(plane) => plane.slope(|source| match source {
-                SlopeSource::Given(slope) => slope,
+                SlopeSource::Prescribed(slope) => slope,
                 SlopeSource::Shared(slope) => self.slopes[slope],
                 SlopeSource::Outcome(edge, end) => self.elements[edge].found.slope[end].value,
             }),

@@ -35,11 +35,11 @@ impl Measure for ContactShare {
         state.scene.mold.as_ref()?;
         let (ply, grid) = (&state.scene.ply, state.scene.ply.grid);
         let (mut lying, mut total) = (0.0, 0.0);
-        for (n, laid) in state.snapshot.laid.iter().enumerate().take(grid.edges()) {
+        for (n, contact) in state.snapshot.contacts.iter().enumerate().take(grid.edges()) {
             total += ply.flat_length(grid.catenary(n).kind);
-            let Some(laid) = laid else { continue };
-            let beside = (0..2).filter(|&which| laid.lying[which]).map(|which| laid.rest(which));
-            lying += laid.line.length() + beside.sum::<f64>();
+            let Some(contact) = contact else { continue };
+            let beside = (0..2).filter(|&which| contact.lying[which]).map(|which| contact.free_length(which));
+            lying += contact.line.length() + beside.sum::<f64>();
         }
         Some(Found { value: lying / total, site: Site::AllEdges, place: None })
     }

@@ -37,7 +37,7 @@ impl Measure for Force {
     fn evaluate(&self, state: &State) -> Option<Found> {
         let mut most = Most::default();
         for span in &state.snapshot.shape.spans {
-            let hangs = span.catenary < state.edges() && state.snapshot.laid[span.catenary].is_none();
+            let hangs = span.catenary < state.edges() && state.snapshot.contacts[span.catenary].is_none();
             if let Some(force) = span.force.filter(|_| hangs) {
                 most.meet(force.abs(), Site::Catenary(span.catenary), span.point(0.5));
             }

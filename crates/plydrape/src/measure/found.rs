@@ -59,7 +59,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// Nothing of it anywhere.
+    /// The value zero, without a place.
     pub const NONE: Found = Found { value: 0.0, site: Site::Nowhere, place: None };
 }
 

@@ -1,6 +1,6 @@
 //! Load: what a gripper holds against gravity, as the ply hangs.
 //!
-//! Both families of edges carry the whole ply in the model, so each counts half here, and the boundary lines of a family, which
+//! Both families of edges have the weight of the whole ply in the model, so each counts half here, and the boundary lines of a family, which
 //! stand for half a strip, half of that. A span between two grippers pulls with its vertical force; of a free segment that the mold
 //! holds at its other end, the tension is an artefact of the axial stiffness, and half of its weight counts.
 

@@ -37,8 +37,8 @@ impl Measure for LandingContact {
     fn evaluate(&self, state: &State) -> Option<Found> {
         let mut most = Most::default();
         for (n, landing) in state.landings().iter().enumerate().take(state.edges()) {
-            let laid = state.snapshot.laid[n].as_ref();
-            let worst = laid.zip(landing.as_ref()).and_then(|(laid, found)| found.worst(&laid.line));
+            let contact = state.snapshot.contacts[n].as_ref();
+            let worst = contact.zip(landing.as_ref()).and_then(|(contact, found)| found.worst(&contact.line));
             if let Some((error, place)) = worst {
                 most.meet(error, Site::Catenary(n), place);
             }

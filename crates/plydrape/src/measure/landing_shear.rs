@@ -45,7 +45,7 @@ impl Measure for LandingShear {
         let mut most = Most::default();
         for cell in 0..grid.cells() {
             let diagonals = grid.diagonals([cell % (grid.nu - 1), cell / (grid.nu - 1)]);
-            let landed = diagonals.map(|n| snapshot.laid[n].as_ref().and_then(|laid| laid.landed));
+            let landed = diagonals.map(|n| snapshot.contacts[n].as_ref().and_then(|contact| contact.landed));
             if landed == [None, None] {
                 continue;
             }
@@ -57,7 +57,7 @@ impl Measure for LandingShear {
                 let stand = [a, b].iter().all(|p| mold.signed_distance(*p) <= tolerance);
                 if stand { mold.path_length(a, b) } else { crate::mold::distance(a, b) }
             });
-            let end = signed_angle(scene.ply.sides(cell, &snapshot.laid), rising, falling);
+            let end = signed_angle(scene.ply.sides(cell, &snapshot.contacts), rising, falling);
             let errors = landed.into_iter().flatten().map(|landed| (end - landed.shear).abs());
             for error in errors {
                 let place = between(ends[0][0], ends[0][1], 0.5);

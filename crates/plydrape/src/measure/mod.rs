@@ -33,7 +33,7 @@ pub enum Sense {
 }
 
 impl Sense {
-    /// Whether a value is worse than another; nothing is worse than one that is no number, so that it is not lost.
+    /// Whether a value is worse than another. NaN is the worst of all, so that it is not lost.
     #[must_use]
     pub fn is_worse(self, value: f64, than: f64) -> bool {
         match self {
@@ -52,7 +52,7 @@ pub enum Scope {
     EveryStep,
     /// At the end alone.
     End,
-    /// Of the motion in time: it means nothing where the steps have no times yet, as in a search.
+    /// Of the motion in time: it has no meaning where the steps have no times yet, as in a search.
     Time,
     /// Of a whole motion or plan, found outside the drape.
     Whole,
@@ -61,9 +61,9 @@ pub enum Scope {
 /// What it is worth to stay below a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Worth {
-    /// Less is always better: what spoils the ply.
+    /// Less is always better, because the measure describes the quality of the ply.
     Less,
-    /// The limit is to be kept, and less has no worth: what a machine can do.
+    /// The limit is to be kept, and less has no worth, because the measure describes the capacity of a machine.
     Kept,
 }
 

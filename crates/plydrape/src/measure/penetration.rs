@@ -51,7 +51,7 @@ impl Measure for Penetration {
     }
 }
 
-/// Most parts of a way that are looked at; a way of 1 m that slides on the mold needs half a million.
+/// Most parts of a path that are evaluated; a path of 1 m that slides on the mold needs half a million.
 const MOST_PARTS: usize = 4_000_000;
 
 /// Greatest depth (m) along a straight way and its place, to a resolution (m); 0 where all of it is outside.
@@ -59,7 +59,7 @@ fn deepest(mold: &Mold, from: Point, to: Point, resolution: f64) -> (f64, Point)
     let depth = |p: Point| -mold.signed_distance(p);
     let mut best = (0.0, to);
     let mut meet = |depth: f64, place: Point| {
-        // what is no number is deeper than all
+        // NaN is deeper than all
         if depth > best.0 || depth.is_nan() {
             best = (depth, place);
         }
@@ -85,7 +85,7 @@ fn deepest(mold: &Mold, from: Point, to: Point, resolution: f64) -> (f64, Point)
         open.push(([a, middle], [da, dm]));
         open.push(([middle, b], [dm, db]));
     }
-    // what was not looked at counts as deep as it could be
+    // a part that was not evaluated counts as deep as it could be
     for ([a, b], [da, db]) in open {
         meet(0.5 * (da + db + distance(a, b)), between(a, b, 0.5));
     }

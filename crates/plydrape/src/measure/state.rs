@@ -1,4 +1,4 @@
-//! The ply of one step, and what several measures share of it; each part is worked out when it is first asked for.
+//! The ply of one step, with results that several measures share; each is computed when it is first needed.
 
 use crate::draping::attitude::{Attitude, attitude};
 use crate::draping::landing::{Landing, landing};
@@ -134,13 +134,13 @@ impl<'a> State<'a> {
         self.lying.get_or_init(|| {
             let Some(mold) = &self.scene.mold else { return Vec::new() };
             let (grid, tolerance) = (self.scene.ply.grid, self.scene.settings.contact.tolerance);
-            let one = |(n, laid): (usize, &Option<_>)| {
+            let one = |(n, contact): (usize, &Option<_>)| {
                 let c = grid.catenary(n);
                 let grippers = [c.from, c.to].map(|g| self.snapshot.positions[grid.index(g)]);
-                let segments = |laid| lying_segments(n, laid, grippers, mold, tolerance);
-                laid.as_ref().map(segments).unwrap_or_default()
+                let segments = |contact| lying_segments(n, contact, grippers, mold, tolerance);
+                contact.as_ref().map(segments).unwrap_or_default()
             };
-            self.snapshot.laid.iter().enumerate().map(one).collect()
+            self.snapshot.contacts.iter().enumerate().map(one).collect()
         })
     }
 
@@ -148,7 +148,7 @@ impl<'a> State<'a> {
     pub fn misfits(&self) -> &[Misfit] {
         self.misfits.get_or_init(|| {
             let hanging = self.snapshot.shape.spans.iter();
-            let hanging = hanging.map(|s| misfit(s, self.snapshot.laid[s.catenary].as_ref()));
+            let hanging = hanging.map(|s| misfit(s, self.snapshot.contacts[s.catenary].as_ref()));
             let lying = self.lying().iter().flatten().map(|segment| segment.misfit);
             hanging.chain(lying).collect()
         })
@@ -163,8 +163,8 @@ impl<'a> State<'a> {
     /// How each contact segment has landed, where the ideal drape is known.
     pub fn landings(&self) -> &[Option<Landing>] {
         self.landings.get_or_init(|| {
-            let laid = self.snapshot.laid.iter().enumerate();
-            laid.map(|(n, laid)| landing(self.scene, n, laid.as_ref()?)).collect()
+            let contact = self.snapshot.contacts.iter().enumerate();
+            contact.map(|(n, contact)| landing(self.scene, n, contact.as_ref()?)).collect()
         })
     }
 

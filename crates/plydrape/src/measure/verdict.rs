@@ -37,7 +37,7 @@ impl Verdict {
     pub fn of(name: Name, worst: Worst, limit: f64, step: Option<usize>) -> Verdict {
         let (measure, Worst { value, at, place }) = (name.measure(), worst);
         let unit = measure.unit();
-        // a value that is no finite number says nothing of the ply, so it keeps no limit
+        // a value that is not finite keeps no limit
         let ok = value.is_finite()
             && match measure.sense() {
                 Sense::AtMost => value <= limit * (1.0 + ROUNDING),
@@ -101,7 +101,7 @@ impl<'a> Judge<'a> {
         measure.limit(self.scene).filter(|_| judged)
     }
 
-    /// Looks at a step for what its limits need; `last` if no other follows.
+    /// Evaluates the limits of a step; `last` if no other follows.
     pub fn see(&mut self, state: &State, last: bool) {
         for name in Name::ALL {
             let counts = last || name.measure().scope() != Scope::End;
@@ -115,7 +115,7 @@ impl<'a> Judge<'a> {
         self.solved(state);
     }
 
-    /// Looks at a step for everything, and returns it.
+    /// Evaluates every measure of a step, and returns them.
     pub fn see_all(&mut self, state: &State) -> Measures {
         let grid = state.scene.ply.grid;
         let mut out = Vec::with_capacity(Name::ALL.len());
@@ -215,7 +215,7 @@ mod tests {
         assert!(!workspace.ok && workspace.ratio() == 4.0);
     }
 
-    /// NaN compares with nothing, and an infinite value says that something overflowed: neither keeps a limit, whichever way it
+    /// NaN compares with no number, and an infinite value says that something overflowed: neither keeps a limit, whichever way it
     /// bounds, not even one that is infinite itself.
     #[test]
     fn a_value_that_is_not_finite_is_never_accepted() {

@@ -1,4 +1,4 @@
-//! What a net is asked for: the fabric, where it starts on the mold, and how its generators run.
+//! The input of a net: the fabric, where it starts on the mold, and how its generators run.
 
 use super::edge::EdgeRule;
 use crate::mold::Mold;

@@ -5,18 +5,18 @@
 //! level lines (1/L) included, and the foot of the trial moved by δ is the next trial.
 
 use super::edge::{EdgeRule, straightest};
-use super::spot::{Ground, Spot};
+use super::surface_point::{Ground, SurfacePoint};
 use crate::mold::vector::{along, cross, dot, norm, sub};
 
-/// What is asked of a place.
+/// A condition on a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Condition<'a> {
     /// So much fabric away from a node (m).
-    Length(&'a Spot, f64),
+    Length(&'a SurfacePoint, f64),
     /// On the straightest line that leaves a node across this unit vector.
-    Straight(&'a Spot, [f64; 3]),
+    Straight(&'a SurfacePoint, [f64; 3]),
     /// In the plane through a node across this unit vector.
-    Plane(&'a Spot, [f64; 3]),
+    Plane(&'a SurfacePoint, [f64; 3]),
 }
 
 /// How a condition's gap is closed at a trial.
@@ -29,12 +29,12 @@ struct Slope {
 
 /// Largest miss of a condition where Newton's method can do no more, as a share of the mesh width.
 const ACCEPTED: f64 = 1e-10;
-/// Trials before a place is given up.
+/// Most trials for one place.
 const TRIALS: usize = 60;
 
 impl Condition<'_> {
     /// What is missing at a trial (m).
-    fn gap(self, x: &Spot, rule: EdgeRule) -> f64 {
+    fn gap(self, x: &SurfacePoint, rule: EdgeRule) -> f64 {
         match self {
             Condition::Length(from, length) => length - rule.length(from, x),
             Condition::Straight(from, across) => {
@@ -44,7 +44,7 @@ impl Condition<'_> {
         }
     }
 
-    fn slope(self, x: &Spot, rule: EdgeRule) -> Slope {
+    fn slope(self, x: &SurfacePoint, rule: EdgeRule) -> Slope {
         match self {
             Condition::Length(from, _) => {
                 Slope { gradient: rule.gradient(from, x), bend: 1.0 / rule.length(from, x) }
@@ -70,10 +70,10 @@ pub(super) fn meet(
     conditions: [Condition; 2],
     guess: [f64; 3],
     mesh: f64,
-) -> Result<Spot, Spot> {
+) -> Result<SurfacePoint, SurfacePoint> {
     let largest = guess.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let tolerance = 1e-13 * mesh + 4.0 * f64::EPSILON * largest;
-    let gaps_at = |x: &Spot| conditions.map(|c| c.gap(x, rule));
+    let gaps_at = |x: &SurfacePoint| conditions.map(|c| c.gap(x, rule));
     let mut best = ground.under(guess);
     let mut gaps = gaps_at(&best);
     let mut part = 1.0;
@@ -92,7 +92,7 @@ pub(super) fn meet(
         if size(there) < miss {
             (best, gaps, step) = (trial, there, None);
             part = f64::min(1.0, 2.0 * part);
-            // a step that hardly helps any more: what is left is rounding
+            // the step hardly improves the place: the remaining gap is rounding
             if size(gaps) > 0.5 * miss && miss <= ACCEPTED * mesh {
                 break;
             }

@@ -26,7 +26,7 @@ pub fn angle([a, b]: [f64; 2], stretched: f64) -> f64 {
 /// Weight of a shearing cell's plane in the slopes around it, from 0 at the onset of shear to 1 at the shear angle
 /// `full` (rad): the smoothstep `x²(3 − 2x)` of x = γ/`full`.
 ///
-/// A number that carries its derivative gives the weight's derivative: zero at both ends.
+/// A dual number gives the weight's derivative too, which is zero at both ends.
 #[must_use]
 pub fn onset<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T, full: f64) -> T {
     let sine = (stretched * stretched - a * a - b * b) / (a * b * 2.0);
@@ -85,7 +85,7 @@ pub fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
 pub fn curved_scale([a, b]: [f64; 2], shear: f64, gaussian_curvature: f64) -> f64 {
     let area = a * b * shear.cos();
     let excess = gaussian_curvature * area * area / (6.0 * (a * a + b * b));
-    // beyond that a cell is no small part of its mold, and the series says nothing
+    // beyond that a cell is no small part of its mold, and the series does not hold
     (1.0 + excess.clamp(-0.5, 0.5)).sqrt()
 }
 

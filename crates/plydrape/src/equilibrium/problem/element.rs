@@ -35,7 +35,7 @@ pub enum End<T> {
     /// No moment.
     Free,
     /// A given slope: constrained by a shearing cell, or the mold's.
-    Given(T),
+    Prescribed(T),
     /// A shared slope of the problem.
     Shared(usize),
     /// A diagonal: the plane through two edge slopes.
@@ -55,7 +55,7 @@ pub struct PlaneSlope<T> {
 #[derive(Debug, Clone, Copy)]
 pub enum SlopeSource<T> {
     /// Known beforehand.
-    Given(T),
+    Prescribed(T),
     /// A shared slope of the problem.
     Shared(usize),
     /// The free end of an element: (element, end).
