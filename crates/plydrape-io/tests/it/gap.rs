@@ -1,7 +1,8 @@
 //! Gap samples against brute force: what is not looked at is never missed, whatever was seen before.
 
 use plydrape::catenary::{EndCondition, Profile, Span, SpanState};
-use plydrape::draping::gap::{GapCache, GapSamples, Run};
+use plydrape::draping::gap::{GapSamples, Run};
+use plydrape::draping::sampling::GapCache;
 use plydrape::draping::spans::FreeSpan;
 use plydrape::mold::{
     Cylinder, Face, Graph, HeightGrid, Mold, Plane, Pose, Saddle, Sphere, Surface,

@@ -10,29 +10,15 @@
 //! the tolerance over a short length: otherwise every step would add a little contact to a ply that does not move, and
 //! the result would depend on the number of steps.
 
-use super::gap::{GapSamples, Run, farthest, largest_gap};
+use super::bracket::farthest;
+use super::bridge::Bridge;
+use super::gap::{GapSamples, Run};
 use super::spans::{FreeSpan, Point};
+use super::tuning::TUNING;
 use crate::mold::vector::{cross, unit};
 use crate::mold::{Mold, Strand, distance};
 use crate::ply::{ContactSegment, LandedCell, shear};
 use crate::scene::ContactSettings;
-
-/// Depth from which a span penetrates the mold, as a share of the tolerance.
-const PENETRATION: f64 = 1e-3;
-
-/// Stretch that a new contact may add to the free segment beside it, as a share of that segment.
-const STRETCH: f64 = 1e-4;
-
-/// A touch away from the contact segment: the ply bridges the part of the mold between them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bridge {
-    /// Place of the largest gap between segment and touch (m).
-    pub place: Point,
-    /// That gap (m).
-    pub gap: f64,
-    /// Straight distance between the touches on both sides of it (m).
-    pub width: f64,
-}
 
 /// A diagonal about to land, and its cell at that moment.
 ///
@@ -152,19 +138,9 @@ pub fn first_contact(
     };
     let piece_to = |arc: f64| mold.lay(seed, heading, arc - seed_arc);
     let piece = |t: f64| piece_to(arc(t));
-    // a contact must not stretch the free segment beside it
-    let reach = |side: usize, far: f64| {
-        let excess = |t: f64| {
-            let arc = arc(t);
-            let left = if side == 0 { arc } else { length - arc };
-            let missing = distance(piece_to(arc).end(), span.ends[side]) - left;
-            missing - (span.chord() - length).max(0.0) - STRETCH * left
-        };
-        if run.depth < -settings.tolerance || excess(far) <= 0.0 {
-            return far;
-        }
-        farthest(run.deepest, far, excess)
-    };
+    let deep = run.depth < -settings.tolerance;
+    let reach =
+        |side: usize, far: f64| extent(span, side, length, [run.deepest, far], deep, arc, piece_to);
     let line = match (held_first, held_last) {
         (true, true) => whole(mold, a, b, length),
         (true, false) => joined(None, 0.0, Some(piece(reach(1, run.to)))),
@@ -174,16 +150,7 @@ pub fn first_contact(
             joined(Some(back), seed_arc, Some(on))
         }
     };
-    // the gap to any other run: whatever lies between the two
-    let bridge = runs
-        .iter()
-        .filter(|other| *other != run)
-        .map(|other| {
-            let (a, b) =
-                if other.to < run.from { (other.to, run.from) } else { (run.to, other.from) };
-            largest_gap(span, mold, a, b)
-        })
-        .max_by(|a, b| a.gap.total_cmp(&b.gap));
+    let bridge = Bridge::widest(span, mold, &runs, run);
     let normal = [line.points[0], line.end()].map(|p| mold.normal(p));
     let outward = [0, 1].map(|end| outward(normal[end], heading, end));
     let segment = ContactSegment {
@@ -198,6 +165,29 @@ pub fn first_contact(
     ContactChange { segment: Some(segment), bridge }
 }
 
+/// Fraction of the run up to which a contact reaches on the side of one end (0 or 1) of a span: `to` of [from, to], or less, because
+/// a contact must not stretch the free segment that is left. A run that is `deep` below the mold is in contact as a whole.
+///
+/// `length` is the fabric length of the span (m), `arc` its arc length to a fraction of the run, `piece` the line on the mold up to
+/// an arc length.
+fn extent(
+    span: &FreeSpan,
+    side: usize,
+    length: f64,
+    [from, to]: [f64; 2],
+    deep: bool,
+    arc: impl Fn(f64) -> f64,
+    piece: impl Fn(f64) -> Strand,
+) -> f64 {
+    let excess = |t: f64| {
+        let arc = arc(t);
+        let left = if side == 0 { arc } else { length - arc };
+        let missing = distance(piece(arc).end(), span.ends[side]) - left;
+        missing - (span.chord() - length).max(0.0) - TUNING.contact_stretch * left
+    };
+    if deep || excess(to) <= 0.0 { to } else { farthest(from, to, excess) }
+}
+
 /// How a contact segment grows over the free segment beside it.
 pub fn next_contact(
     span: &FreeSpan,
@@ -207,7 +197,11 @@ pub fn next_contact(
     settings: &ContactSettings,
 ) -> ContactChange {
     // a span that leaves the mold upwards changes nothing
-    if gaps.only_leaves(1 - span.segment, settings.tolerance, PENETRATION * settings.tolerance) {
+    if gaps.only_leaves(
+        1 - span.segment,
+        settings.tolerance,
+        TUNING.penetration * settings.tolerance,
+    ) {
         return ContactChange::default();
     }
     let runs = gaps.runs(span, mold, settings.tolerance);
@@ -219,17 +213,8 @@ pub fn next_contact(
     let Some(run) = runs.iter().find(at_contact) else {
         return ContactChange::default();
     };
-    let mut change = ContactChange {
-        segment: None,
-        bridge: runs
-            .iter()
-            .filter(|other| *other != run)
-            .map(|other| {
-                let (a, b) = if side == 0 { (other.to, run.from) } else { (run.to, other.from) };
-                largest_gap(span, mold, a, b)
-            })
-            .max_by(|a, b| a.gap.total_cmp(&b.gap)),
-    };
+    let bridge = Bridge::widest(span, mold, &runs, run);
+    let mut change = ContactChange { segment: None, bridge };
     let mut segment = contact.clone();
     if run.from <= 0.0 && run.to >= 1.0 {
         segment.lying[side] = true;
@@ -243,7 +228,7 @@ pub fn next_contact(
         return change;
     }
     // at a point of the mold the distance is zero but for rounding: what penetrates is clearly below
-    if run.depth > -PENETRATION * settings.tolerance || span.run() == 0.0 {
+    if run.depth > -TUNING.penetration * settings.tolerance || span.run() == 0.0 {
         return change;
     }
     let heading = span.heading();
@@ -253,18 +238,10 @@ pub fn next_contact(
         0 => mold.lay(end, heading, at - span.length),
         _ => mold.lay(end, heading, at),
     };
-    let excess = |t: f64| {
-        let at = span.arc(t);
-        let left = if side == 0 { at } else { span.length - at };
-        let missing = distance(piece(at).end(), span.ends[side]) - left;
-        missing - (span.chord() - span.length).max(0.0) - STRETCH * left
-    };
     let far = if side == 0 { run.from } else { run.to };
-    let to = if run.depth < -settings.tolerance || excess(far) <= 0.0 {
-        far
-    } else {
-        farthest(1.0 - side as f64, far, excess)
-    };
+    let deep = run.depth < -settings.tolerance;
+    let arc_to = |t: f64| span.arc(t);
+    let to = extent(span, side, span.length, [1.0 - side as f64, far], deep, arc_to, piece);
     let line = std::mem::take(&mut segment.line);
     segment.line = if side == 0 {
         joined(Some(piece(span.arc(to))), arc, Some(line))

@@ -1,13 +1,11 @@
 //! Landing errors: how far contact points are from the place of the same fabric in the ideal drape, and the angle of their fibres.
 
 use super::spans::Point;
+use super::tuning::TUNING;
 use crate::mold::vector::{cross, dot, norm, sub, unit};
 use crate::mold::{Strand, distance};
 use crate::ply::ContactSegment;
 use crate::scene::Scene;
-
-/// Contact segments shorter than this share of their catenary have no direction, because it would be mostly rounding.
-const SHORT: f64 = 1e-2;
 
 /// The landing errors of a contact segment.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +50,8 @@ pub fn landing(scene: &Scene, catenary: usize, contact: &ContactSegment) -> Opti
         .collect();
     let fibre_angle = (catenary < scene.ply.grid.edges()).then(|| {
         let ([from, to], [a, b]) = (contact.arc(), contact.point());
-        let landed = unit(sub(b, a)).filter(|_| to - from > SHORT * contact.length)?;
+        let landed =
+            unit(sub(b, a)).filter(|_| to - from > TUNING.shortest_direction * contact.length)?;
         let ideal = unit(sub(place(to)?, place(from)?))?;
         // the arctangent of sine and cosine is exact for small angles, where the cosine alone is not
         let angle = norm(cross(landed, ideal)).atan2(dot(landed, ideal));

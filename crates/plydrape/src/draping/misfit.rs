@@ -6,6 +6,7 @@
 //! past the end makes a fold, which is all slack and never stretch. The path of a segment that lies on the mold runs along the mold.
 
 use super::spans::{FreeSpan, Point};
+use super::tuning::TUNING;
 use crate::mold::{Mold, Strand, distance};
 use crate::ply::ContactSegment;
 
@@ -34,16 +35,18 @@ impl Misfit {
     /// Fabric length beyond the path (m), not negative.
     #[must_use]
     pub fn slack(&self) -> f64 {
-        // what rounding leaves of a taut line is no slack; NaN stays NaN
-        let slack = self.excess();
-        if slack <= 1e-12 * self.whole { 0.0 } else { slack }
+        self.beyond_rounding(self.excess())
     }
 
     /// Path beyond the fabric length (m), not negative.
     #[must_use]
     pub fn overstretch(&self) -> f64 {
-        let short = -self.excess();
-        if short <= 1e-12 * self.whole { 0.0 } else { short }
+        self.beyond_rounding(-self.excess())
+    }
+
+    /// A length (m), or zero where it is negative or rounding; NaN stays NaN.
+    fn beyond_rounding(&self, length: f64) -> f64 {
+        if length <= TUNING.length_rounding * self.whole { 0.0 } else { length }
     }
 }
 

@@ -12,12 +12,14 @@ mod record;
 #[cfg(feature = "serde")]
 mod serial;
 mod state;
+mod tuning;
 mod unit;
 mod verdict;
 
 pub use found::{Found, Most, Site};
 pub use record::{ByName, Measures, Numbers, Worst};
 pub use state::{Before, Misfit, State};
+pub use tuning::{TUNING, Tuning};
 pub use unit::Unit;
 pub use verdict::{Judge, Verdict, last_numbers, worst_numbers};
 

@@ -1,11 +1,8 @@
 //! Limits and whether they hold.
 
-use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, Worst};
+use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, TUNING, Worst};
 use crate::scene::Scene;
 use std::borrow::Cow;
-
-/// What rounding puts beyond a limit is within it: a bound that holds a slope exactly at its limit is no breach.
-const ROUNDING: f64 = 1e-9;
 
 /// A limit and whether it holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,8 +37,8 @@ impl Verdict {
         // a value that is not finite keeps no limit
         let ok = value.is_finite()
             && match measure.sense() {
-                Sense::AtMost => value <= limit * (1.0 + ROUNDING),
-                Sense::AtLeast => value >= limit * (1.0 - ROUNDING),
+                Sense::AtMost => value <= limit * (1.0 + TUNING.limit_rounding),
+                Sense::AtLeast => value >= limit * (1.0 - TUNING.limit_rounding),
             };
         let [value, limit] = [value, limit].map(|value| value * unit.factor);
         Verdict { name, value, limit, unit: unit.shown.into(), ok, step, at, place }
@@ -69,7 +66,7 @@ impl Verdict {
             false if value > 0.0 => 1.0 + value,
             false => 0.0,
         };
-        if self.ok { ratio.min(1.0) } else { ratio.max(1.0 + ROUNDING) }
+        if self.ok { ratio.min(1.0) } else { ratio.max(1.0 + TUNING.limit_rounding) }
     }
 }
 
@@ -161,7 +158,7 @@ impl<'a> Judge<'a> {
         if let Some((step, residual, why)) = self.unfound {
             let worst = Worst { value: residual, at: why.into(), place: None };
             let verdict =
-                Verdict::of(Name::Equilibrium, worst, super::equilibrium::RESIDUAL, Some(step));
+                Verdict::of(Name::Equilibrium, worst, TUNING.equilibrium_residual, Some(step));
             out.push(Verdict { ok: false, ..verdict });
         }
         out

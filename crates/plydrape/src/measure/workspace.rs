@@ -33,6 +33,6 @@ impl Measure for Workspace {
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {
-        outside(&state.snapshot.positions, state.scene.limits.workspace?)
+        outside(&state.snapshot.positions, state.scene.limits.workspace?, state.scene.ply.cell)
     }
 }

@@ -5,13 +5,11 @@ use super::layup::{Generators, Layup, LayupError};
 use super::meet::{Condition, meet};
 use super::missing::Reason;
 use super::surface_point::{Ground, SurfacePoint};
+use super::tuning::TUNING;
 use crate::mold::vector::{along, cross, dot};
 
 /// A node counted from [0, 0], or beside the net.
 pub(super) type Node = [isize; 2];
-
-/// Cosine of the smallest angle between u and v of an open cell: 1°.
-const SHUT: f64 = 0.999_847_7;
 
 /// A net being placed.
 pub(super) struct Build<'a> {
@@ -124,7 +122,7 @@ impl Build<'_> {
                     let v = self.rule().gradient(&along_v, &point);
                     let [uu, vv, uv] = [dot(u, u), dot(v, v), dot(u, v)];
                     let upright = sign * dot(cross(u, v), point.normal) > 0.0;
-                    if upright && uv.abs() < SHUT * (uu * vv).sqrt() {
+                    if upright && uv.abs() < TUNING.smallest_angle_cosine * (uu * vv).sqrt() {
                         return Some(Ok(point));
                     }
                     last = Some(point);

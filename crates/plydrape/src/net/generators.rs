@@ -9,6 +9,7 @@ use super::edge::{EdgeRule, straightest};
 use super::meet::{Condition, meet};
 use super::shear::CellShear;
 use super::surface_point::SurfacePoint;
+use super::tuning::TUNING;
 use crate::mold::vector::{along, cross, dot, sub};
 
 impl Build<'_> {
@@ -167,23 +168,23 @@ impl Build<'_> {
         let (mut found, mut miss) = cell(turn)?;
         // turning the side by dφ changes the shear by ±dφ
         let mut slope = -left * sign;
-        for _ in 0..30 {
-            if miss.abs() <= 1e-13 {
+        for _ in 0..TUNING.shear_iterations {
+            if miss.abs() <= TUNING.shear_error {
                 break;
             }
-            let change = (-miss / slope).clamp(-0.3, 0.3);
+            let change = (-miss / slope).clamp(-TUNING.longest_turn, TUNING.longest_turn);
             let (next, missed) = cell(turn + change)?;
-            if missed.abs() >= miss.abs() && miss.abs() < 1e-9 {
+            if missed.abs() >= miss.abs() && miss.abs() < TUNING.largest_shear_error {
                 break;
             }
             let rate = (missed - miss) / change;
             // the slope stays near the flat cell's rate
-            if rate * slope > 0.1 && change.abs() > 1e-9 {
+            if rate * slope > TUNING.smallest_rate && change.abs() > TUNING.largest_shear_error {
                 slope = rate;
             }
             (turn, found, miss) = (turn + change, next, missed);
         }
-        if miss.abs() <= 1e-9 { Ok(found) } else { Err(found[0]) }
+        if miss.abs() <= TUNING.largest_shear_error { Ok(found) } else { Err(found[0]) }
     }
 
     /// Signed shear (rad) of the cell between a known edge and its two nodes beyond.

@@ -6,6 +6,7 @@
 
 use super::edge::{EdgeRule, straightest};
 use super::surface_point::{Ground, SurfacePoint};
+use super::tuning::TUNING;
 use crate::mold::vector::{along, cross, dot, norm, sub};
 
 /// A condition on a place.
@@ -26,11 +27,6 @@ struct Slope {
     /// Curvature of its level line (1/m).
     bend: f64,
 }
-
-/// Largest miss of a condition where Newton's method can do no more, as a share of the mesh width.
-const ACCEPTED: f64 = 1e-10;
-/// Most trials for one place.
-const TRIALS: usize = 60;
 
 impl Condition<'_> {
     /// What is missing at a trial (m).
@@ -72,13 +68,13 @@ pub(super) fn meet(
     mesh: f64,
 ) -> Result<SurfacePoint, SurfacePoint> {
     let largest = guess.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let tolerance = 1e-13 * mesh + 4.0 * f64::EPSILON * largest;
+    let tolerance = TUNING.gap * mesh + 4.0 * f64::EPSILON * largest;
     let gaps_at = |x: &SurfacePoint| conditions.map(|c| c.gap(x, rule));
     let mut best = ground.under(guess);
     let mut gaps = gaps_at(&best);
     let mut part = 1.0;
     let mut step = None;
-    for _ in 0..TRIALS {
+    for _ in 0..TUNING.trials {
         let miss = size(gaps);
         if miss <= tolerance {
             return Ok(best);
@@ -93,17 +89,17 @@ pub(super) fn meet(
             (best, gaps, step) = (trial, there, None);
             part = f64::min(1.0, 2.0 * part);
             // the step hardly improves the place: the remaining gap is rounding
-            if size(gaps) > 0.5 * miss && miss <= ACCEPTED * mesh {
+            if size(gaps) > 0.5 * miss && miss <= TUNING.largest_gap * mesh {
                 break;
             }
         } else {
             part *= 0.5;
-            if miss <= ACCEPTED * mesh || part < 1e-4 {
+            if miss <= TUNING.largest_gap * mesh || part < TUNING.smallest_share {
                 break;
             }
         }
     }
-    if size(gaps) <= tolerance.max(ACCEPTED * mesh) { Ok(best) } else { Err(best) }
+    if size(gaps) <= tolerance.max(TUNING.largest_gap * mesh) { Ok(best) } else { Err(best) }
 }
 
 fn size(gaps: [f64; 2]) -> f64 {
@@ -116,7 +112,7 @@ fn newton(gaps: [f64; 2], slopes: [Slope; 2], mesh: f64) -> Option<[f64; 3]> {
     let [p, q] = [slopes[0].gradient, slopes[1].gradient];
     let (pp, pq, qq) = (dot(p, p), dot(p, q), dot(q, q));
     let det = pp * qq - pq * pq;
-    if det.is_nan() || det <= 1e-10 * pp * qq {
+    if det.is_nan() || det <= TUNING.parallel * pp * qq {
         return None;
     }
     let solve = |r: [f64; 2]| {
@@ -124,11 +120,11 @@ fn newton(gaps: [f64; 2], slopes: [Slope; 2], mesh: f64) -> Option<[f64; 3]> {
         [0, 1, 2].map(|n| a * p[n] + b * q[n])
     };
     let limited = |step: [f64; 3]| {
-        let part = (0.5 * mesh / norm(step)).min(1.0);
+        let part = (TUNING.longest_step * mesh / norm(step)).min(1.0);
         step.map(|x| part * x)
     };
     let first = solve(gaps);
-    if norm(first) > 0.5 * mesh {
+    if norm(first) > TUNING.longest_step * mesh {
         return Some(limited(first));
     }
     // what the level lines bend away over the first estimate

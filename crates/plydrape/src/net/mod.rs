@@ -21,12 +21,14 @@ mod place;
 mod report;
 mod shear;
 mod surface_point;
+mod tuning;
 
 pub use edge::EdgeRule;
 pub use layup::{Generators, Layup, LayupError};
 pub use missing::{Missing, Reason};
 pub use report::Report;
 pub use shear::CellShear;
+pub use tuning::{TUNING, Tuning};
 
 use crate::mold::Mold;
 use build::Build;

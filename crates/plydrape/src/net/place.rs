@@ -5,6 +5,7 @@
 //! one side, or are fewer. The cubics' error is of fourth order in the mesh width.
 
 use super::Net;
+use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::mold::vector::{along, dot, unit};
 
@@ -51,7 +52,7 @@ impl Net {
             let last = self.layup.nodes[n] - 1;
             // a rounding error beyond the boundary is the boundary
             let t = uv[n] / self.layup.mesh[n];
-            if !(-1e-9..=last as f64 + 1e-9).contains(&t) {
+            if !(-TUNING.boundary_rounding..=last as f64 + TUNING.boundary_rounding).contains(&t) {
                 return None;
             }
             at[n] = t.clamp(0.0, last as f64);

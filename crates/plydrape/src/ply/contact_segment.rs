@@ -1,5 +1,6 @@
 //! The part of a catenary that is in contact with the mold.
 
+use super::tuning::TUNING;
 use crate::mold::Strand;
 use crate::mold::vector::{dot, sub};
 
@@ -34,13 +35,6 @@ pub struct LandedCell {
     /// By how much the mold's curvature scales its diagonals, [`crate::ply::shear::curved_scale`].
     pub scale: f64,
 }
-
-/// Free segments shorter than this share of their catenary have no length: they are left by rounding.
-const SHORTEST: f64 = 1e-9;
-
-/// Path of a free segment, as a share of its fabric, below which it is a fold. At one half a catenary sags by four fifths of its run, three times as
-/// far as small-sag theory holds.
-const SMALL_SAG: f64 = 0.5;
 
 impl ContactSegment {
     /// Fabric arc length of the segment's ends from the first gripper (m).
@@ -105,13 +99,13 @@ impl ContactSegment {
     #[must_use]
     pub fn is_folded(&self, which: usize, point: [f64; 3]) -> bool {
         let (path, length) = (self.path_length(which, point), self.free_length(which));
-        path < length && (self.is_behind(which, point) || path < SMALL_SAG * length)
+        path < length && (self.is_behind(which, point) || path < TUNING.shortest_path * length)
     }
 
     /// Whether a free segment hangs: it has a length and does not lie on the mold.
     #[must_use]
     pub fn hangs(&self, which: usize) -> bool {
-        !self.lying[which] && self.free_length(which) > SHORTEST * self.length
+        !self.lying[which] && self.free_length(which) > TUNING.shortest_segment * self.length
     }
 }
 

@@ -5,11 +5,13 @@ mod grid;
 mod places;
 mod ruck;
 pub mod shear;
+mod tuning;
 
 pub use contact_segment::{ContactSegment, LandedCell};
 pub use grid::{Catenary, Grid, GripperId, Kind};
 pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
 pub use ruck::Ruck;
+pub use tuning::{TUNING, Tuning};
 
 use crate::material::{Line, Material, Section};
 
