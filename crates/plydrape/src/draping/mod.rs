@@ -2,20 +2,23 @@
 //!
 //! One loop, the paper's section 4: move the grippers ([`crate::scene::Motion`]), solve the equilibrium
 //! ([`crate::equilibrium`]), find the contact (`contact`), measure ([`crate::measure`]) and record
-//! ([`record`]). A search drapes in the same way and keeps only the verdicts ([`Judged`]).
+//! ([`record`]). A search drapes in the same way and keeps only the verdicts (`judged`).
 
 pub(crate) mod attitude;
 mod bracket;
 mod bridge;
 mod contact;
 mod crossing;
+#[doc(hidden)]
 pub mod gap;
+mod judged;
 pub(crate) mod landing;
 pub(crate) mod load;
 pub(crate) mod misfit;
 pub(crate) mod reach;
 pub mod record;
 mod report;
+#[doc(hidden)]
 pub mod sampling;
 mod snapshot;
 pub mod spans;
@@ -23,19 +26,20 @@ mod stepping;
 mod stop;
 mod tuning;
 
-use crate::measure::{Before, Judge, State, Verdict};
 use crate::scene::Scene;
 pub(crate) use attitude::attitude;
-pub use bridge::Bridge;
 pub(crate) use crossing::hanging as stations;
+#[doc(hidden)]
+pub use judged::Judged;
+pub(crate) use judged::judge;
 pub(crate) use landing::fabric;
 pub(crate) use misfit::{lying_segments, misfit};
 use record::{Step, Summary};
-pub use snapshot::{CellShear, ContactStatus, Snapshot};
+pub use snapshot::ContactStatus;
+pub(crate) use snapshot::{CellShear, Snapshot};
 use std::ops::ControlFlow;
 use std::time::Duration;
 pub(crate) use stepping::Draping;
-pub use tuning::{TUNING, Tuning};
 
 /// A finished drape.
 #[derive(Debug, Clone)]
@@ -48,19 +52,6 @@ pub struct Drape {
     pub solving: Duration,
 }
 
-/// How a drape of a search came out.
-#[derive(Debug, Clone)]
-pub struct Judged {
-    /// Every limit that applies, but those of a motion in time.
-    pub limits: Vec<Verdict>,
-    /// All steps were done, and every limit holds.
-    pub accepted: bool,
-    /// Share of the steps that were not done: it was broken off.
-    pub missing: f64,
-    /// Steps whose equilibrium or contact was not found.
-    pub unsolved: usize,
-}
-
 /// Drapes the ply of a scene along its motion.
 ///
 /// `progress` is called after each step with the number of steps done; when it breaks, the drape ends there, complete
@@ -68,32 +59,4 @@ pub struct Judged {
 pub fn simulate(scene: &Scene, mut progress: impl FnMut(usize) -> ControlFlow<()>) -> Drape {
     let mut draping = Draping::new(scene);
     draping.run(&mut progress).0
-}
-
-/// Drapes without keeping more than the verdicts; broken off after the step in which more than `most` equilibria have
-/// been solved. The times of the motion have no influence.
-pub(crate) fn judge(
-    scene: &Scene,
-    most: usize,
-    mut progress: impl FnMut(usize) -> ControlFlow<()>,
-) -> Judged {
-    let mut draping = Draping::new(scene);
-    draping.most = most;
-    let mut judge = Judge::new(scene, false);
-    let (planned, mut done, mut unsolved) = (scene.motion.positions.len(), 0, 0);
-    let mut before: Option<Before> = None;
-    for step in 0..planned {
-        let snapshot = draping.advance(step);
-        let state = State::new(scene, &snapshot, &draping.solver, before.as_ref());
-        judge.see(&state, step + 1 == planned);
-        unsolved += usize::from(snapshot.failure().is_some());
-        done = step + 1;
-        if progress(done).is_break() || draping.equilibria > most || stop::breaks(&state) {
-            break;
-        }
-        before = Some(state.as_before());
-    }
-    let limits = judge.verdicts();
-    let accepted = done == planned && limits.iter().all(|verdict| verdict.ok);
-    Judged { limits, accepted, missing: 1.0 - done as f64 / planned.max(1) as f64, unsolved }
 }

@@ -7,7 +7,7 @@ use crate::ply::ContactSegment;
 
 /// The ply in one step, with everything that is known of it.
 #[derive(Debug, Clone)]
-pub struct Snapshot {
+pub(crate) struct Snapshot {
     /// Counts from 1, the start.
     pub step: usize,
     /// Time (s).
@@ -49,7 +49,7 @@ impl Snapshot {
 
 /// Shear of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CellShear {
+pub(crate) struct CellShear {
     /// Shear angle γ (rad).
     pub angle: f64,
     /// Taut path of the stretched diagonal (m).

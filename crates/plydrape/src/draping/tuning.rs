@@ -2,7 +2,7 @@
 
 /// Tolerances and limits of [`super::Drape`]'s contact, steps and results.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub(crate) struct Tuning {
     /// Depth from which a span penetrates the mold, as a share of the contact tolerance. 1e-3: above the rounding of a
     /// distance, and far below a depth that is seen.
     pub penetration: f64,
@@ -51,7 +51,7 @@ pub struct Tuning {
 }
 
 /// The constants in use.
-pub const TUNING: Tuning = Tuning {
+pub(crate) const TUNING: Tuning = Tuning {
     penetration: 1e-3,
     contact_stretch: 1e-4,
     smallest_cut: 1.0 / 256.0,

@@ -65,7 +65,7 @@ impl Found {
 
 /// Collects the largest of several values, the first of those that are equal; one that is no number is the largest.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Most(Option<Found>);
+pub(crate) struct Most(Option<Found>);
 
 impl Most {
     /// Another value.

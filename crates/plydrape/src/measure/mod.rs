@@ -16,12 +16,15 @@ mod tuning;
 mod unit;
 mod verdict;
 
-pub use found::{Found, Most, Site};
+pub(crate) use found::Most;
+pub use found::{Found, Site};
 pub use record::{ByName, Measures, Numbers, Worst};
-pub use state::{Before, Misfit, State};
-pub use tuning::{TUNING, Tuning};
+pub(crate) use state::Before;
+pub use state::State;
+use tuning::TUNING;
 pub use unit::Unit;
-pub use verdict::{Judge, Verdict, last_numbers, worst_numbers};
+pub use verdict::Verdict;
+pub(crate) use verdict::{Judge, last_numbers, worst_numbers};
 
 use crate::scene::Scene;
 

@@ -72,7 +72,7 @@ impl Verdict {
 
 /// Collects the worst values of a drape step by step, and judges them at its end.
 #[derive(Debug)]
-pub struct Judge<'a> {
+pub(crate) struct Judge<'a> {
     scene: &'a Scene,
     /// Whether the steps have the times of a motion.
     timed: bool,
@@ -167,7 +167,7 @@ impl<'a> Judge<'a> {
 
 /// The worst of each measure over all steps as a plain number; of those that count at the end too.
 #[must_use]
-pub fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
+pub(crate) fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
     let mut out: Vec<Option<f64>> = vec![None; Name::ALL.len()];
     for measures in steps {
         for (name, worst) in measures.iter() {
@@ -183,7 +183,7 @@ pub fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
 
 /// The numbers of one step.
 #[must_use]
-pub fn last_numbers(measures: Option<&Measures>) -> Numbers {
+pub(crate) fn last_numbers(measures: Option<&Measures>) -> Numbers {
     reported(|name| measures.and_then(|measures| measures.value(name)))
 }
 

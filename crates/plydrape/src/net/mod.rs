@@ -28,7 +28,6 @@ pub use layup::{Generators, Layup, LayupError};
 pub use missing::{Missing, Reason};
 pub use report::Report;
 pub use shear::CellShear;
-pub use tuning::{TUNING, Tuning};
 
 use crate::mold::Mold;
 use build::Build;

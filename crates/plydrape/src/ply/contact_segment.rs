@@ -39,19 +39,19 @@ pub struct LandedCell {
 impl ContactSegment {
     /// Fabric arc length of the segment's ends from the first gripper (m).
     #[must_use]
-    pub fn arc(&self) -> [f64; 2] {
+    pub(crate) fn arc(&self) -> [f64; 2] {
         [self.line.arc[0], self.line.arc[self.line.arc.len() - 1]]
     }
 
     /// Place of the segment's ends (m).
     #[must_use]
-    pub fn point(&self) -> [[f64; 3]; 2] {
+    pub(crate) fn point(&self) -> [[f64; 3]; 2] {
         [self.line.points[0], self.line.end()]
     }
 
     /// The piece of the segment's line at its first (0) or second (1) end, from first to last (m).
     #[must_use]
-    pub fn end_piece(&self, end: usize) -> [[f64; 3]; 2] {
+    pub(crate) fn end_piece(&self, end: usize) -> [[f64; 3]; 2] {
         let points = &self.line.points;
         let last = points.len() - 1;
         if end == 0 {
@@ -63,14 +63,14 @@ impl ContactSegment {
 
     /// Fabric length of the first (0) or second (1) free segment (m).
     #[must_use]
-    pub fn free_length(&self, which: usize) -> f64 {
+    pub(crate) fn free_length(&self, which: usize) -> f64 {
         let [from, to] = self.arc();
         if which == 0 { from } else { self.length - to }
     }
 
     /// Whether the catenary lies from gripper to gripper, without a segment of its own.
     #[must_use]
-    pub fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         self.lying == [true, true] && self.arc() == [0.0, self.length]
     }
 
@@ -79,7 +79,7 @@ impl ContactSegment {
     ///
     /// On the mold behind the end it is minus the distance, because a gripper there has folded the fabric back.
     #[must_use]
-    pub fn path_length(&self, which: usize, point: [f64; 3]) -> f64 {
+    pub(crate) fn path_length(&self, which: usize, point: [f64; 3]) -> f64 {
         let to = sub(point, self.point()[which]);
         let (along, square) = (dot(to, self.outward[which]), dot(to, to));
         if along >= 0.0 {
@@ -90,21 +90,21 @@ impl ContactSegment {
 
     /// Whether a point is behind an end of the segment, on the side of the contact.
     #[must_use]
-    pub fn is_behind(&self, which: usize, point: [f64; 3]) -> bool {
+    pub(crate) fn is_behind(&self, which: usize, point: [f64; 3]) -> bool {
         dot(sub(point, self.point()[which]), self.outward[which]) < 0.0
     }
 
     /// Whether a free segment is a fold, not stretched and without a catenary: its gripper, at `point` (m), has passed the end of the
     /// segment, or is so near to it that no curve of small sag is as long as the fabric between them.
     #[must_use]
-    pub fn is_folded(&self, which: usize, point: [f64; 3]) -> bool {
+    pub(crate) fn is_folded(&self, which: usize, point: [f64; 3]) -> bool {
         let (path, length) = (self.path_length(which, point), self.free_length(which));
         path < length && (self.is_behind(which, point) || path < TUNING.shortest_path * length)
     }
 
     /// Whether a free segment hangs: it has a length and does not lie on the mold.
     #[must_use]
-    pub fn hangs(&self, which: usize) -> bool {
+    pub(crate) fn hangs(&self, which: usize) -> bool {
         !self.lying[which] && self.free_length(which) > TUNING.shortest_segment * self.length
     }
 }

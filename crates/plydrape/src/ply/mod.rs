@@ -10,8 +10,7 @@ mod tuning;
 pub use contact_segment::{ContactSegment, LandedCell};
 pub use grid::{Catenary, Grid, GripperId, Kind};
 pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
-pub use ruck::Ruck;
-pub use tuning::{TUNING, Tuning};
+pub(crate) use ruck::Ruck;
 
 use crate::material::{Line, Material, Section};
 

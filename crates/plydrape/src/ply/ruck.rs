@@ -20,7 +20,7 @@ const HEIGHT: f64 = 1.0 + COSINE + 0.5 * COSINE * HALF_WIDTH * HALF_WIDTH;
 
 /// A ruck of small slopes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ruck {
+pub(crate) struct Ruck {
     /// Amplitude C (m).
     amplitude: f64,
     /// Wave number k (1/m).
@@ -50,6 +50,7 @@ impl Ruck {
         HEIGHT * self.amplitude
     }
 
+    #[cfg(test)]
     /// Half the length over which it is off the floor (m).
     #[must_use]
     pub fn half_width(&self) -> f64 {

@@ -6,7 +6,7 @@ use num_dual::DualNum;
 
 /// Whether a diagonal whose taut path is `path` (m) is stretched beyond the flat cell's.
 #[must_use]
-pub fn is_shearing([a, b]: [f64; 2], path: f64) -> bool {
+pub(crate) fn is_shearing([a, b]: [f64; 2], path: f64) -> bool {
     path > a.hypot(b) * (1.0 + TUNING.shear_rounding)
 }
 
@@ -49,7 +49,10 @@ pub fn angle_tangent(sides: [f64; 2], stretched: f64, change: [f64; 3]) -> f64 {
 ///
 /// A stretched diagonal close to a + b has folded the cell; its partner keeps a millionth of a side.
 #[must_use]
-pub fn partner_length<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T) -> T {
+pub(crate) fn partner_length<T: DualNum<Primitive = f64> + Copy>(
+    [a, b]: [T; 2],
+    stretched: T,
+) -> T {
     let square = (a * a + b * b) * 2.0 - stretched * stretched;
     let least = TUNING.folded_diagonal * a.re().min(b.re());
     if square.re() > least * least { square.sqrt() } else { T::from(least) }
@@ -58,7 +61,7 @@ pub fn partner_length<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretc
 /// Signed shear angle γ (rad) of a cell with sides a, b (m) whose taut diagonals are `rising` and `falling` (m):
 /// positive where the rising one is stretched, negative where the falling one is, 0 where neither is.
 #[must_use]
-pub fn signed_angle(sides: [f64; 2], rising: f64, falling: f64) -> f64 {
+pub(crate) fn signed_angle(sides: [f64; 2], rising: f64, falling: f64) -> f64 {
     let (sign, longer) = if falling > rising { (-1.0, falling) } else { (1.0, rising) };
     if is_shearing(sides, longer) { sign * angle(sides, longer) } else { 0.0 }
 }
@@ -66,7 +69,7 @@ pub fn signed_angle(sides: [f64; 2], rising: f64, falling: f64) -> f64 {
 /// Length (m) of the rising (`sign` 1) or falling (−1) diagonal of a cell with sides a, b (m) at the signed shear
 /// angle γ (rad): √(a² + b² ± 2ab sin γ). Of a folded cell the shorter one keeps a millionth of a side.
 #[must_use]
-pub fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
+pub(crate) fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
     let square = a * a + b * b + sign * 2.0 * a * b * shear.sin();
     square.max(0.0).sqrt().max(TUNING.folded_diagonal * a.min(b))
 }
