@@ -76,7 +76,7 @@ impl Span {
 
     /// The force of the small-sag parabola, shifted by the buckling force (N).
     #[must_use]
-    pub fn first_guess(&self) -> f64 {
+    pub(crate) fn first_guess(&self) -> f64 {
         let goal = self.goal();
         let cosine = self.run / self.chord();
         let strength = (self.load() * self.run).powi(2) * cosine.powi(3) / 24.0;

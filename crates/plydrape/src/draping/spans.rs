@@ -57,7 +57,7 @@ impl FreeSpan {
 
     /// Length of the curve that it hangs in (m): its fabric length and its elastic stretch.
     #[must_use]
-    pub fn curve_length(&self) -> f64 {
+    pub(crate) fn curve_length(&self) -> f64 {
         match &self.profile {
             // needed many times, and a quadrature each
             Some(profile) => *self.curve.get_or_init(|| profile.length_to(self.run())),

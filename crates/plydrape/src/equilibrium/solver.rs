@@ -93,7 +93,7 @@ impl Solver {
 
     /// The tuning constants.
     #[must_use]
-    pub fn tuning(&self) -> &Tuning {
+    pub(crate) fn tuning(&self) -> &Tuning {
         &self.tuning
     }
 

@@ -114,7 +114,7 @@ pub struct SpanState {
     pub slack_mm: f64,
     /// Slack as a share of its free length.
     pub slack_ratio: f64,
-    /// Height of the ruck that the slack makes on the mold (mm), [`crate::ply::Ruck`].
+    /// Height of the ruck that the slack makes on the mold (mm).
     pub wrinkle_mm: f64,
     /// Way beyond the free length (mm), not negative.
     pub overstretch_mm: f64,

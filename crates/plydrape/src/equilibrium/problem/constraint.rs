@@ -29,7 +29,7 @@ impl<T: Number> Constraint<T> {
 
     /// The constrained slope along a horizontal unit vector, `free` the slope without the constraint.
     #[must_use]
-    pub fn blend(&self, free: Option<T>, heading: [T; 2]) -> T {
+    pub(crate) fn blend(&self, free: Option<T>, heading: [T; 2]) -> T {
         let plane = self.slope(heading);
         match free {
             Some(free) if self.is_partial() => free + self.weight * (plane - free),
@@ -39,7 +39,7 @@ impl<T: Number> Constraint<T> {
 
     /// Whether the unconstrained slope still counts.
     #[must_use]
-    pub fn is_partial(&self) -> bool {
+    pub(crate) fn is_partial(&self) -> bool {
         self.weight.re() < 1.0
     }
 }

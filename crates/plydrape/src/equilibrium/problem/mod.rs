@@ -50,7 +50,7 @@ impl<T> Default for Problem<T> {
 
 impl<T: Number> Problem<T> {
     /// States the problem anew, in place.
-    pub fn rebuild(&mut self, around: &Circumstances<T>) {
+    pub(crate) fn rebuild(&mut self, around: &Circumstances<T>) {
         let grid = around.grid();
         self.elements.clear();
         self.is_rigid = [0, 1].map(|direction| around.is_rigid(direction));
@@ -202,12 +202,6 @@ impl<T: Number> Problem<T> {
     #[must_use]
     pub fn shared_slopes(&self) -> &[SharedSlope] {
         self.slopes.shared()
-    }
-
-    /// The unknown slope of a gripper along a direction, if it has one.
-    #[must_use]
-    pub fn shared_slope(&self, gripper: usize, direction: usize) -> Option<usize> {
-        self.slopes.shared_at(gripper, direction)
     }
 
     /// The edges around each gripper: `[direction][before, after]`.

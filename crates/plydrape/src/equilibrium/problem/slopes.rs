@@ -76,11 +76,6 @@ impl<T: Number> Slopes<T> {
         &self.shared
     }
 
-    /// The unknown slope of a gripper along a direction, if it has one.
-    pub fn shared_at(&self, gripper: usize, direction: usize) -> Option<usize> {
-        self.shared_at[gripper][direction]
-    }
-
     /// The edges around each gripper: `[direction][before, after]`.
     pub fn sides(&self) -> &[[[Side<T>; 2]; 2]] {
         &self.sides

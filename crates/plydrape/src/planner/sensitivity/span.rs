@@ -54,7 +54,7 @@ impl Sensitivity<'_> {
         Some(Quantity { value, gradient: self.row(element, 0).to_vec() })
     }
 
-    /// Way between its ends beyond its fabric length (m), see [`crate::measure::Misfit`]; negative is slack.
+    /// Path between its ends beyond its fabric length (m), see `docs/theory/measures.md`; negative is slack.
     #[must_use]
     pub fn overstretch(&self, span: &FreeSpan) -> Quantity {
         let mut gradient = self.zeros();
