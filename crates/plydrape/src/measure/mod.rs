@@ -72,35 +72,71 @@ pub enum Worth {
     Kept,
 }
 
+/// A measure's names, its unit, and how its limit counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Description {
+    /// Name of its limit in scenes and verdicts, `landing_shear`.
+    pub name: &'static str,
+    /// Its key among the measures of a step, the unit at its end where it has one, `landing_shear_deg`.
+    pub key: &'static str,
+    /// What it is called in tables and charts.
+    pub label: &'static str,
+    /// Unit of its values, and how they are shown.
+    pub unit: Unit,
+    /// Which way its limit bounds it.
+    pub sense: Sense,
+    /// When it counts.
+    pub scope: Scope,
+    /// What it is worth to stay below its limit.
+    pub worth: Worth,
+}
+
+impl Description {
+    /// Of a measure that is bounded from above in every step, and of which less is better.
+    const fn new(name: &'static str, key: &'static str, label: &'static str, unit: Unit) -> Self {
+        let (sense, scope, worth) = (Sense::AtMost, Scope::EveryStep, Worth::Less);
+        Description { name, key, label, unit, sense, scope, worth }
+    }
+}
+
 /// Something that is measured of a drape.
 pub trait Measure: Sync {
-    /// Name of its limit in scenes and verdicts, `landing_shear`.
-    fn name(&self) -> &'static str;
+    /// Its names, its unit, and how its limit counts.
+    fn description(&self) -> Description;
 
-    /// Its key among the measures of a step, the unit at its end where it has one, `landing_shear_deg`.
+    /// [`Description::name`].
+    fn name(&self) -> &'static str {
+        self.description().name
+    }
+
+    /// [`Description::key`].
     fn key(&self) -> &'static str {
-        self.name()
+        self.description().key
     }
 
-    /// What it is called in tables and charts.
-    fn label(&self) -> &'static str;
+    /// [`Description::label`].
+    fn label(&self) -> &'static str {
+        self.description().label
+    }
 
-    /// Unit of its values, and how they are shown.
-    fn unit(&self) -> Unit;
+    /// [`Description::unit`].
+    fn unit(&self) -> Unit {
+        self.description().unit
+    }
 
-    /// Which way its limit bounds it.
+    /// [`Description::sense`].
     fn sense(&self) -> Sense {
-        Sense::AtMost
+        self.description().sense
     }
 
-    /// When it counts.
+    /// [`Description::scope`].
     fn scope(&self) -> Scope {
-        Scope::EveryStep
+        self.description().scope
     }
 
-    /// What it is worth to stay below its limit.
+    /// [`Description::worth`].
     fn worth(&self) -> Worth {
-        Worth::Less
+        self.description().worth
     }
 
     /// Its limit in a scene, in its own unit; none where the scene sets none or it has no meaning there.

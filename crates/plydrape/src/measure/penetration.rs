@@ -3,7 +3,7 @@
 //! Grippers are followed along their straight paths from the step before: the distance from the mold changes by no more
 //! than the length of the path, so halving the path finds the deepest point.
 
-use super::{Found, Measure, Most, Site, State, TUNING, Unit};
+use super::{Description, Found, Measure, Most, Site, State, TUNING, Unit};
 use crate::draping::spans::Point;
 use crate::mold::vector::between;
 use crate::mold::{Mold, distance};
@@ -13,20 +13,8 @@ use crate::scene::Scene;
 pub struct Penetration;
 
 impl Measure for Penetration {
-    fn name(&self) -> &'static str {
-        "penetration"
-    }
-
-    fn key(&self) -> &'static str {
-        "penetration_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "penetration"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
+    fn description(&self) -> Description {
+        Description::new("penetration", "penetration_mm", "penetration", Unit::MILLIMETRE)
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

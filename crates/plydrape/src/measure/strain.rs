@@ -3,23 +3,15 @@
 //! The contact tolerance ε lets a point of the ply be ε off its place, and so changes a path of length s by up to ε²/2s. In a segment of ten
 //! tolerances that alone is 0.5 % of strain: for a shorter segment, ten tolerances take the place of its length.
 
-use super::{Found, Measure, Most, Site, State, TUNING, Unit};
+use super::{Description, Found, Measure, Most, Site, State, TUNING, Unit};
 use crate::scene::Scene;
 
 /// Local strain; see the head of this file.
 pub struct Strain;
 
 impl Measure for Strain {
-    fn name(&self) -> &'static str {
-        "strain"
-    }
-
-    fn label(&self) -> &'static str {
-        "local strain"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::SHARE
+    fn description(&self) -> Description {
+        Description::new("strain", "strain", "local strain", Unit::SHARE)
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
