@@ -113,9 +113,9 @@ fn drift(result: &ResultFile, along: impl Fn(f64) -> ([f64; 3], [f64; 3])) -> f6
     worst * 1e3
 }
 
-/// A strip that is rolled on along the exact tangents ends where its fabric belongs. Laid, not snapped: a
+/// A strip that is rolled on along the exact tangents ends where its fabric belongs. Fabric follows the mold over its own length: a
 /// trial of the model drifted 0.03, 0.035 and 0.04 mm in 30, 60 and 200 steps at 1 mm tolerance and
-/// 0.005 mm at 0.2 mm, where snapping each point to the mold drifted 0.1, 0.3 and 1.0 mm.
+/// 0.005 mm at 0.2 mm, where the projection of each point to the mold drifted 0.1, 0.3 and 1.0 mm.
 #[test]
 fn a_strip_rolled_on_a_parabola_lies_where_it_belongs_whatever_the_steps() {
     let along = |s| on_parabola(0.6, s);
@@ -304,7 +304,7 @@ fn a_sphere_as_a_formula_drapes_like_the_sphere() {
     }
 }
 
-/// Landing error of an edge of a dome at the end (mm), and the slack of its rests (mm).
+/// Landing error of an edge of a dome at the end (mm), and the slack of its free segments (mm).
 fn edge_off(result: &ResultFile, edge: usize) -> (f64, f64) {
     let edge = &result.steps.last().expect("steps").catenaries[edge];
     let contact = edge.contact.as_ref().expect("it has landed");

@@ -107,8 +107,8 @@ fn accounted(c: &CatenaryState) -> f64 {
             .map_or(0.0, |contact| contact.arc[1] - contact.arc[0])
 }
 
-/// Nothing is lost: contact and free lengths add up to the set length, and stay what they were once
-/// caught; spans hang in one piece from end to end; a contact segment lies on the mold.
+/// Contact and free lengths add up to the set length, and no longer change once the catenary is in
+/// contact; spans hang in one piece from end to end; a contact segment lies on the mold.
 fn check_record(result: &ResultFile) {
     for step in &result.steps {
         for (n, c) in step.catenaries.iter().enumerate() {
@@ -130,7 +130,7 @@ fn check_record(result: &ResultFile) {
                 for p in &contact.points {
                     assert!(mold.signed_distance(*p).abs() < 1e-9, "{place}: {p:?}");
                 }
-                // laid, not snapped: as long on the mold as in the fabric
+                // as long on the mold as in the fabric
                 let [a, b] = [contact.points[0], contact.points[1]];
                 let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
                 let arc = contact.arc[1] - contact.arc[0];

@@ -1,4 +1,4 @@
-//! Gap samples against brute force: what is not looked at is never missed, whatever was seen before.
+//! Gap samples against brute force: no touch is missed by the bounds, with and without earlier observations.
 
 use plydrape::catenary::{EndCondition, Profile, Span, SpanState};
 use plydrape::draping::gap::{GapSamples, Run};
@@ -9,7 +9,7 @@ use plydrape::mold::{
 };
 use std::sync::Arc;
 
-/// Intervals at whose ends a span is looked at.
+/// Intervals between the stations of a span.
 const INTERVALS: usize = 48;
 
 /// A number between 0 and 1 from a sequence without gaps (Weyl), a different one for each prime's root.
@@ -164,7 +164,7 @@ fn check(name: &str, span: &FreeSpan, mold: &Mold, tolerance: f64, gaps: &GapSam
     runs
 }
 
-/// Spans that come down on every mold, step by step, each look with and without what was seen before: the same
+/// Spans that come down on every mold, step by step, each sampled with and without earlier observations: the same
 /// samples that decide, and no station that touches is missed.
 #[test]
 fn every_station_that_touches_is_found_whatever_was_seen_before() {

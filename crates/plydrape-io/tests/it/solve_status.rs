@@ -1,4 +1,4 @@
-//! How a solve ends is told as it is: measured residuals, early ends, plies that cannot be solved, scaled copies.
+//! How a solve ends is reported as it is: measured residuals, early ends, plies that cannot be solved, scaled copies.
 
 use plydrape::catenary::{EndCondition, Profile};
 use plydrape::equilibrium::{Direction, End, Solver, Status, Tuning};
@@ -182,7 +182,7 @@ fn slope_residual(solver: &Solver, bound: f64) -> f64 {
         let gradient = (high - low) / (2.0 * h);
         let curvature = (high - 2.0 * middle + low) / (h * h);
         let held = slopes[j].abs() >= bound && gradient * slopes[j] < 0.0;
-        // differences of a large sum (of taut spans) say nothing
+        // differences of a large sum (of taut spans) are rounding
         let rounding = 1e-12 * middle / (h * h);
         if !held && curvature.abs() > 100.0 * rounding {
             worst = worst.max(if curvature > 0.0 { (gradient / curvature).abs() } else { 1.0 });
