@@ -370,11 +370,11 @@ fn random_net(seed: u64, rule: SlopeRule) -> (Ply, Vec<Point>, Settings) {
     (ply, positions, settings)
 }
 
-/// Random hanging nets: moments balance in every one, and least forces are found in 98 of 100. What is missing is at
-/// folds, section 9 of `docs/theory.md`, and is said to be no solution.
+/// Random hanging nets: moments balance in every one, and least forces are found in 99.5 of 100. The others are at
+/// folds, section 9 of `docs/theory/equilibrium.md`, and are reported as not converged.
 #[test]
 fn random_hanging_nets_are_solved_but_for_folds() {
-    for (rule, least) in [(SlopeRule::MinForce, 980), (SlopeRule::MomentBalance, 1000)] {
+    for (rule, least) in [(SlopeRule::MinForce, 995), (SlopeRule::MomentBalance, 1000)] {
         let converged = (0..1000).filter(|seed| {
             let (ply, positions, settings) = random_net(*seed, rule);
             let outcome = Solver::new(&ply, &settings).solve(&positions, &free(&ply));
@@ -382,6 +382,34 @@ fn random_hanging_nets_are_solved_but_for_folds() {
         });
         let converged = converged.count();
         assert!(converged >= least, "{rule:?}: {converged} of 1000");
+    }
+}
+
+/// Nets on which the line search ends at a fold of the force of a span, where the objective jumps (section 9 of
+/// `docs/theory/equilibrium.md`). The whole Newton steps of the last attempt cross the jump. In the state that they find the
+/// lengths are met, no slope has descent left by central differences, and the objective rises in random directions.
+#[test]
+fn whole_newton_steps_cross_the_folds_that_stop_a_line_search() {
+    let bound = 40f64.to_radians().tan();
+    for seed in [79, 292, 416, 488, 826, 1363, 1494, 1567, 1669, 1693, 1997, 2603, 2624, 2691, 3481]
+    {
+        let (ply, positions, settings) = random_net(seed, SlopeRule::MinForce);
+        let mut solver = Solver::new(&ply, &settings);
+        let outcome = solver.solve(&positions, &free(&ply));
+        assert_eq!(outcome.status, Status::Converged, "net {seed}: {outcome:?}");
+        assert!(outcome.early_ends.line_searches > 0, "net {seed}: {outcome:?}");
+        assert!(length_errors(&solver) <= 1e-8, "net {seed}: {outcome:?}");
+        let residual = slope_residual(&solver, bound);
+        assert!(residual > 0.0 && residual < 1e-6, "net {seed}: {residual}");
+        let mut random = random(seed);
+        let found = objective(&solver, solver.slopes());
+        for _ in 0..40 {
+            let moved = solver.slopes().iter().map(|s| (s + 1e-4 * random()).clamp(-bound, bound));
+            let moved: Vec<f64> = moved.collect();
+            // the objective is summed to about 1e-12 of itself
+            let rise = objective(&solver, &moved) - found;
+            assert!(rise > -1e-11 * found, "net {seed}: {rise} of {found}");
+        }
     }
 }
 

@@ -2,11 +2,11 @@
 //!
 //! [`Solver::solve`] is the paper's section 3: state the problem, iterate on the shared slopes by one of
 //! the two rules, read off the forces. Where that fails, as it may for stiff plies in compression, the ply is made
-//! limp and stiffened step by step.
+//! limp and stiffened step by step. The last attempt takes whole Newton steps without a line search.
 
 use super::min_force::MinForce;
 use super::moment_balance::MomentBalance;
-use super::newton::Newton;
+use super::newton::{Newton, StepLength};
 use super::problem::{Circumstances, End, Factors, Problem, heading};
 use super::rule::Rule;
 use super::state::State;
@@ -133,13 +133,13 @@ impl Solver {
     }
 
     /// Solves the stated problem directly, or where that fails by continuation in the stiffness, which follows the
-    /// hanging state to its like.
+    /// hanging state to its like, or at last by whole Newton steps from where the line search ended.
     fn follow(
         &mut self,
         positions: &[[f64; 3]],
         contacts: &[Option<ContactSegment>],
     ) -> Equilibrium {
-        let direct = self.attempt();
+        let direct = self.attempt(StepLength::LineSearch);
         if direct.status == Status::Converged {
             return direct;
         }
@@ -147,7 +147,7 @@ impl Solver {
         let mut counted = direct;
         let mut stiffened = |solver: &mut Solver, stiffness: f64| {
             solver.state_problem(positions, contacts, stiffness);
-            counted = counted.then(solver.attempt());
+            counted = counted.then(solver.attempt(StepLength::LineSearch));
             counted
         };
         self.warm_start.clear();
@@ -167,7 +167,12 @@ impl Solver {
             }
         }
         self.warm_start.clear();
-        stiffened(self, 1.0)
+        let cold = stiffened(self, 1.0);
+        if cold.status == Status::Converged {
+            return cold;
+        }
+        // a line search ends where the objective jumps at a fold, and whole steps cross it
+        cold.then(self.attempt(StepLength::Whole))
     }
 
     /// States the problem, with the flexural rigidity multiplied by `stiffness`.
@@ -190,11 +195,11 @@ impl Solver {
     }
 
     /// Solves the stated problem from the warm start.
-    fn attempt(&mut self) -> Equilibrium {
+    fn attempt(&mut self, step_length: StepLength) -> Equilibrium {
         let Solver { problem, state, rule, tuning, .. } = self;
         let bound = self.settings.max_tilt.tan();
         self.warm_start.start(problem, bound, state);
-        let outcome = self.newton.solve(rule.get(), problem, state, bound, tuning);
+        let outcome = self.newton.solve(rule.get(), problem, state, bound, step_length, tuning);
         self.warm_start.store(problem, state);
         outcome
     }

@@ -56,8 +56,8 @@ pub struct State {
     elements: Vec<Evaluation>,
     needs: Vec<Needs>,
     parabolas: Vec<Parabola>,
-    /// Ratio of a force to its parabola's, found last for an element of each likeness.
-    alike: [Option<f64>; Element::LIKENESSES],
+    /// Ratio of a force to its parabola's, found last for an element of each variant.
+    ratio_by_variant: [Option<f64>; Element::VARIANTS],
 }
 
 impl State {
@@ -70,7 +70,7 @@ impl State {
             elements: Vec::new(),
             needs: Vec::new(),
             parabolas: Vec::new(),
-            alike: [None; Element::LIKENESSES],
+            ratio_by_variant: [None; Element::VARIANTS],
         }
     }
 
@@ -96,7 +96,7 @@ impl State {
                 }
             }
         }
-        self.alike = [None; Element::LIKENESSES];
+        self.ratio_by_variant = [None; Element::VARIANTS];
         self.parabolas.clear();
         self.elements.clear();
         for element in &problem.elements {
@@ -172,7 +172,7 @@ impl State {
     }
 
     /// Whether no element's derivatives were extrapolated far; if not, the next evaluation renews them.
-    pub fn is_sharp(&self) -> bool {
+    pub fn is_exact(&self) -> bool {
         self.elements.iter().all(|element| element.found.extrapolation <= self.tuning.extrapolation)
     }
 
@@ -209,7 +209,7 @@ impl State {
                 evaluate_still(&span, guess, needs, &self.tuning)
             };
             let ratio = self.parabolas[n].ratio(found.force.value);
-            self.alike[element.likeness()] = Some(ratio).filter(|r| r.is_finite());
+            self.ratio_by_variant[element.variant()] = Some(ratio).filter(|r| r.is_finite());
             self.elements[n] = Evaluation { held: slopes, found, known: needs };
         }
     }
@@ -232,7 +232,8 @@ impl State {
     fn predict(&self, n: usize, element: &Element<f64>, slopes: [f64; 2]) -> Option<f64> {
         let Evaluation { held, found, .. } = &self.elements[n];
         if found.force.value.is_nan() {
-            return self.alike[element.likeness()].map(|ratio| self.parabolas[n].force(ratio));
+            return self.ratio_by_variant[element.variant()]
+                .map(|ratio| self.parabolas[n].force(ratio));
         }
         if held[0].is_nan() {
             return Some(found.force.value);

@@ -20,9 +20,9 @@ pub struct Circumstances<'a, T> {
     pub tuning: &'a Tuning,
     /// Positions of the grippers (m).
     pub positions: &'a [[T; 3]],
-    /// What of each catenary is in contact.
+    /// Contact segment of each catenary.
     pub contacts: &'a [Option<ContactSegment>],
-    /// What multiplies the ply's numbers: 1, but for their derivatives.
+    /// Factors on the numbers of the ply: 1, with their derivatives.
     pub factors: Factors<T>,
     /// Slopes at both ends of every element in the equilibrium without constraints, where it is known.
     pub free: &'a [[T; 2]],

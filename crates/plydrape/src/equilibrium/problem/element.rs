@@ -108,11 +108,11 @@ impl<T: Number> Element<T> {
 }
 
 impl Element<f64> {
-    /// Number of different [`Element::likeness`]es.
-    pub(crate) const LIKENESSES: usize = 12;
+    /// Number of different [`Element::variant`]s.
+    pub(crate) const VARIANTS: usize = 12;
 
-    /// Which elements are alike: of one class, with the same ends free.
-    pub(crate) fn likeness(&self) -> usize {
+    /// Elements of one class with the same ends free are of one variant: their forces are alike.
+    pub(crate) fn variant(&self) -> usize {
         let [first, second] = self.is_free().map(usize::from);
         4 * class(self.kind) + 2 * first + second
     }
