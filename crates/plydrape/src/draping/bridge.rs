@@ -7,6 +7,8 @@ use crate::mold::{Mold, distance};
 
 /// A touch away from the contact segment: the ply bridges the part of the mold between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Bridge {
     /// Place of the largest gap between segment and touch (m).
     pub place: Point,

@@ -35,19 +35,20 @@ impl Misfit {
     /// Fabric length beyond the path (m), not negative.
     #[must_use]
     pub fn slack(&self) -> f64 {
-        self.beyond_rounding(self.excess())
+        slack(self.excess(), self.whole)
     }
 
     /// Path beyond the fabric length (m), not negative.
     #[must_use]
     pub fn overstretch(&self) -> f64 {
-        self.beyond_rounding(-self.excess())
+        slack(-self.excess(), self.whole)
     }
+}
 
-    /// A length (m), or zero where it is negative or rounding; NaN stays NaN.
-    fn beyond_rounding(&self, length: f64) -> f64 {
-        if length <= TUNING.length_rounding * self.whole { 0.0 } else { length }
-    }
+/// Slack (m) of an excess of fabric (m) in a catenary of length `whole` (m): zero where the excess is negative or rounding; NaN
+/// stays NaN.
+pub fn slack(excess: f64, whole: f64) -> f64 {
+    if excess <= TUNING.length_rounding * whole { 0.0 } else { excess }
 }
 
 fn middle(a: Point, b: Point) -> Point {
@@ -96,17 +97,12 @@ pub fn lying_segments(
     if !contact.is_whole() && contact.hangs(0) && contact.hangs(1) {
         return Vec::new();
     }
-    let straight = |a, b| Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
-    let foot = |gripper: Point| {
-        let foot = mold.foot(gripper);
-        (foot.distance <= tolerance).then_some(foot.point)
-    };
     let fit = |length, path, line: &Strand| {
         let place = middle(line.points[0], line.end());
         Misfit { catenary, length, path, whole: contact.length, place }
     };
     if contact.is_whole() {
-        let line = match grippers.map(foot) {
+        let line = match grippers.map(|gripper| standing(gripper, mold, tolerance)) {
             [Some(a), Some(b)] => mold.path(a, b).unwrap_or_else(|| straight(a, b)),
             _ => straight(grippers[0], grippers[1]),
         };
@@ -114,12 +110,8 @@ pub fn lying_segments(
         return vec![LyingSegment { which: None, misfit, line }];
     }
     let segment = |which: usize| {
-        let end = contact.point()[which];
-        let gripper = foot(grippers[which]);
+        let (line, gripper) = taut(which, contact.point()[which], grippers[which], mold, tolerance);
         let place = gripper.unwrap_or(grippers[which]);
-        let [a, b] = if which == 0 { [place, end] } else { [end, place] };
-        let along = gripper.and_then(|_| mold.path(a, b));
-        let line = along.unwrap_or_else(|| straight(a, b));
         // behind the end the line leads back over the contact segment
         let behind = contact.is_behind(which, place);
         let path = match gripper {
@@ -134,4 +126,31 @@ pub fn lying_segments(
         }
     };
     (0..2).filter(|&which| !contact.hangs(which)).map(segment).collect()
+}
+
+/// The taut line before (0) or after (1) a contact segment that ends at `end`, from first to last, and the surface point
+/// that its gripper stands on; none for a gripper farther from the mold than `tolerance` (m), which pulls straight.
+#[must_use]
+pub fn taut(
+    which: usize,
+    end: Point,
+    gripper: Point,
+    mold: &Mold,
+    tolerance: f64,
+) -> (Strand, Option<Point>) {
+    let stands = standing(gripper, mold, tolerance);
+    let place = stands.unwrap_or(gripper);
+    let [a, b] = if which == 0 { [place, end] } else { [end, place] };
+    let along = stands.and_then(|_| mold.path(a, b));
+    (along.unwrap_or_else(|| straight(a, b)), stands)
+}
+
+/// The surface point that a gripper stands on, within a tolerance (m).
+fn standing(gripper: Point, mold: &Mold, tolerance: f64) -> Option<Point> {
+    let foot = mold.foot(gripper);
+    (foot.distance <= tolerance).then_some(foot.point)
+}
+
+fn straight(a: Point, b: Point) -> Strand {
+    Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] }
 }

@@ -8,7 +8,7 @@ pub(crate) mod attitude;
 mod bracket;
 mod bridge;
 mod contact;
-mod crossing;
+mod curves;
 #[doc(hidden)]
 pub mod gap;
 mod judged;
@@ -28,7 +28,8 @@ mod tuning;
 
 use crate::scene::Scene;
 pub(crate) use attitude::attitude;
-pub(crate) use crossing::hanging as stations;
+pub use curves::curves;
+pub(crate) use curves::hanging as stations;
 #[doc(hidden)]
 pub use judged::Judged;
 pub(crate) use judged::judge;

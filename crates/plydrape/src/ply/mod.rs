@@ -10,12 +10,14 @@ mod tuning;
 pub use contact_segment::{ContactSegment, LandedCell};
 pub use grid::{Catenary, Grid, GripperId, Kind};
 pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
-pub(crate) use ruck::Ruck;
+pub use ruck::Ruck;
 
 use crate::material::{Line, Material, Section};
 
 /// A rectangular woven ply held by a grid of grippers.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Ply {
     /// Grippers along u and v.
     pub grid: Grid,

@@ -20,7 +20,7 @@ const HEIGHT: f64 = 1.0 + COSINE + 0.5 * COSINE * HALF_WIDTH * HALF_WIDTH;
 
 /// A ruck of small slopes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Ruck {
+pub struct Ruck {
     /// Amplitude C (m).
     amplitude: f64,
     /// Wave number k (1/m).
