@@ -559,7 +559,7 @@ class Outcome:
     @property
     def overstretch(self, /) -> NDArray[float64]:
         """
-        Taut path of each catenary's tightest rest beyond its fabric (m), negative where it is slack, shape
+        Taut path of each catenary's tightest free segment beyond its fabric (m), negative where it is slack, shape
         (catenaries,): straight where it hangs, along the mold where it lies.
         """
     @property
@@ -816,7 +816,7 @@ class Result:
     @property
     def forces(self, /) -> NDArray[float64]:
         """
-        Horizontal force of each catenary (N), shape (steps, catenaries): of its rest that pulls or pushes most; of
+        Horizontal force of each catenary (N), shape (steps, catenaries): of its free segment that pulls or pushes most; of
         a stretched diagonal its shear force. nan where the model gives none.
         """
     @property
@@ -999,7 +999,7 @@ class Result:
     @property
     def slack_mm(self, /) -> NDArray[float64]:
         """
-        Slack of each catenary (mm), shape (steps, catenaries): all of its rests.
+        Slack of each catenary (mm), shape (steps, catenaries): all of its free segments.
         """
     @property
     def summary(self, /) -> dict[str, Any]:

@@ -66,11 +66,11 @@ fn span_length_with_slope(bencher: Bencher) {
 #[divan::bench]
 fn equilibrium_4x2_cold(bencher: Bencher) {
     let scene = example();
-    let laid = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.grid.catenaries()];
     let mut solver = Solver::new(&scene.ply, &scene.settings);
     bencher.bench_local(|| {
         solver.forget();
-        solver.solve(black_box(&scene.motion.positions[0]), &laid)
+        solver.solve(black_box(&scene.motion.positions[0]), &contacts)
     });
 }
 
@@ -78,25 +78,25 @@ fn equilibrium_4x2_cold(bencher: Bencher) {
 #[divan::bench]
 fn equilibrium_4x2_again(bencher: Bencher) {
     let scene = example();
-    let laid = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.grid.catenaries()];
     let mut solver = Solver::new(&scene.ply, &scene.settings);
-    bencher.bench_local(|| solver.solve(black_box(&scene.motion.positions[0]), &laid));
+    bencher.bench_local(|| solver.solve(black_box(&scene.motion.positions[0]), &contacts));
 }
 
 /// 24 equilibria, each from the step before: the example from step 2 to step 25, the last before contact.
 #[divan::bench]
 fn equilibria_4x2_warm_24_steps(bencher: Bencher) {
     let scene = example();
-    let laid = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.grid.catenaries()];
     bencher
         .with_inputs(|| {
             let mut solver = Solver::new(&scene.ply, &scene.settings);
-            solver.solve(&scene.motion.positions[0], &laid);
+            solver.solve(&scene.motion.positions[0], &contacts);
             solver
         })
         .bench_local_values(|mut solver| {
             for positions in &scene.motion.positions[1..25] {
-                solver.solve(black_box(positions), &laid);
+                solver.solve(black_box(positions), &contacts);
             }
             solver
         });
@@ -106,13 +106,13 @@ fn equilibria_4x2_warm_24_steps(bencher: Bencher) {
 #[divan::bench]
 fn equilibrium_4x2_warm_steps_1_2(bencher: Bencher) {
     let scene = example();
-    let laid = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.grid.catenaries()];
     let mut solver = Solver::new(&scene.ply, &scene.settings);
-    solver.solve(&scene.motion.positions[0], &laid);
+    solver.solve(&scene.motion.positions[0], &contacts);
     let mut step = 0;
     bencher.bench_local(|| {
         step = 1 - step;
-        solver.solve(black_box(&scene.motion.positions[step]), &laid)
+        solver.solve(black_box(&scene.motion.positions[step]), &contacts)
     });
 }
 
@@ -120,10 +120,10 @@ fn equilibrium_4x2_warm_steps_1_2(bencher: Bencher) {
 #[divan::bench(args = [25, 50, 100, 200], sample_count = 5, sample_size = 1)]
 fn array_min_force_cold(bencher: Bencher, side: usize) {
     let (mut solver, positions, catenaries) = array(side, SlopeRule::MinForce);
-    let laid = vec![None; catenaries];
+    let contacts = vec![None; catenaries];
     bencher.bench_local(|| {
         solver.forget();
-        solver.solve(black_box(&positions), &laid)
+        solver.solve(black_box(&positions), &contacts)
     });
 }
 
@@ -131,10 +131,10 @@ fn array_min_force_cold(bencher: Bencher, side: usize) {
 #[divan::bench(args = [25, 50, 100, 200], sample_count = 5, sample_size = 1)]
 fn array_moment_balance_cold(bencher: Bencher, side: usize) {
     let (mut solver, positions, catenaries) = array(side, SlopeRule::MomentBalance);
-    let laid = vec![None; catenaries];
+    let contacts = vec![None; catenaries];
     bencher.bench_local(|| {
         solver.forget();
-        solver.solve(black_box(&positions), &laid)
+        solver.solve(black_box(&positions), &contacts)
     });
 }
 

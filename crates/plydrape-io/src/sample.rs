@@ -9,7 +9,7 @@ use plydrape::material::{Material, Section};
 use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
 use plydrape::ply::{Catenary, Direction, Grid, Kind, Ply};
-use plydrape::scene::{Contact, ContactEnd, Limits, Settings, SlopeRule, Stepping, Target};
+use plydrape::scene::{ContactEnd, ContactSettings, Limits, Settings, SlopeRule, Stepping, Target};
 
 const CELL: f64 = 0.1;
 const SPACING: f64 = 0.098;
@@ -247,7 +247,7 @@ fn frame(grid: Grid) -> ResultFile {
                 axial_stiffness: 1e5,
                 gravity: 9.8,
                 max_tilt: 0.7,
-                contact: Contact {
+                contact: ContactSettings {
                     tolerance: 0.001,
                     stepping: Stepping::Once,
                     end: ContactEnd::Free,

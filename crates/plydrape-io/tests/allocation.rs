@@ -15,21 +15,21 @@ fn a_second_solve_allocates_nothing() {
     let path =
         concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/01_flat_sheared_mold/scene.toml");
     let scene = plydrape_io::scene::read(Path::new(path)).expect("a shipped scene").scene;
-    let laid = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.grid.catenaries()];
     for rule in [SlopeRule::MinForce, SlopeRule::MomentBalance] {
         let mut settings = scene.settings;
         settings.slopes = rule;
         let mut solver = Solver::new(&scene.ply, &settings);
         for positions in &scene.motion.positions[..6] {
-            solver.solve(positions, &laid);
+            solver.solve(positions, &contacts);
         }
         let region = Region::new(ALLOCATOR);
         let mut iterations = 0;
         for positions in &scene.motion.positions[..6] {
-            iterations += solver.solve(positions, &laid).iterations;
+            iterations += solver.solve(positions, &contacts).iterations;
         }
         solver.forget();
-        iterations += solver.solve(&scene.motion.positions[0], &laid).iterations;
+        iterations += solver.solve(&scene.motion.positions[0], &contacts).iterations;
         let change = region.change();
         assert!(iterations > 10, "{rule:?}: {iterations}");
         assert_eq!((change.allocations, change.reallocations), (0, 0), "{rule:?}");

@@ -190,10 +190,10 @@ pub fn equilibria(
     let pool = pool(threads)?;
     let grid = ply.grid;
     let found = run(py, progress, move |watch| {
-        let laid = vec![None; grid.catenaries()];
+        let contacts = vec![None; grid.catenaries()];
         let solve = |solver: &mut plydrape::equilibrium::Solver, positions: &Vec<[f64; 3]>| {
             solver.forget();
-            let equilibrium = solver.solve(positions, &laid);
+            let equilibrium = solver.solve(positions, &contacts);
             let mut found = Found {
                 status: equilibrium.status,
                 iterations: equilibrium.iterations,

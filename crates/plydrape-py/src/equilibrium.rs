@@ -201,8 +201,8 @@ impl Equilibrium {
         }
         let tangents = py.detach(|| {
             let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-            let State { solver, laid, .. } = &mut *state;
-            let mut linearized = solver.linearize(&self.positions, laid);
+            let State { solver, contacts, .. } = &mut *state;
+            let mut linearized = solver.linearize(&self.positions, contacts);
             directions.iter().map(|direction| linearized.along(direction)).collect()
         });
         let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);

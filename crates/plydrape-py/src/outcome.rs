@@ -99,7 +99,7 @@ impl Outcome {
         self.result.clone()
     }
 
-    /// Taut path of each catenary's tightest rest beyond its fabric (m), negative where it is slack, shape
+    /// Taut path of each catenary's tightest free segment beyond its fabric (m), negative where it is slack, shape
     /// (catenaries,): straight where it hangs, along the mold where it lies.
     #[getter]
     fn overstretch(&self) -> Array<f64> {

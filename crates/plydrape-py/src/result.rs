@@ -217,7 +217,7 @@ impl Result {
         self.grippers(|gripper| [gripper.tilt_deg])
     }
 
-    /// Horizontal force of each catenary (N), shape (steps, catenaries): of its rest that pulls or pushes most; of
+    /// Horizontal force of each catenary (N), shape (steps, catenaries): of its free segment that pulls or pushes most; of
     /// a stretched diagonal its shear force. nan where the model gives none.
     #[getter]
     fn forces(&self) -> Array<f64> {
@@ -228,7 +228,7 @@ impl Result {
         })
     }
 
-    /// Slack of each catenary (mm), shape (steps, catenaries): all of its rests.
+    /// Slack of each catenary (mm), shape (steps, catenaries): all of its free segments.
     #[getter]
     fn slack_mm(&self) -> Array<f64> {
         self.catenaries(|c| c.spans.iter().map(|span| span.slack_mm(c.length)).sum())

@@ -9,8 +9,8 @@ use crate::ply::Ply;
 use crate::scene::Scene;
 use plydrape::draping::spans::shape;
 use plydrape::equilibrium::{self, Status};
-use plydrape::ply::{self, Laid, shear};
-use plydrape::scene::{Contact, Settings, SlopeRule};
+use plydrape::ply::{self, ContactSegment, shear};
+use plydrape::scene::{ContactSettings, Settings, SlopeRule};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -44,7 +44,7 @@ pub struct Solver(Mutex<State>);
 pub struct State {
     pub solver: equilibrium::Solver,
     pub ply: Arc<ply::Ply>,
-    pub laid: Arc<[Option<Laid>]>,
+    pub contacts: Arc<[Option<ContactSegment>]>,
 }
 
 impl State {
@@ -52,7 +52,7 @@ impl State {
         State {
             solver: equilibrium::Solver::new(ply, settings),
             ply: Arc::new(ply.clone()),
-            laid: vec![None; ply.grid.catenaries()].into(),
+            contacts: vec![None; ply.grid.catenaries()].into(),
         }
     }
 }
@@ -109,7 +109,7 @@ impl Solver {
                 return Err(PyValueError::new_err(text));
             }
         }
-        let contact = Contact::default();
+        let contact = ContactSettings::default();
         let settings = Settings { slopes, axial_stiffness, gravity, max_tilt, contact };
         Ok(Solver(Mutex::new(State::new(&ply.0, &settings))))
     }
@@ -159,8 +159,8 @@ impl Solver {
         let mut state = self.state();
         let fault = state.ply.check_places(&positions);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
-        let laid = Arc::clone(&state.laid);
-        let outcome = state.solver.solve(&positions, &laid);
+        let contacts = Arc::clone(&state.contacts);
+        let outcome = state.solver.solve(&positions, &contacts);
         if check && outcome.status != Status::Converged {
             let (status, residual) = (outcome.status.name(), outcome.residual);
             let text = format!(
@@ -171,7 +171,7 @@ impl Solver {
             return Err(error::solve(&text, status, outcome.iterations, residual));
         }
         let state = state.clone();
-        let shape = shape(&state.ply, &state.solver, outcome, &positions, &laid);
+        let shape = shape(&state.ply, &state.solver, outcome, &positions, &contacts);
         Ok(Equilibrium { state: Mutex::new(state), positions, shape })
     }
 }

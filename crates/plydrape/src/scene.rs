@@ -12,9 +12,9 @@ use std::sync::Arc;
 pub struct Scene {
     /// Name for reports.
     pub title: String,
-    /// What hangs between the grippers.
+    /// The ply between the grippers.
     pub ply: Ply,
-    /// What it is laid on; a ply may also just hang.
+    /// The mold; none for a ply that only hangs.
     pub mold: Option<Mold>,
     /// Where the grippers are in every step.
     pub motion: Motion,
@@ -22,7 +22,7 @@ pub struct Scene {
     pub target: Option<Target>,
     /// Rules of the model.
     pub settings: Settings,
-    /// What an accepted drape keeps to.
+    /// Limits of an accepted drape.
     pub limits: Limits,
     /// How a motion is planned, where none is followed.
     pub plan: Plan,
@@ -37,7 +37,7 @@ pub struct Plan {
     /// Steps of the planned motion, the start being the first; of the stepwise planner the most it may take.
     pub steps: usize,
     /// Farthest that a gripper may move in one step (m); the stepwise planner needs one and takes a share of
-    /// its way unless given.
+    /// its distance to go where there is none.
     pub move_limit: Option<f64>,
     /// Seed of the search.
     pub seed: u64,
@@ -102,7 +102,7 @@ pub struct Settings {
     /// Limit of the ball joints: largest gripper tilt (rad).
     pub max_tilt: f64,
     /// How contact is found.
-    pub contact: Contact,
+    pub contact: ContactSettings,
 }
 
 /// Of new scenes: moments are passed on at ball joints that tilt by 40° at most, EA = 100 kN, g = 9.81 m/s².
@@ -113,7 +113,7 @@ impl Default for Settings {
             axial_stiffness: 1e5,
             gravity: 9.81,
             max_tilt: 40_f64.to_radians(),
-            contact: Contact::default(),
+            contact: ContactSettings::default(),
         }
     }
 }
@@ -145,18 +145,18 @@ pub enum SlopeRule {
 /// How contact between ply and mold is found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Contact {
+pub struct ContactSettings {
     /// Distance that counts as touching (m).
     pub tolerance: f64,
-    /// Once per step, or with steps cut where the ply would dip deeper than the tolerance.
+    /// Once per step, or with steps cut where the ply would penetrate the mold deeper than the tolerance.
     pub stepping: Stepping,
     /// Slope of a span where it leaves the mold.
     pub end: ContactEnd,
 }
 
-impl Default for Contact {
+impl Default for ContactSettings {
     fn default() -> Self {
-        Contact { tolerance: 2e-4, stepping: Stepping::Cut, end: ContactEnd::Free }
+        ContactSettings { tolerance: 2e-4, stepping: Stepping::Cut, end: ContactEnd::Free }
     }
 }
 
@@ -167,7 +167,7 @@ impl Default for Contact {
 pub enum Stepping {
     /// Once per step, as in the paper.
     Once,
-    /// A step that would carry a point deeper than the tolerance is halved until it does not.
+    /// A step that would move a point deeper than the tolerance is halved until it does not.
     Cut,
 }
 
@@ -182,14 +182,14 @@ pub enum ContactEnd {
     Tangent,
 }
 
-/// What an accepted drape keeps to.
+/// Limits of an accepted drape.
 ///
 /// Overstretch, strain, penetration, tilt and its rate, shear, forces and loads are judged in every step of every
 /// scene; slack, bridging, landing errors and contact share at the end of scenes with a [`Target`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
-    /// Slack of a catenary, all its rests, as a share of its length.
+    /// Slack of a catenary, all its free segments, as a share of its length.
     pub slack_ratio: f64,
     /// Bridging gap (m).
     pub bridging: f64,
@@ -217,7 +217,7 @@ pub struct Limits {
     pub force: Option<f64>,
     /// Vertical load that one gripper holds (N).
     pub gripper_load: f64,
-    /// Pull in the plane of the ply at one gripper (N).
+    /// Horizontal pull (pretension) at one gripper (N).
     pub gripper_pull: Option<f64>,
     /// Share of the ply's edges that lies on the mold.
     pub contact_share: f64,

@@ -11,7 +11,9 @@ use super::{SceneFile, material, mold, named, start, target};
 use crate::{shown, size};
 use plydrape::mold::Mold;
 use plydrape::ply::{Direction, Grid, Ply};
-use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Settings, SlopeRule, Stepping, Target};
+use plydrape::scene::{
+    ContactEnd, ContactSettings, Motion, Scene, Settings, SlopeRule, Stepping, Target,
+};
 use std::ops::Range;
 use std::path::Path;
 
@@ -236,7 +238,7 @@ fn settings(file: &SceneKeys, ply: &Ply, document: &Document) -> Result<Settings
         axial_stiffness,
         gravity,
         max_tilt: usual.max_tilt,
-        contact: Contact {
+        contact: ContactSettings {
             tolerance,
             stepping: match contact.stepping {
                 Some(SteppingKey::Once) => Stepping::Once,

@@ -2,8 +2,8 @@
 
 use plydrape::equilibrium::{Direction, Solver, Status, heading};
 use plydrape::material::{Material, Section};
-use plydrape::ply::{Direction as Along, Grid, Laid, Ply, shear};
-use plydrape::scene::{Contact, ContactEnd, Settings, SlopeRule, Stepping};
+use plydrape::ply::{ContactSegment, Direction as Along, Grid, Ply, shear};
+use plydrape::scene::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
 
 type Point = [f64; 3];
 
@@ -31,11 +31,15 @@ fn settings(slopes: SlopeRule) -> Settings {
         axial_stiffness: 1e5,
         gravity: 9.8,
         max_tilt: 40f64.to_radians(),
-        contact: Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free },
+        contact: ContactSettings {
+            tolerance: 1e-3,
+            stepping: Stepping::Once,
+            end: ContactEnd::Free,
+        },
     }
 }
 
-fn free(ply: &Ply) -> Vec<Option<Laid>> {
+fn free(ply: &Ply) -> Vec<Option<ContactSegment>> {
     vec![None; ply.grid.catenaries()]
 }
 
@@ -250,7 +254,7 @@ fn derivatives_in_the_onset_agree_with_central_differences() {
         for (nu, nv, angle) in [(2, 2, 4.0f64), (3, 2, 4.4), (4, 3, 3.9)] {
             let ply = ply(nu, nv);
             let positions = crooked(ply.grid, angle.to_radians());
-            let laid = free(&ply);
+            let contacts = free(&ply);
             let count = ply.grid.grippers();
             let mut direction = Direction::none(count);
             for n in 0..count {
@@ -263,14 +267,14 @@ fn derivatives_in_the_onset_agree_with_central_differences() {
                     .map(|(p, v)| [0, 1, 2].map(|k| p[k] + h * v[k]))
                     .collect();
                 let mut solver = Solver::new(&ply, &settings(rule));
-                let outcome = solver.solve(&moved, &laid);
+                let outcome = solver.solve(&moved, &contacts);
                 assert_eq!(outcome.status, Status::Converged, "{outcome:?}");
                 (solver, moved)
             };
             let h = 2e-5;
             let ((middle, _), (low, below), (high, above)) = (solved(0.0), solved(-h), solved(h));
             assert!(middle.problem().is_partly_constrained(), "not in the onset");
-            let mut linearized = middle.linearize(&positions, &laid);
+            let mut linearized = middle.linearize(&positions, &contacts);
             let tangent = linearized.along(&direction);
             assert!(tangent.is_sound && linearized.is_sound());
             let close = |found: f64, low: f64, high: f64, scale: f64| {

@@ -8,7 +8,7 @@ use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::{EdgeRule, Generators, Layup, Net};
 use plydrape::ply::Kind;
-use plydrape::scene::{Contact, ContactEnd, Motion, Scene, SlopeRule, Stepping, Target};
+use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, SlopeRule, Stepping, Target};
 use plydrape_io::result::ResultFile;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -100,8 +100,8 @@ fn accounted(c: &CatenaryState) -> f64 {
     spans + c.contact.as_ref().filter(|_| !whole).map_or(0.0, |contact| contact.length())
 }
 
-/// Nothing is lost: contact and free lengths add up to the set length, and stay what they were once
-/// caught; spans hang in one piece from end to end; a contact segment lies on the mold.
+/// Contact and free lengths add up to the set length, and no longer change once the catenary is in
+/// contact; spans hang in one piece from end to end; a contact segment lies on the mold.
 fn check_record(result: &ResultFile) {
     for step in &result.steps {
         for (n, c) in step.catenaries.iter().enumerate() {
@@ -123,7 +123,7 @@ fn check_record(result: &ResultFile) {
                 for p in &contact.points {
                     assert!(mold.signed_distance(*p).abs() < 1e-9, "{place}: {p:?}");
                 }
-                // laid, not snapped: as long on the mold as in the fabric
+                // as long on the mold as in the fabric
                 let [a, b] = [contact.points[0], contact.points[1]];
                 let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
                 let arc = contact.length();
@@ -150,7 +150,7 @@ fn contact_and_free_lengths_always_add_up() {
     for stepping in [Stepping::Once, Stepping::Cut] {
         for end in [ContactEnd::Free, ContactEnd::Tangent] {
             let mut scene = example("01_flat_sheared_mold");
-            scene.settings.contact = Contact { tolerance: 5e-4, stepping, end };
+            scene.settings.contact = ContactSettings { tolerance: 5e-4, stepping, end };
             check_record(&drape(&scene));
         }
     }
@@ -194,7 +194,7 @@ fn contact_converges_in_steps_and_tolerance() {
     let strip = |steps: usize, tolerance: f64, stepping: Stepping| {
         let mut scene = example("02_hanging_strip");
         scene.mold = example("01_flat_sheared_mold").mold;
-        scene.settings.contact = Contact { tolerance, stepping, end: ContactEnd::Free };
+        scene.settings.contact = ContactSettings { tolerance, stepping, end: ContactEnd::Free };
         let at = |t: f64| vec![[0.0, 0.0, 0.012 - 0.008 * t], [0.098, 0.0, 0.012 - 0.006 * t]];
         scene.motion = Motion {
             times: (0..steps).map(|n| n as f64).collect(),
@@ -216,7 +216,7 @@ fn contact_converges_in_steps_and_tolerance() {
     let mut scene = example("02_hanging_strip");
     scene.mold = example("01_flat_sheared_mold").mold;
     scene.settings.contact =
-        Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free };
+        ContactSettings { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free };
     let still = vec![[0.0, 0.0, 0.006], [0.098, 0.0, 0.006]];
     scene.motion = Motion { times: (0..60).map(f64::from).collect(), positions: vec![still; 60] };
     let result = drape(&scene);
@@ -297,7 +297,7 @@ proptest! {
         }
         scene.settings.axial_stiffness = ea;
         scene.settings.slopes = rule;
-        scene.settings.contact = Contact { tolerance: 1e-3, stepping, end };
+        scene.settings.contact = ContactSettings { tolerance: 1e-3, stepping, end };
         let normal = [tilt.sin(), 0.0, tilt.cos()];
         scene.mold = has_mold.then_some(plydrape::mold::Mold::Plane(plydrape::mold::Plane { point: [0.0; 3], normal }));
         let place = |step: usize| (0..grid.grippers()).map(|n| {

@@ -5,7 +5,7 @@ use plydrape::catenary::Profile;
 use plydrape::equilibrium::{Direction, End, Property, Solver, Status};
 use plydrape::material::{Material, Section};
 use plydrape::ply::{Direction as Along, Grid, Kind, Ply};
-use plydrape::scene::{Contact, ContactEnd, Settings, SlopeRule, Stepping};
+use plydrape::scene::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -31,7 +31,11 @@ fn settings(slopes: SlopeRule, axial_stiffness: f64, max_tilt_deg: f64) -> Setti
         axial_stiffness,
         gravity: 9.8,
         max_tilt: max_tilt_deg.to_radians(),
-        contact: Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free },
+        contact: ContactSettings {
+            tolerance: 1e-3,
+            stepping: Stepping::Once,
+            end: ContactEnd::Free,
+        },
     }
 }
 
@@ -129,7 +133,7 @@ fn norm_at(solver: &Solver, slopes: &[f64]) -> f64 {
                 End::Shared(j) => slopes[j],
                 End::Plane(plane) => {
                     let at = |source| match source {
-                        plydrape::equilibrium::SlopeSource::Given(s) => s,
+                        plydrape::equilibrium::SlopeSource::Prescribed(s) => s,
                         plydrape::equilibrium::SlopeSource::Shared(j) => slopes[j],
                         plydrape::equilibrium::SlopeSource::Outcome(e, k) => {
                             let pair: [f64; 2] = outcome[e];
@@ -164,9 +168,9 @@ proptest! {
     /// (moment-balance).
     #[test]
     fn an_equilibrium_satisfies_its_rule((ply, positions) in any_array(), settings in any_rule()) {
-        let laid = vec![None; ply.grid.catenaries()];
+        let contacts = vec![None; ply.grid.catenaries()];
         let mut solver = Solver::new(&ply, &settings);
-        let outcome = solver.solve(&positions, &laid);
+        let outcome = solver.solve(&positions, &contacts);
         prop_assert_eq!(outcome.status, Status::Converged, "{:?}", outcome);
         prop_assert!(outcome.residual < 1e-8);
         for n in 0..solver.problem().elements.len() {
@@ -214,12 +218,12 @@ proptest! {
     /// A warm start reaches the same state as a cold one.
     #[test]
     fn a_warm_start_changes_nothing((ply, positions) in any_array(), settings in any_rule()) {
-        let laid = vec![None; ply.grid.catenaries()];
+        let contacts = vec![None; ply.grid.catenaries()];
         let mut warm = Solver::new(&ply, &settings);
-        warm.solve(&level(ply.grid, 0.097), &laid);
-        let first = warm.solve(&positions, &laid);
+        warm.solve(&level(ply.grid, 0.097), &contacts);
+        let first = warm.solve(&positions, &contacts);
         let mut cold = Solver::new(&ply, &settings);
-        let second = cold.solve(&positions, &laid);
+        let second = cold.solve(&positions, &contacts);
         prop_assert_eq!((first.status, second.status), (Status::Converged, Status::Converged), "{:?} {:?}", first, second);
         for (a, b) in warm.slopes().iter().zip(cold.slopes()) {
             prop_assert!((a - b).abs() < 1e-7, "{a} {b}");
@@ -238,7 +242,7 @@ proptest! {
         random in prop::collection::vec(-1.0..1.0, 3 * 30),
         others in (prop::array::uniform2(-1.0..1.0), prop::array::uniform3(-1.0..1.0)),
     ) {
-        let laid = vec![None; ply.grid.catenaries()];
+        let contacts = vec![None; ply.grid.catenaries()];
         let count = ply.grid.grippers();
         let ([mass, rigidity], [along_u, along_v, _]) = others;
         let Section::Line { mass: m, flexural_rigidity: ei } = ply.material.section else { panic!() };
@@ -269,7 +273,7 @@ proptest! {
             let moved: Vec<_> = positions.iter().zip(&direction.grippers)
                 .map(|(p, v)| [0, 1, 2].map(|k| p[k] + h * v[k])).collect();
             let mut solver = Solver::new(&ply, &settings);
-            let outcome = solver.solve(&moved, &laid);
+            let outcome = solver.solve(&moved, &contacts);
             (solver, outcome)
         };
         let h = 1e-5;
@@ -286,7 +290,7 @@ proptest! {
         // min-force may have several minima (mirror images in a symmetric ply): all on one of them
         let jump = low.slopes().iter().zip(high.slopes()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         prop_assume!(jump < 0.01);
-        let tangent = middle.tangent(&positions, &laid, &direction);
+        let tangent = middle.tangent(&positions, &contacts, &direction);
         for (j, slope) in tangent.slopes.iter().enumerate() {
             let difference = (high.slopes()[j] - low.slopes()[j]) / (2.0 * h);
             prop_assert!((slope - difference).abs() < 1e-4 * (1.0 + difference.abs()), "slope {j}: {slope} {difference}");

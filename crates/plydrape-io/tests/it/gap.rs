@@ -1,14 +1,15 @@
-//! Gap samples against brute force: what is not looked at is never missed, whatever was seen before.
+//! Gap samples against brute force: no touch is missed by the bounds, with and without earlier observations.
 
 use plydrape::catenary::{EndCondition, Profile, Span, SpanState};
-use plydrape::draping::gap::{GapMemory, GapSamples, Run};
+use plydrape::draping::gap::{GapSamples, Run};
+use plydrape::draping::sampling::GapCache;
 use plydrape::draping::spans::FreeSpan;
 use plydrape::mold::{
     Cylinder, Face, Graph, HeightGrid, Mold, Plane, Pose, Saddle, Sphere, Surface,
 };
 use std::sync::Arc;
 
-/// Intervals at whose ends a span is looked at.
+/// Intervals between the stations of a span.
 const INTERVALS: usize = 48;
 
 /// A number between 0 and 1 from a sequence without gaps (Weyl), a different one for each prime's root.
@@ -115,7 +116,7 @@ fn span(mold: &Mold, n: usize, above: f64, scale: f64) -> FreeSpan {
     FreeSpan {
         curve: std::sync::OnceLock::new(),
         catenary: 0,
-        rest: 0,
+        segment: 0,
         element: None,
         ends,
         length,
@@ -163,7 +164,7 @@ fn check(name: &str, span: &FreeSpan, mold: &Mold, tolerance: f64, gaps: &GapSam
     runs
 }
 
-/// Spans that come down on every mold, step by step, each look with and without what was seen before: the same
+/// Spans that come down on every mold, step by step, each sampled with and without earlier observations: the same
 /// samples that decide, and no station that touches is missed.
 #[test]
 fn every_station_that_touches_is_found_whatever_was_seen_before() {
@@ -171,12 +172,12 @@ fn every_station_that_touches_is_found_whatever_was_seen_before() {
     for (name, mold) in molds(1.0) {
         let (mut touched, mut free) = (0, 0);
         for n in 1..60 {
-            let mut memory = GapMemory::new(Some(&mold), 1);
+            let mut cache = GapCache::new(Some(&mold), 1);
             for step in 0..24 {
                 // down, with a jump in the middle, and up again
                 let above = 0.03 - 0.0025 * f64::from(step.min(30 - step)) - 5e-5 * n as f64;
                 let span = span(&mold, n, above, 1.0);
-                let gaps = memory.samples(&span, &mold, tolerance);
+                let gaps = cache.samples(&span, &mold, tolerance);
                 let runs = check(name, &span, &mold, tolerance, &gaps);
                 let fresh = GapSamples::new(&span, &mold, tolerance);
                 assert_eq!(runs, fresh.runs(&span, &mold, tolerance), "{name} {n} {step}");

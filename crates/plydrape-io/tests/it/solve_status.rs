@@ -1,10 +1,10 @@
-//! How a solve ends is told as it is: measured residuals, early ends, plies that cannot be solved, scaled copies.
+//! How a solve ends is reported as it is: measured residuals, early ends, plies that cannot be solved, scaled copies.
 
 use plydrape::catenary::{EndCondition, Profile};
 use plydrape::equilibrium::{Direction, End, Solver, Status, Tuning};
 use plydrape::material::{Material, Section};
-use plydrape::ply::{Direction as Along, Grid, Laid, Ply};
-use plydrape::scene::{Contact, ContactEnd, Settings, SlopeRule, Stepping};
+use plydrape::ply::{ContactSegment, Direction as Along, Grid, Ply};
+use plydrape::scene::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
 
 type Point = [f64; 3];
 
@@ -31,11 +31,15 @@ fn settings(slopes: SlopeRule, axial_stiffness: f64) -> Settings {
         axial_stiffness,
         gravity: 9.8,
         max_tilt: 40f64.to_radians(),
-        contact: Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free },
+        contact: ContactSettings {
+            tolerance: 1e-3,
+            stepping: Stepping::Once,
+            end: ContactEnd::Free,
+        },
     }
 }
 
-fn free(ply: &Ply) -> Vec<Option<Laid>> {
+fn free(ply: &Ply) -> Vec<Option<ContactSegment>> {
     vec![None; ply.grid.catenaries()]
 }
 
@@ -141,7 +145,7 @@ fn objective(solver: &Solver, slopes: &[f64]) -> f64 {
                 End::Shared(j) => slopes[j],
                 End::Plane(plane) => {
                     let at = |source| match source {
-                        plydrape::equilibrium::SlopeSource::Given(s) => s,
+                        plydrape::equilibrium::SlopeSource::Prescribed(s) => s,
                         plydrape::equilibrium::SlopeSource::Shared(j) => slopes[j],
                         plydrape::equilibrium::SlopeSource::Outcome(e, k) => {
                             let pair: [f64; 2] = outcome[e];
@@ -178,7 +182,7 @@ fn slope_residual(solver: &Solver, bound: f64) -> f64 {
         let gradient = (high - low) / (2.0 * h);
         let curvature = (high - 2.0 * middle + low) / (h * h);
         let held = slopes[j].abs() >= bound && gradient * slopes[j] < 0.0;
-        // differences of a large sum (of taut spans) say nothing
+        // differences of a large sum (of taut spans) are rounding
         let rounding = 1e-12 * middle / (h * h);
         if !held && curvature.abs() > 100.0 * rounding {
             worst = worst.max(if curvature > 0.0 { (gradient / curvature).abs() } else { 1.0 });
@@ -334,8 +338,8 @@ fn derivatives_of_a_state_that_is_no_minimum_are_not_sound() {
         for rule in RULES {
             let mut solver = Solver::new(&ply, &settings(rule, 1e5)).with_tuning(tuning);
             solver.solve(&positions, &free(&ply));
-            let laid = free(&ply);
-            let mut linearized = solver.linearize(&positions, &laid);
+            let contacts = free(&ply);
+            let mut linearized = solver.linearize(&positions, &contacts);
             linearized.along(&Direction::gripper(&ply, 1, 2));
             unsound += u32::from(!linearized.is_sound());
         }
@@ -366,11 +370,11 @@ fn random_net(seed: u64, rule: SlopeRule) -> (Ply, Vec<Point>, Settings) {
     (ply, positions, settings)
 }
 
-/// Random hanging nets: moments balance in every one, and least forces are found in 98 of 100. What is missing is at
-/// folds, section 9 of `docs/theory.md`, and is said to be no solution.
+/// Random hanging nets: moments balance in every one, and least forces are found in 99.5 of 100. The others are at
+/// folds, section 9 of `docs/theory/equilibrium.md`, and are reported as not converged.
 #[test]
 fn random_hanging_nets_are_solved_but_for_folds() {
-    for (rule, least) in [(SlopeRule::MinForce, 980), (SlopeRule::MomentBalance, 1000)] {
+    for (rule, least) in [(SlopeRule::MinForce, 995), (SlopeRule::MomentBalance, 1000)] {
         let converged = (0..1000).filter(|seed| {
             let (ply, positions, settings) = random_net(*seed, rule);
             let outcome = Solver::new(&ply, &settings).solve(&positions, &free(&ply));
@@ -378,5 +382,51 @@ fn random_hanging_nets_are_solved_but_for_folds() {
         });
         let converged = converged.count();
         assert!(converged >= least, "{rule:?}: {converged} of 1000");
+    }
+}
+
+/// Nets on which the line search ends at a fold of the force of a span, where the objective jumps (section 9 of
+/// `docs/theory/equilibrium.md`). The whole Newton steps of the last attempt cross the jump. In the state that they find the
+/// lengths are met, no slope has descent left by central differences, and the objective rises in random directions.
+#[test]
+fn whole_newton_steps_cross_the_folds_that_stop_a_line_search() {
+    let bound = 40f64.to_radians().tan();
+    for seed in [79, 292, 416, 488, 826, 1363, 1494, 1567, 1669, 1693, 1997, 2603, 2624, 2691, 3481]
+    {
+        let (ply, positions, settings) = random_net(seed, SlopeRule::MinForce);
+        let mut solver = Solver::new(&ply, &settings);
+        let outcome = solver.solve(&positions, &free(&ply));
+        assert_eq!(outcome.status, Status::Converged, "net {seed}: {outcome:?}");
+        assert!(outcome.early_ends.line_searches > 0, "net {seed}: {outcome:?}");
+        assert!(length_errors(&solver) <= 1e-8, "net {seed}: {outcome:?}");
+        let residual = slope_residual(&solver, bound);
+        assert!(residual > 0.0 && residual < 1e-6, "net {seed}: {residual}");
+        let mut random = random(seed);
+        let found = objective(&solver, solver.slopes());
+        for _ in 0..40 {
+            let moved = solver.slopes().iter().map(|s| (s + 1e-4 * random()).clamp(-bound, bound));
+            let moved: Vec<f64> = moved.collect();
+            // the objective is summed to about 1e-12 of itself
+            let rise = objective(&solver, &moved) - found;
+            assert!(rise > -1e-11 * found, "net {seed}: {rise} of {found}");
+        }
+    }
+}
+
+/// The figures of section 9 of `docs/theory/equilibrium.md`: how many of 25 000 random hanging nets are solved by each rule.
+/// Run it with `cargo nextest run --cargo-profile checked --run-ignored only -E 'test(count_of_solved)' --no-capture`.
+#[test]
+#[ignore = "takes minutes"]
+fn count_of_solved_random_hanging_nets() {
+    for rule in RULES {
+        let mut unsolved = Vec::new();
+        for seed in 0..25_000 {
+            let (ply, positions, settings) = random_net(seed, rule);
+            let outcome = Solver::new(&ply, &settings).solve(&positions, &free(&ply));
+            if outcome.status != Status::Converged {
+                unsolved.push((seed, outcome.status));
+            }
+        }
+        println!("{rule:?}: {} of 25 000 are not solved: {unsolved:?}", unsolved.len());
     }
 }

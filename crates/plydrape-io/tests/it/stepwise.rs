@@ -8,7 +8,7 @@ use plydrape::measure::Name;
 use plydrape::mold::{Face, Mold, Plane, Pose, Sphere, SurfaceCurve};
 use plydrape::planner::sensitivity::{Quantity, Sensitivity};
 use plydrape::planner::stepwise::{Outcome, Stepwise, stepwise};
-use plydrape::ply::{Grid, Laid};
+use plydrape::ply::{ContactSegment, Grid};
 use plydrape::scene::{ContactEnd, Motion, Scene, SlopeRule, Stepping};
 use plydrape_io::ResultFile;
 use proptest::prelude::*;
@@ -25,50 +25,55 @@ fn example(name: &str) -> Scene {
         .scene
 }
 
-/// A ply above or on a mold, with what the mold has caught of it.
+/// A ply above or on a mold, with its contact segments.
 #[derive(Debug, Clone)]
 struct Ply {
     scene: Scene,
     positions: Vec<Point>,
-    laid: Vec<Option<Laid>>,
+    contacts: Vec<Option<ContactSegment>>,
 }
 
-/// What the mold may have caught of a catenary.
+/// Which part of a catenary is in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Caught {
+enum Contact {
     Nothing,
     Middle,
     /// From its first gripper on.
     First,
-    /// To its second gripper, the rest there lying.
+    /// To its second gripper, the free segment there lying on the mold.
     Lying,
 }
 
-/// Lays a piece of a catenary on the mold below the line between its grippers.
-fn caught(mold: &Mold, [a, b]: [Point; 2], length: f64, what: Caught) -> Option<Laid> {
-    let (from, to) = match what {
-        Caught::Nothing => return None,
-        Caught::Middle => (0.31, 0.56),
-        Caught::First => (0.0, 0.47),
-        Caught::Lying => (0.36, 0.74),
+/// Puts a piece of a catenary on the mold below the line between its grippers.
+fn in_contact(
+    mold: &Mold,
+    [a, b]: [Point; 2],
+    length: f64,
+    part: Contact,
+) -> Option<ContactSegment> {
+    let (from, to) = match part {
+        Contact::Nothing => return None,
+        Contact::Middle => (0.31, 0.56),
+        Contact::First => (0.0, 0.47),
+        Contact::Lying => (0.36, 0.74),
     };
     let run = (b[0] - a[0]).hypot(b[1] - a[1]);
     let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
-    let start = mold.highest_point([0, 1].map(|n| a[n] + from * (b[n] - a[n])))?;
-    let laid = mold.lay(start, heading, (to - from) * length);
-    let arc = laid.arc.iter().map(|s| s + from * length).collect();
-    let line = SurfaceCurve { points: laid.points, arc };
+    let start = mold.drop_to([0, 1].map(|n| a[n] + from * (b[n] - a[n])))?;
+    let lying = mold.lay(start, heading, (to - from) * length);
+    let arc = lying.arc.iter().map(|s| s + from * length).collect();
+    let line = Strand { points: lying.points, arc };
     let normal = [line.points[0], line.end()].map(|p| mold.normal(p));
     let tangent = normal.map(|[nx, ny, nz]| {
         let slope = -(nx * heading[0] + ny * heading[1]) / nz;
         [heading[0], heading[1], slope].map(|c| c / slope.hypot(1.0))
     });
-    Some(Laid {
+    Some(ContactSegment {
         length,
         line,
         normal,
-        lying: [what == Caught::First, what == Caught::Lying],
-        arch: [0.0, if what == Caught::Lying { 1e-5 } else { 0.0 }],
+        lying: [part == Contact::First, part == Contact::Lying],
+        excess_length: [0.0, if part == Contact::Lying { 1e-5 } else { 0.0 }],
         outward: [tangent[0].map(|c| -c), tangent[1]],
         landed: None,
     })
@@ -79,17 +84,17 @@ fn any_ply() -> impl Strategy<Value = Ply> {
     let end = prop::sample::select(vec![ContactEnd::Free, ContactEnd::Tangent]);
     let mold = any::<bool>();
     let tilt = prop::sample::select(vec![3.0_f64, 12.0, 40.0]);
-    let what = prop::sample::select(vec![
-        Caught::Nothing,
-        Caught::Nothing,
-        Caught::Nothing,
-        Caught::Middle,
-        Caught::Middle,
-        Caught::First,
-        Caught::Lying,
+    let part = prop::sample::select(vec![
+        Contact::Nothing,
+        Contact::Nothing,
+        Contact::Nothing,
+        Contact::Middle,
+        Contact::Middle,
+        Contact::First,
+        Contact::Lying,
     ]);
     let numbers = prop::collection::vec(-1.0..1.0, 3 * 12);
-    let touches = prop::collection::vec(what, 40);
+    let touches = prop::collection::vec(part, 40);
     ((rule, end, mold, tilt), (2usize..5, 1usize..4), -0.35..0.35, 0.93..0.995, numbers, touches)
         .prop_map(|((rule, end, round, tilt), (nu, nv), shear, spacing, random, touches)| {
             let mut scene = example("01_flat_sheared_mold");
@@ -117,19 +122,19 @@ fn any_ply() -> impl Strategy<Value = Ply> {
                 })
                 .collect();
             let grid = scene.ply.grid;
-            let laid = (0..grid.catenaries())
+            let contacts = (0..grid.catenaries())
                 .map(|n| {
                     let c = grid.catenary(n);
                     let ends = [c.from, c.to].map(|g| positions[grid.index(g)]);
                     let edge = scene.ply.flat_length(c.kind);
                     let chord = (0..3).map(|k| (ends[1][k] - ends[0][k]).powi(2)).sum::<f64>();
-                    // a diagonal is caught with the length that its shear has given it
+                    // a diagonal lands with the length that its shear has given it
                     let length = if c.kind.is_edge() { edge } else { 1.01 * chord.sqrt() };
-                    caught(&mold, ends, length, touches[n])
+                    in_contact(&mold, ends, length, touches[n])
                 })
                 .collect();
             scene.mold = Some(mold);
-            Ply { scene, positions, laid }
+            Ply { scene, positions, contacts }
         })
 }
 
@@ -144,20 +149,20 @@ fn solve(ply: &Ply, shift: f64, direction: &[f64]) -> Solved {
         .map(|(n, p)| [0, 1, 2].map(|k| p[k] + shift * direction[3 * n + k]))
         .collect();
     let mut solver = Solver::new(&ply.scene.ply, &ply.scene.settings);
-    let equilibrium = solver.solve(&positions, &ply.laid);
-    let shape = shape(&ply.scene.ply, &solver, equilibrium, &positions, &ply.laid);
+    let equilibrium = solver.solve(&positions, &ply.contacts);
+    let shape = shape(&ply.scene.ply, &solver, equilibrium, &positions, &ply.contacts);
     Solved { solver, shape, positions }
 }
 
-/// Everything that a plan may look at, by name.
+/// Every quantity that a plan may limit, by name.
 fn quantities(ply: &Ply, solved: &mut Solved) -> Vec<(String, Quantity)> {
     let Solved { solver, shape, positions } = solved;
-    let look = Sensitivity::new(&ply.scene, solver, shape, positions, &ply.laid);
+    let look = Sensitivity::new(&ply.scene, solver, shape, positions, &ply.contacts);
     let mut out = Vec::new();
     let grid = ply.scene.ply.grid;
     for span in &look.shape.spans {
         let mut push = |what: &str, quantity: Option<Quantity>| {
-            let name = format!("{what} of catenary {} rest {}", span.catenary, span.rest);
+            let name = format!("{what} of catenary {} segment {}", span.catenary, span.segment);
             out.extend(quantity.map(|q| (name, q)));
         };
         push("force", look.force(span));
@@ -211,7 +216,7 @@ proptest! {
         ..Default::default()
     })]
 
-    /// Both slope rules, free and tangent contact ends, slopes at their bounds, sheared and caught in many ways:
+    /// Both slope rules, free and tangent contact ends, slopes at their bounds, sheared and in contact in many ways:
     /// every gradient is that of the model solved anew on both sides.
     #[test]
     fn gradients_agree_with_central_differences(
@@ -245,7 +250,7 @@ proptest! {
         prop_assume!(kind(&ply, &low) == kind(&ply, &middle) && kind(&ply, &high) == kind(&ply, &middle));
         let far = differences(2.0 * h, &mut low, &mut high);
         for (n, (name, quantity)) in found.iter().enumerate() {
-            // a rest close to taut bends within micrometres: what is left of second order goes
+            // a segment close to taut bends within micrometres: the error of second order follows
             let difference = (4.0 * near[n] - far[n]) / 3.0;
             let along: f64 = quantity.gradient.iter().zip(&direction).map(|(g, d)| g * d).sum();
             // differences carry the solver's 1e-8 of the slopes over h

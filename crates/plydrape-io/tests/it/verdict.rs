@@ -8,7 +8,7 @@ use plydrape::material::Section;
 use plydrape::measure::{Name, Verdict, Worst};
 use plydrape::mold::{Face, Graph, HeightGrid, Mold, Plane, Pose, Sphere, Surface};
 use plydrape::planner::judge;
-use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Stepping};
+use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, Stepping};
 use plydrape_io::result::ResultFile;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -94,7 +94,8 @@ fn a_gripper_that_has_passed_its_contact_makes_a_fold_and_no_stretch() {
     let mut scene = example("02_hanging_strip");
     scene.mold = Some(Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }));
     let tolerance = 1e-4;
-    scene.settings.contact = Contact { tolerance, stepping: Stepping::Cut, end: ContactEnd::Free };
+    scene.settings.contact =
+        ContactSettings { tolerance, stepping: Stepping::Cut, end: ContactEnd::Free };
     let ends = |x: f64, z: f64| vec![[0.0, 0.0, z], [x, 0.0, z]];
     // down in 400 steps, until both grippers are 2 mm above the mold
     const LOW: f64 = 2e-3;
@@ -302,9 +303,9 @@ fn the_loads_of_the_grippers_add_up_to_the_weight_of_the_ply() {
     assert!((pull - force).abs() < 1e-12);
 }
 
-/// A ply dragged over the dome from beside it is torn: the drape ends there and says where it first touched.
+/// A ply dragged over the dome from beside it is overstretched: the drape ends there and says where it first touched.
 #[test]
-fn a_drape_that_no_ply_survives_ends_with_a_word_of_what_to_do() {
+fn a_drape_that_no_ply_survives_ends_with_advice() {
     let mut scene = example("04_dome");
     for place in &mut scene.motion.positions[0] {
         *place = [place[0] - 0.7, place[1], place[2] - 0.2];
@@ -312,7 +313,7 @@ fn a_drape_that_no_ply_survives_ends_with_a_word_of_what_to_do() {
     scene.motion = in_steps(&scene, 30);
     let result = drape(&scene);
     let summary = &result.summary;
-    let why = summary.stopped.as_deref().expect("it is torn");
+    let why = summary.stopped.as_deref().expect("it is overstretched");
     assert!(why.contains("no ply survives") && why.contains("come from above"), "{why}");
     assert!(summary.steps < summary.steps_planned && !summary.accepted && !summary.interrupted());
     assert!(!verdict(&result, Name::Overstretch).ok);
@@ -352,14 +353,14 @@ fn a_step_without_an_equilibrium_is_never_accepted() {
     assert!(unsolved > 0, "no ply of this test is beyond floating point");
 }
 
-/// What snaps onto the mold deeper than the tolerance in the shortest cut of a step is penetration of that depth: the dome by straight
+/// An edge that jumps onto the mold deeper than the tolerance in the shortest cut of a step penetrates it by that depth: the dome by straight
 /// paths.
 #[test]
-fn an_edge_that_snaps_onto_the_mold_has_penetrated_it() {
+fn an_edge_that_jumps_onto_the_mold_has_penetrated_it() {
     let result = drape(&example("04_dome"));
-    let snaps = result.steps.iter().filter(|step| step.solver.contact == ContactStatus::CutLimit);
+    let jumps = result.steps.iter().filter(|step| step.solver.contact == ContactStatus::CutLimit);
     let depth = |step: &Step| step.measures.value(Name::Penetration).expect("a mold");
-    for step in snaps {
+    for step in jumps {
         assert!(depth(step) > 0.2, "step {}: {}", step.step, depth(step));
     }
 }

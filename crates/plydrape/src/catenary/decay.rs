@@ -9,7 +9,7 @@ use std::f64::consts::LOG2_E;
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
 /// x from which e^(−x) is taken for 0: its smallest normal number is e^(−708.4).
-const NOTHING: f64 = 700.0;
+const UNDERFLOW: f64 = 700.0;
 
 /// Terms of the series: 0.3466¹⁴/14! = 4e-18.
 const TERMS: usize = 14;
@@ -30,7 +30,7 @@ const ROUNDING: f64 = 6_755_399_441_055_744.0;
 /// e^(−x) of every x ≥ 0, to the last two digits; 0 for an x above 700.
 #[inline(always)]
 pub fn decay<const N: usize>(x: &[f64; N]) -> [f64; N] {
-    let least = x.map(|x| if x < NOTHING { x } else { NOTHING });
+    let least = x.map(|x| if x < UNDERFLOW { x } else { UNDERFLOW });
     let shifted = least.map(|x| x * LOG2_E + ROUNDING);
     let mut r = [0.0; N];
     for n in 0..N {
@@ -47,7 +47,7 @@ pub fn decay<const N: usize>(x: &[f64; N]) -> [f64; N] {
         // 2⁻ⁿ by its bits: the exponent of 1 less the whole number
         let power = (1023_u64 << 52).wrapping_sub(shifted[n].to_bits() << 52);
         let value = out[n] * f64::from_bits(power);
-        out[n] = if x[n] < NOTHING { value } else { 0.0 };
+        out[n] = if x[n] < UNDERFLOW { value } else { 0.0 };
     }
     out
 }

@@ -111,7 +111,7 @@ impl Profile {
 
     /// Arc length L (m) with derivatives, and its excess over the chord per run.
     #[must_use]
-    pub fn length_and_excess<const N: usize>(&self) -> (Jet<N>, Excess) {
+    pub(crate) fn length_and_excess<const N: usize>(&self) -> (Jet<N>, Excess) {
         if N == 3 {
             let (jet, excess) = self.length_to_unknowns();
             return (jet.first(), excess);

@@ -25,7 +25,6 @@ pub use profile::Profile;
 pub use shape::Station;
 pub use solve::{Root, SpanState};
 pub use station::{Graded, Stations};
-pub use tuning::{TUNING, Tuning};
 
 /// A free length of ply between two ends in one vertical plane.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -14,7 +14,7 @@ use super::{Excess, Profile, Span};
 pub enum SpanState {
     /// Longer than its chord.
     Hanging,
-    /// Chord longer than the set length: all but straight, carried by axial stiffness.
+    /// Chord longer than the set length: all but straight, held by the axial stiffness.
     Overstretched,
     /// Inextensible and not longer than its chord: a straight line without a force.
     Straight,
@@ -76,7 +76,7 @@ impl Span {
 
     /// The force of the small-sag parabola, shifted by the buckling force (N).
     #[must_use]
-    pub fn first_guess(&self) -> f64 {
+    pub(crate) fn first_guess(&self) -> f64 {
         let goal = self.goal();
         let cosine = self.run / self.chord();
         let strength = (self.load() * self.run).powi(2) * cosine.powi(3) / 24.0;

@@ -2,7 +2,7 @@
 //!
 //! At a fixed fraction t of the run all three follow from eq. (2) of `docs/theory/span.md`: the slope is linear in
 //! (θ, ρ, α, β), the height is its integral, and the arc length ℓ∫₀ᵗ√(1+z'²) is differentiated under the
-//! integral, as in eq. (4a). The amplitudes' response carries the end conditions along.
+//! integral, as in eq. (4a). The amplitudes' response contains the end conditions.
 
 use super::basis::Values;
 use super::jet::Chain;
@@ -111,13 +111,13 @@ mod tests {
                 };
                 let profile = at(&base);
                 for t in [0.13, 0.5, 0.83] {
-                    let look = |p: &Profile| {
+                    let read = |p: &Profile| {
                         let station = p.station(t * p.span.run);
                         [station.z, station.slope, p.length_to(t * p.span.run)]
                     };
                     let stations = profile.stations();
                     let found = [stations.height(t), stations.slope(t), stations.arc(t)];
-                    let values = look(&profile);
+                    let values = read(&profile);
                     for n in 0..7 {
                         if base[n] == 0.0 {
                             continue;
@@ -126,7 +126,7 @@ mod tests {
                         let (mut low, mut high) = (base, base);
                         low[n] -= h;
                         high[n] += h;
-                        let (low, high) = (look(&at(&low)), look(&at(&high)));
+                        let (low, high) = (read(&at(&low)), read(&at(&high)));
                         for q in 0..3 {
                             assert!((found[q].value - values[q]).abs() < 1e-12);
                             let difference = (high[q] - low[q]) / (2.0 * h);

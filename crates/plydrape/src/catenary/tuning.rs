@@ -5,13 +5,13 @@
 /// They are constants of the program, not settings of a solve, so that the sums over panels are compiled for them.
 /// Slopes are rise over run, widths of a layer multiples of 1/k, steps of H relative to its height above buckling.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tuning {
+pub(crate) struct Tuning {
     /// κ = Hℓ²/EI from which the exponential form is used. 25: the layers, e^(−5), no longer cancel there, and the
     /// series of the stiff form still has its last digits.
     pub taut_kappa: f64,
-    /// Exponent beyond which a boundary layer is taken for nothing. 45: e^(−45) = 3e-20.
+    /// Exponent beyond which a boundary layer is neglected. 45: e^(−45) = 3e-20.
     pub vanishing_exponent: f64,
-    /// Share of a boundary layer that is taken for nothing: 1e-20, for the same reason.
+    /// Share of a boundary layer that is neglected: 1e-20, for the same reason.
     pub vanishing_layer: f64,
     /// Slope range that one panel of the long rule takes to the last digits.
     pub sweep: f64,
@@ -40,7 +40,7 @@ pub struct Tuning {
 pub(super) const GRADES: usize = 3;
 
 /// The constants in use.
-pub const TUNING: Tuning = Tuning {
+pub(crate) const TUNING: Tuning = Tuning {
     taut_kappa: 25.0,
     vanishing_exponent: 45.0,
     vanishing_layer: 1e-20,

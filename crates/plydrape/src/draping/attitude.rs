@@ -1,6 +1,7 @@
 //! How a gripper is tilted: its ball joint follows the ply.
 
 use super::spans::Point;
+use super::tuning::TUNING;
 use crate::equilibrium::{Solver, heading};
 use crate::mold::vector::{cross, dot, unit};
 use crate::ply::Grid;
@@ -16,12 +17,6 @@ pub struct Attitude {
     pub quaternion: [f64; 4],
 }
 
-/// Heights over the mold, in contact tolerances, between which a gripper turns from the ply's normal to the mold's.
-///
-/// A gripper stands on the mold from one tolerance on, and what lies there has the mold's normal. The ply's own slope is not resolved just
-/// above: a free segment of twenty tolerances beside the gripper leads down by one of them.
-const LANDING: [f64; 2] = [1.0, 10.0];
-
 impl Attitude {
     /// The same gripper at a height over a mold (m): as it comes down it turns to the mold's normal, which it has where it stands.
     #[must_use]
@@ -32,7 +27,7 @@ impl Attitude {
         tolerance: f64,
         before: Option<[f64; 4]>,
     ) -> Self {
-        let [low, high] = LANDING.map(|heights| heights * tolerance);
+        let [low, high] = TUNING.landing_heights.map(|heights| heights * tolerance);
         let t = ((high - height) / (high - low)).clamp(0.0, 1.0);
         let share = t * t * (3.0 - 2.0 * t);
         if share == 0.0 {

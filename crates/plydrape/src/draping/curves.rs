@@ -7,6 +7,7 @@
 use super::misfit::taut;
 use super::record::{CatenaryState, Hold, SpanState, Step};
 use super::spans::{FreeSpan, Point};
+use super::tuning::TUNING;
 use crate::catenary::{EndCondition, Profile, Span, SpanState as Tension};
 use crate::mold::Mold;
 use crate::mold::vector::along;
@@ -70,7 +71,7 @@ impl Recorded<'_> {
         };
         let mut free = FreeSpan {
             catenary: n,
-            rest: span.segment,
+            segment: span.segment,
             element: None,
             ends,
             length: span.length,
@@ -189,11 +190,11 @@ fn crossing(a: &FreeSpan, b: &FreeSpan) -> Option<[f64; 2]> {
     let (u, v) = ([p[1][0] - p[0][0], p[1][1] - p[0][1]], [q[1][0] - q[0][0], q[1][1] - q[0][1]]);
     let w = [q[0][0] - p[0][0], q[0][1] - p[0][1]];
     let determinant = u[1] * v[0] - u[0] * v[1];
-    if determinant.abs() <= 1e-9 * u[0].hypot(u[1]) * v[0].hypot(v[1]) {
+    if determinant.abs() <= TUNING.parallel_diagonals * u[0].hypot(u[1]) * v[0].hypot(v[1]) {
         return None;
     }
     let t = (w[1] * v[0] - w[0] * v[1]) / determinant;
     let s = (u[0] * w[1] - u[1] * w[0]) / determinant;
-    let inside = |x: f64| x > 0.01 && x < 0.99;
+    let inside = |x: f64| x > TUNING.crossing_margin && x < 1.0 - TUNING.crossing_margin;
     (inside(t) && inside(s)).then_some([t, s])
 }

@@ -1,15 +1,13 @@
-//! How far what has landed is from where the ideal drape has the same fabric, and how its fibres run.
+//! Landing errors: how far contact points are from the place of the same fabric in the ideal drape, and the angle of their fibres.
 
 use super::spans::Point;
+use super::tuning::TUNING;
 use crate::mold::vector::{cross, dot, norm, sub, unit};
-use crate::mold::{SurfaceCurve, distance};
-use crate::ply::Laid;
+use crate::mold::{Strand, distance};
+use crate::ply::ContactSegment;
 use crate::scene::Scene;
 
-/// Segments shorter than this share of their catenary have no direction worth a name.
-const CRUMB: f64 = 1e-2;
-
-/// A contact segment beside the ideal drape.
+/// The landing errors of a contact segment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Landing {
     /// Distance of each point of the segment from its ideal place (m), where that is known.
@@ -38,11 +36,11 @@ pub(crate) fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
     [at(c.from[0], c.to[0], a), at(c.from[1], c.to[1], b)]
 }
 
-/// Lays a contact segment beside the ideal drape; none if that is not known.
-pub fn landing(scene: &Scene, catenary: usize, laid: &Laid) -> Option<Landing> {
+/// Compares a contact segment with the ideal drape; none if that is not known.
+pub fn landing(scene: &Scene, catenary: usize, contact: &ContactSegment) -> Option<Landing> {
     let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
-    let line = &laid.line;
-    let at = |arc: f64| fabric(scene, catenary, arc / laid.length);
+    let line = &contact.line;
+    let at = |arc: f64| fabric(scene, catenary, arc / contact.length);
     let place = |arc: f64| drape.place(mold, at(arc));
     let errors = line
         .arc
@@ -51,10 +49,11 @@ pub fn landing(scene: &Scene, catenary: usize, laid: &Laid) -> Option<Landing> {
         .map(|(arc, point)| place(*arc).map(|ideal| distance(*point, ideal)))
         .collect();
     let fibre_angle = (catenary < scene.ply.grid.edges()).then(|| {
-        let ([from, to], [a, b]) = (laid.arc(), laid.point());
-        let landed = unit(sub(b, a)).filter(|_| to - from > CRUMB * laid.length)?;
+        let ([from, to], [a, b]) = (contact.arc(), contact.point());
+        let landed =
+            unit(sub(b, a)).filter(|_| to - from > TUNING.shortest_direction * contact.length)?;
         let ideal = unit(sub(place(to)?, place(from)?))?;
-        // the sine is sharp where the cosine is flat
+        // the arctangent of sine and cosine is exact for small angles, where the cosine alone is not
         let angle = norm(cross(landed, ideal)).atan2(dot(landed, ideal));
         Some((angle, [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]))))
     });

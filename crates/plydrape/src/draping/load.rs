@@ -1,6 +1,6 @@
-//! What the ply asks of each gripper: vertical load, and pull in the plane.
+//! Forces of the ply on each gripper: vertical load and horizontal pretension.
 //!
-//! Each family of edges carries the whole ply in the model, so where there are two each counts half. A line inside the ply stands for
+//! Each family of edges has the weight of the whole ply in the model, so where there are two families each counts half. A line inside the ply stands for
 //! a strip one cell wide, one on its boundary for half a strip. So the loads of a hanging ply add up to its weight.
 
 use super::Snapshot;
@@ -39,8 +39,8 @@ pub fn loads(scene: &Scene, snapshot: &Snapshot) -> Vec<Load> {
         let share = tributary(ply, span.catenary);
         let grippers = [c.from, c.to].map(|g| grid.index(g));
         let half_weight = 0.5 * ply.line(c.kind).mass * scene.settings.gravity * span.length;
-        if snapshot.laid[span.catenary].is_some() {
-            out[grippers[span.rest]].vertical += share * half_weight;
+        if snapshot.contacts[span.catenary].is_some() {
+            out[grippers[span.segment]].vertical += share * half_weight;
             continue;
         }
         let [x, y] = span.heading();

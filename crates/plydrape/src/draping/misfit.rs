@@ -1,23 +1,24 @@
-//! How the fabric of a free segment fits the way that it has: slack where it is longer, stretch where it is shorter.
+//! Slack and overstretch of a free segment: its fabric is longer or shorter than the taut path between its ends.
 //!
-//! The way of a segment between two grippers is the straight line. Between a gripper and the end of what is in contact it
-//! has a sign: with the way from the end to the gripper split into x along the outward tangent of the mold and
-//! y across it, it is √(x² + y²) ahead of the end and y + x behind it (x < 0). A gripper that has moved inwards past
-//! the end thus makes a fold, all of it slack, and never stretch. A segment that lies has the way along the mold.
+//! The path of a segment between two grippers is the straight line. The path between a gripper and the end of a contact segment
+//! has a sign. Let x be the part of the vector from the end to the gripper along the outward tangent of the mold, and
+//! y the part across it: the path is √(x² + y²) ahead of the end and y + x behind it (x < 0). So a gripper that has moved inwards
+//! past the end makes a fold, which is all slack and never stretch. The path of a segment that lies on the mold runs along the mold.
 
 use super::spans::{FreeSpan, Point};
-use crate::mold::{Mold, SurfaceCurve, distance};
-use crate::ply::Laid;
+use super::tuning::TUNING;
+use crate::mold::{Mold, Strand, distance};
+use crate::ply::ContactSegment;
 
-/// Fit of one free or lying segment between what holds it.
+/// Fabric length and taut path of one free or lying segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Misfit {
     /// Index of its catenary.
     pub catenary: usize,
     /// Fabric length (m).
     pub length: f64,
-    /// Way between its ends (m), negative where a gripper has passed the end of what is in contact.
-    pub way: f64,
+    /// Taut path between its ends (m), negative where a gripper has passed the end of the contact segment.
+    pub path: f64,
     /// Fabric length of the whole catenary (m).
     pub whole: f64,
     /// Middle of its ends (m).
@@ -25,48 +26,48 @@ pub struct Misfit {
 }
 
 impl Misfit {
-    /// Fabric beyond the way (m), negative where it is short.
+    /// Fabric length beyond the path (m), negative where the fabric is too short.
     #[must_use]
     pub fn excess(&self) -> f64 {
-        self.length - self.way
+        self.length - self.path
     }
 
-    /// Fabric beyond the way (m), not negative.
+    /// Fabric length beyond the path (m), not negative.
     #[must_use]
     pub fn slack(&self) -> f64 {
         slack(self.excess(), self.whole)
     }
 
-    /// Way beyond the fabric (m), not negative.
+    /// Path beyond the fabric length (m), not negative.
     #[must_use]
     pub fn overstretch(&self) -> f64 {
         slack(-self.excess(), self.whole)
     }
 }
 
-/// What is slack (m) of an excess of fabric (m): what rounding leaves of a taut line is none.
+/// Slack (m) of an excess of fabric (m) in a catenary of length `whole` (m): zero where the excess is negative or rounding; NaN
+/// stays NaN.
 pub fn slack(excess: f64, whole: f64) -> f64 {
-    // what is no number stays it
-    if excess <= 1e-12 * whole { 0.0 } else { excess }
+    if excess <= TUNING.length_rounding * whole { 0.0 } else { excess }
 }
 
 fn middle(a: Point, b: Point) -> Point {
     [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]))
 }
 
-/// How a free span fits between its ends; `laid` is what is in contact of its catenary.
+/// Misfit of a free span; `contact` is the contact segment of its catenary.
 #[must_use]
-pub fn misfit(span: &FreeSpan, laid: Option<&Laid>) -> Misfit {
+pub fn misfit(span: &FreeSpan, contact: Option<&ContactSegment>) -> Misfit {
     let [a, b] = span.ends;
-    let way = match laid {
+    let path = match contact {
         None => span.chord(),
-        Some(laid) => laid.way(span.rest, if span.rest == 0 { a } else { b }),
+        Some(contact) => contact.path_length(span.segment, if span.segment == 0 { a } else { b }),
     };
     Misfit {
         catenary: span.catenary,
         length: span.length,
-        way,
-        whole: laid.map_or(span.length, |laid| laid.length),
+        path,
+        whole: contact.map_or(span.length, |contact| contact.length),
         place: middle(a, b),
     }
 }
@@ -75,7 +76,7 @@ pub fn misfit(span: &FreeSpan, laid: Option<&Laid>) -> Misfit {
 pub struct LyingSegment {
     /// 0 before the contact segment, 1 after it; none for a catenary that lies whole.
     pub which: Option<usize>,
-    /// How its fabric fits.
+    /// Its slack or overstretch.
     pub misfit: Misfit,
     /// The taut line between its ends, from first to last.
     pub line: SurfaceCurve,
@@ -88,39 +89,43 @@ pub struct LyingSegment {
 #[must_use]
 pub fn lying_segments(
     catenary: usize,
-    laid: &Laid,
+    contact: &ContactSegment,
     grippers: [Point; 2],
     mold: &Mold,
     tolerance: f64,
 ) -> Vec<LyingSegment> {
-    if !laid.is_whole() && laid.hangs(0) && laid.hangs(1) {
+    if !contact.is_whole() && contact.hangs(0) && contact.hangs(1) {
         return Vec::new();
     }
-    let fit = |length, way, line: &SurfaceCurve| {
+    let fit = |length, path, line: &Strand| {
         let place = middle(line.points[0], line.end());
-        Misfit { catenary, length, way, whole: laid.length, place }
+        Misfit { catenary, length, path, whole: contact.length, place }
     };
-    if laid.is_whole() {
+    if contact.is_whole() {
         let line = match grippers.map(|gripper| standing(gripper, mold, tolerance)) {
             [Some(a), Some(b)] => mold.path(a, b).unwrap_or_else(|| straight(a, b)),
             _ => straight(grippers[0], grippers[1]),
         };
-        let misfit = fit(laid.length, line.length(), &line);
+        let misfit = fit(contact.length, line.length(), &line);
         return vec![LyingSegment { which: None, misfit, line }];
     }
     let segment = |which: usize| {
-        let (line, gripper) = taut(which, laid.point()[which], grippers[which], mold, tolerance);
+        let (line, gripper) = taut(which, contact.point()[which], grippers[which], mold, tolerance);
         let place = gripper.unwrap_or(grippers[which]);
-        // behind the end the line leads back over what is in contact
-        let behind = laid.is_behind(which, place);
-        let way = match gripper {
+        // behind the end the line leads back over the contact segment
+        let behind = contact.is_behind(which, place);
+        let path = match gripper {
             Some(_) if behind => -line.length(),
             Some(_) => line.length(),
-            None => laid.way(which, place),
+            None => contact.path_length(which, place),
         };
-        LyingSegment { which: Some(which), misfit: fit(laid.rest(which), way, &line), line }
+        LyingSegment {
+            which: Some(which),
+            misfit: fit(contact.free_length(which), path, &line),
+            line,
+        }
     };
-    (0..2).filter(|&which| !laid.hangs(which)).map(segment).collect()
+    (0..2).filter(|&which| !contact.hangs(which)).map(segment).collect()
 }
 
 /// The taut line before (0) or after (1) a contact segment that ends at `end`, from first to last, and the surface point

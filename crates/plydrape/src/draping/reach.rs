@@ -1,11 +1,9 @@
 //! Where the grippers are: apart from each other, and within the workspace of their robot.
 
 use super::spans::Point;
+use super::tuning::TUNING;
 use crate::measure::{Found, Sense, Site};
 use crate::mold::distance;
-
-/// What rounding puts outside a box is inside (m).
-const ROUNDING: f64 = 1e-9;
 
 /// The two grippers closest to each other: their distance (mm) and the middle between them.
 pub(crate) fn closest(positions: &[Point]) -> Option<Found> {
@@ -31,8 +29,12 @@ pub(crate) fn closest(positions: &[Point]) -> Option<Found> {
 }
 
 /// The gripper farthest outside a box ([from, to] in x, y and z, m): its distance from the box (mm), zero
-/// where none is outside.
-pub(crate) fn outside(positions: &[Point], workspace: [[f64; 2]; 3]) -> Option<Found> {
+/// where none is outside by more than rounding, a share of the shorter side of a cell (m).
+pub(crate) fn outside(
+    positions: &[Point],
+    workspace: [[f64; 2]; 3],
+    [a, b]: [f64; 2],
+) -> Option<Found> {
     let beyond = |point: &Point| {
         let excess = |n: usize| {
             let [from, to] = workspace[n];
@@ -40,7 +42,7 @@ pub(crate) fn outside(positions: &[Point], workspace: [[f64; 2]; 3]) -> Option<F
             if (from..=to).contains(&point[n]) { 0.0 } else { (from - point[n]).max(point[n] - to) }
         };
         let far = excess(0).hypot(excess(1)).hypot(excess(2));
-        if far <= ROUNDING { 0.0 } else { far }
+        if far <= TUNING.workspace_rounding * a.min(b) { 0.0 } else { far }
     };
     let all = positions.iter().enumerate().map(|(n, point)| (beyond(point), n));
     // the first of several that are equal
@@ -60,12 +62,12 @@ mod tests {
     fn the_distance_from_the_workspace_is_that_of_its_nearest_point() {
         let workspace = [[0.0, 1.0]; 3];
         let mut positions = vec![[0.5; 3]; 6];
-        let worst = outside(&positions, workspace).unwrap();
+        let worst = outside(&positions, workspace, [0.1; 2]).unwrap();
         assert_eq!(worst, Found::NONE);
         positions[1] = [0.5, 0.5, 1.0 + 1e-12];
-        assert_eq!(outside(&positions, workspace).unwrap().value, 0.0);
+        assert_eq!(outside(&positions, workspace, [0.1; 2]).unwrap().value, 0.0);
         positions[4] = [1.003, 0.5, -0.004];
-        let worst = outside(&positions, workspace).unwrap();
+        let worst = outside(&positions, workspace, [0.1; 2]).unwrap();
         assert!((worst.value - 5.0).abs() < 1e-9, "{}", worst.value);
         assert_eq!(worst.site, Site::Gripper(4));
     }

@@ -12,7 +12,7 @@ use crate::catenary;
 use crate::equilibrium::Solver;
 use crate::measure::{Before, Judge, Name, State, last_numbers, worst_numbers};
 use crate::mold::distance;
-use crate::ply::{Kind, Laid, shear};
+use crate::ply::{ContactSegment, Kind, shear};
 use crate::scene::Scene;
 
 /// Collects the steps of a drape.
@@ -62,13 +62,13 @@ impl<'a> Report<'a> {
                 iterations: equilibrium.iterations,
                 residual: equilibrium.residual,
                 equilibria: snapshot.equilibria,
-                contact: snapshot.contact,
+                contact: snapshot.contact_status,
             },
             catenaries: self.catenaries(&state),
             cells: self.cells(snapshot),
             measures,
         });
-        let goes_on = !stop::tears(&state);
+        let goes_on = !stop::breaks(&state);
         self.before = Some(state.as_before());
         goes_on
     }
@@ -81,7 +81,7 @@ impl<'a> Report<'a> {
         let mut out = Vec::with_capacity(grid.catenaries());
         for n in 0..grid.catenaries() {
             let c = grid.catenary(n);
-            let laid = snapshot.laid[n].as_ref();
+            let contact = snapshot.contacts[n].as_ref();
             let shear = (n >= grid.edges())
                 .then(|| snapshot.shear[(n - grid.edges()) / 2])
                 .flatten()
@@ -90,7 +90,8 @@ impl<'a> Report<'a> {
                 kind: c.kind,
                 from: c.from,
                 to: c.to,
-                length: laid.map_or_else(|| scene.ply.flat_length(c.kind), |laid| laid.length),
+                length: contact
+                    .map_or_else(|| scene.ply.flat_length(c.kind), |contact| contact.length),
                 shearing: shear.is_some(),
                 shear_force_n: shear.and_then(|shear| self.shear_force(&shear)),
                 spans: Vec::with_capacity(2),
@@ -98,15 +99,15 @@ impl<'a> Report<'a> {
                 bridging: snapshot.bridges[n],
             };
             while let Some(span) = spans.next_if(|span| span.catenary == n) {
-                if laid.is_none() {
+                if contact.is_none() {
                     line.length = span.length;
                 }
                 if let Some(misfit) = misfits.next() {
                     line.spans.push(span_state(span, misfit));
                 }
             }
-            if let Some(laid) = laid {
-                line.contact = Some(contact_state(laid, landings[n].as_ref()));
+            if let Some(contact) = contact {
+                line.contact = Some(contact_state(contact, landings[n].as_ref()));
                 line.spans.extend(state.lying()[n].iter().map(lying_state));
                 line.spans.sort_by_key(|span| span.segment);
             }
@@ -132,8 +133,8 @@ impl<'a> Report<'a> {
                 false => Kind::Rising,
             }),
             landed_deg: [0, 1].map(|k| {
-                let laid = snapshot.laid[edges + 2 * n + k].as_ref()?;
-                laid.landed.map(|landed| landed.shear.to_degrees())
+                let contact = snapshot.contacts[edges + 2 * n + k].as_ref()?;
+                contact.landed.map(|landed| landed.shear.to_degrees())
             }),
         };
         snapshot.shear.iter().enumerate().map(cell).collect()
@@ -179,7 +180,7 @@ impl<'a> Report<'a> {
 
 fn span_state(span: &FreeSpan, misfit: &Misfit) -> SpanState {
     SpanState {
-        segment: span.rest,
+        segment: span.segment,
         hold: match span.state {
             _ if span.shearing => Hold::Straight,
             catenary::SpanState::Hanging => Hold::Hanging,
@@ -187,7 +188,7 @@ fn span_state(span: &FreeSpan, misfit: &Misfit) -> SpanState {
             catenary::SpanState::Straight => Hold::Straight,
         },
         length: span.length,
-        way: misfit.way,
+        way: misfit.path,
         force: span.force,
         slopes: span.slopes,
         prescribed: span.prescribed,
@@ -203,19 +204,19 @@ fn lying_state(LyingSegment { which, misfit, line }: &LyingSegment) -> SpanState
         segment: which.unwrap_or(0),
         hold: Hold::Lying,
         length: misfit.length,
-        way: misfit.way,
+        way: misfit.path,
         force: None,
         slopes: [slope; 2],
         prescribed: [false; 2],
     }
 }
 
-fn contact_state(laid: &Laid, landing: Option<&Landing>) -> ContactState {
+fn contact_state(contact: &ContactSegment, landing: Option<&Landing>) -> ContactState {
     let errors = |landing: &Landing| landing.errors.iter().map(|e| e.map(|e| e * 1e3)).collect();
     let angle = landing.and_then(|landing| landing.fibre_angle);
     ContactState {
-        points: laid.line.points.clone(),
-        arc: laid.line.arc.clone(),
+        points: contact.line.points.clone(),
+        arc: contact.line.arc.clone(),
         landing_error_mm: landing.map(errors),
         fibre_angle_deg: angle.map(|(angle, _)| angle.to_degrees()),
     }

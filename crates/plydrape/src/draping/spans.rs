@@ -3,7 +3,7 @@
 use crate::catenary::{Profile, SpanState};
 use crate::equilibrium::{Equilibrium, Solver, StateTangent};
 use crate::mold::distance;
-use crate::ply::{Kind, Laid, Ply};
+use crate::ply::{ContactSegment, Kind, Ply};
 use std::sync::OnceLock;
 
 /// A point in space (m).
@@ -14,8 +14,8 @@ pub type Point = [f64; 3];
 pub struct FreeSpan {
     /// Index of its catenary.
     pub catenary: usize,
-    /// 0 for a whole catenary or the rest before the contact segment, 1 for the rest after it.
-    pub rest: usize,
+    /// 0 for a whole catenary or the free segment before the contact segment, 1 for the free segment after it.
+    pub segment: usize,
     /// The element of the solver's problem that it is; none for a line that a stretched diagonal draws.
     pub element: Option<usize>,
     /// Its ends (m).
@@ -26,7 +26,7 @@ pub struct FreeSpan {
     pub start: f64,
     /// Its closed form; none for a straight line.
     pub profile: Option<Profile>,
-    /// Length of that curve (m), once it has been asked for.
+    /// Length of that curve (m), once it has been evaluated.
     pub curve: OnceLock<f64>,
     /// How it holds its length.
     pub state: SpanState,
@@ -44,7 +44,7 @@ impl FreeSpan {
     /// Horizontal distance of its ends (m).
     #[must_use]
     pub fn run(&self) -> f64 {
-        // `hypot` would be slower: this is asked for at every station of every look at the contact
+        // `hypot` would be slower, and this is needed at every station whenever gaps are sampled
         let ([a, b], square) = (self.ends, |x: f64| x * x);
         (square(b[0] - a[0]) + square(b[1] - a[1])).sqrt()
     }
@@ -55,11 +55,11 @@ impl FreeSpan {
         distance(self.ends[0], self.ends[1])
     }
 
-    /// Length of the curve that it hangs in (m): its fabric's, and what that is stretched by.
+    /// Length of the curve that it hangs in (m): its fabric length and its elastic stretch.
     #[must_use]
-    pub fn curve_length(&self) -> f64 {
+    pub(crate) fn curve_length(&self) -> f64 {
         match &self.profile {
-            // asked for many times, and a quadrature each
+            // needed many times, and a quadrature each
             Some(profile) => *self.curve.get_or_init(|| profile.length_to(self.run())),
             None => self.chord(),
         }
@@ -143,7 +143,7 @@ impl FreeSpan {
 /// All free spans of a solved ply, catenary by catenary.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    /// Free spans, in the order of catenaries and rests.
+    /// Free spans, in the order of catenaries and free segments.
     pub spans: Vec<FreeSpan>,
     /// How the equilibrium was found.
     pub equilibrium: Equilibrium,
@@ -155,7 +155,7 @@ pub fn shape(
     solver: &Solver,
     equilibrium: Equilibrium,
     positions: &[Point],
-    laid: &[Option<Laid>],
+    contacts: &[Option<ContactSegment>],
 ) -> Shape {
     let grid = ply.grid;
     let problem = solver.problem();
@@ -168,23 +168,24 @@ pub fn shape(
             .then(|| problem.shearing[(catenary - grid.edges()) / 2])
             .flatten()
             .filter(|(_, falling)| *falling == (c.kind == Kind::Falling))
-            .filter(|_| laid[catenary].is_none());
-        let rests = laid[catenary].as_ref().map_or(1, |_| 2);
-        for rest in 0..rests {
-            let ends = match &laid[catenary] {
+            .filter(|_| contacts[catenary].is_none());
+        let segments = contacts[catenary].as_ref().map_or(1, |_| 2);
+        for segment in 0..segments {
+            let ends = match &contacts[catenary] {
                 None => grippers,
-                Some(laid) if !laid.hangs(rest) => {
-                    debug_assert!(laid.rest(rest) >= -1e-12);
+                Some(contact) if !contact.hangs(segment) => {
+                    debug_assert!(contact.free_length(segment) >= -1e-12);
                     continue;
                 }
-                Some(laid) if rest == 0 => [grippers[0], laid.point()[0]],
-                Some(laid) => [laid.point()[1], grippers[1]],
+                Some(contact) if segment == 0 => [grippers[0], contact.point()[0]],
+                Some(contact) => [contact.point()[1], grippers[1]],
             };
-            let start =
-                laid[catenary].as_ref().map_or(0.0, |l| if rest == 0 { 0.0 } else { l.arc()[1] });
+            let start = contacts[catenary]
+                .as_ref()
+                .map_or(0.0, |l| if segment == 0 { 0.0 } else { l.arc()[1] });
             let mut span = FreeSpan {
                 catenary,
-                rest,
+                segment,
                 element: None,
                 ends,
                 length: 0.0,
@@ -199,11 +200,11 @@ pub fn shape(
             };
             span.slopes = [span.slope(0.0); 2];
             // a fold has no catenary
-            span.length = laid[catenary].as_ref().map_or(0.0, |l| l.rest(rest));
+            span.length = contacts[catenary].as_ref().map_or(0.0, |l| l.free_length(segment));
             if let Some((path, _)) = stretched {
                 span.length = path;
             } else if let Some((n, element)) =
-                elements.next_if(|(_, e)| e.catenary == catenary && e.segment == rest)
+                elements.next_if(|(_, e)| e.catenary == catenary && e.segment == segment)
             {
                 span.element = Some(n);
                 span.length = element.length;

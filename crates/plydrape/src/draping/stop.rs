@@ -1,31 +1,25 @@
-//! Where a drape ends because no ply would survive what its grippers do, and what to do about it.
+//! Where a drape ends because an edge is stretched more than any ply can bear, and what would help.
 
 use super::record::Step;
+use super::tuning::TUNING;
 use crate::measure::{Name, State};
 use crate::scene::Scene;
 
-/// Stretch of an edge, as a share of it, from which nothing that follows means anything: carbon fibre breaks at 1.5 to
-/// 2 %, and a woven ply gives some per cent more by its crimp.
-const TORN: f64 = 0.1;
-
-/// Share of the ply's longer side from which a first touch is far from its place.
-const ASTRAY: f64 = 0.1;
-
 /// Whether an edge of a step is stretched beyond what any ply bears.
-pub fn tears(state: &State) -> bool {
+pub fn breaks(state: &State) -> bool {
     let worst = Name::Overstretch.measure().evaluate(state);
-    worst.is_some_and(|worst| is_torn(worst.value))
+    worst.is_some_and(|worst| is_broken(worst.value))
 }
 
-/// A stretch that is no number is beyond all, too.
-fn is_torn(stretch: f64) -> bool {
-    stretch.is_nan() || stretch > TORN
+/// NaN counts as broken, too.
+fn is_broken(stretch: f64) -> bool {
+    stretch.is_nan() || stretch > TUNING.breaking_stretch
 }
 
 /// Why a drape ends with its last step, and what would help; none if it need not end.
 pub fn reason(scene: &Scene, steps: &[Step]) -> Option<String> {
     let last = steps.last()?;
-    let worst = last.measures.get(Name::Overstretch).filter(|worst| is_torn(worst.value))?;
+    let worst = last.measures.get(Name::Overstretch).filter(|worst| is_broken(worst.value))?;
     if !worst.value.is_finite() {
         return Some(format!(
             "the stretch of {} is {} in step {}: the drape ends here; bring grippers closer together",
@@ -43,7 +37,7 @@ pub fn reason(scene: &Scene, steps: &[Step]) -> Option<String> {
     let [a, b] = scene.ply.cell;
     let side = (a * (grid.nu - 1) as f64).max(b * grid.nv.saturating_sub(1) as f64);
     match steps.iter().find_map(landing) {
-        Some(far) if far * 1e-3 > ASTRAY * side => {
+        Some(far) if far * 1e-3 > TUNING.large_landing_error * side => {
             text +=
                 &format!("; it first touched the mold {far:.0} mm from its place: come from above");
         }

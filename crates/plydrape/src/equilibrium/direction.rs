@@ -1,4 +1,4 @@
-//! Directions in which the circumstances of a ply change: what its solved state is differentiated along.
+//! Directions in which the circumstances of a ply change, along which its solved state is differentiated.
 
 use crate::material::{Material, Section};
 use crate::ply::{self, Ply};
@@ -65,7 +65,7 @@ impl Direction {
     /// One unit more of a property of the ply's material: derivatives along it are per that unit.
     ///
     /// None if the material does not have the property, or if it is zero: there a line changes its order, and
-    /// nothing can be said of its slopes.
+    /// its slopes have no derivative.
     #[must_use]
     pub fn property(ply: &Ply, property: Property) -> Option<Direction> {
         let mut direction = Direction::none(ply.grid.grippers());

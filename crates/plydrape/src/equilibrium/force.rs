@@ -38,9 +38,9 @@ pub struct Evaluated<const M: usize> {
     pub slope: [Jet<M>; 2],
     /// Curvatures z'' at both ends (1/m).
     pub curvature: [Jet<M>; 2],
-    /// Relative step of H over which the derivatives were carried: their error is its square, that of the values
+    /// Relative step of H over which the derivatives were extrapolated: their error is its square, that of the values
     /// its cube.
-    pub carried: f64,
+    pub extrapolation: f64,
     /// Measured relative error of the length, |C|/L_set; NaN where the force has moved since it was measured.
     pub length_residual: f64,
 }
@@ -51,7 +51,7 @@ impl<const M: usize> Default for Evaluated<M> {
             force: Jet::default(),
             slope: [Jet::default(); 2],
             curvature: [Jet::default(); 2],
-            carried: 0.0,
+            extrapolation: 0.0,
             length_residual: 0.0,
         }
     }
@@ -63,17 +63,17 @@ impl Evaluated<2> {
         series(&self.force, step)
     }
 
-    /// Carries everything to end slopes that are changed by `step`, by second-order series; the length is to be
+    /// Extrapolates everything to end slopes that are changed by `step`, by second-order series; the length is to be
     /// measured again.
-    pub fn carry(&mut self, step: [f64; 2]) {
-        let Evaluated { force, slope, curvature, carried, length_residual } = self;
+    pub fn extrapolate(&mut self, step: [f64; 2]) {
+        let Evaluated { force, slope, curvature, extrapolation, length_residual } = self;
         for jet in [force].into_iter().chain(slope).chain(curvature) {
             jet.value = series(jet, step);
             for i in 0..2 {
                 jet.gradient[i] += jet.hessian[i][0] * step[0] + jet.hessian[i][1] * step[1];
             }
         }
-        *carried += step[0].abs().max(step[1].abs());
+        *extrapolation += step[0].abs().max(step[1].abs());
         *length_residual = f64::NAN;
     }
 
@@ -175,7 +175,7 @@ fn follow<const N: usize, const M: usize>(q: &Jet<N>, h: &Jet<M>) -> Jet<M> {
     out
 }
 
-/// A jet in H and the rest, moved by a small step of H.
+/// A jet in H and other variables, moved by a small step of H.
 fn moved<const N: usize>(q: Jet<N>, step: f64) -> Jet<N> {
     let mut out = q;
     out.value += step * (q.gradient[0] + 0.5 * step * q.hessian[0][0]);
@@ -232,8 +232,8 @@ pub fn evaluate<const N: usize, const M: usize>(
     let length_residual =
         if relative(last, next) <= tuning.small_force { measured } else { f64::NAN };
     let force = implicit::<N, M>(&moved(c, step), next);
-    let carried = relative(step, h);
-    let mut out = Evaluated { force, carried, length_residual, ..Evaluated::default() };
+    let extrapolation = relative(step, h);
+    let mut out = Evaluated { force, extrapolation, length_residual, ..Evaluated::default() };
     for end in 0..2 {
         if needs.slope[end] {
             out.slope[end] = follow(&moved(profile.end_slope_jet::<N>(end), step), &force);

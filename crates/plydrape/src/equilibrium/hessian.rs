@@ -158,8 +158,8 @@ impl Hessian {
             }
             multiply(&self.blocks, &self.rows, step, &mut product);
             right.clear();
-            let rest = |n: usize| if active[n] { 0.0 } else { -from.residual[n] - product[n] };
-            right.extend((0..count).map(rest));
+            let remaining = |n: usize| if active[n] { 0.0 } else { -from.residual[n] - product[n] };
+            right.extend((0..count).map(remaining));
             self.solve(&right, active, tolerance, tuning, early_ends, &mut free);
             for n in 0..count {
                 if !active[n] {
@@ -192,12 +192,12 @@ impl Hessian {
 fn followed(problem: &Problem<f64>, state: &State, end: End<f64>) -> [(usize, f64); 2] {
     let none = (0, 0.0);
     let plane = match end {
-        End::Free | End::Given(_) => return [none; 2],
+        End::Free | End::Prescribed(_) => return [none; 2],
         End::Shared(slope) => return [(slope, 1.0), none],
         End::Plane(plane) => plane,
     };
     [0, 1].map(|m| match plane.source[m] {
-        SlopeSource::Given(_) => none,
+        SlopeSource::Prescribed(_) => none,
         SlopeSource::Shared(slope) => (slope, plane.share[m]),
         SlopeSource::Outcome(edge, at) => match problem.elements[edge].ends[1 - at] {
             End::Shared(slope) => {

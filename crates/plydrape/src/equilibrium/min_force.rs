@@ -89,7 +89,7 @@ fn gradient<T: Number>(
             let weight = force * slopes[end];
             for (share, source) in plane.share.into_iter().zip(plane.source) {
                 match source {
-                    SlopeSource::Given(_) => {}
+                    SlopeSource::Prescribed(_) => {}
                     SlopeSource::Shared(shared) => out[shared] += weight * share,
                     SlopeSource::Outcome(edge, end) => adjoint[edge][end] += weight * share,
                 }

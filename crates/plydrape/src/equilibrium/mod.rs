@@ -9,14 +9,13 @@
 //! - `rule` is what a rule for the slopes has to give, a residual and a step: `min_force`, eq. (9), with its `hessian`,
 //!   and `moment_balance`, eq. (10).
 //! - `newton` is the iteration of either rule, and `status` says how it ended.
-//! - `solver` goes from step to step, with a `memory` of earlier solutions, and by continuation where it must.
+//! - `solver` goes from step to step, with a `warm_start` from earlier solutions, and by continuation where it must.
 //! - `sensitivity` is the exact derivative of a solved state along a `direction`, eq. (11).
 //! - `tuning` holds every constant of the method.
 
 mod direction;
 mod force;
 mod hessian;
-mod memory;
 mod min_force;
 mod moment_balance;
 mod newton;
@@ -27,6 +26,7 @@ mod solver;
 mod state;
 mod status;
 mod tuning;
+mod warm_start;
 
 pub use direction::{Direction, Property};
 pub use problem::{
@@ -40,6 +40,6 @@ pub use tuning::Tuning;
 
 use num_dual::DualNum;
 
-/// A plain number, or one that carries its derivative along.
+/// A plain number, or a dual number with its derivative.
 pub trait Number: DualNum<Primitive = f64> + Copy {}
 impl<T: DualNum<Primitive = f64> + Copy> Number for T {}

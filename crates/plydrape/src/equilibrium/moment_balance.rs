@@ -2,7 +2,7 @@
 //! each line of edges, eq. (10) of `docs/theory/equilibrium.md`.
 //!
 //! The residual is the jump of moment at each shared slope; its matrix is tridiagonal line by line. A slope at its
-//! limit carries the jump instead. The jumps are, nearly, the gradient of a potential energy, and steps go down it.
+//! limit takes the jump instead. The jumps are, nearly, the gradient of a potential energy, and steps go down it.
 //! Each edge force follows its own length; diagonals are no tows, and follow at the end.
 
 use super::Number;

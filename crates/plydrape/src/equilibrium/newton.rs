@@ -10,6 +10,15 @@ use super::state::State;
 use super::status::{EarlyEnds, Equilibrium, Status};
 use super::tuning::Tuning;
 
+/// How far the iteration goes along each Newton step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepLength {
+    /// Halved until the step leads to a better state.
+    LineSearch,
+    /// The whole step, even where the merit rises.
+    Whole,
+}
+
 /// Buffers of the iteration, which allocates nothing once they have grown.
 #[derive(Debug, Clone, Default)]
 pub struct Newton {
@@ -40,6 +49,7 @@ impl Newton {
         problem: &Problem<f64>,
         state: &mut State,
         bound: f64,
+        step_length: StepLength,
         tuning: &Tuning,
     ) -> Equilibrium {
         let count = problem.shared_slopes().len();
@@ -47,7 +57,8 @@ impl Newton {
         self.step.change.resize(count, 0.0);
         self.step.early_ends = EarlyEnds::default();
         rule.prepare(problem, state);
-        let (status, iterations, residual) = self.iterate(rule, problem, state, bound, tuning);
+        let (status, iterations, residual) =
+            self.iterate(rule, problem, state, bound, step_length, tuning);
         let all = problem.elements.len();
         state.evaluate(problem, rule.elements(problem).end..all);
         let length_residual = state.measure_lengths(problem);
@@ -64,6 +75,7 @@ impl Newton {
         problem: &Problem<f64>,
         state: &mut State,
         bound: f64,
+        step_length: StepLength,
         tuning: &Tuning,
     ) -> (Status, usize, f64) {
         let mut merit = self.evaluate(rule, problem, state);
@@ -78,10 +90,10 @@ impl Newton {
             rule.linearize(problem, state);
             let left = self.slope_residual(rule);
             if left <= tuning.slope_tolerance {
-                if state.is_sharp() {
+                if state.is_exact() {
                     return (Status::Converged, iterations, left);
                 }
-                // derivatives that were carried too far are renewed
+                // derivatives that were extrapolated too far are renewed
                 merit = self.evaluate(rule, problem, state);
                 continue;
             }
@@ -109,7 +121,12 @@ impl Newton {
                 let next = self.evaluate(rule, problem, state);
                 let of = |residual: &[f64]| work(residual, state.slopes(), &self.start);
                 let work = [of(&self.start_residual), of(&self.residual)];
-                better = rule.improves(&Trial { merit: [merit, next], work }, tuning);
+                better = match step_length {
+                    StepLength::LineSearch => {
+                        rule.improves(&Trial { merit: [merit, next], work }, tuning)
+                    }
+                    StepLength::Whole => next.is_finite(),
+                };
                 if better {
                     merit = next;
                 }
@@ -127,7 +144,7 @@ impl Newton {
         }
     }
 
-    /// Evaluates what the rule looks at, takes the residual, and returns the merit.
+    /// Evaluates the elements that the rule needs, takes the residual, and returns the merit.
     fn evaluate(&mut self, rule: &mut dyn Rule, problem: &Problem<f64>, state: &mut State) -> f64 {
         state.evaluate(problem, rule.elements(problem));
         rule.residual(problem, state, &mut self.residual)

@@ -81,13 +81,13 @@ pub trait Rule {
         0..problem.elements.len()
     }
 
-    /// Says what the rule needs of the elements beside their forces.
+    /// Reports the needs of the rule beside the forces of the elements.
     fn prepare(&self, _problem: &Problem<f64>, _state: &mut State) {}
 
     /// Writes R of an evaluated state, and returns the merit that steps are to lower, where the rule has one.
     fn residual(&mut self, problem: &Problem<f64>, state: &State, out: &mut [f64]) -> f64;
 
-    /// Change of R along a direction that is carried by the problem and the elements.
+    /// Change of R along a direction, which the problem and the elements contain as dual numbers.
     fn residual_change(&self, problem: &Problem<Dual64>, along: &[Response<Dual64>]) -> Vec<f64>;
 
     /// Makes the matrix R_s of an evaluated state whose residual was taken last.

@@ -1,7 +1,7 @@
 //! Exact derivatives of the solved state, by the implicit function theorem, eq. (11) of
 //! `docs/theory/equilibrium.md`.
 //!
-//! A direction of change of positions, lengths or material is carried as a dual number through the
+//! A direction of change of positions, lengths or material goes as a dual number through the
 //! same problem and the same rule; what it does to the rule's residual at fixed slopes gives the slopes'
 //! response through the matrix of the last Newton step, and a second pass gives every force.
 
@@ -13,7 +13,7 @@ use super::rule::Response;
 use super::solver::{SceneRule, Solver};
 use super::state::State;
 use crate::catenary::{Jet, SpanState};
-use crate::ply::Laid;
+use crate::ply::ContactSegment;
 use num_dual::Dual64;
 
 /// How the solved state changes along a [`Direction`].
@@ -45,7 +45,7 @@ pub struct StateTangent {
 /// the slopes. Where slopes are mixed with those of the unconstrained ply, that ply is differentiated first.
 pub struct Linearized<'a> {
     positions: &'a [[f64; 3]],
-    laid: &'a [Option<Laid>],
+    contacts: &'a [Option<ContactSegment>],
     own: Linearization<'a>,
     unconstrained: Option<Linearization<'a>>,
     sound: bool,
@@ -56,11 +56,11 @@ impl Linearized<'_> {
     pub fn along(&mut self, direction: &Direction) -> StateTangent {
         let (mut free, mut sound): (&[[Dual64; 2]], bool) = (&[], true);
         if let Some(linearization) = &mut self.unconstrained {
-            let state = linearization.along(self.positions, self.laid, direction, &[]);
+            let state = linearization.along(self.positions, self.contacts, direction, &[]);
             sound = state.is_sound;
             free = &linearization.pass.held;
         }
-        let mut state = self.own.along(self.positions, self.laid, direction, free);
+        let mut state = self.own.along(self.positions, self.contacts, direction, free);
         state.is_sound &= sound;
         self.sound &= state.is_sound;
         state
@@ -107,7 +107,7 @@ impl<'a> Linearization<'a> {
     fn along(
         &mut self,
         positions: &[[f64; 3]],
-        laid: &[Option<Laid>],
+        contacts: &[Option<ContactSegment>],
         direction: &Direction,
         free: &[[Dual64; 2]],
     ) -> StateTangent {
@@ -121,7 +121,7 @@ impl<'a> Linearization<'a> {
             weight: factors(direction.weight),
             rigidity: factors(direction.rigidity),
         };
-        problem.rebuild(&solver.circumstances(moving, laid, factors, free));
+        problem.rebuild(&solver.circumstances(moving, contacts, factors, free));
 
         // what the direction does to the rule at fixed slopes
         let at = solver.slopes();
@@ -153,30 +153,30 @@ impl<'a> Linearization<'a> {
 impl Solver {
     /// Derivative of the last solved state along a direction.
     ///
-    /// `positions` and `laid` must be those of the last [`Solver::solve`]. Exact wherever the state is
+    /// `positions` and `contacts` must be those of the last [`Solver::solve`]. Exact wherever the state is
     /// differentiable: not where a diagonal just begins to shear or a slope just reaches its limit.
     #[must_use]
     pub fn tangent(
         &self,
         positions: &[[f64; 3]],
-        laid: &[Option<Laid>],
+        contacts: &[Option<ContactSegment>],
         direction: &Direction,
     ) -> StateTangent {
-        self.linearize(positions, laid).along(direction)
+        self.linearize(positions, contacts).along(direction)
     }
 
     /// Prepares the derivatives of the last solved state, for many directions.
     ///
-    /// `positions` and `laid` must be those of the last [`Solver::solve`].
+    /// `positions` and `contacts` must be those of the last [`Solver::solve`].
     #[must_use]
     pub fn linearize<'a>(
         &'a self,
         positions: &'a [[f64; 3]],
-        laid: &'a [Option<Laid>],
+        contacts: &'a [Option<ContactSegment>],
     ) -> Linearized<'a> {
         let own = Linearization::new(self);
         let unconstrained = self.unconstrained().map(Linearization::new);
-        Linearized { positions, laid, own, unconstrained, sound: true }
+        Linearized { positions, contacts, own, unconstrained, sound: true }
     }
 }
 
@@ -195,7 +195,7 @@ struct Pass {
 }
 
 impl Pass {
-    /// Carries the direction in `problem` through every element, the shared slopes `at` changing by `change`.
+    /// Propagates the direction in `problem` through every element, the shared slopes `at` changing by `change`.
     fn run(
         &mut self,
         problem: &Problem<Dual64>,
@@ -215,10 +215,10 @@ impl Pass {
             }
             let held = element.ends.map(|end| match end {
                 End::Free => None,
-                End::Given(slope) => Some(slope),
+                End::Prescribed(slope) => Some(slope),
                 End::Shared(n) => Some(shared(n)),
                 End::Plane(plane) => Some(plane.slope(|source| match source {
-                    SlopeSource::Given(slope) => slope,
+                    SlopeSource::Prescribed(slope) => slope,
                     SlopeSource::Shared(n) => shared(n),
                     SlopeSource::Outcome(edge, end) => self.responses[edge].slope[end].0,
                 })),

@@ -1,20 +1,20 @@
-//! The solver: one [`Problem`] after the other, and the memory that makes the next step cheap.
+//! The solver: one [`Problem`] after the other, each with a warm start from the one before.
 //!
 //! [`Solver::solve`] is the paper's section 3: state the problem, iterate on the shared slopes by one of
 //! the two rules, read off the forces. Where that fails, as it may for stiff plies in compression, the ply is made
-//! limp and stiffened step by step.
+//! limp and stiffened step by step. The last attempt takes whole Newton steps without a line search.
 
-use super::memory::Memory;
 use super::min_force::MinForce;
 use super::moment_balance::MomentBalance;
-use super::newton::Newton;
+use super::newton::{Newton, StepLength};
 use super::problem::{Circumstances, End, Factors, Problem, heading};
 use super::rule::Rule;
 use super::state::State;
 use super::status::{Equilibrium, Status};
 use super::tuning::Tuning;
+use super::warm_start::WarmStart;
 use crate::catenary::{Span, SpanState};
-use crate::ply::{Grid, Laid, Ply};
+use crate::ply::{ContactSegment, Grid, Ply};
 use crate::scene::{Settings, SlopeRule};
 
 /// Finds equilibria, one after the other.
@@ -27,7 +27,7 @@ pub struct Solver {
     state: State,
     rule: SceneRule,
     newton: Newton,
-    memory: Memory,
+    warm_start: WarmStart,
     /// Finds the same ply's equilibrium without constraints, where its slopes count.
     unconstrained: Option<Box<Solver>>,
     /// Slopes at both ends of every element there; empty where they do not count.
@@ -63,7 +63,7 @@ impl SceneRule {
 }
 
 impl Solver {
-    /// A solver for a ply under given rules, with nothing remembered.
+    /// A solver for a ply under the rules of a scene, without earlier solutions.
     #[must_use]
     pub fn new(ply: &Ply, settings: &Settings) -> Solver {
         let tuning = Tuning::default();
@@ -75,7 +75,7 @@ impl Solver {
             state: State::new(settings.axial_stiffness, tuning),
             rule: SceneRule::new(settings.slopes),
             newton: Newton::default(),
-            memory: Memory::new(ply.grid),
+            warm_start: WarmStart::new(ply.grid),
             unconstrained: None,
             free: Vec::new(),
             constrained: true,
@@ -93,64 +93,72 @@ impl Solver {
 
     /// The tuning constants.
     #[must_use]
-    pub fn tuning(&self) -> &Tuning {
+    pub(crate) fn tuning(&self) -> &Tuning {
         &self.tuning
     }
 
-    /// Forgets earlier solutions: the next solve starts cold.
+    /// Removes earlier solutions: the next solve starts cold.
     pub fn forget(&mut self) {
-        self.memory.forget();
+        self.warm_start.clear();
         if let Some(unconstrained) = &mut self.unconstrained {
             unconstrained.forget();
         }
     }
 
     /// Solves the equilibrium at gripper positions (m), in the order of [`crate::ply::Grid::index`],
-    /// with what of each catenary is in contact.
+    /// with the contact segment of each catenary.
     ///
     /// Where a cell has just begun to shear, the ply is solved without constraints first: those slopes are mixed
     /// with the plane's.
-    pub fn solve(&mut self, positions: &[[f64; 3]], laid: &[Option<Laid>]) -> Equilibrium {
+    pub fn solve(
+        &mut self,
+        positions: &[[f64; 3]],
+        contacts: &[Option<ContactSegment>],
+    ) -> Equilibrium {
         self.free.clear();
-        self.state_problem(positions, laid, 1.0);
+        self.state_problem(positions, contacts, 1.0);
         if !self.problem.is_partly_constrained() {
-            return self.follow(positions, laid);
+            return self.follow(positions, contacts);
         }
         let mut solver = self.unconstrained.take().unwrap_or_else(|| {
             let mut solver = Solver::new(&self.ply, &self.settings).with_tuning(self.tuning);
             solver.constrained = false;
             Box::new(solver)
         });
-        let first = solver.solve(positions, laid);
+        let first = solver.solve(positions, contacts);
         self.free.extend(solver.state.all_end_slopes());
         self.unconstrained = Some(solver);
-        self.state_problem(positions, laid, 1.0);
-        first.and(self.follow(positions, laid))
+        self.state_problem(positions, contacts, 1.0);
+        first.and(self.follow(positions, contacts))
     }
 
     /// Solves the stated problem directly, or where that fails by continuation in the stiffness, which follows the
-    /// hanging state to its like.
-    fn follow(&mut self, positions: &[[f64; 3]], laid: &[Option<Laid>]) -> Equilibrium {
-        let direct = self.attempt();
+    /// hanging state to its like, or at last by whole Newton steps from where the line search ended.
+    fn follow(
+        &mut self,
+        positions: &[[f64; 3]],
+        contacts: &[Option<ContactSegment>],
+    ) -> Equilibrium {
+        let direct = self.attempt(StepLength::LineSearch);
         if direct.status == Status::Converged {
             return direct;
         }
         let Tuning { limp, mut growth, smallest_growth, .. } = self.tuning;
         let mut counted = direct;
         let mut stiffened = |solver: &mut Solver, stiffness: f64| {
-            solver.state_problem(positions, laid, stiffness);
-            counted = counted.then(solver.attempt());
+            solver.state_problem(positions, contacts, stiffness);
+            counted = counted.then(solver.attempt(StepLength::LineSearch));
             counted
         };
-        self.memory.forget();
+        self.warm_start.clear();
         let mut done = limp;
         stiffened(self, limp);
         while growth > smallest_growth {
-            let before = self.memory.clone();
+            let before = self.warm_start.clone();
             let next = f64::min(growth * done, 1.0);
             let outcome = stiffened(self, next);
             if outcome.status != Status::Converged {
-                self.memory = before;
+                self.warm_start = before;
                 growth = growth.sqrt();
             } else if next >= 1.0 {
                 return outcome;
@@ -158,31 +166,41 @@ impl Solver {
                 done = next;
             }
         }
-        self.memory.forget();
-        stiffened(self, 1.0)
+        self.warm_start.clear();
+        let cold = stiffened(self, 1.0);
+        if cold.status == Status::Converged {
+            return cold;
+        }
+        // a line search ends where the objective jumps at a fold, and whole steps cross it
+        cold.then(self.attempt(StepLength::Whole))
     }
 
     /// States the problem, with the flexural rigidity multiplied by `stiffness`.
-    fn state_problem(&mut self, positions: &[[f64; 3]], laid: &[Option<Laid>], stiffness: f64) {
+    fn state_problem(
+        &mut self,
+        positions: &[[f64; 3]],
+        contacts: &[Option<ContactSegment>],
+        stiffness: f64,
+    ) {
         self.problem.rebuild(&Circumstances {
             ply: &self.ply,
             settings: &self.settings,
             tuning: &self.tuning,
             positions,
-            laid,
+            contacts,
             factors: Factors { length: [1.0; 3], weight: [1.0; 3], rigidity: [stiffness; 3] },
             free: &self.free,
             constrained: self.constrained,
         });
     }
 
-    /// Solves the stated problem from what is remembered.
-    fn attempt(&mut self) -> Equilibrium {
+    /// Solves the stated problem from the warm start.
+    fn attempt(&mut self, step_length: StepLength) -> Equilibrium {
         let Solver { problem, state, rule, tuning, .. } = self;
         let bound = self.settings.max_tilt.tan();
-        self.memory.recall(problem, bound, state);
-        let outcome = self.newton.solve(rule.get(), problem, state, bound, tuning);
-        self.memory.remember(problem, state);
+        self.warm_start.start(problem, bound, state);
+        let outcome = self.newton.solve(rule.get(), problem, state, bound, step_length, tuning);
+        self.warm_start.store(problem, state);
         outcome
     }
 
@@ -212,11 +230,11 @@ impl Solver {
         self.unconstrained.as_deref().filter(|_| !self.free.is_empty())
     }
 
-    /// The same ply elsewhere: what the last solve was asked for, and how it changes.
+    /// The circumstances of the last solve, with other positions and factors.
     pub(super) fn circumstances<'a, T>(
         &'a self,
         positions: &'a [[T; 3]],
-        laid: &'a [Option<Laid>],
+        contacts: &'a [Option<ContactSegment>],
         factors: Factors<T>,
         free: &'a [[T; 2]],
     ) -> Circumstances<'a, T> {
@@ -226,7 +244,7 @@ impl Solver {
             settings,
             tuning,
             positions,
-            laid,
+            contacts,
             factors,
             free,
             constrained: *constrained,

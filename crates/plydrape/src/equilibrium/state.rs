@@ -56,8 +56,8 @@ pub struct State {
     elements: Vec<Evaluation>,
     needs: Vec<Needs>,
     parabolas: Vec<Parabola>,
-    /// Ratio of a force to its parabola's, found last for an element of each likeness.
-    alike: [Option<f64>; Element::LIKENESSES],
+    /// Ratio of a force to its parabola's, found last for an element of each variant.
+    ratio_by_variant: [Option<f64>; Element::VARIANTS],
 }
 
 impl State {
@@ -70,7 +70,7 @@ impl State {
             elements: Vec::new(),
             needs: Vec::new(),
             parabolas: Vec::new(),
-            alike: [None; Element::LIKENESSES],
+            ratio_by_variant: [None; Element::VARIANTS],
         }
     }
 
@@ -92,11 +92,11 @@ impl State {
                 match end {
                     End::Shared(_) => self.needs[n].derivatives = true,
                     End::Plane(plane) => self.need_edges(n, &plane),
-                    End::Free | End::Given(_) => {}
+                    End::Free | End::Prescribed(_) => {}
                 }
             }
         }
-        self.alike = [None; Element::LIKENESSES];
+        self.ratio_by_variant = [None; Element::VARIANTS];
         self.parabolas.clear();
         self.elements.clear();
         for element in &problem.elements {
@@ -115,7 +115,7 @@ impl State {
     fn need_edges(&mut self, diagonal: usize, plane: &PlaneSlope<f64>) {
         for source in plane.source {
             match source {
-                SlopeSource::Given(_) => {}
+                SlopeSource::Prescribed(_) => {}
                 SlopeSource::Shared(_) => self.needs[diagonal].derivatives = true,
                 SlopeSource::Outcome(edge, end) => {
                     self.needs[edge].slope[end] = true;
@@ -171,9 +171,9 @@ impl State {
         self.parabolas[n].ratio(self.elements[n].found.force.value)
     }
 
-    /// Whether no element's derivatives were carried far; if not, the next evaluation renews them.
-    pub fn is_sharp(&self) -> bool {
-        self.elements.iter().all(|element| element.found.carried <= self.tuning.carried)
+    /// Whether no element's derivatives were extrapolated far; if not, the next evaluation renews them.
+    pub fn is_exact(&self) -> bool {
+        self.elements.iter().all(|element| element.found.extrapolation <= self.tuning.extrapolation)
     }
 
     /// Evaluates the elements of a range at the present shared slopes.
@@ -189,14 +189,14 @@ impl State {
             }
             let slopes = [0, 1].map(|end| self.slope_at(element, end));
             let (needs, own) = (self.needs[n], &mut self.elements[n]);
-            if own.known.cover(needs) && own.found.carried <= self.tuning.carried {
+            if own.known.cover(needs) && own.found.extrapolation <= self.tuning.extrapolation {
                 let step = [slopes[0] - own.held[0], slopes[1] - own.held[1]];
-                // nothing that holds it has moved: keep what is known
+                // its held slopes have not moved: the evaluation stays
                 if slopes == own.held {
                     continue;
                 }
                 if needs.derivatives && step.iter().all(|x| x.abs() <= self.tuning.series_slope) {
-                    own.found.carry(step);
+                    own.found.extrapolate(step);
                     own.held = slopes;
                     continue;
                 }
@@ -209,7 +209,7 @@ impl State {
                 evaluate_still(&span, guess, needs, &self.tuning)
             };
             let ratio = self.parabolas[n].ratio(found.force.value);
-            self.alike[element.likeness()] = Some(ratio).filter(|r| r.is_finite());
+            self.ratio_by_variant[element.variant()] = Some(ratio).filter(|r| r.is_finite());
             self.elements[n] = Evaluation { held: slopes, found, known: needs };
         }
     }
@@ -218,10 +218,10 @@ impl State {
     fn slope_at(&self, element: &Element<f64>, end: usize) -> f64 {
         match element.ends[end] {
             End::Free => 0.0,
-            End::Given(slope) => slope,
+            End::Prescribed(slope) => slope,
             End::Shared(slope) => self.slopes[slope],
             End::Plane(plane) => plane.slope(|source| match source {
-                SlopeSource::Given(slope) => slope,
+                SlopeSource::Prescribed(slope) => slope,
                 SlopeSource::Shared(slope) => self.slopes[slope],
                 SlopeSource::Outcome(edge, end) => self.elements[edge].found.slope[end].value,
             }),
@@ -232,7 +232,8 @@ impl State {
     fn predict(&self, n: usize, element: &Element<f64>, slopes: [f64; 2]) -> Option<f64> {
         let Evaluation { held, found, .. } = &self.elements[n];
         if found.force.value.is_nan() {
-            return self.alike[element.likeness()].map(|ratio| self.parabolas[n].force(ratio));
+            return self.ratio_by_variant[element.variant()]
+                .map(|ratio| self.parabolas[n].force(ratio));
         }
         if held[0].is_nan() {
             return Some(found.force.value);

@@ -1,4 +1,4 @@
-//! How a solve ended, as data: nothing that was cut short is silent.
+//! How a solve ended, as data: every early end is counted.
 
 /// How a solve ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,7 +45,7 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// A state that rests on another one: both must have converged.
+    /// A state that depends on another one: both must have converged.
     #[must_use]
     pub fn and(self, other: Equilibrium) -> Equilibrium {
         Equilibrium {

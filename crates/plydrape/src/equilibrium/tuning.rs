@@ -22,16 +22,15 @@ pub struct Tuning {
     pub slope_tolerance: f64,
     /// Relative error of a length that a converged solve may leave. 1e-8, for the same promise.
     pub length_tolerance: f64,
-    /// Residual of the slopes below which a line search that finds nothing better has met rounding, not an
-    /// obstacle. 1e-6, because the objective is summed to about 1e-12 of itself and is flat to second order.
+    /// Residual of the slopes below which a line search that finds nothing better is limited by rounding. 1e-6, because the objective is summed to about 1e-12 of itself and is flat to second order.
     pub rounding_residual: f64,
-    /// Relative step of a force over which its element's derivatives may have been carried at a converged state.
+    /// Relative step of a force over which its element's derivatives may have been extrapolated at a converged state.
     /// 2e-4: moments and gradients are then off by some 1e-11 of themselves.
-    pub carried: f64,
+    pub extrapolation: f64,
     /// Change of an element's end slopes that its series takes. 1e-5: the force is off by the cube of it and the
     /// derivatives by its square, 1e-10 of themselves.
     pub series_slope: f64,
-    /// Relative step of a force over which its derivatives may be carried by their own derivatives. 1e-2: their error
+    /// Relative step of a force over which its derivatives may be extrapolated by their own derivatives. 1e-2: their error
     /// is its square, which vanishes as the slopes converge, because forces are then predicted ever better.
     pub series_force: f64,
     /// Relative step of a force after which the error of the next force is lost in rounding. 3e-6: line searches
@@ -68,15 +67,15 @@ pub struct Tuning {
     pub linear_iterations: usize,
     /// Unknowns counted for that limit.
     pub linear_unknowns: usize,
-    /// Unknowns up to which the linear system of a step is solved to [`Tuning::linear_exact`], because that costs
-    /// nothing.
+    /// Unknowns up to which the linear system of a step is solved to [`Tuning::linear_exact`], because that is
+    /// cheap.
     pub few_unknowns: usize,
     /// Relative residual of the linear system of a few unknowns.
     pub linear_exact: f64,
     /// Relative residual of other linear systems, per largest change of a slope in the step before: a Newton step is
     /// worth no more digits than it will have.
     pub linear_share: f64,
-    /// Smallest and largest relative residual asked of them.
+    /// Smallest and largest relative residual that is required of them.
     pub linear_tolerance: [f64; 2],
     /// Relative residual of the linear system of a derivative.
     pub tangent_tolerance: f64,
@@ -107,7 +106,7 @@ impl Default for Tuning {
             slope_tolerance: 1e-9,
             length_tolerance: 1e-8,
             rounding_residual: 1e-6,
-            carried: 2e-4,
+            extrapolation: 2e-4,
             series_slope: 1e-5,
             series_force: 0.01,
             exact_force: 3e-6,

@@ -3,31 +3,18 @@
 //! A diagonal is no fibre: one that landed in another shear than its cell ends with is too short or too long for its place, and spans hollows that
 //! the fabric lies in. Its gaps stand in its record.
 
-use super::{Found, Measure, Most, Scope, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
 use crate::scene::Scene;
 
 /// Bridging; see the head of this file.
 pub struct Bridging;
 
 impl Measure for Bridging {
-    fn name(&self) -> &'static str {
-        "bridging"
-    }
-
-    fn key(&self) -> &'static str {
-        "bridging_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "bridging"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::End
+    fn description(&self) -> Description {
+        Description {
+            scope: Scope::End,
+            ..Description::new("bridging", "bridging_mm", "bridging", Unit::MILLIMETRE)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

@@ -1,30 +1,18 @@
 //! Contact share: the length of the edges that lies on the mold, of the length of all edges.
 
-use super::{Found, Measure, Scope, Sense, Site, State, Unit};
+use super::{Description, Found, Measure, Scope, Sense, Site, State, Unit};
 use crate::scene::Scene;
 
 /// Contact share; see the head of this file.
 pub struct ContactShare;
 
 impl Measure for ContactShare {
-    fn name(&self) -> &'static str {
-        "contact_share"
-    }
-
-    fn label(&self) -> &'static str {
-        "contact share"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::SHARE
-    }
-
-    fn sense(&self) -> Sense {
-        Sense::AtLeast
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::End
+    fn description(&self) -> Description {
+        Description {
+            sense: Sense::AtLeast,
+            scope: Scope::End,
+            ..Description::new("contact_share", "contact_share", "contact share", Unit::SHARE)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
@@ -35,11 +23,13 @@ impl Measure for ContactShare {
         state.scene.mold.as_ref()?;
         let (ply, grid) = (&state.scene.ply, state.scene.ply.grid);
         let (mut lying, mut total) = (0.0, 0.0);
-        for (n, laid) in state.snapshot.laid.iter().enumerate().take(grid.edges()) {
+        for (n, contact) in state.snapshot.contacts.iter().enumerate().take(grid.edges()) {
             total += ply.flat_length(grid.catenary(n).kind);
-            let Some(laid) = laid else { continue };
-            let beside = (0..2).filter(|&which| laid.lying[which]).map(|which| laid.rest(which));
-            lying += laid.line.length() + beside.sum::<f64>();
+            let Some(contact) = contact else { continue };
+            let beside = (0..2)
+                .filter(|&which| contact.lying[which])
+                .map(|which| contact.free_length(which));
+            lying += contact.line.length() + beside.sum::<f64>();
         }
         Some(Found { value: lying / total, site: Site::AllEdges, place: None })
     }

@@ -3,26 +3,19 @@
 //! A diagonal is no fibre and this is no wrinkle: what counts is the shear that its cell landed with
 //! (`landing_shear.rs`).
 
-use super::{Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Site, State, Unit};
 
 /// Slack of diagonals; see the head of this file.
 pub struct DiagonalSlack;
 
 impl Measure for DiagonalSlack {
-    fn name(&self) -> &'static str {
-        "diagonal_slack"
-    }
-
-    fn key(&self) -> &'static str {
-        "diagonal_slack_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "slack of diagonals"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
+    fn description(&self) -> Description {
+        Description::new(
+            "diagonal_slack",
+            "diagonal_slack_mm",
+            "slack of diagonals",
+            Unit::MILLIMETRE,
+        )
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {

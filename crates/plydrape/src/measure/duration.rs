@@ -1,34 +1,18 @@
 //! Duration: how long the motion has taken.
 
-use super::{Found, Measure, Scope, Site, State, Unit, Worth};
+use super::{Description, Found, Measure, Scope, Site, State, Unit, Worth};
 use crate::scene::Scene;
 
 /// Duration; see the head of this file.
 pub struct Duration;
 
 impl Measure for Duration {
-    fn name(&self) -> &'static str {
-        "duration"
-    }
-
-    fn key(&self) -> &'static str {
-        "duration_s"
-    }
-
-    fn label(&self) -> &'static str {
-        "duration"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::SECOND
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::Time
-    }
-
-    fn worth(&self) -> Worth {
-        Worth::Kept
+    fn description(&self) -> Description {
+        Description {
+            scope: Scope::Time,
+            worth: Worth::Kept,
+            ..Description::new("duration", "duration_s", "duration", Unit::SECOND)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

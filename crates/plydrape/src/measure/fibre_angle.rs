@@ -1,30 +1,17 @@
 //! Fibre angle: the angle between a landed edge, from end to end, and the same fabric in the ideal drape.
 
-use super::{Found, Measure, Most, Scope, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
 use crate::scene::Scene;
 
 /// Fibre angle; see the head of this file.
 pub struct FibreAngle;
 
 impl Measure for FibreAngle {
-    fn name(&self) -> &'static str {
-        "fibre_angle"
-    }
-
-    fn key(&self) -> &'static str {
-        "fibre_angle_deg"
-    }
-
-    fn label(&self) -> &'static str {
-        "fibre angle"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::DEGREE
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::End
+    fn description(&self) -> Description {
+        Description {
+            scope: Scope::End,
+            ..Description::new("fibre_angle", "fibre_angle_deg", "fibre angle", Unit::DEGREE)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

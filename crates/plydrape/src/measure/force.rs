@@ -3,31 +3,18 @@
 //! Segments that the mold holds are left out: their force is that of the axial stiffness, and so are diagonals, which
 //! are no fibres.
 
-use super::{Found, Measure, Most, Site, State, Unit, Worth};
+use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
 use crate::scene::Scene;
 
 /// Force; see the head of this file.
 pub struct Force;
 
 impl Measure for Force {
-    fn name(&self) -> &'static str {
-        "force"
-    }
-
-    fn key(&self) -> &'static str {
-        "force_n"
-    }
-
-    fn label(&self) -> &'static str {
-        "horizontal force"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::NEWTON
-    }
-
-    fn worth(&self) -> Worth {
-        Worth::Kept
+    fn description(&self) -> Description {
+        Description {
+            worth: Worth::Kept,
+            ..Description::new("force", "force_n", "horizontal force", Unit::NEWTON)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
@@ -37,7 +24,8 @@ impl Measure for Force {
     fn evaluate(&self, state: &State) -> Option<Found> {
         let mut most = Most::default();
         for span in &state.snapshot.shape.spans {
-            let hangs = span.catenary < state.edges() && state.snapshot.laid[span.catenary].is_none();
+            let hangs =
+                span.catenary < state.edges() && state.snapshot.contacts[span.catenary].is_none();
             if let Some(force) = span.force.filter(|_| hangs) {
                 most.meet(force.abs(), Site::Catenary(span.catenary), span.point(0.5));
             }

@@ -59,13 +59,13 @@ pub struct Found {
 }
 
 impl Found {
-    /// Nothing of it anywhere.
+    /// The value zero, without a place.
     pub const NONE: Found = Found { value: 0.0, site: Site::Nowhere, place: None };
 }
 
 /// Collects the largest of several values, the first of those that are equal; one that is no number is the largest.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Most(Option<Found>);
+pub(crate) struct Most(Option<Found>);
 
 impl Most {
     /// Another value.

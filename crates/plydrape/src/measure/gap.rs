@@ -1,25 +1,13 @@
 //! Gap: the largest distance of a station of a free span from the mold.
 
-use super::{Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Site, State, Unit};
 
 /// Gap; see the head of this file.
 pub struct Gap;
 
 impl Measure for Gap {
-    fn name(&self) -> &'static str {
-        "gap"
-    }
-
-    fn key(&self) -> &'static str {
-        "gap_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "gap"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
+    fn description(&self) -> Description {
+        Description::new("gap", "gap_mm", "gap", Unit::MILLIMETRE)
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {

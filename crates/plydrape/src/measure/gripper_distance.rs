@@ -1,6 +1,6 @@
 //! Gripper distance: the smallest distance of any two grippers.
 
-use super::{Found, Measure, Sense, State, Unit, Worth};
+use super::{Description, Found, Measure, Sense, State, Unit, Worth};
 use crate::draping::reach::closest;
 use crate::scene::Scene;
 
@@ -8,28 +8,17 @@ use crate::scene::Scene;
 pub struct GripperDistance;
 
 impl Measure for GripperDistance {
-    fn name(&self) -> &'static str {
-        "gripper_distance"
-    }
-
-    fn key(&self) -> &'static str {
-        "gripper_distance_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "gripper distance"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
-    }
-
-    fn sense(&self) -> Sense {
-        Sense::AtLeast
-    }
-
-    fn worth(&self) -> Worth {
-        Worth::Kept
+    fn description(&self) -> Description {
+        Description {
+            sense: Sense::AtLeast,
+            worth: Worth::Kept,
+            ..Description::new(
+                "gripper_distance",
+                "gripper_distance_mm",
+                "gripper distance",
+                Unit::MILLIMETRE,
+            )
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

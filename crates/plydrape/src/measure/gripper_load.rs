@@ -1,10 +1,10 @@
 //! Load: what a gripper holds against gravity, as the ply hangs.
 //!
-//! Both families of edges carry the whole ply in the model, so each counts half here, and the boundary lines of a family, which
+//! Both families of edges have the weight of the whole ply in the model, so each counts half here, and the boundary lines of a family, which
 //! stand for half a strip, half of that. A span between two grippers pulls with its vertical force; of a free segment that the mold
 //! holds at its other end, the tension is an artefact of the axial stiffness, and half of its weight counts.
 
-use super::{Found, Measure, Most, Site, State, Unit, Worth};
+use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
 use crate::draping::load::loads;
 use crate::scene::Scene;
 
@@ -12,24 +12,11 @@ use crate::scene::Scene;
 pub struct GripperLoad;
 
 impl Measure for GripperLoad {
-    fn name(&self) -> &'static str {
-        "gripper_load"
-    }
-
-    fn key(&self) -> &'static str {
-        "gripper_load_n"
-    }
-
-    fn label(&self) -> &'static str {
-        "gripper load"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::NEWTON
-    }
-
-    fn worth(&self) -> Worth {
-        Worth::Kept
+    fn description(&self) -> Description {
+        Description {
+            worth: Worth::Kept,
+            ..Description::new("gripper_load", "gripper_load_n", "gripper load", Unit::NEWTON)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

@@ -3,7 +3,7 @@
 //! Edges count as for the load (`gripper_load.rs`). With rigid grippers the pull of a taut span is that of the axial stiffness: 0.01 % of stretch
 //! are 10 N a line in the paper's ply.
 
-use super::{Found, Measure, Most, Site, State, Unit, Worth};
+use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
 use crate::draping::load::loads;
 use crate::scene::Scene;
 
@@ -11,24 +11,11 @@ use crate::scene::Scene;
 pub struct GripperPull;
 
 impl Measure for GripperPull {
-    fn name(&self) -> &'static str {
-        "gripper_pull"
-    }
-
-    fn key(&self) -> &'static str {
-        "gripper_pull_n"
-    }
-
-    fn label(&self) -> &'static str {
-        "gripper pull"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::NEWTON
-    }
-
-    fn worth(&self) -> Worth {
-        Worth::Kept
+    fn description(&self) -> Description {
+        Description {
+            worth: Worth::Kept,
+            ..Description::new("gripper_pull", "gripper_pull_n", "gripper pull", Unit::NEWTON)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

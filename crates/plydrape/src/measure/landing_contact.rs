@@ -3,31 +3,23 @@
 //! A diagonal is no fibre. Where its points land follows from the shear that its cell lands with, which is judged by itself
 //! (`landing_shear.rs`); their distances stand in the record of the diagonal.
 
-use super::{Found, Measure, Most, Scope, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
 use crate::scene::Scene;
 
 /// Landing of contact points; see the head of this file.
 pub struct LandingContact;
 
 impl Measure for LandingContact {
-    fn name(&self) -> &'static str {
-        "landing_contact"
-    }
-
-    fn key(&self) -> &'static str {
-        "landing_contact_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "landing of contact points"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::End
+    fn description(&self) -> Description {
+        Description {
+            scope: Scope::End,
+            ..Description::new(
+                "landing_contact",
+                "landing_contact_mm",
+                "landing of contact points",
+                Unit::MILLIMETRE,
+            )
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
@@ -37,8 +29,10 @@ impl Measure for LandingContact {
     fn evaluate(&self, state: &State) -> Option<Found> {
         let mut most = Most::default();
         for (n, landing) in state.landings().iter().enumerate().take(state.edges()) {
-            let laid = state.snapshot.laid[n].as_ref();
-            let worst = laid.zip(landing.as_ref()).and_then(|(laid, found)| found.worst(&laid.line));
+            let contact = state.snapshot.contacts[n].as_ref();
+            let worst = contact
+                .zip(landing.as_ref())
+                .and_then(|(contact, found)| found.worst(&contact.line));
             if let Some((error, place)) = worst {
                 most.meet(error, Site::Catenary(n), place);
             }

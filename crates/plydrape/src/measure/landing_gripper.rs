@@ -1,6 +1,6 @@
 //! Landing of grippers: how far a gripper ends from where the ideal drape puts it.
 
-use super::{Found, Measure, Most, Scope, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
 use crate::mold::distance;
 use crate::scene::Scene;
 
@@ -8,24 +8,16 @@ use crate::scene::Scene;
 pub struct LandingGripper;
 
 impl Measure for LandingGripper {
-    fn name(&self) -> &'static str {
-        "landing_gripper"
-    }
-
-    fn key(&self) -> &'static str {
-        "landing_gripper_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "landing of grippers"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::End
+    fn description(&self) -> Description {
+        Description {
+            scope: Scope::End,
+            ..Description::new(
+                "landing_gripper",
+                "landing_gripper_mm",
+                "landing of grippers",
+                Unit::MILLIMETRE,
+            )
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
@@ -43,7 +35,8 @@ pub(super) fn landed_gripper(state: &State, standing: bool) -> Option<Found> {
     let tolerance = scene.settings.contact.tolerance;
     for (n, target) in scene.target.as_ref()?.grippers.iter().enumerate() {
         let place = state.snapshot.positions[n];
-        let stands = |place| scene.mold.as_ref().is_some_and(|m| m.signed_distance(place) <= tolerance);
+        let stands =
+            |place| scene.mold.as_ref().is_some_and(|m| m.signed_distance(place) <= tolerance);
         if !standing || stands(place) {
             most.meet(distance(place, *target), Site::Gripper(n), place);
         }

@@ -4,7 +4,7 @@
 //! A diagonal is no fibre: a cell that lands with a shear other than its last one is in the wrong shape, whichever of its diagonals
 //! that leaves too long or too short. γ_end is that of the four grippers, along the mold where both ends of a diagonal stand on it.
 
-use super::{Found, Measure, Most, Scope, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
 use crate::mold::vector::between;
 use crate::ply::shear::signed_angle;
 use crate::scene::Scene;
@@ -13,24 +13,16 @@ use crate::scene::Scene;
 pub struct LandingShear;
 
 impl Measure for LandingShear {
-    fn name(&self) -> &'static str {
-        "landing_shear"
-    }
-
-    fn key(&self) -> &'static str {
-        "landing_shear_deg"
-    }
-
-    fn label(&self) -> &'static str {
-        "landing shear error"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::DEGREE
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::End
+    fn description(&self) -> Description {
+        Description {
+            scope: Scope::End,
+            ..Description::new(
+                "landing_shear",
+                "landing_shear_deg",
+                "landing shear error",
+                Unit::DEGREE,
+            )
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
@@ -45,7 +37,8 @@ impl Measure for LandingShear {
         let mut most = Most::default();
         for cell in 0..grid.cells() {
             let diagonals = grid.diagonals([cell % (grid.nu - 1), cell / (grid.nu - 1)]);
-            let landed = diagonals.map(|n| snapshot.laid[n].as_ref().and_then(|laid| laid.landed));
+            let landed =
+                diagonals.map(|n| snapshot.contacts[n].as_ref().and_then(|contact| contact.landed));
             if landed == [None, None] {
                 continue;
             }
@@ -57,7 +50,7 @@ impl Measure for LandingShear {
                 let stand = [a, b].iter().all(|p| mold.signed_distance(*p) <= tolerance);
                 if stand { mold.path_length(a, b) } else { crate::mold::distance(a, b) }
             });
-            let end = signed_angle(scene.ply.sides(cell, &snapshot.laid), rising, falling);
+            let end = signed_angle(scene.ply.sides(cell, &snapshot.contacts), rising, falling);
             let errors = landed.into_iter().flatten().map(|landed| (end - landed.shear).abs());
             for error in errors {
                 let place = between(ends[0][0], ends[0][1], 0.5);

@@ -12,14 +12,19 @@ mod record;
 #[cfg(feature = "serde")]
 mod serial;
 mod state;
+mod tuning;
 mod unit;
 mod verdict;
 
-pub use found::{Found, Most, Site};
+pub(crate) use found::Most;
+pub use found::{Found, Site};
 pub use record::{ByName, Measures, Numbers, Worst};
-pub use state::{Before, Misfit, State};
+pub(crate) use state::Before;
+pub use state::State;
+use tuning::TUNING;
 pub use unit::Unit;
-pub use verdict::{Judge, Verdict, last_numbers, worst_numbers};
+pub use verdict::Verdict;
+pub(crate) use verdict::{Judge, last_numbers, worst_numbers};
 
 use crate::scene::Scene;
 
@@ -33,7 +38,7 @@ pub enum Sense {
 }
 
 impl Sense {
-    /// Whether a value is worse than another; nothing is worse than one that is no number, so that it is not lost.
+    /// Whether a value is worse than another. NaN is the worst of all, so that it is not lost.
     #[must_use]
     pub fn is_worse(self, value: f64, than: f64) -> bool {
         match self {
@@ -52,7 +57,7 @@ pub enum Scope {
     EveryStep,
     /// At the end alone.
     End,
-    /// Of the motion in time: it means nothing where the steps have no times yet, as in a search.
+    /// Of the motion in time: it has no meaning where the steps have no times yet, as in a search.
     Time,
     /// Of a whole motion or plan, found outside the drape.
     Whole,
@@ -61,41 +66,77 @@ pub enum Scope {
 /// What it is worth to stay below a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Worth {
-    /// Less is always better: what spoils the ply.
+    /// Less is always better, because the measure describes the quality of the ply.
     Less,
-    /// The limit is to be kept, and less has no worth: what a machine can do.
+    /// The limit is to be kept, and less has no worth, because the measure describes the capacity of a machine.
     Kept,
+}
+
+/// A measure's names, its unit, and how its limit counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Description {
+    /// Name of its limit in scenes and verdicts, `landing_shear`.
+    pub name: &'static str,
+    /// Its key among the measures of a step, the unit at its end where it has one, `landing_shear_deg`.
+    pub key: &'static str,
+    /// What it is called in tables and charts.
+    pub label: &'static str,
+    /// Unit of its values, and how they are shown.
+    pub unit: Unit,
+    /// Which way its limit bounds it.
+    pub sense: Sense,
+    /// When it counts.
+    pub scope: Scope,
+    /// What it is worth to stay below its limit.
+    pub worth: Worth,
+}
+
+impl Description {
+    /// Of a measure that is bounded from above in every step, and of which less is better.
+    const fn new(name: &'static str, key: &'static str, label: &'static str, unit: Unit) -> Self {
+        let (sense, scope, worth) = (Sense::AtMost, Scope::EveryStep, Worth::Less);
+        Description { name, key, label, unit, sense, scope, worth }
+    }
 }
 
 /// Something that is measured of a drape.
 pub trait Measure: Sync {
-    /// Name of its limit in scenes and verdicts, `landing_shear`.
-    fn name(&self) -> &'static str;
+    /// Its names, its unit, and how its limit counts.
+    fn description(&self) -> Description;
 
-    /// Its key among the measures of a step, the unit at its end where it has one, `landing_shear_deg`.
+    /// [`Description::name`].
+    fn name(&self) -> &'static str {
+        self.description().name
+    }
+
+    /// [`Description::key`].
     fn key(&self) -> &'static str {
-        self.name()
+        self.description().key
     }
 
-    /// What it is called in tables and charts.
-    fn label(&self) -> &'static str;
+    /// [`Description::label`].
+    fn label(&self) -> &'static str {
+        self.description().label
+    }
 
-    /// Unit of its values, and how they are shown.
-    fn unit(&self) -> Unit;
+    /// [`Description::unit`].
+    fn unit(&self) -> Unit {
+        self.description().unit
+    }
 
-    /// Which way its limit bounds it.
+    /// [`Description::sense`].
     fn sense(&self) -> Sense {
-        Sense::AtMost
+        self.description().sense
     }
 
-    /// When it counts.
+    /// [`Description::scope`].
     fn scope(&self) -> Scope {
-        Scope::EveryStep
+        self.description().scope
     }
 
-    /// What it is worth to stay below its limit.
+    /// [`Description::worth`].
     fn worth(&self) -> Worth {
-        Worth::Less
+        self.description().worth
     }
 
     /// Its limit in a scene, in its own unit; none where the scene sets none or it has no meaning there.

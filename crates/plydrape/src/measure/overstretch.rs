@@ -1,22 +1,14 @@
 //! Overstretch: the way of a free or lying segment of an edge beyond its fabric, as a share of the whole edge.
 
-use super::{Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Site, State, Unit};
 use crate::scene::Scene;
 
 /// Overstretch; see the head of this file.
 pub struct Overstretch;
 
 impl Measure for Overstretch {
-    fn name(&self) -> &'static str {
-        "overstretch"
-    }
-
-    fn label(&self) -> &'static str {
-        "overstretch"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::SHARE
+    fn description(&self) -> Description {
+        Description::new("overstretch", "overstretch", "overstretch", Unit::SHARE)
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

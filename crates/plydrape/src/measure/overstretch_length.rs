@@ -1,25 +1,18 @@
 //! Overstretch as a length: the way of a segment of an edge beyond its fabric.
 
-use super::{Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Site, State, Unit};
 
 /// Overstretch as a length; see the head of this file.
 pub struct OverstretchLength;
 
 impl Measure for OverstretchLength {
-    fn name(&self) -> &'static str {
-        "overstretch_length"
-    }
-
-    fn key(&self) -> &'static str {
-        "overstretch_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "overstretch length"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
+    fn description(&self) -> Description {
+        Description::new(
+            "overstretch_length",
+            "overstretch_mm",
+            "overstretch length",
+            Unit::MILLIMETRE,
+        )
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {

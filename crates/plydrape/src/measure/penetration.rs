@@ -1,9 +1,9 @@
 //! Penetration: the greatest depth of grippers and spans below the mold.
 //!
-//! Grippers are followed along their straight ways from the step before: the distance from the mold changes by no more
-//! than the way, so halving the way finds the deepest point.
+//! Grippers are followed along their straight paths from the step before: the distance from the mold changes by no more
+//! than the length of the path, so halving the path finds the deepest point.
 
-use super::{Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Site, State, TUNING, Unit};
 use crate::draping::spans::Point;
 use crate::mold::vector::between;
 use crate::mold::{Mold, distance};
@@ -13,20 +13,8 @@ use crate::scene::Scene;
 pub struct Penetration;
 
 impl Measure for Penetration {
-    fn name(&self) -> &'static str {
-        "penetration"
-    }
-
-    fn key(&self) -> &'static str {
-        "penetration_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "penetration"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
+    fn description(&self) -> Description {
+        Description::new("penetration", "penetration_mm", "penetration", Unit::MILLIMETRE)
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
@@ -35,8 +23,7 @@ impl Measure for Penetration {
 
     fn evaluate(&self, state: &State) -> Option<Found> {
         let mold = state.scene.mold.as_ref()?;
-        // finer than the limit by far, and no search for what does not matter
-        let resolution = 0.01 * state.scene.settings.contact.tolerance;
+        let resolution = TUNING.depth_resolution * state.scene.settings.contact.tolerance;
         let mut most = Most::default();
         for (n, to) in state.snapshot.positions.iter().enumerate() {
             let from = state.before.map_or(*to, |before| before.positions[n]);
@@ -51,15 +38,12 @@ impl Measure for Penetration {
     }
 }
 
-/// Most parts of a way that are looked at; a way of 1 m that slides on the mold needs half a million.
-const MOST_PARTS: usize = 4_000_000;
-
-/// Greatest depth (m) along a straight way and its place, to a resolution (m); 0 where all of it is outside.
+/// Greatest depth (m) along a straight path and its place, to a resolution (m); 0 where all of it is outside.
 fn deepest(mold: &Mold, from: Point, to: Point, resolution: f64) -> (f64, Point) {
     let depth = |p: Point| -mold.signed_distance(p);
     let mut best = (0.0, to);
     let mut meet = |depth: f64, place: Point| {
-        // what is no number is deeper than all
+        // NaN is deeper than all
         if depth > best.0 || depth.is_nan() {
             best = (depth, place);
         }
@@ -69,11 +53,11 @@ fn deepest(mold: &Mold, from: Point, to: Point, resolution: f64) -> (f64, Point)
     meet(start, from);
     meet(end, to);
     let mut open = vec![([from, to], [start, end])];
-    for _ in 0..MOST_PARTS {
+    for _ in 0..TUNING.path_parts {
         let Some(([a, b], [da, db])) = open.pop() else { break };
         let reach = 0.5 * (da + db + distance(a, b));
         let middle = between(a, b, 0.5);
-        // a way out of all range has no parts that tell more
+        // a path without a finite length cannot be halved
         if !reach.is_finite() {
             return (f64::INFINITY, middle);
         }
@@ -85,7 +69,7 @@ fn deepest(mold: &Mold, from: Point, to: Point, resolution: f64) -> (f64, Point)
         open.push(([a, middle], [da, dm]));
         open.push(([middle, b], [dm, db]));
     }
-    // what was not looked at counts as deep as it could be
+    // a part that was not evaluated counts as deep as it could be
     for ([a, b], [da, db]) in open {
         meet(0.5 * (da + db + distance(a, b)), between(a, b, 0.5));
     }
@@ -100,7 +84,7 @@ mod tests {
     /// Straight across a ball from side to side the deepest point is the middle: R − √(R² − c²/4) less of the chord's
     /// height above it.
     #[test]
-    fn a_way_through_a_ball_is_deepest_in_its_middle() {
+    fn a_path_through_a_ball_is_deepest_in_its_middle() {
         let pose = Pose::new([0.0; 3], [0.0; 3]);
         let ball = Mold::Sphere(Sphere { pose, radius: 0.5, face: Face::Outside });
         for height in [0.1, 0.3, 0.49, 0.6] {

@@ -2,22 +2,14 @@
 //!
 //! It says whether (1) of `docs/theory` is valid there: small-sag theory is usually trusted to 1/8, and holds to about 1/4.
 
-use super::{Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Site, State, Unit};
 
 /// Sag; see the head of this file.
 pub struct SagRatio;
 
 impl Measure for SagRatio {
-    fn name(&self) -> &'static str {
-        "sag_ratio"
-    }
-
-    fn label(&self) -> &'static str {
-        "sag over run"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::SHARE
+    fn description(&self) -> Description {
+        Description::new("sag_ratio", "sag_ratio", "sag over run", Unit::SHARE)
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {

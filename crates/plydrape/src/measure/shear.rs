@@ -1,6 +1,6 @@
 //! Shear: the largest shear angle of a cell, (6) of `docs/theory`.
 
-use super::{Found, Measure, Most, Site, State, Unit, Worth};
+use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
 use crate::mold::vector::between;
 use crate::scene::Scene;
 
@@ -8,24 +8,11 @@ use crate::scene::Scene;
 pub struct Shear;
 
 impl Measure for Shear {
-    fn name(&self) -> &'static str {
-        "shear"
-    }
-
-    fn key(&self) -> &'static str {
-        "shear_deg"
-    }
-
-    fn label(&self) -> &'static str {
-        "shear"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::DEGREE
-    }
-
-    fn worth(&self) -> Worth {
-        Worth::Kept
+    fn description(&self) -> Description {
+        Description {
+            worth: Worth::Kept,
+            ..Description::new("shear", "shear_deg", "shear", Unit::DEGREE)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

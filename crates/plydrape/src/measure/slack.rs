@@ -1,25 +1,13 @@
 //! Slack: fabric of a free or lying segment of an edge beyond its way.
 
-use super::{Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Site, State, Unit};
 
 /// Slack; see the head of this file.
 pub struct Slack;
 
 impl Measure for Slack {
-    fn name(&self) -> &'static str {
-        "slack"
-    }
-
-    fn key(&self) -> &'static str {
-        "slack_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "slack"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
+    fn description(&self) -> Description {
+        Description::new("slack", "slack_mm", "slack", Unit::MILLIMETRE)
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {

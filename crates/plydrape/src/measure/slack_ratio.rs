@@ -2,27 +2,18 @@
 //!
 //! Its place is that of the largest slack in the edge.
 
-use super::{Found, Measure, Most, Scope, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
 use crate::scene::Scene;
 
 /// Slack ratio; see the head of this file.
 pub struct SlackRatio;
 
 impl Measure for SlackRatio {
-    fn name(&self) -> &'static str {
-        "slack_ratio"
-    }
-
-    fn label(&self) -> &'static str {
-        "slack ratio"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::SHARE
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::End
+    fn description(&self) -> Description {
+        Description {
+            scope: Scope::End,
+            ..Description::new("slack_ratio", "slack_ratio", "slack ratio", Unit::SHARE)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

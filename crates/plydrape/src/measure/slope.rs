@@ -2,22 +2,14 @@
 //!
 //! It says whether (1) of `docs/theory` is valid there: its curvature is that of small slopes.
 
-use super::{Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Site, State, Unit};
 
 /// Slope; see the head of this file.
 pub struct Slope;
 
 impl Measure for Slope {
-    fn name(&self) -> &'static str {
-        "slope"
-    }
-
-    fn label(&self) -> &'static str {
-        "slope against the chord"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::NUMBER
+    fn description(&self) -> Description {
+        Description::new("slope", "slope", "slope against the chord", Unit::NUMBER)
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {

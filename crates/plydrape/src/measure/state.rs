@@ -1,8 +1,9 @@
-//! The ply of one step, and what several measures share of it; each part is worked out when it is first asked for.
+//! The ply of one step, with results that several measures share; each is computed when it is first needed.
 
+use super::TUNING;
 use crate::draping::attitude::{Attitude, attitude};
 use crate::draping::landing::{Landing, landing};
-use crate::draping::misfit::{LyingSegment, lying_segments, misfit};
+use crate::draping::misfit::{LyingSegment, Misfit, lying_segments, misfit};
 use crate::draping::spans::Point;
 use crate::draping::{Snapshot, stations};
 use crate::equilibrium::Solver;
@@ -10,37 +11,35 @@ use crate::scene::Scene;
 use std::cell::OnceCell;
 use std::collections::VecDeque;
 
-pub use crate::draping::misfit::Misfit;
-
-/// The step before, for rates and ways.
+/// The step before, for rates and paths.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Before {
+pub(crate) struct Before {
     /// Time (s).
-    pub time: f64,
+    pub(crate) time: f64,
     /// Gripper positions (m).
-    pub positions: Vec<Point>,
+    pub(crate) positions: Vec<Point>,
     /// Orientations of the grippers (x, y, z, w).
-    pub quaternions: Vec<[f64; 4]>,
+    pub(crate) quaternions: Vec<[f64; 4]>,
     /// Times (s) and orientations of earlier steps, back to `window` before this one and to the step before that.
     earlier: VecDeque<(f64, Vec<[f64; 4]>)>,
 }
 
-/// Time (s) over which a rate is taken at least: a hundredth of the motion.
+/// Time (s) over which a rate is taken at least: a share of the whole motion.
 #[must_use]
-pub fn window(scene: &Scene) -> f64 {
-    0.01 * scene.motion.times.last().copied().unwrap_or(0.0)
+pub(crate) fn window(scene: &Scene) -> f64 {
+    TUNING.rate_window * scene.motion.times.last().copied().unwrap_or(0.0)
 }
 
 /// The ply of one step.
 pub struct State<'a> {
     /// The scene that is draped.
-    pub scene: &'a Scene,
+    pub(crate) scene: &'a Scene,
     /// The ply.
-    pub snapshot: &'a Snapshot,
+    pub(crate) snapshot: &'a Snapshot,
     /// The solver, as it was left by the step.
-    pub solver: &'a Solver,
+    pub(crate) solver: &'a Solver,
     /// The step before; none of the first.
-    pub before: Option<&'a Before>,
+    pub(crate) before: Option<&'a Before>,
     attitudes: OnceCell<Vec<Attitude>>,
     lying: OnceCell<Vec<Vec<LyingSegment>>>,
     misfits: OnceCell<Vec<Misfit>>,
@@ -51,7 +50,7 @@ pub struct State<'a> {
 impl<'a> State<'a> {
     /// The ply of a step.
     #[must_use]
-    pub fn new(
+    pub(crate) fn new(
         scene: &'a Scene,
         snapshot: &'a Snapshot,
         solver: &'a Solver,
@@ -72,12 +71,12 @@ impl<'a> State<'a> {
 
     /// Number of edge catenaries; they come first.
     #[must_use]
-    pub fn edges(&self) -> usize {
+    pub(crate) fn edges(&self) -> usize {
         self.scene.ply.grid.edges()
     }
 
     /// How the grippers are tilted.
-    pub fn attitudes(&self) -> &[Attitude] {
+    pub(crate) fn attitudes(&self) -> &[Attitude] {
         self.attitudes.get_or_init(|| {
             let (grid, positions) = (self.scene.ply.grid, &self.snapshot.positions);
             let before = |n: usize| self.before.map(|before| before.quaternions[n]);
@@ -95,9 +94,9 @@ impl<'a> State<'a> {
         })
     }
 
-    /// What the next step has to know of this one.
+    /// The state of this step that the next one needs.
     #[must_use]
-    pub fn as_before(&self) -> Before {
+    pub(crate) fn as_before(&self) -> Before {
         let time = self.snapshot.time;
         let mut earlier = VecDeque::new();
         if let Some(before) = self.before {
@@ -119,7 +118,7 @@ impl<'a> State<'a> {
     /// The last step that is at least `window` before this one, else the first: the time since then (s) and its
     /// orientations. None in the first step.
     #[must_use]
-    pub fn since(&self) -> Option<(f64, &[[f64; 4]])> {
+    pub(crate) fn since(&self) -> Option<(f64, &[[f64; 4]])> {
         let before = self.before?;
         let ago = |time: f64| self.snapshot.time - time;
         let long = window(self.scene) * (1.0 - 1e-9);
@@ -130,46 +129,46 @@ impl<'a> State<'a> {
     }
 
     /// The segments of each catenary that lie on the mold beside its contact.
-    pub fn lying(&self) -> &[Vec<LyingSegment>] {
+    pub(crate) fn lying(&self) -> &[Vec<LyingSegment>] {
         self.lying.get_or_init(|| {
             let Some(mold) = &self.scene.mold else { return Vec::new() };
             let (grid, tolerance) = (self.scene.ply.grid, self.scene.settings.contact.tolerance);
-            let one = |(n, laid): (usize, &Option<_>)| {
+            let one = |(n, contact): (usize, &Option<_>)| {
                 let c = grid.catenary(n);
                 let grippers = [c.from, c.to].map(|g| self.snapshot.positions[grid.index(g)]);
-                let segments = |laid| lying_segments(n, laid, grippers, mold, tolerance);
-                laid.as_ref().map(segments).unwrap_or_default()
+                let segments = |contact| lying_segments(n, contact, grippers, mold, tolerance);
+                contact.as_ref().map(segments).unwrap_or_default()
             };
-            self.snapshot.laid.iter().enumerate().map(one).collect()
+            self.snapshot.contacts.iter().enumerate().map(one).collect()
         })
     }
 
     /// How every free or lying segment fits: those that hang first, catenary by catenary.
-    pub fn misfits(&self) -> &[Misfit] {
+    pub(crate) fn misfits(&self) -> &[Misfit] {
         self.misfits.get_or_init(|| {
             let hanging = self.snapshot.shape.spans.iter();
-            let hanging = hanging.map(|s| misfit(s, self.snapshot.laid[s.catenary].as_ref()));
+            let hanging = hanging.map(|s| misfit(s, self.snapshot.contacts[s.catenary].as_ref()));
             let lying = self.lying().iter().flatten().map(|segment| segment.misfit);
             hanging.chain(lying).collect()
         })
     }
 
     /// The misfits of edges; diagonals are no fibres.
-    pub fn edge_misfits(&self) -> impl Iterator<Item = &Misfit> {
+    pub(crate) fn edge_misfits(&self) -> impl Iterator<Item = &Misfit> {
         let edges = self.edges();
         self.misfits().iter().filter(move |misfit| misfit.catenary < edges)
     }
 
     /// How each contact segment has landed, where the ideal drape is known.
-    pub fn landings(&self) -> &[Option<Landing>] {
+    pub(crate) fn landings(&self) -> &[Option<Landing>] {
         self.landings.get_or_init(|| {
-            let laid = self.snapshot.laid.iter().enumerate();
-            laid.map(|(n, laid)| landing(self.scene, n, laid.as_ref()?)).collect()
+            let contact = self.snapshot.contacts.iter().enumerate();
+            contact.map(|(n, contact)| landing(self.scene, n, contact.as_ref()?)).collect()
         })
     }
 
     /// Points of each free span (m), equally spaced along its run.
-    pub fn stations(&self) -> &[Vec<Point>] {
+    pub(crate) fn stations(&self) -> &[Vec<Point>] {
         self.stations.get_or_init(|| self.snapshot.shape.spans.iter().map(stations).collect())
     }
 }

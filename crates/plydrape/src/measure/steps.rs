@@ -1,24 +1,15 @@
 //! Steps: how far a gripper of a stepwise plan is short of its target when the steps are spent.
 
-use super::{Measure, Scope, Unit};
+use super::{Description, Measure, Scope, Unit};
 
 /// Steps; see the head of this file.
 pub struct Steps;
 
 impl Measure for Steps {
-    fn name(&self) -> &'static str {
-        "steps"
-    }
-
-    fn label(&self) -> &'static str {
-        "steps"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::Whole
+    fn description(&self) -> Description {
+        Description {
+            scope: Scope::Whole,
+            ..Description::new("steps", "steps", "steps", Unit::MILLIMETRE)
+        }
     }
 }

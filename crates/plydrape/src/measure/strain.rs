@@ -1,28 +1,17 @@
-//! Local strain: the way of a segment of an edge beyond its fabric, as a share of the segment's own length.
+//! Local strain: the path of a segment of an edge beyond its fabric, as a share of the segment's own length.
 //!
-//! The contact tolerance ε lets a point of the ply be ε off its place, and so changes a way of length s by up to ε²/2s. In a segment of ten
-//! tolerances that alone is 0.5 % of strain: for what is shorter, ten tolerances take the place of its length.
+//! The contact tolerance ε lets a point of the ply be ε off its place, and so changes a path of length s by up to ε²/2s. In a segment of ten
+//! tolerances that alone is 0.5 % of strain: for a shorter segment, ten tolerances take the place of its length.
 
-use super::{Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Site, State, TUNING, Unit};
 use crate::scene::Scene;
-
-/// Shortest length over which a strain means something, in contact tolerances.
-const GAUGE: f64 = 10.0;
 
 /// Local strain; see the head of this file.
 pub struct Strain;
 
 impl Measure for Strain {
-    fn name(&self) -> &'static str {
-        "strain"
-    }
-
-    fn label(&self) -> &'static str {
-        "local strain"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::SHARE
+    fn description(&self) -> Description {
+        Description::new("strain", "strain", "local strain", Unit::SHARE)
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
@@ -36,7 +25,7 @@ impl Measure for Strain {
         };
         let mut most = Most::default();
         for m in state.edge_misfits() {
-            let strain = m.overstretch() / m.length.max(GAUGE * tolerance);
+            let strain = m.overstretch() / m.length.max(TUNING.gauge_length * tolerance);
             most.meet(strain, Site::Catenary(m.catenary), m.place);
         }
         most.found()

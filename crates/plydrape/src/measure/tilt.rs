@@ -1,30 +1,17 @@
 //! Tilt: the angle between the ply's normal at a gripper and the vertical.
 
-use super::{Found, Measure, Most, Site, State, Unit, Worth};
+use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
 use crate::scene::Scene;
 
 /// Tilt; see the head of this file.
 pub struct Tilt;
 
 impl Measure for Tilt {
-    fn name(&self) -> &'static str {
-        "tilt"
-    }
-
-    fn key(&self) -> &'static str {
-        "tilt_deg"
-    }
-
-    fn label(&self) -> &'static str {
-        "tilt"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::DEGREE
-    }
-
-    fn worth(&self) -> Worth {
-        Worth::Kept
+    fn description(&self) -> Description {
+        Description {
+            worth: Worth::Kept,
+            ..Description::new("tilt", "tilt_deg", "tilt", Unit::DEGREE)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {

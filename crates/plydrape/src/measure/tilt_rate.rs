@@ -1,11 +1,11 @@
 //! Tilt rate: how fast the ply's normal at a gripper turns.
 //!
-//! Orientations turn evenly between two steps, so over a step the rate is that of the written motion. What lands, lands at once in the
+//! Orientations turn evenly between two steps, so over a step the rate is that of the written motion. A landing takes place at once in the
 //! model, and a gripper turns with it: over ever shorter steps that would be ever faster. So the rate is taken over a hundredth of the motion at
 //! least, which is about a step of a plan.
 
-use super::{Found, Measure, Most, Scope, Site, State, Unit, Worth};
 use super::state::window;
+use super::{Description, Found, Measure, Most, Scope, Site, State, Unit, Worth};
 use crate::draping::attitude::normal;
 use crate::mold::vector::{cross, dot, norm};
 use crate::scene::Scene;
@@ -14,28 +14,12 @@ use crate::scene::Scene;
 pub struct TiltRate;
 
 impl Measure for TiltRate {
-    fn name(&self) -> &'static str {
-        "tilt_rate"
-    }
-
-    fn key(&self) -> &'static str {
-        "tilt_rate_deg_s"
-    }
-
-    fn label(&self) -> &'static str {
-        "tilt rate"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::DEGREE_PER_SECOND
-    }
-
-    fn scope(&self) -> Scope {
-        Scope::Time
-    }
-
-    fn worth(&self) -> Worth {
-        Worth::Kept
+    fn description(&self) -> Description {
+        Description {
+            scope: Scope::Time,
+            worth: Worth::Kept,
+            ..Description::new("tilt_rate", "tilt_rate_deg_s", "tilt rate", Unit::DEGREE_PER_SECOND)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
@@ -49,7 +33,7 @@ impl Measure for TiltRate {
             let place = state.snapshot.positions[n];
             let turned = since.map_or(0.0, |(time, quaternions)| {
                 let [a, b] = [quaternions[n], attitude.quaternion].map(normal);
-                // the sine is sharp where the cosine is flat
+                // exact for small angles, where the cosine alone is not
                 norm(cross(a, b)).atan2(dot(a, b)) / time.max(shortest)
             });
             most.meet(turned.to_degrees(), Site::Gripper(n), place);

@@ -1,11 +1,8 @@
 //! Limits and whether they hold.
 
-use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, Worst};
+use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, TUNING, Worst};
 use crate::scene::Scene;
 use std::borrow::Cow;
-
-/// What rounding puts beyond a limit is within it: a bound that holds a slope exactly at its limit is no breach.
-const ROUNDING: f64 = 1e-9;
 
 /// A limit and whether it holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,11 +34,11 @@ impl Verdict {
     pub fn of(name: Name, worst: Worst, limit: f64, step: Option<usize>) -> Verdict {
         let (measure, Worst { value, at, place }) = (name.measure(), worst);
         let unit = measure.unit();
-        // a value that is no finite number says nothing of the ply, so it keeps no limit
+        // a value that is not finite keeps no limit
         let ok = value.is_finite()
             && match measure.sense() {
-                Sense::AtMost => value <= limit * (1.0 + ROUNDING),
-                Sense::AtLeast => value >= limit * (1.0 - ROUNDING),
+                Sense::AtMost => value <= limit * (1.0 + TUNING.limit_rounding),
+                Sense::AtLeast => value >= limit * (1.0 - TUNING.limit_rounding),
             };
         let [value, limit] = [value, limit].map(|value| value * unit.factor);
         Verdict { name, value, limit, unit: unit.shown.into(), ok, step, at, place }
@@ -69,13 +66,13 @@ impl Verdict {
             false if value > 0.0 => 1.0 + value,
             false => 0.0,
         };
-        if self.ok { ratio.min(1.0) } else { ratio.max(1.0 + ROUNDING) }
+        if self.ok { ratio.min(1.0) } else { ratio.max(1.0 + TUNING.limit_rounding) }
     }
 }
 
 /// Collects the worst values of a drape step by step, and judges them at its end.
 #[derive(Debug)]
-pub struct Judge<'a> {
+pub(crate) struct Judge<'a> {
     scene: &'a Scene,
     /// Whether the steps have the times of a motion.
     timed: bool,
@@ -101,7 +98,7 @@ impl<'a> Judge<'a> {
         measure.limit(self.scene).filter(|_| judged)
     }
 
-    /// Looks at a step for what its limits need; `last` if no other follows.
+    /// Evaluates the limits of a step; `last` if no other follows.
     pub fn see(&mut self, state: &State, last: bool) {
         for name in Name::ALL {
             let counts = last || name.measure().scope() != Scope::End;
@@ -115,7 +112,7 @@ impl<'a> Judge<'a> {
         self.solved(state);
     }
 
-    /// Looks at a step for everything, and returns it.
+    /// Evaluates every measure of a step, and returns them.
     pub fn see_all(&mut self, state: &State) -> Measures {
         let grid = state.scene.ply.grid;
         let mut out = Vec::with_capacity(Name::ALL.len());
@@ -161,7 +158,7 @@ impl<'a> Judge<'a> {
         if let Some((step, residual, why)) = self.unfound {
             let worst = Worst { value: residual, at: why.into(), place: None };
             let verdict =
-                Verdict::of(Name::Equilibrium, worst, super::equilibrium::RESIDUAL, Some(step));
+                Verdict::of(Name::Equilibrium, worst, TUNING.equilibrium_residual, Some(step));
             out.push(Verdict { ok: false, ..verdict });
         }
         out
@@ -170,7 +167,7 @@ impl<'a> Judge<'a> {
 
 /// The worst of each measure over all steps as a plain number; of those that count at the end too.
 #[must_use]
-pub fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
+pub(crate) fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
     let mut out: Vec<Option<f64>> = vec![None; Name::ALL.len()];
     for measures in steps {
         for (name, worst) in measures.iter() {
@@ -186,7 +183,7 @@ pub fn worst_numbers<'a>(steps: impl Iterator<Item = &'a Measures>) -> Numbers {
 
 /// The numbers of one step.
 #[must_use]
-pub fn last_numbers(measures: Option<&Measures>) -> Numbers {
+pub(crate) fn last_numbers(measures: Option<&Measures>) -> Numbers {
     reported(|name| measures.and_then(|measures| measures.value(name)))
 }
 
@@ -215,7 +212,7 @@ mod tests {
         assert!(!workspace.ok && workspace.ratio() == 4.0);
     }
 
-    /// NaN compares with nothing, and an infinite value says that something overflowed: neither keeps a limit, whichever way it
+    /// NaN compares with no number, and an infinite value says that something overflowed: neither keeps a limit, whichever way it
     /// bounds, not even one that is infinite itself.
     #[test]
     fn a_value_that_is_not_finite_is_never_accepted() {

@@ -1,6 +1,6 @@
 //! Workspace: how far the gripper farthest outside its box is from the box.
 
-use super::{Found, Measure, State, Unit, Worth};
+use super::{Description, Found, Measure, State, Unit, Worth};
 use crate::draping::reach::outside;
 use crate::scene::Scene;
 
@@ -8,24 +8,11 @@ use crate::scene::Scene;
 pub struct Workspace;
 
 impl Measure for Workspace {
-    fn name(&self) -> &'static str {
-        "workspace"
-    }
-
-    fn key(&self) -> &'static str {
-        "workspace_mm"
-    }
-
-    fn label(&self) -> &'static str {
-        "outside workspace"
-    }
-
-    fn unit(&self) -> Unit {
-        Unit::MILLIMETRE
-    }
-
-    fn worth(&self) -> Worth {
-        Worth::Kept
+    fn description(&self) -> Description {
+        Description {
+            worth: Worth::Kept,
+            ..Description::new("workspace", "workspace_mm", "outside workspace", Unit::MILLIMETRE)
+        }
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
@@ -33,6 +20,6 @@ impl Measure for Workspace {
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {
-        outside(&state.snapshot.positions, state.scene.limits.workspace?)
+        outside(&state.snapshot.positions, state.scene.limits.workspace?, state.scene.ply.cell)
     }
 }

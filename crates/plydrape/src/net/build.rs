@@ -4,23 +4,21 @@ use super::edge::EdgeRule;
 use super::layup::{Generators, Layup, LayupError};
 use super::meet::{Condition, meet};
 use super::missing::Reason;
-use super::spot::{Ground, Spot};
+use super::surface_point::{Ground, SurfacePoint};
+use super::tuning::TUNING;
 use crate::mold::vector::{along, cross, dot};
 
 /// A node counted from [0, 0], or beside the net.
 pub(super) type Node = [isize; 2];
-
-/// Cosine of the smallest angle between u and v of an open cell: 1°.
-const SHUT: f64 = 0.999_847_7;
 
 /// A net being placed.
 pub(super) struct Build<'a> {
     pub layup: &'a Layup,
     pub ground: Ground<'a>,
     /// Node [i, j] at j·nu + i.
-    pub spots: Vec<Option<Spot>>,
-    /// Where nodes were given up.
-    pub folds: Vec<(usize, Spot)>,
+    pub points: Vec<Option<SurfacePoint>>,
+    /// Nodes for which no place was found, and the last trial.
+    pub folds: Vec<(usize, SurfacePoint)>,
 }
 
 impl Build<'_> {
@@ -48,17 +46,17 @@ impl Build<'_> {
         (i < nu && j < nv).then_some(j * nu + i)
     }
 
-    pub fn at(&self, node: Node) -> Option<Spot> {
-        self.spots[self.index(node)?]
+    pub fn at(&self, node: Node) -> Option<SurfacePoint> {
+        self.points[self.index(node)?]
     }
 
-    pub fn put(&mut self, node: Node, spot: Spot) {
+    pub fn put(&mut self, node: Node, point: SurfacePoint) {
         if let Some(index) = self.index(node) {
-            self.spots[index] = Some(spot);
+            self.points[index] = Some(point);
         }
     }
 
-    pub fn give_up(&mut self, node: Node, near: Spot) {
+    pub fn note_fold(&mut self, node: Node, near: SurfacePoint) {
         if let Some(index) = self.index(node)
             && !self.folds.iter().any(|(n, _)| *n == index)
         {
@@ -80,10 +78,10 @@ impl Build<'_> {
         while self.index([seed[0], row]).is_some() {
             let mut column = seed[0] + a;
             while let Some(index) = self.index([column, row]) {
-                if self.spots[index].is_none() {
+                if self.points[index].is_none() {
                     match self.corner([column, row], [a, b]) {
-                        Some(Ok(spot)) => self.spots[index] = Some(spot),
-                        Some(Err(near)) => self.give_up([column, row], near),
+                        Some(Ok(point)) => self.points[index] = Some(point),
+                        Some(Err(near)) => self.note_fold([column, row], near),
                         None => {}
                     }
                 }
@@ -94,13 +92,13 @@ impl Build<'_> {
     }
 
     /// A node from its two neighbours nearer to the seed and the node between them; none without these.
-    fn corner(&self, [i, j]: Node, [a, b]: Node) -> Option<Result<Spot, Spot>> {
+    fn corner(&self, [i, j]: Node, [a, b]: Node) -> Option<Result<SurfacePoint, SurfacePoint>> {
         let (along_u, along_v) = (self.at([i - a, j])?, self.at([i, j - b])?);
         let inner = self.at([i - a, j - b])?;
         let [du, dv] = self.layup.mesh;
         let conditions = [Condition::Length(&along_u, du), Condition::Length(&along_v, dv)];
         let flat = [0, 1, 2].map(|n| along_u.point[n] + along_v.point[n] - inner.point[n]);
-        // the twist of the cell carried on from the cells before
+        // the twist of the cell, extrapolated from the cells before
         let twist = |i: isize, j: isize| -> Option<[f64; 3]> {
             let [p, q, r, s] = [
                 self.at([i, j])?.point,
@@ -119,15 +117,15 @@ impl Build<'_> {
         let mut last = None;
         for guess in twist.map(|t| along(flat, 1.0, t)).into_iter().chain([flat]) {
             match meet(&self.ground, self.rule(), conditions, guess, self.mesh()) {
-                Ok(spot) => {
-                    let u = self.rule().gradient(&along_u, &spot);
-                    let v = self.rule().gradient(&along_v, &spot);
+                Ok(point) => {
+                    let u = self.rule().gradient(&along_u, &point);
+                    let v = self.rule().gradient(&along_v, &point);
                     let [uu, vv, uv] = [dot(u, u), dot(v, v), dot(u, v)];
-                    let upright = sign * dot(cross(u, v), spot.normal) > 0.0;
-                    if upright && uv.abs() < SHUT * (uu * vv).sqrt() {
-                        return Some(Ok(spot));
+                    let upright = sign * dot(cross(u, v), point.normal) > 0.0;
+                    if upright && uv.abs() < TUNING.smallest_angle_cosine * (uu * vv).sqrt() {
+                        return Some(Ok(point));
                     }
-                    last = Some(spot);
+                    last = Some(point);
                 }
                 Err(near) => last = Some(last.unwrap_or(near)),
             }
@@ -137,13 +135,13 @@ impl Build<'_> {
 
     /// Why the node at an index has no place on the mold, if it has none.
     pub fn reason(&self, index: usize) -> Option<(Reason, Option<[f64; 3]>, Option<f64>)> {
-        match self.spots[index] {
-            Some(spot) if spot.beyond > 0.0 => {
-                Some((Reason::OffMold, Some(spot.point), Some(spot.beyond)))
+        match self.points[index] {
+            Some(point) if point.beyond > 0.0 => {
+                Some((Reason::OffMold, Some(point.point), Some(point.beyond)))
             }
             Some(_) => None,
             None => Some(match self.folds.iter().find(|(n, _)| *n == index) {
-                // how fabric lies beside the mold is no matter of the mold
+                // fabric beside the mold has no fold of the mold's making
                 Some((_, near)) if near.beyond > 0.0 => {
                     (Reason::OffMold, Some(near.point), Some(near.beyond))
                 }

@@ -11,7 +11,7 @@
 //! tangent there, times L. All of it is exact on those three molds, in every direction, and L is right to
 //! the fourth order of the mesh width on others: c·Δn is its normal curvature times c², to second order.
 
-use super::spot::Spot;
+use super::surface_point::SurfacePoint;
 use crate::mold::vector::{along, cross, dot, norm, sub, unit};
 
 /// How the fabric between two neighbouring nodes is measured.
@@ -28,7 +28,7 @@ pub enum EdgeRule {
 
 impl EdgeRule {
     /// Length of the fabric between two nodes (m).
-    pub(super) fn length(self, a: &Spot, b: &Spot) -> f64 {
+    pub(super) fn length(self, a: &SurfacePoint, b: &SurfacePoint) -> f64 {
         let c = sub(b.point, a.point);
         match self {
             EdgeRule::Chord => norm(c),
@@ -41,7 +41,7 @@ impl EdgeRule {
     }
 
     /// Direction at `a` in which the fabric leaves for `b`: along the bar, or a unit tangent of the mold.
-    pub(super) fn leaving(self, a: &Spot, b: &Spot) -> [f64; 3] {
+    pub(super) fn leaving(self, a: &SurfacePoint, b: &SurfacePoint) -> [f64; 3] {
         match self {
             EdgeRule::Chord => unit(sub(b.point, a.point)).unwrap_or([0.0; 3]),
             EdgeRule::Along => straightest(a, b),
@@ -51,7 +51,7 @@ impl EdgeRule {
     /// Change of [`EdgeRule::length`] with the place of `b`, a tangent at `b`.
     ///
     /// Along the mold it is the line's unit tangent: a length changes with its end alone.
-    pub(super) fn gradient(self, a: &Spot, b: &Spot) -> [f64; 3] {
+    pub(super) fn gradient(self, a: &SurfacePoint, b: &SurfacePoint) -> [f64; 3] {
         match self {
             EdgeRule::Chord => {
                 let bar = self.leaving(a, b);
@@ -62,14 +62,14 @@ impl EdgeRule {
     }
 
     /// Angle at `a` between the fabric towards `b` and towards `c` (rad), from 0 to π.
-    pub(super) fn angle(self, a: &Spot, b: &Spot, c: &Spot) -> f64 {
+    pub(super) fn angle(self, a: &SurfacePoint, b: &SurfacePoint, c: &SurfacePoint) -> f64 {
         let [p, q] = [self.leaving(a, b), self.leaving(a, c)];
         norm(cross(p, q)).atan2(dot(p, q))
     }
 }
 
 /// Unit tangent at `a` of the straightest line to `b`.
-pub(super) fn straightest(a: &Spot, b: &Spot) -> [f64; 3] {
+pub(super) fn straightest(a: &SurfacePoint, b: &SurfacePoint) -> [f64; 3] {
     let c = sub(b.point, a.point);
     let turn = sub(b.normal, a.normal);
     let s = dot(turn, turn);
@@ -84,7 +84,7 @@ pub(super) fn straightest(a: &Spot, b: &Spot) -> [f64; 3] {
     unit(there).unwrap_or([0.0; 3])
 }
 
-/// A vector across the unit vector `from`, carried along by the shortest turn of `from` into `to`.
+/// A vector across the unit vector `from`, turned by the shortest turn of `from` into `to`.
 pub(super) fn turned(v: [f64; 3], from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
     let share = dot(v, to) / (1.0 + dot(from, to)).max(1e-12);
     [0, 1, 2].map(|n| v[n] - share * (from[n] + to[n]))
@@ -128,12 +128,12 @@ mod tests {
     #[test]
     fn length_and_tangents_of_a_helix_are_exact() {
         let (radius, turn, rise) = (0.7_f64, 1.1_f64, 0.4);
-        let spot = |angle: f64, x: f64| Spot {
+        let point = |angle: f64, x: f64| SurfacePoint {
             point: [x, radius * angle.sin(), radius * angle.cos()],
             normal: [0.0, angle.sin(), angle.cos()],
             beyond: 0.0,
         };
-        let (a, b) = (spot(0.3, 0.0), spot(0.3 + turn, rise));
+        let (a, b) = (point(0.3, 0.0), point(0.3 + turn, rise));
         let length = rise.hypot(radius * turn);
         assert!((EdgeRule::Along.length(&a, &b) - length).abs() < 1e-15);
         let tangent = |angle: f64| {

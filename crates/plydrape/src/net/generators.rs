@@ -8,12 +8,18 @@ use super::build::{Build, Node};
 use super::edge::{EdgeRule, straightest};
 use super::meet::{Condition, meet};
 use super::shear::CellShear;
-use super::spot::Spot;
+use super::surface_point::SurfacePoint;
+use super::tuning::TUNING;
 use crate::mold::vector::{along, cross, dot, sub};
 
 impl Build<'_> {
     /// The first node from the seed along u, of either sign: where its edge starts off in plan.
-    fn first(&self, seed: &Spot, sign: f64, u: [f64; 3]) -> Result<Spot, Spot> {
+    fn first(
+        &self,
+        seed: &SurfacePoint,
+        sign: f64,
+        u: [f64; 3],
+    ) -> Result<SurfacePoint, SurfacePoint> {
         let length = Condition::Length(seed, self.layup.mesh[0]);
         let (sin, cos) = self.layup.heading.sin_cos();
         let course = match self.rule() {
@@ -25,7 +31,12 @@ impl Build<'_> {
     }
 
     /// The next node of a straight line that leaves `from` along the unit tangent `course`.
-    fn straight(&self, from: &Spot, course: [f64; 3], length: f64) -> Result<Spot, Spot> {
+    fn straight(
+        &self,
+        from: &SurfacePoint,
+        course: [f64; 3],
+        length: f64,
+    ) -> Result<SurfacePoint, SurfacePoint> {
         let conditions = [
             Condition::Length(from, length),
             Condition::Straight(from, cross(from.normal, course)),
@@ -64,7 +75,7 @@ impl Build<'_> {
                         from = next;
                     }
                     Err(near) => {
-                        self.give_up(node, near);
+                        self.note_fold(node, near);
                         break;
                     }
                 }
@@ -75,13 +86,13 @@ impl Build<'_> {
     /// The seed's first edge and four strips of cells that keep the pre-shear, from its two ends.
     pub fn least_shear(&mut self, seed: Node, u: [f64; 3]) {
         let Some(start) = self.at(seed) else { return };
-        // the seed's cell lies ahead, or behind at the net's rim
+        // the seed's cell lies ahead, or behind at the net's boundary
         let ahead =
             [0, 1].map(|n| if self.layup.seed[n] + 1 < self.layup.nodes[n] { 1_isize } else { -1 });
         let ends = [seed, [seed[0] + ahead[0], seed[1]]];
         match self.first(&start, ahead[0] as f64, u) {
             Ok(next) => self.put(ends[1], next),
-            Err(near) => return self.give_up(ends[1], near),
+            Err(near) => return self.note_fold(ends[1], near),
         }
         // across u on the side of the seed's cell, then along u from that cell's two other edges
         self.strip(ends, [0, ahead[1]]);
@@ -108,7 +119,7 @@ impl Build<'_> {
                         self.put(next[1], d);
                     }
                     Err(near) => {
-                        next.iter().for_each(|n| self.give_up(*n, near));
+                        next.iter().for_each(|n| self.note_fold(*n, near));
                         return;
                     }
                 }
@@ -122,10 +133,10 @@ impl Build<'_> {
     /// side leaves the edge's first node is found by the secant method.
     fn least_shear_cell(
         &self,
-        edge: [(Node, Spot); 2],
+        edge: [(Node, SurfacePoint); 2],
         step: Node,
         before: Option<[f64; 3]>,
-    ) -> Result<[Spot; 2], Spot> {
+    ) -> Result<[SurfacePoint; 2], SurfacePoint> {
         let [(first, a), (second, b)] = edge;
         let (length, width) = if step[0] != 0 {
             (self.layup.mesh[0], self.layup.mesh[1])
@@ -143,7 +154,7 @@ impl Build<'_> {
         let mut turn =
             before.map_or(0.0, |t| dot(cross(straight, t), a.normal).atan2(dot(straight, t)));
 
-        let cell = |turn: f64| -> Result<([Spot; 2], f64), Spot> {
+        let cell = |turn: f64| -> Result<([SurfacePoint; 2], f64), SurfacePoint> {
             let (sin, cos) = turn.sin_cos();
             let around = cross(a.normal, straight);
             let course = [0, 1, 2].map(|n| cos * straight[n] + sin * around[n]);
@@ -157,34 +168,39 @@ impl Build<'_> {
         let (mut found, mut miss) = cell(turn)?;
         // turning the side by dφ changes the shear by ±dφ
         let mut slope = -left * sign;
-        for _ in 0..30 {
-            if miss.abs() <= 1e-13 {
+        for _ in 0..TUNING.shear_iterations {
+            if miss.abs() <= TUNING.shear_error {
                 break;
             }
-            let change = (-miss / slope).clamp(-0.3, 0.3);
+            let change = (-miss / slope).clamp(-TUNING.longest_turn, TUNING.longest_turn);
             let (next, missed) = cell(turn + change)?;
-            if missed.abs() >= miss.abs() && miss.abs() < 1e-9 {
+            if missed.abs() >= miss.abs() && miss.abs() < TUNING.largest_shear_error {
                 break;
             }
             let rate = (missed - miss) / change;
-            // kept near the flat cell's rate
-            if rate * slope > 0.1 && change.abs() > 1e-9 {
+            // the slope stays near the flat cell's rate
+            if rate * slope > TUNING.smallest_rate && change.abs() > TUNING.largest_shear_error {
                 slope = rate;
             }
             (turn, found, miss) = (turn + change, next, missed);
         }
-        if miss.abs() <= 1e-9 { Ok(found) } else { Err(found[0]) }
+        if miss.abs() <= TUNING.largest_shear_error { Ok(found) } else { Err(found[0]) }
     }
 
     /// Signed shear (rad) of the cell between a known edge and its two nodes beyond.
-    fn shear_of(&self, edge: [(Node, Spot); 2], step: Node, beyond: [Spot; 2]) -> f64 {
+    fn shear_of(
+        &self,
+        edge: [(Node, SurfacePoint); 2],
+        step: Node,
+        beyond: [SurfacePoint; 2],
+    ) -> f64 {
         let [(p, a), (q, b)] = edge;
         let [c, d] = beyond;
         let moved = |n: Node| [n[0] + step[0], n[1] + step[1]];
         let mut corners = [(p, a), (q, b), (moved(p), c), (moved(q), d)];
         // by v and then by u: [i, j], [i+1, j], [i, j+1], [i+1, j+1]
         corners.sort_by_key(|(n, _)| [n[1], n[0]]);
-        let [s00, s10, s01, s11] = corners.map(|(_, spot)| spot);
+        let [s00, s10, s01, s11] = corners.map(|(_, point)| point);
         CellShear::of([&s00, &s10, &s11, &s01], self.rule()).angle
     }
 }

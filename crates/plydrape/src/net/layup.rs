@@ -1,6 +1,7 @@
-//! What a net is asked for: the fabric, where it starts on the mold, and how its generators run.
+//! The input of a net: the fabric, where it starts on the mold, and how its generators run.
 
 use super::edge::EdgeRule;
+use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::mold::vector::{along, cross, dot, unit};
 
@@ -92,11 +93,6 @@ pub enum LayupError {
     },
 }
 
-/// Farthest that a seed may lie off its mold (m).
-const SEED_OFF: f64 = 1e-6;
-/// Largest pre-shear (rad).
-const SHUT: f64 = 89.0 / 180.0 * std::f64::consts::PI;
-
 impl Layup {
     /// Whether a net can be begun: sensible numbers, and a seed on the mold.
     pub(super) fn check(&self, mold: &Mold) -> Result<(), LayupError> {
@@ -110,12 +106,18 @@ impl Layup {
         if i >= nu || j >= nv {
             return Err(LayupError::SeedNode { i, j, nu, nv });
         }
-        if !self.heading.is_finite() || self.shear.is_nan() || self.shear.abs() > SHUT {
+        if !self.heading.is_finite()
+            || self.shear.is_nan()
+            || self.shear.abs() > TUNING.largest_shear
+        {
             let [shear_deg, heading_deg] = [self.shear, self.heading].map(f64::to_degrees);
             return Err(LayupError::Shear { shear_deg, heading_deg });
         }
-        let foot = mold.closest_point(self.place);
-        if foot.beyond || foot.distance.is_nan() || foot.distance.abs() > SEED_OFF {
+        let foot = mold.foot(self.place);
+        if foot.beyond
+            || foot.distance.is_nan()
+            || foot.distance.abs() > TUNING.seed_distance * du.min(dv)
+        {
             return Err(LayupError::SeedPlace { distance_mm: foot.distance.abs() * 1e3 });
         }
         Ok(())
@@ -124,7 +126,7 @@ impl Layup {
     /// Unit tangents of u and v at the seed, where the mold has this unit normal.
     pub(super) fn directions(&self, normal: [f64; 3]) -> Result<[[f64; 3]; 2], LayupError> {
         let (sin, cos) = self.heading.sin_cos();
-        if normal[2].abs() < 1e-6 {
+        if normal[2].abs() < TUNING.upright {
             return Err(LayupError::Upright);
         }
         // lifted straight up into the tangent plane

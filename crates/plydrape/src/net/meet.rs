@@ -5,18 +5,19 @@
 //! level lines (1/L) included, and the foot of the trial moved by δ is the next trial.
 
 use super::edge::{EdgeRule, straightest};
-use super::spot::{Ground, Spot};
+use super::surface_point::{Ground, SurfacePoint};
+use super::tuning::TUNING;
 use crate::mold::vector::{along, cross, dot, norm, sub};
 
-/// What is asked of a place.
+/// A condition on a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Condition<'a> {
     /// So much fabric away from a node (m).
-    Length(&'a Spot, f64),
+    Length(&'a SurfacePoint, f64),
     /// On the straightest line that leaves a node across this unit vector.
-    Straight(&'a Spot, [f64; 3]),
+    Straight(&'a SurfacePoint, [f64; 3]),
     /// In the plane through a node across this unit vector.
-    Plane(&'a Spot, [f64; 3]),
+    Plane(&'a SurfacePoint, [f64; 3]),
 }
 
 /// How a condition's gap is closed at a trial.
@@ -27,14 +28,9 @@ struct Slope {
     bend: f64,
 }
 
-/// Largest miss of a condition where Newton's method can do no more, as a share of the mesh width.
-const ACCEPTED: f64 = 1e-10;
-/// Trials before a place is given up.
-const TRIALS: usize = 60;
-
 impl Condition<'_> {
     /// What is missing at a trial (m).
-    fn gap(self, x: &Spot, rule: EdgeRule) -> f64 {
+    fn gap(self, x: &SurfacePoint, rule: EdgeRule) -> f64 {
         match self {
             Condition::Length(from, length) => length - rule.length(from, x),
             Condition::Straight(from, across) => {
@@ -44,7 +40,7 @@ impl Condition<'_> {
         }
     }
 
-    fn slope(self, x: &Spot, rule: EdgeRule) -> Slope {
+    fn slope(self, x: &SurfacePoint, rule: EdgeRule) -> Slope {
         match self {
             Condition::Length(from, _) => {
                 Slope { gradient: rule.gradient(from, x), bend: 1.0 / rule.length(from, x) }
@@ -70,15 +66,15 @@ pub(super) fn meet(
     conditions: [Condition; 2],
     guess: [f64; 3],
     mesh: f64,
-) -> Result<Spot, Spot> {
+) -> Result<SurfacePoint, SurfacePoint> {
     let largest = guess.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let tolerance = 1e-13 * mesh + 4.0 * f64::EPSILON * largest;
-    let gaps_at = |x: &Spot| conditions.map(|c| c.gap(x, rule));
+    let tolerance = TUNING.gap * mesh + 4.0 * f64::EPSILON * largest;
+    let gaps_at = |x: &SurfacePoint| conditions.map(|c| c.gap(x, rule));
     let mut best = ground.under(guess);
     let mut gaps = gaps_at(&best);
     let mut part = 1.0;
     let mut step = None;
-    for _ in 0..TRIALS {
+    for _ in 0..TUNING.trials {
         let miss = size(gaps);
         if miss <= tolerance {
             return Ok(best);
@@ -92,18 +88,18 @@ pub(super) fn meet(
         if size(there) < miss {
             (best, gaps, step) = (trial, there, None);
             part = f64::min(1.0, 2.0 * part);
-            // a step that hardly helps any more: what is left is rounding
-            if size(gaps) > 0.5 * miss && miss <= ACCEPTED * mesh {
+            // the step hardly improves the place: the remaining gap is rounding
+            if size(gaps) > 0.5 * miss && miss <= TUNING.largest_gap * mesh {
                 break;
             }
         } else {
             part *= 0.5;
-            if miss <= ACCEPTED * mesh || part < 1e-4 {
+            if miss <= TUNING.largest_gap * mesh || part < TUNING.smallest_share {
                 break;
             }
         }
     }
-    if size(gaps) <= tolerance.max(ACCEPTED * mesh) { Ok(best) } else { Err(best) }
+    if size(gaps) <= tolerance.max(TUNING.largest_gap * mesh) { Ok(best) } else { Err(best) }
 }
 
 fn size(gaps: [f64; 2]) -> f64 {
@@ -116,7 +112,7 @@ fn newton(gaps: [f64; 2], slopes: [Slope; 2], mesh: f64) -> Option<[f64; 3]> {
     let [p, q] = [slopes[0].gradient, slopes[1].gradient];
     let (pp, pq, qq) = (dot(p, p), dot(p, q), dot(q, q));
     let det = pp * qq - pq * pq;
-    if det.is_nan() || det <= 1e-10 * pp * qq {
+    if det.is_nan() || det <= TUNING.parallel * pp * qq {
         return None;
     }
     let solve = |r: [f64; 2]| {
@@ -124,11 +120,11 @@ fn newton(gaps: [f64; 2], slopes: [Slope; 2], mesh: f64) -> Option<[f64; 3]> {
         [0, 1, 2].map(|n| a * p[n] + b * q[n])
     };
     let limited = |step: [f64; 3]| {
-        let part = (0.5 * mesh / norm(step)).min(1.0);
+        let part = (TUNING.longest_step * mesh / norm(step)).min(1.0);
         step.map(|x| part * x)
     };
     let first = solve(gaps);
-    if norm(first) > 0.5 * mesh {
+    if norm(first) > TUNING.longest_step * mesh {
         return Some(limited(first));
     }
     // what the level lines bend away over the first estimate

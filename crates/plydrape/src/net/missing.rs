@@ -24,9 +24,9 @@ pub struct Missing {
     pub node: [usize; 2],
     /// Why.
     pub reason: Reason,
-    /// Where it was looked for (m); none for a node that was not.
+    /// The last trial for its place (m); none where there was no trial.
     pub near: Option<[f64; 3]>,
-    /// How far beyond the mold's boundary it lies (m); none for a node that was not looked for.
+    /// How far beyond the mold's border it lies (m); none where there was no trial.
     pub beyond: Option<f64>,
 }
 

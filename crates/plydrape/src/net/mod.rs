@@ -3,7 +3,7 @@
 //! Fibres do not stretch, cells shear freely, and every node lies on the mold (Mack and Taylor 1956). So
 //! two lines of nodes determine all others: a node is the common end of two known edges of fabric. The
 //! generators run straight over the mold, or cell by cell with the least shear (Krogh et al. 2021,
-//! KinDrape). What comes out is X*(u, v), the place where each point of the fabric should end.
+//! KinDrape). The result is X*(u, v), the place where each point of the fabric should end.
 //!
 //! Fabric coordinates u and v are metres of fabric along the two fibre directions from node [0, 0].
 //! Arrays hold node [i, j] at j·nu + i, and the cell whose lowest node is [i, j] at j·(nu − 1) + i.
@@ -20,7 +20,8 @@ mod missing;
 mod place;
 mod report;
 mod shear;
-mod spot;
+mod surface_point;
+mod tuning;
 
 pub use edge::EdgeRule;
 pub use layup::{Generators, Layup, LayupError};
@@ -30,13 +31,13 @@ pub use shear::CellShear;
 
 use crate::mold::Mold;
 use build::Build;
-use spot::{Ground, Spot};
+use surface_point::{Ground, SurfacePoint};
 
 /// A ply draped as a pin-jointed net.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Net {
-    /// What was asked for.
+    /// The input.
     pub layup: Layup,
     /// Place of each node (m); none where it has no place on the mold.
     pub nodes: Vec<Option<[f64; 3]>>,
@@ -48,7 +49,7 @@ pub struct Net {
     pub report: Report,
     /// Nodes beyond the mold's boundary included.
     #[cfg_attr(feature = "serde", serde(skip))]
-    spots: Vec<Option<Spot>>,
+    points: Vec<Option<SurfacePoint>>,
 }
 
 impl Net {
@@ -62,14 +63,14 @@ impl Net {
         let mut build = Build {
             layup: &layup,
             ground: Ground::new(mold),
-            spots: vec![None; nu * nv],
+            points: vec![None; nu * nv],
             folds: Vec::new(),
         };
         build.run()?;
 
-        let on_mold = |spot: &&Spot| spot.beyond == 0.0;
+        let on_mold = |point: &&SurfacePoint| point.beyond == 0.0;
         let nodes =
-            build.spots.iter().map(|s| s.as_ref().filter(on_mold).map(|s| s.point)).collect();
+            build.points.iter().map(|s| s.as_ref().filter(on_mold).map(|s| s.point)).collect();
         let mut missing: Vec<Missing> = (0..nu * nv)
             .filter_map(|n| {
                 let (reason, near, beyond) = build.reason(n)?;
@@ -79,9 +80,9 @@ impl Net {
         let [i, j] = layup.seed;
         missing.sort_by_key(|m| m.node[0].abs_diff(i) + m.node[1].abs_diff(j));
         let feet = build.ground.feet();
-        let spots = build.spots;
+        let points = build.points;
 
-        let at = |i: usize, j: usize| spots[j * nu + i].as_ref().filter(on_mold);
+        let at = |i: usize, j: usize| points[j * nu + i].as_ref().filter(on_mold);
         let mut shear = Vec::with_capacity((nu - 1) * (nv - 1));
         for j in 0..nv - 1 {
             for i in 0..nu - 1 {
@@ -94,8 +95,8 @@ impl Net {
                 });
             }
         }
-        let report = Report::new(&layup, &spots, &shear, &missing, feet);
-        Ok(Net { layup, nodes, missing, shear, report, spots })
+        let report = Report::new(&layup, &points, &shear, &missing, feet);
+        Ok(Net { layup, nodes, missing, shear, report, points })
     }
 
     /// The node at grid indices `[i, j]` (m), if it has a place.

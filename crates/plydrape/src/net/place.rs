@@ -1,10 +1,11 @@
 //! Between the nodes: where any point of the fabric lies, and which way its fibres run there.
 //!
 //! Places come from the tensor product of cubics through 4 × 4 nodes around the point's cell, moved to
-//! their foot on the mold; near the rim of the net, or beside missing nodes, the 4 × 4 nodes lie more to
+//! their closest point on the mold; near the boundary of the net, or beside missing nodes, the 4 × 4 nodes lie more to
 //! one side, or are fewer. The cubics' error is of fourth order in the mesh width.
 
 use super::Net;
+use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::mold::vector::{along, dot, unit};
 
@@ -49,9 +50,9 @@ impl Net {
         let mut at = [0.0_f64; 2];
         for n in 0..2 {
             let last = self.layup.nodes[n] - 1;
-            // a rounding error beyond the rim is the rim
+            // a rounding error beyond the boundary is the boundary
             let t = uv[n] / self.layup.mesh[n];
-            if !(-1e-9..=last as f64 + 1e-9).contains(&t) {
+            if !(-TUNING.boundary_rounding..=last as f64 + TUNING.boundary_rounding).contains(&t) {
                 return None;
             }
             at[n] = t.clamp(0.0, last as f64);
@@ -71,7 +72,7 @@ impl Net {
             let whole = |from: &[usize; 2]| {
                 let [nu, _] = self.layup.nodes;
                 (0..size[1]).all(|q| {
-                    (0..size[0]).all(|p| self.spots[(from[1] + q) * nu + from[0] + p].is_some())
+                    (0..size[0]).all(|p| self.points[(from[1] + q) * nu + from[0] + p].is_some())
                 })
             };
             if let Some((_, from)) = pairs.into_iter().find(|(_, from)| whole(from)) {
@@ -88,8 +89,8 @@ impl Net {
         let mut sum = [0.0; 3];
         for n in 0..patch.size[1] {
             for m in 0..patch.size[0] {
-                if let Some(spot) = self.spots[(j + n) * nu + i + m] {
-                    sum = along(sum, p[m] * q[n], spot.point);
+                if let Some(point) = self.points[(j + n) * nu + i + m] {
+                    sum = along(sum, p[m] * q[n], point.point);
                 }
             }
         }

@@ -3,7 +3,7 @@
 use super::layup::Layup;
 use super::missing::{Missing, Reason};
 use super::shear::CellShear;
-use super::spot::Spot;
+use super::surface_point::SurfacePoint;
 
 /// A net in a few numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,14 +25,14 @@ pub struct Report {
     pub largest_shear: Option<(f64, [usize; 2])>,
     /// Mean magnitude of the cells' shear (rad); 0 without whole cells.
     pub mean_shear: f64,
-    /// Closest points asked of the mold.
+    /// Number of closest points that were computed.
     pub feet: usize,
 }
 
 impl Report {
     pub(super) fn new(
         layup: &Layup,
-        spots: &[Option<Spot>],
+        points: &[Option<SurfacePoint>],
         shear: &[Option<CellShear>],
         missing: &[Missing],
         feet: usize,
@@ -45,9 +45,9 @@ impl Report {
             .collect();
 
         let at = |i: usize, j: usize| {
-            if i < nu && j < nv { spots[j * nu + i].filter(|s| s.beyond == 0.0) } else { None }
+            if i < nu && j < nv { points[j * nu + i].filter(|s| s.beyond == 0.0) } else { None }
         };
-        let error = |a: Option<Spot>, b: Option<Spot>, width: f64| match (a, b) {
+        let error = |a: Option<SurfacePoint>, b: Option<SurfacePoint>, width: f64| match (a, b) {
             (Some(a), Some(b)) => (layup.edges.length(&a, &b) - width).abs(),
             _ => 0.0,
         };

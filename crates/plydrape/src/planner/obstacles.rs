@@ -58,7 +58,8 @@ fn places(
     step: Option<usize>,
 ) -> impl Iterator<Item = Verdict> {
     let limits = &scene.limits;
-    let workspace = limits.workspace.and_then(|workspace| outside(positions, workspace));
+    let workspace =
+        limits.workspace.and_then(|workspace| outside(positions, workspace, scene.ply.cell));
     let found = [
         (Name::Workspace, 0.0, workspace),
         (Name::GripperDistance, limits.gripper_distance * 1e3, closest(positions)),

@@ -1,13 +1,14 @@
 //! The ply as a net of catenaries between grippers.
 
+mod contact_segment;
 mod grid;
-mod laid;
 mod places;
 mod ruck;
 pub mod shear;
+mod tuning;
 
+pub use contact_segment::{ContactSegment, LandedCell};
 pub use grid::{Catenary, Grid, GripperId, Kind};
-pub use laid::{Laid, LandedCell};
 pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
 pub use ruck::Ruck;
 
@@ -52,11 +53,11 @@ impl Ply {
     }
 
     /// Sides of a cell (m) as its diagonals measure it: those of the fabric, scaled where a diagonal lies on a
-    /// curved mold ([`shear::curved_scale`]). `laid` is what the mold has caught of each catenary.
+    /// curved mold ([`shear::curved_scale`]). `contacts` holds the contact segment of each catenary.
     #[must_use]
-    pub fn sides(&self, cell: usize, laid: &[Option<Laid>]) -> [f64; 2] {
+    pub fn sides(&self, cell: usize, contacts: &[Option<ContactSegment>]) -> [f64; 2] {
         let first = self.grid.edges() + 2 * cell;
-        let landed = laid[first..first + 2].iter().flatten().find_map(|laid| laid.landed);
+        let landed = contacts[first..first + 2].iter().flatten().find_map(|contact| contact.landed);
         self.cell.map(|side| landed.map_or(1.0, |landed| landed.scale) * side)
     }
 

@@ -76,7 +76,7 @@ pub enum PlaceError {
 impl PlaceError {
     /// The same fault in a step, counted from 1.
     #[must_use]
-    pub fn at_step(mut self, number: usize) -> Self {
+    pub(crate) fn at_step(mut self, number: usize) -> Self {
         if let PlaceError::Count { step, .. }
         | PlaceError::Far { step, .. }
         | PlaceError::Steep { step, .. } = &mut self

@@ -50,6 +50,7 @@ impl Ruck {
         HEIGHT * self.amplitude
     }
 
+    #[cfg(test)]
     /// Half the length over which it is off the floor (m).
     #[must_use]
     pub fn half_width(&self) -> f64 {
@@ -84,7 +85,7 @@ mod tests {
     const RIGIDITY: f64 = 9e-6;
     const WEIGHT: f64 = 0.3143 * 9.8;
 
-    /// The shape is held by nothing but the floor at its ends, bends as a heavy beam under P, and has the slack that
+    /// The shape is held by the floor at its ends only, bends as a heavy beam under P, and has the slack that
     /// it was made from; by differences and sums of its points alone.
     #[test]
     fn a_ruck_is_a_heavy_beam_that_leaves_the_floor_smoothly() {

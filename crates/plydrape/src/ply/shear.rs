@@ -1,18 +1,13 @@
 //! Shear of a cell: the trellis of sides a, b whose one diagonal is stretched, eqs. (6)–(8) of
 //! `docs/theory/ply.md`, after Krogh et al. 2018, section 2.3.
 
+use super::tuning::TUNING;
 use num_dual::DualNum;
-
-/// What a folded cell keeps of its shorter diagonal, as a share of a side.
-const FOLDED: f64 = 1e-6;
-
-/// Relative length by which a diagonal must exceed that of the flat cell to count as shearing.
-const ROUNDING: f64 = 1e-12;
 
 /// Whether a diagonal whose taut path is `path` (m) is stretched beyond the flat cell's.
 #[must_use]
-pub fn is_shearing([a, b]: [f64; 2], path: f64) -> bool {
-    path > a.hypot(b) * (1.0 + ROUNDING)
+pub(crate) fn is_shearing([a, b]: [f64; 2], path: f64) -> bool {
+    path > a.hypot(b) * (1.0 + TUNING.shear_rounding)
 }
 
 /// Shear angle γ (rad) of a cell with sides a, b (m) and stretched diagonal d₁ (m):
@@ -26,7 +21,7 @@ pub fn angle([a, b]: [f64; 2], stretched: f64) -> f64 {
 /// Weight of a shearing cell's plane in the slopes around it, from 0 at the onset of shear to 1 at the shear angle
 /// `full` (rad): the smoothstep `x²(3 − 2x)` of x = γ/`full`.
 ///
-/// A number that carries its derivative gives the weight's derivative: zero at both ends.
+/// A dual number gives the weight's derivative too, which is zero at both ends.
 #[must_use]
 pub fn onset<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T, full: f64) -> T {
     let sine = (stretched * stretched - a * a - b * b) / (a * b * 2.0);
@@ -47,23 +42,26 @@ pub fn angle_tangent(sides: [f64; 2], stretched: f64, change: [f64; 3]) -> f64 {
     let ([a, b], [da, db, dd]) = (sides, change);
     let (sine, cosine) = angle(sides, stretched).sin_cos();
     let rate = (stretched * dd - a * da - b * db) / (a * b) - sine * (da / a + db / b);
-    if cosine > 1e-6 { rate / cosine } else { 0.0 }
+    if cosine > TUNING.folded_cosine { rate / cosine } else { 0.0 }
 }
 
 /// Set length (m) of the diagonal across the stretched one: √(2(a²+b²) − d₁²).
 ///
 /// A stretched diagonal close to a + b has folded the cell; its partner keeps a millionth of a side.
 #[must_use]
-pub fn partner_length<T: DualNum<Primitive = f64> + Copy>([a, b]: [T; 2], stretched: T) -> T {
+pub(crate) fn partner_length<T: DualNum<Primitive = f64> + Copy>(
+    [a, b]: [T; 2],
+    stretched: T,
+) -> T {
     let square = (a * a + b * b) * 2.0 - stretched * stretched;
-    let least = FOLDED * a.re().min(b.re());
+    let least = TUNING.folded_diagonal * a.re().min(b.re());
     if square.re() > least * least { square.sqrt() } else { T::from(least) }
 }
 
 /// Signed shear angle γ (rad) of a cell with sides a, b (m) whose taut diagonals are `rising` and `falling` (m):
 /// positive where the rising one is stretched, negative where the falling one is, 0 where neither is.
 #[must_use]
-pub fn signed_angle(sides: [f64; 2], rising: f64, falling: f64) -> f64 {
+pub(crate) fn signed_angle(sides: [f64; 2], rising: f64, falling: f64) -> f64 {
     let (sign, longer) = if falling > rising { (-1.0, falling) } else { (1.0, rising) };
     if is_shearing(sides, longer) { sign * angle(sides, longer) } else { 0.0 }
 }
@@ -71,9 +69,9 @@ pub fn signed_angle(sides: [f64; 2], rising: f64, falling: f64) -> f64 {
 /// Length (m) of the rising (`sign` 1) or falling (−1) diagonal of a cell with sides a, b (m) at the signed shear
 /// angle γ (rad): √(a² + b² ± 2ab sin γ). Of a folded cell the shorter one keeps a millionth of a side.
 #[must_use]
-pub fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
+pub(crate) fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
     let square = a * a + b * b + sign * 2.0 * a * b * shear.sin();
-    square.max(0.0).sqrt().max(FOLDED * a.min(b))
+    square.max(0.0).sqrt().max(TUNING.folded_diagonal * a.min(b))
 }
 
 /// By how much a mold of Gaussian curvature K (1/m²) scales both diagonals of a cell that lies on it, with sides a, b
@@ -85,8 +83,8 @@ pub fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
 pub fn curved_scale([a, b]: [f64; 2], shear: f64, gaussian_curvature: f64) -> f64 {
     let area = a * b * shear.cos();
     let excess = gaussian_curvature * area * area / (6.0 * (a * a + b * b));
-    // beyond that a cell is no small part of its mold, and the series says nothing
-    (1.0 + excess.clamp(-0.5, 0.5)).sqrt()
+    let most = TUNING.curvature_excess;
+    (1.0 + excess.clamp(-most, most)).sqrt()
 }
 
 /// Force (N) in the stretched diagonal: τ d₁/cos γ by virtual work, at the shear angle γ (rad), τ (N/m) the

@@ -116,7 +116,7 @@ fn settings() -> plydrape::scene::Settings {
         axial_stiffness: 1e5,
         gravity: 9.81,
         max_tilt: 0.7,
-        contact: plydrape::scene::Contact::default(),
+        contact: plydrape::scene::ContactSettings::default(),
     }
 }
 

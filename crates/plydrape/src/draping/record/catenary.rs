@@ -1,6 +1,6 @@
 //! The catenaries of a step: what their shapes and measures follow from.
 
-use crate::draping::contact::Bridge;
+use super::Bridge;
 use crate::draping::misfit;
 use crate::ply::{GripperId, Kind, Ply, Ruck};
 

@@ -6,7 +6,7 @@
 mod catenary;
 mod outcome;
 
-pub use super::contact::Bridge;
+pub use super::bridge::Bridge;
 pub use crate::measure::{Measures, Numbers, Verdict, Worst};
 pub use catenary::{CatenaryState, ContactState, Hold, SpanState};
 pub use outcome::{CatenaryId, Summary};

@@ -1,4 +1,4 @@
-//! What the equilibrium is asked for: a ply, its grippers' places and its contact with the mold.
+//! The input of an equilibrium: a ply, the positions of its grippers and its contact with the mold.
 //!
 //! Everything that depends on a position or on the ply's numbers is a [`Number`], so that the same code gives
 //! the problem and its derivative along a direction.
@@ -7,7 +7,7 @@ use super::element::{Element, End, class};
 use super::line::Line;
 use crate::catenary::SpanState;
 use crate::equilibrium::{Number, Tuning};
-use crate::ply::{Catenary, Grid, Kind, Laid, Ply};
+use crate::ply::{Catenary, ContactSegment, Grid, Kind, Ply};
 use crate::scene::{ContactEnd, Settings};
 
 /// The ply at given gripper positions, from which a [`super::Problem`] is built.
@@ -20,9 +20,9 @@ pub struct Circumstances<'a, T> {
     pub tuning: &'a Tuning,
     /// Positions of the grippers (m).
     pub positions: &'a [[T; 3]],
-    /// What of each catenary is in contact.
-    pub laid: &'a [Option<Laid>],
-    /// What multiplies the ply's numbers: 1, but for their derivatives.
+    /// Contact segment of each catenary.
+    pub contacts: &'a [Option<ContactSegment>],
+    /// Factors on the numbers of the ply: 1, with their derivatives.
     pub factors: Factors<T>,
     /// Slopes at both ends of every element in the equilibrium without constraints, where it is known.
     pub free: &'a [[T; 2]],
@@ -30,7 +30,7 @@ pub struct Circumstances<'a, T> {
     pub constrained: bool,
 }
 
-/// Factors on what a ply is, each for lines along u, lines along v and diagonals.
+/// Factors on the properties of a ply, each for lines along u, lines along v and diagonals.
 #[derive(Debug, Clone, Copy)]
 pub struct Factors<T> {
     /// On fabric lengths.
@@ -64,7 +64,7 @@ impl<T: Number> Circumstances<'_, T> {
     /// Sides of a cell as its diagonals measure it (m).
     pub fn sides(&self, cell: usize) -> [T; 2] {
         let [along_u, along_v, _] = self.factors.length;
-        let [a, b] = self.ply.sides(cell, self.laid);
+        let [a, b] = self.ply.sides(cell, self.contacts);
         [along_u * a, along_v * b]
     }
 
@@ -80,30 +80,31 @@ impl<T: Number> Circumstances<'_, T> {
     }
 
     /// Whether the free segment at an end of a catenary in contact hangs: it has not lain down, nor is it a fold.
-    pub fn hangs(&self, catenary: usize, laid: &Laid, end: usize) -> bool {
+    pub fn hangs(&self, catenary: usize, contact: &ContactSegment, end: usize) -> bool {
         let place = self.ends(&self.grid().catenary(catenary))[end];
-        laid.hangs(end) && !laid.is_folded(end, place.map(|x| x.re()))
+        contact.hangs(end) && !contact.is_folded(end, place.map(|x| x.re()))
     }
 
     /// The straight line of the free segment at an end of a catenary, from its first to its second end.
     pub fn segment_line(&self, catenary: usize, end: usize) -> Line<T> {
         let ends = self.ends(&self.grid().catenary(catenary));
-        match &self.laid[catenary] {
+        match &self.contacts[catenary] {
             None => Line::new(ends[0], ends[1]),
             // one that lies, or has no length, has no direction of its own: it goes on as the contact segment ends
-            Some(laid)
-                if (laid.rest(end) <= 0.0 || laid.lying[end]) && laid.line.length() > 0.0 =>
+            Some(contact)
+                if (contact.free_length(end) <= 0.0 || contact.lying[end])
+                    && contact.line.length() > 0.0 =>
             {
-                let [a, b] = laid.end_piece(end).map(constant);
+                let [a, b] = contact.end_piece(end).map(constant);
                 Line::new(a, b)
             }
-            Some(laid) => {
+            Some(contact) => {
                 // a touch at the very gripper has no direction: the other free segment leaves from there
-                let point = laid.line.length() <= 0.0 && laid.rest(end) <= 0.0;
+                let point = contact.line.length() <= 0.0 && contact.free_length(end) <= 0.0;
                 if (end == 0) != point {
-                    Line::new(ends[0], constant(laid.point()[0]))
+                    Line::new(ends[0], constant(contact.point()[0]))
                 } else {
-                    Line::new(constant(laid.point()[1]), ends[1])
+                    Line::new(constant(contact.point()[1]), ends[1])
                 }
             }
         }
@@ -113,11 +114,12 @@ impl<T: Number> Circumstances<'_, T> {
     pub fn taut_path(&self, catenary: usize) -> T {
         let c = self.grid().catenary(catenary);
         let ends = self.ends(&c);
-        match &self.laid[catenary] {
+        match &self.contacts[catenary] {
             None => Line::new(ends[0], ends[1]).chord,
-            Some(laid) => {
-                let [a, b] = laid.point().map(constant);
-                let along = laid.line.length() + laid.arch[0] + laid.arch[1];
+            Some(contact) => {
+                let [a, b] = contact.point().map(constant);
+                let along =
+                    contact.line.length() + contact.excess_length[0] + contact.excess_length[1];
                 let factor = self.factors.length[class(c.kind)];
                 Line::new(ends[0], a).chord + Line::new(b, ends[1]).chord + factor * along
             }
@@ -153,31 +155,37 @@ impl<T: Number> Circumstances<'_, T> {
         element
     }
 
-    /// The free segment at an end of a catenary in contact; what holds it at its gripper is left free.
+    /// The free segment at an end of a catenary in contact; its slope at the gripper is left free.
     pub fn free_segment(
         &self,
         catenary: usize,
-        laid: &Laid,
+        contact: &ContactSegment,
         end: usize,
         line: &Line<T>,
     ) -> Element<T> {
         let kind = self.grid().catenary(catenary).kind;
-        let length = T::from(laid.rest(end)) * self.factors.length[class(kind)];
+        let length = T::from(contact.free_length(end)) * self.factors.length[class(kind)];
         let mut element = self.element(catenary, end, line, length);
-        element.ends[1 - end] = self.contact_end(kind, laid, end, line);
+        element.ends[1 - end] = self.contact_end(kind, contact, end, line);
         element
     }
 
     /// What holds a free segment where it leaves the mold.
-    fn contact_end(&self, kind: Kind, laid: &Laid, end: usize, line: &Line<T>) -> End<T> {
+    fn contact_end(
+        &self,
+        kind: Kind,
+        contact: &ContactSegment,
+        end: usize,
+        line: &Line<T>,
+    ) -> End<T> {
         match self.settings.contact.end {
             ContactEnd::Free => End::Free,
             ContactEnd::Tangent => {
-                let ([nx, ny, nz], heading) = (laid.normal[end], line.heading());
+                let ([nx, ny, nz], heading) = (contact.normal[end], line.heading());
                 if self.ply.line(kind).flexural_rigidity == 0.0 || nz <= 0.0 {
                     return End::Free;
                 }
-                End::Given((heading[0] * -nx + heading[1] * -ny) / nz)
+                End::Prescribed((heading[0] * -nx + heading[1] * -ny) / nz)
             }
         }
     }

@@ -3,7 +3,7 @@
 //! A shearing cell is a taut sheet: its plane contains the stretched diagonal and the direction between the
 //! two other grippers. Where several cells meet, their planes are averaged by their weights w, and the
 //! weight of the mean is `1 − ∏(1−w)`. A diagonal that has landed gives up its weight as its free segment
-//! shortens from half of it to nothing.
+//! shortens from half of it to zero.
 
 use super::circumstances::Circumstances;
 use crate::equilibrium::Number;
@@ -29,7 +29,7 @@ impl<T: Number> Constraint<T> {
 
     /// The constrained slope along a horizontal unit vector, `free` the slope without the constraint.
     #[must_use]
-    pub fn blend(&self, free: Option<T>, heading: [T; 2]) -> T {
+    pub(crate) fn blend(&self, free: Option<T>, heading: [T; 2]) -> T {
         let plane = self.slope(heading);
         match free {
             Some(free) if self.is_partial() => free + self.weight * (plane - free),
@@ -39,7 +39,7 @@ impl<T: Number> Constraint<T> {
 
     /// Whether the unconstrained slope still counts.
     #[must_use]
-    pub fn is_partial(&self) -> bool {
+    pub(crate) fn is_partial(&self) -> bool {
         self.weight.re() < 1.0
     }
 }
@@ -69,9 +69,9 @@ pub fn constrain<T: Number>(
         let across = around.chord(other);
         let catenary = grid.catenary(stretched);
         for (end, gripper) in [catenary.from, catenary.to].into_iter().enumerate() {
-            // what of the diagonal is in contact says nothing about what hangs beyond its gripper
-            let free = around.laid[stretched].as_ref().map_or(1.0, |laid| {
-                let share = (2.0 * laid.rest(end) / laid.length).clamp(0.0, 1.0);
+            // the part of a diagonal that is in contact does not constrain the slopes beyond its gripper
+            let free = around.contacts[stretched].as_ref().map_or(1.0, |contact| {
+                let share = (2.0 * contact.free_length(end) / contact.length).clamp(0.0, 1.0);
                 share * share * (3.0 - 2.0 * share)
             });
             if free == 0.0 {

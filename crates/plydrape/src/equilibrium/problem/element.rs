@@ -35,7 +35,7 @@ pub enum End<T> {
     /// No moment.
     Free,
     /// A given slope: constrained by a shearing cell, or the mold's.
-    Given(T),
+    Prescribed(T),
     /// A shared slope of the problem.
     Shared(usize),
     /// A diagonal: the plane through two edge slopes.
@@ -55,7 +55,7 @@ pub struct PlaneSlope<T> {
 #[derive(Debug, Clone, Copy)]
 pub enum SlopeSource<T> {
     /// Known beforehand.
-    Given(T),
+    Prescribed(T),
     /// A shared slope of the problem.
     Shared(usize),
     /// The free end of an element: (element, end).
@@ -97,28 +97,28 @@ impl<T: Number> Element<T> {
     }
 
     /// Slope of its chord.
-    pub fn chord_slope(&self) -> T {
+    pub(crate) fn chord_slope(&self) -> T {
         if self.run.re() > 0.0 { self.rise / self.run } else { T::from(0.0) }
     }
 
     /// Which ends are free.
-    pub fn is_free(&self) -> [bool; 2] {
+    pub(crate) fn is_free(&self) -> [bool; 2] {
         self.ends.map(|end| matches!(end, End::Free))
     }
 }
 
 impl Element<f64> {
-    /// Number of different [`Element::likeness`]es.
-    pub const LIKENESSES: usize = 12;
+    /// Number of different [`Element::variant`]s.
+    pub(crate) const VARIANTS: usize = 12;
 
-    /// Which elements are alike: of one class, with the same ends free.
-    pub fn likeness(&self) -> usize {
+    /// Elements of one class with the same ends free are of one variant: their forces are alike.
+    pub(crate) fn variant(&self) -> usize {
         let [first, second] = self.is_free().map(usize::from);
         4 * class(self.kind) + 2 * first + second
     }
 
     /// Whether another element is the same span, whatever slopes hold it.
-    pub fn is_same_span(&self, other: &Element<f64>) -> bool {
+    pub(crate) fn is_same_span(&self, other: &Element<f64>) -> bool {
         let numbers = |e: &Element<f64>| [e.run, e.rise, e.length, e.weight, e.rigidity];
         numbers(self) == numbers(other)
             && self.is_free() == other.is_free()

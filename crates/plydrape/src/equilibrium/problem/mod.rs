@@ -50,7 +50,7 @@ impl<T> Default for Problem<T> {
 
 impl<T: Number> Problem<T> {
     /// States the problem anew, in place.
-    pub fn rebuild(&mut self, around: &Circumstances<T>) {
+    pub(crate) fn rebuild(&mut self, around: &Circumstances<T>) {
         let grid = around.grid();
         self.elements.clear();
         self.is_rigid = [0, 1].map(|direction| around.is_rigid(direction));
@@ -77,7 +77,7 @@ impl<T: Number> Problem<T> {
         for cell in 0..grid.cells() {
             let [rising, falling] = [0, 1].map(|n| around.taut_path(grid.edges() + 2 * cell + n));
             let longer = if falling.re() > rising.re() { (falling, true) } else { (rising, false) };
-            let shears = shear::is_shearing(around.ply.sides(cell, around.laid), longer.0.re());
+            let shears = shear::is_shearing(around.ply.sides(cell, around.contacts), longer.0.re());
             self.shearing.push(shears.then_some(longer));
         }
     }
@@ -88,19 +88,19 @@ impl<T: Number> Problem<T> {
         let c = grid.catenary(catenary);
         let seen = [0, 1].map(|end| {
             let line = around.segment_line(catenary, end);
-            match &around.laid[catenary] {
+            match &around.contacts[catenary] {
                 // one span from gripper to gripper
                 None if end == 0 => {
                     let length = around.flat_length(c.kind);
                     self.elements.push(around.element(catenary, 0, &line, length));
                 }
-                Some(laid) if around.hangs(catenary, laid, end) => {
-                    self.elements.push(around.free_segment(catenary, laid, end, &line));
+                Some(contact) if around.hangs(catenary, contact, end) => {
+                    self.elements.push(around.free_segment(catenary, contact, end, &line));
                 }
                 _ => {}
             }
             let new = self.elements[first..].last();
-            let own = new.filter(|e| around.laid[catenary].is_none() || e.segment == end);
+            let own = new.filter(|e| around.contacts[catenary].is_none() || e.segment == end);
             let side = match own {
                 Some(e) if e.state != SpanState::Straight => {
                     Side::Hanging(self.elements.len() - 1, end)
@@ -121,7 +121,7 @@ impl<T: Number> Problem<T> {
         let length = match self.shearing[cell] {
             // once it has landed, its free segments are spans like any other
             Some((_, falling))
-                if falling == (kind == Kind::Falling) && around.laid[catenary].is_none() =>
+                if falling == (kind == Kind::Falling) && around.contacts[catenary].is_none() =>
             {
                 return;
             }
@@ -155,15 +155,15 @@ impl<T: Number> Problem<T> {
                 let place = [number, end];
                 self.slopes.diagonal_end(around, &self.constraints, catenary, place, &line)
             };
-            match &around.laid[catenary] {
+            match &around.contacts[catenary] {
                 None => {
                     let mut element = around.element(catenary, 0, &line, length);
                     element.ends = [held(0), held(1)];
                     self.elements.push(element);
                     return;
                 }
-                Some(laid) if around.hangs(catenary, laid, segment) => {
-                    let mut element = around.free_segment(catenary, laid, segment, &line);
+                Some(contact) if around.hangs(catenary, contact, segment) => {
+                    let mut element = around.free_segment(catenary, contact, segment, &line);
                     element.ends[segment] = held(segment);
                     self.elements.push(element);
                 }
@@ -202,12 +202,6 @@ impl<T: Number> Problem<T> {
     #[must_use]
     pub fn shared_slopes(&self) -> &[SharedSlope] {
         self.slopes.shared()
-    }
-
-    /// The unknown slope of a gripper along a direction, if it has one.
-    #[must_use]
-    pub fn shared_slope(&self, gripper: usize, direction: usize) -> Option<usize> {
-        self.slopes.shared_at(gripper, direction)
     }
 
     /// The edges around each gripper: `[direction][before, after]`.

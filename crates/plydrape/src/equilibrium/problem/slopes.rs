@@ -76,11 +76,6 @@ impl<T: Number> Slopes<T> {
         &self.shared
     }
 
-    /// The unknown slope of a gripper along a direction, if it has one.
-    pub fn shared_at(&self, gripper: usize, direction: usize) -> Option<usize> {
-        self.shared_at[gripper][direction]
-    }
-
     /// The edges around each gripper: `[direction][before, after]`.
     pub fn sides(&self) -> &[[[Side<T>; 2]; 2]] {
         &self.sides
@@ -107,7 +102,7 @@ impl<T: Number> Slopes<T> {
                             let heading = self.headings[elements[element].catenary][end];
                             let free = around.free.get(element).map(|slopes| slopes[end]);
                             let slope = constraint.blend(free, heading);
-                            elements[element].ends[end] = End::Given(slope);
+                            elements[element].ends[end] = End::Prescribed(slope);
                         }
                     }
                 } else if let [Side::Hanging(a, end_a), Side::Hanging(b, end_b)] = sides {
@@ -142,7 +137,7 @@ impl<T: Number> Slopes<T> {
         let g = grid.index(gripper);
         if let Some(constraint) = constraints[g] {
             let free = around.free.get(element).map(|slopes| slopes[end]);
-            return End::Given(constraint.blend(free, along));
+            return End::Prescribed(constraint.blend(free, along));
         }
         let cell = (catenary - grid.edges()) / 2;
         let (i, j) = (cell % (grid.nu - 1), cell / (grid.nu - 1));
@@ -161,8 +156,8 @@ impl<T: Number> Slopes<T> {
         let source = [0, 1].map(|d| match (self.shared_at[g][d], self.sides[g][d][1 - at[d]]) {
             (Some(slope), _) => SlopeSource::Shared(slope),
             (None, Side::Hanging(element, end)) => SlopeSource::Outcome(element, end),
-            (None, Side::Fixed(slope)) => SlopeSource::Given(slope),
-            (None, Side::None) => SlopeSource::Given(T::from(0.0)),
+            (None, Side::Fixed(slope)) => SlopeSource::Prescribed(slope),
+            (None, Side::None) => SlopeSource::Prescribed(T::from(0.0)),
         });
         End::Plane(PlaneSlope { share, source })
     }

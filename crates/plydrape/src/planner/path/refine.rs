@@ -45,14 +45,14 @@ pub fn correction(scene: &Scene, planned: &[Vec<Point>]) -> Option<Vec<Vec<Point
     let mut splines: Option<Splines> = None;
     for (k, positions) in judge::rounded(planned).iter().enumerate() {
         let shape = draping.move_to(positions);
-        if draping.laid.iter().all(Option::is_none) {
+        if draping.contacts.iter().all(Option::is_none) {
             continue;
         }
         let splines =
             splines.get_or_insert(Splines { from: k.saturating_sub(1), to: planned.len() - 1 });
         let weights = splines.at(k);
-        let (positions, laid) = (draping.positions.clone(), draping.laid.clone());
-        let look = Sensitivity::new(&scene, &mut draping.solver, &shape, &positions, &laid);
+        let (positions, contacts) = (draping.positions.clone(), draping.contacts.clone());
+        let look = Sensitivity::new(&scene, &mut draping.solver, &shape, &positions, &contacts);
         let mut rows = Rows { scene: &scene, look: &look, weights, program: &mut program };
         for span in &shape.spans {
             let edge = span.catenary < scene.ply.grid.edges();

@@ -12,7 +12,7 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn shear(&self, cell: usize) -> Option<Quantity> {
         let path = self.paths[cell].as_ref()?;
-        let sides = self.scene.ply.sides(cell, self.laid);
+        let sides = self.scene.ply.sides(cell, self.contacts);
         let value = shear::angle(sides, path.value);
         // from sin γ = (d₁² − a² − b²)/2ab; a folded cell shears no further
         let rate = path.value / (sides[0] * sides[1] * value.cos());

@@ -19,7 +19,7 @@ pub use span::Place;
 
 use crate::draping::spans::{FreeSpan, Point, Shape};
 use crate::equilibrium::{Direction, Solver, StateTangent};
-use crate::ply::Laid;
+use crate::ply::ContactSegment;
 use crate::scene::Scene;
 
 /// A number with its gradient to all gripper positions.
@@ -40,7 +40,7 @@ pub struct Sensitivity<'a> {
     /// The free spans that it speaks of.
     pub shape: &'a Shape,
     positions: &'a [Point],
-    laid: &'a [Option<Laid>],
+    contacts: &'a [Option<ContactSegment>],
     /// Derivatives of each element's force (N), end slopes, run, rise and length (m).
     rows: Vec<f64>,
     /// Taut path of each cell's stretched diagonal (m), if any, and its derivatives.
@@ -52,7 +52,7 @@ pub struct Sensitivity<'a> {
 }
 
 impl<'a> Sensitivity<'a> {
-    /// Differentiates the last state of a solver: `shape` is what was read off it, `positions` (m) and `laid`
+    /// Differentiates the last state of a solver: `shape` is what was read off it, `positions` (m) and `contacts`
     /// are what it was solved with.
     #[must_use]
     pub fn new(
@@ -60,12 +60,12 @@ impl<'a> Sensitivity<'a> {
         solver: &mut Solver,
         shape: &'a Shape,
         positions: &'a [Point],
-        laid: &'a [Option<Laid>],
+        contacts: &'a [Option<ContactSegment>],
     ) -> Self {
         let width = 3 * positions.len();
         let mut state = State::new(solver, positions);
         let mut direction = Direction::none(positions.len());
-        let mut linearized = solver.linearize(positions, laid);
+        let mut linearized = solver.linearize(positions, contacts);
         for column in 0..width {
             direction.grippers[column / 3][column % 3] = 1.0;
             state.put(column, &linearized.along(&direction));
@@ -73,7 +73,7 @@ impl<'a> Sensitivity<'a> {
         }
         let is_sound = linearized.is_sound();
         let State { rows, paths, slopes, .. } = state;
-        Sensitivity { scene, shape, positions, laid, rows, paths, slopes, is_sound }
+        Sensitivity { scene, shape, positions, contacts, rows, paths, slopes, is_sound }
     }
 
     /// Number of derivatives: three a gripper.
@@ -93,8 +93,8 @@ impl<'a> Sensitivity<'a> {
     pub fn gripper_at(&self, span: &FreeSpan, end: usize) -> Option<usize> {
         let grid = self.scene.ply.grid;
         let c = grid.catenary(span.catenary);
-        let whole = self.laid[span.catenary].is_none();
-        (whole || span.rest == end).then(|| grid.index(if end == 0 { c.from } else { c.to }))
+        let whole = self.contacts[span.catenary].is_none();
+        (whole || span.segment == end).then(|| grid.index(if end == 0 { c.from } else { c.to }))
     }
 
     fn zeros(&self) -> Vec<f64> {

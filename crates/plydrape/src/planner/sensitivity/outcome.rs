@@ -3,7 +3,7 @@
 use super::{Quantity, Sensitivity};
 use crate::draping::spans::Point;
 use crate::draping::{Drape, Draping, lying_segments};
-use crate::ply::Laid;
+use crate::ply::ContactSegment;
 use crate::scene::Scene;
 use std::ops::ControlFlow;
 
@@ -36,14 +36,14 @@ pub fn outcome(
     let mut draping = Draping::new(scene);
     let (drape, shape) = draping.run(&mut progress);
     let (shape, grid) = (shape?, scene.ply.grid);
-    let Draping { solver, positions, laid, .. } = &mut draping;
-    let look = Sensitivity::new(scene, solver, &shape, positions, laid);
+    let Draping { solver, positions, contacts, .. } = &mut draping;
+    let look = Sensitivity::new(scene, solver, &shape, positions, contacts);
 
     let nothing = Quantity { value: f64::NEG_INFINITY, gradient: Vec::new() };
     let mut overstretch = vec![nothing; grid.catenaries()];
     let mut force: Vec<Option<Quantity>> = vec![None; grid.catenaries()];
     for catenary in 0..grid.catenaries() {
-        for found in lying(scene, look.laid, look.positions, catenary) {
+        for found in lying(scene, look.contacts, look.positions, catenary) {
             if found.value > overstretch[catenary].value {
                 overstretch[catenary] = found;
             }
@@ -76,17 +76,17 @@ const STEP: f64 = 1e-6;
 /// The rests of a catenary that lie on the mold: path beyond fabric.
 fn lying(
     scene: &Scene,
-    laid: &[Option<Laid>],
+    contacts: &[Option<ContactSegment>],
     positions: &[Point],
     catenary: usize,
 ) -> Vec<Quantity> {
-    let (Some(mold), Some(laid)) = (&scene.mold, &laid[catenary]) else { return Vec::new() };
+    let (Some(mold), Some(contact)) = (&scene.mold, &contacts[catenary]) else { return Vec::new() };
     let grid = scene.ply.grid;
     let c = grid.catenary(catenary);
     let grippers = [c.from, c.to].map(|g| grid.index(g));
     let tolerance = scene.settings.contact.tolerance;
     let misfits = |ends: [Point; 2]| -> Vec<f64> {
-        let segments = lying_segments(catenary, laid, ends, mold, tolerance);
+        let segments = lying_segments(catenary, contact, ends, mold, tolerance);
         segments.iter().map(|segment| -segment.misfit.excess()).collect()
     };
     let ends = grippers.map(|gripper| positions[gripper]);

@@ -54,17 +54,17 @@ impl Sensitivity<'_> {
         Some(Quantity { value, gradient: self.row(element, 0).to_vec() })
     }
 
-    /// Way between its ends beyond its fabric length (m), see [`crate::measure::Misfit`]; negative is slack.
+    /// Path between its ends beyond its fabric length (m), see `docs/theory/measures.md`; negative is slack.
     #[must_use]
     pub fn overstretch(&self, span: &FreeSpan) -> Quantity {
         let mut gradient = self.zeros();
-        let laid = self.laid[span.catenary].as_ref();
+        let contact = self.contacts[span.catenary].as_ref();
         let [a, b] = span.ends;
         let mut chord = unit(sub(b, a)).unwrap_or([0.0; 3]);
-        if let Some(laid) = laid {
+        if let Some(contact) = contact {
             // behind the contact the way grows along the tangent out of it
-            let sense = if span.rest == 0 { -1.0 } else { 1.0 };
-            let (outward, gripper) = (laid.outward[span.rest], sub(b, a).map(|c| sense * c));
+            let sense = if span.segment == 0 { -1.0 } else { 1.0 };
+            let (outward, gripper) = (contact.outward[span.segment], sub(b, a).map(|c| sense * c));
             let ahead = dot(gripper, outward);
             if ahead < 0.0 {
                 let aside = unit(along(gripper, -ahead, outward)).unwrap_or([0.0; 3]);
@@ -81,10 +81,10 @@ impl Sensitivity<'_> {
         match span.element {
             Some(element) => add(&mut gradient, -1.0, self.row(element, 5)),
             // a stretched diagonal that nothing has caught is as long as its path
-            None if self.laid[span.catenary].is_none() => gradient.fill(0.0),
+            None if self.contacts[span.catenary].is_none() => gradient.fill(0.0),
             None => {}
         }
-        Quantity { value: -misfit(span, laid).excess(), gradient }
+        Quantity { value: -misfit(span, contact).excess(), gradient }
     }
 
     /// Slope at a fraction `t` of its run, along its heading.

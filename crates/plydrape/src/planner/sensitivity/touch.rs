@@ -33,7 +33,8 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn ideal(&self, span: &FreeSpan, share: f64) -> Option<Point> {
         let (mold, target) = (self.scene.mold.as_ref()?, self.scene.target.as_ref()?);
-        let whole = self.laid[span.catenary].as_ref().map_or(span.length, |laid| laid.length);
+        let whole =
+            self.contacts[span.catenary].as_ref().map_or(span.length, |contact| contact.length);
         let share = (span.start + share * span.length) / whole;
         target.drape.as_ref()?.place(mold, fabric(self.scene, span.catenary, share))
     }
@@ -62,8 +63,8 @@ impl Sensitivity<'_> {
             _ => self.slope(span, end as f64),
         };
         let gripper = self.gripper_at(span, end);
-        let normal = match (&self.laid[span.catenary], gripper) {
-            (Some(laid), None) => laid.normal[span.rest],
+        let normal = match (&self.contacts[span.catenary], gripper) {
+            (Some(contact), None) => contact.normal[span.segment],
             _ => mold.normal(span.ends[end]),
         };
         let ([x, y], run) = (span.heading(), span.run());

@@ -44,17 +44,17 @@ fn stretch(scene: &Scene, draping: &Draping, shape: &Shape) -> f64 {
     let length = |catenary: usize| ply.flat_length(ply.grid.catenary(catenary).kind);
     let mut worst = 0.0_f64;
     for span in shape.spans.iter().filter(|span| span.catenary < edges) {
-        let misfit = misfit(span, draping.laid[span.catenary].as_ref());
+        let misfit = misfit(span, draping.contacts[span.catenary].as_ref());
         worst = worst.max(misfit.overstretch() / length(span.catenary));
     }
     let Some(mold) = &scene.mold else {
         return worst;
     };
-    for (n, laid) in draping.laid.iter().enumerate().take(edges) {
-        let Some(laid) = laid else { continue };
+    for (n, contact) in draping.contacts.iter().enumerate().take(edges) {
+        let Some(contact) = contact else { continue };
         let c = ply.grid.catenary(n);
         let ends = [c.from, c.to].map(|g| draping.positions[ply.grid.index(g)]);
-        for segment in lying_segments(n, laid, ends, mold, scene.settings.contact.tolerance) {
+        for segment in lying_segments(n, contact, ends, mold, scene.settings.contact.tolerance) {
             worst = worst.max(segment.misfit.overstretch() / length(n));
         }
     }

@@ -156,14 +156,19 @@ impl<'a> Plan<'a> {
 
     /// One step: the program, the true model, half of it where that disagrees.
     fn step(&mut self) {
-        let landing = self.draping.laid.iter().any(Option::is_some);
+        let landing = self.draping.contacts.iter().any(Option::is_some);
         for n in 0..self.targets.len() {
             self.arrived[n] |=
                 self.draping.positions[n] == self.targets[n] && self.front.height(n) <= 0.0;
         }
-        let (positions, laid) = (self.draping.positions.clone(), self.draping.laid.clone());
-        let look =
-            Sensitivity::new(self.scene, &mut self.draping.solver, &self.shape, &positions, &laid);
+        let (positions, contacts) = (self.draping.positions.clone(), self.draping.contacts.clone());
+        let look = Sensitivity::new(
+            self.scene,
+            &mut self.draping.solver,
+            &self.shape,
+            &positions,
+            &contacts,
+        );
         let mut reach = self.reach;
         let before = Judgement::of(self.scene, &self.draping, &self.shape);
         let mut best: Option<(Draping<'a>, Shape)> = None;

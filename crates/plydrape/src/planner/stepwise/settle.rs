@@ -73,19 +73,19 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
     let Some(mold) = &scene.mold else {
         return out;
     };
-    for (n, laid) in draping.laid.iter().enumerate().take(grid.edges()) {
-        let Some(laid) = laid else { continue };
+    for (n, contact) in draping.contacts.iter().enumerate().take(grid.edges()) {
+        let Some(contact) = contact else { continue };
         let c = grid.catenary(n);
         let ids = [c.from, c.to].map(|g| grid.index(g));
         let ends = ids.map(|g| draping.positions[g]);
-        for rest in lying_segments(n, laid, ends, mold, scene.settings.contact.tolerance) {
+        for rest in lying_segments(n, contact, ends, mold, scene.settings.contact.tolerance) {
             let held: &[usize] = match rest.which {
                 None => &[0, 1],
                 Some(0) => &[0],
                 Some(_) => &[1],
             };
             out.push(Rest {
-                pull: rest.misfit.way - rest.misfit.length,
+                pull: rest.misfit.path - rest.misfit.length,
                 wanted: PULL * ply.flat_length(c.kind),
                 length: rest.misfit.length,
                 whole: ply.flat_length(c.kind),
@@ -93,7 +93,7 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
                     .iter()
                     .filter_map(|&end| {
                         // behind the contact, the way grows back over it
-                        let sense = if rest.misfit.way < 0.0 { -1.0 } else { 1.0 };
+                        let sense = if rest.misfit.path < 0.0 { -1.0 } else { 1.0 };
                         Some((ids[end], outward(&rest.line, end)?.map(|c| sense * c)))
                     })
                     .collect(),
@@ -104,16 +104,16 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
     for span in shape.spans.iter().filter(|span| span.catenary < grid.edges()) {
         let c = grid.catenary(span.catenary);
         let (Some(_), Some(way)) =
-            (&draping.laid[span.catenary], unit(sub(span.ends[1], span.ends[0])))
+            (&draping.contacts[span.catenary], unit(sub(span.ends[1], span.ends[0])))
         else {
             continue;
         };
-        let (gripper, way) = match span.rest {
+        let (gripper, way) = match span.segment {
             0 => (grid.index(c.from), way.map(|x| -x)),
             _ => (grid.index(c.to), way),
         };
         out.push(Rest {
-            pull: -misfit(span, draping.laid[span.catenary].as_ref()).excess(),
+            pull: -misfit(span, draping.contacts[span.catenary].as_ref()).excess(),
             wanted: wanted_stretch(scene, span),
             length: span.length,
             whole: ply.flat_length(c.kind),

@@ -1,4 +1,4 @@
-//! Where a node lies, on the mold or on what carries on beyond its boundary.
+//! A point of the mold, or of its extension beyond the border.
 
 use crate::mold::Mold;
 use crate::mold::vector::{along, dot, sub};
@@ -6,7 +6,7 @@ use std::cell::Cell;
 
 /// A place of the net with the mold's normal there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Spot {
+pub(super) struct SurfacePoint {
     /// Place (m).
     pub point: [f64; 3],
     /// Unit normal, towards the ply.
@@ -15,13 +15,13 @@ pub(super) struct Spot {
     pub beyond: f64,
 }
 
-/// A mold that carries on beyond its open boundary, there along its tangent planes.
+/// A mold that is extended beyond its open border along its tangent planes.
 ///
 /// So a ply that leaves the mold at one place comes back to it at another where it would on flat ground, and
 /// a gripper outside still has a place.
 pub(super) struct Ground<'a> {
     mold: &'a Mold,
-    /// Feet asked of the mold so far.
+    /// Number of closest points computed so far.
     feet: Cell<usize>,
 }
 
@@ -31,21 +31,21 @@ impl<'a> Ground<'a> {
     }
 
     /// What lies closest to `p` (m).
-    pub fn under(&self, p: [f64; 3]) -> Spot {
+    pub fn under(&self, p: [f64; 3]) -> SurfacePoint {
         self.feet.set(self.feet.get() + 1);
         let foot = self.mold.closest_point(p);
         if !foot.beyond {
-            return Spot { point: foot.point, normal: foot.normal, beyond: 0.0 };
+            return SurfacePoint { point: foot.point, normal: foot.normal, beyond: 0.0 };
         }
         let height = dot(sub(p, foot.point), foot.normal);
         let point = along(p, -height, foot.normal);
         let aside = sub(point, foot.point);
         // never 0: a place beyond the boundary is no place of the mold
         let beyond = dot(aside, aside).sqrt().max(f64::MIN_POSITIVE);
-        Spot { point, normal: foot.normal, beyond }
+        SurfacePoint { point, normal: foot.normal, beyond }
     }
 
-    /// How many feet the mold was asked for.
+    /// Number of closest points computed.
     pub fn feet(&self) -> usize {
         self.feet.get()
     }

@@ -1,4 +1,5 @@
-//! What is remembered between solves, by place, so that a problem that has gained or lost a span still starts warm.
+//! The warm start of a solve from earlier solutions. They are stored by gripper and free segment, so that a problem that has gained
+//! or lost a span starts warm too.
 
 use super::problem::{Element, End, Problem};
 use super::state::{Evaluation, State};
@@ -7,7 +8,7 @@ use crate::ply::Grid;
 
 /// Earlier solutions of a ply.
 #[derive(Debug, Clone)]
-pub struct Memory {
+pub struct WarmStart {
     /// Slope of each gripper along u and v.
     slopes: Vec<[f64; 2]>,
     /// Height of each free segment's force above buckling, as a multiple of the parabola's, by catenary.
@@ -19,25 +20,25 @@ pub struct Memory {
 /// A free segment as it was solved.
 type Solved = (Element<f64>, Evaluation);
 
-impl Memory {
-    /// Nothing remembered.
-    pub fn new(grid: Grid) -> Memory {
-        Memory {
+impl WarmStart {
+    /// Without an earlier solution.
+    pub fn new(grid: Grid) -> WarmStart {
+        WarmStart {
             slopes: vec![[0.0; 2]; grid.grippers()],
             ratios: vec![[None; 2]; grid.catenaries()],
             solved: vec![[None; 2]; grid.catenaries()],
         }
     }
 
-    /// Forgets all solutions.
-    pub fn forget(&mut self) {
+    /// Removes all solutions.
+    pub fn clear(&mut self) {
         self.slopes.fill([0.0; 2]);
         self.ratios.fill([None; 2]);
         self.solved.fill([None; 2]);
     }
 
-    /// Starts a state from what was found last time at the same places, its slopes within ±`bound`.
-    pub fn recall(&self, problem: &Problem<f64>, bound: f64, state: &mut State) {
+    /// Starts a state from the last solutions at the same grippers and segments, its slopes within ±`bound`.
+    pub fn start(&self, problem: &Problem<f64>, bound: f64, state: &mut State) {
         let slopes = (problem.shared_slopes().iter())
             .map(|slope| self.slopes[slope.gripper][slope.direction].clamp(-bound, bound));
         let ratio = |e: &Element<f64>| self.ratios[e.catenary][e.segment];
@@ -48,12 +49,12 @@ impl Memory {
         state.start(problem, slopes, ratio, solved);
     }
 
-    /// Remembers a solved state.
-    pub fn remember(&mut self, problem: &Problem<f64>, state: &State) {
+    /// Stores a solved state.
+    pub fn store(&mut self, problem: &Problem<f64>, state: &State) {
         for (n, element) in problem.elements.iter().enumerate() {
             let mut evaluation = *state.evaluation(n);
             for end in 0..2 {
-                // a free end's slope is an outcome, and holds nothing
+                // the slope of a free end is a result, and holds no other slope
                 if matches!(element.ends[end], End::Free) {
                     evaluation.held[end] = 0.0;
                 }
