@@ -59,10 +59,10 @@ fn in_contact(
     };
     let run = (b[0] - a[0]).hypot(b[1] - a[1]);
     let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
-    let start = mold.drop_to([0, 1].map(|n| a[n] + from * (b[n] - a[n])))?;
+    let start = mold.highest_point([0, 1].map(|n| a[n] + from * (b[n] - a[n])))?;
     let lying = mold.lay(start, heading, (to - from) * length);
     let arc = lying.arc.iter().map(|s| s + from * length).collect();
-    let line = Strand { points: lying.points, arc };
+    let line = SurfaceCurve { points: lying.points, arc };
     let normal = [line.points[0], line.end()].map(|p| mold.normal(p));
     let tangent = normal.map(|[nx, ny, nz]| {
         let slope = -(nx * heading[0] + ny * heading[1]) / nz;

@@ -16,7 +16,7 @@ use super::gap::{GapSamples, Run};
 use super::spans::{FreeSpan, Point};
 use super::tuning::TUNING;
 use crate::mold::vector::{cross, unit};
-use crate::mold::{Mold, Strand, distance};
+use crate::mold::{Mold, SurfaceCurve, distance};
 use crate::ply::{ContactSegment, LandedCell, shear};
 use crate::scene::ContactSettings;
 
@@ -55,8 +55,8 @@ pub struct ContactChange {
 
 /// One line from two that start at the same point, at fabric arc length `arc` (m): the first runs towards smaller
 /// arc lengths.
-fn joined(back: Option<Strand>, arc: f64, on: Option<Strand>) -> Strand {
-    let mut line = Strand::default();
+fn joined(back: Option<SurfaceCurve>, arc: f64, on: Option<SurfaceCurve>) -> SurfaceCurve {
+    let mut line = SurfaceCurve::default();
     if let Some(back) = back {
         let from = usize::from(on.is_some());
         for n in (from..back.points.len()).rev() {
@@ -73,8 +73,8 @@ fn joined(back: Option<Strand>, arc: f64, on: Option<Strand>) -> Strand {
 }
 
 /// The line of a catenary that lies whole, between the closest points of its grippers (m), over its fabric length.
-fn whole(mold: &Mold, a: [f64; 3], b: [f64; 3], length: f64) -> Strand {
-    let straight = || Strand { points: vec![a, b], arc: vec![0.0, length] };
+fn whole(mold: &Mold, a: [f64; 3], b: [f64; 3], length: f64) -> SurfaceCurve {
+    let straight = || SurfaceCurve { points: vec![a, b], arc: vec![0.0, length] };
     let Some(mut line) = mold.path(a, b).filter(|line| line.length() > 0.0) else {
         return straight();
     };
@@ -129,7 +129,7 @@ pub fn first_contact(
     let length = landed.map_or(span.length, |(length, _)| length);
     let arc = |t: f64| length / span.length * span.arc(t);
     let (held_first, held_last) = (run.from <= 0.0, run.to >= 1.0);
-    let [a, b] = span.ends.map(|end| mold.closest_point(end));
+    let [a, b] = span.ends.map(|end| mold.closest_point(end).point);
     // the point from which the line runs: at a gripper that stands on the mold, else at the deepest point
     let (seed, seed_arc) = match (held_first, held_last) {
         (true, _) => (a, 0.0),
@@ -177,7 +177,7 @@ fn extent(
     [from, to]: [f64; 2],
     deep: bool,
     arc: impl Fn(f64) -> f64,
-    piece: impl Fn(f64) -> Strand,
+    piece: impl Fn(f64) -> SurfaceCurve,
 ) -> f64 {
     let excess = |t: f64| {
         let arc = arc(t);
@@ -218,7 +218,7 @@ pub fn next_contact(
     let mut segment = contact.clone();
     if run.from <= 0.0 && run.to >= 1.0 {
         segment.lying[side] = true;
-        let (gripper, point) = (mold.closest_point(span.ends[side]), span.ends[1 - side]);
+        let (gripper, point) = (mold.closest_point(span.ends[side]).point, span.ends[1 - side]);
         segment.excess_length[side] = mold.path_length(gripper, point) - distance(gripper, point);
         change.segment = Some(segment);
         return change;

@@ -3,7 +3,7 @@
 use super::spans::Point;
 use super::tuning::TUNING;
 use crate::mold::vector::{cross, dot, norm, sub, unit};
-use crate::mold::{Strand, distance};
+use crate::mold::{SurfaceCurve, distance};
 use crate::ply::ContactSegment;
 use crate::scene::Scene;
 

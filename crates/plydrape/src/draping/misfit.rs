@@ -7,7 +7,7 @@
 
 use super::spans::{FreeSpan, Point};
 use super::tuning::TUNING;
-use crate::mold::{Mold, Strand, distance};
+use crate::mold::{Mold, SurfaceCurve, distance};
 use crate::ply::ContactSegment;
 
 /// Fabric length and taut path of one free or lying segment.
@@ -97,7 +97,7 @@ pub fn lying_segments(
     if !contact.is_whole() && contact.hangs(0) && contact.hangs(1) {
         return Vec::new();
     }
-    let fit = |length, path, line: &Strand| {
+    let fit = |length, path, line: &SurfaceCurve| {
         let place = middle(line.points[0], line.end());
         Misfit { catenary, length, path, whole: contact.length, place }
     };

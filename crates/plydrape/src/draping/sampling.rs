@@ -60,7 +60,7 @@ impl Observation {
     /// What is known of the distance of a point `moved` (m) away.
     fn gap(&self, moved: f64) -> Gap {
         let most = self.size + moved;
-        // a point that may have come past a border or through the mold is no deeper than it is far
+        // a point that may have come past a boundary or through the mold is no deeper than it is far
         let least = if self.clear > moved { self.clear - moved } else { -most };
         Gap::between(least, most.max(least))
     }
@@ -95,7 +95,7 @@ impl GapCache {
         let mut sampling =
             Sampling { span, mold, steepness: self.steepness, gaps: [UNKNOWN; STATIONS], observed };
         let samples = sampling.samples(tolerance);
-        // what is deep in a mold that the whole span keeps clear of is below its border
+        // what is deep in a mold that the whole span keeps clear of is below its boundary
         if is_known && samples.depth() > tolerance && ends() > tolerance {
             return GapSamples::default();
         }

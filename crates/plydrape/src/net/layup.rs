@@ -113,7 +113,7 @@ impl Layup {
             let [shear_deg, heading_deg] = [self.shear, self.heading].map(f64::to_degrees);
             return Err(LayupError::Shear { shear_deg, heading_deg });
         }
-        let foot = mold.foot(self.place);
+        let foot = mold.closest_point(self.place);
         if foot.beyond
             || foot.distance.is_nan()
             || foot.distance.abs() > TUNING.seed_distance * du.min(dv)

@@ -26,7 +26,7 @@ pub struct Missing {
     pub reason: Reason,
     /// The last trial for its place (m); none where there was no trial.
     pub near: Option<[f64; 3]>,
-    /// How far beyond the mold's border it lies (m); none where there was no trial.
+    /// How far beyond the mold's boundary it lies (m); none where there was no trial.
     pub beyond: Option<f64>,
 }
 

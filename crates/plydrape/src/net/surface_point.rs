@@ -1,4 +1,4 @@
-//! A point of the mold, or of its extension beyond the border.
+//! A point of the mold, or of its extension beyond the boundary.
 
 use crate::mold::Mold;
 use crate::mold::vector::{along, dot, sub};
@@ -15,7 +15,7 @@ pub(super) struct SurfacePoint {
     pub beyond: f64,
 }
 
-/// A mold that is extended beyond its open border along its tangent planes.
+/// A mold that is extended beyond its open boundary along its tangent planes.
 ///
 /// So a ply that leaves the mold at one place comes back to it at another where it would on flat ground, and
 /// a gripper outside still has a place.

@@ -14,7 +14,7 @@ pub(crate) struct Tuning {
     pub smallest_angle_cosine: f64,
     /// Gap of a condition, as a share of the mesh width, at which a place is found: its last digits.
     pub gap: f64,
-    /// Gap that is accepted where Newton's method cannot improve the place further. 1e-10: close to the border of a mesh
+    /// Gap that is accepted where Newton's method cannot improve the place further. 1e-10: close to the boundary of a mesh
     /// or a grid its closest points are less exact.
     pub largest_gap: f64,
     /// Most trials for one place; a regular one takes three to six.

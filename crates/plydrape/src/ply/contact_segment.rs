@@ -1,7 +1,7 @@
 //! The part of a catenary that is in contact with the mold.
 
 use super::tuning::TUNING;
-use crate::mold::Strand;
+use crate::mold::SurfaceCurve;
 use crate::mold::vector::{dot, sub};
 
 /// The contact segment of a catenary: fixed in space and in fabric arc length.
@@ -117,7 +117,7 @@ mod tests {
     /// It is continuous where the two meet.
     #[test]
     fn the_path_has_the_sign_of_the_side_that_the_gripper_is_on() {
-        let line = Strand { points: vec![[1.0, 2.0, 0.0]; 2], arc: vec![0.02, 0.08] };
+        let line = SurfaceCurve { points: vec![[1.0, 2.0, 0.0]; 2], arc: vec![0.02, 0.08] };
         let outward = [[-0.6, -0.8, 0.0], [0.6, 0.8, 0.0]];
         let contact = ContactSegment {
             length: 0.1,
