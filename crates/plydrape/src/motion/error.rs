@@ -53,14 +53,6 @@ pub enum MotionError {
         /// Largest value (SI).
         most: f64,
     },
-    /// No time law was found; with positions and limits in range there is no known case.
-    #[error("no time law found for a path of {length} m: {cause}")]
-    NoLaw {
-        /// Length of the path (m).
-        length: f64,
-        /// What the law's library says.
-        cause: String,
-    },
     /// A rate is no number above zero.
     #[error("{rate} samples a second: give a rate above 0 Hz")]
     Rate {

@@ -82,7 +82,7 @@ impl TimedMotion {
             });
         }
 
-        let (path, law, peaks) = timing::fastest(&steps, bounds)?;
+        let (path, law, peaks) = timing::fastest(&steps, bounds).ok_or(MotionError::Empty)?;
         let last = path.knots.len() - 1;
         let mut times: Vec<f64> = path.knots.iter().map(|u| law.time(*u)).collect();
         times[last] = law.duration;

@@ -191,7 +191,7 @@ mod tests {
         let planned: Vec<&[[f64; 3]]> = rows.iter().map(Vec::as_slice).collect();
         let path = Path::new(&planned, &[0.6, 0.7, 0.5, 0.6, 0.9, 0.6, 0.3, 0.6]);
         let bounds = Bounds { speed: 0.8, acceleration: 2.0, jerk: 20.0 };
-        let law = Law::new(path.length(), &bounds).unwrap();
+        let law = Law::new(path.length(), &bounds);
         for tolerance in [0.1, 1e-4] {
             let peaks = peaks(&path, &law, tolerance);
             let peaks = [peaks.speed, peaks.acceleration, peaks.jerk].map(|peak| peak.value);
