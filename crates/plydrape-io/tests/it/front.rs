@@ -2,9 +2,11 @@
 
 use plydrape::measure::Name;
 use plydrape::mold::{HeightGrid, Lift, Lifted};
-use plydrape::planner::board::Board;
-use plydrape::planner::judge;
-use plydrape::planner::path::{Formation, Ground, Strategy, correction, longest_move, trajectory};
+use plydrape::planner::evaluation;
+use plydrape::planner::path::{
+    Formation, MoldHeights, Strategy, correction, longest_move, trajectory,
+};
+use plydrape::planner::search_state::SearchState;
 use plydrape::scene::Scene;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -21,14 +23,20 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
 }
 
-const RING: Strategy =
-    Strategy { start: [0.5; 2], ratio: 1.0, angle: 0.0, curvature: 4.0, slope: 0.4, pull: 1e-4 };
+const RING: Strategy = Strategy {
+    start: [0.5; 2],
+    ratio: 1.0,
+    angle: 0.0,
+    curvature: 4.0,
+    slope: 0.4,
+    pretension: 1e-4,
+};
 
 /// Largest overstretch that a plan leaves (%).
 fn overstretch(scene: &Scene, positions: &[Vec<[f64; 3]>]) -> f64 {
     let mut watcher = |_: &plydrape::planner::Progress| ControlFlow::Continue(());
-    let board = Board::new(1, &mut watcher);
-    let limits = judge::drape(scene, positions, &board).limits;
+    let state = SearchState::new(1, &mut watcher);
+    let limits = evaluation::drape(scene, positions, &state).limits;
     limits.iter().find(|verdict| verdict.name == Name::Overstretch).expect("a limit").value
 }
 
@@ -70,13 +78,13 @@ fn a_lifted_mold_has_the_derivatives_of_its_height() {
 }
 
 /// Behind the front grippers stand on their targets, ahead of it they hover; and no edge is ever longer than its
-/// fabric and the pull, but for what a straight line cuts off the curved net.
+/// fabric and the pretension, but for what a straight line cuts off the curved net.
 #[test]
 fn a_formation_stands_behind_its_front_and_keeps_the_fabric() {
     for name in ["01_flat_sheared_mold", "04_dome", "05_cylinder", "06_saddle"] {
         let scene = example(name);
-        let ground = Ground::new(&scene).expect("a mold");
-        let formation = Formation::new(&scene, &ground, RING).expect("a target");
+        let heights = MoldHeights::new(&scene).expect("a mold");
+        let formation = Formation::new(&scene, &heights, RING).expect("a target");
         let (grid, targets) = (scene.ply.grid, &scene.target.as_ref().expect("a target").grippers);
         let mold = scene.mold.as_ref().expect("a mold");
         for k in 0..=10 {
@@ -106,10 +114,10 @@ fn a_formation_stands_behind_its_front_and_keeps_the_fabric() {
 #[test]
 fn a_trajectory_goes_from_start_to_target_in_its_steps() {
     let mut scene = example("04_dome");
-    let ground = Ground::new(&scene).expect("a mold");
+    let heights = MoldHeights::new(&scene).expect("a mold");
     for steps in [30, 90] {
         scene.plan.steps = steps;
-        let positions = trajectory(&scene, &ground, RING).expect("a target");
+        let positions = trajectory(&scene, &heights, RING).expect("a target");
         assert_eq!(positions.len(), steps);
         assert_eq!(positions[0], scene.motion.positions[0]);
         assert_eq!(positions[steps - 1], scene.target.as_ref().expect("a target").grippers);
@@ -117,9 +125,9 @@ fn a_trajectory_goes_from_start_to_target_in_its_steps() {
     let longest = |positions: &[Vec<[f64; 3]>]| {
         positions.windows(2).map(|pair| longest_move(&pair[0], &pair[1])).fold(0.0, f64::max)
     };
-    let free = longest(&trajectory(&scene, &ground, RING).expect("a target"));
+    let free = longest(&trajectory(&scene, &heights, RING).expect("a target"));
     scene.plan.move_limit = Some(0.5 * free);
-    let limited = longest(&trajectory(&scene, &ground, RING).expect("a target"));
+    let limited = longest(&trajectory(&scene, &heights, RING).expect("a target"));
     assert!(free > 1e-3 && limited <= 0.5 * free, "{free} {limited}");
 }
 
@@ -143,8 +151,8 @@ fn a_strategy_is_a_point_of_the_search_and_back() {
 #[test]
 fn gradients_bring_a_stray_gripper_back() {
     let scene = example("04_dome");
-    let ground = Ground::new(&scene).expect("a mold");
-    let good = trajectory(&scene, &ground, RING).expect("a target");
+    let heights = MoldHeights::new(&scene).expect("a mold");
+    let good = trajectory(&scene, &heights, RING).expect("a target");
     let mut stray = good.clone();
     let (from, to) = (25.0, good.len() as f64 - 1.0);
     for (k, positions) in stray.iter_mut().enumerate() {

@@ -7,7 +7,7 @@ use plydrape::equilibrium::Status;
 use plydrape::material::Section;
 use plydrape::measure::{Name, Verdict, Worst};
 use plydrape::mold::{Face, Graph, HeightGrid, Mold, Plane, Pose, Sphere, Surface};
-use plydrape::planner::judge;
+use plydrape::planner::evaluation;
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Stepping};
 use plydrape_io::result::ResultFile;
 use std::ops::ControlFlow;
@@ -385,7 +385,7 @@ fn an_unsolved_step_costs_a_search_more_than_a_limit() {
         Verdict::of(Name::SlackRatio, worst, 5e-4, Some(1))
     };
     let judged = |value: f64, unsolved: usize, missing: f64| {
-        judge::score(&Judged { limits: vec![at(value)], accepted: false, missing, unsolved })
+        evaluation::score(&Judged { limits: vec![at(value)], accepted: false, missing, unsolved })
     };
     let sound = judged(4e-4, 0, 0.0);
     assert!(sound < 1.0);

@@ -1,4 +1,4 @@
-//! What is asked for is possible: positions, bounds and rates.
+//! Checks of positions, bounds and rates before a motion is made.
 
 use super::path::Vector;
 use super::spacing::farthest;
@@ -20,7 +20,7 @@ const STILL: f64 = 1e-9;
 /// A last sample closer than this share of an interval to the end gives way to the end.
 const CLOSE: f64 = 1e-6;
 
-/// Refuses steps that differ in grippers, and places that are none.
+/// Refuses steps with different numbers of grippers, and positions that are not finite or too far away.
 pub(super) fn positions(planned: &[Vec<Vector>]) -> Result<(), MotionError> {
     let expected = planned.first().map_or(0, Vec::len);
     if expected == 0 {
@@ -63,7 +63,7 @@ pub(super) fn moving(planned: &[Vec<Vector>]) -> Vec<&[Vector]> {
             steps.push(step);
         }
     }
-    // The motion ends where it is told to.
+    // The motion ends at the target.
     match steps.len() {
         1 if farthest(start, target) > STILL => steps.push(target),
         last => steps[last - 1] = target,

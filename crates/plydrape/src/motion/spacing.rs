@@ -1,11 +1,11 @@
-//! How far apart the knots stand: as far as the grippers move, farther where the path bends.
+//! Distances of the knots: as far as the grippers move, farther where the path bends.
 //!
 //! At a steady ṡ = v velocity, acceleration and jerk are v p', v² p'' and v³ p'''; their control points
 //! bound them. A span in which they are shares of their bounds must be longer by
 //! `ρ = max(|p'|, (|v² p''|/a_max)^½, (|v³ p'''|/j_max)^⅓)`. So every
 //! spacing is multiplied by a power of its ρ, again and again, and the best seen is kept: a sharp bend is
-//! slow where it is, and not elsewhere. Spacings are smoothed less and less on the way; without that
-//! they end as a zigzag in which every span has a bound to obey and none is short. Ours.
+//! slow where it is, and not elsewhere. Spacings are smoothed, less and less from round to round; without smoothing
+//! they end as a zigzag in which every span reaches a bound and none is short. This is not in the paper.
 
 use super::Bounds;
 use super::path::{Polygon, Vector};
@@ -24,7 +24,7 @@ const PASSES: usize = 4;
 /// Neighbouring spacings differ at first by no more than this factor.
 const GROWTH: f64 = 2.0;
 
-/// Distances of the knots (m) such that a steady law with ṡ = `cruise.speed` keeps to the bounds `cruise`.
+/// Distances of the knots (m) such that a steady motion with ṡ = `cruise.speed` keeps to the bounds `cruise`.
 ///
 /// For two planned steps or more, of which none repeats the one before.
 pub(super) fn spacing(planned: &[&[Vector]], cruise: &Bounds) -> Vec<f64> {

@@ -1,8 +1,8 @@
-//! Where the grippers are while a front lays the ply: the net on the mold lifted ahead of it.
+//! Positions of the grippers while a front passes over the mold: the net on the mold that is lifted ahead of the front.
 //!
-//! Inside the front the net is the ideal drape, outside it the fabric curves away from the mold. It is a net
-//! at every moment, so that fibre lengths are right at every moment. A pull stretches what has not landed a
-//! little towards the start, so that its spans stay taut.
+//! Inside the front the net is the ideal drape, outside it the fabric curves away from the mold. Because it is a net
+//! at every moment, fibre lengths are right at every moment. A pretension stretches the net ahead of the front a
+//! little, so that its spans stay taut.
 
 use super::strategy::Strategy;
 use crate::draping::spans::Point;
@@ -19,14 +19,12 @@ const DIVISIONS: usize = 4;
 const NODES: usize = 121;
 /// Margin of the grid of heights around the drape, as a share of its size.
 const MARGIN: f64 = 0.25;
-/// Height over which a gripper gives up its pull as it lands (m).
+/// Height over which a gripper gives up its pretension as it lands (m).
 const LANDING: f64 = 2e-3;
 
-/// A scene's mold as heights, on which formations are laid.
+/// Heights of a scene's mold, which are lifted ahead of a front.
 #[derive(Debug, Clone)]
-pub struct Ground {
-    heights: Arc<HeightGrid>,
-}
+pub struct MoldHeights(Arc<HeightGrid>);
 
 /// The formation of grippers behind and ahead of one front.
 #[derive(Debug, Clone)]
@@ -39,43 +37,44 @@ pub struct Formation<'a> {
     targets: &'a [Point],
     strategy: Strategy,
     centre: [f64; 2],
-    /// What brings each gripper from where the net on the mold ends, without and with pull, to its target.
-    off: [Vec<Point>; 2],
+    /// From each gripper's place in the net on the mold, without and with pretension, to its target (m).
+    offsets: [Vec<Point>; 2],
 }
 
-impl Ground {
+impl MoldHeights {
     /// The heights of a scene's mold around its drape; none without a mold or a target.
     #[must_use]
     pub fn new(scene: &Scene) -> Option<Self> {
         let heights = heights(scene.mold.as_ref()?, &scene.target.as_ref()?.grippers)?;
-        Some(Ground { heights: Arc::new(heights) })
+        Some(MoldHeights(Arc::new(heights)))
     }
 }
 
 impl<'a> Formation<'a> {
     /// The formation of a strategy; none without a mold or a target.
     #[must_use]
-    pub fn new(scene: &'a Scene, ground: &Ground, strategy: Strategy) -> Option<Self> {
+    pub fn new(scene: &'a Scene, heights: &MoldHeights, strategy: Strategy) -> Option<Self> {
         let (mold, target) = (scene.mold.as_ref()?, scene.target.as_ref()?);
         let layup = layup(scene, &strategy);
         let count = target.grippers.len() as f64;
         let middle = [0, 1].map(|n| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count);
         let mut formation = Formation {
             mold,
-            heights: Arc::clone(&ground.heights),
+            heights: Arc::clone(&heights.0),
             layup,
             grid: scene.ply.grid,
             targets: &target.grippers,
             strategy,
             centre: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
-            off: [Vec::new(), Vec::new()],
+            offsets: [Vec::new(), Vec::new()],
         };
-        let landed = 2.0 * formation.reach() + 1.0;
+        let beyond = 2.0 * formation.reach() + 1.0;
         let still = vec![[0.0; 3]; target.grippers.len()];
-        formation.off = [0.0, strategy.pull].map(|pull| match formation.net(landed, pull) {
-            Some(ends) => target.grippers.iter().zip(ends).map(|(a, b)| sub(*a, b)).collect(),
-            None => still.clone(),
-        });
+        formation.offsets =
+            [0.0, strategy.pretension].map(|pretension| match formation.net(beyond, pretension) {
+                Some(ends) => target.grippers.iter().zip(ends).map(|(a, b)| sub(*a, b)).collect(),
+                None => still.clone(),
+            });
         Some(formation)
     }
 
@@ -99,13 +98,13 @@ impl<'a> Formation<'a> {
     }
 
     /// The net on the lifted mold at the grippers (m); none where it folds or there is none.
-    fn net(&self, front: f64, pull: f64) -> Option<Vec<Point>> {
+    fn net(&self, front: f64, pretension: f64) -> Option<Vec<Point>> {
         let layup = self.layup?;
         let lifted = Lifted { ground: Arc::clone(&self.heights), lift: self.lift(front) };
         let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Lifted(lifted));
         let mold = Mold::Graph(Graph { pose, surface, domain: None });
         let place = mold.drop_to(self.centre)?;
-        let mesh = layup.mesh.map(|width| width * (1.0 + pull));
+        let mesh = layup.mesh.map(|width| width * (1.0 + pretension));
         let net = Net::drape(&mold, Layup { place, mesh, ..layup }).ok()?;
         let node = |n: usize| net.node(self.grid.id(n).map(|k| k * DIVISIONS));
         (0..self.grid.grippers()).map(node).collect()
@@ -114,23 +113,23 @@ impl<'a> Formation<'a> {
     /// Gripper positions (m) when the front has come to `front` (m).
     #[must_use]
     pub fn grippers(&self, front: f64) -> Vec<Point> {
-        let Some(net) = self.net(front, self.strategy.pull) else {
-            // without a net, straight above where they land
+        let Some(net) = self.net(front, self.strategy.pretension) else {
+            // without a net, straight above their targets
             let lift = Lifted { ground: Arc::clone(&self.heights), lift: self.lift(front) };
             let raise = |p: &Point| [p[0], p[1], p[2] + lift.raised(p[0], p[1])];
             return self.targets.iter().map(raise).collect();
         };
-        let move_in = |(n, p): (usize, Point)| {
+        let place = |(n, p): (usize, Point)| {
             let height = self.mold.signed_distance(p).max(0.0);
             let landing = (-height / LANDING).exp();
-            let [unpulled, pulled] = [self.off[0][n], self.off[1][n]];
-            along(along(p, 1.0 - landing, unpulled), landing, pulled)
+            let [relaxed, stretched] = [self.offsets[0][n], self.offsets[1][n]];
+            along(along(p, 1.0 - landing, relaxed), landing, stretched)
         };
-        net.into_iter().enumerate().map(move_in).collect()
+        net.into_iter().enumerate().map(place).collect()
     }
 }
 
-/// The net of a scene's ideal drape, begun where the front starts; none where the drape is not known.
+/// The layup of a scene's ideal drape, begun where the front starts; none where the drape is not known.
 fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
     let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
     let grid = scene.ply.grid;

@@ -1,6 +1,6 @@
 //! Grippers and cells: tilt, height above the mold, distances, shear.
 
-use super::touch::distance_gradient;
+use super::contact::distance_gradient;
 use super::{Quantity, Sensitivity};
 use crate::equilibrium::neighbours;
 use crate::mold::vector::{sub, unit};
@@ -77,8 +77,8 @@ impl Sensitivity<'_> {
         let (nx, ny) = (u[1] * sv - su * v[1], su * v[0] - u[0] * sv);
         let nz = u[0] * v[1] - u[1] * v[0];
         let square = nx * nx + ny * ny;
-        let aside = if square.re > 0.0 { square.sqrt() } else { zero };
+        let horizontal = if square.re > 0.0 { square.sqrt() } else { zero };
         let up = if nz.re < 0.0 { -nz } else { nz };
-        aside.atan2(up)
+        horizontal.atan2(up)
     }
 }

@@ -1,25 +1,25 @@
-//! How the front goes on: the ply takes its form, comes down, and is rolled on.
+//! The stages of the front: the ply takes its form, comes down, and is rolled on.
 
 use super::Plan;
-use super::step::wanted_stretch;
+use super::step::target_stretch;
 use crate::mold::vector::norm;
 
-/// Share of the move limit by which the front means to move the grippers.
+/// Share of the move limit by which the front moves the grippers.
 const PACE: f64 = 0.7;
 
-/// Distance (m) from the form to take above the mold that does for it.
+/// Distance (m) from the form above the mold at which the ply has taken it.
 const FORMED: f64 = 1e-4;
 
 /// Share of the move limit below which the grippers have come to rest.
 const STILL: f64 = 0.03;
 
-/// Steps left at the end of rolling, for what comes late.
+/// Steps that are left at the end of rolling, for grippers that are late.
 const LATE: usize = 5;
 
-/// Way of the front beyond the farthest gripper (m).
+/// Distance of the front beyond the farthest gripper at the end (m).
 const BEYOND: f64 = 1e-3;
 
-/// What the front does.
+/// A stage of the front.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
     /// The ply takes its form above the mold.
@@ -38,7 +38,7 @@ impl Plan<'_> {
             .fold(0.0, f64::max);
         let pace = PACE * self.reach;
         if self.stage == Stage::Form {
-            // form: heights reached, edges as long as they should be
+            // the form is taken: heights reached, edges as long as they should be
             let slack = self.slack();
             let formed = late < FORMED && slack < FORMED;
             let still = self.moves.iter().all(|m| norm(*m) < STILL * self.reach);
@@ -51,8 +51,8 @@ impl Plan<'_> {
             return;
         }
         if self.stage == Stage::Lower {
-            self.front.hover = (self.front.hover - pace).max(0.0);
-            if self.front.hover == 0.0 {
+            self.front.base = (self.front.base - pace).max(0.0);
+            if self.front.base == 0.0 {
                 self.stage = Stage::Roll;
                 return;
             }
@@ -81,7 +81,7 @@ impl Plan<'_> {
             .spans
             .iter()
             .filter(|span| span.catenary < edges)
-            .map(|span| span.length - span.chord() + wanted_stretch(self.scene, span))
+            .map(|span| span.length - span.chord() + target_stretch(self.scene, span))
             .fold(0.0, |most, slack| most.max(slack.abs()))
     }
 }

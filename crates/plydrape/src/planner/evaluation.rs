@@ -2,20 +2,20 @@
 
 use crate::draping::{self, Judged};
 use crate::measure::{Verdict, Worth};
-use crate::planner::board::Board;
+use crate::planner::search_state::SearchState;
 use crate::scene::{Motion, Scene, Stepping};
 
 /// Weight of the mean of all measures beside the worst one: among plans that are equally good at their
 /// worst, the better one.
 const MEAN: f64 = 0.1;
-/// Share of a limit that is just to be kept up to which it does not matter.
-const SPARE: f64 = 0.9;
+/// Share of a limit that only has to be kept, up to which a measure does not count.
+const COUNTED: f64 = 0.9;
 /// Equilibria a step on the average from which on a drape is broken off; good ones take two or three.
-const HOPELESS: usize = 12;
+const MOST_EQUILIBRIA: usize = 12;
 
-/// A scene as plans are judged in it: with steps cut where the ply would dip.
+/// A scene as plans are evaluated in it: with steps cut where the ply would penetrate the mold.
 #[must_use]
-pub fn as_judged(scene: &Scene) -> Scene {
+pub fn with_steps_cut(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.settings.contact.stepping = Stepping::Cut;
     scene
@@ -24,19 +24,19 @@ pub fn as_judged(scene: &Scene) -> Scene {
 /// The same with another motion.
 #[must_use]
 pub fn with_motion(scene: &Scene, motion: Motion) -> Scene {
-    Scene { motion, ..as_judged(scene) }
+    Scene { motion, ..with_steps_cut(scene) }
 }
 
 /// The complete drape along planned positions of grippers (m), rounded as the motion will round them; broken off
-/// where it is hopeless or the board is stopped.
+/// where it needs too many equilibria or the search is stopped.
 #[must_use]
-pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Judged {
-    follow(scene, rounded(planned), board)
+pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], state: &SearchState) -> Judged {
+    follow(scene, rounded(planned), state)
 }
 
-/// The same with twice the steps on the same path: a good plan does not hang on them.
+/// The same with twice the steps on the same path, because a good plan does not depend on the number of steps.
 #[must_use]
-pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> Judged {
+pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], state: &SearchState) -> Judged {
     let mut positions = Vec::with_capacity(2 * planned.len());
     for (k, here) in rounded(planned).into_iter().enumerate() {
         if k > 0 {
@@ -44,14 +44,14 @@ pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], board: &Board) -> J
         }
         positions.push(here);
     }
-    follow(scene, positions, board)
+    follow(scene, positions, state)
 }
 
 /// The drape along positions (m), one second a step.
-fn follow(scene: &Scene, positions: Vec<Vec<[f64; 3]>>, board: &Board) -> Judged {
-    let most = HOPELESS * positions.len();
+fn follow(scene: &Scene, positions: Vec<Vec<[f64; 3]>>, state: &SearchState) -> Judged {
+    let most = MOST_EQUILIBRIA * positions.len();
     let times = (0..positions.len()).map(|n| n as f64).collect();
-    draping::judge(&with_motion(scene, Motion { times, positions }), most, |_| board.tick())
+    draping::judge(&with_motion(scene, Motion { times, positions }), most, |_| state.report())
 }
 
 /// Where the spline of [`rounded`] passes halfway between two steps; straight between the first two and the last
@@ -81,26 +81,26 @@ pub fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
     out
 }
 
-/// What a limit adds to the score. A limit that is just to be kept counts from where little of it is left; less of what
-/// spoils the ply is always better.
+/// What a limit adds to the score. A limit that only has to be kept counts from a share of it on; of the errors of the
+/// ply, less is always better.
 fn weight(verdict: &Verdict) -> f64 {
     let ratio = verdict.ratio();
     match verdict.name.measure().worth() {
-        Worth::Kept if ratio <= 1.0 => ((ratio - SPARE) / (1.0 - SPARE)).max(0.0),
+        Worth::Kept if ratio <= 1.0 => ((ratio - COUNTED) / (1.0 - COUNTED)).max(0.0),
         _ => ratio,
     }
 }
 
 /// The worst ratio, and a little of the mean; smaller is better, and above 1 + MEAN nothing is accepted.
 #[must_use]
-pub fn score(judged: &Judged) -> f64 {
-    let ratios: Vec<f64> = judged.limits.iter().map(weight).collect();
+pub fn score(drape: &Judged) -> f64 {
+    let ratios: Vec<f64> = drape.limits.iter().map(weight).collect();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
     let mean = ratios.iter().map(|r| r.min(10.0)).sum::<f64>() / ratios.len().max(1) as f64;
-    // one that was broken off is worse than any that was not, the less of it there is
-    let missing = judged.missing;
+    // a drape that was broken off is worse than any other, the more so the earlier it was broken off
+    let missing = drape.missing;
     worst
         + MEAN * mean
-        + judged.unsolved as f64
+        + drape.unsolved as f64
         + if missing > 0.0 { 1e3 * (1.0 + missing) } else { 0.0 }
 }

@@ -1,22 +1,22 @@
 //! The time law s(t) of all grippers: from rest to rest, with bounded speed, acceleration and jerk.
 //!
-//! The fastest such law over a length L is the seven-phase profile of robotics (Biagiotti and Melchiorri 2008,
+//! The fastest such time law over a length L is the seven-phase profile of robotics (Biagiotti and Melchiorri 2008,
 //! section 3.4): the jerk is j, 0, −j while it speeds up, 0 while it cruises, and −j, 0, j while it slows down.
 //! With the duration T_j of a phase of jerk, T_a of the phase of constant acceleration and T_v of cruising, the
 //! acceleration reaches jT_j, the speed jT_j(T_j + T_a), and `L = jT_j(T_j + T_a)(2T_j + T_a + T_v)`. Each limit that is
 //! reached gives one of the durations; the others are 0 or follow from L.
 //!
-//! The law is its own mirror image, `s(T − t) = L − s(t)`, so only the first half is kept: it ends as exactly at
+//! The time law is its own mirror image, `s(T − t) = L − s(t)`, so only the first half is kept: it ends as exactly at
 //! rest as it begins.
 
 use super::Bounds;
 
-/// The state of the law at a time: s (m), ṡ (m/s), s̈ (m/s²) and s⃛ (m/s³).
+/// The state of the time law at a time: s (m), ṡ (m/s), s̈ (m/s²) and s⃛ (m/s³).
 pub(super) type State = [f64; 4];
 
-/// A symmetric law from rest to rest.
+/// A symmetric time law from rest to rest.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Law {
+pub(super) struct TimeLaw {
     /// Where it ends S (m).
     length: f64,
     /// How long it takes T (s).
@@ -25,13 +25,13 @@ pub(super) struct Law {
     phases: Vec<(f64, State)>,
 }
 
-impl Law {
-    /// The law that does not move.
+impl TimeLaw {
+    /// The time law of no motion.
     pub fn rest() -> Self {
-        Law { length: 0.0, duration: 0.0, phases: vec![(0.0, [0.0; 4])] }
+        TimeLaw { length: 0.0, duration: 0.0, phases: vec![(0.0, [0.0; 4])] }
     }
 
-    /// The fastest law over a length (m, positive) within bounds.
+    /// The fastest time law over a length (m, positive) within bounds.
     pub fn new(length: f64, bounds: &Bounds) -> Self {
         let Bounds { speed, acceleration, jerk } = *bounds;
         // The speed is reached: with constant acceleration on the way, or without.
@@ -59,15 +59,15 @@ impl Law {
                 begin += time;
             }
         }
-        Law { length, duration: 2.0 * begin, phases }
+        TimeLaw { length, duration: 2.0 * begin, phases }
     }
 
-    /// The same law over a time λ times as long.
+    /// The same time law over a time λ times as long.
     pub fn stretched(&self, factor: f64) -> Self {
         let phase = |(begin, [s, v, a, j]): &(f64, State)| {
             (begin * factor, [*s, v / factor, a / factor.powi(2), j / factor.powi(3)])
         };
-        Law {
+        TimeLaw {
             length: self.length,
             duration: self.duration * factor,
             phases: self.phases.iter().map(phase).collect(),
@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn some_limit_is_reached_in_every_phase_and_none_is_exceeded() {
         for (length, bounds) in CASES {
-            let law = Law::new(length, &bounds);
+            let law = TimeLaw::new(length, &bounds);
             for k in 0..1000 {
                 let [_, v, a, j] = law.at(law.duration * (f64::from(k) + 0.5) / 1000.0);
                 let shares = [v / bounds.speed, a / bounds.acceleration, j / bounds.jerk];
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn it_begins_and_ends_at_rest_and_is_halfway_at_half_time() {
         for (length, bounds) in CASES {
-            let law = Law::new(length, &bounds);
+            let law = TimeLaw::new(length, &bounds);
             assert_eq!(law.at(0.0)[..3], [0.0; 3]);
             assert_eq!(law.at(law.duration)[..3], [length, 0.0, 0.0]);
             let before = law.at(0.5 * law.duration * (1.0 - 1e-16))[0];
@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn no_motion_comes_farther_in_the_same_time() {
         for (length, bounds) in CASES {
-            let time = Law::new(length, &bounds).duration;
+            let time = TimeLaw::new(length, &bounds).duration;
             let farthest = farthest_in(time, &bounds);
             assert!((farthest / length - 1.0).abs() < 2e-3, "{farthest} {length} {bounds:?}");
         }
@@ -239,18 +239,18 @@ mod tests {
         solver.solution.x.iter().enumerate().map(|(k, share)| share * reach(k)).sum()
     }
 
-    /// A law in other units of length and time is the same law: lengths 1e-9 … 1e6 m, times 1e-3 … 1e3 s a second.
+    /// A time law in other units of length and time is the same: lengths 1e-9 … 1e6 m, times 1e-3 … 1e3 s a second.
     #[test]
-    fn the_law_does_not_depend_on_units() {
+    fn the_time_law_does_not_depend_on_units() {
         for (length, bounds) in CASES {
-            let duration = Law::new(length, &bounds).duration;
+            let duration = TimeLaw::new(length, &bounds).duration;
             for (metre, second) in [(1e-9, 1.0), (1e6, 1.0), (1.0, 1e-3), (1e-9, 1e3)] {
                 let scaled = Bounds {
                     speed: bounds.speed * metre / second,
                     acceleration: bounds.acceleration * metre / (second * second),
                     jerk: bounds.jerk * metre / (second * second * second),
                 };
-                let ratio = Law::new(length * metre, &scaled).duration / (duration * second);
+                let ratio = TimeLaw::new(length * metre, &scaled).duration / (duration * second);
                 assert!((ratio - 1.0).abs() < 1e-14, "{ratio} {metre} {second}");
             }
         }
@@ -259,7 +259,7 @@ mod tests {
     /// The time of a place is the inverse of the place at a time, in both halves and in every phase.
     #[test]
     fn time_and_place_are_inverse() {
-        let law = Law::new(0.4, &BOUNDS).stretched(1.3);
+        let law = TimeLaw::new(0.4, &BOUNDS).stretched(1.3);
         for k in 1..100 {
             let t = law.duration * f64::from(k) / 100.0;
             let [s, v, ..] = law.at(t);
@@ -273,7 +273,7 @@ mod tests {
     #[test]
     fn nothing_but_the_jerk_jumps() {
         for length in [1e-3, 0.05, 0.4] {
-            let law = Law::new(length, &BOUNDS);
+            let law = TimeLaw::new(length, &BOUNDS);
             let mut breaks = law.breaks();
             breaks.push(0.5 * law.duration);
             for t in breaks {

@@ -1,4 +1,4 @@
-//! A span and the mold: how far it is, where it would land, and how steeply it leaves.
+//! A span and the mold: its distance, its position error, and the slope at which it leaves the mold.
 
 use super::{Place, Quantity, Sensitivity, add};
 use crate::draping::fabric;
@@ -38,7 +38,7 @@ impl Sensitivity<'_> {
         target.drape.as_ref()?.place(mold, fabric(self.scene, span.catenary, share))
     }
 
-    /// Way from the ideal place of a span's fabric at a share of its length to where it is (m); its x and
+    /// Position error (m): from the ideal place of a span's fabric at a share of its length to where it is; its x and
     /// y are the error in plan. None where the ideal drape does not know the place.
     #[must_use]
     pub fn landing(&self, span: &FreeSpan, share: f64) -> Option<Place> {
@@ -48,8 +48,8 @@ impl Sensitivity<'_> {
     }
 
     /// Slope by which a span leaves the mold at one of its ends, outward from there: the ply's minus the
-    /// mold's, positive where the ply rises from it. The end is one that the mold holds or a gripper that
-    /// stands on it. None without a mold or where it is upright.
+    /// mold's, positive where the ply rises from it. The end is in contact, or is a gripper that
+    /// stands on the mold. None without a mold or where the mold is upright.
     #[must_use]
     pub fn rise(&self, span: &FreeSpan, end: usize) -> Option<Quantity> {
         let mold = self.scene.mold.as_ref()?;

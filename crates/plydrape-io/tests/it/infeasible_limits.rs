@@ -1,7 +1,7 @@
 //! What a scene rules out by itself, before any plan: each limit with its amount, from plane geometry.
 
 use plydrape::draping::record::Verdict;
-use plydrape::planner::obstacles::obstacles;
+use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape_io::scene;
 use std::path::Path;
 
@@ -10,10 +10,10 @@ const START: &str = "spacing = [\"98 mm\", \"98 mm\"]\nheight = \"75 mm\"\n";
 
 fn found(base: &Path, text: &str) -> Vec<Verdict> {
     let scene = scene::parse(text, base, "scene.toml").unwrap_or_else(|e| panic!("{e}")).scene;
-    obstacles(&scene)
+    infeasible_limits(&scene)
 }
 
-/// The obstacles of 4 × 2 grippers over a flat mold, sheared by 20° at the target.
+/// The infeasible limits of 4 × 2 grippers over a flat mold, sheared by 20° at the target.
 fn flat(more: &str) -> Vec<Verdict> {
     let text = format!(
         "[ply]\n{PLY}[mold]\nkind = \"plane\"\n[grippers]\n{START}[target]\nshear = \"20 deg\"\n{more}\n"
@@ -31,7 +31,7 @@ fn given(targets: [[f64; 3]; 4], more: &str) -> Vec<Verdict> {
     found(Path::new(""), &text)
 }
 
-/// The only obstacle, by name, value, limit and step; and its place.
+/// The only infeasible limit, by name, value, limit and step; and its place.
 fn only(found: &[Verdict], name: &str, value: f64, limit: f64, step: Option<usize>) -> String {
     let [verdict] = found else {
         panic!("{found:?}");

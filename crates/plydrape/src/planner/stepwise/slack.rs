@@ -1,0 +1,184 @@
+//! The last moves: the grippers remove the slack of free segments beside them.
+//!
+//! Contacts stay, so the fabric between a gripper and the contact next to it keeps the position errors of the
+//! landing, a few hundredths of a millimetre. A gripper may end as far from its target as
+//! `limits.landing_gripper`; within a share of that it removes the slack: least squares of the moves, with segments
+//! that would be slack stretched a little beyond their length, and none stretched beyond its limit.
+
+use super::step::target_stretch;
+use crate::draping::spans::{Point, Shape};
+use crate::draping::{Draping, lying_segments, misfit};
+use crate::mold::Strand;
+use crate::mold::vector::{along, norm, sub, unit};
+use crate::planner::program::{MM, Program};
+use crate::scene::Scene;
+
+/// Share of the limit of the landing error of grippers that the move may use.
+const SHARE: f64 = 0.5;
+
+/// Stretch that a slack segment is given, as a share of the whole edge.
+const TARGET_STRETCH: f64 = 2e-5;
+
+/// Share of the overstretch limit that the move may use.
+const MOST_STRETCH: f64 = 0.8;
+
+/// Weight of the stretch of a segment beside that of a gripper's move.
+const WEIGHT: f64 = 1e3;
+
+/// Share of its edge below which the slack of a segment does not count.
+const SHORT: f64 = 1e-2;
+
+/// Rounds in which segments that have become slack are added.
+const ROUNDS: usize = 6;
+
+/// A free segment of an edge in contact, or a whole edge that lies, with the grippers that hold it.
+struct FreeSegment {
+    /// Path minus fabric length (m); negative is slack.
+    stretch: f64,
+    /// The stretch that it should have (m).
+    target: f64,
+    /// Fabric length (m), and that of the whole edge.
+    length: f64,
+    whole: f64,
+    /// Its grippers, each with the direction in which it stretches the segment.
+    grippers: Vec<(usize, [f64; 3])>,
+}
+
+impl FreeSegment {
+    /// Whether its slack counts.
+    fn counts(&self) -> bool {
+        self.length > SHORT * self.whole
+    }
+
+    /// Stretch (m) after moves (mm) of all grippers.
+    fn stretch_after(&self, moves: &[f64]) -> f64 {
+        let stretch = |(gripper, way): &(usize, [f64; 3])| {
+            (0..3).map(|n| way[n] * moves[3 * gripper + n] / MM).sum::<f64>()
+        };
+        self.stretch + self.grippers.iter().map(stretch).sum::<f64>()
+    }
+}
+
+/// Direction out of a line at one of its ends.
+fn outward(line: &Strand, end: usize) -> Option<[f64; 3]> {
+    let (points, last) = (&line.points, line.points.len() - 1);
+    match end {
+        0 => unit(sub(points[0], *points.get(1)?)),
+        _ => unit(sub(points[last], points[last.checked_sub(1)?])),
+    }
+}
+
+fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSegment> {
+    let (ply, grid) = (&scene.ply, scene.ply.grid);
+    let mut out = Vec::new();
+    let Some(mold) = &scene.mold else {
+        return out;
+    };
+    for (n, laid) in draping.laid.iter().enumerate().take(grid.edges()) {
+        let Some(laid) = laid else { continue };
+        let c = grid.catenary(n);
+        let ids = [c.from, c.to].map(|g| grid.index(g));
+        let ends = ids.map(|g| draping.positions[g]);
+        for segment in lying_segments(n, laid, ends, mold, scene.settings.contact.tolerance) {
+            let held: &[usize] = match segment.which {
+                None => &[0, 1],
+                Some(0) => &[0],
+                Some(_) => &[1],
+            };
+            out.push(FreeSegment {
+                stretch: segment.misfit.way - segment.misfit.length,
+                target: TARGET_STRETCH * ply.flat_length(c.kind),
+                length: segment.misfit.length,
+                whole: ply.flat_length(c.kind),
+                grippers: held
+                    .iter()
+                    .filter_map(|&end| {
+                        // behind the contact, the path grows back over it
+                        let sense = if segment.misfit.way < 0.0 { -1.0 } else { 1.0 };
+                        Some((ids[end], outward(&segment.line, end)?.map(|c| sense * c)))
+                    })
+                    .collect(),
+            });
+        }
+    }
+    // segments that hang beside a gripper, and spans that bridge a hollow
+    for span in shape.spans.iter().filter(|span| span.catenary < grid.edges()) {
+        let c = grid.catenary(span.catenary);
+        let (Some(_), Some(way)) =
+            (&draping.laid[span.catenary], unit(sub(span.ends[1], span.ends[0])))
+        else {
+            continue;
+        };
+        let (gripper, way) = match span.rest {
+            0 => (grid.index(c.from), way.map(|x| -x)),
+            _ => (grid.index(c.to), way),
+        };
+        out.push(FreeSegment {
+            stretch: -misfit(span, draping.laid[span.catenary].as_ref()).excess(),
+            target: target_stretch(scene, span),
+            length: span.length,
+            whole: ply.flat_length(c.kind),
+            grippers: vec![(gripper, way)],
+        });
+    }
+    out
+}
+
+/// Positions of the grippers (m) at which the ply has no slack; none where it has no slack that counts already.
+pub fn removal(
+    scene: &Scene,
+    draping: &Draping,
+    shape: &Shape,
+    targets: &[Point],
+) -> Option<Vec<Point>> {
+    let (mold, limits) = (scene.mold.as_ref()?, &scene.limits);
+    let segments = free_segments(scene, draping, shape);
+    let slack = |segment: &FreeSegment| {
+        segment.counts() && -segment.stretch > SHARE * limits.slack_ratio * segment.length
+    };
+    if !segments.iter().any(slack) {
+        return None;
+    }
+    let count = targets.len();
+    let mut active: Vec<bool> = segments.iter().map(slack).collect();
+    let mut moves = Vec::new();
+    for _ in 0..ROUNDS {
+        let mut program = Program::new(count);
+        for (gripper, target) in targets.iter().enumerate() {
+            let way = sub(*target, draping.positions[gripper]);
+            for n in 0..3 {
+                program.near(1.0, 3 * gripper + n, MM * way[n]);
+            }
+            let radius = MM * SHARE * limits.landing_gripper;
+            program.cone(vec![(gripper, 1.0)], way.map(|c| -MM * c), radius + MM * norm(way));
+        }
+        for (segment, active) in segments.iter().zip(&active) {
+            let mut gradient = vec![0.0; 3 * count];
+            for (gripper, way) in &segment.grippers {
+                for n in 0..3 {
+                    gradient[3 * gripper + n] += way[n];
+                }
+            }
+            if *active {
+                program.square(WEIGHT, MM * (segment.stretch - segment.target), &gradient);
+            }
+            let most = (MOST_STRETCH * limits.overstretch * segment.whole).max(segment.stretch);
+            program.at_most(&gradient, 1.0, MM * (most - segment.stretch));
+        }
+        moves = program.solve()?;
+        let mut changed = false;
+        for (segment, active) in segments.iter().zip(&mut active) {
+            let slack = segment.counts() && segment.stretch_after(&moves) < 0.0;
+            changed |= slack && !*active;
+            *active |= slack;
+        }
+        if !changed {
+            break;
+        }
+    }
+    let place = |gripper: usize| {
+        let way = [0, 1, 2].map(|n| moves[3 * gripper + n]);
+        mold.closest_point(along(draping.positions[gripper], 1.0 / MM, way))
+    };
+    Some((0..count).map(place).collect())
+}
