@@ -18,6 +18,7 @@ mod recorded;
 mod spacing;
 mod time_law;
 mod timing;
+pub mod tuning;
 
 pub use attitude::Attitudes;
 pub use check::{MOST_POSITIONS, MOST_STEPS};

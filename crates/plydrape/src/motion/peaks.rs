@@ -10,10 +10,8 @@ use super::Bounds;
 use super::path::Path;
 use super::rates;
 use super::time_law::{State, TimeLaw, advance};
+use super::tuning::TUNING;
 use crate::mold::vector::norm;
-
-/// An interval is halved no more often than this.
-const DEEPEST: u32 = 24;
 
 /// The largest value of one quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -106,7 +104,7 @@ pub(super) fn peaks(path: &Path, law: &TimeLaw, tolerance: f64) -> Peaks {
     for (piece, time) in &pieces {
         for gripper in 0..path.grippers {
             let [from, to] = ends(&mut search, piece, *time, gripper);
-            search.halve(piece, gripper, (0.0, &from), (*time, &to), DEEPEST);
+            search.halve(piece, gripper, (0.0, &from), (*time, &to), TUNING.halvings);
         }
     }
     let [speed, acceleration, jerk] = search.found;

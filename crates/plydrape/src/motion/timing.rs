@@ -10,21 +10,12 @@ use super::path::{Path, Vector};
 use super::peaks::{Peaks, peaks};
 use super::spacing::spacing;
 use super::time_law::TimeLaw;
-
-/// Cruising speed ṡ as a share of the limit.
-const CRUISE: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
-/// Acceleration and jerk of bends as shares of their limits.
-const BEND: [f64; 3] = [1.0, 0.7, 0.5];
-/// Acceleration of the time law as a share of the limit.
-const ACCELERATION: [f64; 3] = [1.0, 0.7, 0.5];
-/// Jerk of the time law as a share of the limit.
-const JERK: [f64; 4] = [1.0, 0.7, 0.5, 0.35];
-/// Relative error of the peaks while motions are compared, and of the motion that is taken.
-const TOLERANCE: [f64; 2] = [1e-2, 1e-4];
+use super::tuning::TUNING;
 
 /// Path, time law and peaks of the shortest motion found; none without shares to try.
 pub(super) fn fastest(steps: &[&[Vector]], bounds: &Bounds) -> Option<(Path, TimeLaw, Peaks)> {
-    let tries = CRUISE.iter().flat_map(|cruise| BEND.map(|bend| [*cruise, bend, bend]));
+    let tries =
+        TUNING.cruise.iter().flat_map(|cruise| TUNING.bend.map(|bend| [*cruise, bend, bend]));
     let motions = tries.filter_map(|shares| {
         let cruise = share(bounds, shares);
         let path = Path::new(steps, &spacing(steps, &cruise));
@@ -34,7 +25,7 @@ pub(super) fn fastest(steps: &[&[Vector]], bounds: &Bounds) -> Option<(Path, Tim
     let (path, law) = motions.min_by(|a, b| a.1.duration.total_cmp(&b.1.duration))?;
 
     // The peaks are known to the tolerance: so much longer, no limit is passed in between.
-    let tolerance = TOLERANCE[1];
+    let tolerance = TUNING.tolerance;
     let stretch = peaks(&path, &law, tolerance).stretch(bounds);
     let law = law.stretched(stretch * (1.0 + tolerance));
     let peaks = peaks(&path, &law, tolerance);
@@ -43,11 +34,14 @@ pub(super) fn fastest(steps: &[&[Vector]], bounds: &Bounds) -> Option<(Path, Tim
 
 /// The shortest time law along a path with a top speed ṡ (m/s), all but within bounds.
 fn starting(path: &Path, speed: f64, bounds: &Bounds) -> Option<TimeLaw> {
-    let tries = ACCELERATION.iter().flat_map(|acceleration| JERK.map(|jerk| [*acceleration, jerk]));
+    let tries = TUNING
+        .acceleration
+        .iter()
+        .flat_map(|acceleration| TUNING.jerk.map(|jerk| [*acceleration, jerk]));
     let laws = tries.map(|[acceleration, jerk]| {
         let own = Bounds { speed, ..share(bounds, [1.0, acceleration, jerk]) };
         let law = TimeLaw::new(path.length(), &own);
-        law.stretched(peaks(path, &law, TOLERANCE[0]).stretch(bounds))
+        law.stretched(peaks(path, &law, TUNING.trial_tolerance).stretch(bounds))
     });
     laws.min_by(|a, b| a.duration.total_cmp(&b.duration))
 }

@@ -3,15 +3,8 @@
 use crate::draping::{self, Judged};
 use crate::measure::{Verdict, Worth};
 use crate::planner::search_state::SearchState;
+use crate::planner::tuning::{Evaluation, TUNING};
 use crate::scene::{Motion, Scene, Stepping};
-
-/// Weight of the mean of all measures beside the worst one: among plans that are equally good at their
-/// worst, the better one.
-const MEAN: f64 = 0.1;
-/// Share of a limit that only has to be kept, up to which a measure does not count.
-const COUNTED: f64 = 0.9;
-/// Equilibria a step on the average from which on a drape is broken off; good ones take two or three.
-const MOST_EQUILIBRIA: usize = 12;
 
 /// A scene as plans are evaluated in it: with steps cut where the ply would penetrate the mold.
 #[must_use]
@@ -49,7 +42,7 @@ pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], state: &SearchState
 
 /// The drape along positions (m), one second a step.
 fn follow(scene: &Scene, positions: Vec<Vec<[f64; 3]>>, state: &SearchState) -> Judged {
-    let most = MOST_EQUILIBRIA * positions.len();
+    let most = TUNING.evaluation.most_equilibria * positions.len();
     let times = (0..positions.len()).map(|n| n as f64).collect();
     draping::judge(&with_motion(scene, Motion { times, positions }), most, |_| state.report())
 }
@@ -84,23 +77,25 @@ pub fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
 /// What a limit adds to the score. A limit that only has to be kept counts from a share of it on; of the errors of the
 /// ply, less is always better.
 fn weight(verdict: &Verdict) -> f64 {
-    let ratio = verdict.ratio();
+    let (ratio, counted) = (verdict.ratio(), TUNING.evaluation.counted_share);
     match verdict.name.measure().worth() {
-        Worth::Kept if ratio <= 1.0 => ((ratio - COUNTED) / (1.0 - COUNTED)).max(0.0),
+        Worth::Kept if ratio <= 1.0 => ((ratio - counted) / (1.0 - counted)).max(0.0),
         _ => ratio,
     }
 }
 
-/// The worst ratio, and a little of the mean; smaller is better, and above 1 + MEAN nothing is accepted.
+/// The worst ratio, and a little of the mean; smaller is better, and above 1 plus the weight of the mean nothing is accepted.
 #[must_use]
 pub fn score(drape: &Judged) -> f64 {
     let ratios: Vec<f64> = drape.limits.iter().map(weight).collect();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
-    let mean = ratios.iter().map(|r| r.min(10.0)).sum::<f64>() / ratios.len().max(1) as f64;
+    let Evaluation { mean_weight, largest_ratio, missing_weight, .. } = TUNING.evaluation;
+    let mean =
+        ratios.iter().map(|r| r.min(largest_ratio)).sum::<f64>() / ratios.len().max(1) as f64;
     // a drape that was broken off is worse than any other, the more so the earlier it was broken off
     let missing = drape.missing;
     worst
-        + MEAN * mean
+        + mean_weight * mean
         + drape.unsolved as f64
-        + if missing > 0.0 { 1e3 * (1.0 + missing) } else { 0.0 }
+        + if missing > 0.0 { missing_weight * (1.0 + missing) } else { 0.0 }
 }

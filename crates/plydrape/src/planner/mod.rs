@@ -6,7 +6,8 @@
 //! 4. [`sensitivity`]: the quantities of a solved ply that both planners weigh, with exact gradients;
 //! 5. [`evaluation`]: the complete drape along a plan, and its score against the limits;
 //! 6. [`search_state`]: progress of a search that runs; [`Checkpoint`]: its result, from which another search continues;
-//! 7. `plan`: from a scene to a motion in time and the drape along it.
+//! 7. [`tuning`]: the constants that both planners share;
+//! 8. `plan`: from a scene to a motion in time and the drape along it.
 
 mod checkpoint;
 pub mod evaluation;
@@ -17,6 +18,7 @@ mod program;
 pub mod search_state;
 pub mod sensitivity;
 pub mod stepwise;
+pub mod tuning;
 
 pub use checkpoint::Checkpoint;
 pub use plan::{PlanError, Planned, plan};

@@ -7,6 +7,7 @@ use super::infeasible_limits::infeasible_limits;
 use super::path::{self, Strategy};
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome, stepwise};
+use super::tuning::TUNING;
 use crate::draping::record::PlanRecord;
 use crate::draping::spans::Point;
 use crate::draping::{Drape, simulate};
@@ -14,10 +15,6 @@ use crate::measure::{Name, Site, Verdict, Worst};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
 use crate::scene::{PlanMethod, Scene};
 use std::ops::ControlFlow;
-
-/// How much faster grippers may turn between two steps of a plan than over the whole of both, within which the limit of the tilt rate is to
-/// hold for finer samples of the motion too.
-const RATE_MARGIN: f64 = 1.5;
 
 /// A finished plan.
 #[derive(Debug, Clone)]
@@ -120,7 +117,9 @@ pub fn plan(
     let mut drape = follow(&motion);
     // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
     let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
-    let slowed = (RATE_MARGIN * fastest / scene.limits.tilt_rate.to_degrees()).max(1.0);
+    let slowed = (TUNING.evaluation.tilt_rate_margin * fastest
+        / scene.limits.tilt_rate.to_degrees())
+    .max(1.0);
     if slowed > 1.0 {
         motion = motion.slowed(slowed);
         drape = follow(&motion);

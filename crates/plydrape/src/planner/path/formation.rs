@@ -5,22 +5,15 @@
 //! little, so that its spans stay taut.
 
 use super::strategy::Strategy;
+use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::mold::vector::{along, dot, sub};
 use crate::mold::{Graph, HeightGrid, Lift, Lifted, Mold, Pose, Surface};
 use crate::net::{Layup, Net};
+use crate::planner::tuning;
 use crate::ply::Grid;
 use crate::scene::Scene;
 use std::sync::Arc;
-
-/// Divisions of a cell of the net on the lifted mold; even, so that the middle of a cell is a node.
-const DIVISIONS: usize = 4;
-/// Nodes of the grid of heights along each axis.
-const NODES: usize = 121;
-/// Margin of the grid of heights around the drape, as a share of its size.
-const MARGIN: f64 = 0.25;
-/// Height over which a gripper gives up its pretension as it lands (m).
-const LANDING: f64 = 2e-3;
 
 /// Heights of a scene's mold, which are lifted ahead of a front.
 #[derive(Debug, Clone)]
@@ -37,6 +30,8 @@ pub struct Formation<'a> {
     targets: &'a [Point],
     strategy: Strategy,
     centre: [f64; 2],
+    /// Unit of length (m).
+    cell: f64,
     /// From each gripper's place in the net on the mold, without and with pretension, to its target (m).
     offsets: [Vec<Point>; 2],
 }
@@ -66,6 +61,7 @@ impl<'a> Formation<'a> {
             targets: &target.grippers,
             strategy,
             centre: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
+            cell: tuning::cell(scene),
             offsets: [Vec::new(), Vec::new()],
         };
         let beyond = 2.0 * formation.reach() + 1.0;
@@ -87,7 +83,7 @@ impl<'a> Formation<'a> {
             (along - 1.0) * sin * cos,
             along * sin * sin + cos * cos,
         ];
-        Lift { centre: self.centre, metric, front, curvature, slope }
+        Lift { centre: self.centre, metric, front, curvature: curvature / self.cell, slope }
     }
 
     /// How far the front has to come to have passed every gripper (m).
@@ -106,7 +102,7 @@ impl<'a> Formation<'a> {
         let place = mold.drop_to(self.centre)?;
         let mesh = layup.mesh.map(|width| width * (1.0 + pretension));
         let net = Net::drape(&mold, Layup { place, mesh, ..layup }).ok()?;
-        let node = |n: usize| net.node(self.grid.id(n).map(|k| k * DIVISIONS));
+        let node = |n: usize| net.node(self.grid.id(n).map(|k| k * TUNING.front.divisions));
         (0..self.grid.grippers()).map(node).collect()
     }
 
@@ -121,7 +117,7 @@ impl<'a> Formation<'a> {
         };
         let place = |(n, p): (usize, Point)| {
             let height = self.mold.signed_distance(p).max(0.0);
-            let landing = (-height / LANDING).exp();
+            let landing = (-height / (TUNING.front.landing_height * self.cell)).exp();
             let [relaxed, stretched] = [self.offsets[0][n], self.offsets[1][n]];
             along(along(p, 1.0 - landing, relaxed), landing, stretched)
         };
@@ -133,8 +129,9 @@ impl<'a> Formation<'a> {
 fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
     let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
     let grid = scene.ply.grid;
-    let nodes = [grid.nu, grid.nv].map(|n| (n - 1) * DIVISIONS + 1);
-    let mesh = scene.ply.cell.map(|side| side / DIVISIONS as f64);
+    let divisions = TUNING.front.divisions;
+    let nodes = [grid.nu, grid.nv].map(|n| (n - 1) * divisions + 1);
+    let mesh = scene.ply.cell.map(|side| side / divisions as f64);
     let seed = [0, 1].map(|n| (strategy.start[n] * (nodes[n] - 1) as f64).round() as usize);
     let uv = [0, 1].map(|n| seed[n] as f64 * mesh[n]);
     let place = drape.place(mold, uv)?;
@@ -150,10 +147,12 @@ fn heights(mold: &Mold, targets: &[Point]) -> Option<HeightGrid> {
         let high = targets.iter().map(|p| p[n]).fold(f64::NEG_INFINITY, f64::max);
         [low, high]
     });
-    let margin = MARGIN * range.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let margin =
+        TUNING.front.height_margin * range.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let nodes = TUNING.front.height_nodes;
     let axis = |n: usize| -> Vec<f64> {
         let [low, high] = [range[n][0] - margin, range[n][1] + margin];
-        (0..NODES).map(|k| low + (high - low) * k as f64 / (NODES - 1) as f64).collect()
+        (0..nodes).map(|k| low + (high - low) * k as f64 / (nodes - 1) as f64).collect()
     };
     let [x, y] = [0, 1].map(axis);
     let top = targets.iter().map(|p| p[2]).fold(f64::NEG_INFINITY, f64::max);
@@ -167,12 +166,12 @@ fn height(mold: &Mold, [x, y]: [f64; 2], top: f64) -> f64 {
         return place[2];
     }
     let mut z = top;
-    for _ in 0..4 {
+    for _ in 0..TUNING.front.border_rounds {
         let foot = mold.foot([x, y, z]);
         let [nx, ny, nz] = foot.normal;
         let fall = nx * (x - foot.point[0]) + ny * (y - foot.point[1]);
         // an upright border would lead nowhere
-        z = foot.point[2] - fall / nz.abs().max(0.3);
+        z = foot.point[2] - fall / nz.abs().max(TUNING.front.upright_border);
     }
     z
 }

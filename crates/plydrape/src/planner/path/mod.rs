@@ -6,6 +6,7 @@ mod search;
 mod strategy;
 mod tabulation;
 mod trajectory;
+pub mod tuning;
 
 pub use formation::{Formation, MoldHeights};
 pub use refine::correction;

@@ -7,37 +7,25 @@
 //! the linearized limits of overstretch. Contact events are not differentiated: whether the correction is
 //! an improvement is decided by the complete drape.
 
+use super::tuning::TUNING;
 use crate::draping::Draping;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, cross, dot, unit};
 use crate::planner::evaluation;
 use crate::planner::program::{MM, Program};
 use crate::planner::sensitivity::Sensitivity;
+use crate::planner::tuning;
 use crate::scene::Scene;
 
 /// B-splines of each gripper's correction.
-const SPLINES: usize = 5;
-/// Unknowns beyond which the program would cost more than the drapes.
-const LARGEST: usize = 800;
-/// Fabric ahead of a contact end whose position error is reduced, as a share of the span.
-const AHEAD: f64 = 0.1;
-/// Height (m) below which a span is about to come into contact.
-const NEAR: f64 = 5e-3;
-/// Share of the overstretch limit that the correction may use.
-const STRETCH: f64 = 0.5;
-/// Stretch of a taut span, as a share of its edge; what exceeds it is reduced.
-const TAUT: f64 = 1e-4;
-/// Weight of the correction itself beside the position errors.
-const SMALL: f64 = 1e-2;
-/// Weight of the correction of a gripper that stands on the mold.
-const LANDED: f64 = 1e2;
+const SPLINES: usize = TUNING.refinement.splines;
 
 /// Smooth corrections (m) of all positions of a plan, one list of all grippers a step; none where nothing
 /// comes into contact, or the program has no solution or would be too large.
 #[must_use]
 pub fn correction(scene: &Scene, planned: &[Vec<Point>]) -> Option<Vec<Vec<Point>>> {
     let grippers = scene.ply.grid.grippers();
-    if 3 * grippers * SPLINES > LARGEST {
+    if 3 * grippers * SPLINES > TUNING.refinement.unknowns {
         return None;
     }
     let scene = evaluation::with_steps_cut(scene);
@@ -67,7 +55,7 @@ pub fn correction(scene: &Scene, planned: &[Vec<Point>]) -> Option<Vec<Vec<Point
     }
     let splines = splines?;
     for n in 0..3 * grippers * SPLINES {
-        program.near(SMALL, n, 0.0);
+        program.near(TUNING.refinement.correction_weight, n, 0.0);
     }
     let moves = program.solve()?;
     let at = |k: usize| -> Vec<Point> {
@@ -126,10 +114,11 @@ impl Terms<'_, '_> {
     /// fibre, counts along itself only.
     fn position(&mut self, span: &FreeSpan, edge: bool) {
         let Some(mold) = &self.scene.mold else { return };
+        let near = TUNING.refinement.near * tuning::cell(self.scene);
         let share = match [0, 1].map(|end| self.sensitivity.gripper_at(span, end)) {
-            [None, _] => AHEAD,
-            [_, None] => 1.0 - AHEAD,
-            _ if mold.signed_distance(span.point(0.5)) < NEAR => 0.5,
+            [None, _] => TUNING.refinement.ahead,
+            [_, None] => 1.0 - TUNING.refinement.ahead,
+            _ if mold.signed_distance(span.point(0.5)) < near => 0.5,
             _ => return,
         };
         let Some(error) = self.sensitivity.landing(span, share) else { return };
@@ -152,9 +141,9 @@ impl Terms<'_, '_> {
         let stretch = self.sensitivity.overstretch(span);
         let gradient = self.spread(&stretch.gradient);
         let whole = self.scene.ply.flat_length(self.scene.ply.grid.catenary(span.catenary).kind);
-        let most = STRETCH * self.scene.limits.overstretch * whole;
+        let most = TUNING.refinement.stretch_share * self.scene.limits.overstretch * whole;
         self.program.at_most(&gradient, 1.0, MM * (most - stretch.value).max(0.0));
-        let excess = (stretch.value - TAUT * whole).max(0.0);
+        let excess = (stretch.value - TUNING.refinement.taut * whole).max(0.0);
         self.program.square(1.0, MM * excess, &gradient);
     }
 
@@ -170,7 +159,7 @@ impl Terms<'_, '_> {
                 let mut gradient = vec![0.0; 3 * positions.len()];
                 gradient[3 * g + c] = 1.0;
                 let gradient = self.spread(&gradient);
-                self.program.square(LANDED, 0.0, &gradient);
+                self.program.square(TUNING.refinement.standing_weight, 0.0, &gradient);
             }
         }
     }

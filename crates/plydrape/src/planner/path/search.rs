@@ -7,6 +7,7 @@ use super::refine::correction;
 use super::strategy::Strategy;
 use super::tabulation::tabulated;
 use super::trajectory::trajectory;
+use super::tuning::TUNING;
 use crate::draping::Judged;
 use crate::draping::spans::Point;
 use crate::mold::vector::along;
@@ -18,24 +19,6 @@ use cmaes::{CMAESOptions, DVector};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-
-/// Score below which a plan keeps every limit with so wide a margin that the search ends.
-const GOOD: f64 = 0.6;
-/// Score below which a plan is evaluated with twice the steps, too.
-const PROMISING: f64 = 1.3;
-/// First step of the evolution, in shares of each range.
-const STEP: f64 = 0.08;
-/// Candidates of a generation: whole pairs, for two cores.
-const GENERATION: usize = 8;
-
-/// Generations without a gain after which an accepted plan is good enough, and the ratio of scores that is a
-/// gain.
-const PATIENCE: usize = 3;
-const GAIN: f64 = 0.98;
-/// Rounds of refinement.
-const ROUNDS: usize = 3;
-/// Parts of a correction that are tried.
-const PARTS: [f64; 2] = [1.0, 0.4];
 
 /// A strategy and the drape that it leads to.
 #[derive(Debug, Clone)]
@@ -68,7 +51,7 @@ impl Candidate {
     ) -> Candidate {
         let drape = evaluation::drape(scene, &positions, state);
         let mut score = evaluation::score(&drape);
-        if score < PROMISING {
+        if score < TUNING.search.promising {
             let finer = evaluation::drape_finer(scene, &positions, state);
             score = score.max(evaluation::score(&finer));
         }
@@ -124,22 +107,28 @@ pub fn search(
         });
         score
     };
-    let options = CMAESOptions::new(mean, STEP).population_size(GENERATION).seed(seed);
+    let options = CMAESOptions::new(mean, TUNING.search.step)
+        .population_size(TUNING.search.generation)
+        .seed(seed);
     let Ok(mut evolution) = options.build(objective) else { return Some(best) };
     let mut idle = 0;
-    while best.score > GOOD
-        && idle < PATIENCE
-        && left >= GENERATION + ROUNDS * PARTS.len()
+    while best.score > TUNING.search.good
+        && idle < TUNING.search.patience
+        && left >= TUNING.search.generation + TUNING.search.refinements * TUNING.search.parts.len()
         && !state.is_stopped()
     {
         let ended = evolution.next_parallel().is_some();
-        left -= GENERATION;
+        left -= TUNING.search.generation;
         let before = best.score;
         if let Some(candidate) = lock(&found).take() {
             best = better(best, candidate);
         }
         // an accepted plan is not improved for long
-        idle = if best.score < GAIN * before || !is_accepted(&best) { 0 } else { idle + 1 };
+        idle = if best.score < TUNING.search.gain * before || !is_accepted(&best) {
+            0
+        } else {
+            idle + 1
+        };
         if ended {
             break;
         }
@@ -151,11 +140,14 @@ pub fn search(
 /// Rounds of refinement, as long as they help and are needed.
 fn refine(scene: &Scene, mut best: Candidate, left: &mut usize, state: &SearchState) -> Candidate {
     state.begin("refinement");
-    for _ in 0..ROUNDS {
-        if best.score <= GOOD || *left < PARTS.len() || state.is_stopped() {
+    for _ in 0..TUNING.search.refinements {
+        if best.score <= TUNING.search.good
+            || *left < TUNING.search.parts.len()
+            || state.is_stopped()
+        {
             break;
         }
-        *left -= PARTS.len();
+        *left -= TUNING.search.parts.len();
         match refined(scene, &best, state) {
             Some(refined) if refined.score < best.score => best = refined,
             _ => break,
@@ -173,7 +165,7 @@ fn refined(scene: &Scene, best: &Candidate, state: &SearchState) -> Option<Candi
         let positions = best.positions.iter().zip(&correction).map(step).collect();
         Candidate::along(scene, best.strategy, positions, state)
     };
-    let tried: Vec<Candidate> = PARTS.par_iter().map(corrected).collect();
+    let tried: Vec<Candidate> = TUNING.search.parts.par_iter().map(corrected).collect();
     tried.into_iter().reduce(better)
 }
 

@@ -1,5 +1,6 @@
 //! The parameters of a front, and the vector of them that a search varies.
 
+use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
 
@@ -14,7 +15,7 @@ pub struct Strategy {
     pub ratio: f64,
     /// Direction of its longer axis in plan (rad).
     pub angle: f64,
-    /// Curvature of the lifted ply right at the front A (1/m).
+    /// Curvature of the lifted ply right at the front A, times the shorter side of a cell.
     pub curvature: f64,
     /// Steepest slope of the lifted ply σ.
     pub slope: f64,
@@ -23,18 +24,7 @@ pub struct Strategy {
 }
 
 /// Numbers that a search varies.
-pub const DIMENSION: usize = 7;
-
-/// Ranges of [`Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension.
-const RANGES: [[f64; 2]; DIMENSION] = [
-    [0.0, 1.0],
-    [0.0, 1.0],
-    [0.0, 5.0],
-    [-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2],
-    [-1.6, 3.4],
-    [-4.0, 0.0],
-    [0.0, 4e-4],
-];
+pub const DIMENSION: usize = TUNING.front.ranges.len();
 
 impl Strategy {
     /// As a point whose every coordinate goes from 0 to 1.
@@ -51,7 +41,7 @@ impl Strategy {
         ];
         let mut unit = [0.0; DIMENSION];
         for n in 0..DIMENSION {
-            let [low, high] = RANGES[n];
+            let [low, high] = TUNING.front.ranges[n];
             unit[n] = ((values[n] - low) / (high - low)).clamp(0.0, 1.0);
         }
         unit
@@ -61,7 +51,7 @@ impl Strategy {
     #[must_use]
     pub fn of_unit(unit: &[f64]) -> Self {
         let value = |n: usize| {
-            let [low, high] = RANGES[n];
+            let [low, high] = TUNING.front.ranges[n];
             let folded = unit[n].rem_euclid(2.0);
             low + (high - low) * if folded > 1.0 { 2.0 - folded } else { folded }
         };
@@ -91,21 +81,21 @@ impl Strategy {
             start: [0.5; 2],
             ratio: 1.0,
             angle: 0.0,
-            curvature: 4.0,
+            curvature: 0.4,
             slope: 0.4,
             pretension: 1e-4,
         };
         let [first, second] =
             principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
         let line = |angle| Strategy { ratio: 100.0, angle, ..ring };
-        let sharp = Strategy { curvature: 20.0, slope: 0.25, pretension: 0.0, ..ring };
+        let sharp = Strategy { curvature: 2.0, slope: 0.25, pretension: 0.0, ..ring };
         vec![
             ring,
-            Strategy { curvature: 12.0, ..sharp },
+            Strategy { curvature: 1.2, ..sharp },
             line(second),
             line(first),
-            Strategy { curvature: 0.3, slope: 0.03, ..ring },
-            Strategy { curvature: 0.5, slope: 0.05, ..line(second) },
+            Strategy { curvature: 0.03, slope: 0.03, ..ring },
+            Strategy { curvature: 0.05, slope: 0.05, ..line(second) },
             Strategy { ratio: 1.3, angle: second, ..sharp },
             Strategy { ratio: 1.3, angle: first, ..sharp },
             Strategy { ratio: 2.0, angle: second, ..sharp },

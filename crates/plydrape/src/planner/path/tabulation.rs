@@ -1,17 +1,12 @@
 //! A mold given by a formula as a table of heights, because a search evaluates the heights millions of times. The
 //! finished plan is draped on the mold itself.
 
+use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::mold::{Formula, Graph, HeightGrid, Mold, Surface};
+use crate::planner::tuning;
 use crate::scene::Scene;
 use std::borrow::Cow;
-
-/// Nodes of the table along each axis.
-const NODES: usize = 161;
-/// Error (m) of the table up to which it is used.
-const ERROR: f64 = 1e-7;
-/// Margin around the drape where the formula has no borders, as a share of its size.
-const MARGIN: f64 = 0.5;
 
 /// The scene with its mold tabulated, where that is a formula smooth enough; else as it is.
 #[must_use]
@@ -21,26 +16,28 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
         return Cow::Borrowed(scene);
     };
     let domain = graph.domain.unwrap_or_else(|| around(graph, &target.grippers));
-    let Some(heights) = table(z, domain) else { return Cow::Borrowed(scene) };
+    let tolerance = TUNING.front.table_error * tuning::cell(scene);
+    let Some(heights) = table(z, domain, tolerance) else { return Cow::Borrowed(scene) };
     let surface = Surface::HeightGrid(heights);
     let mold = Some(Mold::Graph(Graph { surface, ..graph.clone() }));
     Cow::Owned(Scene { mold, ..scene.clone() })
 }
 
-/// The formula as a table; none where the error of the table would be too large.
-fn table(z: &Formula, domain: [[f64; 2]; 2]) -> Option<HeightGrid> {
+/// The formula as a table; none where its error exceeds a tolerance (m).
+fn table(z: &Formula, domain: [[f64; 2]; 2], tolerance: f64) -> Option<HeightGrid> {
+    let nodes = TUNING.front.table_nodes;
     let at =
-        |n: usize, k: f64| domain[n][0] + (domain[n][1] - domain[n][0]) * k / (NODES - 1) as f64;
-    let axis = |n: usize| (0..NODES).map(|k| at(n, k as f64)).collect::<Vec<f64>>();
+        |n: usize, k: f64| domain[n][0] + (domain[n][1] - domain[n][0]) * k / (nodes - 1) as f64;
+    let axis = |n: usize| (0..nodes).map(|k| at(n, k as f64)).collect::<Vec<f64>>();
     let [x, y] = [0, 1].map(axis);
-    let nodes = y.iter().flat_map(|y| x.iter().map(move |x| z.at(*x, *y).z)).collect();
-    let table = HeightGrid::new(x, y, nodes).ok()?;
+    let heights = y.iter().flat_map(|y| x.iter().map(move |x| z.at(*x, *y).z)).collect();
+    let table = HeightGrid::new(x, y, heights).ok()?;
     // the error is largest in the middles of its squares
     let error = |i: usize, j: usize| {
         let [x, y] = [at(0, i as f64 + 0.5), at(1, j as f64 + 0.5)];
         (table.at(x, y).z - z.at(x, y).z).abs()
     };
-    let sound = (0..NODES - 1).all(|j| (0..NODES - 1).all(|i| error(i, j) <= ERROR));
+    let sound = (0..nodes - 1).all(|j| (0..nodes - 1).all(|i| error(i, j) <= tolerance));
     sound.then_some(table)
 }
 
@@ -52,6 +49,7 @@ fn around(graph: &Graph, targets: &[Point]) -> [[f64; 2]; 2] {
         let high = local.iter().map(|p| p[n]).fold(f64::NEG_INFINITY, f64::max);
         [low, high]
     });
-    let margin = MARGIN * range.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let margin =
+        TUNING.front.table_margin * range.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
     range.map(|[low, high]| [low - margin, high + margin])
 }

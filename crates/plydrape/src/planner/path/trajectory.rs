@@ -2,18 +2,11 @@
 
 use super::formation::{Formation, MoldHeights};
 use super::strategy::Strategy;
+use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::mold::{distance, vector};
+use crate::planner::tuning;
 use crate::scene::Scene;
-
-/// Height of the approach above the first formation, as a share of a cell.
-const APPROACH_HEIGHT: f64 = 0.1;
-/// Shares of the steps for approach and descent; the front takes the others.
-const SHARES: [f64; 2] = [0.17, 0.09];
-/// How far the front runs beyond the last gripper, as a share of its path.
-const BEYOND: f64 = 0.02;
-/// Formations per step from which steps of equal length are cut, where a move limit asks for them.
-const FINE: usize = 4;
 
 /// Positions (m) of `scene.plan.steps` steps: the first is the scene's start, the last the target. None without a
 /// mold or a target.
@@ -31,7 +24,7 @@ pub fn trajectory(
     if planned.windows(2).all(|pair| longest_move(&pair[0], &pair[1]) <= limit) {
         return Some(planned);
     }
-    Some(evened(&positions(scene, heights, strategy, FINE * steps)?, steps))
+    Some(evened(&positions(scene, heights, strategy, TUNING.front.finer * steps)?, steps))
 }
 
 fn positions(
@@ -44,16 +37,16 @@ fn positions(
     let start = scene.motion.positions.first()?;
     let target = &scene.target.as_ref()?.grippers;
     let share = |share: f64| ((share * steps as f64).round() as usize).max(1);
-    let [approach, descent] = SHARES.map(share);
+    let [approach, descent] = TUNING.front.shares.map(share);
     let roll = steps.saturating_sub(approach + descent + 1).max(1);
 
     let first = formation.grippers(0.0);
-    let height = APPROACH_HEIGHT * scene.ply.cell[0].min(scene.ply.cell[1]);
+    let height = TUNING.front.approach_height * tuning::cell(scene);
     let above: Vec<Point> = first.iter().map(|p| [p[0], p[1], p[2] + height]).collect();
     let mut out = Vec::with_capacity(steps);
     out.extend((0..approach).map(|k| between(start, &above, k as f64 / approach as f64)));
     out.extend((0..descent).map(|k| between(&above, &first, k as f64 / descent as f64)));
-    let reach = formation.reach() * (1.0 + BEYOND);
+    let reach = formation.reach() * (1.0 + TUNING.front.beyond);
     out.extend((0..roll).map(|k| formation.grippers(reach * k as f64 / roll as f64)));
     out.push(target.clone());
     Some(out)

@@ -5,27 +5,25 @@ use crate::draping::fabric;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, dot, sub};
 use crate::mold::{Foot, Mold};
-
-/// Distances below this have no direction but the normal's (m).
-const ON_MOLD: f64 = 1e-9;
-
-/// Gradient of the distance from the mold at a point.
-pub(super) fn distance_gradient(point: Point, foot: &Foot) -> [f64; 3] {
-    if foot.distance.abs() < ON_MOLD {
-        return foot.normal;
-    }
-    // beside an open border it points away from the border
-    sub(point, foot.point).map(|c| c / foot.distance)
-}
+use crate::planner::tuning::{self, TUNING};
 
 impl Sensitivity<'_> {
+    /// Gradient of the distance from the mold at a point.
+    pub(super) fn distance_gradient(&self, point: Point, foot: &Foot) -> [f64; 3] {
+        if foot.distance.abs() < TUNING.sensitivity.on_mold * tuning::cell(self.scene) {
+            return foot.normal;
+        }
+        // beside an open border it points away from the border
+        sub(point, foot.point).map(|c| c / foot.distance)
+    }
+
     /// Distance from the mold (m) of a span at a fixed fraction `t` of its run; none without a mold. At a
     /// minimum along the span the gradient is that of the smallest distance.
     #[must_use]
     pub fn gap(&self, span: &FreeSpan, t: f64) -> Option<Quantity> {
         let place = self.place(span, t);
         let foot = self.scene.mold.as_ref()?.foot(place.point);
-        let slope = place.along(distance_gradient(place.point, &foot));
+        let slope = place.along(self.distance_gradient(place.point, &foot));
         Some(Quantity { value: foot.distance, ..slope })
     }
 

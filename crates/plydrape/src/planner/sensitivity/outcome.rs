@@ -3,6 +3,7 @@
 use super::{Quantity, Sensitivity};
 use crate::draping::spans::Point;
 use crate::draping::{Drape, Draping, lying_segments};
+use crate::planner::tuning::{self, TUNING};
 use crate::ply::Laid;
 use crate::scene::Scene;
 use std::ops::ControlFlow;
@@ -70,9 +71,6 @@ pub fn outcome(
     })
 }
 
-/// Step of the differences of a lying path's length (m): small beside a mold's radii, large beside rounding.
-const STEP: f64 = 1e-6;
-
 /// Path minus fabric length (m) of the segments of a catenary that lie on the mold.
 fn lying(
     scene: &Scene,
@@ -90,6 +88,7 @@ fn lying(
         segments.iter().map(|segment| -segment.misfit.excess()).collect()
     };
     let ends = grippers.map(|gripper| positions[gripper]);
+    let step = TUNING.sensitivity.step * tuning::cell(scene);
     let mut out: Vec<Quantity> = (misfits(ends).into_iter())
         .map(|value| Quantity { value, gradient: vec![0.0; 3 * positions.len()] })
         .collect();
@@ -98,14 +97,14 @@ fn lying(
     }
     for (end, gripper) in grippers.into_iter().enumerate() {
         for axis in 0..3 {
-            let moved = |step: f64| {
+            let moved = |by: f64| {
                 let mut ends = ends;
-                ends[end][axis] += step;
+                ends[end][axis] += by;
                 misfits(ends)
             };
-            let (low, high) = (moved(-STEP), moved(STEP));
+            let (low, high) = (moved(-step), moved(step));
             for (found, (low, high)) in out.iter_mut().zip(low.into_iter().zip(high)) {
-                found.gradient[3 * gripper + axis] = (high - low) / (2.0 * STEP);
+                found.gradient[3 * gripper + axis] = (high - low) / (2.0 * step);
             }
         }
     }

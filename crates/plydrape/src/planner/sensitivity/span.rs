@@ -9,6 +9,7 @@ use crate::catenary::{Graded, Profile};
 use crate::draping::misfit;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, dot, sub, unit};
+use crate::planner::tuning::TUNING;
 
 /// A point with its gradient to all gripper positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -167,7 +168,7 @@ pub(super) fn fraction(span: &FreeSpan, share: f64) -> f64 {
     let goal = share * profile.length_to(run);
     let (mut low, mut high, mut t) = (0.0, 1.0, share);
     // Newton's method, kept within its bracket
-    for _ in 0..50 {
+    for _ in 0..TUNING.sensitivity.fraction_steps {
         let residual = profile.length_to(t * run) - goal;
         if residual > 0.0 {
             high = t
@@ -176,7 +177,7 @@ pub(super) fn fraction(span: &FreeSpan, share: f64) -> f64 {
         }
         let next = t - residual / (run * profile.station(t * run).slope.hypot(1.0));
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-        if (next - t).abs() < 1e-13 || share <= 0.0 || share >= 1.0 {
+        if (next - t).abs() < TUNING.sensitivity.fraction || share <= 0.0 || share >= 1.0 {
             break;
         }
         t = next;

@@ -1,12 +1,10 @@
 //! The constraints of one step: limits of the ply and of the grippers, moves, and lengths of edges.
 
 use super::step::Step;
+use super::tuning::TUNING;
 use crate::mold::vector::sub;
 use crate::planner::program::{MM, Program};
 use crate::planner::sensitivity::{Quantity, Sensitivity};
-
-/// Stretch that no edge may exceed, as a share of the whole edge.
-const MOST_STRETCH: f64 = 1e-4;
 
 impl Step<'_> {
     /// Shear, tilt, force, distances: linear. A limit that is exceeded already must not be exceeded further.
@@ -79,7 +77,11 @@ impl Step<'_> {
             }
             let [a, b] = span.ends;
             let lands = free.iter().any(|(gripper, _)| self.lands(*gripper));
-            let stretch = if lands { 0.5 * self.scene.limits.overstretch } else { MOST_STRETCH };
+            let stretch = if lands {
+                TUNING.stretch_share * self.scene.limits.overstretch
+            } else {
+                TUNING.most_stretch
+            };
             let most = (span.length + stretch * self.whole(span)).max(span.chord());
             program.cone(free, sub(b, a).map(|c| MM * c), MM * most);
         }

@@ -1,12 +1,10 @@
 //! Evaluation of a step by the true model.
 
+use super::tuning::TUNING;
 use crate::draping::spans::Shape;
 use crate::draping::{Draping, attitude, lying_segments, misfit};
 use crate::equilibrium::Status;
 use crate::scene::Scene;
-
-/// Share of the overstretch that a step may use.
-const STRETCH: f64 = 0.5;
 
 /// The largest measures of a state.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +32,7 @@ impl Evaluation {
     pub fn is_acceptable(&self, scene: &Scene, before: &Evaluation) -> bool {
         let limits = &scene.limits;
         self.converged
-            && self.stretch <= (STRETCH * limits.overstretch).max(before.stretch)
+            && self.stretch <= (TUNING.stretch_share * limits.overstretch).max(before.stretch)
             && self.tilt <= limits.tilt.max(before.tilt) * (1.0 + 1e-9)
     }
 }

@@ -10,20 +10,9 @@
 //! one. On a flat mold A = 0: the ply takes its final form above the mold and comes down as
 //! a whole. The front is not in the paper, which leaves open in which order a ply should land.
 
+use super::tuning::TUNING;
 use crate::mold::vector::{norm, sub};
 use crate::scene::Scene;
-
-/// Rate of rise A over the largest curvature of the mold.
-const RISE: f64 = 2.4;
-
-/// Steepest rise from the mold, where the tilt leaves room for it.
-const STEEPEST: f64 = 0.35;
-
-/// Share of the tilt limit that the front may use.
-const TILT_SHARE: f64 = 0.8;
-
-/// Height from which a gripper goes down in one step, over the tolerance of contact.
-const LAST: f64 = 5.0;
 
 /// Where the landing front is, and what follows for each gripper.
 #[derive(Debug, Clone)]
@@ -58,12 +47,13 @@ impl Front {
                 mold.curvatures(*p).principal.iter().fold(0.0_f64, |most, k| most.max(k.abs()))
             })
         };
-        let rise = RISE * targets.iter().chain([&middle]).map(bend).fold(0.0, f64::max);
+        let rise = TUNING.rise * targets.iter().chain([&middle]).map(bend).fold(0.0, f64::max);
         // the tilt minus the mold's own slope
-        let slope = |n: &[f64; 3]| n[0].hypot(n[1]) / n[2].max(1e-3);
+        let slope = |n: &[f64; 3]| n[0].hypot(n[1]) / n[2].max(TUNING.upright);
         let steepest = normal.iter().map(slope).fold(0.0, f64::max);
-        let room = TILT_SHARE * scene.limits.tilt.min(scene.settings.max_tilt).tan() - steepest;
-        let cap = room.clamp(0.05, STEEPEST);
+        let room =
+            TUNING.tilt_share * scene.limits.tilt.min(scene.settings.max_tilt).tan() - steepest;
+        let cap = room.clamp(TUNING.slopes[0], TUNING.slopes[1]);
         Front {
             distance: targets.iter().map(|p| norm(sub(*p, middle))).collect(),
             normal,
@@ -71,7 +61,7 @@ impl Front {
             straight: if rise > 0.0 { cap / rise } else { f64::INFINITY },
             base: 0.0,
             radius: 0.0,
-            last: LAST * scene.settings.contact.tolerance,
+            last: TUNING.last * scene.settings.contact.tolerance,
         }
     }
 

@@ -12,10 +12,12 @@ mod outcome;
 mod slack;
 mod stage;
 mod step;
+pub mod tuning;
 
 pub use outcome::{Outcome, PositionError, Stepwise};
 
 use super::sensitivity::Sensitivity;
+use super::tuning::cell;
 use crate::draping::Draping;
 use crate::draping::spans::{Point, Shape};
 use crate::mold::distance;
@@ -26,15 +28,7 @@ use front::Front;
 use stage::Stage;
 use std::ops::ControlFlow;
 use step::Step;
-
-/// Times that a step is halved.
-const HALVINGS: usize = 6;
-
-/// Moves that remove slack at the end.
-const SLACK_MOVES: usize = 3;
-
-/// Distance (m) from its target at which a gripper that goes down is put on its target.
-const SNAP: f64 = 5e-5;
+use tuning::TUNING;
 
 /// Plans the gripper positions of a scene, step by step.
 ///
@@ -79,7 +73,10 @@ impl<'a> Plan<'a> {
                 .map_or(start[n][2] - targets[n][2], |mold| mold.signed_distance(start[n]));
             height - front.lift(n, 0.0)
         };
-        front.base = (0..start.len()).map(above).fold(f64::INFINITY, f64::min).max(0.01);
+        front.base = (0..start.len())
+            .map(above)
+            .fold(f64::INFINITY, f64::min)
+            .max(TUNING.base * cell(scene));
         let way = start.iter().zip(targets).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
         let all = way + front.base + front.drop(front.farthest());
         let reach = scene.plan.move_limit.unwrap_or(2.0 * all / scene.plan.steps.max(2) as f64);
@@ -114,7 +111,7 @@ impl<'a> Plan<'a> {
             (_, Some(shortfall)) => Outcome::OutOfReach(shortfall),
             (error, None) => Outcome::OutOfSteps(error),
         };
-        for _ in 0..SLACK_MOVES {
+        for _ in 0..TUNING.slack.moves {
             let room = !broken && self.positions.len() < most;
             if outcome != Outcome::Arrived || !room || !self.remove_slack() {
                 break;
@@ -167,7 +164,7 @@ impl<'a> Plan<'a> {
         let mut reach = self.reach;
         let before = Evaluation::of(self.scene, &self.draping, &self.shape);
         let mut best: Option<(Draping<'a>, Shape)> = None;
-        for trial in 0..HALVINGS {
+        for trial in 0..TUNING.halvings {
             let step = Step {
                 scene: self.scene,
                 targets: self.targets,
@@ -177,7 +174,7 @@ impl<'a> Plan<'a> {
                 before: &self.moves,
                 landing,
                 reach,
-                firm: trial < HALVINGS / 2,
+                firm: trial < TUNING.halvings / 2,
             };
             let Some(moves) = step.moves(&sensitivity) else {
                 reach *= 0.5;
@@ -229,6 +226,10 @@ impl<'a> Plan<'a> {
         let target = self.targets[gripper];
         let down = self.front.height(gripper) <= 0.0
             && distance(self.draping.positions[gripper], target) <= self.reach;
-        if down && distance(place, target) <= SNAP { target } else { place }
+        if down && distance(place, target) <= TUNING.snap * cell(self.scene) {
+            target
+        } else {
+            place
+        }
     }
 }

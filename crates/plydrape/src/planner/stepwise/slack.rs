@@ -6,30 +6,13 @@
 //! that would be slack stretched a little beyond their length, and none stretched beyond its limit.
 
 use super::step::target_stretch;
+use super::tuning::TUNING;
 use crate::draping::spans::{Point, Shape};
 use crate::draping::{Draping, lying_segments, misfit};
 use crate::mold::Strand;
 use crate::mold::vector::{along, norm, sub, unit};
 use crate::planner::program::{MM, Program};
 use crate::scene::Scene;
-
-/// Share of the limit of the landing error of grippers that the move may use.
-const SHARE: f64 = 0.5;
-
-/// Stretch that a slack segment is given, as a share of the whole edge.
-const TARGET_STRETCH: f64 = 2e-5;
-
-/// Share of the overstretch limit that the move may use.
-const MOST_STRETCH: f64 = 0.8;
-
-/// Weight of the stretch of a segment beside that of a gripper's move.
-const WEIGHT: f64 = 1e3;
-
-/// Share of its edge below which the slack of a segment does not count.
-const SHORT: f64 = 1e-2;
-
-/// Rounds in which segments that have become slack are added.
-const ROUNDS: usize = 6;
 
 /// A free segment of an edge in contact, or a whole edge that lies, with the grippers that hold it.
 struct FreeSegment {
@@ -47,7 +30,7 @@ struct FreeSegment {
 impl FreeSegment {
     /// Whether its slack counts.
     fn counts(&self) -> bool {
-        self.length > SHORT * self.whole
+        self.length > TUNING.slack.short * self.whole
     }
 
     /// Stretch (m) after moves (mm) of all grippers.
@@ -87,7 +70,7 @@ fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSeg
             };
             out.push(FreeSegment {
                 stretch: segment.misfit.way - segment.misfit.length,
-                target: TARGET_STRETCH * ply.flat_length(c.kind),
+                target: TUNING.slack.target_stretch * ply.flat_length(c.kind),
                 length: segment.misfit.length,
                 whole: ply.flat_length(c.kind),
                 grippers: held
@@ -134,7 +117,8 @@ pub fn removal(
     let (mold, limits) = (scene.mold.as_ref()?, &scene.limits);
     let segments = free_segments(scene, draping, shape);
     let slack = |segment: &FreeSegment| {
-        segment.counts() && -segment.stretch > SHARE * limits.slack_ratio * segment.length
+        segment.counts()
+            && -segment.stretch > TUNING.slack.share * limits.slack_ratio * segment.length
     };
     if !segments.iter().any(slack) {
         return None;
@@ -142,14 +126,14 @@ pub fn removal(
     let count = targets.len();
     let mut active: Vec<bool> = segments.iter().map(slack).collect();
     let mut moves = Vec::new();
-    for _ in 0..ROUNDS {
+    for _ in 0..TUNING.slack.rounds {
         let mut program = Program::new(count);
         for (gripper, target) in targets.iter().enumerate() {
             let way = sub(*target, draping.positions[gripper]);
             for n in 0..3 {
                 program.near(1.0, 3 * gripper + n, MM * way[n]);
             }
-            let radius = MM * SHARE * limits.landing_gripper;
+            let radius = MM * TUNING.slack.share * limits.landing_gripper;
             program.cone(vec![(gripper, 1.0)], way.map(|c| -MM * c), radius + MM * norm(way));
         }
         for (segment, active) in segments.iter().zip(&active) {
@@ -160,9 +144,14 @@ pub fn removal(
                 }
             }
             if *active {
-                program.square(WEIGHT, MM * (segment.stretch - segment.target), &gradient);
+                program.square(
+                    TUNING.slack.weight,
+                    MM * (segment.stretch - segment.target),
+                    &gradient,
+                );
             }
-            let most = (MOST_STRETCH * limits.overstretch * segment.whole).max(segment.stretch);
+            let most = (TUNING.slack.stretch_share * limits.overstretch * segment.whole)
+                .max(segment.stretch);
             program.at_most(&gradient, 1.0, MM * (most - segment.stretch));
         }
         moves = program.solve()?;

@@ -7,31 +7,13 @@
 //! The constraints are in `constraints`.
 
 use super::front::Front;
+use super::tuning::TUNING;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{dot, sub};
 use crate::planner::program::{MM, Program};
 use crate::planner::sensitivity::{Quantity, Sensitivity};
+use crate::planner::tuning::cell;
 use crate::scene::Scene;
-
-/// Stretch that an edge should have, as a share of the whole edge.
-const TARGET_STRETCH: f64 = 5e-5;
-
-/// Slack of an edge over a hollow beyond that with which it will lie in the hollow, as a share of the whole edge: too
-/// short an edge would bridge the hollow, too long a one is drawn taut at the end.
-const HOLLOW_SLACK: f64 = 2e-4;
-
-/// Height (mm) at which the position error of a point counts half.
-const NEAR: f64 = 1.0;
-
-/// Weights of the objective, of residuals in millimetres.
-mod weight {
-    pub const HEIGHT: f64 = 1.0;
-    pub const LENGTH: f64 = 100.0;
-    pub const PLACE: f64 = 1e-2;
-    pub const LANDING: f64 = 1.0;
-    pub const ROLLING: f64 = 1e-3;
-    pub const SMOOTH: f64 = 1e-2;
-}
 
 /// The state from which a step starts.
 pub struct Step<'a> {
@@ -89,7 +71,7 @@ impl Step<'_> {
         for gripper in 0..self.positions.len() {
             let height = self.clearance(sensitivity, gripper);
             let residual = MM * (height.value - self.front.height(gripper));
-            program.square(weight::HEIGHT, residual, &height.gradient);
+            program.square(TUNING.weights.height, residual, &height.gradient);
         }
     }
 
@@ -98,8 +80,8 @@ impl Step<'_> {
         for (gripper, target) in self.targets.iter().enumerate() {
             let error = sub(self.positions[gripper], *target);
             let normal = self.front.normal[gripper];
-            let height = MM * self.front.height(gripper);
-            let weight = weight::PLACE + weight::LANDING * nearness(height);
+            let height = self.front.height(gripper);
+            let weight = TUNING.weights.place + TUNING.weights.landing * self.nearness(height);
             for axis in 0..3 {
                 // the part along the mold of the error in this axis
                 let mut gradient = vec![0.0; 3 * self.positions.len()];
@@ -131,7 +113,7 @@ impl Step<'_> {
         for span in self.edges(sensitivity) {
             let stretch = sensitivity.overstretch(span);
             let residual = MM * (stretch.value - target_stretch(self.scene, span));
-            program.square(weight::LENGTH, residual, &stretch.gradient);
+            program.square(TUNING.weights.stretch, residual, &stretch.gradient);
         }
     }
 
@@ -139,12 +121,12 @@ impl Step<'_> {
     fn landings(&self, sensitivity: &Sensitivity, program: &mut Program) {
         for span in self.edges(sensitivity) {
             let contact = (0..2).any(|end| sensitivity.gripper_at(span, end).is_none());
-            for share in [0.25, 0.5, 0.75] {
+            for share in TUNING.points {
                 let Some(gap) = sensitivity.gap(span, share) else {
                     continue;
                 };
-                let weight = weight::LANDING * nearness(MM * gap.value);
-                if contact || weight < 1e-3 {
+                let weight = TUNING.weights.landing * self.nearness(gap.value);
+                if contact || weight < TUNING.least_weight {
                     continue;
                 }
                 let Some(error) = sensitivity.landing(span, share) else {
@@ -173,30 +155,31 @@ impl Step<'_> {
                 // in terms of the height that it makes at the other end
                 let arm = span.length;
                 let gradient: Vec<f64> = rise.gradient.iter().map(|g| arm * g).collect();
-                program.square(weight::ROLLING, MM * arm * rise.value, &gradient);
+                program.square(TUNING.weights.rolling, MM * arm * rise.value, &gradient);
             }
         }
+    }
+
+    /// Weight of a point at a height (m) above the mold: 1 on the mold, less above.
+    fn nearness(&self, height: f64) -> f64 {
+        let near = TUNING.near * cell(self.scene);
+        1.0 / (1.0 + (height.max(0.0) / near).powi(2))
     }
 
     fn smoothness(&self, program: &mut Program) {
         for (gripper, before) in self.before.iter().enumerate() {
             for n in 0..3 {
-                program.near(weight::SMOOTH, 3 * gripper + n, MM * before[n]);
+                program.near(TUNING.weights.smoothness, 3 * gripper + n, MM * before[n]);
             }
         }
     }
-}
-
-/// Weight of a point at a height (mm) above the mold: 1 on the mold, less above.
-fn nearness(height: f64) -> f64 {
-    1.0 / (1.0 + (height.max(0.0) / NEAR).powi(2))
 }
 
 /// Stretch (m) that a span of an edge should have: a little, or slack over a hollow, in which it will lie.
 pub fn target_stretch(scene: &Scene, span: &FreeSpan) -> f64 {
     let whole = scene.ply.flat_length(scene.ply.grid.catenary(span.catenary).kind);
     let sag = hollow(scene, span).powi(2) * span.length.powi(3) / 24.0;
-    if sag > 0.0 { -sag - HOLLOW_SLACK * whole } else { TARGET_STRETCH * whole }
+    if sag > 0.0 { -sag - TUNING.hollow_slack * whole } else { TUNING.target_stretch * whole }
 }
 
 /// Curvature of the hollow below a span, along it (1/m); 0 where the mold is not hollow.
