@@ -1,12 +1,10 @@
 //! A front that lays the ply: the lifted mold, the formation of grippers on it, and corrections by gradients.
 
+use plydrape::draping::simulate;
 use plydrape::measure::Name;
 use plydrape::mold::{HeightGrid, Lift, Lifted};
-use plydrape::planner::evaluation;
-use plydrape::planner::path::{
-    Formation, MoldHeights, Strategy, correction, longest_move, trajectory,
-};
-use plydrape::planner::search_state::SearchState;
+use plydrape::motion::{Bounds, TimedMotion};
+use plydrape::planner::path::{Formation, MoldHeights, Strategy, correction, trajectory};
 use plydrape::scene::Scene;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -32,12 +30,12 @@ const RING: Strategy = Strategy {
     pretension: 1e-4,
 };
 
-/// Largest overstretch that a plan leaves (%).
+/// Largest overstretch in the drape along a plan (%).
 fn overstretch(scene: &Scene, positions: &[Vec<[f64; 3]>]) -> f64 {
-    let mut watcher = |_: &plydrape::planner::Progress| ControlFlow::Continue(());
-    let state = SearchState::new(1, &mut watcher);
-    let limits = evaluation::drape(scene, positions, &state).limits;
-    limits.iter().find(|verdict| verdict.name == Name::Overstretch).expect("a limit").value
+    let motion = TimedMotion::new(positions, &Bounds::from(&scene.limits)).expect("a plan");
+    let scene = Scene { motion: motion.steps(), ..scene.clone() };
+    let drape = simulate(&scene, |_| ControlFlow::Continue(()));
+    drape.summary.worst.value(Name::Overstretch).expect("edges")
 }
 
 /// Slopes and curvatures of the lifted mold are the central differences of its height and slopes, for a turned
@@ -77,7 +75,7 @@ fn a_lifted_mold_has_the_derivatives_of_its_height() {
     assert!(rise < 0.3 && rise > 0.25, "{rise}");
 }
 
-/// Behind the front grippers stand on their targets, ahead of it they hover; and no edge is ever longer than its
+/// Behind the front grippers stand on their targets, ahead of it they are above the mold; and no edge is ever longer than its
 /// fabric and the pretension, but for what a straight line cuts off the curved net.
 #[test]
 fn a_formation_stands_behind_its_front_and_keeps_the_fabric() {
@@ -109,8 +107,8 @@ fn a_formation_stands_behind_its_front_and_keeps_the_fabric() {
     }
 }
 
-/// A trajectory begins at the start and ends at the target, to the last bit, in as many steps as it was given; with a
-/// move limit no step is longer where the way allows it.
+/// A trajectory begins at the start and ends at the target, to the last bit, in the number of steps of the scene; with a
+/// move limit no step is longer where the path allows it.
 #[test]
 fn a_trajectory_goes_from_start_to_target_in_its_steps() {
     let mut scene = example("04_dome");
@@ -123,7 +121,8 @@ fn a_trajectory_goes_from_start_to_target_in_its_steps() {
         assert_eq!(positions[steps - 1], scene.target.as_ref().expect("a target").grippers);
     }
     let longest = |positions: &[Vec<[f64; 3]>]| {
-        positions.windows(2).map(|pair| longest_move(&pair[0], &pair[1])).fold(0.0, f64::max)
+        let pairs = positions.windows(2).flat_map(|pair| pair[0].iter().zip(&pair[1]));
+        pairs.map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max)
     };
     let free = longest(&trajectory(&scene, &heights, RING).expect("a target"));
     scene.plan.move_limit = Some(0.5 * free);
@@ -131,7 +130,7 @@ fn a_trajectory_goes_from_start_to_target_in_its_steps() {
     assert!(free > 1e-3 && limited <= 0.5 * free, "{free} {limited}");
 }
 
-/// A strategy is a point of the search's cube and back; what leaves the cube is reflected into it.
+/// A strategy is a point of the search's cube and back; a point outside the cube is reflected into it.
 #[test]
 fn a_strategy_is_a_point_of_the_search_and_back() {
     for strategy in Strategy::families(&example("06_saddle")) {
@@ -146,30 +145,30 @@ fn a_strategy_is_a_point_of_the_search_and_back() {
     }
 }
 
-/// A plan of the dome in which one gripper strays by up to half a millimetre in the middle of the landing pulls edges more than five
-/// times as far; three rounds of corrections by gradients take a good part of that back.
+/// A plan of the dome in which one gripper has a position error of up to half a millimetre in the middle of the landing
+/// stretches edges more than five times as far; three rounds of corrections by gradients take a good part of that back.
 #[test]
-fn gradients_bring_a_stray_gripper_back() {
+fn gradients_reduce_the_position_error_of_a_gripper() {
     let scene = example("04_dome");
     let heights = MoldHeights::new(&scene).expect("a mold");
     let good = trajectory(&scene, &heights, RING).expect("a target");
-    let mut stray = good.clone();
+    let mut moved = good.clone();
     let (from, to) = (25.0, good.len() as f64 - 1.0);
-    for (k, positions) in stray.iter_mut().enumerate() {
+    for (k, positions) in moved.iter_mut().enumerate() {
         let t = ((k as f64 - from) / (to - from)).clamp(0.0, 1.0);
         positions[7][0] += 5e-4 * (std::f64::consts::PI * t).sin().powi(2);
     }
-    let mut corrected = stray.clone();
+    let mut corrected = moved.clone();
     for _ in 0..3 {
-        let correction = correction(&scene, &corrected).expect("something touches");
+        let correction = correction(&scene, &corrected).expect("some part comes into contact");
         for (positions, moves) in corrected.iter_mut().zip(correction) {
             for (place, by) in positions.iter_mut().zip(moves) {
                 *place = [0, 1, 2].map(|n| place[n] + by[n]);
             }
         }
     }
-    let [good, stray, corrected] =
-        [&good, &stray, &corrected].map(|plan| overstretch(&scene, plan));
-    assert!(stray > 5.0 * good, "{good} {stray}");
-    assert!(corrected < good + 0.6 * (stray - good), "{good} {stray} {corrected}");
+    let [good, moved, corrected] =
+        [&good, &moved, &corrected].map(|plan| overstretch(&scene, plan));
+    assert!(moved > 5.0 * good, "{good} {moved}");
+    assert!(corrected < good + 0.6 * (moved - good), "{good} {moved} {corrected}");
 }

@@ -99,3 +99,25 @@ pub fn score(drape: &Judged) -> f64 {
         + drape.unsolved as f64
         + if missing > 0.0 { missing_weight * (1.0 + missing) } else { 0.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::{Name, Worst};
+
+    /// A search prefers a plan that misses a limit to one with a step that is no solution, and any whole one to one broken off.
+    #[test]
+    fn an_unsolved_step_costs_a_search_more_than_a_limit() {
+        let at = |value: f64| {
+            let worst = Worst { value, at: String::new(), place: None };
+            Verdict::of(Name::SlackRatio, worst, 5e-4, Some(1))
+        };
+        let evaluated = |value: f64, unsolved: usize, missing: f64| {
+            score(&Judged { limits: vec![at(value)], accepted: false, missing, unsolved })
+        };
+        let sound = evaluated(4e-4, 0, 0.0);
+        assert!(sound < 1.0);
+        assert!((evaluated(4e-4, 2, 0.0) - sound - 2.0).abs() < 1e-12);
+        assert!(evaluated(4e-4, 0, 0.1) > evaluated(1e-1, 30, 0.0));
+    }
+}

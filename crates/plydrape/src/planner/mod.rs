@@ -4,18 +4,18 @@
 //! 2. [`path`]: whole trajectories of few parameters, evaluated by complete drapes, on all cores;
 //! 3. [`stepwise`]: step by step, each step a quadratic program, as Krogh et al. 2018 sketch it;
 //! 4. [`sensitivity`]: the quantities of a solved ply that both planners weigh, with exact gradients;
-//! 5. [`evaluation`]: the complete drape along a plan, and its score against the limits;
-//! 6. [`search_state`]: progress of a search that runs; [`Checkpoint`]: its result, from which another search continues;
+//! 5. `evaluation`: the complete drape along a plan, and its score against the limits;
+//! 6. `search_state`: progress of a search that runs; [`Checkpoint`]: its result, from which another search continues;
 //! 7. [`tuning`]: the constants that both planners share;
 //! 8. `plan`: from a scene to a motion in time and the drape along it.
 
 mod checkpoint;
-pub mod evaluation;
+mod evaluation;
 pub mod infeasible_limits;
 pub mod path;
 mod plan;
 mod program;
-pub mod search_state;
+mod search_state;
 pub mod sensitivity;
 pub mod stepwise;
 pub mod tuning;

@@ -77,13 +77,13 @@ impl<'a> Formation<'a> {
     fn lift(&self, front: f64) -> Lift {
         let Strategy { ratio, angle, curvature, slope, .. } = self.strategy;
         let (sin, cos) = angle.sin_cos();
-        let along = 1.0 / (ratio * ratio);
+        let (along, unit) = (1.0 / (ratio * ratio), 1.0 / self.cell);
         let metric = [
             along * cos * cos + sin * sin,
             (along - 1.0) * sin * cos,
             along * sin * sin + cos * cos,
         ];
-        Lift { centre: self.centre, metric, front, curvature: curvature / self.cell, slope }
+        Lift { centre: self.centre, metric, front, curvature: curvature * unit, slope }
     }
 
     /// How far the front has to come to have passed every gripper (m).

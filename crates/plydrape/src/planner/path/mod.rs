@@ -10,6 +10,6 @@ pub mod tuning;
 
 pub use formation::{Formation, MoldHeights};
 pub use refine::correction;
-pub use search::{Candidate, search};
+pub(super) use search::search;
 pub use strategy::Strategy;
-pub use trajectory::{longest_move, trajectory};
+pub use trajectory::trajectory;

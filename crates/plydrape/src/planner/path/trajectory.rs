@@ -58,8 +58,7 @@ fn between(from: &[Point], to: &[Point], t: f64) -> Vec<Point> {
 }
 
 /// The farthest that a gripper moves between two steps (m).
-#[must_use]
-pub fn longest_move(from: &[Point], to: &[Point]) -> f64 {
+fn longest_move(from: &[Point], to: &[Point]) -> f64 {
     from.iter().zip(to).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max)
 }
 
