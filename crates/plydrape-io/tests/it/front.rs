@@ -130,6 +130,34 @@ fn a_trajectory_goes_from_start_to_target_in_its_steps() {
     assert!(free > 1e-3 && limited <= 0.5 * free, "{free} {limited}");
 }
 
+/// A scene scaled by 0.1 and 10 has the scaled trajectory: no constant of a front is a length. The net on the lifted
+/// mold is solved to about 1e-9 of a cell.
+#[test]
+fn a_scaled_scene_has_the_scaled_trajectory() {
+    let planned = |s: f64| {
+        let text = format!(
+            "[ply]\ngrippers = [4, 4]\ncell = [{c}, {c}]\nmaterial = \"krogh2018\"\n\
+             [mold]\nkind = \"sphere\"\nradius = {r}\nposition = [0, 0, -{r}]\n\
+             [grippers]\nspacing = [{d}, {d}]\nheight = {h}\norigin = \"centred\"\n\
+             [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 30\n",
+            c = 0.1 * s,
+            r = 0.6 * s,
+            d = 0.098 * s,
+            h = 0.05 * s,
+        );
+        let scene = plydrape_io::scene::parse(&text, Path::new(""), "of the test");
+        let scene = scene.unwrap_or_else(|e| panic!("{e}")).scene;
+        let heights = MoldHeights::new(&scene).expect("a mold");
+        trajectory(&scene, &heights, RING).expect("a target")
+    };
+    let one = planned(1.0);
+    for s in [0.1, 10.0] {
+        for (a, b) in one.iter().flatten().zip(planned(s).iter().flatten()) {
+            assert!(distance(a.map(|c| s * c), *b) < 1e-8 * s, "{s}: {a:?} {b:?}");
+        }
+    }
+}
+
 /// A strategy is a point of the search's cube and back; a point outside the cube is reflected into it.
 #[test]
 fn a_strategy_is_a_point_of_the_search_and_back() {

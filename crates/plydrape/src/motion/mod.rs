@@ -24,6 +24,7 @@ pub use attitude::Attitudes;
 pub use check::{MOST_POSITIONS, MOST_STEPS};
 pub use error::MotionError;
 pub use peaks::{Peak, Peaks};
+pub(crate) use spacing::farthest;
 
 use crate::scene::{self, Limits};
 use path::{Path, Vector};

@@ -47,7 +47,7 @@ pub(super) fn spacing(planned: &[&[Vector]], cruise: &Bounds) -> Vec<f64> {
 }
 
 /// Largest distance that a gripper moves from one step to another (m).
-pub(super) fn farthest(from: &[Vector], to: &[Vector]) -> f64 {
+pub(crate) fn farthest(from: &[Vector], to: &[Vector]) -> f64 {
     from.iter().zip(to).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max)
 }
 

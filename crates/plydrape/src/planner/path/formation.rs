@@ -5,6 +5,7 @@
 //! little, so that its spans stay taut.
 
 use super::strategy::Strategy;
+use super::tabulation::{around, height_grid};
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::mold::vector::{along, dot, sub};
@@ -142,22 +143,11 @@ fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
 
 /// Heights of a mold over the drape and some margin around it.
 fn heights(mold: &Mold, targets: &[Point]) -> Option<HeightGrid> {
-    let range = [0, 1].map(|n| {
-        let low = targets.iter().map(|p| p[n]).fold(f64::INFINITY, f64::min);
-        let high = targets.iter().map(|p| p[n]).fold(f64::NEG_INFINITY, f64::max);
-        [low, high]
-    });
-    let margin =
-        TUNING.front.height_margin * range.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-    let nodes = TUNING.front.height_nodes;
-    let axis = |n: usize| -> Vec<f64> {
-        let [low, high] = [range[n][0] - margin, range[n][1] + margin];
-        (0..nodes).map(|k| low + (high - low) * k as f64 / (nodes - 1) as f64).collect()
-    };
-    let [x, y] = [0, 1].map(axis);
+    let front = TUNING.front;
     let top = targets.iter().map(|p| p[2]).fold(f64::NEG_INFINITY, f64::max);
-    let z = y.iter().flat_map(|y| x.iter().map(move |x| height(mold, [*x, *y], top))).collect();
-    HeightGrid::new(x, y, z).ok()
+    height_grid(around(targets, front.height_margin), front.height_nodes, |place| {
+        height(mold, place, top)
+    })
 }
 
 /// Height of a mold at (x, y) (m); beyond its border that of the tangent plane there.

@@ -15,7 +15,10 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
     let (Surface::Formula { z }, Some(target)) = (&graph.surface, &scene.target) else {
         return Cow::Borrowed(scene);
     };
-    let domain = graph.domain.unwrap_or_else(|| around(graph, &target.grippers));
+    let domain = graph.domain.unwrap_or_else(|| {
+        let local: Vec<Point> = target.grippers.iter().map(|p| graph.pose.local(*p)).collect();
+        around(&local, TUNING.front.table_margin)
+    });
     let tolerance = TUNING.front.table_error * tuning::cell(scene);
     let Some(heights) = table(z, domain, tolerance) else { return Cow::Borrowed(scene) };
     let surface = Surface::HeightGrid(heights);
@@ -26,12 +29,8 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
 /// The formula as a table; none where its error exceeds a tolerance (m).
 fn table(z: &Formula, domain: [[f64; 2]; 2], tolerance: f64) -> Option<HeightGrid> {
     let nodes = TUNING.front.table_nodes;
-    let at =
-        |n: usize, k: f64| domain[n][0] + (domain[n][1] - domain[n][0]) * k / (nodes - 1) as f64;
-    let axis = |n: usize| (0..nodes).map(|k| at(n, k as f64)).collect::<Vec<f64>>();
-    let [x, y] = [0, 1].map(axis);
-    let heights = y.iter().flat_map(|y| x.iter().map(move |x| z.at(*x, *y).z)).collect();
-    let table = HeightGrid::new(x, y, heights).ok()?;
+    let table = height_grid(domain, nodes, |[x, y]| z.at(x, y).z)?;
+    let at = |n: usize, k: f64| node(domain[n], k, nodes);
     // the error is largest in the middles of its squares
     let error = |i: usize, j: usize| {
         let [x, y] = [at(0, i as f64 + 0.5), at(1, j as f64 + 0.5)];
@@ -41,15 +40,30 @@ fn table(z: &Formula, domain: [[f64; 2]; 2], tolerance: f64) -> Option<HeightGri
     sound.then_some(table)
 }
 
-/// Range of local x and y (m) around the drape.
-fn around(graph: &Graph, targets: &[Point]) -> [[f64; 2]; 2] {
-    let local: Vec<Point> = targets.iter().map(|p| graph.pose.local(*p)).collect();
+/// A height grid (m) with evenly spaced nodes along each axis.
+pub(super) fn height_grid(
+    domain: [[f64; 2]; 2],
+    nodes: usize,
+    height: impl Fn([f64; 2]) -> f64,
+) -> Option<HeightGrid> {
+    let axis = |range| (0..nodes).map(|k| node(range, k as f64, nodes)).collect::<Vec<f64>>();
+    let [x, y] = domain.map(axis);
+    let z = y.iter().flat_map(|y| x.iter().map(|x| height([*x, *y]))).collect();
+    HeightGrid::new(x, y, z).ok()
+}
+
+/// Node k of so many evenly spaced ones (m).
+fn node([low, high]: [f64; 2], k: f64, nodes: usize) -> f64 {
+    low + (high - low) * k / (nodes - 1) as f64
+}
+
+/// Range of x and y (m) around points, with a margin as a share of its size.
+pub(super) fn around(points: &[Point], margin: f64) -> [[f64; 2]; 2] {
     let range = [0, 1].map(|n| {
-        let low = local.iter().map(|p| p[n]).fold(f64::INFINITY, f64::min);
-        let high = local.iter().map(|p| p[n]).fold(f64::NEG_INFINITY, f64::max);
+        let low = points.iter().map(|p| p[n]).fold(f64::INFINITY, f64::min);
+        let high = points.iter().map(|p| p[n]).fold(f64::NEG_INFINITY, f64::max);
         [low, high]
     });
-    let margin =
-        TUNING.front.table_margin * range.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let margin = margin * range.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
     range.map(|[low, high]| [low - margin, high + margin])
 }

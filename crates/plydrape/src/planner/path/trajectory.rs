@@ -4,7 +4,8 @@ use super::formation::{Formation, MoldHeights};
 use super::strategy::Strategy;
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
-use crate::mold::{distance, vector};
+use crate::mold::vector;
+use crate::motion::farthest;
 use crate::planner::tuning;
 use crate::scene::Scene;
 
@@ -21,7 +22,7 @@ pub fn trajectory(
         return positions(scene, heights, strategy, steps);
     };
     let planned = positions(scene, heights, strategy, steps)?;
-    if planned.windows(2).all(|pair| longest_move(&pair[0], &pair[1]) <= limit) {
+    if planned.windows(2).all(|pair| farthest(&pair[0], &pair[1]) <= limit) {
         return Some(planned);
     }
     Some(evened(&positions(scene, heights, strategy, TUNING.front.finer * steps)?, steps))
@@ -57,16 +58,11 @@ fn between(from: &[Point], to: &[Point], t: f64) -> Vec<Point> {
     from.iter().zip(to).map(|(a, b)| vector::between(*a, *b, t)).collect()
 }
 
-/// The farthest that a gripper moves between two steps (m).
-fn longest_move(from: &[Point], to: &[Point]) -> f64 {
-    from.iter().zip(to).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max)
-}
-
 /// The same path in steps whose longest moves are equal.
 fn evened(fine: &[Vec<Point>], steps: usize) -> Vec<Vec<Point>> {
     let mut lengths = vec![0.0];
     for pair in fine.windows(2) {
-        lengths.push(lengths[lengths.len() - 1] + longest_move(&pair[0], &pair[1]));
+        lengths.push(lengths[lengths.len() - 1] + farthest(&pair[0], &pair[1]));
     }
     let last = fine.len() - 1;
     (0..steps)

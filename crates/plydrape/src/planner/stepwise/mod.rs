@@ -22,6 +22,7 @@ use crate::draping::Draping;
 use crate::draping::spans::{Point, Shape};
 use crate::mold::distance;
 use crate::mold::vector::sub;
+use crate::motion::farthest;
 use crate::scene::Scene;
 use evaluation::Evaluation;
 use front::Front;
@@ -77,8 +78,7 @@ impl<'a> Plan<'a> {
             .map(above)
             .fold(f64::INFINITY, f64::min)
             .max(TUNING.base * cell(scene));
-        let way = start.iter().zip(targets).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
-        let all = way + front.base + front.drop(front.farthest());
+        let all = farthest(&start, targets) + front.base + front.drop(front.farthest());
         let reach = scene.plan.move_limit.unwrap_or(2.0 * all / scene.plan.steps.max(2) as f64);
         let count = start.len();
         Plan {
@@ -211,8 +211,7 @@ impl<'a> Plan<'a> {
         let mut trial = self.draping.clone();
         let shape = trial.move_to(&goal);
         let after = Evaluation::of(self.scene, &trial, &shape);
-        let far =
-            goal.iter().zip(&self.draping.positions).any(|(a, b)| distance(*a, *b) > self.reach);
+        let far = farthest(&goal, &self.draping.positions) > self.reach;
         let acceptable = !far && after.converged && after.stretch <= self.scene.limits.overstretch;
         if acceptable {
             (self.draping, self.shape) = (trial, shape);
