@@ -1,4 +1,4 @@
-//! What a plan must reach: every solved mold of the examples, from two heights, judged by draping the ply once more
+//! What a plan must reach: every solved mold of the examples, from two heights, evaluated by draping the ply once more
 //! along the files that were written. Limits are the defaults of `[limits]`, repeated here as numbers.
 
 use plydrape::draping::record::{CatenaryState, Step, Verdict};
@@ -110,14 +110,14 @@ fn planned(scene: &Scene) -> Planned {
 
 fn verdict<'a>(result: &'a ResultFile, name: &str) -> &'a Verdict {
     let found = result.summary.limits.iter().find(|limit| limit.name.measure().name() == name);
-    found.unwrap_or_else(|| panic!("{name} is not judged"))
+    found.unwrap_or_else(|| panic!("{name} has no verdict"))
 }
 
 /// Each limit by itself, from the spans, contacts and grippers of the steps.
 fn keeps_every_limit(result: &ResultFile, what: &str) {
     let summary = &result.summary;
     let limiting = table::limiting(&summary.limits);
-    // samples of the motion are other steps than the plan's: what touches a second time may be two per cent deeper
+    // samples of the motion are other steps than the plan's: a second contact may be two per cent deeper
     let most = if what.ends_with("motion.csv") { 1.02 } else { 1.0 };
     assert!(summary.limits.iter().all(|verdict| verdict.ratio() <= most), "{what}: {limiting:?}");
     assert_eq!(summary.steps, summary.steps_planned, "{what}");
@@ -397,7 +397,7 @@ fn the_cubic_mold_gets_a_plan_that_says_what_it_fails_by() {
 }
 
 /// The paper's example with limits that no plan can keep, from plane geometry: a target sheared by 20°, its far
-/// corner 100 mm · sin 20° beyond 300 mm, 75 mm down and a little aside in 19 moves of 1 mm.
+/// corner 100 mm · sin 20° beyond 300 mm, 75 mm down and a little across in 19 moves of 1 mm.
 #[test]
 fn what_cannot_be_kept_is_in_the_verdict_of_the_plan() {
     let (sin, cos) = 20f64.to_radians().sin_cos();

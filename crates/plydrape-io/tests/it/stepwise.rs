@@ -1,5 +1,5 @@
 //! The stepwise planner: its gradients against central differences of the model solved anew, and its plans
-//! judged by draping along them.
+//! evaluated by draping along them.
 
 use plydrape::draping::simulate;
 use plydrape::draping::spans::{Shape, shape};
@@ -25,7 +25,7 @@ fn example(name: &str) -> Scene {
         .scene
 }
 
-/// A ply above or on a mold, with what the mold has caught of it.
+/// A ply above or on a mold, with contacts.
 #[derive(Debug, Clone)]
 struct Ply {
     scene: Scene,
@@ -33,9 +33,9 @@ struct Ply {
     laid: Vec<Option<Laid>>,
 }
 
-/// What the mold may have caught of a catenary.
+/// Contact of a catenary.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Caught {
+enum Contact {
     Nothing,
     Middle,
     /// From its first gripper on.
@@ -45,12 +45,12 @@ enum Caught {
 }
 
 /// Lays a piece of a catenary on the mold below the line between its grippers.
-fn caught(mold: &Mold, [a, b]: [Point; 2], length: f64, what: Caught) -> Option<Laid> {
+fn contact(mold: &Mold, [a, b]: [Point; 2], length: f64, what: Contact) -> Option<Laid> {
     let (from, to) = match what {
-        Caught::Nothing => return None,
-        Caught::Middle => (0.31, 0.56),
-        Caught::First => (0.0, 0.47),
-        Caught::Lying => (0.36, 0.74),
+        Contact::Nothing => return None,
+        Contact::Middle => (0.31, 0.56),
+        Contact::First => (0.0, 0.47),
+        Contact::Lying => (0.36, 0.74),
     };
     let run = (b[0] - a[0]).hypot(b[1] - a[1]);
     let heading = [(b[0] - a[0]) / run, (b[1] - a[1]) / run];
@@ -67,8 +67,8 @@ fn caught(mold: &Mold, [a, b]: [Point; 2], length: f64, what: Caught) -> Option<
         length,
         line,
         normal,
-        lying: [what == Caught::First, what == Caught::Lying],
-        arch: [0.0, if what == Caught::Lying { 1e-5 } else { 0.0 }],
+        lying: [what == Contact::First, what == Contact::Lying],
+        arch: [0.0, if what == Contact::Lying { 1e-5 } else { 0.0 }],
         outward: [tangent[0].map(|c| -c), tangent[1]],
         landed: None,
     })
@@ -80,18 +80,18 @@ fn any_ply() -> impl Strategy<Value = Ply> {
     let mold = any::<bool>();
     let tilt = prop::sample::select(vec![3.0_f64, 12.0, 40.0]);
     let what = prop::sample::select(vec![
-        Caught::Nothing,
-        Caught::Nothing,
-        Caught::Nothing,
-        Caught::Middle,
-        Caught::Middle,
-        Caught::First,
-        Caught::Lying,
+        Contact::Nothing,
+        Contact::Nothing,
+        Contact::Nothing,
+        Contact::Middle,
+        Contact::Middle,
+        Contact::First,
+        Contact::Lying,
     ]);
     let numbers = prop::collection::vec(-1.0..1.0, 3 * 12);
-    let touches = prop::collection::vec(what, 40);
-    ((rule, end, mold, tilt), (2usize..5, 1usize..4), -0.35..0.35, 0.93..0.995, numbers, touches)
-        .prop_map(|((rule, end, round, tilt), (nu, nv), shear, spacing, random, touches)| {
+    let contacts = prop::collection::vec(what, 40);
+    ((rule, end, mold, tilt), (2usize..5, 1usize..4), -0.35..0.35, 0.93..0.995, numbers, contacts)
+        .prop_map(|((rule, end, round, tilt), (nu, nv), shear, spacing, random, contacts)| {
             let mut scene = example("01_flat_sheared_mold");
             scene.ply.grid = Grid { nu, nv };
             scene.settings.slopes = rule;
@@ -123,9 +123,9 @@ fn any_ply() -> impl Strategy<Value = Ply> {
                     let ends = [c.from, c.to].map(|g| positions[grid.index(g)]);
                     let edge = scene.ply.flat_length(c.kind);
                     let chord = (0..3).map(|k| (ends[1][k] - ends[0][k]).powi(2)).sum::<f64>();
-                    // a diagonal is caught with the length that its shear has given it
+                    // a diagonal comes into contact with the length that its shear makes
                     let length = if c.kind.is_edge() { edge } else { 1.01 * chord.sqrt() };
-                    caught(&mold, ends, length, touches[n])
+                    contact(&mold, ends, length, contacts[n])
                 })
                 .collect();
             scene.mold = Some(mold);
@@ -211,7 +211,7 @@ proptest! {
         ..Default::default()
     })]
 
-    /// Both slope rules, free and tangent contact ends, slopes at their bounds, sheared and caught in many ways:
+    /// Both slope rules, free and tangent contact ends, slopes at their bounds, sheared and in contact in many ways:
     /// every gradient is that of the model solved anew on both sides.
     #[test]
     fn gradients_agree_with_central_differences(
@@ -288,20 +288,20 @@ fn slack(result: &ResultFile) -> f64 {
 /// Largest value of a limit, and whether it holds.
 fn verdict(result: &ResultFile, name: &str) -> (f64, bool) {
     let found = result.summary.limits.iter().find(|verdict| verdict.name.measure().name() == name);
-    found.map(|verdict| (verdict.value, verdict.ok)).expect("a judged limit")
+    found.map(|verdict| (verdict.value, verdict.ok)).expect("a verdict")
 }
 
 /// Every limit but two: how fast the grippers turn, for which `planner::plan` slows a motion down, and the strain of the
 /// short free segments that come down beside the grippers, which the table in README.md shows.
 fn keeps_its_limits(result: &ResultFile, what: &str) {
     let left_out = [Name::TiltRate, Name::Strain];
-    let judged = result.summary.limits.iter().filter(|verdict| !left_out.contains(&verdict.name));
-    let broken: Vec<_> = judged.filter(|verdict| !verdict.ok).collect();
+    let counted = result.summary.limits.iter().filter(|verdict| !left_out.contains(&verdict.name));
+    let broken: Vec<_> = counted.filter(|verdict| !verdict.ok).collect();
     assert!(broken.is_empty(), "{what}: {broken:?}");
 }
 
 /// The purpose of the whole: on the paper's sheared flat mold, by both slope rules and at the tolerance of the paper
-/// and of a new scene, nothing that is judged is broken, and the grippers stand on their targets to the last bit.
+/// and of a new scene, no limit of the planner is exceeded, and the grippers stand on their targets to the last bit.
 #[test]
 fn the_plan_of_the_flat_sheared_mold_is_accepted() {
     for slopes in [SlopeRule::MinForce, SlopeRule::MomentBalance] {
@@ -400,11 +400,11 @@ fn a_target_out_of_reach_is_reported_with_the_way_that_is_missing() {
     let targets = &scene.target.as_ref().expect("a target").grippers;
     let way = |n: usize| distance(scene.motion.positions[0][n], targets[n]);
     let farthest = (0..8).max_by(|a, b| way(*a).total_cmp(&way(*b))).expect("grippers");
-    let Outcome::OutOfReach(stray) = plan.outcome else {
+    let Outcome::OutOfReach(error) = plan.outcome else {
         panic!("{:?}", plan.outcome);
     };
-    assert_eq!(stray.gripper, scene.ply.grid.id(farthest));
-    assert!((stray.distance - (way(farthest) - 0.01)).abs() < 1e-12, "{stray:?}");
+    assert_eq!(error.gripper, scene.ply.grid.id(farthest));
+    assert!((error.distance - (way(farthest) - 0.01)).abs() < 1e-12, "{error:?}");
     assert!(plan.positions.len() <= 11);
 }
 
@@ -412,13 +412,13 @@ fn a_target_out_of_reach_is_reported_with_the_way_that_is_missing() {
 #[test]
 fn a_plan_without_a_target_or_broken_off_says_so() {
     let mut scene = cut("01_flat_sheared_mold");
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     let broken = stepwise(&scene, &mut |step| {
-        told.push(step);
+        reported.push(step);
         if step == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     assert_eq!(broken.outcome, Outcome::Interrupted);
-    assert_eq!((broken.positions.len(), told), (5, vec![1, 2, 3, 4, 5]));
+    assert_eq!((broken.positions.len(), reported), (5, vec![1, 2, 3, 4, 5]));
     scene.target = None;
     let none = plan(&scene);
     assert_eq!(none.outcome, Outcome::NoTarget);

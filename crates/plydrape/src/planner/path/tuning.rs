@@ -28,7 +28,7 @@ pub struct Front {
     pub upright_border: f64,
     /// Rounds in which the height of the tangent plane at the border is found.
     pub border_rounds: usize,
-    /// Height over which a gripper gives up its pretension as it lands (cells).
+    /// Height over which a gripper gives up its pretension as it lands (cells): where the ply beside it comes into contact.
     pub landing_height: f64,
     /// Nodes of the table of a mold that is a formula along each axis.
     pub table_nodes: usize,
@@ -38,7 +38,7 @@ pub struct Front {
     pub table_margin: f64,
     /// Height of the approach above the first formation (cells).
     pub approach_height: f64,
-    /// Shares of the steps for approach and descent; the front takes the others.
+    /// Shares of the steps for approach and descent; the front takes the others, because contacts are made there.
     pub shares: [f64; 2],
     /// How far the front runs beyond the last gripper, as a share of its path.
     pub beyond: f64,
@@ -52,11 +52,11 @@ pub struct Front {
 /// Constants of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// Score below which a plan keeps every limit with so wide a margin that the search ends.
+    /// Score below which a plan keeps every limit with so wide a margin that the search ends. A score of 1 just keeps them.
     pub good: f64,
-    /// Score below which a plan is evaluated with twice the steps, too.
+    /// Score below which a plan is evaluated with twice the steps, too. Above 1, because a refinement may improve it.
     pub promising: f64,
-    /// First step of the evolution, in shares of each range.
+    /// First step of the evolution, in shares of each range: it explores around the best member of a family.
     pub step: f64,
     /// Candidates of a generation: whole pairs, for two cores.
     pub generation: usize,
@@ -73,7 +73,7 @@ pub struct Search {
 /// Constants of the refinement by gradients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Refinement {
-    /// B-splines of each gripper's correction.
+    /// B-splines of each gripper's correction: as smooth as the path, and few enough for dense matrices.
     pub splines: usize,
     /// Unknowns beyond which the program would cost more than the drapes.
     pub unknowns: usize,
@@ -81,9 +81,9 @@ pub struct Refinement {
     pub ahead: f64,
     /// Height below which a span is about to come into contact (cells).
     pub near: f64,
-    /// Share of the overstretch limit that the correction may use.
+    /// Share of the overstretch limit that the correction may use; it is linear and the drape is not.
     pub stretch_share: f64,
-    /// Stretch of a taut span, as a share of its edge; what exceeds it is reduced.
+    /// Stretch of a taut span, as a share of its edge; what exceeds it is reduced. 1e-4, the pretension of the families.
     pub taut: f64,
     /// Weight of the correction itself beside the position errors.
     pub correction_weight: f64,

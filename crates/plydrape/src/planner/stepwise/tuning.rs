@@ -7,13 +7,15 @@
 pub struct Tuning {
     /// Times that a step is halved; in the first half of them grippers go down onto their targets.
     pub halvings: usize,
-    /// Distance from its target at which a gripper that goes down is put on its target (cells).
+    /// Distance from its target at which a gripper that goes down is put on its target (cells). 5e-4: a stretch of less
+    /// than the overstretch limit.
     pub snap: f64,
-    /// Share of the overstretch limit that a step may use.
+    /// Share of the overstretch limit that a step may use; the rest is for the last moves and for finer steps.
     pub stretch_share: f64,
-    /// Stretch that the program allows an edge, as a share of the whole edge.
+    /// Stretch that the program allows an edge, as a share of the whole edge: a tenth of the default limit, because the
+    /// program is linear.
     pub most_stretch: f64,
-    /// Stretch that an edge should have, as a share of the whole edge.
+    /// Stretch that an edge should have, as a share of the whole edge: taut, at half of what the program allows.
     pub target_stretch: f64,
     /// Slack of an edge over a hollow beyond that with which it will lie in the hollow, as a share of the whole edge:
     /// too short an edge would bridge the hollow, too long a one is drawn taut at the end.
@@ -26,9 +28,9 @@ pub struct Tuning {
     pub least_weight: f64,
     /// Weights of the squares.
     pub weights: Weights,
-    /// Rate of rise A over the largest curvature of the mold.
+    /// Rate of rise A over the largest curvature of the mold. 2.4: from 2 to 3 the slack is as small, see `DESIGN.md`.
     pub rise: f64,
-    /// Share of the tilt limit that the front may use.
+    /// Share of the tilt limit that the front may use; contact turns grippers a little further.
     pub tilt_share: f64,
     /// Least and largest slope of the straight part of the front, where the tilt leaves room for it.
     pub slopes: [f64; 2],
@@ -36,9 +38,10 @@ pub struct Tuning {
     pub upright: f64,
     /// Least height of the front at the start (cells).
     pub base: f64,
-    /// Height from which a gripper goes down in one step, over the tolerance of contact.
+    /// Height from which a gripper goes down in one step, over the tolerance of contact. 5: with 3, one of three weights
+    /// of rolling broke the tilt limit on a cylinder.
     pub last: f64,
-    /// Share of the move limit by which the front moves the grippers.
+    /// Share of the move limit by which the front moves the grippers, so that they can also correct position errors.
     pub pace: f64,
     /// Factor by which the growth of the front is reduced until the grippers can follow, and most such reductions.
     pub reduction: (f64, usize),
@@ -61,13 +64,13 @@ pub struct Tuning {
 pub struct Weights {
     /// Height of a gripper.
     pub height: f64,
-    /// Stretch of an edge.
+    /// Stretch of an edge; large, because its residuals are micrometres and those of heights millimetres.
     pub stretch: f64,
     /// Position error of a gripper anywhere.
     pub place: f64,
     /// Position error of a point on the mold.
     pub landing: f64,
-    /// Rise of the ply from its contact.
+    /// Rise of the ply from its contact. Small: from 0 to 0.1 the results differ by their scatter, 1 stops a plan.
     pub rolling: f64,
     /// Difference from the move before.
     pub smoothness: f64,
