@@ -25,7 +25,7 @@ const RING: Strategy = Strategy {
     start: [0.5; 2],
     ratio: 1.0,
     angle: 0.0,
-    curvature: 4.0,
+    curvature: 0.4,
     slope: 0.4,
     pretension: 1e-4,
 };
