@@ -611,6 +611,11 @@ class Plan:
         Whether every limit is kept.
         """
     @property
+    def checkpoint(self, /) -> str:
+        """
+        The checkpoint from which a later search continues: the text of plan.json.
+        """
+    @property
     def duration(self, /) -> float:
         """
         How long the motion takes (s).
@@ -619,11 +624,6 @@ class Plan:
     def evaluations(self, /) -> int:
         """
         Complete drapes that the search tried; of the stepwise planner, steps.
-        """
-    @property
-    def memory(self, /) -> str:
-        """
-        What a later search can go on from: the text of plan.json.
         """
     @property
     def method(self, /) -> str:
@@ -1486,7 +1486,7 @@ def plan(
     *,
     method: typing.Literal["path", "stepwise"] | None = None,
     seed: SupportsIndex | None = None,
-    memory: str | None = None,
+    checkpoint: str | None = None,
     progress: typing.Callable[[int, int, str], object] | None = None,
 ) -> Plan:
     """
@@ -1499,16 +1499,16 @@ def plan(
         scene: The scene, with mold and target.
         method: "path" or "stepwise", instead of the scene's.
         seed: Seed of the search, instead of the scene's: the same seed, the same plan.
-        memory: Text of the plan.json of an earlier search, to go on from: see `Plan.memory`.
+        checkpoint: Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
         progress: Called with (drapes done, most, what is done), some 50 times a second.
 
     Returns:
         The best plan found, whether or not it is accepted.
 
     Raises:
-        PlanError: If the scene has no mold or target, or `memory` is not of its ply.
+        PlanError: If the scene has no mold or target, or `checkpoint` is not of its ply.
         SceneError: If its motion has a `duration`, which a plan would ignore.
-        ValueError: If there is no such method, or `memory` is no plan.json.
+        ValueError: If there is no such method, or `checkpoint` is no plan.json.
 
     Example:
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")

@@ -6,8 +6,8 @@ use crate::outcome::{self, exit_code};
 use crate::results::Results;
 use crate::watch::{Interrupt, bar};
 use clap::{ValueEnum, value_parser};
-use plydrape::planner::obstacles::obstacles;
-use plydrape::planner::{self, Memory, Planned, Progress};
+use plydrape::planner::infeasible_limits::infeasible_limits;
+use plydrape::planner::{self, Checkpoint, Planned, Progress};
 use plydrape::scene::PlanMethod;
 use plydrape_io::scene::{SceneError, SceneFile};
 use plydrape_io::{Folder, NAMES, ResultFile, input, plan, table};
@@ -105,7 +105,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     // first of all, so that even a long read ends in files
     let interrupt = Interrupt::listen();
     let scene = scene(arguments)?;
-    let earlier = arguments.earlier.as_deref().map(memory).transpose()?;
+    let earlier = arguments.earlier.as_deref().map(checkpoint).transpose()?;
     if let Some(threads) = arguments.threads {
         // the pool cannot be set a second time, and has not been set before
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
@@ -116,9 +116,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     if tell {
         let mut out = io::stdout().lock();
         writeln!(out, "{}\n", scene.title)?;
-        let found = obstacles(&scene);
+        let found = infeasible_limits(&scene);
         if !found.is_empty() {
-            writeln!(out, "{}", table::obstacles(&found))?;
+            writeln!(out, "{}", table::infeasible_limits(&found))?;
         }
         out.flush()?;
     }
@@ -137,7 +137,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let planned = planned?;
 
     let result = ResultFile::planned(&scene, scene.input.clone(), &planned);
-    let files = plan::write_into(folder, &result, &planned.memory, &scene.files)?;
+    let files = plan::write_into(folder, &result, &planned.checkpoint, &scene.files)?;
     let printed = Printed {
         method: planned.record.method,
         plan_time_s,
@@ -187,16 +187,16 @@ fn scene(arguments: &Arguments) -> Result<SceneFile, Failure> {
 }
 
 /// Largest plan.json that is read (bytes).
-const LARGEST_MEMORY: u64 = 1 << 30;
+const LARGEST_CHECKPOINT: u64 = 1 << 30;
 
-/// What an earlier search left in its folder.
-fn memory(folder: &Path) -> Result<Memory, Failure> {
+/// The checkpoint of an earlier search in its folder.
+fn checkpoint(folder: &Path) -> Result<Checkpoint, Failure> {
     let file = folder.join("plan.json");
     let refused = |reason: String, help: &str| Failure::Argument {
         message: format!("there is no plan to go on from in `{}`: {reason}", folder.display()),
         help: help.into(),
     };
-    let text = input::text(&file, LARGEST_MEMORY).map_err(|error| {
+    let text = input::text(&file, LARGEST_CHECKPOINT).map_err(|error| {
         let help = "--continue takes the folder of an earlier `plydrape plan`, with its plan.json";
         refused(format!("plan.json cannot be read, {error}"), help)
     })?;
@@ -217,7 +217,7 @@ fn best(progress: &Progress) -> String {
     format!("{}{best}", progress.stage)
 }
 
-/// What is printed for people, below the obstacles.
+/// What is printed for people, below the infeasible limits.
 fn text(planned: &Planned, result: &ResultFile, printed: &Printed) -> String {
     let method = match printed.method {
         PlanMethod::Path => "path",

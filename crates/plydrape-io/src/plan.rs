@@ -1,20 +1,20 @@
-//! The files of a plan: those of its drape, the motion, and `plan.json`, what a later search can go on from.
+//! The files of a plan: those of its drape, the motion, and `plan.json`, the checkpoint from which a later search continues.
 
 use super::{Folder, OutputError, ResultFile, json};
-use plydrape::planner::Memory;
+use plydrape::planner::Checkpoint;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Name of the format, the first key of every plan file.
 const FORMAT: &str = "plydrape-plan";
 /// Version of the format; it grows when a key changes its meaning.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 #[derive(Serialize)]
 struct Written<'a> {
     format: &'static str,
     version: u32,
-    search: &'a Memory,
+    search: &'a Checkpoint,
 }
 
 #[derive(Deserialize)]
@@ -30,7 +30,7 @@ struct Whole {
     _format: String,
     #[serde(rename = "version")]
     _version: u32,
-    search: Memory,
+    search: Checkpoint,
 }
 
 /// Why a text is no plan file to go on from.
@@ -55,7 +55,7 @@ pub enum PlanFileError {
 ///
 /// # Errors
 /// [`json::JsonError`] if a number is not finite.
-pub fn text(search: &Memory) -> Result<String, json::JsonError> {
+pub fn text(search: &Checkpoint) -> Result<String, json::JsonError> {
     json::of(&Written { format: FORMAT, version: VERSION, search })
 }
 
@@ -63,7 +63,7 @@ pub fn text(search: &Memory) -> Result<String, json::JsonError> {
 ///
 /// # Errors
 /// [`PlanFileError`] if it is none of this version.
-pub fn read(text: &str) -> Result<Memory, PlanFileError> {
+pub fn read(text: &str) -> Result<Checkpoint, PlanFileError> {
     let Head { format, version } = serde_json::from_str(text)?;
     if (format.as_str(), version) != (FORMAT, VERSION) {
         return Err(PlanFileError::Format { format, version });
@@ -78,7 +78,7 @@ pub fn read(text: &str) -> Result<Memory, PlanFileError> {
 /// [`OutputError`], as for [`super::write_all`].
 pub fn write_all(
     result: &ResultFile,
-    search: &Memory,
+    search: &Checkpoint,
     dir: &Path,
 ) -> Result<Vec<PathBuf>, OutputError> {
     write_into(Folder::claim(dir, "plan")?, result, search, &[])
@@ -91,7 +91,7 @@ pub fn write_all(
 pub fn write_into(
     folder: Folder,
     result: &ResultFile,
-    search: &Memory,
+    search: &Checkpoint,
     read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, OutputError> {
     let plan = text(search)?;

@@ -173,7 +173,7 @@ pub fn in_words(v: &Verdict) -> String {
 
 /// The limits that no plan can keep, one in a line; empty if there are none.
 #[must_use]
-pub fn obstacles(verdicts: &[Verdict]) -> String {
+pub fn infeasible_limits(verdicts: &[Verdict]) -> String {
     if verdicts.is_empty() {
         return String::new();
     }
@@ -325,10 +325,10 @@ mod tests {
         assert_eq!(limiting(&limits).map(|v| v.name), Some(Name::SlackRatio));
         assert_eq!(in_words(&limits[1]), "tilt 38 mm against 40 mm, gripper [0,0]");
         assert_eq!(
-            obstacles(&limits[3..]),
+            infeasible_limits(&limits[3..]),
             "no plan can keep these limits:\n  slack ratio 0.05 mm against 0.05 mm, gripper [0,0]\n"
         );
-        assert_eq!(obstacles(&[]), "");
+        assert_eq!(infeasible_limits(&[]), "");
     }
 
     /// Digits that matter, none that do not.

@@ -6,7 +6,7 @@ use crate::result::Result;
 use crate::scene::{Scene, blocks};
 use crate::work::run;
 use plydrape::draping;
-use plydrape::planner::{self, Memory, Planned};
+use plydrape::planner::{self, Checkpoint, Planned};
 use plydrape::scene::PlanMethod;
 use plydrape_io::ResultFile;
 use plydrape_io::plan as plan_file;
@@ -57,16 +57,16 @@ pub fn simulate(
 ///     scene: The scene, with mold and target.
 ///     method: "path" or "stepwise", instead of the scene's.
 ///     seed: Seed of the search, instead of the scene's: the same seed, the same plan.
-///     memory: Text of the plan.json of an earlier search, to go on from: see `Plan.memory`.
+///     checkpoint: Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
 ///     progress: Called with (drapes done, most, what is done), some 50 times a second.
 ///
 /// Returns:
 ///     The best plan found, whether or not it is accepted.
 ///
 /// Raises:
-///     PlanError: If the scene has no mold or target, or `memory` is not of its ply.
+///     PlanError: If the scene has no mold or target, or `checkpoint` is not of its ply.
 ///     SceneError: If its motion has a `duration`, which a plan would ignore.
-///     ValueError: If there is no such method, or `memory` is no plan.json.
+///     ValueError: If there is no such method, or `checkpoint` is no plan.json.
 ///
 /// Example:
 ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
@@ -75,7 +75,7 @@ pub fn simulate(
 ///     ('path', True)
 #[pyfunction]
 #[pyo3(signature = (
-    scene, *, method: "typing.Literal['path', 'stepwise'] | None" = None, seed = None, memory = None,
+    scene, *, method: "typing.Literal['path', 'stepwise'] | None" = None, seed = None, checkpoint = None,
     progress: "typing.Callable[[int, int, str], object] | None" = None
 ))]
 pub fn plan(
@@ -83,7 +83,7 @@ pub fn plan(
     scene: &Bound<'_, Scene>,
     method: Option<&str>,
     seed: Option<u64>,
-    memory: Option<&str>,
+    checkpoint: Option<&str>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
     let mut scene = (*scene.get().0).clone();
@@ -97,14 +97,17 @@ pub fn plan(
         }
     }
     scene.plan.seed = seed.unwrap_or(scene.plan.seed);
-    let memory: Option<Memory> = memory.map(plan_file::read).transpose().map_err(|fault| {
-        PyValueError::new_err(format!("memory is no plan.json of this version: {fault}; plan anew"))
-    })?;
+    let checkpoint: Option<Checkpoint> =
+        checkpoint.map(plan_file::read).transpose().map_err(|fault| {
+            PyValueError::new_err(format!(
+                "checkpoint is no plan.json of this version: {fault}; plan anew"
+            ))
+        })?;
     if let Some(refusal) = &scene.plan_refusal {
         return Err(error::scene(refusal));
     }
     let planned = run(py, progress, move |watch| {
-        let planned = planner::plan(&scene, memory.as_ref(), &mut |progress| {
+        let planned = planner::plan(&scene, checkpoint.as_ref(), &mut |progress| {
             watch.tell(progress.evaluations, progress.most, progress.stage)
         })?;
         let result = Arc::new(ResultFile::planned(&scene, scene.input.clone(), &planned));
@@ -204,10 +207,10 @@ impl Plan {
         ]))
     }
 
-    /// What a later search can go on from: the text of plan.json.
+    /// The checkpoint from which a later search continues: the text of plan.json.
     #[getter]
-    fn memory(&self) -> PyResult<String> {
-        plan_file::text(&self.planned.memory).map_err(|fault| error::output(&fault.into()))
+    fn checkpoint(&self) -> PyResult<String> {
+        plan_file::text(&self.planned.checkpoint).map_err(|fault| error::output(&fault.into()))
     }
 
     /// Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json into a
@@ -224,7 +227,7 @@ impl Plan {
     ///     ...     sorted(path.name for path in plan.write(folder))
     ///     ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
-        let write = || plan_file::write_all(&self.result, &self.planned.memory, &folder);
+        let write = || plan_file::write_all(&self.result, &self.planned.checkpoint, &folder);
         py.detach(write).map_err(|fault| error::output(&fault))
     }
 

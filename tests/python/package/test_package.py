@@ -45,10 +45,10 @@ def test_a_search_goes_on_from_its_memory() -> None:
     """The second search begins where the first one ended: it is no worse."""
     scene = plydrape.Scene.read(EXAMPLE)
     first = plydrape.plan(scene)
-    second = plydrape.plan(scene, memory=first.memory)
+    second = plydrape.plan(scene, checkpoint=first.checkpoint)
     assert second.accepted
     with pytest.raises(ValueError, match=r"plan\.json"):
-        plydrape.plan(scene, memory="{}")
+        plydrape.plan(scene, checkpoint="{}")
 
 
 def test_arrays_are_the_result_files_numbers(tmp_path: Path) -> None:

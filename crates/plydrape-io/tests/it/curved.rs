@@ -403,17 +403,17 @@ fn a_cell_has_the_scale_of_its_diagonals() {
 }
 
 /// A ply rolled on a mold by a ring keeps its fabric: laying what touches pulls nothing, so no edge is ever longer
-/// than its fabric by more than the formation's own pull and what a run may add, in any step.
+/// than its fabric by more than the formation's own pretension and what a run may add, in any step.
 #[test]
 fn laying_within_the_tolerance_stretches_nothing() {
-    use plydrape::planner::path::{Ground, Strategy, trajectory};
+    use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
     for name in ["04_dome", "05_cylinder", "06_saddle"] {
         let mut scene = example(name);
-        let ground = Ground::new(&scene).expect("a mold");
+        let heights = MoldHeights::new(&scene).expect("a mold");
         for steps in [60, 90] {
             scene.plan.steps = steps;
             let ring = Strategy::families(&scene)[0];
-            let positions = trajectory(&scene, &ground, ring).expect("a target");
+            let positions = trajectory(&scene, &heights, ring).expect("a target");
             let times = (0..positions.len()).map(|n| n as f64).collect();
             let scene = Scene { motion: Motion { times, positions }, ..scene.clone() };
             let stretch = drape(&scene).summary.worst.value(Name::Overstretch).expect("edges");

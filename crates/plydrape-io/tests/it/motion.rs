@@ -168,7 +168,7 @@ fn a_sharp_bend_is_slow_where_it_is() {
     assert!(finer < 4.0 / 3.0 * duration, "{finer} {duration}");
 }
 
-/// Rest is zero velocity and acceleration, to the last bit, and the places are those given.
+/// Rest is zero velocity and acceleration, to the last bit, and the positions are those of the plan.
 #[test]
 fn it_starts_and_ends_at_rest_at_the_exact_places() {
     for planned in plans() {

@@ -1,4 +1,4 @@
-//! What a plan must reach: every solved mold of the examples, from two heights, judged by draping the ply once more
+//! What a plan must reach: every solved mold of the examples, from two heights, evaluated by draping the ply once more
 //! along the files that were written. Limits are the defaults of `[limits]`, repeated here as numbers.
 
 use plydrape::draping::record::{CatenaryState, Step, Verdict};
@@ -110,14 +110,14 @@ fn planned(scene: &Scene) -> Planned {
 
 fn verdict<'a>(result: &'a ResultFile, name: &str) -> &'a Verdict {
     let found = result.summary.limits.iter().find(|limit| limit.name.measure().name() == name);
-    found.unwrap_or_else(|| panic!("{name} is not judged"))
+    found.unwrap_or_else(|| panic!("{name} has no verdict"))
 }
 
 /// Each limit by itself, from the spans, contacts and grippers of the steps.
 fn keeps_every_limit(result: &ResultFile, what: &str) {
     let summary = &result.summary;
     let limiting = table::limiting(&summary.limits);
-    // samples of the motion are other steps than the plan's: what touches a second time may be two per cent deeper
+    // samples of the motion are other steps than the plan's: a second contact may be two per cent deeper
     let most = if what.ends_with("motion.csv") { 1.02 } else { 1.0 };
     assert!(summary.limits.iter().all(|verdict| verdict.ratio() <= most), "{what}: {limiting:?}");
     assert_eq!(summary.steps, summary.steps_planned, "{what}");
@@ -273,7 +273,7 @@ fn is_draped(example: &Example, what: &str) {
     let folder = example.plan_made_before().unwrap_or_else(|| {
         let plan = planned(&scene);
         let result = ResultFile::planned(&scene, None, &plan);
-        plan::write_all(&result, &plan.memory, made.path()).unwrap();
+        plan::write_all(&result, &plan.checkpoint, made.path()).unwrap();
         made.path().to_path_buf()
     });
     let result = read::read(&folder.join("result.json")).unwrap();
@@ -353,7 +353,7 @@ fn one_thread_and_two_write_the_same_bytes() {
         assert!(plan.record.evaluations > 10, "{} drapes: no evolution", plan.record.evaluations);
         let folder = tempfile::tempdir().unwrap();
         let result = ResultFile::planned(&scene, None, &plan);
-        let files = plan::write_all(&result, &plan.memory, folder.path()).unwrap();
+        let files = plan::write_all(&result, &plan.checkpoint, folder.path()).unwrap();
         files.iter().map(|file| std::fs::read(file).unwrap()).collect::<Vec<_>>()
     });
     assert!(one.len() == 7 && one == two);
@@ -366,7 +366,7 @@ fn is_explained(scene: &Scene) -> (ResultFile, Verdict) {
     assert!(!result.summary.accepted);
     assert_eq!(result.summary.steps, result.summary.steps_planned);
     let folder = tempfile::tempdir().unwrap();
-    let files = plan::write_all(&result, &plan.memory, folder.path()).unwrap();
+    let files = plan::write_all(&result, &plan.checkpoint, folder.path()).unwrap();
     assert!(files.len() == 7 && files.iter().all(|f| f.metadata().unwrap().len() > 100));
     let limiting = table::limiting(&result.summary.limits).expect("a limit").clone();
     assert!(!limiting.at.is_empty() && limiting.value.is_finite());
@@ -379,7 +379,7 @@ fn is_explained(scene: &Scene) -> (ResultFile, Verdict) {
 fn a_hemisphere_too_steep_for_the_grippers_is_said_to_be() {
     let few = "steps = 30\nevaluations = 10";
     let scene = Example::of("11_hemisphere").with_table("plan", |_| None, few).scene();
-    let known = planner::obstacles::obstacles(&scene);
+    let known = planner::infeasible_limits::infeasible_limits(&scene);
     let [tilt] = &known[..] else { panic!("{known:?}") };
     assert!(tilt.name == Name::Tilt && (tilt.value - 57.08).abs() < 0.01, "{tilt:?}");
     let (result, _) = is_explained(&scene);
@@ -397,7 +397,7 @@ fn the_cubic_mold_gets_a_plan_that_says_what_it_fails_by() {
 }
 
 /// The paper's example with limits that no plan can keep, from plane geometry: a target sheared by 20°, its far
-/// corner 100 mm · sin 20° beyond 300 mm, 75 mm down and a little aside in 19 moves of 1 mm.
+/// corner 100 mm · sin 20° beyond 300 mm, 75 mm down and a little across in 19 moves of 1 mm.
 #[test]
 fn what_cannot_be_kept_is_in_the_verdict_of_the_plan() {
     let (sin, cos) = 20f64.to_radians().sin_cos();
@@ -413,7 +413,7 @@ fn what_cannot_be_kept_is_in_the_verdict_of_the_plan() {
             .with_table("limits", |_| None, limits)
             .with_table("plan", |_| None, &format!("{plan}{more}"));
         let scene = example.scene();
-        let known = planner::obstacles::obstacles(&scene);
+        let known = planner::infeasible_limits::infeasible_limits(&scene);
         let [known] = &known[..] else { panic!("{known:?}") };
         assert!(known.name.measure().name() == name && known.at.contains(at), "{known:?}");
         assert!(
@@ -444,9 +444,10 @@ fn a_search_goes_on_from_the_refined_plan() {
     let mut scene = Example::of("01_flat_sheared_mold").with_table("plan", |_| None, few).scene();
     let first = planned(&scene);
     scene.plan.evaluations = 1;
-    let on = |memory| planner::plan(&scene, memory, &mut |_| ControlFlow::Continue(())).unwrap();
+    let on =
+        |checkpoint| planner::plan(&scene, checkpoint, &mut |_| ControlFlow::Continue(())).unwrap();
     let path = |plan: &Planned| plan.record.path.clone();
-    let (next, anew) = (on(Some(&first.memory)), on(None));
+    let (next, anew) = (on(Some(&first.checkpoint)), on(None));
     assert_eq!(path(&next), path(&first));
     assert_ne!(path(&anew), path(&first), "the search found nothing: the test shows nothing");
 }

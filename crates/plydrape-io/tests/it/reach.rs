@@ -1,4 +1,4 @@
-//! Where grippers may be: the smallest distance between them and their workspace, judged over all steps.
+//! Where grippers may be: the smallest distance between them and their workspace, over all steps.
 
 use plydrape::draping::record::Verdict;
 use plydrape::draping::simulate;
@@ -24,7 +24,7 @@ fn verdict<'a>(result: &'a ResultFile, name: &str) -> Option<&'a Verdict> {
 
 /// A least value: its worst is the smallest of all steps, and less than the limit fails.
 #[test]
-fn the_distance_of_grippers_is_judged_where_it_is_smallest() {
+fn the_distance_of_grippers_counts_where_it_is_smallest() {
     for (limit, ok) in [("79 mm", true), ("80 mm", true), ("81 mm", false)] {
         let result = closing(&format!("gripper_distance = \"{limit}\""));
         let verdict = verdict(&result, "gripper_distance").unwrap();
@@ -37,7 +37,7 @@ fn the_distance_of_grippers_is_judged_where_it_is_smallest() {
 
 /// The second gripper starts 8 mm beyond x = 90 mm and is inside at the end; without a box there is no verdict.
 #[test]
-fn the_workspace_is_judged_in_every_step() {
+fn the_workspace_counts_in_every_step() {
     let result = closing("workspace = [[-1, \"90 mm\"], [-1, 1], [0, 1]]");
     let outside = verdict(&result, "workspace").unwrap();
     assert!((outside.value - 8.0).abs() < 1e-9, "{outside:?}");
@@ -51,9 +51,9 @@ fn the_workspace_is_judged_in_every_step() {
     assert!(result.steps[0].measures.value(Name::Workspace).is_none());
 }
 
-/// What is judged later counts as what was judged at once.
+/// A limit that is added later takes part in the verdict as those before do.
 #[test]
-fn a_limit_judged_later_takes_part_in_the_verdict() {
+fn a_limit_that_is_added_later_takes_part_in_the_verdict() {
     let mut summary = closing("").summary;
     assert!(summary.accepted);
     let (count, kept) = (summary.limits.len(), summary.limits[0].clone());

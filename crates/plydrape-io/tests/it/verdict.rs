@@ -2,12 +2,11 @@
 //! fails in silence.
 
 use plydrape::draping::record::Step;
-use plydrape::draping::{ContactStatus, Judged, simulate};
+use plydrape::draping::{ContactStatus, simulate};
 use plydrape::equilibrium::Status;
 use plydrape::material::Section;
-use plydrape::measure::{Name, Verdict, Worst};
+use plydrape::measure::{Name, Verdict};
 use plydrape::mold::{Face, Graph, HeightGrid, Mold, Plane, Pose, Sphere, Surface};
-use plydrape::planner::judge;
 use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, Stepping};
 use plydrape_io::result::ResultFile;
 use std::ops::ControlFlow;
@@ -376,20 +375,4 @@ fn contact_is_followed_until_nothing_changes() {
         }
         assert!(result.steps.iter().any(|step| step.solver.equilibria > 8), "{name} is followed");
     }
-}
-
-/// A search prefers a plan that misses a limit to one with a step that is no solution, and any whole one to one broken off.
-#[test]
-fn an_unsolved_step_costs_a_search_more_than_a_limit() {
-    let at = |value: f64| {
-        let worst = Worst { value, at: String::new(), place: None };
-        Verdict::of(Name::SlackRatio, worst, 5e-4, Some(1))
-    };
-    let judged = |value: f64, unsolved: usize, missing: f64| {
-        judge::score(&Judged { limits: vec![at(value)], accepted: false, missing, unsolved })
-    };
-    let sound = judged(4e-4, 0, 0.0);
-    assert!(sound < 1.0);
-    assert!((judged(4e-4, 2, 0.0) - sound - 2.0).abs() < 1e-12);
-    assert!(judged(4e-4, 0, 0.1) > judged(1e-1, 30, 0.0));
 }

@@ -5,9 +5,7 @@
 //! turn alike; each step takes the sign that is nearer to the step before.
 
 use super::MotionError;
-
-/// Below this angle (rad) sin Ω is Ω to the last digit, and the chord is the arc.
-const SMALL: f64 = 1e-8;
+use super::tuning::TUNING;
 
 /// The orientation of every gripper over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,7 +86,7 @@ fn slerp(a: &[f64; 4], b: &[f64; 4], share: f64) -> [f64; 4] {
         dot(&c, &c).sqrt()
     });
     let angle = 2.0 * difference.atan2(sum);
-    let (p, q) = if angle < SMALL {
+    let (p, q) = if angle < TUNING.small_angle {
         (1.0 - share, share)
     } else {
         (((1.0 - share) * angle).sin(), (share * angle).sin())

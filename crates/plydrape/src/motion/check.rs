@@ -1,7 +1,8 @@
-//! What is asked for is possible: positions, bounds and rates.
+//! Checks of positions, bounds and rates before a motion is made.
 
 use super::path::Vector;
 use super::spacing::farthest;
+use super::tuning::TUNING;
 use super::{Bounds, MotionError};
 use crate::ply::{FARTHEST, is_near};
 
@@ -13,14 +14,7 @@ pub const MOST_POSITIONS: usize = 50_000_000;
 
 /// Range of each bound (SI).
 const RANGE: [f64; 2] = [1e-6, 1e9];
-/// A step shorter than this share of the mean step would be a stop on the way.
-const SHORTEST: f64 = 0.01;
-/// A step shorter than this is none (m).
-const STILL: f64 = 1e-9;
-/// A last sample closer than this share of an interval to the end gives way to the end.
-const CLOSE: f64 = 1e-6;
-
-/// Refuses steps that differ in grippers, and places that are none.
+/// Refuses steps with different numbers of grippers, and positions that are not finite or too far away.
 pub(super) fn positions(planned: &[Vec<Vector>]) -> Result<(), MotionError> {
     let expected = planned.first().map_or(0, Vec::len);
     if expected == 0 {
@@ -55,17 +49,18 @@ pub(super) fn bounds(bounds: &Bounds) -> Result<(), MotionError> {
 pub(super) fn moving(planned: &[Vec<Vector>]) -> Vec<&[Vector]> {
     let (Some(start), Some(target)) = (planned.first(), planned.last()) else { return Vec::new() };
     let length: f64 = planned.windows(2).map(|step| farthest(&step[0], &step[1])).sum();
-    let moves = planned.windows(2).filter(|step| farthest(&step[0], &step[1]) > STILL).count();
-    let least = (SHORTEST * length / moves.max(1) as f64).max(STILL);
+    let moves =
+        planned.windows(2).filter(|step| farthest(&step[0], &step[1]) > TUNING.still).count();
+    let least = (TUNING.shortest_step * length / moves.max(1) as f64).max(TUNING.still);
     let mut steps: Vec<&[Vector]> = vec![start];
     for step in &planned[1..] {
         if steps.last().is_some_and(|before| farthest(before, step) > least) {
             steps.push(step);
         }
     }
-    // The motion ends where it is told to.
+    // The motion ends at the target.
     match steps.len() {
-        1 if farthest(start, target) > STILL => steps.push(target),
+        1 if farthest(start, target) > TUNING.still => steps.push(target),
         last => steps[last - 1] = target,
     }
     steps
@@ -77,7 +72,7 @@ pub(super) fn samples(rate: f64, duration: f64, grippers: usize) -> Result<Vec<f
         return Err(MotionError::Rate { rate });
     }
     let most = MOST_STEPS.min(MOST_POSITIONS / grippers);
-    let whole = (rate * duration - CLOSE).ceil().max(0.0);
+    let whole = (rate * duration - TUNING.last_sample).ceil().max(0.0);
     if whole + 1.0 > most as f64 {
         let largest_rate = (most - 1) as f64 / duration;
         let samples = whole + 1.0;

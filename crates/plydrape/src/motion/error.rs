@@ -9,7 +9,7 @@ pub enum MotionError {
     Empty,
     /// A step has another number of grippers than the first.
     #[error(
-        "step {step} has {found} grippers and the first step {expected}: give every gripper a place in every step"
+        "step {step} has {found} grippers and the first step {expected}: give every gripper a position in every step"
     )]
     Unequal {
         /// Counts from 1.
@@ -41,30 +41,22 @@ pub enum MotionError {
         /// Largest coordinate (m).
         most: f64,
     },
-    /// A limit allows no motion, or any.
+    /// A limit is out of range.
     #[error("the limit of the {quantity} is {value}: give a number from {least:e} to {most:e}")]
     Limit {
         /// `speed`, `acceleration` or `jerk`.
         quantity: &'static str,
-        /// What was given (SI).
+        /// The value of the caller (SI).
         value: f64,
         /// Least value (SI).
         least: f64,
         /// Largest value (SI).
         most: f64,
     },
-    /// No time law was found; with positions and limits in range there is no known case.
-    #[error("no time law found for a path of {length} m: {cause}")]
-    NoLaw {
-        /// Length of the path (m).
-        length: f64,
-        /// What the law's library says.
-        cause: String,
-    },
     /// A rate is no number above zero.
     #[error("{rate} samples a second: give a rate above 0 Hz")]
     Rate {
-        /// What was given (Hz).
+        /// The value of the caller (Hz).
         rate: f64,
     },
     /// The dense motion would be larger than a motion may be.
@@ -72,7 +64,7 @@ pub enum MotionError {
         "{rate} Hz over {duration:.3} s and {grippers} grippers are {samples:e} samples; {most} are the most: choose a rate below {largest_rate:.3e} Hz"
     )]
     TooManySamples {
-        /// What was given (Hz).
+        /// The value of the caller (Hz).
         rate: f64,
         /// Duration of the motion (s).
         duration: f64,
@@ -102,7 +94,7 @@ pub enum MotionError {
         step: usize,
         /// Index of the gripper.
         gripper: usize,
-        /// What was given (x, y, z, w).
+        /// The value of the caller (x, y, z, w).
         quaternion: [f64; 4],
     },
 }

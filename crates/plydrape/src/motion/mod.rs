@@ -1,34 +1,36 @@
 //! Time: planned gripper positions become a motion that robots can run.
 //!
 //! 1. `path`: one smooth path for all grippers, a B-spline whose control points are what was planned;
-//! 2. `spacing`: where it bends, its parameter is long, so that one law suits all of it;
-//! 3. `law`: how the parameter runs from rest to rest with bounded jerk;
-//! 4. `peaks`: what that comes to for each gripper, and the least stretch of time that keeps the limits;
-//! 5. `attitude`: orientations between the steps.
+//! 2. `spacing`: where the path bends, its parameter is long, so that one time law suits all of it;
+//! 3. `time_law`: the parameter over time, from rest to rest with bounded jerk;
+//! 4. `peaks`: the largest speed, acceleration and jerk of the grippers, and the least stretch of time that keeps the limits;
+//! 5. `timing`: the shortest motion of a few spacings and time laws;
+//! 6. `attitude`: orientations between the steps.
 //!
-//! All grippers share the parameter, so the shapes of the ply come in the planned order however fast they
-//! come.
+//! All grippers share the parameter, so the shapes of the ply come in the planned order at any speed.
 
 mod attitude;
 mod check;
 mod error;
-mod law;
 mod path;
 mod peaks;
 mod recorded;
 mod spacing;
+mod time_law;
 mod timing;
+pub mod tuning;
 
 pub use attitude::Attitudes;
 pub use check::{MOST_POSITIONS, MOST_STEPS};
 pub use error::MotionError;
 pub use peaks::{Peak, Peaks};
+pub(crate) use spacing::farthest;
 
 use crate::scene::{self, Limits};
-use law::{Law, State};
 use path::{Path, Vector};
+use time_law::{State, TimeLaw};
 
-/// What no gripper exceeds at any time; norms of vectors in space.
+/// Bounds that no gripper exceeds at any time; of the norms of vectors in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// Speed (m/s).
@@ -51,7 +53,7 @@ impl From<&Limits> for Bounds {
 pub struct TimedMotion {
     /// None where nothing moves.
     path: Option<Path>,
-    law: Law,
+    law: TimeLaw,
     times: Vec<f64>,
     positions: Vec<Vec<Vector>>,
     peaks: Peaks,
@@ -75,14 +77,14 @@ impl TimedMotion {
         if steps.len() == 1 {
             return Ok(TimedMotion {
                 path: None,
-                law: Law::rest(),
+                law: TimeLaw::rest(),
                 times: vec![0.0],
                 positions: vec![target.to_vec()],
                 peaks: Peaks::default(),
             });
         }
 
-        let (path, law, peaks) = timing::fastest(&steps, bounds)?;
+        let (path, law, peaks) = timing::fastest(&steps, bounds).ok_or(MotionError::Empty)?;
         let last = path.knots.len() - 1;
         let mut times: Vec<f64> = path.knots.iter().map(|u| law.time(*u)).collect();
         times[last] = law.duration;
@@ -117,7 +119,7 @@ impl TimedMotion {
         self.law.duration
     }
 
-    /// The times (s) that stand for the planned steps, strictly ascending from 0 to [`Self::duration`].
+    /// The times (s) of the planned steps, strictly ascending from 0 to [`Self::duration`].
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
@@ -195,7 +197,7 @@ impl TimedMotion {
     }
 }
 
-/// Velocity, acceleration and jerk from the derivatives of path and law, by the chain rule.
+/// Velocity, acceleration and jerk from the derivatives of path and time law, by the chain rule.
 fn rates([_, d, e, f]: &[Vector; 4], [_, v, a, j]: &State) -> [Vector; 3] {
     let sum = |x: f64, y: f64, z: f64| [0, 1, 2].map(|k| x * d[k] + y * e[k] + z * f[k]);
     [sum(*v, 0.0, 0.0), sum(*a, v * v, 0.0), sum(*j, 3.0 * v * a, v.powi(3))]

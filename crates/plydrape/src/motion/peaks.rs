@@ -1,19 +1,17 @@
 //! The largest speed, acceleration and jerk of a motion, found with a bound that no sampling misses.
 //!
-//! Between knots of the path and jumps of the law, s(t) is a cubic and p(s) is one: everything is smooth.
-//! With bounds P', P'', P''' of the path's derivatives and V, A, J of the law's on an interval Δt, the
+//! Between knots of the path and jumps of the time law, s(t) is a cubic and p(s) is one: everything is smooth.
+//! With bounds P', P'', P''' of the path's derivatives and V, A, J of the time law's on an interval Δt, the
 //! chain rule bounds the rates of change,
 //! `|d jerk/dt| ≤ 6 P''' V² A + 4 P'' V J + 3 P'' A²`, so that no value inside exceeds the mean of the
 //! end values by more than Δt/2 times that. Intervals that could still hold a larger value are halved.
 
 use super::Bounds;
-use super::law::{Law, State, advance};
 use super::path::Path;
 use super::rates;
+use super::time_law::{State, TimeLaw, advance};
+use super::tuning::TUNING;
 use crate::mold::vector::norm;
-
-/// An interval is halved no more often than this.
-const DEEPEST: u32 = 24;
 
 /// The largest value of one quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -61,14 +59,14 @@ impl Peaks {
     }
 }
 
-/// An interval of time in which path and law are polynomials.
+/// An interval of time in which path and time law are polynomials.
 struct Piece {
     span: usize,
     begin: f64,
     state: State,
 }
 
-/// Values of one gripper at one time: the law's state, |p'|, |p''|, |p'''|, then speed, acceleration, jerk.
+/// Values of one gripper at one time: the state of the time law, |p'|, |p''|, |p'''|, then speed, acceleration, jerk.
 struct Values {
     state: State,
     path: [f64; 3],
@@ -76,7 +74,7 @@ struct Values {
 }
 
 /// The peaks, none smaller than the true one by more than a share `tolerance`.
-pub(super) fn peaks(path: &Path, law: &Law, tolerance: f64) -> Peaks {
+pub(super) fn peaks(path: &Path, law: &TimeLaw, tolerance: f64) -> Peaks {
     let mut times = law.breaks();
     times.extend(path.knots.iter().map(|u| law.time(*u)));
     times.sort_by(f64::total_cmp);
@@ -106,7 +104,7 @@ pub(super) fn peaks(path: &Path, law: &Law, tolerance: f64) -> Peaks {
     for (piece, time) in &pieces {
         for gripper in 0..path.grippers {
             let [from, to] = ends(&mut search, piece, *time, gripper);
-            search.halve(piece, gripper, (0.0, &from), (*time, &to), DEEPEST);
+            search.halve(piece, gripper, (0.0, &from), (*time, &to), TUNING.halvings);
         }
     }
     let [speed, acceleration, jerk] = search.found;
@@ -135,7 +133,7 @@ impl Search<'_> {
         }
     }
 
-    /// Looks into an interval where a value could exceed what is known.
+    /// Halves an interval in which a value could exceed the largest known one.
     fn halve(
         &mut self,
         piece: &Piece,
@@ -157,9 +155,9 @@ impl Search<'_> {
     }
 }
 
-/// What speed, acceleration and jerk cannot exceed between two times.
+/// Upper bounds of speed, acceleration and jerk between two times.
 fn bounds(time: f64, from: &Values, to: &Values) -> [f64; 3] {
-    // Of the law: ṡ is a parabola, s̈ a line.
+    // Of the time law: ṡ is a parabola, s̈ a line.
     let larger = |k: usize| from.state[k].abs().max(to.state[k].abs());
     let j = from.state[3].abs();
     let v = larger(1) + j * time.powi(2) / 8.0;
@@ -191,7 +189,7 @@ mod tests {
         let planned: Vec<&[[f64; 3]]> = rows.iter().map(Vec::as_slice).collect();
         let path = Path::new(&planned, &[0.6, 0.7, 0.5, 0.6, 0.9, 0.6, 0.3, 0.6]);
         let bounds = Bounds { speed: 0.8, acceleration: 2.0, jerk: 20.0 };
-        let law = Law::new(path.length(), &bounds).unwrap();
+        let law = TimeLaw::new(path.length(), &bounds);
         for tolerance in [0.1, 1e-4] {
             let peaks = peaks(&path, &law, tolerance);
             let peaks = [peaks.speed, peaks.acceleration, peaks.jerk].map(|peak| peak.value);

@@ -1,4 +1,4 @@
-//! The motion of a recorded drape: made again from its plan and its steps.
+//! The motion of a recorded drape, made again from its plan and its steps.
 
 use super::{Attitudes, Bounds, MotionError, TimedMotion};
 use crate::draping::record::{PlanRecord, Step};

@@ -1,44 +1,32 @@
-//! How far apart the knots stand: as far as the grippers move, farther where the path bends.
+//! Distances of the knots: as far as the grippers move, farther where the path bends.
 //!
 //! At a steady ṡ = v velocity, acceleration and jerk are v p', v² p'' and v³ p'''; their control points
 //! bound them. A span in which they are shares of their bounds must be longer by
 //! `ρ = max(|p'|, (|v² p''|/a_max)^½, (|v³ p'''|/j_max)^⅓)`. So every
 //! spacing is multiplied by a power of its ρ, again and again, and the best seen is kept: a sharp bend is
-//! slow where it is, and not elsewhere. Spacings are smoothed less and less on the way; without that
-//! they end as a zigzag in which every span has a bound to obey and none is short. Ours.
+//! slow where it is, and not elsewhere. Spacings are smoothed, less and less from round to round; without smoothing
+//! they end as a zigzag in which every span reaches a bound and none is short. This is not in the paper.
 
 use super::Bounds;
 use super::path::{Polygon, Vector};
+use super::tuning::TUNING;
 use crate::mold::vector::{distance, norm};
 
-/// Rounds of the iteration.
-const ROUNDS: usize = 120;
-/// Power of ρ applied in a round.
-const DAMPING: f64 = 0.3;
-/// Farthest that a round may change a spacing.
-const CHANGE: [f64; 2] = [0.5, 2.0];
-/// Share of a spacing's neighbours in its smoothing, at first.
-const SMOOTHING: f64 = 0.9;
-/// Passes of smoothing in a round.
-const PASSES: usize = 4;
-/// Neighbouring spacings differ at first by no more than this factor.
-const GROWTH: f64 = 2.0;
-
-/// Distances of the knots (m) such that a steady law with ṡ = `cruise.speed` keeps to the bounds `cruise`.
+/// Distances of the knots (m) such that a steady motion with ṡ = `cruise.speed` keeps to the bounds `cruise`.
 ///
 /// For two planned steps or more, of which none repeats the one before.
 pub(super) fn spacing(planned: &[&[Vector]], cruise: &Bounds) -> Vec<f64> {
     let mut spacing: Vec<f64> = planned.windows(2).map(|step| farthest(step[0], step[1])).collect();
     for k in 1..spacing.len() {
-        spacing[k] = spacing[k].max(spacing[k - 1] / GROWTH);
+        spacing[k] = spacing[k].max(spacing[k - 1] / TUNING.growth);
     }
     for k in (1..spacing.len()).rev() {
-        spacing[k - 1] = spacing[k - 1].max(spacing[k] / GROWTH);
+        spacing[k - 1] = spacing[k - 1].max(spacing[k] / TUNING.growth);
     }
 
     let mut best = spacing.clone();
     let mut shortest = f64::INFINITY;
-    for round in 0..ROUNDS {
+    for round in 0..TUNING.rounds {
         let factors = factors(planned, &spacing, cruise);
         // Longer by its worst factor, the whole path keeps the bounds.
         let worst = factors.iter().copied().fold(0.0, f64::max);
@@ -48,18 +36,18 @@ pub(super) fn spacing(planned: &[&[Vector]], cruise: &Bounds) -> Vec<f64> {
             best = spacing.iter().map(|h| h * worst).collect();
         }
         for (h, factor) in spacing.iter_mut().zip(factors) {
-            *h *= factor.clamp(CHANGE[0], CHANGE[1]).powf(DAMPING);
+            *h *= factor.clamp(TUNING.change[0], TUNING.change[1]).powf(TUNING.damping);
         }
-        let left = 1.0 - round as f64 / ROUNDS as f64;
-        for _ in 0..PASSES {
-            smooth(&mut spacing, SMOOTHING * left.powi(3));
+        let left = 1.0 - round as f64 / TUNING.rounds as f64;
+        for _ in 0..TUNING.passes {
+            smooth(&mut spacing, TUNING.smoothing * left.powi(3));
         }
     }
     best
 }
 
 /// Largest distance that a gripper moves from one step to another (m).
-pub(super) fn farthest(from: &[Vector], to: &[Vector]) -> f64 {
+pub(crate) fn farthest(from: &[Vector], to: &[Vector]) -> f64 {
     from.iter().zip(to).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max)
 }
 

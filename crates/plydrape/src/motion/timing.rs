@@ -1,70 +1,49 @@
-//! How fast to take the bends, and how hard to start and stop: the fastest of a few answers.
+//! Shares of the bounds for bends and for the time law: the shortest motion of a few.
 //!
-//! Bends and the law share the bounds while the law starts and stops, and a short path never reaches its
-//! top speed. So a few shares are tried for the cruising speed, for what bends may use, and for the law.
-//! Each answer is stretched in time by the least factor λ that keeps the bounds,
-//! and the shortest motion wins. Ours.
+//! Bends and the time law share the bounds while the motion starts and stops, and a short path never reaches its
+//! top speed. So a few shares are tried for the cruising speed, for the bends, and for the time law.
+//! Each motion is stretched in time by the least factor λ that keeps the bounds,
+//! and the shortest is taken. This is not in the paper.
 
-use super::law::Law;
+use super::Bounds;
 use super::path::{Path, Vector};
 use super::peaks::{Peaks, peaks};
 use super::spacing::spacing;
-use super::{Bounds, MotionError};
+use super::time_law::TimeLaw;
+use super::tuning::TUNING;
 
-/// Cruising speed ṡ as a share of the limit.
-const CRUISE: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
-/// Acceleration and jerk of bends as shares of their limits.
-const BEND: [f64; 3] = [1.0, 0.7, 0.5];
-/// Acceleration of the law as a share of the limit.
-const ACCELERATION: [f64; 3] = [1.0, 0.7, 0.5];
-/// Jerk of the law as a share of the limit.
-const JERK: [f64; 4] = [1.0, 0.7, 0.5, 0.35];
-/// How well the peaks are known while answers are compared, and in the end (1).
-const TOLERANCE: [f64; 2] = [1e-2, 1e-4];
-
-/// Path, law and peaks of the shortest motion found.
-///
-/// # Errors
-/// [`MotionError::NoLaw`] if the library finds none.
-pub(super) fn fastest(
-    steps: &[&[Vector]],
-    bounds: &Bounds,
-) -> Result<(Path, Law, Peaks), MotionError> {
-    let mut best: Option<(Path, Law)> = None;
-    for cruise in CRUISE {
-        for bend in BEND {
-            let cruise = share(bounds, [cruise, bend, bend]);
-            let path = Path::new(steps, &spacing(steps, &cruise));
-            let law = starting(&path, cruise.speed, bounds)?;
-            if best.as_ref().is_none_or(|(_, shortest)| law.duration < shortest.duration) {
-                best = Some((path, law));
-            }
-        }
-    }
-    let Some((path, law)) = best else { return Err(MotionError::Empty) };
+/// Path, time law and peaks of the shortest motion found; none without shares to try.
+pub(super) fn fastest(steps: &[&[Vector]], bounds: &Bounds) -> Option<(Path, TimeLaw, Peaks)> {
+    let tries =
+        TUNING.cruise.iter().flat_map(|cruise| TUNING.bend.map(|bend| [*cruise, bend, bend]));
+    let motions = tries.filter_map(|shares| {
+        let cruise = share(bounds, shares);
+        let path = Path::new(steps, &spacing(steps, &cruise));
+        let law = starting(&path, cruise.speed, bounds)?;
+        Some((path, law))
+    });
+    let (path, law) = motions.min_by(|a, b| a.1.duration.total_cmp(&b.1.duration))?;
 
     // The peaks are known to the tolerance: so much longer, no limit is passed in between.
-    let tolerance = TOLERANCE[1];
+    let tolerance = TUNING.tolerance;
     let stretch = peaks(&path, &law, tolerance).stretch(bounds);
     let law = law.stretched(stretch * (1.0 + tolerance));
     let peaks = peaks(&path, &law, tolerance);
-    Ok((path, law, peaks))
+    Some((path, law, peaks))
 }
 
-/// The shortest law along a path with a top speed ṡ (m/s), all but within bounds.
-fn starting(path: &Path, speed: f64, bounds: &Bounds) -> Result<Law, MotionError> {
-    let mut best: Option<Law> = None;
-    for acceleration in ACCELERATION {
-        for jerk in JERK {
-            let own = Bounds { speed, ..share(bounds, [1.0, acceleration, jerk]) };
-            let law = Law::new(path.length(), &own)?;
-            let law = law.stretched(peaks(path, &law, TOLERANCE[0]).stretch(bounds));
-            if best.as_ref().is_none_or(|shortest| law.duration < shortest.duration) {
-                best = Some(law);
-            }
-        }
-    }
-    best.ok_or(MotionError::Empty)
+/// The shortest time law along a path with a top speed ṡ (m/s), all but within bounds.
+fn starting(path: &Path, speed: f64, bounds: &Bounds) -> Option<TimeLaw> {
+    let tries = TUNING
+        .acceleration
+        .iter()
+        .flat_map(|acceleration| TUNING.jerk.map(|jerk| [*acceleration, jerk]));
+    let laws = tries.map(|[acceleration, jerk]| {
+        let own = Bounds { speed, ..share(bounds, [1.0, acceleration, jerk]) };
+        let law = TimeLaw::new(path.length(), &own);
+        law.stretched(peaks(path, &law, TUNING.trial_tolerance).stretch(bounds))
+    });
+    laws.min_by(|a, b| a.duration.total_cmp(&b.duration))
 }
 
 /// Shares of bounds.

@@ -1,22 +1,25 @@
-//! How the grippers must move so that the ply lies where the ideal drape has it, without wrinkles.
+//! How the grippers must move so that the ply ends where the ideal drape has it, without wrinkles.
 //!
-//! 1. [`obstacles`]: what no plan can keep, found before any search;
-//! 2. [`path`]: whole trajectories of few parameters, judged by complete drapes, on all cores;
-//! 3. [`stepwise`]: step by step, each a quadratic program, as Krogh et al. 2018 sketch it;
-//! 4. [`sensitivity`]: what both look at in a solved ply, with exact gradients;
-//! 5. [`judge`]: the complete drape along a plan, and how far its worst measure is from its limit;
-//! 6. `plan`: from a scene to a motion in time and the drape along it.
+//! 1. [`infeasible_limits`]: limits that no plan can keep, found before any search;
+//! 2. [`path`]: whole trajectories of few parameters, evaluated by complete drapes, on all cores;
+//! 3. [`stepwise`]: step by step, each step a quadratic program, as Krogh et al. 2018 sketch it;
+//! 4. [`sensitivity`]: the quantities of a solved ply that both planners weigh, with exact gradients;
+//! 5. `evaluation`: the complete drape along a plan, and its score against the limits;
+//! 6. `search_state`: progress of a search that runs; [`Checkpoint`]: its result, from which another search continues;
+//! 7. [`tuning`]: the constants that both planners share;
+//! 8. `plan`: from a scene to a motion in time and the drape along it.
 
-pub mod board;
-pub mod judge;
-mod memory;
-pub mod obstacles;
+mod checkpoint;
+mod evaluation;
+pub mod infeasible_limits;
 pub mod path;
 mod plan;
 mod program;
+mod search_state;
 pub mod sensitivity;
 pub mod stepwise;
+pub mod tuning;
 
-pub use board::{Progress, Watcher};
-pub use memory::Memory;
+pub use checkpoint::Checkpoint;
 pub use plan::{PlanError, Planned, plan};
+pub use search_state::{Progress, Watcher};

@@ -1,12 +1,13 @@
 //! From a scene to a motion: a planner finds positions, they become a motion in time, and the ply is draped
 //! along it once more.
 
-use super::board::{Board, Watcher};
-use super::judge;
-use super::memory::Memory;
-use super::obstacles::obstacles;
+use super::checkpoint::Checkpoint;
+use super::evaluation;
+use super::infeasible_limits::infeasible_limits;
 use super::path::{self, Strategy};
+use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome, stepwise};
+use super::tuning::TUNING;
 use crate::draping::record::PlanRecord;
 use crate::draping::spans::Point;
 use crate::draping::{Drape, simulate};
@@ -15,16 +16,12 @@ use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
 use crate::scene::{PlanMethod, Scene};
 use std::ops::ControlFlow;
 
-/// How much faster grippers may turn between two steps of a plan than over the whole of both, within which the limit of the tilt rate is to
-/// hold for finer samples of the motion too.
-const RATE_MARGIN: f64 = 1.5;
-
 /// A finished plan.
 #[derive(Debug, Clone)]
 pub struct Planned {
-    /// The drape along the planned motion, step-cutting on, with all limits judged.
+    /// The drape along the planned motion, step-cutting on, with the verdicts of all limits.
     pub drape: Drape,
-    /// What the motion is made from again.
+    /// The data from which the motion is made again.
     pub record: PlanRecord,
     /// The motion in time.
     pub motion: TimedMotion,
@@ -32,17 +29,17 @@ pub struct Planned {
     pub attitudes: Attitudes,
     /// Whether the search was broken off.
     pub interrupted: bool,
-    /// For another search to go on from.
-    pub memory: Memory,
+    /// The result of the search, from which another search continues.
+    pub checkpoint: Checkpoint,
 }
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
-    /// Nothing to lay the ply on.
+    /// The scene has no mold.
     #[error("the scene has no mold to lay the ply on")]
     NoMold,
-    /// Nowhere to go.
+    /// The scene has no target.
     #[error("the scene has no target: a plan needs to know where the ply shall end")]
     NoTarget,
     /// A plan for other grippers or other fabric.
@@ -59,17 +56,17 @@ pub enum PlanError {
         /// Grippers of the scene along v.
         nv: usize,
     },
-    /// Numbers that no search leaves.
+    /// A checkpoint with numbers that no search writes.
     #[error(
         "the earlier plan holds a strategy or positions that no search can have left: plan anew"
     )]
     Numbers,
-    /// Positions that are no motion.
+    /// The positions cannot become a motion.
     #[error(transparent)]
     Motion(#[from] MotionError),
 }
 
-/// What a planner hands over.
+/// The result of a planner.
 struct Found {
     positions: Vec<Vec<Point>>,
     evaluations: usize,
@@ -80,15 +77,15 @@ struct Found {
 
 /// Plans the gripper motion of a scene, from where it starts to its target.
 ///
-/// `memory` is that of an earlier search for the same ply, to go on from. `watcher` is told how the search gets
-/// on; when it breaks, the best so far is finished. A plan that keeps not all limits is a plan all the same: the
-/// verdict says which, where and by how much.
+/// The search continues from `checkpoint`, that of an earlier search for the same ply. `watcher` receives the progress;
+/// when it breaks, the best plan so far is finished. A plan that does not keep all limits is a plan all the same: its
+/// verdicts say which limits, where and by how much.
 ///
 /// # Errors
-/// [`PlanError`] if the scene has no mold or target, or the memory is not of its ply.
+/// [`PlanError`] if the scene has no mold or target, or the checkpoint is not of its ply.
 pub fn plan(
     scene: &Scene,
-    memory: Option<&Memory>,
+    checkpoint: Option<&Checkpoint>,
     watcher: Watcher,
 ) -> Result<Planned, PlanError> {
     if scene.mold.is_none() {
@@ -97,39 +94,41 @@ pub fn plan(
     if scene.target.is_none() {
         return Err(PlanError::NoTarget);
     }
-    if let Some(memory) = memory {
-        memory.check(scene)?;
+    if let Some(checkpoint) = checkpoint {
+        checkpoint.check(scene)?;
     }
     let most = match scene.plan.method {
         PlanMethod::Path => scene.plan.evaluations,
         PlanMethod::Stepwise => scene.plan.steps,
     };
-    let board = Board::new(most, watcher);
+    let state = SearchState::new(most, watcher);
     let found = match scene.plan.method {
-        PlanMethod::Path => by_path(scene, memory, &board)?,
-        PlanMethod::Stepwise => by_steps(scene, &board),
+        PlanMethod::Path => by_path(scene, checkpoint, &state)?,
+        PlanMethod::Stepwise => by_steps(scene, &state),
     };
-    let interrupted = board.is_stopped();
+    let interrupted = state.is_stopped();
 
     let bounds = Bounds::from(&scene.limits);
     let mut motion = TimedMotion::new(&found.positions, &bounds)?;
     let follow = |motion: &TimedMotion| {
-        let followed = judge::with_motion(scene, motion.steps());
+        let followed = evaluation::with_motion(scene, motion.steps());
         simulate(&followed, |_| ControlFlow::Continue(()))
     };
     let mut drape = follow(&motion);
     // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
     let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
-    let slowed = (RATE_MARGIN * fastest / scene.limits.tilt_rate.to_degrees()).max(1.0);
+    let slowed = (TUNING.evaluation.tilt_rate_margin * fastest
+        / scene.limits.tilt_rate.to_degrees())
+    .max(1.0);
     if slowed > 1.0 {
         motion = motion.slowed(slowed);
         drape = follow(&motion);
     }
-    // what no plan can keep comes first
+    // limits that no plan can keep come first
     let summary = &mut drape.summary;
-    let judged = std::mem::take(&mut summary.limits);
-    summary.judge_also(obstacles(scene));
-    summary.limits.extend(judged);
+    let verdicts = std::mem::take(&mut summary.limits);
+    summary.judge_also(infeasible_limits(scene));
+    summary.limits.extend(verdicts);
     summary.judge_also(found.limits.into_iter().chain(rates(&motion, &bounds, scene)));
     let record = PlanRecord {
         method: scene.plan.method,
@@ -139,33 +138,38 @@ pub fn plan(
         path: found.positions.clone(),
     };
     let attitudes = Attitudes::of(&drape.steps)?;
-    let before = memory.map_or(0, |memory| memory.evaluations);
-    let memory = Memory::new(scene, before + found.evaluations, found.strategy, found.positions);
-    Ok(Planned { drape, record, motion, attitudes, interrupted, memory })
+    let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations);
+    let checkpoint =
+        Checkpoint::new(scene, before + found.evaluations, found.strategy, found.positions);
+    Ok(Planned { drape, record, motion, attitudes, interrupted, checkpoint })
 }
 
-fn by_path(scene: &Scene, memory: Option<&Memory>, board: &Board) -> Result<Found, PlanError> {
-    let best = path::search(scene, memory, board).ok_or(PlanError::NoTarget)?;
+fn by_path(
+    scene: &Scene,
+    checkpoint: Option<&Checkpoint>,
+    state: &SearchState,
+) -> Result<Found, PlanError> {
+    let best = path::search(scene, checkpoint, state).ok_or(PlanError::NoTarget)?;
     Ok(Found {
         positions: best.positions,
-        evaluations: board.evaluations(),
+        evaluations: state.evaluations(),
         strategy: Some(best.strategy),
         limits: Vec::new(),
     })
 }
 
-fn by_steps(scene: &Scene, board: &Board) -> Found {
-    board.enter("step by step");
+fn by_steps(scene: &Scene, state: &SearchState) -> Found {
+    state.begin("step by step");
     let plan = stepwise(scene, &mut |done| {
-        board.count(done);
-        board.tick()
+        state.set_evaluations(done);
+        state.report()
     });
     let limits = match plan.outcome {
-        Outcome::OutOfSteps(stray) | Outcome::OutOfReach(stray) => {
-            let gripper = scene.ply.grid.index(stray.gripper);
+        Outcome::OutOfSteps(error) | Outcome::OutOfReach(error) => {
+            let gripper = scene.ply.grid.index(error.gripper);
             let at = Site::Gripper(gripper).label(scene.ply.grid);
             let worst = Worst {
-                value: stray.distance * 1e3,
+                value: error.distance * 1e3,
                 at: format!("{at}, short of its target"),
                 place: plan.positions.last().map(|step| step[gripper]),
             };

@@ -5,6 +5,7 @@
 //! Lengths are in millimetres here, so that all residuals are of a like size; solved by the interior point
 //! method of Clarabel (Goulart and Chen 2024).
 
+use super::tuning::TUNING;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
@@ -131,7 +132,7 @@ impl Program {
         let a = CscMatrix::new_from_triplets(count, self.size, i, j, v);
         let settings = DefaultSettings {
             verbose: false,
-            max_iter: 60,
+            max_iter: TUNING.program_iterations,
             max_threads: 1,
             presolve_enable: false,
             ..DefaultSettings::default()

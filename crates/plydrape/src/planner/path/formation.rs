@@ -1,32 +1,24 @@
-//! Where the grippers are while a front lays the ply: the net on the mold lifted ahead of it.
+//! Positions of the grippers while a front passes over the mold: the net on the mold that is lifted ahead of the front.
 //!
-//! Inside the front the net is the ideal drape, outside it the fabric curves away from the mold. It is a net
-//! at every moment, so that fibre lengths are right at every moment. A pull stretches what has not landed a
-//! little towards the start, so that its spans stay taut.
+//! Inside the front the net is the ideal drape, outside it the fabric curves away from the mold. Because it is a net
+//! at every moment, fibre lengths are right at every moment. A pretension stretches the net ahead of the front a
+//! little, so that its spans stay taut.
 
 use super::strategy::Strategy;
+use super::tabulation::{around, height_grid};
+use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::mold::vector::{along, dot, sub};
 use crate::mold::{FrontSurface, Graph, HeightGrid, Mold, Pose, Rise, Surface};
 use crate::net::{Layup, Net};
+use crate::planner::tuning;
 use crate::ply::Grid;
 use crate::scene::Scene;
 use std::sync::Arc;
 
-/// Divisions of a cell of the net on the lifted mold; even, so that the middle of a cell is a node.
-const DIVISIONS: usize = 4;
-/// Nodes of the grid of heights along each axis.
-const NODES: usize = 121;
-/// Margin of the grid of heights around the drape, as a share of its size.
-const MARGIN: f64 = 0.25;
-/// Height over which a gripper gives up its pull as it lands (m).
-const LANDING: f64 = 2e-3;
-
-/// A scene's mold as heights, on which formations are laid.
+/// Heights of a scene's mold, which are lifted ahead of a front.
 #[derive(Debug, Clone)]
-pub struct Ground {
-    heights: Arc<HeightGrid>,
-}
+pub struct MoldHeights(Arc<HeightGrid>);
 
 /// The formation of grippers behind and ahead of one front.
 #[derive(Debug, Clone)]
@@ -39,56 +31,60 @@ pub struct Formation<'a> {
     targets: &'a [Point],
     strategy: Strategy,
     centre: [f64; 2],
-    /// What brings each gripper from where the net on the mold ends, without and with pull, to its target.
-    off: [Vec<Point>; 2],
+    /// Unit of length (m).
+    cell: f64,
+    /// From each gripper's place in the net on the mold, without and with pretension, to its target (m).
+    offsets: [Vec<Point>; 2],
 }
 
-impl Ground {
+impl MoldHeights {
     /// The heights of a scene's mold around its drape; none without a mold or a target.
     #[must_use]
     pub fn new(scene: &Scene) -> Option<Self> {
         let heights = heights(scene.mold.as_ref()?, &scene.target.as_ref()?.grippers)?;
-        Some(Ground { heights: Arc::new(heights) })
+        Some(MoldHeights(Arc::new(heights)))
     }
 }
 
 impl<'a> Formation<'a> {
     /// The formation of a strategy; none without a mold or a target.
     #[must_use]
-    pub fn new(scene: &'a Scene, ground: &Ground, strategy: Strategy) -> Option<Self> {
+    pub fn new(scene: &'a Scene, heights: &MoldHeights, strategy: Strategy) -> Option<Self> {
         let (mold, target) = (scene.mold.as_ref()?, scene.target.as_ref()?);
         let layup = layup(scene, &strategy);
         let count = target.grippers.len() as f64;
         let middle = [0, 1].map(|n| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count);
         let mut formation = Formation {
             mold,
-            heights: Arc::clone(&ground.heights),
+            heights: Arc::clone(&heights.0),
             layup,
             grid: scene.ply.grid,
             targets: &target.grippers,
             strategy,
             centre: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
-            off: [Vec::new(), Vec::new()],
+            cell: tuning::cell(scene),
+            offsets: [Vec::new(), Vec::new()],
         };
-        let landed = 2.0 * formation.reach() + 1.0;
+        let beyond = 2.0 * formation.reach() + 1.0;
         let still = vec![[0.0; 3]; target.grippers.len()];
-        formation.off = [0.0, strategy.pull].map(|pull| match formation.net(landed, pull) {
-            Some(ends) => target.grippers.iter().zip(ends).map(|(a, b)| sub(*a, b)).collect(),
-            None => still.clone(),
-        });
+        formation.offsets =
+            [0.0, strategy.pretension].map(|pretension| match formation.net(beyond, pretension) {
+                Some(ends) => target.grippers.iter().zip(ends).map(|(a, b)| sub(*a, b)).collect(),
+                None => still.clone(),
+            });
         Some(formation)
     }
 
     fn lift(&self, front: f64) -> Rise {
         let Strategy { ratio, angle, curvature, slope, .. } = self.strategy;
         let (sin, cos) = angle.sin_cos();
-        let along = 1.0 / (ratio * ratio);
+        let (along, unit) = (1.0 / (ratio * ratio), 1.0 / self.cell);
         let metric = [
             along * cos * cos + sin * sin,
             (along - 1.0) * sin * cos,
             along * sin * sin + cos * cos,
         ];
-        Rise { centre: self.centre, metric, front, curvature, slope }
+        Rise { centre: self.centre, metric, front, curvature: curvature * unit, slope }
     }
 
     /// How far the front has to come to have passed every gripper (m).
@@ -99,43 +95,44 @@ impl<'a> Formation<'a> {
     }
 
     /// The net on the lifted mold at the grippers (m); none where it folds or there is none.
-    fn net(&self, front: f64, pull: f64) -> Option<Vec<Point>> {
+    fn net(&self, front: f64, pretension: f64) -> Option<Vec<Point>> {
         let layup = self.layup?;
         let lifted = FrontSurface { mold: Arc::clone(&self.heights), rise: self.lift(front) };
         let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Front(lifted));
         let mold = Mold::Graph(Graph { pose, surface, domain: None });
         let place = mold.highest_point(self.centre)?;
-        let mesh = layup.mesh.map(|width| width * (1.0 + pull));
+        let mesh = layup.mesh.map(|width| width * (1.0 + pretension));
         let net = Net::drape(&mold, Layup { place, mesh, ..layup }).ok()?;
-        let node = |n: usize| net.node(self.grid.id(n).map(|k| k * DIVISIONS));
+        let node = |n: usize| net.node(self.grid.id(n).map(|k| k * TUNING.front.divisions));
         (0..self.grid.grippers()).map(node).collect()
     }
 
     /// Gripper positions (m) when the front has come to `front` (m).
     #[must_use]
     pub fn grippers(&self, front: f64) -> Vec<Point> {
-        let Some(net) = self.net(front, self.strategy.pull) else {
-            // without a net, straight above where they land
+        let Some(net) = self.net(front, self.strategy.pretension) else {
+            // without a net, straight above their targets
             let lift = FrontSurface { mold: Arc::clone(&self.heights), rise: self.lift(front) };
             let raise = |p: &Point| [p[0], p[1], p[2] + lift.rise_at(p[0], p[1])];
             return self.targets.iter().map(raise).collect();
         };
-        let move_in = |(n, p): (usize, Point)| {
+        let place = |(n, p): (usize, Point)| {
             let height = self.mold.signed_distance(p).max(0.0);
-            let landing = (-height / LANDING).exp();
-            let [unpulled, pulled] = [self.off[0][n], self.off[1][n]];
-            along(along(p, 1.0 - landing, unpulled), landing, pulled)
+            let landing = (-height / (TUNING.front.landing_height * self.cell)).exp();
+            let [relaxed, stretched] = [self.offsets[0][n], self.offsets[1][n]];
+            along(along(p, 1.0 - landing, relaxed), landing, stretched)
         };
-        net.into_iter().enumerate().map(move_in).collect()
+        net.into_iter().enumerate().map(place).collect()
     }
 }
 
-/// The net of a scene's ideal drape, begun where the front starts; none where the drape is not known.
+/// The layup of a scene's ideal drape, begun where the front starts; none where the drape is not known.
 fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
     let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
     let grid = scene.ply.grid;
-    let nodes = [grid.nu, grid.nv].map(|n| (n - 1) * DIVISIONS + 1);
-    let mesh = scene.ply.cell.map(|side| side / DIVISIONS as f64);
+    let divisions = TUNING.front.divisions;
+    let nodes = [grid.nu, grid.nv].map(|n| (n - 1) * divisions + 1);
+    let mesh = scene.ply.cell.map(|side| side / divisions as f64);
     let seed = [0, 1].map(|n| (strategy.start[n] * (nodes[n] - 1) as f64).round() as usize);
     let uv = [0, 1].map(|n| seed[n] as f64 * mesh[n]);
     let place = drape.place(mold, uv)?;
@@ -146,20 +143,11 @@ fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
 
 /// Heights of a mold over the drape and some margin around it.
 fn heights(mold: &Mold, targets: &[Point]) -> Option<HeightGrid> {
-    let range = [0, 1].map(|n| {
-        let low = targets.iter().map(|p| p[n]).fold(f64::INFINITY, f64::min);
-        let high = targets.iter().map(|p| p[n]).fold(f64::NEG_INFINITY, f64::max);
-        [low, high]
-    });
-    let margin = MARGIN * range.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-    let axis = |n: usize| -> Vec<f64> {
-        let [low, high] = [range[n][0] - margin, range[n][1] + margin];
-        (0..NODES).map(|k| low + (high - low) * k as f64 / (NODES - 1) as f64).collect()
-    };
-    let [x, y] = [0, 1].map(axis);
+    let front = TUNING.front;
     let top = targets.iter().map(|p| p[2]).fold(f64::NEG_INFINITY, f64::max);
-    let z = y.iter().flat_map(|y| x.iter().map(move |x| height(mold, [*x, *y], top))).collect();
-    HeightGrid::new(x, y, z).ok()
+    height_grid(around(targets, front.height_margin), front.height_nodes, |place| {
+        height(mold, place, top)
+    })
 }
 
 /// Height of a mold at (x, y) (m); beyond its boundary that of the tangent plane there.
@@ -168,12 +156,12 @@ fn height(mold: &Mold, [x, y]: [f64; 2], top: f64) -> f64 {
         return place[2];
     }
     let mut z = top;
-    for _ in 0..4 {
+    for _ in 0..TUNING.front.border_rounds {
         let foot = mold.closest_point([x, y, z]);
         let [nx, ny, nz] = foot.normal;
         let fall = nx * (x - foot.point[0]) + ny * (y - foot.point[1]);
-        // an upright boundary would lead nowhere
-        z = foot.point[2] - fall / nz.abs().max(0.3);
+        // an upright border would lead nowhere
+        z = foot.point[2] - fall / nz.abs().max(TUNING.front.upright_border);
     }
     z
 }

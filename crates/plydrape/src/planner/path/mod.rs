@@ -1,14 +1,15 @@
-//! Whole trajectories, judged by complete drapes, section 17 of `docs/theory`.
+//! Whole trajectories, evaluated by complete drapes, section 17 of `docs/theory`.
 
 mod formation;
-mod quick;
 mod refine;
 mod search;
 mod strategy;
+mod tabulation;
 mod trajectory;
+pub mod tuning;
 
-pub use formation::{Formation, Ground};
+pub use formation::{Formation, MoldHeights};
 pub use refine::correction;
-pub use search::{Candidate, search};
+pub(super) use search::search;
 pub use strategy::Strategy;
-pub use trajectory::{longest_move, trajectory};
+pub use trajectory::trajectory;

@@ -1,49 +1,38 @@
-//! Single grippers, refined by gradients: a quadratic program moves smooth corrections of all trajectories so
-//! that what touches next lands where the ideal drape has it.
+//! Refinement of single grippers by gradients: a quadratic program finds smooth corrections of all trajectories, so
+//! that the next contacts are where the ideal drape has them.
 //!
-//! The plan is followed once. At every step the spans of edges that are about to touch say by how much they
-//! would land beside their place, with exact gradients to all gripper positions. A correction of a few
-//! B-splines per gripper, zero at the start of the landing and at the end, is fitted to all of them at once, within
-//! the limits of overstretch, linearized. Contact events are not differentiated: whether the correction is
-//! an improvement is for the complete drape to say.
+//! The plan is followed once. At every step the position errors of the spans that are about to come into contact are
+//! evaluated, with exact gradients to all gripper positions. A correction of a few
+//! B-splines per gripper, zero at the first contact and at the end, is fitted to all of them at once, within
+//! the linearized limits of overstretch. Contact events are not differentiated: whether the correction is
+//! an improvement is decided by the complete drape.
 
+use super::tuning::TUNING;
 use crate::draping::Draping;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, cross, dot, unit};
-use crate::planner::judge;
+use crate::planner::evaluation;
 use crate::planner::program::{MM, Program};
 use crate::planner::sensitivity::Sensitivity;
+use crate::planner::tuning;
 use crate::scene::Scene;
 
 /// B-splines of each gripper's correction.
-const SPLINES: usize = 5;
-/// Coordinates beyond which the program would outgrow what the drapes cost.
-const LARGEST: usize = 800;
-/// Fabric ahead of a contact end whose landing is looked at, as a share of the catenary.
-const AHEAD: f64 = 0.1;
-/// Height (m) below which a span that has not touched is about to.
-const NEAR: f64 = 5e-3;
-/// Share of the overstretch limit that the correction may use.
-const STRETCH: f64 = 0.5;
-/// Stretch of a taut span, as a share of its edge: what is beyond is to go.
-const TAUT: f64 = 1e-4;
-/// Weight of the correction itself beside the landing errors.
-const SMALL: f64 = 1e-2;
-/// Weight of every gripper that has landed: it stays.
-const LANDED: f64 = 1e2;
+const SPLINES: usize = TUNING.refinement.splines;
+
 /// Smooth corrections (m) of all positions of a plan, one list of all grippers a step; none where nothing
-/// touches, or the program has no solution or would be too large.
+/// comes into contact, or the program has no solution or would be too large.
 #[must_use]
 pub fn correction(scene: &Scene, planned: &[Vec<Point>]) -> Option<Vec<Vec<Point>>> {
     let grippers = scene.ply.grid.grippers();
-    if 3 * grippers * SPLINES > LARGEST {
+    if 3 * grippers * SPLINES > TUNING.refinement.unknowns {
         return None;
     }
-    let scene = judge::as_judged(scene);
+    let scene = evaluation::with_steps_cut(scene);
     let mut draping = Draping::new(&scene);
     let mut program = Program::new(grippers * SPLINES);
     let mut splines: Option<Splines> = None;
-    for (k, positions) in judge::rounded(planned).iter().enumerate() {
+    for (k, positions) in evaluation::rounded(planned).iter().enumerate() {
         let shape = draping.move_to(positions);
         if draping.contacts.iter().all(Option::is_none) {
             continue;
@@ -52,20 +41,22 @@ pub fn correction(scene: &Scene, planned: &[Vec<Point>]) -> Option<Vec<Vec<Point
             splines.get_or_insert(Splines { from: k.saturating_sub(1), to: planned.len() - 1 });
         let weights = splines.at(k);
         let (positions, contacts) = (draping.positions.clone(), draping.contacts.clone());
-        let look = Sensitivity::new(&scene, &mut draping.solver, &shape, &positions, &contacts);
-        let mut rows = Rows { scene: &scene, look: &look, weights, program: &mut program };
+        let sensitivity =
+            Sensitivity::new(&scene, &mut draping.solver, &shape, &positions, &contacts);
+        let mut terms =
+            Terms { scene: &scene, sensitivity: &sensitivity, weights, program: &mut program };
         for span in &shape.spans {
             let edge = span.catenary < scene.ply.grid.edges();
-            rows.landing(span, edge);
+            terms.position(span, edge);
             if edge {
-                rows.overstretch(span);
+                terms.stretch(span);
             }
         }
-        rows.landed(&positions);
+        terms.standing(&positions);
     }
     let splines = splines?;
     for n in 0..3 * grippers * SPLINES {
-        program.near(SMALL, n, 0.0);
+        program.near(TUNING.refinement.correction_weight, n, 0.0);
     }
     let moves = program.solve()?;
     let at = |k: usize| -> Vec<Point> {
@@ -82,7 +73,7 @@ pub fn correction(scene: &Scene, planned: &[Vec<Point>]) -> Option<Vec<Vec<Point
     Some((0..planned.len()).map(at).collect())
 }
 
-/// Cubic B-splines over the steps of the landing.
+/// Cubic B-splines over the steps from the first contact to the end.
 struct Splines {
     from: usize,
     to: usize,
@@ -106,56 +97,59 @@ impl Splines {
     }
 }
 
-/// Puts what one step has to say into the program.
-struct Rows<'a, 'b> {
+/// The terms of one step in the program.
+struct Terms<'a, 'b> {
     scene: &'a Scene,
-    look: &'a Sensitivity<'b>,
+    sensitivity: &'a Sensitivity<'b>,
     weights: [f64; SPLINES],
     program: &'a mut Program,
 }
 
-impl Rows<'_, '_> {
+impl Terms<'_, '_> {
     /// A gradient to the positions of this step as one to all corrections.
     fn spread(&self, gradient: &[f64]) -> Vec<f64> {
         self.weights.iter().flat_map(|w| gradient.iter().map(move |g| w * g)).collect()
     }
 
-    /// What of a span touches next shall land where it belongs; of a diagonal, which is no fibre, along it.
-    fn landing(&mut self, span: &FreeSpan, edge: bool) {
+    /// The point of a span that comes into contact next shall be where the ideal drape has it; a diagonal, which is no
+    /// fibre, counts along itself only.
+    fn position(&mut self, span: &FreeSpan, edge: bool) {
         let Some(mold) = &self.scene.mold else { return };
-        let share = match [0, 1].map(|end| self.look.gripper_at(span, end)) {
-            [None, _] => AHEAD,
-            [_, None] => 1.0 - AHEAD,
-            _ if mold.signed_distance(span.point(0.5)) < NEAR => 0.5,
+        let near = TUNING.refinement.near * tuning::cell(self.scene);
+        let share = match [0, 1].map(|end| self.sensitivity.gripper_at(span, end)) {
+            [None, _] => TUNING.refinement.ahead,
+            [_, None] => 1.0 - TUNING.refinement.ahead,
+            _ if mold.signed_distance(span.point(0.5)) < near => 0.5,
             _ => return,
         };
-        let Some(off) = self.look.landing(span, share) else { return };
-        let ideal = [0, 1, 2].map(|n| self.look.fabric_place(span, share).point[n] - off.point[n]);
+        let Some(error) = self.sensitivity.landing(span, share) else { return };
+        let ideal =
+            [0, 1, 2].map(|n| self.sensitivity.fabric_place(span, share).point[n] - error.point[n]);
         let normal = mold.normal(ideal);
         let [x, y] = span.heading();
         let ahead = [x, y, 0.0];
         let Some(ahead) = unit(along(ahead, -dot(ahead, normal), normal)) else { return };
-        let aside = edge.then(|| cross(normal, ahead));
-        for direction in [Some(ahead), aside].into_iter().flatten() {
-            let error = off.along(direction);
-            let gradient = self.spread(&error.gradient);
-            self.program.square(1.0, MM * error.value, &gradient);
+        let across = edge.then(|| cross(normal, ahead));
+        for direction in [Some(ahead), across].into_iter().flatten() {
+            let part = error.along(direction);
+            let gradient = self.spread(&part.gradient);
+            self.program.square(1.0, MM * part.value, &gradient);
         }
     }
 
-    /// No span is pulled far beyond its fabric, and none is let loose.
-    fn overstretch(&mut self, span: &FreeSpan) {
-        let stretch = self.look.overstretch(span);
+    /// No span is stretched far beyond its fabric, and the stretch of taut spans is reduced.
+    fn stretch(&mut self, span: &FreeSpan) {
+        let stretch = self.sensitivity.overstretch(span);
         let gradient = self.spread(&stretch.gradient);
         let whole = self.scene.ply.flat_length(self.scene.ply.grid.catenary(span.catenary).kind);
-        let most = STRETCH * self.scene.limits.overstretch * whole;
+        let most = TUNING.refinement.stretch_share * self.scene.limits.overstretch * whole;
         self.program.at_most(&gradient, 1.0, MM * (most - stretch.value).max(0.0));
-        let excess = (stretch.value - TAUT * whole).max(0.0);
+        let excess = (stretch.value - TUNING.refinement.taut * whole).max(0.0);
         self.program.square(1.0, MM * excess, &gradient);
     }
 
-    /// What stands on the mold stays there.
-    fn landed(&mut self, positions: &[Point]) {
+    /// A gripper that stands on the mold stays there.
+    fn standing(&mut self, positions: &[Point]) {
         let Some(mold) = &self.scene.mold else { return };
         let tolerance = self.scene.settings.contact.tolerance;
         for (g, place) in positions.iter().enumerate() {
@@ -166,7 +160,7 @@ impl Rows<'_, '_> {
                 let mut gradient = vec![0.0; 3 * positions.len()];
                 gradient[3 * g + c] = 1.0;
                 let gradient = self.spread(&gradient);
-                self.program.square(LANDED, 0.0, &gradient);
+                self.program.square(TUNING.refinement.standing_weight, 0.0, &gradient);
             }
         }
     }

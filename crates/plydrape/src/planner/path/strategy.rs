@@ -1,9 +1,10 @@
-//! The few numbers that say how a front lays the ply, and the vector that a search sees of them.
+//! The parameters of a front, and the vector of them that a search varies.
 
+use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
 
-/// How a front lays the ply: where it starts, its shape, how steep and how taut the ply is ahead of it.
+/// Parameters of a front: where it starts, its shape, and how steep and how taut the ply is ahead of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -14,27 +15,16 @@ pub struct Strategy {
     pub ratio: f64,
     /// Direction of its longer axis in plan (rad).
     pub angle: f64,
-    /// Curvature of the lifted ply right at the front A (1/m).
+    /// Curvature of the lifted ply right at the front A, times the shorter side of a cell.
     pub curvature: f64,
     /// Steepest slope of the lifted ply σ.
     pub slope: f64,
-    /// Pull: relative stretch of what has not landed.
-    pub pull: f64,
+    /// Pretension: relative stretch of the net ahead of the front.
+    pub pretension: f64,
 }
 
 /// Numbers that a search varies.
-pub const DIMENSION: usize = 7;
-
-/// Ranges of [`Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pull.
-const RANGES: [[f64; 2]; DIMENSION] = [
-    [0.0, 1.0],
-    [0.0, 1.0],
-    [0.0, 5.0],
-    [-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2],
-    [-1.6, 3.4],
-    [-4.0, 0.0],
-    [0.0, 4e-4],
-];
+pub const DIMENSION: usize = TUNING.front.ranges.len();
 
 impl Strategy {
     /// As a point whose every coordinate goes from 0 to 1.
@@ -47,21 +37,21 @@ impl Strategy {
             self.angle,
             self.curvature.ln(),
             self.slope.ln(),
-            self.pull,
+            self.pretension,
         ];
         let mut unit = [0.0; DIMENSION];
         for n in 0..DIMENSION {
-            let [low, high] = RANGES[n];
+            let [low, high] = TUNING.front.ranges[n];
             unit[n] = ((values[n] - low) / (high - low)).clamp(0.0, 1.0);
         }
         unit
     }
 
-    /// From such a point; what lies beyond is reflected at the boundary, so that a search feels no wall.
+    /// From such a point; a coordinate beyond 0 or 1 is reflected there, so that the score of a search has no wall.
     #[must_use]
     pub fn of_unit(unit: &[f64]) -> Self {
         let value = |n: usize| {
-            let [low, high] = RANGES[n];
+            let [low, high] = TUNING.front.ranges[n];
             let folded = unit[n].rem_euclid(2.0);
             low + (high - low) * if folded > 1.0 { 2.0 - folded } else { folded }
         };
@@ -71,41 +61,41 @@ impl Strategy {
             angle: value(3),
             curvature: value(4).exp(),
             slope: value(5).exp(),
-            pull: value(6),
+            pretension: value(6),
         }
     }
 
-    /// Whether all numbers are such as a search has.
+    /// Whether all numbers are in their range of definition.
     #[must_use]
     pub fn is_sound(&self) -> bool {
-        let Strategy { start, ratio, angle, curvature, slope, pull } = *self;
-        let numbers = [start[0], start[1], ratio, angle, curvature, slope, pull];
+        let Strategy { start, ratio, angle, curvature, slope, pretension } = *self;
+        let numbers = [start[0], start[1], ratio, angle, curvature, slope, pretension];
         numbers.iter().all(|n| n.is_finite()) && ratio > 0.0 && curvature > 0.0 && slope > 0.0
     }
 
-    /// What is tried first: a ring that spreads from the middle, lines along the mold's two principal
-    /// directions there, and a descent all at once.
+    /// The first candidates: a ring that spreads from the middle, lines along the mold's two principal
+    /// directions there, and a descent of all grippers at once.
     #[must_use]
     pub fn families(scene: &Scene) -> Vec<Strategy> {
         let ring = Strategy {
             start: [0.5; 2],
             ratio: 1.0,
             angle: 0.0,
-            curvature: 4.0,
+            curvature: 0.4,
             slope: 0.4,
-            pull: 1e-4,
+            pretension: 1e-4,
         };
         let [first, second] =
             principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
         let line = |angle| Strategy { ratio: 100.0, angle, ..ring };
-        let sharp = Strategy { curvature: 20.0, slope: 0.25, pull: 0.0, ..ring };
+        let sharp = Strategy { curvature: 2.0, slope: 0.25, pretension: 0.0, ..ring };
         vec![
             ring,
-            Strategy { curvature: 12.0, ..sharp },
+            Strategy { curvature: 1.2, ..sharp },
             line(second),
             line(first),
-            Strategy { curvature: 0.3, slope: 0.03, ..ring },
-            Strategy { curvature: 0.5, slope: 0.05, ..line(second) },
+            Strategy { curvature: 0.03, slope: 0.03, ..ring },
+            Strategy { curvature: 0.05, slope: 0.05, ..line(second) },
             Strategy { ratio: 1.3, angle: second, ..sharp },
             Strategy { ratio: 1.3, angle: first, ..sharp },
             Strategy { ratio: 2.0, angle: second, ..sharp },

@@ -1,55 +1,53 @@
-//! From a strategy to the positions of every step: the way in, the descent, and the front that lays the ply.
+//! From a strategy to the positions of every step: approach, descent, and the front that passes over the mold.
 
-use super::formation::{Formation, Ground};
+use super::formation::{Formation, MoldHeights};
 use super::strategy::Strategy;
+use super::tuning::TUNING;
 use crate::draping::spans::Point;
-use crate::mold::{distance, vector};
+use crate::mold::vector;
+use crate::motion::farthest;
+use crate::planner::tuning;
 use crate::scene::Scene;
-
-/// Height over its first formation at which the ply comes in, as a share of a cell.
-const HOVER: f64 = 0.1;
-/// Shares of the steps for the way in and the descent; the front takes the rest.
-const SHARES: [f64; 2] = [0.17, 0.09];
-/// How far the front runs beyond the last gripper, as a share of its way.
-const BEYOND: f64 = 0.02;
-/// Formations per step from which steps of equal length are cut, where a move limit asks for them.
-const FINE: usize = 4;
 
 /// Positions (m) of `scene.plan.steps` steps: the first is the scene's start, the last the target. None without a
 /// mold or a target.
 #[must_use]
-pub fn trajectory(scene: &Scene, ground: &Ground, strategy: Strategy) -> Option<Vec<Vec<Point>>> {
+pub fn trajectory(
+    scene: &Scene,
+    heights: &MoldHeights,
+    strategy: Strategy,
+) -> Option<Vec<Vec<Point>>> {
     let steps = scene.plan.steps.max(2);
     let Some(limit) = scene.plan.move_limit else {
-        return positions(scene, ground, strategy, steps);
+        return positions(scene, heights, strategy, steps);
     };
-    let planned = positions(scene, ground, strategy, steps)?;
-    if planned.windows(2).all(|pair| longest_move(&pair[0], &pair[1]) <= limit) {
+    let planned = positions(scene, heights, strategy, steps)?;
+    if planned.windows(2).all(|pair| farthest(&pair[0], &pair[1]) <= limit) {
         return Some(planned);
     }
-    Some(evened(&positions(scene, ground, strategy, FINE * steps)?, steps))
+    Some(evened(&positions(scene, heights, strategy, TUNING.front.finer * steps)?, steps))
 }
 
 fn positions(
     scene: &Scene,
-    ground: &Ground,
+    heights: &MoldHeights,
     strategy: Strategy,
     steps: usize,
 ) -> Option<Vec<Vec<Point>>> {
-    let formation = Formation::new(scene, ground, strategy)?;
+    let formation = Formation::new(scene, heights, strategy)?;
     let start = scene.motion.positions.first()?;
     let target = &scene.target.as_ref()?.grippers;
     let share = |share: f64| ((share * steps as f64).round() as usize).max(1);
-    let [approach, descent] = SHARES.map(share);
+    let [approach, descent] = TUNING.front.shares.map(share);
     let roll = steps.saturating_sub(approach + descent + 1).max(1);
 
     let first = formation.grippers(0.0);
-    let hover = HOVER * scene.ply.cell[0].min(scene.ply.cell[1]);
-    let above: Vec<Point> = first.iter().map(|p| [p[0], p[1], p[2] + hover]).collect();
+    let height = TUNING.front.approach_height * tuning::cell(scene);
+    let above: Vec<Point> = first.iter().map(|p| [p[0], p[1], p[2] + height]).collect();
     let mut out = Vec::with_capacity(steps);
     out.extend((0..approach).map(|k| between(start, &above, k as f64 / approach as f64)));
     out.extend((0..descent).map(|k| between(&above, &first, k as f64 / descent as f64)));
-    let reach = formation.reach() * (1.0 + BEYOND);
+    let reach = formation.reach() * (1.0 + TUNING.front.beyond);
     out.extend((0..roll).map(|k| formation.grippers(reach * k as f64 / roll as f64)));
     out.push(target.clone());
     Some(out)
@@ -60,25 +58,20 @@ fn between(from: &[Point], to: &[Point], t: f64) -> Vec<Point> {
     from.iter().zip(to).map(|(a, b)| vector::between(*a, *b, t)).collect()
 }
 
-/// The farthest that a gripper moves between two steps (m).
-#[must_use]
-pub fn longest_move(from: &[Point], to: &[Point]) -> f64 {
-    from.iter().zip(to).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max)
-}
-
-/// The same way in steps whose longest moves are equal.
+/// The same path in steps whose longest moves are equal.
 fn evened(fine: &[Vec<Point>], steps: usize) -> Vec<Vec<Point>> {
-    let mut way = vec![0.0];
+    let mut lengths = vec![0.0];
     for pair in fine.windows(2) {
-        way.push(way[way.len() - 1] + longest_move(&pair[0], &pair[1]));
+        lengths.push(lengths[lengths.len() - 1] + farthest(&pair[0], &pair[1]));
     }
     let last = fine.len() - 1;
     (0..steps)
         .map(|k| {
-            let at = way[last] * k as f64 / (steps - 1) as f64;
-            let n = way.partition_point(|w| *w < at).clamp(1, last);
-            let length = way[n] - way[n - 1];
-            let t = if length > 0.0 { ((at - way[n - 1]) / length).clamp(0.0, 1.0) } else { 1.0 };
+            let at = lengths[last] * k as f64 / (steps - 1) as f64;
+            let n = lengths.partition_point(|x| *x < at).clamp(1, last);
+            let length = lengths[n] - lengths[n - 1];
+            let t =
+                if length > 0.0 { ((at - lengths[n - 1]) / length).clamp(0.0, 1.0) } else { 1.0 };
             if k + 1 == steps { fine[last].clone() } else { between(&fine[n - 1], &fine[n], t) }
         })
         .collect()

@@ -1,9 +1,9 @@
 //! Grippers and cells: tilt, height above the mold, distances, shear.
 
-use super::touch::distance_gradient;
 use super::{Quantity, Sensitivity};
 use crate::equilibrium::neighbours;
 use crate::mold::vector::{sub, unit};
+use crate::planner::tuning::TUNING;
 use crate::ply::shear;
 use num_dual::{Dual64, DualNum};
 
@@ -16,7 +16,8 @@ impl Sensitivity<'_> {
         let value = shear::angle(sides, path.value);
         // from sin γ = (d₁² − a² − b²)/2ab; a folded cell shears no further
         let rate = path.value / (sides[0] * sides[1] * value.cos());
-        let rate = if rate.is_finite() && value.cos() > 1e-6 { rate } else { 0.0 };
+        let rate =
+            if rate.is_finite() && value.cos() > TUNING.sensitivity.folded { rate } else { 0.0 };
         Some(Quantity { value, gradient: path.gradient.iter().map(|g| rate * g).collect() })
     }
 
@@ -26,7 +27,7 @@ impl Sensitivity<'_> {
         let point = self.positions[gripper];
         let foot = self.scene.mold.as_ref()?.closest_point(point);
         let mut gradient = self.zeros();
-        gradient[3 * gripper..][..3].copy_from_slice(&distance_gradient(point, &foot));
+        gradient[3 * gripper..][..3].copy_from_slice(&self.distance_gradient(point, &foot));
         Some(Quantity { value: foot.distance, gradient })
     }
 
@@ -77,8 +78,8 @@ impl Sensitivity<'_> {
         let (nx, ny) = (u[1] * sv - su * v[1], su * v[0] - u[0] * sv);
         let nz = u[0] * v[1] - u[1] * v[0];
         let square = nx * nx + ny * ny;
-        let aside = if square.re > 0.0 { square.sqrt() } else { zero };
+        let horizontal = if square.re > 0.0 { square.sqrt() } else { zero };
         let up = if nz.re < 0.0 { -nz } else { nz };
-        aside.atan2(up)
+        horizontal.atan2(up)
     }
 }

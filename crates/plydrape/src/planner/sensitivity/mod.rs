@@ -1,18 +1,18 @@
-//! What a plan looks at in a solved ply, each with its exact gradient to all gripper positions.
+//! The quantities of a solved ply that a plan weighs, each with its exact gradient to all gripper positions.
 //!
 //! The equilibrium is differentiated by the implicit function theorem, eq. (11) of `docs/theory/equilibrium.md`: one
 //! tangent for each gripper coordinate gives how every span's force, end slopes, run, rise and length
-//! follow. All else is the chain rule. Contact segments stay fixed; exact wherever the state is
+//! follow. All else is the chain rule. Contact segments stay fixed. Gradients are exact wherever the state is
 //! differentiable: not where a diagonal just begins to shear, a slope just reaches its limit, or a point
-//! just touches.
+//! just comes into contact.
 //!
-//! `span` holds what one span has to say, `touch` what it and the mold have, `gripper` what belongs to
-//! grippers and cells, `outcome` all of it where a drape has come to.
+//! `span` has the quantities of one span, `contact` those of a span and the mold, `gripper` those of
+//! grippers and cells, `outcome` those of the end of a drape.
 
+mod contact;
 mod gripper;
 mod outcome;
 mod span;
-mod touch;
 
 pub use outcome::{Outcome, outcome};
 pub use span::Place;
@@ -31,13 +31,13 @@ pub struct Quantity {
     pub gradient: Vec<f64>,
 }
 
-/// Rows that an element has: force, both end slopes, run, rise, length.
+/// Rows of an element: force, both end slopes, run, rise, length.
 const ROWS: usize = 6;
 
 /// A solved ply with the derivatives of its state to all gripper positions.
 pub struct Sensitivity<'a> {
     scene: &'a Scene,
-    /// The free spans that it speaks of.
+    /// The free spans.
     pub shape: &'a Shape,
     positions: &'a [Point],
     contacts: &'a [Option<ContactSegment>],
@@ -52,8 +52,8 @@ pub struct Sensitivity<'a> {
 }
 
 impl<'a> Sensitivity<'a> {
-    /// Differentiates the last state of a solver: `shape` is what was read off it, `positions` (m) and `contacts`
-    /// are what it was solved with.
+    /// Differentiates the last state of a solver: `shape` are its spans, `positions` (m) and `contacts`
+    /// those with which it was solved.
     #[must_use]
     pub fn new(
         scene: &'a Scene,

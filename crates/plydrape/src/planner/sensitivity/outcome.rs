@@ -1,23 +1,24 @@
-//! How a drape comes out, and how that changes with where its grippers end.
+//! The end of a drape, and its derivatives to the positions where its grippers end.
 
 use super::{Quantity, Sensitivity};
 use crate::draping::spans::Point;
 use crate::draping::{Drape, Draping, lying_segments};
+use crate::planner::tuning::{self, TUNING};
 use crate::ply::ContactSegment;
 use crate::scene::Scene;
 use std::ops::ControlFlow;
 
 /// The last step of a drape with its derivatives to where the grippers are in it.
 ///
-/// What the mold has caught by then is held. So they are those of the drape's outcome to the grippers' targets as
-/// long as a slightly different last step catches nothing more, and exact wherever the state is smooth: not where a
+/// Contacts are fixed. So the derivatives are those of the drape's outcome to the grippers' targets as
+/// long as a slightly different last step makes no new contact, and exact wherever the state is smooth: not where a
 /// diagonal just begins to shear or a slope just reaches its limit.
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The drape.
     pub drape: Drape,
-    /// Taut path of each catenary's tightest rest beyond its fabric (m), negative where it is slack: straight where
-    /// it hangs, along the mold where it lies. The derivative of a lying path is a central difference of its length.
+    /// Taut path of each catenary's tightest segment minus its fabric length (m), negative where it is slack: straight
+    /// where it hangs, along the mold where it lies. The derivative of a lying path is a central difference of its length.
     pub overstretch: Vec<Quantity>,
     /// Horizontal force (N) of each catenary's span that pulls or pushes most; none where there is none.
     pub force: Vec<Option<Quantity>>,
@@ -27,7 +28,7 @@ pub struct Outcome {
     pub tilt: Vec<Quantity>,
 }
 
-/// Drapes the ply of a scene along its motion and differentiates where it has come to; none of a motion without
+/// Drapes the ply of a scene along its motion and differentiates its last step; none of a motion without
 /// steps. `progress` is as that of [`crate::draping::simulate`].
 pub fn outcome(
     scene: &Scene,
@@ -37,25 +38,25 @@ pub fn outcome(
     let (drape, shape) = draping.run(&mut progress);
     let (shape, grid) = (shape?, scene.ply.grid);
     let Draping { solver, positions, contacts, .. } = &mut draping;
-    let look = Sensitivity::new(scene, solver, &shape, positions, contacts);
+    let sensitivity = Sensitivity::new(scene, solver, &shape, positions, contacts);
 
     let nothing = Quantity { value: f64::NEG_INFINITY, gradient: Vec::new() };
     let mut overstretch = vec![nothing; grid.catenaries()];
     let mut force: Vec<Option<Quantity>> = vec![None; grid.catenaries()];
     for catenary in 0..grid.catenaries() {
-        for found in lying(scene, look.contacts, look.positions, catenary) {
+        for found in lying(scene, sensitivity.contacts, sensitivity.positions, catenary) {
             if found.value > overstretch[catenary].value {
                 overstretch[catenary] = found;
             }
         }
     }
     for span in &shape.spans {
-        let found = look.overstretch(span);
+        let found = sensitivity.overstretch(span);
         if found.value > overstretch[span.catenary].value {
             overstretch[span.catenary] = found;
         }
         let slot = &mut force[span.catenary];
-        if let Some(found) = look.force(span)
+        if let Some(found) = sensitivity.force(span)
             && slot.as_ref().is_none_or(|old| found.value.abs() > old.value.abs())
         {
             *slot = Some(found);
@@ -64,16 +65,13 @@ pub fn outcome(
     Some(Outcome {
         overstretch,
         force,
-        shear: (0..grid.cells()).map(|cell| look.shear(cell)).collect(),
-        tilt: (0..grid.grippers()).map(|gripper| look.tilt(gripper)).collect(),
+        shear: (0..grid.cells()).map(|cell| sensitivity.shear(cell)).collect(),
+        tilt: (0..grid.grippers()).map(|gripper| sensitivity.tilt(gripper)).collect(),
         drape,
     })
 }
 
-/// Step of the differences of a lying path's length (m): small beside a mold's radii, large beside rounding.
-const STEP: f64 = 1e-6;
-
-/// The rests of a catenary that lie on the mold: path beyond fabric.
+/// Path minus fabric length (m) of the segments of a catenary that lie on the mold.
 fn lying(
     scene: &Scene,
     contacts: &[Option<ContactSegment>],
@@ -90,6 +88,7 @@ fn lying(
         segments.iter().map(|segment| -segment.misfit.excess()).collect()
     };
     let ends = grippers.map(|gripper| positions[gripper]);
+    let step = TUNING.sensitivity.step * tuning::cell(scene);
     let mut out: Vec<Quantity> = (misfits(ends).into_iter())
         .map(|value| Quantity { value, gradient: vec![0.0; 3 * positions.len()] })
         .collect();
@@ -98,14 +97,14 @@ fn lying(
     }
     for (end, gripper) in grippers.into_iter().enumerate() {
         for axis in 0..3 {
-            let moved = |step: f64| {
+            let moved = |by: f64| {
                 let mut ends = ends;
-                ends[end][axis] += step;
+                ends[end][axis] += by;
                 misfits(ends)
             };
-            let (low, high) = (moved(-STEP), moved(STEP));
+            let (low, high) = (moved(-step), moved(step));
             for (found, (low, high)) in out.iter_mut().zip(low.into_iter().zip(high)) {
-                found.gradient[3 * gripper + axis] = (high - low) / (2.0 * STEP);
+                found.gradient[3 * gripper + axis] = (high - low) / (2.0 * step);
             }
         }
     }

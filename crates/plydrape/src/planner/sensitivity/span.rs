@@ -9,6 +9,7 @@ use crate::catenary::{Graded, Profile};
 use crate::draping::misfit;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, dot, sub, unit};
+use crate::planner::tuning::TUNING;
 
 /// A point with its gradient to all gripper positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,8 +33,8 @@ impl Place {
 }
 
 impl Sensitivity<'_> {
-    /// A quantity of a span's closed form, carried to the grippers.
-    pub(super) fn follow(&self, element: usize, graded: &Graded) -> Vec<f64> {
+    /// Gradient of a quantity of a span's closed form to the gripper positions.
+    pub(super) fn chain(&self, element: usize, graded: &Graded) -> Vec<f64> {
         let mut gradient = self.zeros();
         // force, slopes, run and rise are the first five variables of both
         for row in 0..5 {
@@ -54,7 +55,7 @@ impl Sensitivity<'_> {
         Some(Quantity { value, gradient: self.row(element, 0).to_vec() })
     }
 
-    /// Path between its ends beyond its fabric length (m), see `docs/theory/measures.md`; negative is slack.
+    /// Path between its ends minus its fabric length (m), see [`crate::measure::Misfit`]; negative is slack.
     #[must_use]
     pub fn overstretch(&self, span: &FreeSpan) -> Quantity {
         let mut gradient = self.zeros();
@@ -62,13 +63,13 @@ impl Sensitivity<'_> {
         let [a, b] = span.ends;
         let mut chord = unit(sub(b, a)).unwrap_or([0.0; 3]);
         if let Some(contact) = contact {
-            // behind the contact the way grows along the tangent out of it
+            // behind the contact the path grows along the tangent out of it
             let sense = if span.segment == 0 { -1.0 } else { 1.0 };
             let (outward, gripper) = (contact.outward[span.segment], sub(b, a).map(|c| sense * c));
             let ahead = dot(gripper, outward);
             if ahead < 0.0 {
-                let aside = unit(along(gripper, -ahead, outward)).unwrap_or([0.0; 3]);
-                chord = along(outward, 1.0, aside).map(|c| sense * c);
+                let across = unit(along(gripper, -ahead, outward)).unwrap_or([0.0; 3]);
+                chord = along(outward, 1.0, across).map(|c| sense * c);
             }
         }
         for (end, sign) in [(0, -1.0), (1, 1.0)] {
@@ -80,7 +81,7 @@ impl Sensitivity<'_> {
         }
         match span.element {
             Some(element) => add(&mut gradient, -1.0, self.row(element, 5)),
-            // a stretched diagonal that nothing has caught is as long as its path
+            // a stretched diagonal without contact is as long as its path
             None if self.contacts[span.catenary].is_none() => gradient.fill(0.0),
             None => {}
         }
@@ -92,7 +93,7 @@ impl Sensitivity<'_> {
     pub fn slope(&self, span: &FreeSpan, t: f64) -> Quantity {
         if let Some((profile, element)) = self.hanging(span) {
             let slope = profile.stations().slope(t);
-            return Quantity { value: slope.value, gradient: self.follow(element, &slope) };
+            return Quantity { value: slope.value, gradient: self.chain(element, &slope) };
         }
         let (run, value) = (span.run(), span.slope(t));
         let mut gradient = self.zeros();
@@ -129,7 +130,7 @@ impl Sensitivity<'_> {
             }
         }
         if let Some((profile, element)) = hanging {
-            let height = self.follow(element, &profile.stations().height(t));
+            let height = self.chain(element, &profile.stations().height(t));
             add(&mut gradient[2], 1.0, &height);
         }
         Place { point: span.point(t), gradient }
@@ -147,8 +148,8 @@ impl Sensitivity<'_> {
         let (part, whole) = (stations.arc(t), stations.arc(1.0));
         let slope = profile.station(t * span.run()).slope;
         let rate = span.run() * slope.hypot(1.0);
-        let mut along = self.follow(element, &part);
-        add(&mut along, -part.value / whole.value, &self.follow(element, &whole));
+        let mut along = self.chain(element, &part);
+        add(&mut along, -part.value / whole.value, &self.chain(element, &whole));
         let [a, b] = span.ends;
         let velocity = [b[0] - a[0], b[1] - a[1], span.run() * slope];
         for n in 0..3 {
@@ -167,16 +168,16 @@ pub(super) fn fraction(span: &FreeSpan, share: f64) -> f64 {
     let goal = share * profile.length_to(run);
     let (mut low, mut high, mut t) = (0.0, 1.0, share);
     // Newton's method, kept within its bracket
-    for _ in 0..50 {
-        let miss = profile.length_to(t * run) - goal;
-        if miss > 0.0 {
+    for _ in 0..TUNING.sensitivity.fraction_steps {
+        let residual = profile.length_to(t * run) - goal;
+        if residual > 0.0 {
             high = t
         } else {
             low = t
         }
-        let next = t - miss / (run * profile.station(t * run).slope.hypot(1.0));
+        let next = t - residual / (run * profile.station(t * run).slope.hypot(1.0));
         let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-        if (next - t).abs() < 1e-13 || share <= 0.0 || share >= 1.0 {
+        if (next - t).abs() < TUNING.sensitivity.fraction || share <= 0.0 || share >= 1.0 {
             break;
         }
         t = next;

@@ -1,51 +1,40 @@
-//! How high each gripper should be: the ply is laid from its middle outwards, free and rising beyond the
-//! front.
+//! The height of each gripper above the mold: the ply comes into contact from its middle outwards and rises ahead of
+//! the front.
 //!
-//! Let r be the distance of a gripper's place from the place of the ply's middle, f the radius of the front
-//! and A a rate of rise. The ply should hang at
+//! Let r be the distance of a gripper's target from the middle of the ply on the mold, f the radius of the front,
+//! h₀ its height and A a rate of rise. The ply should hang at
 //!
-//! `h(r) = hover + ½A (r − f)²` for r > f, at most as steep as the tilt of the grippers allows,
+//! `h(r) = h₀ + ½A (r − f)²` for r > f, at most as steep as the tilt of the grippers allows,
 //!
-//! above the mold. A rises faster than the mold bends away, so that the ply touches next to what lies already
-//! and not beyond it. On a flat mold A = 0: the ply takes its final form above the mold and comes down as
-//! a whole. The front is ours; the paper leaves open in which order a ply should land.
+//! above the mold. The ply curves away faster than the mold does, so that the next contact is beside the last
+//! one. On a flat mold A = 0: the ply takes its final form above the mold and comes down as
+//! a whole. The front is not in the paper, which leaves open in which order a ply should land.
 
+use super::tuning::TUNING;
 use crate::mold::vector::{norm, sub};
 use crate::scene::Scene;
-
-/// Rate of rise A over the largest curvature of the mold.
-const RISE: f64 = 2.4;
-
-/// Steepest rise from the mold, where the tilt leaves room for it.
-const STEEPEST: f64 = 0.35;
-
-/// Share of the grippers' tilt that the plan means to use.
-const TILT_SHARE: f64 = 0.8;
-
-/// Height from which a gripper goes down at once, over the tolerance of contact.
-const LAST: f64 = 5.0;
 
 /// Where the landing front is, and what follows for each gripper.
 #[derive(Debug, Clone)]
 pub struct Front {
-    /// Distance of each gripper's place from the middle (m).
+    /// Distance of each gripper's target from the middle (m).
     pub distance: Vec<f64>,
-    /// Normal of the mold at each gripper's place.
+    /// Normal of the mold at each gripper's target.
     pub normal: Vec<[f64; 3]>,
     /// Rate of rise A (1/m).
     pub rise: f64,
-    /// Distance beyond the front from which the rise is even (m).
-    knee: f64,
-    /// Height of the front above the mold (m).
-    pub hover: f64,
+    /// Distance beyond the front from which the rise is straight (m).
+    straight: f64,
+    /// Height of the front above the mold h₀ (m).
+    pub base: f64,
     /// Radius of the front f (m).
     pub radius: f64,
-    /// Height from which a gripper goes down at once (m).
+    /// Height from which a gripper goes down in one step (m).
     last: f64,
 }
 
 impl Front {
-    /// The front before anything has landed, for a ply whose grippers shall end at `targets` (m).
+    /// The front before the first contact, for a ply whose grippers shall end at `targets` (m).
     pub fn new(scene: &Scene, targets: &[[f64; 3]]) -> Self {
         let up = [0.0, 0.0, 1.0];
         let count = targets.len() as f64;
@@ -58,20 +47,21 @@ impl Front {
                 mold.curvatures(*p).principal.iter().fold(0.0_f64, |most, k| most.max(k.abs()))
             })
         };
-        let rise = RISE * targets.iter().chain([&middle]).map(bend).fold(0.0, f64::max);
-        // what the mold's own slope leaves of the tilt
-        let slope = |n: &[f64; 3]| n[0].hypot(n[1]) / n[2].max(1e-3);
+        let rise = TUNING.rise * targets.iter().chain([&middle]).map(bend).fold(0.0, f64::max);
+        // the tilt minus the mold's own slope
+        let slope = |n: &[f64; 3]| n[0].hypot(n[1]) / n[2].max(TUNING.upright);
         let steepest = normal.iter().map(slope).fold(0.0, f64::max);
-        let room = TILT_SHARE * scene.limits.tilt.min(scene.settings.max_tilt).tan() - steepest;
-        let cap = room.clamp(0.05, STEEPEST);
+        let room =
+            TUNING.tilt_share * scene.limits.tilt.min(scene.settings.max_tilt).tan() - steepest;
+        let cap = room.clamp(TUNING.slopes[0], TUNING.slopes[1]);
         Front {
             distance: targets.iter().map(|p| norm(sub(*p, middle))).collect(),
             normal,
             rise,
-            knee: if rise > 0.0 { cap / rise } else { f64::INFINITY },
-            hover: 0.0,
+            straight: if rise > 0.0 { cap / rise } else { f64::INFINITY },
+            base: 0.0,
             radius: 0.0,
-            last: LAST * scene.settings.contact.tolerance,
+            last: TUNING.last * scene.settings.contact.tolerance,
         }
     }
 
@@ -82,20 +72,20 @@ impl Front {
 
     /// How high a gripper should be above the mold (m).
     ///
-    /// The last bit is one step: an edge that touches up to a gripper is held at the gripper's foot, and
-    /// pulled by as much as the gripper still hangs above it.
+    /// A gripper goes down the last millimetre in one step: an edge that is in contact up to a gripper is held at the
+    /// closest point of the gripper, and would be stretched by the height of the gripper above it.
     pub fn height(&self, gripper: usize) -> f64 {
-        let height = self.hover + self.lift(gripper, self.radius);
+        let height = self.base + self.lift(gripper, self.radius);
         if height > self.last { height } else { 0.0 }
     }
 
-    /// What a gripper hangs higher than the front would, were its radius `radius` (m).
+    /// Height of a gripper above that of the front, for a front of radius `radius` (m).
     pub fn lift(&self, gripper: usize, radius: f64) -> f64 {
         let x = self.distance[gripper] - radius;
         if x <= 0.0 || self.rise == 0.0 {
             return 0.0;
         }
-        let near = x.min(self.knee);
+        let near = x.min(self.straight);
         self.rise * near * (x - 0.5 * near)
     }
 

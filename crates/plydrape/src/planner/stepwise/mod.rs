@@ -1,46 +1,41 @@
-//! The stepwise planner of Krogh et al. 2018: in each step the grippers move so as to make the most of it.
+//! The stepwise planner of Krogh et al. 2018: each step is the solution of a quadratic program.
 //!
-//! One loop: differentiate the solved ply ([`super::sensitivity`]), put up the quadratic program of one step
-//! (`step`, `program`), move the true model, halve the step where the model disagrees (the move limit is the
-//! radius of a trust region), and let the landing front (`front`) go on. What touches stays, so a step cannot
-//! be taken back: the method is greedy.
+//! One loop: advance the front (`stage`, `front`), differentiate the solved ply ([`super::sensitivity`]), solve the
+//! program of one step (`step`, `constraints`), move the true model, and halve the step where the model does not accept
+//! it (`evaluation`): the move limit is the radius of a trust region. At the end, slack is removed (`slack`). What is
+//! in contact stays in contact, so a step cannot be taken back: the method is greedy.
 
-mod bounds;
+mod constraints;
+mod evaluation;
 mod front;
-mod judgement;
 mod outcome;
-mod settle;
+mod slack;
 mod stage;
 mod step;
+pub mod tuning;
 
-pub use outcome::{Outcome, Stepwise, Stray};
+pub use outcome::{Outcome, PositionError, Stepwise};
 
 use super::sensitivity::Sensitivity;
+use super::tuning::cell;
 use crate::draping::Draping;
 use crate::draping::spans::{Point, Shape};
 use crate::mold::distance;
 use crate::mold::vector::sub;
+use crate::motion::farthest;
 use crate::scene::Scene;
+use evaluation::Evaluation;
 use front::Front;
-use judgement::Judgement;
 use stage::Stage;
 use std::ops::ControlFlow;
 use step::Step;
-
-/// Times that a step is halved.
-const HALVINGS: usize = 6;
-
-/// Moves that take out slack at the end.
-const SETTLINGS: usize = 3;
-
-/// Distance (m) from its place at which a gripper that has landed is put there.
-const SNAP: f64 = 5e-5;
+use tuning::TUNING;
 
 /// Plans the gripper positions of a scene, step by step.
 ///
 /// The first step is the start, `scene.motion.positions[0]`; the last are `scene.target.grippers` where the
 /// grippers get there. Each takes at most `scene.plan.steps` steps of `scene.plan.move_limit` (m). `progress`
-/// is told after each step how many are done; when it breaks, the plan ends there. How it ended is data:
+/// receives the number of steps after each step; when it breaks, the plan ends there. How it ended is data:
 /// [`Stepwise::outcome`].
 pub fn stepwise(scene: &Scene, progress: &mut dyn FnMut(usize) -> ControlFlow<()>) -> Stepwise {
     let start = scene.motion.positions.first().cloned().unwrap_or_default();
@@ -52,7 +47,7 @@ pub fn stepwise(scene: &Scene, progress: &mut dyn FnMut(usize) -> ControlFlow<()
     Plan::new(scene, &target.grippers, start).run(progress)
 }
 
-/// A plan under way.
+/// The state of a plan after some steps.
 struct Plan<'a> {
     scene: &'a Scene,
     targets: &'a [Point],
@@ -71,17 +66,19 @@ impl<'a> Plan<'a> {
         let mut draping = Draping::new(scene);
         let shape = draping.move_to(&start);
         let mut front = Front::new(scene, targets);
-        // as low as the lowest gripper hangs over its place in the form that the ply will take
-        let over = |n: usize| {
+        // as low as the lowest gripper is above its height in the form that the ply will take
+        let above = |n: usize| {
             let height = scene
                 .mold
                 .as_ref()
                 .map_or(start[n][2] - targets[n][2], |mold| mold.signed_distance(start[n]));
             height - front.lift(n, 0.0)
         };
-        front.hover = (0..start.len()).map(over).fold(f64::INFINITY, f64::min).max(0.01);
-        let way = start.iter().zip(targets).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
-        let all = way + front.hover + front.drop(front.farthest());
+        front.base = (0..start.len())
+            .map(above)
+            .fold(f64::INFINITY, f64::min)
+            .max(TUNING.base * cell(scene));
+        let all = farthest(&start, targets) + front.base + front.drop(front.farthest());
         let reach = scene.plan.move_limit.unwrap_or(2.0 * all / scene.plan.steps.max(2) as f64);
         let count = start.len();
         Plan {
@@ -100,23 +97,23 @@ impl<'a> Plan<'a> {
 
     fn run(mut self, progress: &mut dyn FnMut(usize) -> ControlFlow<()>) -> Stepwise {
         let most = self.scene.plan.steps.max(1);
-        let lacks = self.lacks((most - 1) as f64 * self.reach);
+        let shortfall = self.shortfall((most - 1) as f64 * self.reach);
         let mut done = |plan: &Self| progress(plan.positions.len()).is_break();
         let mut broken = done(&self);
-        while !broken && self.positions.len() < most && self.stray().distance > 0.0 {
+        while !broken && self.positions.len() < most && self.largest_error().distance > 0.0 {
             self.advance_front(most - self.positions.len());
             self.step();
             broken = done(&self);
         }
-        let outcome = match (self.stray(), lacks) {
-            (stray, _) if stray.distance == 0.0 => Outcome::Arrived,
+        let outcome = match (self.largest_error(), shortfall) {
+            (error, _) if error.distance == 0.0 => Outcome::Arrived,
             _ if broken => Outcome::Interrupted,
-            (_, Some(lacks)) => Outcome::OutOfReach(lacks),
-            (stray, None) => Outcome::OutOfSteps(stray),
+            (_, Some(shortfall)) => Outcome::OutOfReach(shortfall),
+            (error, None) => Outcome::OutOfSteps(error),
         };
-        for _ in 0..SETTLINGS {
+        for _ in 0..TUNING.slack.moves {
             let room = !broken && self.positions.len() < most;
-            if outcome != Outcome::Arrived || !room || !self.settle() {
+            if outcome != Outcome::Arrived || !room || !self.remove_slack() {
                 break;
             }
             broken = done(&self);
@@ -124,23 +121,23 @@ impl<'a> Plan<'a> {
         Stepwise { positions: self.positions, outcome }
     }
 
-    /// The gripper that lacks most of its way with all steps at their farthest, `reach` (m) together.
-    fn lacks(&self, reach: f64) -> Option<Stray> {
-        let stray = self.stray();
-        let lack = stray.distance - reach;
-        (lack > 0.0).then_some(Stray { distance: lack, ..stray })
+    /// What the farthest gripper still lacks (m) after the longest moves, `reach` (m) in all; none if it arrives.
+    fn shortfall(&self, reach: f64) -> Option<PositionError> {
+        let error = self.largest_error();
+        let distance = error.distance - reach;
+        (distance > 0.0).then_some(PositionError { distance, ..error })
     }
 
     /// The gripper farthest from its target.
-    fn stray(&self) -> Stray {
-        let mut stray = Stray { gripper: [0, 0], distance: 0.0 };
+    fn largest_error(&self) -> PositionError {
+        let mut largest = PositionError { gripper: [0, 0], distance: 0.0 };
         for (n, target) in self.targets.iter().enumerate() {
             let distance = distance(self.draping.positions[n], *target);
-            if distance > stray.distance {
-                stray = Stray { gripper: self.scene.ply.grid.id(n), distance };
+            if distance > largest.distance {
+                largest = PositionError { gripper: self.scene.ply.grid.id(n), distance };
             }
         }
-        stray
+        largest
     }
 
     fn height(&self, gripper: usize) -> f64 {
@@ -154,7 +151,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// One step: the program, the true model, half of it where that disagrees.
+    /// One step: the program, then the true model; with half the move limit where the model does not accept it.
     fn step(&mut self) {
         let landing = self.draping.contacts.iter().any(Option::is_some);
         for n in 0..self.targets.len() {
@@ -162,7 +159,7 @@ impl<'a> Plan<'a> {
                 self.draping.positions[n] == self.targets[n] && self.front.height(n) <= 0.0;
         }
         let (positions, contacts) = (self.draping.positions.clone(), self.draping.contacts.clone());
-        let look = Sensitivity::new(
+        let sensitivity = Sensitivity::new(
             self.scene,
             &mut self.draping.solver,
             &self.shape,
@@ -170,9 +167,9 @@ impl<'a> Plan<'a> {
             &contacts,
         );
         let mut reach = self.reach;
-        let before = Judgement::of(self.scene, &self.draping, &self.shape);
+        let before = Evaluation::of(self.scene, &self.draping, &self.shape);
         let mut best: Option<(Draping<'a>, Shape)> = None;
-        for trial in 0..HALVINGS {
+        for trial in 0..TUNING.halvings {
             let step = Step {
                 scene: self.scene,
                 targets: self.targets,
@@ -182,20 +179,21 @@ impl<'a> Plan<'a> {
                 before: &self.moves,
                 landing,
                 reach,
-                firm: trial < HALVINGS / 2,
+                firm: trial < TUNING.halvings / 2,
             };
-            let Some(moves) = step.moves(&look) else {
+            let Some(moves) = step.moves(&sensitivity) else {
                 reach *= 0.5;
                 continue;
             };
             let goal: Vec<Point> = (0..positions.len())
-                .map(|n| self.landed_place(n, [0, 1, 2].map(|k| positions[n][k] + moves[n][k])))
+                .map(|n| self.snapped(n, [0, 1, 2].map(|k| positions[n][k] + moves[n][k])))
                 .collect();
             let mut trial = self.draping.clone();
             let shape = trial.move_to(&goal);
-            let good = Judgement::of(self.scene, &trial, &shape).is_sound(self.scene, &before);
+            let acceptable =
+                Evaluation::of(self.scene, &trial, &shape).is_acceptable(self.scene, &before);
             best = Some((trial, shape));
-            if good {
+            if acceptable {
                 break;
             }
             reach *= 0.5;
@@ -209,30 +207,33 @@ impl<'a> Plan<'a> {
         self.positions.push(self.draping.positions.clone());
     }
 
-    /// The last move, if it leaves the ply better than it lies; whether it does.
-    fn settle(&mut self) -> bool {
-        let Some(goal) = settle::settled(self.scene, &self.draping, &self.shape, self.targets)
+    /// Moves the grippers so that slack is removed, if the true model accepts the move; whether it does.
+    fn remove_slack(&mut self) -> bool {
+        let Some(goal) = slack::removal(self.scene, &self.draping, &self.shape, self.targets)
         else {
             return false;
         };
         let mut trial = self.draping.clone();
         let shape = trial.move_to(&goal);
-        let found = Judgement::of(self.scene, &trial, &shape);
-        let far =
-            goal.iter().zip(&self.draping.positions).any(|(a, b)| distance(*a, *b) > self.reach);
-        let better = !far && found.converged && found.stretch <= self.scene.limits.overstretch;
-        if better {
+        let after = Evaluation::of(self.scene, &trial, &shape);
+        let far = farthest(&goal, &self.draping.positions) > self.reach;
+        let acceptable = !far && after.converged && after.stretch <= self.scene.limits.overstretch;
+        if acceptable {
             (self.draping, self.shape) = (trial, shape);
             self.positions.push(goal);
         }
-        better
+        acceptable
     }
 
-    /// Where a gripper goes that should be at `place` (m): on its target once it is all but there.
-    fn landed_place(&self, gripper: usize, place: Point) -> Point {
+    /// Where a gripper goes that should be at `place` (m): on its target if that is very near.
+    fn snapped(&self, gripper: usize, place: Point) -> Point {
         let target = self.targets[gripper];
         let down = self.front.height(gripper) <= 0.0
             && distance(self.draping.positions[gripper], target) <= self.reach;
-        if down && distance(place, target) <= SNAP { target } else { place }
+        if down && distance(place, target) <= TUNING.snap * cell(self.scene) {
+            target
+        } else {
+            place
+        }
     }
 }

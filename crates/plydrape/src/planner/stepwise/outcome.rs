@@ -1,4 +1,4 @@
-//! What a stepwise plan came to.
+//! The outcome of a stepwise plan.
 
 use crate::draping::spans::Point;
 use crate::ply::GripperId;
@@ -18,18 +18,18 @@ pub enum Outcome {
     /// Every gripper stands on its target.
     Arrived,
     /// The steps are used up: the gripper that is farthest from its target.
-    OutOfSteps(Stray),
-    /// All steps at their farthest do not reach the target: the gripper that lacks most, and by how much.
-    OutOfReach(Stray),
-    /// The caller broke it off.
+    OutOfSteps(PositionError),
+    /// The longest moves in all steps do not reach the target: the gripper with the largest shortfall, and the shortfall.
+    OutOfReach(PositionError),
+    /// The caller ended it.
     Interrupted,
     /// The scene has no target.
     NoTarget,
 }
 
-/// A gripper and how far it is from where it should be.
+/// A gripper and its distance from where it should be.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stray {
+pub struct PositionError {
     /// The gripper.
     pub gripper: GripperId,
     /// Its distance (m).

@@ -1,25 +1,12 @@
-//! How the front goes on: the ply takes its form, comes down, and is rolled on.
+//! The stages of the front: the ply takes its form, comes down, and is rolled on.
 
 use super::Plan;
-use super::step::wanted_stretch;
+use super::step::target_stretch;
+use super::tuning::TUNING;
 use crate::mold::vector::norm;
+use crate::planner::tuning::cell;
 
-/// Share of the move limit by which the front means to move the grippers.
-const PACE: f64 = 0.7;
-
-/// Distance (m) from the form to take above the mold that does for it.
-const FORMED: f64 = 1e-4;
-
-/// Share of the move limit below which the grippers have come to rest.
-const STILL: f64 = 0.03;
-
-/// Steps left at the end of rolling, for what comes late.
-const LATE: usize = 5;
-
-/// Way of the front beyond the farthest gripper (m).
-const BEYOND: f64 = 1e-3;
-
-/// What the front does.
+/// A stage of the front.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
     /// The ply takes its form above the mold.
@@ -36,13 +23,15 @@ impl Plan<'_> {
         let late = (0..self.targets.len())
             .map(|n| (self.height(n) - self.front.height(n)).abs())
             .fold(0.0, f64::max);
-        let pace = PACE * self.reach;
+        let pace = TUNING.pace * self.reach;
         if self.stage == Stage::Form {
-            // form: heights reached, edges as long as they should be
+            // the form is taken: heights reached, edges as long as they should be
             let slack = self.slack();
-            let formed = late < FORMED && slack < FORMED;
-            let still = self.moves.iter().all(|m| norm(*m) < STILL * self.reach);
-            let late = self.positions.len() > self.scene.plan.steps / 2;
+            let near = TUNING.formed * cell(self.scene);
+            let formed = late < near && slack < near;
+            let still = self.moves.iter().all(|m| norm(*m) < TUNING.still * self.reach);
+            let steps = TUNING.forming_share * self.scene.plan.steps as f64;
+            let late = self.positions.len() > steps as usize;
             if formed || still && self.positions.len() > 1 || late {
                 self.stage = Stage::Lower;
             }
@@ -51,24 +40,25 @@ impl Plan<'_> {
             return;
         }
         if self.stage == Stage::Lower {
-            self.front.hover = (self.front.hover - pace).max(0.0);
-            if self.front.hover == 0.0 {
+            self.front.base = (self.front.base - pace).max(0.0);
+            if self.front.base == 0.0 {
                 self.stage = Stage::Roll;
                 return;
             }
         }
         if self.stage == Stage::Roll {
-            let end = self.front.farthest() + BEYOND;
+            let end = self.front.farthest() + TUNING.beyond * cell(self.scene);
             let left = end - self.front.radius;
-            let mut grow = left / (remaining.saturating_sub(LATE).max(1)) as f64;
+            let mut grow = left / (remaining.saturating_sub(TUNING.late).max(1)) as f64;
             if self.front.rise == 0.0 {
                 grow = left;
             }
-            for _ in 0..30 {
+            let (factor, most) = TUNING.reduction;
+            for _ in 0..most {
                 if self.front.drop(self.front.radius + grow) <= pace {
                     break;
                 }
-                grow *= 0.8;
+                grow *= factor;
             }
             self.front.radius += grow.min(left);
         }
@@ -81,7 +71,7 @@ impl Plan<'_> {
             .spans
             .iter()
             .filter(|span| span.catenary < edges)
-            .map(|span| span.length - span.chord() + wanted_stretch(self.scene, span))
+            .map(|span| span.length - span.chord() + target_stretch(self.scene, span))
             .fold(0.0, |most, slack| most.max(slack.abs()))
     }
 }

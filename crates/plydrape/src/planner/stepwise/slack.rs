@@ -1,11 +1,12 @@
-//! The last move: what little the ply lies too loose beside the grippers is pulled out along the mold.
+//! The last moves: the grippers remove the slack of free segments beside them.
 //!
-//! What has landed stays, so the fabric between a gripper and the last point that touched keeps what errors
-//! the landing has left, a few hundredths of a millimetre. A gripper may end as far from its target as
-//! `limits.landing_gripper`; within a part of that it takes the slack out: least squares of the ways, rests
-//! that would be slack pulled to a little beyond their length, none pulled beyond its limit.
+//! Contacts stay, so the fabric between a gripper and the contact next to it keeps the position errors of the
+//! landing, a few hundredths of a millimetre. A gripper may end as far from its target as
+//! `limits.landing_gripper`; within a share of that it removes the slack: least squares of the moves, with segments
+//! that would be slack stretched a little beyond their length, and none stretched beyond its limit.
 
-use super::step::wanted_stretch;
+use super::step::target_stretch;
+use super::tuning::TUNING;
 use crate::draping::spans::{Point, Shape};
 use crate::draping::{Draping, lying_segments, misfit};
 use crate::mold::SurfaceCurve;
@@ -13,48 +14,31 @@ use crate::mold::vector::{along, norm, sub, unit};
 use crate::planner::program::{MM, Program};
 use crate::scene::Scene;
 
-/// Share of the gripper's landing error that the last move may use.
-const SHARE: f64 = 0.5;
-
-/// Pull to which a slack rest is drawn, as a share of the whole edge.
-const PULL: f64 = 2e-5;
-
-/// Share of the overstretch that the last move may use.
-const STRETCH: f64 = 0.8;
-
-/// Weight of a rest's length over that of a gripper's way.
-const FIRM: f64 = 1e3;
-
-/// Rests shorter than this share of their edge have no slack worth a name.
-const CRUMB: f64 = 1e-2;
-
-/// Rounds in which rests that have become slack are added.
-const ROUNDS: usize = 6;
-
-/// A rest of an edge that lies, between the grippers that hold it.
-struct Rest {
-    /// Path beyond its fabric (m); negative is slack.
-    pull: f64,
-    /// What it should be (m).
-    wanted: f64,
+/// A free segment of an edge in contact, or a whole edge that lies, with the grippers that hold it.
+struct FreeSegment {
+    /// Path minus fabric length (m); negative is slack.
+    stretch: f64,
+    /// The stretch that it should have (m).
+    target: f64,
     /// Fabric length (m), and that of the whole edge.
     length: f64,
     whole: f64,
-    /// Its grippers, each with the direction in which it pulls.
+    /// Its grippers, each with the direction in which it stretches the segment.
     grippers: Vec<(usize, [f64; 3])>,
 }
 
-impl Rest {
-    /// Whether slack here counts.
+impl FreeSegment {
+    /// Whether its slack counts.
     fn counts(&self) -> bool {
-        self.length > CRUMB * self.whole
+        self.length > TUNING.slack.short * self.whole
     }
 
-    fn pull_after(&self, moves: &[f64]) -> f64 {
-        let pull = |(gripper, way): &(usize, [f64; 3])| {
+    /// Stretch (m) after moves (mm) of all grippers.
+    fn stretch_after(&self, moves: &[f64]) -> f64 {
+        let stretch = |(gripper, way): &(usize, [f64; 3])| {
             (0..3).map(|n| way[n] * moves[3 * gripper + n] / MM).sum::<f64>()
         };
-        self.pull + self.grippers.iter().map(pull).sum::<f64>()
+        self.stretch + self.grippers.iter().map(stretch).sum::<f64>()
     }
 }
 
@@ -67,7 +51,7 @@ fn outward(line: &SurfaceCurve, end: usize) -> Option<[f64; 3]> {
     }
 }
 
-fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
+fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSegment> {
     let (ply, grid) = (&scene.ply, scene.ply.grid);
     let mut out = Vec::new();
     let Some(mold) = &scene.mold else {
@@ -78,29 +62,29 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
         let c = grid.catenary(n);
         let ids = [c.from, c.to].map(|g| grid.index(g));
         let ends = ids.map(|g| draping.positions[g]);
-        for rest in lying_segments(n, contact, ends, mold, scene.settings.contact.tolerance) {
-            let held: &[usize] = match rest.which {
+        for segment in lying_segments(n, contact, ends, mold, scene.settings.contact.tolerance) {
+            let held: &[usize] = match segment.which {
                 None => &[0, 1],
                 Some(0) => &[0],
                 Some(_) => &[1],
             };
-            out.push(Rest {
-                pull: rest.misfit.path - rest.misfit.length,
-                wanted: PULL * ply.flat_length(c.kind),
-                length: rest.misfit.length,
+            out.push(FreeSegment {
+                stretch: segment.misfit.path - segment.misfit.length,
+                target: TUNING.slack.target_stretch * ply.flat_length(c.kind),
+                length: segment.misfit.length,
                 whole: ply.flat_length(c.kind),
                 grippers: held
                     .iter()
                     .filter_map(|&end| {
-                        // behind the contact, the way grows back over it
-                        let sense = if rest.misfit.path < 0.0 { -1.0 } else { 1.0 };
-                        Some((ids[end], outward(&rest.line, end)?.map(|c| sense * c)))
+                        // behind the contact, the path grows back over it
+                        let sense = if segment.misfit.path < 0.0 { -1.0 } else { 1.0 };
+                        Some((ids[end], outward(&segment.line, end)?.map(|c| sense * c)))
                     })
                     .collect(),
             });
         }
     }
-    // crumbs that hang beside a gripper, and what bridges a hollow
+    // segments that hang beside a gripper, and spans that bridge a hollow
     for span in shape.spans.iter().filter(|span| span.catenary < grid.edges()) {
         let c = grid.catenary(span.catenary);
         let (Some(_), Some(way)) =
@@ -112,9 +96,9 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
             0 => (grid.index(c.from), way.map(|x| -x)),
             _ => (grid.index(c.to), way),
         };
-        out.push(Rest {
-            pull: -misfit(span, draping.contacts[span.catenary].as_ref()).excess(),
-            wanted: wanted_stretch(scene, span),
+        out.push(FreeSegment {
+            stretch: -misfit(span, draping.contacts[span.catenary].as_ref()).excess(),
+            target: target_stretch(scene, span),
             length: span.length,
             whole: ply.flat_length(c.kind),
             grippers: vec![(gripper, way)],
@@ -123,50 +107,57 @@ fn rests(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<Rest> {
     out
 }
 
-/// Where the grippers (m) of a ply that lies take out its slack; none where it has none that matters.
-pub fn settled(
+/// Positions of the grippers (m) at which the ply has no slack; none where it has no slack that counts already.
+pub fn removal(
     scene: &Scene,
     draping: &Draping,
     shape: &Shape,
     targets: &[Point],
 ) -> Option<Vec<Point>> {
     let (mold, limits) = (scene.mold.as_ref()?, &scene.limits);
-    let rests = rests(scene, draping, shape);
-    let slack =
-        |rest: &Rest| rest.counts() && -rest.pull > SHARE * limits.slack_ratio * rest.length;
-    if !rests.iter().any(slack) {
+    let segments = free_segments(scene, draping, shape);
+    let slack = |segment: &FreeSegment| {
+        segment.counts()
+            && -segment.stretch > TUNING.slack.share * limits.slack_ratio * segment.length
+    };
+    if !segments.iter().any(slack) {
         return None;
     }
     let count = targets.len();
-    let mut active: Vec<bool> = rests.iter().map(slack).collect();
+    let mut active: Vec<bool> = segments.iter().map(slack).collect();
     let mut moves = Vec::new();
-    for _ in 0..ROUNDS {
+    for _ in 0..TUNING.slack.rounds {
         let mut program = Program::new(count);
         for (gripper, target) in targets.iter().enumerate() {
             let way = sub(*target, draping.positions[gripper]);
             for n in 0..3 {
                 program.near(1.0, 3 * gripper + n, MM * way[n]);
             }
-            let radius = MM * SHARE * limits.landing_gripper;
+            let radius = MM * TUNING.slack.share * limits.landing_gripper;
             program.cone(vec![(gripper, 1.0)], way.map(|c| -MM * c), radius + MM * norm(way));
         }
-        for (rest, active) in rests.iter().zip(&active) {
+        for (segment, active) in segments.iter().zip(&active) {
             let mut gradient = vec![0.0; 3 * count];
-            for (gripper, way) in &rest.grippers {
+            for (gripper, way) in &segment.grippers {
                 for n in 0..3 {
                     gradient[3 * gripper + n] += way[n];
                 }
             }
             if *active {
-                program.square(FIRM, MM * (rest.pull - rest.wanted), &gradient);
+                program.square(
+                    TUNING.slack.weight,
+                    MM * (segment.stretch - segment.target),
+                    &gradient,
+                );
             }
-            let most = (STRETCH * limits.overstretch * rest.whole).max(rest.pull);
-            program.at_most(&gradient, 1.0, MM * (most - rest.pull));
+            let most = (TUNING.slack.stretch_share * limits.overstretch * segment.whole)
+                .max(segment.stretch);
+            program.at_most(&gradient, 1.0, MM * (most - segment.stretch));
         }
         moves = program.solve()?;
         let mut changed = false;
-        for (rest, active) in rests.iter().zip(&mut active) {
-            let slack = rest.counts() && rest.pull_after(&moves) < 0.0;
+        for (segment, active) in segments.iter().zip(&mut active) {
+            let slack = segment.counts() && segment.stretch_after(&moves) < 0.0;
             changed |= slack && !*active;
             *active |= slack;
         }

@@ -1,31 +1,29 @@
-//! A span and the mold: how far it is, where it would land, and how steeply it leaves.
+//! A span and the mold: its distance, its position error, and the slope at which it leaves the mold.
 
 use super::{Place, Quantity, Sensitivity, add};
 use crate::draping::fabric;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, dot, sub};
 use crate::mold::{ClosestPoint, Mold};
-
-/// Distances below this have no direction but the normal's (m).
-const ON_MOLD: f64 = 1e-9;
-
-/// Gradient of the distance from the mold at a point.
-pub(super) fn distance_gradient(point: Point, foot: &ClosestPoint) -> [f64; 3] {
-    if foot.distance.abs() < ON_MOLD {
-        return foot.normal;
-    }
-    // beside an open boundary it points away from the boundary
-    sub(point, foot.point).map(|c| c / foot.distance)
-}
+use crate::planner::tuning::{self, TUNING};
 
 impl Sensitivity<'_> {
+    /// Gradient of the distance from the mold at a point.
+    pub(super) fn distance_gradient(&self, point: Point, foot: &ClosestPoint) -> [f64; 3] {
+        if foot.distance.abs() < TUNING.sensitivity.on_mold * tuning::cell(self.scene) {
+            return foot.normal;
+        }
+        // beside an open border it points away from the border
+        sub(point, foot.point).map(|c| c / foot.distance)
+    }
+
     /// Distance from the mold (m) of a span at a fixed fraction `t` of its run; none without a mold. At a
     /// minimum along the span the gradient is that of the smallest distance.
     #[must_use]
     pub fn gap(&self, span: &FreeSpan, t: f64) -> Option<Quantity> {
         let place = self.place(span, t);
         let foot = self.scene.mold.as_ref()?.closest_point(place.point);
-        let slope = place.along(distance_gradient(place.point, &foot));
+        let slope = place.along(self.distance_gradient(place.point, &foot));
         Some(Quantity { value: foot.distance, ..slope })
     }
 
@@ -39,7 +37,7 @@ impl Sensitivity<'_> {
         target.drape.as_ref()?.place(mold, fabric(self.scene, span.catenary, share))
     }
 
-    /// Way from the ideal place of a span's fabric at a share of its length to where it is (m); its x and
+    /// Position error (m): from the ideal place of a span's fabric at a share of its length to where it is; its x and
     /// y are the error in plan. None where the ideal drape does not know the place.
     #[must_use]
     pub fn landing(&self, span: &FreeSpan, share: f64) -> Option<Place> {
@@ -49,8 +47,8 @@ impl Sensitivity<'_> {
     }
 
     /// Slope by which a span leaves the mold at one of its ends, outward from there: the ply's minus the
-    /// mold's, positive where the ply rises from it. The end is one that the mold holds or a gripper that
-    /// stands on it. None without a mold or where it is upright.
+    /// mold's, positive where the ply rises from it. The end is in contact, or is a gripper that
+    /// stands on the mold. None without a mold or where the mold is upright.
     #[must_use]
     pub fn rise(&self, span: &FreeSpan, end: usize) -> Option<Quantity> {
         let mold = self.scene.mold.as_ref()?;

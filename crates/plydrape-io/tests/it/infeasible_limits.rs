@@ -1,7 +1,7 @@
 //! What a scene rules out by itself, before any plan: each limit with its amount, from plane geometry.
 
 use plydrape::draping::record::Verdict;
-use plydrape::planner::obstacles::obstacles;
+use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape_io::scene;
 use std::path::Path;
 
@@ -10,10 +10,10 @@ const START: &str = "spacing = [\"98 mm\", \"98 mm\"]\nheight = \"75 mm\"\n";
 
 fn found(base: &Path, text: &str) -> Vec<Verdict> {
     let scene = scene::parse(text, base, "scene.toml").unwrap_or_else(|e| panic!("{e}")).scene;
-    obstacles(&scene)
+    infeasible_limits(&scene)
 }
 
-/// The obstacles of 4 × 2 grippers over a flat mold, sheared by 20° at the target.
+/// The infeasible limits of 4 × 2 grippers over a flat mold, sheared by 20° at the target.
 fn flat(more: &str) -> Vec<Verdict> {
     let text = format!(
         "[ply]\n{PLY}[mold]\nkind = \"plane\"\n[grippers]\n{START}[target]\nshear = \"20 deg\"\n{more}\n"
@@ -21,8 +21,8 @@ fn flat(more: &str) -> Vec<Verdict> {
     found(Path::new(""), &text)
 }
 
-/// The same of 2 × 2 grippers whose targets are given (m).
-fn given(targets: [[f64; 3]; 4], more: &str) -> Vec<Verdict> {
+/// The same of 2 × 2 grippers with targets at positions (m).
+fn with_targets(targets: [[f64; 3]; 4], more: &str) -> Vec<Verdict> {
     let [a, b, c, d] = targets;
     let text = format!(
         "[ply]\n{}[mold]\nkind = \"plane\"\n[grippers]\n{START}[target]\npositions = [[{a:?}, {b:?}], [{c:?}, {d:?}]]\n{more}\n",
@@ -31,7 +31,7 @@ fn given(targets: [[f64; 3]; 4], more: &str) -> Vec<Verdict> {
     found(Path::new(""), &text)
 }
 
-/// The only obstacle, by name, value, limit and step; and its place.
+/// The only infeasible limit, by name, value, limit and step; and its place.
 fn only(found: &[Verdict], name: &str, value: f64, limit: f64, step: Option<usize>) -> String {
     let [verdict] = found else {
         panic!("{found:?}");
@@ -53,7 +53,7 @@ const SQUARE: [[f64; 3]; 4] = [[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.1,
 fn a_scene_that_can_be_draped_has_no_obstacle() {
     assert!(found(Path::new(""), scene::TEMPLATE).is_empty());
     assert!(flat("").is_empty());
-    assert!(given(SQUARE, "").is_empty());
+    assert!(with_targets(SQUARE, "").is_empty());
 }
 
 /// A limit that is met exactly is none: the target is sheared by 20°.
@@ -70,7 +70,8 @@ fn targets_given_by_position_have_the_shear_of_their_parallelogram() {
     let (sin, cos) = 30f64.to_radians().sin_cos();
     let (x, y) = (0.1 * sin, 0.1 * cos);
     let rhombus = [[0.0; 3], [0.1, 0.0, 0.0], [x, y, 0.0], [0.1 + x, y, 0.0]];
-    let at = only(&given(rhombus, "[limits]\nshear = \"20 deg\""), "shear", 30.0, 20.0, None);
+    let at =
+        only(&with_targets(rhombus, "[limits]\nshear = \"20 deg\""), "shear", 30.0, 20.0, None);
     assert_eq!(at, "cell [0,0] of the target");
 }
 
@@ -79,13 +80,14 @@ fn targets_given_by_position_have_the_shear_of_their_parallelogram() {
 fn targets_further_apart_than_the_fabric_are_named() {
     let mut targets = SQUARE;
     targets[1][0] = 0.101;
-    let at = only(&given(targets, ""), "overstretch", 1.0, 0.1, None);
+    let at = only(&with_targets(targets, ""), "overstretch", 1.0, 0.1, None);
     assert_eq!(at, "edge [0,0]–[1,0] at the target");
 }
 
 #[test]
 fn targets_inside_the_mold_are_named() {
-    let at = only(&given(SQUARE.map(|[x, y, _]| [x, y, -0.005]), ""), "off_mold", 5.0, 0.2, None);
+    let at =
+        only(&with_targets(SQUARE.map(|[x, y, _]| [x, y, -0.005]), ""), "off_mold", 5.0, 0.2, None);
     assert!(at.starts_with("target of gripper [0,0], inside"), "{at}");
 }
 

@@ -1,4 +1,4 @@
-//! What a search remembers, for another to go on from.
+//! The result of a search, from which another search continues.
 
 use super::PlanError;
 use super::path::Strategy;
@@ -12,22 +12,22 @@ type Positions = Vec<Vec<[f64; 3]>>;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Memory {
+pub struct Checkpoint {
     /// Grippers along u and v.
     grippers: [usize; 2],
     /// Fabric length of a cell along u and v (m).
     cell: [f64; 2],
     /// Complete drapes tried in all searches.
     pub evaluations: usize,
-    /// The best strategy; none of a plan that was made step by step.
+    /// The best strategy; none for a plan of the stepwise planner.
     pub strategy: Option<Strategy>,
-    /// What the best plan has, positions (m) of all grippers step by step: its strategy's, single grippers
+    /// Positions (m) of all grippers in each step of the best plan: those of its strategy, with single grippers
     /// refined.
     positions: Positions,
 }
 
-impl Memory {
-    /// What is remembered of a search for a scene.
+impl Checkpoint {
+    /// The checkpoint of a search for a scene.
     #[must_use]
     pub fn new(
         scene: &Scene,
@@ -36,10 +36,10 @@ impl Memory {
         positions: Positions,
     ) -> Self {
         let Grid { nu, nv } = scene.ply.grid;
-        Memory { grippers: [nu, nv], cell: scene.ply.cell, evaluations, strategy, positions }
+        Checkpoint { grippers: [nu, nv], cell: scene.ply.cell, evaluations, strategy, positions }
     }
 
-    /// The strategy to go on from, and its positions if they lead from the scene's start to its target.
+    /// The strategy from which to continue, and its positions if they lead from the scene's start to its target.
     pub(super) fn path(&self, scene: &Scene) -> Option<(Strategy, Option<Positions>)> {
         let (start, target) = (scene.motion.positions.first()?, &scene.target.as_ref()?.grippers);
         let ends = [self.positions.first(), self.positions.last()] == [Some(start), Some(target)];
@@ -47,7 +47,7 @@ impl Memory {
         Some((self.strategy?, (ends && steps).then(|| self.positions.clone())))
     }
 
-    /// Refuses what belongs to another ply.
+    /// Refuses a checkpoint of another ply.
     pub(super) fn check(&self, scene: &Scene) -> Result<(), PlanError> {
         let Grid { nu, nv } = scene.ply.grid;
         if self.grippers != [nu, nv] || self.cell != scene.ply.cell {

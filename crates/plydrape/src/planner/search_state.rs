@@ -1,5 +1,5 @@
-//! What is known of a search while it runs: the best plan so far, told to whoever watches, and whether the
-//! search shall end.
+//! The state of a search while it runs: the best plan so far, which is reported to a watcher, and whether the search
+//! shall end.
 
 use crate::draping::Judged;
 use crate::measure::Verdict;
@@ -14,7 +14,7 @@ pub struct Progress<'a> {
     pub evaluations: usize,
     /// Most that the search may try.
     pub most: usize,
-    /// What is being done.
+    /// Name of the present stage of the search.
     pub stage: &'static str,
     /// Limits of the best plan so far; empty before there is one.
     pub best: &'a [Verdict],
@@ -22,11 +22,11 @@ pub struct Progress<'a> {
     pub accepted: bool,
 }
 
-/// Who watches a plan being made: breaks to have the best so far.
+/// Receives the progress of a search; it breaks to end the search with the best plan so far.
 pub type Watcher<'a> = &'a mut (dyn FnMut(&Progress) -> ControlFlow<()> + Send);
 
 /// The state of a search, shared by all threads.
-pub struct Board<'a> {
+pub struct SearchState<'a> {
     stopped: AtomicBool,
     evaluations: AtomicUsize,
     most: usize,
@@ -41,10 +41,10 @@ struct Best<'a> {
     stage: &'static str,
 }
 
-impl<'a> Board<'a> {
-    /// A board for a search of at most `most` complete drapes.
+impl<'a> SearchState<'a> {
+    /// The state of a search of at most `most` complete drapes.
     pub fn new(most: usize, watcher: Watcher<'a>) -> Self {
-        Board {
+        SearchState {
             stopped: AtomicBool::new(false),
             evaluations: AtomicUsize::new(0),
             most,
@@ -63,8 +63,8 @@ impl<'a> Board<'a> {
         self.evaluations.load(Ordering::Relaxed)
     }
 
-    /// Sets how much has been done.
-    pub fn count(&self, done: usize) {
+    /// Sets the number of evaluations.
+    pub fn set_evaluations(&self, done: usize) {
         self.evaluations.store(done, Ordering::Relaxed);
     }
 
@@ -73,27 +73,27 @@ impl<'a> Board<'a> {
         self.stopped.load(Ordering::Relaxed)
     }
 
-    /// Names what is done from now on.
-    pub fn enter(&self, stage: &'static str) {
+    /// Begins a stage of the search.
+    pub fn begin(&self, stage: &'static str) {
         self.best.lock().unwrap_or_else(PoisonError::into_inner).stage = stage;
-        let _ = self.tick();
+        let _ = self.report();
     }
 
     /// Counts a complete drape and keeps it if it is the best.
-    pub fn add(&self, judged: &Judged, score: f64) {
+    pub fn record(&self, drape: &Judged, score: f64) {
         self.evaluations.fetch_add(1, Ordering::Relaxed);
         let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
         if score < best.score {
             best.score = score;
-            best.limits.clone_from(&judged.limits);
-            best.accepted = judged.accepted;
+            best.limits.clone_from(&drape.limits);
+            best.accepted = drape.accepted;
         }
         drop(best);
-        let _ = self.tick();
+        let _ = self.report();
     }
 
-    /// Tells the watcher; breaks once it has asked to end. Never waits for another thread.
-    pub fn tick(&self) -> ControlFlow<()> {
+    /// Reports to the watcher; breaks once the watcher has asked to end. It never waits for another thread.
+    pub fn report(&self) -> ControlFlow<()> {
         if self.is_stopped() {
             return ControlFlow::Break(());
         }

@@ -1,8 +1,8 @@
-//! What no plan that ends at the target can keep, found before any search.
+//! Limits that no plan that ends at the target can keep, found before any search.
 //!
-//! Start, target and ideal drape are held against the limits of the scene. Neighbours further apart at the
-//! start than the ply between them, and a start inside the mold, are not asked for here: reading the scene
-//! refuses them.
+//! Start, target and ideal drape are compared with the limits of the scene. Neighbours that are further apart at the
+//! start than the ply between them is long, and a start inside the mold, are not checked here, because reading the
+//! scene refuses them.
 
 use crate::draping::reach::{closest, outside};
 use crate::measure::{Name, Site, Verdict, Worst};
@@ -10,16 +10,16 @@ use crate::mold::{Mold, distance};
 use crate::ply::{Kind, shear};
 use crate::scene::{Scene, Target};
 
-/// A value and where it is, in words.
+/// A value and a text that says where it is.
 type Found = (f64, String);
 
-/// Every limit that the scene itself rules out, with amount and place; none if a plan may keep them all.
+/// Every limit that the scene itself rules out, with value and place; none if a plan may keep them all.
 ///
 /// Its verdicts are those of [`crate::draping::record::Summary::limits`] by name and unit, all of them not
-/// ok. Three have no limit of the scene behind them: `missing_nodes`, of the ideal drape, `off_mold`, of
-/// targets given by position (mm), and `move_limit`, the reach of a gripper in all steps (mm).
+/// ok. Three have no limit in the scene: `missing_nodes` of the ideal drape, `off_mold` of
+/// targets that the scene gives by position (mm), and `move_limit`, the reach of a gripper in all steps (mm).
 #[must_use]
-pub fn obstacles(scene: &Scene) -> Vec<Verdict> {
+pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
     let start = scene.motion.positions.first().map(Vec::as_slice).unwrap_or_default();
     let mut out = Vec::new();
     out.extend(places(scene, start, "at the start", Some(1)));
@@ -34,7 +34,7 @@ pub fn obstacles(scene: &Scene) -> Vec<Verdict> {
         out.extend(off_mold(scene, target, mold));
         out.extend(tilt(scene, target, mold));
     }
-    out.extend(way(scene, start, target));
+    out.extend(reach(scene, start, target));
     out
 }
 
@@ -82,7 +82,7 @@ fn fabric(scene: &Scene, a: [f64; 3], b: [f64; 3]) -> f64 {
     }
 }
 
-/// Neighbours whose targets are further apart than the ply between them; the net keeps its lengths.
+/// Neighbours whose targets are further apart than the ply between them is long; targets of the net never are.
 fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
     if target.drape.is_some() {
         return None;
@@ -145,7 +145,7 @@ fn missing_nodes(target: &Target) -> Option<Verdict> {
     beyond(Name::MissingNodes, 0.0, Some(found))
 }
 
-/// Targets given beyond the mold's boundary, or deeper in it than touching it; those of the net lie on it.
+/// Targets beyond the mold's border, or deeper in the mold than the contact tolerance; targets of the net lie on it.
 fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     if target.drape.is_some() {
         return None;
@@ -166,7 +166,7 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     beyond(Name::OffMold, scene.settings.contact.tolerance * 1e3, found)
 }
 
-/// The mold's slope where a gripper is to stand on it: its joint follows the ply, and the ply the mold.
+/// The mold's slope where a gripper is to stand on it: the gripper turns with the ply, and the ply follows the mold.
 fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     let tolerance = scene.settings.contact.tolerance;
     let tilt = |place: [f64; 3]| {
@@ -184,15 +184,15 @@ fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     beyond(Name::Tilt, scene.limits.tilt.to_degrees(), found)
 }
 
-/// A way to the target that is longer than all steps together may go.
-fn way(scene: &Scene, start: &[[f64; 3]], target: &Target) -> Option<Verdict> {
+/// A distance to the target that is longer than the moves of all steps together.
+fn reach(scene: &Scene, start: &[[f64; 3]], target: &Target) -> Option<Verdict> {
     let plan = &scene.plan;
     let moves = plan.steps.saturating_sub(1);
     let reach = plan.move_limit? * moves as f64;
-    let ways = start.iter().zip(&target.grippers).map(|(a, b)| distance(*a, *b));
-    let found = largest(ways.enumerate().map(|(n, way)| (way, n))).map(|(way, n)| {
+    let distances = start.iter().zip(&target.grippers).map(|(a, b)| distance(*a, *b));
+    let found = largest(distances.enumerate().map(|(n, far)| (far, n))).map(|(far, n)| {
         (
-            way * 1e3,
+            far * 1e3,
             format!("straight way of {} in {moves} moves", Site::Gripper(n).label(scene.ply.grid)),
         )
     });

@@ -1,16 +1,14 @@
-//! What the true model says of a step.
+//! Evaluation of a step by the true model.
 
+use super::tuning::TUNING;
 use crate::draping::spans::Shape;
 use crate::draping::{Draping, attitude, lying_segments, misfit};
 use crate::equilibrium::Status;
 use crate::scene::Scene;
 
-/// Share of the overstretch that a step may use.
-const STRETCH: f64 = 0.5;
-
-/// The worst of a state.
+/// The largest measures of a state.
 #[derive(Debug, Clone, Copy)]
-pub struct Judgement {
+pub struct Evaluation {
     /// The equilibrium was found.
     pub converged: bool,
     /// Largest overstretch of an edge, as a share of the whole edge.
@@ -19,22 +17,22 @@ pub struct Judgement {
     pub tilt: f64,
 }
 
-impl Judgement {
+impl Evaluation {
     pub fn of(scene: &Scene, draping: &Draping, shape: &Shape) -> Self {
         let (grid, positions) = (scene.ply.grid, &draping.positions);
         let tilt = |n| attitude(&draping.solver, grid, positions, n, None).tilt;
-        Judgement {
+        Evaluation {
             converged: shape.equilibrium.status == Status::Converged,
             stretch: stretch(scene, draping, shape),
             tilt: (0..grid.grippers()).map(tilt).fold(0.0, f64::max),
         }
     }
 
-    /// Whether a step keeps its limits, or makes nothing worse that broke them before.
-    pub fn is_sound(&self, scene: &Scene, before: &Judgement) -> bool {
+    /// Whether a step keeps its limits, or does not make worse what exceeded them before.
+    pub fn is_acceptable(&self, scene: &Scene, before: &Evaluation) -> bool {
         let limits = &scene.limits;
         self.converged
-            && self.stretch <= (STRETCH * limits.overstretch).max(before.stretch)
+            && self.stretch <= (TUNING.stretch_share * limits.overstretch).max(before.stretch)
             && self.tilt <= limits.tilt.max(before.tilt) * (1.0 + 1e-9)
     }
 }

@@ -1,16 +1,14 @@
-//! What one step must keep to: limits of the ply and of the grippers, moves, and lengths of edges.
+//! The constraints of one step: limits of the ply and of the grippers, moves, and lengths of edges.
 
 use super::step::Step;
+use super::tuning::TUNING;
 use crate::mold::vector::sub;
 use crate::planner::program::{MM, Program};
 use crate::planner::sensitivity::{Quantity, Sensitivity};
 
-/// Pull that no edge may exceed, as a share of the whole edge.
-const MOST_PULL: f64 = 1e-4;
-
 impl Step<'_> {
-    /// Shear, tilt, force, distances: linear. What breaks a limit already must not get worse.
-    pub(super) fn limits(&self, look: &Sensitivity, program: &mut Program) {
+    /// Shear, tilt, force, distances: linear. A limit that is exceeded already must not be exceeded further.
+    pub(super) fn limits(&self, sensitivity: &Sensitivity, program: &mut Program) {
         let limits = &self.scene.limits;
         let grid = self.scene.ply.grid;
         let mut keep = |q: Option<Quantity>, limit: f64| {
@@ -18,37 +16,37 @@ impl Step<'_> {
                 program.at_most(&q.gradient, 1.0 / MM, limit.max(q.value) - q.value);
             }
         };
-        (0..grid.cells()).for_each(|cell| keep(look.shear(cell), limits.shear));
+        (0..grid.cells()).for_each(|cell| keep(sensitivity.shear(cell), limits.shear));
         for gripper in 0..grid.grippers() {
-            keep(Some(look.tilt(gripper)), limits.tilt);
+            keep(Some(sensitivity.tilt(gripper)), limits.tilt);
         }
         if let Some(limit) = limits.force {
-            look.shape.spans.iter().for_each(|span| keep(look.force(span), limit));
+            sensitivity.shape.spans.iter().for_each(|span| keep(sensitivity.force(span), limit));
         }
         let mut above = |q: Quantity, least: f64| {
             program.at_most(&q.gradient, -1.0, MM * (q.value - least.min(q.value)));
         };
         for gripper in 0..grid.grippers() {
             if !self.lands(gripper) {
-                above(self.clearance(look, gripper), 0.0);
+                above(self.clearance(sensitivity, gripper), 0.0);
             }
             let [i, j] = grid.id(gripper);
             if i > 0 {
-                above(look.separation(gripper - 1, gripper), limits.gripper_distance);
+                above(sensitivity.separation(gripper - 1, gripper), limits.gripper_distance);
             }
             if j > 0 {
-                above(look.separation(gripper - grid.nu, gripper), limits.gripper_distance);
+                above(sensitivity.separation(gripper - grid.nu, gripper), limits.gripper_distance);
             }
         }
         if self.landing {
             for gripper in (0..grid.grippers()).filter(|n| !self.lands(*n)) {
-                program.at_most(&self.clearance(look, gripper).gradient, 1.0, 0.0);
+                program.at_most(&self.clearance(sensitivity, gripper).gradient, 1.0, 0.0);
             }
         }
         if let Some(box_) = limits.workspace {
             for (gripper, p) in self.positions.iter().enumerate() {
                 for axis in 0..3 {
-                    let mut unit = vec![0.0; look.width()];
+                    let mut unit = vec![0.0; sensitivity.width()];
                     unit[3 * gripper + axis] = 1.0;
                     let [low, high] = box_[axis];
                     program.at_most(&unit, 1.0, MM * (high.max(p[axis]) - p[axis]));
@@ -59,7 +57,7 @@ impl Step<'_> {
     }
 
     /// Moves and lengths of edges: cones, exact for any move.
-    pub(super) fn reaches(&self, look: &Sensitivity, program: &mut Program) {
+    pub(super) fn reaches(&self, sensitivity: &Sensitivity, program: &mut Program) {
         for (gripper, target) in self.targets.iter().enumerate() {
             let way = sub(*target, self.positions[gripper]);
             if self.lands(gripper) {
@@ -68,19 +66,23 @@ impl Step<'_> {
                 program.cone(vec![(gripper, 1.0)], [0.0; 3], MM * self.reach);
             }
         }
-        for span in self.edges(look) {
+        for span in self.edges(sensitivity) {
             let ends = [(0, -1.0), (1, 1.0)];
             let free: Vec<(usize, f64)> = ends
                 .into_iter()
-                .filter_map(|(end, sign)| Some((look.gripper_at(span, end)?, sign)))
+                .filter_map(|(end, sign)| Some((sensitivity.gripper_at(span, end)?, sign)))
                 .collect();
             if free.iter().all(|(gripper, _)| self.lands(*gripper)) {
                 continue;
             }
             let [a, b] = span.ends;
             let lands = free.iter().any(|(gripper, _)| self.lands(*gripper));
-            let pull = if lands { 0.5 * self.scene.limits.overstretch } else { MOST_PULL };
-            let most = (span.length + pull * self.whole(span)).max(span.chord());
+            let stretch = if lands {
+                TUNING.stretch_share * self.scene.limits.overstretch
+            } else {
+                TUNING.most_stretch
+            };
+            let most = (span.length + stretch * self.whole(span)).max(span.chord());
             program.cone(free, sub(b, a).map(|c| MM * c), MM * most);
         }
     }

@@ -1,0 +1,140 @@
+//! The tuning constants of the search for whole trajectories.
+//!
+//! Lengths are in terms of a cell, the shorter side of a cell of the ply.
+
+use std::f64::consts::{FRAC_PI_2, LN_10};
+
+/// Constants of each stage of the search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tuning {
+    /// Fronts and the trajectories that they give.
+    pub front: Front,
+    /// The search for the best front.
+    pub search: Search,
+    /// Corrections of single grippers by gradients.
+    pub refinement: Refinement,
+}
+
+/// Constants of fronts and their trajectories.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Front {
+    /// Divisions of a cell of the net on the lifted mold; even, so that the middle of a cell is a node.
+    pub divisions: usize,
+    /// Nodes of the height grid of the lifted mold along each axis.
+    pub height_nodes: usize,
+    /// Margin of that height grid around the drape, as a share of its size.
+    pub height_margin: f64,
+    /// Vertical part of the mold's normal at its border below which the mold is not continued more steeply.
+    pub upright_border: f64,
+    /// Rounds in which the height of the tangent plane at the border is found.
+    pub border_rounds: usize,
+    /// Height over which a gripper gives up its pretension as it lands (cells): where the ply beside it comes into contact.
+    pub landing_height: f64,
+    /// Nodes of the table of a mold that is a formula along each axis.
+    pub table_nodes: usize,
+    /// Error up to which this table is used (cells).
+    pub table_error: f64,
+    /// Margin of the table around the drape where the formula has no borders, as a share of its size.
+    pub table_margin: f64,
+    /// Height of the approach above the first formation (cells).
+    pub approach_height: f64,
+    /// Shares of the steps for approach and descent; the front takes the others, because contacts are made there.
+    pub shares: [f64; 2],
+    /// How far the front runs beyond the last gripper, as a share of its path.
+    pub beyond: f64,
+    /// Formations per step from which steps of equal length are cut, where a move limit asks for them.
+    pub finer: usize,
+    /// Ranges of [`super::path::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension. Ratios go up to
+    /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 3, slopes from 0.02 to 1.
+    pub ranges: [[f64; 2]; 7],
+}
+
+/// Constants of the search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Search {
+    /// Score below which a plan keeps every limit with so wide a margin that the search ends. A score of 1 just keeps them.
+    pub good: f64,
+    /// Score below which a plan is evaluated with twice the steps, too. Above 1, because a refinement may improve it.
+    pub promising: f64,
+    /// First step of the evolution, in shares of each range: it explores around the best member of a family.
+    pub step: f64,
+    /// Candidates of a generation: whole pairs, for two cores.
+    pub generation: usize,
+    /// Generations without a gain after which an accepted plan is good enough.
+    pub patience: usize,
+    /// Ratio of scores that is a gain.
+    pub gain: f64,
+    /// Rounds of refinement.
+    pub refinements: usize,
+    /// Shares of a correction that are tried, because the correction is linear and the drape is not.
+    pub parts: [f64; 2],
+}
+
+/// Constants of the refinement by gradients.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Refinement {
+    /// B-splines of each gripper's correction: as smooth as the path, and few enough for dense matrices.
+    pub splines: usize,
+    /// Unknowns beyond which the program would cost more than the drapes.
+    pub unknowns: usize,
+    /// Fabric ahead of a contact end whose position error is reduced, as a share of the span.
+    pub ahead: f64,
+    /// Height below which a span is about to come into contact (cells).
+    pub near: f64,
+    /// Share of the overstretch limit that the correction may use; it is linear and the drape is not.
+    pub stretch_share: f64,
+    /// Stretch of a taut span, as a share of its edge; what exceeds it is reduced. 1e-4, the pretension of the families.
+    pub taut: f64,
+    /// Weight of the correction itself beside the position errors.
+    pub correction_weight: f64,
+    /// Weight of the correction of a gripper that stands on the mold.
+    pub standing_weight: f64,
+}
+
+/// The constants in use.
+pub const TUNING: Tuning = Tuning {
+    front: Front {
+        divisions: 4,
+        height_nodes: 121,
+        height_margin: 0.25,
+        upright_border: 0.3,
+        border_rounds: 4,
+        landing_height: 0.02,
+        table_nodes: 161,
+        table_error: 1e-6,
+        table_margin: 0.5,
+        approach_height: 0.1,
+        shares: [0.17, 0.09],
+        beyond: 0.02,
+        finer: 4,
+        ranges: [
+            [0.0, 1.0],
+            [0.0, 1.0],
+            [0.0, 5.0],
+            [-FRAC_PI_2, FRAC_PI_2],
+            [-1.6 - LN_10, 3.4 - LN_10],
+            [-4.0, 0.0],
+            [0.0, 4e-4],
+        ],
+    },
+    search: Search {
+        good: 0.6,
+        promising: 1.3,
+        step: 0.08,
+        generation: 8,
+        patience: 3,
+        gain: 0.98,
+        refinements: 3,
+        parts: [1.0, 0.4],
+    },
+    refinement: Refinement {
+        splines: 5,
+        unknowns: 800,
+        ahead: 0.1,
+        near: 0.05,
+        stretch_share: 0.5,
+        taut: 1e-4,
+        correction_weight: 1e-2,
+        standing_weight: 1e2,
+    },
+};

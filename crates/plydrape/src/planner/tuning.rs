@@ -1,0 +1,76 @@
+//! The tuning constants of what both planners share.
+//!
+//! None is a length, a force or a time. Lengths are in terms of a cell: a scaled scene has the scaled plan.
+
+use crate::scene::Scene;
+
+/// Constants of evaluations and derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tuning {
+    /// Complete drapes along a plan and their score.
+    pub evaluation: Evaluation,
+    /// Derivatives that have no closed form.
+    pub sensitivity: Sensitivity,
+    /// Iterations of the interior point method for a quadratic program; it needs ten to thirty.
+    pub program_iterations: u32,
+}
+
+/// Constants of the evaluation of a plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evaluation {
+    /// Weight of the mean of all ratios of measures to limits beside the largest. 0.1, so that it decides only among
+    /// plans that are about equally good at their worst.
+    pub mean_weight: f64,
+    /// Largest ratio that counts in the mean, so that one very bad measure does not hide the others.
+    pub largest_ratio: f64,
+    /// Share of a limit that only has to be kept, up to which a measure does not count.
+    pub counted_share: f64,
+    /// Equilibria a step on the average from which on a drape is broken off; good drapes take two or three.
+    pub most_equilibria: usize,
+    /// Score of a drape that was broken off, per share of the steps that are missing: worse than that of any other.
+    pub missing_weight: f64,
+    /// How much faster grippers may turn between two steps of a plan than over the whole of both, within which the
+    /// limit of the tilt rate is to hold for finer samples of the motion too.
+    pub tilt_rate_margin: f64,
+}
+
+/// Constants of derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensitivity {
+    /// Step of the central differences of a lying path's length (cells): small beside a mold's radii, large beside
+    /// rounding.
+    pub step: f64,
+    /// Distance from the mold below which the gradient of the distance is the normal (cells).
+    pub on_mold: f64,
+    /// Step of a fraction of a span at which Newton's method for it ends.
+    pub fraction: f64,
+    /// Steps of that method at most.
+    pub fraction_steps: usize,
+    /// Cosine of the shear angle below which a cell is folded and shears no further.
+    pub folded: f64,
+}
+
+/// The constants in use.
+pub const TUNING: Tuning = Tuning {
+    program_iterations: 60,
+    evaluation: Evaluation {
+        mean_weight: 0.1,
+        largest_ratio: 10.0,
+        counted_share: 0.9,
+        most_equilibria: 12,
+        missing_weight: 1e3,
+        tilt_rate_margin: 1.5,
+    },
+    sensitivity: Sensitivity {
+        step: 1e-5,
+        on_mold: 1e-8,
+        fraction: 1e-13,
+        fraction_steps: 50,
+        folded: 1e-6,
+    },
+};
+
+/// The planners' unit of length: the shorter side of a cell (m).
+pub(super) fn cell(scene: &Scene) -> f64 {
+    scene.ply.cell[0].min(scene.ply.cell[1])
+}
