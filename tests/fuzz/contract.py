@@ -23,9 +23,10 @@ from xml.etree import ElementTree
 from .case import Outlet
 from .process import Ended
 
-CODES = (0, 1, 2, 3, 130)
-# Codes with which files are written.
-DONE = (0, 1, 3, 130)
+CODES = (0, 1, 2, 3, 4, 130)
+# Codes with which files are written; with 4 unless the message says that none was.
+DONE = (0, 1, 3, 4, 130)
+NOTHING_WRITTEN = "no file was written"
 SIMULATED = {"result.json", "steps.csv", "trajectory.csv", "figure.svg", "report.html"}
 WRITTEN = {
     "simulate": SIMULATED,
@@ -97,7 +98,8 @@ def of_words(ended: Ended, outlet: Outlet) -> Iterator[Fault]:
     said = ended.stderr.decode(errors="replace")
     if len(said) > LONGEST_MESSAGE:
         yield Fault("a short message", f"{len(said)} bytes on standard error")
-    if ended.code == 2 and outlet in (Outlet.KEPT, Outlet.NO_ROOM) and "Traceback" not in said:
+    unseen = outlet in (Outlet.STDERR_FULL, Outlet.BOTH_FULL)
+    if ended.code in (2, 4) and not unseen and "Traceback" not in said:
         heads = [line for line in said.splitlines() if line.startswith("  × ")]
         usage = said.startswith("error: ")  # of the command line itself
         if len(heads) != 1 and not usage:
@@ -125,9 +127,10 @@ def of_inputs(folder: Path, before: dict[str, bytes]) -> Iterator[Fault]:
 def of_folder(ended: Ended, folder: Path, before: dict[str, bytes]) -> Iterator[Fault]:
     """Faults of the folder that was written, and of what is left beside it."""
     out, command = folder / "out", ended.command[0]
+    done = ended.code in DONE and NOTHING_WRITTEN not in ended.stderr.decode(errors="replace")
     if any(Path(name).parts[0] == "out" for name in before):
         found = {str(path.relative_to(folder)) for path in out.rglob("*")}
-        if ended.code in DONE:
+        if done:
             yield Fault("what is the user's stays", f"exit {ended.code}, though it is in the way")
         elif more := found - set(before):
             yield Fault("what is the user's stays", f"exit {ended.code}, but more\n{sorted(more)}")
@@ -140,18 +143,18 @@ def of_folder(ended: Ended, folder: Path, before: dict[str, bytes]) -> Iterator[
             return
     if command == "new":
         made = [p for p in folder.rglob("*.toml") if "mine" in p.parts]
-        if ended.code != 0 and (made or (folder / "mine").exists()):
+        if not done and (made or (folder / "mine").exists()):
             yield Fault("written whole or not at all", f"exit {ended.code}, but something was made")
-        elif ended.code == 0 and (not made or not made[0].read_bytes().endswith(b"\n")):
-            yield Fault("written whole or not at all", "exit 0, but no scene")
+        elif done and (not made or not made[0].read_bytes().endswith(b"\n")):
+            yield Fault("written whole or not at all", f"exit {ended.code}, but no scene")
         return
-    if command == "check" or ended.code not in DONE:
+    if command == "check" or not done:
         if out.exists():
             left = sorted(p.name for p in out.rglob("*"))
             yield Fault("written whole or not at all", f"exit {ended.code}, but a folder\n{left}")
         return
-    if ended.code == 3 and not out.exists():
-        return  # no solution, and nothing to show
+    if (ended.code == 3 or (ended.code == 4 and not ended.stderr)) and not out.exists():
+        return  # no solution, and nothing to show; or nothing, and nowhere to say so
     names = {p.name for p in out.iterdir()} if out.is_dir() else set()
     if missing := WRITTEN.get(command, set()) - names:
         yield Fault("written whole or not at all", f"exit {ended.code}, but no {sorted(missing)}")
@@ -164,10 +167,14 @@ def of_folder(ended: Ended, folder: Path, before: dict[str, bytes]) -> Iterator[
 def of_manifest(out: Path, names: set[str]) -> Iterator[Fault]:
     """Faults of the list that the folder keeps of its files: check sums and lengths."""
     try:
-        listed: dict[str, Any] = json.loads((out / ".plydrape").read_bytes())
-    except (OSError, ValueError) as error:
-        yield Fault("written whole or not at all", f"the list of files: {error}")
+        manifest: dict[str, Any] = json.loads((out / ".plydrape").read_bytes())
+        is_sealed = manifest["sealed"]
+        listed = {name: entry["contents"] for name, entry in manifest["files"].items()}
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        yield Fault("written whole or not at all", f"the list of files: {error!r}")
         return
+    if is_sealed is not True:
+        yield Fault("written whole or not at all", "the list of files has no seal")
     if set(listed) != names - {".plydrape"}:
         yield Fault(
             "written whole or not at all", f"not as listed\n{sorted(listed)}\n{sorted(names)}"
@@ -175,8 +182,7 @@ def of_manifest(out: Path, names: set[str]) -> Iterator[Fault]:
         return
     for name, stamps in listed.items():
         content = (out / name).read_bytes()
-        stamp = {"crc32": zlib.crc32(content), "length": len(content)}
-        if stamp not in stamps:
+        if stamps != [{"crc32": zlib.crc32(content), "length": len(content)}]:
             yield Fault("written whole or not at all", f"{name} is not what the list says")
 
 

@@ -15,14 +15,15 @@ ROOT = Path(__file__).resolve().parents[2]
 REFUSE = 'print("  × nothing is right\\n  help: no idea", file=sys.stderr); sys.exit(2)'
 # Writes files into `out`, with the list of their check sums.
 WRITE = """
-def write(**files):
+def write(sealed=True, **files):
     os.mkdir("out")
     listed = {}
     for name, text in files.items():
         name = name.replace("_", ".")
         open("out/" + name, "w").write(text)
-        listed[name] = [{"crc32": zlib.crc32(text.encode()), "length": len(text.encode())}]
-    open("out/.plydrape", "w").write(json.dumps(listed))
+        stamp = {"crc32": zlib.crc32(text.encode()), "length": len(text.encode())}
+        listed[name] = {"by": sys.argv[1], "contents": [stamp]}
+    open("out/.plydrape", "w").write(json.dumps({"sealed": sealed, "files": listed}))
 """
 
 # What a program does when it should write `out`, and the promise that it breaks so.
@@ -47,6 +48,10 @@ FAULTS = {
     ),
     "leaves half a folder": (f'os.mkdir("out"); {REFUSE}', "written whole or not at all"),
     "leaves out files": ('write(steps_csv="step\\n1\\n")', "written whole or not at all"),
+    "leaves a list without a seal": (
+        'write(sealed=False, a_csv="step\\n1\\n")',
+        "the list of files has no seal",
+    ),
     "leaves its stage": (f'os.mkdir(".plydrape-a1"); {REFUSE}', "nothing is left behind"),
     "writes NaN into a table": ('write(steps_csv="step,x\\n1,NaN\\n")', "no NaN and no infinity"),
     "writes infinity as JSON": ('write(a_json="[1, Infinity]")', "no NaN and no infinity"),
