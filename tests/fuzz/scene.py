@@ -18,6 +18,8 @@ NAME = "scene.toml"
 
 # Few steps and drapes, so that a case takes a moment.
 MOTION, PLAN = {"steps": 4}, {"steps": 6, "evaluations": 2}
+# Steps of a plan: also one that is interrupted ends with a drape along all of them.
+MOST_PLANNED = 100
 
 
 def short(text: str) -> str:
@@ -69,6 +71,10 @@ def change(rng: Random, files: Files) -> str:
     if scene is None:
         return "no scene to change"
     what = (tree.change if rng.random() < 0.5 else tree.change_number)(rng, scene)
+    plan = scene.get("plan")
+    steps = plan.get("steps") if isinstance(plan, dict) else None
+    if isinstance(steps, int) and MOST_PLANNED < steps <= 10_000:
+        scene["plan"]["steps"] = MOST_PLANNED  # sound, and would take long
     files[NAME] = toml.text(scene).encode()
     return what
 

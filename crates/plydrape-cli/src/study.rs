@@ -15,7 +15,7 @@ use std::process::{Command, ExitCode};
 The rows go to DIR/study.parquet, their distributions to DIR/summary.html. An interrupted study goes \
 on with the same command. It runs by the Python package: pip install 'plydrape[study]'; \
 PLYDRAPE_PYTHON names the Python that has it, python3 unless given. Exit codes: 0 done, 2 bad \
-input, 130 interrupted.")]
+input, 4 standard output could not be written, 130 interrupted.")]
 pub struct Arguments {
     /// The study file, TOML.
     study: PathBuf,

@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TextIO
 
 from plydrape import PlydrapeError
 
@@ -24,6 +25,7 @@ EXIT_CODES = """\
 Exit codes:
   0    done: every scenario has its row
   2    bad input, or a file that cannot be written: the message names it, and the remedy
+  4    standard output could not be written: the rows are in their folder
   130  interrupted by Ctrl-C or SIGTERM: the same command goes on
 """
 # Signals with these handlers are not for Python.
@@ -86,7 +88,7 @@ def command(given: argparse.Namespace) -> int:
         return refuse(f"the study cannot be run: {error}", "")
     except KeyboardInterrupt:
         kept = f"finished rows are in {folder}" if folder and folder.is_dir() else "nothing was run"
-        print(f"interrupted: {kept}; the same command goes on", file=sys.stderr)
+        write(f"interrupted: {kept}; the same command goes on", sys.stderr)
         return 130
     return 0 if given.quiet else show(told(outcome, study))
 
@@ -122,23 +124,31 @@ def interruptible() -> Iterator[None]:
 
 def show(text: str) -> int:
     """Prints on standard output; the exit code."""
-    try:
-        print(text, flush=True)
-    except OSError as error:
-        # Python would try once more at its end.
-        with contextlib.suppress(OSError, ValueError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        # A reader that has seen enough, such as `head`, is no failure.
-        if not isinstance(error, BrokenPipeError):
-            why = error.strerror or error
-            return refuse(f"the output cannot be written: {why}", "the rows are in their folder")
-    return 0
+    error = write(text, sys.stdout)
+    # A reader that has seen enough, such as `head`, is no failure.
+    if error is None or isinstance(error, BrokenPipeError):
+        return 0
+    why = error.strerror or error
+    refuse(f"standard output cannot be written: {why}", "the rows are in their folder")
+    return 4
 
 
 def refuse(message: str, remedy: str) -> int:
-    """Says what is wrong, as the other commands do."""
-    print(f"  × {message}" + (f"\n  help: {remedy}" if remedy else ""), file=sys.stderr)
+    """Says what is wrong, as the other commands do; the exit code."""
+    write(f"  × {message}" + (f"\n  help: {remedy}" if remedy else ""), sys.stderr)
     return 2
+
+
+def write(text: str, stream: TextIO) -> OSError | None:
+    """Prints on a stream; why that is not possible, if so."""
+    try:
+        print(text, file=stream, flush=True)
+    except OSError as error:
+        # Python would try once more at its end.
+        with contextlib.suppress(OSError, ValueError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        return error
+    return None
 
 
 def told(outcome: Outcome, study: Study) -> str:

@@ -36,11 +36,17 @@ def document(path: Path, kind: str) -> dict[str, Any]:
             f"there is no {kind} `{path}`", help="check its name and folder"
         ) from error
     except (OSError, UnicodeDecodeError) as error:
-        raise StudyError(f"the {kind} `{path}` cannot be read: {error}") from error
+        raise StudyError(
+            f"the {kind} `{path}` cannot be read: {error}",
+            help="name a TOML file in UTF-8 that you may read",
+        ) from error
     try:
         return dict(reader.loads(text))
     except reader.TOMLDecodeError as error:
-        raise StudyError(f"the {kind} `{path}` is no TOML: {error}") from error
+        raise StudyError(
+            f"the {kind} `{path}` is no TOML: {error}",
+            help="write `key = value` under a `[table]`, each key once, text in double quotes",
+        ) from error
     except ValueError as error:  # Python converts no digits beyond a few thousands.
         raise StudyError(
             f"the {kind} `{path}` has a whole number of too many digits{digits(text)}",

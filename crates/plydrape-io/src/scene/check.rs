@@ -8,7 +8,8 @@ use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::trajectory::trajectory;
 use super::{SceneFile, material, mold, named, start, target};
-use crate::{shown, size};
+use crate::shown;
+use crate::size::{self, SizeError};
 use plydrape::mold::Mold;
 use plydrape::ply::{Direction, Grid, Ply};
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, Settings, SlopeRule, Stepping, Target};
@@ -56,13 +57,16 @@ pub(super) fn scene(
     places.fits(&file.ply.grippers.span, motion.positions.len())?;
     let limits = limits(&file.limits, &ply, &settings, document)?;
     let plan = plan(&file.plan, ply.grid, document)?;
+    let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
+    let steps = file.plan.steps.as_ref().map_or(&file.ply.grippers.span, |steps| &steps.span);
+    let fits = places.allowed(steps, size::plan(&ply, plan.steps));
     let title = title(file.title.as_ref(), document, base)?;
     Ok(SceneFile {
         scene: Scene { title, ply, mold, motion, target, settings, limits, plan },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,
-        plan_refusal: file.motion.as_ref().and_then(|table| unplanned(&table.value, document)),
+        plan_refusal: unplanned.or(fits.err()).map(Box::new),
     })
 }
 
@@ -142,8 +146,11 @@ pub(super) struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// Refuses a drape of so many steps if its result would be too large; `span` is what the scene says of that.
     pub fn fits(&self, span: &Range<usize>, steps: usize) -> Result<(), SceneError> {
-        size::drape(self.ply, steps)
-            .map_err(|fault| self.document.error(span.clone(), fault.to_string(), fault.remedy()))
+        self.allowed(span, size::drape(self.ply, steps))
+    }
+
+    fn allowed(&self, span: &Range<usize>, size: Result<(), SizeError>) -> Result<(), SceneError> {
+        size.map_err(|fault| self.document.error(span.clone(), fault.to_string(), fault.remedy()))
     }
 
     fn motion(&self, file: &SceneKeys, target: Option<&Target>) -> Result<Motion, SceneError> {

@@ -1,6 +1,6 @@
 //! What the TOML reader and serde complain about, in plain words and with a remedy.
 
-use super::error::{Document, SceneError};
+use super::error::{Document, SceneError, excerpt};
 use std::ops::Range;
 
 /// A complaint of the TOML reader or of serde as a [`SceneError`].
@@ -23,7 +23,7 @@ pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> Sc
         let known = every_tick(expected);
         let suggestion = suggestion(quoted, &known);
         (
-            format!("\"{quoted}\" is no choice here"),
+            format!("\"{}\" is no choice here", excerpt(quoted)),
             match known.as_slice() {
                 [only] => format!("the only choice is \"{only}\""),
                 _ => format!("{suggestion}the choices are {}", listed(&known, '"')),
@@ -108,7 +108,7 @@ fn header(document: &Document, span: Range<usize>) -> Range<usize> {
 }
 
 fn unknown_key(key: &str, known: &[&str]) -> (String, String) {
-    let message = format!("`{key}` is no key here");
+    let message = format!("`{}` is no key here", excerpt(key));
     if key == "material" && known.contains(&"flexural_rigidity") {
         let help = "a material file cannot name another material: give its mass and rigidity";
         return (message, help.into());

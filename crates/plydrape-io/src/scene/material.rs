@@ -2,7 +2,7 @@
 
 use super::check::line;
 use super::choice::MaterialChoice;
-use super::error::{Document, SceneError};
+use super::error::{Document, SceneError, excerpt};
 use super::file::{MaterialTable, ShearCurveTable};
 use super::located::Located;
 use super::quantity::{Measure, Quantity};
@@ -60,7 +60,7 @@ fn named(
         let shipped: Vec<_> = shipped_materials().map(|n| format!("\"{n}\"")).collect();
         return Err(scene.error(
             span.clone(),
-            format!("there is no material \"{name}\""),
+            format!("there is no material \"{}\"", excerpt(name)),
             format!(
                 "plydrape comes with {}; a file of your own is named with its ending, e.g. \"mine.toml\"",
                 shipped.join(", ")

@@ -68,10 +68,10 @@ pub(super) fn motion(
 }
 
 /// Why a plan of a scene with this motion is refused: it has a time law of its own and would ignore the duration.
-pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<Box<SceneError>> {
+pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<SceneError> {
     let span = &keys.duration.as_ref()?.span;
     let written = document.excerpt(span);
-    Some(Box::new(document.error(
+    Some(document.error(
         span.clone(),
         format!(
             "a plan does not keep the duration {} of [motion]: how long it takes follows from the limits of its grippers",
@@ -80,7 +80,7 @@ pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<Box<S
         format!(
             "remove it, or comment it out; if a plan shall take no longer, write duration = {written} in [limits]"
         ),
-    )))
+    ))
 }
 
 fn hold(

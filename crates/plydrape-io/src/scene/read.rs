@@ -2,7 +2,7 @@
 
 use super::complaint;
 use super::error::{Document, SceneError};
-use crate::input;
+use crate::{input, shown};
 use serde::de::DeserializeOwned;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -12,9 +12,13 @@ pub(super) const LARGEST_TOML: u64 = 16 << 20;
 /// Largest CSV file that is read (bytes).
 pub(super) const LARGEST_CSV: u64 = 1 << 30;
 
+/// Characters of a path that a message repeats at most.
+const LONGEST_PATH: usize = 400;
+
 /// Reads a file, named `name` in messages.
 pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, SceneError> {
     let nothing = Document::new(name, "");
+    let name = shown::excerpt(name, LONGEST_PATH);
     if path.is_dir() {
         return Err(nothing.error_anywhere(
             format!("`{name}` is a folder, not a file"),
@@ -28,7 +32,7 @@ pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, Sc
         ),
         _ => nothing.error_anywhere(
             format!("`{name}` cannot be read: {}", reason(&error)),
-            format!("looked for {}", path.display()),
+            format!("looked for {}", shown::excerpt(&path.to_string_lossy(), LONGEST_PATH)),
         ),
     })
 }
