@@ -58,7 +58,7 @@ class Fault:
 
 def faults(ended: Ended, folder: Path, before: dict[str, bytes], outlet: Outlet) -> list[Fault]:
     """Everything that is wrong with a run; `before` are the files that it found."""
-    found = [*of_ending(ended), *of_words(ended, outlet), *of_inputs(folder, before)]
+    found = [*of_ending(ended), *of_messages(ended, outlet), *of_inputs(folder, before)]
     if found and ended.killed:
         return found  # what a killed program leaves is no fault of its own
     return found + list(of_folder(ended, folder, before))
@@ -66,54 +66,52 @@ def faults(ended: Ended, folder: Path, before: dict[str, bytes], outlet: Outlet)
 
 def of_ending(ended: Ended) -> Iterator[Fault]:
     """Faults of time, signals and exit codes."""
-    words = ended.stderr.decode(errors="replace")
-    if "panicked at" in words or ended.code == 101:
-        yield Fault("no panic", words[-600:] or "exit 101")
+    text = ended.stderr.decode(errors="replace")
+    if "panicked at" in text or ended.code == 101:
+        yield Fault("no panic", text[-600:] or "exit 101")
     elif ended.killed:
         doing = "waits" if ended.cpu < 0.2 else "computes"
         yield Fault("ends in time", f"it still {doing} after {ended.seconds:.0f} s")
-    elif "Traceback (most recent call last)" in words:
-        yield Fault(
-            "no traceback", "\n".join(words.strip().splitlines()[-1:]) + "\n" + words[-1500:]
-        )
+    elif "Traceback (most recent call last)" in text:
+        yield Fault("no traceback", "\n".join(text.strip().splitlines()[-1:]) + "\n" + text[-1500:])
     elif ended.code < 0:
-        yield Fault("no signal", f"signal {-ended.code}: {words[-300:]}")
+        yield Fault("no signal", f"signal {-ended.code}: {text[-300:]}")
     elif ended.code not in CODES:
-        yield Fault("a documented exit code", f"exit {ended.code}: {words[-300:]}")
+        yield Fault("a documented exit code", f"exit {ended.code}: {text[-300:]}")
 
 
-def of_words(ended: Ended, outlet: Outlet) -> Iterator[Fault]:
+def of_messages(ended: Ended, outlet: Outlet) -> Iterator[Fault]:
     """Faults of what was printed."""
     for name, content in (("output", ended.stdout), ("error", ended.stderr)):
         try:
-            said = content.decode()
+            text = content.decode()
         except UnicodeDecodeError as error:
             yield Fault("printable words", f"standard {name} is not UTF-8: {error}")
             continue
-        strange = {c for c in said if unicodedata.category(c) == "Cc" and c not in "\n\t"}
+        strange = {c for c in text if unicodedata.category(c) == "Cc" and c not in "\n\t"}
         if strange:
             yield Fault(
                 "printable words", f"control characters in standard {name}\n{sorted(strange)!r}"
             )
-    said = ended.stderr.decode(errors="replace")
-    if len(said) > LONGEST_MESSAGE:
-        yield Fault("a short message", f"{len(said)} bytes on standard error")
+    text = ended.stderr.decode(errors="replace")
+    if len(text) > LONGEST_MESSAGE:
+        yield Fault("a short message", f"{len(text)} bytes on standard error")
     unseen = outlet in (Outlet.STDERR_FULL, Outlet.BOTH_FULL)
-    if ended.code in (2, 4) and not unseen and "Traceback" not in said:
-        heads = [line for line in said.splitlines() if line.startswith("  × ")]
-        usage = said.startswith("error: ")  # of the command line itself
+    if ended.code in (2, 4) and not unseen and "Traceback" not in text:
+        heads = [line for line in text.splitlines() if line.startswith("  × ")]
+        usage = text.startswith("error: ")  # of the command line itself
         if len(heads) != 1 and not usage:
-            yield Fault("one message", f"{len(heads)} messages: {said[:500]}")
+            yield Fault("one message", f"{len(heads)} messages: {text[:500]}")
         elif (
             not usage
-            and not REMEDY.search(said)
-            and not (ended.command[0] in ("export", "report") and IN_SENTENCE.search(said))
+            and not REMEDY.search(text)
+            and not (ended.command[0] in ("export", "report") and IN_SENTENCE.search(text))
         ):
-            yield Fault("a remedy", said[:500].strip())
-    if "please report it" in " ".join(said.replace("│", "").split()):
-        yield Fault("no fault of its own", said[:500])
-    if ended.code in (0, 1) and "  × " in said:
-        yield Fault("one message", f"exit {ended.code} with a message: {said[:500]}")
+            yield Fault("a remedy", text[:500].strip())
+    if "please report it" in " ".join(text.replace("│", "").split()):
+        yield Fault("no fault of its own", text[:500])
+    if ended.code in (0, 1) and "  × " in text:
+        yield Fault("one message", f"exit {ended.code} with a message: {text[:500]}")
 
 
 def of_inputs(folder: Path, before: dict[str, bytes]) -> Iterator[Fault]:
@@ -222,8 +220,8 @@ def refuse(where: str) -> NoReturn:
 
 def of_text(text: str, comment: str) -> None:
     """No number in a table or a deck is NaN or infinite."""
-    said = text.lower()
-    if "nan" not in said and "inf" not in said:
+    lower = text.lower()
+    if "nan" not in lower and "inf" not in lower:
         return
     for number, line in enumerate(text.splitlines(), 1):
         found = None if line.startswith(comment) else NOT_A_NUMBER.search(line)

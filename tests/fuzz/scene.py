@@ -143,8 +143,13 @@ def sample(rng: Random, node: Any, depth: int = 0) -> Any:
         case "integer":
             return rng.choice((0, 1, 2, 3, 4, 8))
         case "string":
-            said = [*node.get("examples", []), "100 mm", "10 deg", "0.1*x^2 - 0.2*y^2 + 0.01*x*y"]
-            return rng.choice(said) if rng.random() < 0.9 else values.text(rng)
+            choices = [
+                *node.get("examples", []),
+                "100 mm",
+                "10 deg",
+                "0.1*x^2 - 0.2*y^2 + 0.01*x*y",
+            ]
+            return rng.choice(choices) if rng.random() < 0.9 else values.text(rng)
         case _:
             return rng.choice((0.0, 0.05, 0.1, 0.3, 0.5, 1.0, 2.0, -0.1))
 

@@ -1,6 +1,6 @@
 //! `plydrape plan`: finds a motion that puts the ply on its mold, and says how it went.
 
-use crate::diagnostic::{Done, Failure};
+use crate::failure::{Done, Failure};
 use crate::numbers::short;
 use crate::outcome::{self, exit_code};
 use crate::results::Results;
@@ -111,9 +111,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
     let folder = Folder::claim(&results.folder("plan"), "plan")?;
-    folder.spare(&NAMES, &scene.files)?;
-    let tell = !quiet && !results.json;
-    if tell {
+    folder.refuse_inputs(&NAMES, &scene.files)?;
+    let verbose = !quiet && !results.json;
+    if verbose {
         let mut out = io::stdout().lock();
         writeln!(out, "{}\n", scene.title)?;
         let found = obstacles(&scene);

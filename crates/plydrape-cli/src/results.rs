@@ -1,6 +1,6 @@
 //! What every command that leaves a folder of results takes, and how it prints what it found.
 
-use crate::diagnostic::Failure;
+use crate::failure::Failure;
 use plydrape_io::{OutputError, json, shown};
 use serde::Serialize;
 use std::io::{self, Write};

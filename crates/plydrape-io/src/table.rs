@@ -161,7 +161,7 @@ pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
     kept.max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
 }
 
-/// A verdict in words: name, value, limit, step and place.
+/// A verdict as text: name, value, limit, step and place.
 #[must_use]
 pub fn in_words(v: &Verdict) -> String {
     let (name, unit) = (v.name.title(), unit(&v.unit));
@@ -205,8 +205,8 @@ fn significant(value: f64) -> String {
     }
 }
 
-/// Columns aligned, two spaces between; numbers to the right, the columns of words to the left.
-fn aligned(rows: &[Vec<String>], words: &[usize]) -> String {
+/// Columns aligned, two spaces between; numbers to the right, the columns of text to the left.
+fn aligned(rows: &[Vec<String>], texts: &[usize]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let cells = |column: usize| rows.iter().map(move |r| r[column].chars().count());
     let widths: Vec<usize> = (0..columns).map(|c| cells(c).max().unwrap_or(0)).collect();
@@ -214,7 +214,7 @@ fn aligned(rows: &[Vec<String>], words: &[usize]) -> String {
     for row in rows {
         let set = |(column, cell): (usize, &String)| {
             let pad = " ".repeat(widths[column] - cell.chars().count());
-            match words.contains(&column) {
+            match texts.contains(&column) {
                 true => format!("{cell}{pad}"),
                 false => format!("{pad}{cell}"),
             }
@@ -339,7 +339,7 @@ mod tests {
         assert_eq!(fixed(Some(-1e-12), 2), "0.00");
     }
 
-    /// A place in words may be long; the table stays within its width.
+    /// The text of a place may be long; the table stays within its width.
     #[test]
     fn long_places_are_cut() {
         let mut result = sample::draped(4, 2, 2);

@@ -17,9 +17,9 @@ from plydrape import PlydrapeError
 
 from .definition import Study
 from .error import StudyError
+from .labels import amount, name
 from .outcome import Outcome
 from .run import beside, run
-from .words import amount, name
 
 EXIT_CODES = """\
 Exit codes:
@@ -59,23 +59,23 @@ def parser() -> argparse.ArgumentParser:
 
 def main(arguments: list[str] | None = None) -> int:
     """Runs a study; the exit code."""
-    given = parser().parse_args(arguments)
+    options = parser().parse_args(arguments)
     with interruptible():
-        return command(given)
+        return command(options)
 
 
-def command(given: argparse.Namespace) -> int:
+def command(options: argparse.Namespace) -> int:
     """Runs the study of the options; the exit code."""
     folder = None
     try:
-        study = Study.read(given.study)
-        folder = Path(given.output or beside(study))
+        study = Study.read(options.study)
+        folder = Path(options.output or beside(study))
         outcome = run(
             study,
             output=folder,
-            scheduler=given.scheduler,
-            workers=given.workers,
-            progress=not given.quiet,
+            scheduler=options.scheduler,
+            workers=options.workers,
+            progress=not options.quiet,
         )
     except StudyError as error:
         where = f"{error.file}: " if error.file else ""
@@ -90,7 +90,7 @@ def command(given: argparse.Namespace) -> int:
         kept = f"finished rows are in {folder}" if folder and folder.is_dir() else "nothing was run"
         write(f"interrupted: {kept}; the same command goes on", sys.stderr)
         return 130
-    return 0 if given.quiet else show(told(outcome, study))
+    return 0 if options.quiet else show(report(outcome, study))
 
 
 @contextlib.contextmanager
@@ -151,7 +151,7 @@ def write(text: str, stream: TextIO) -> OSError | None:
     return None
 
 
-def told(outcome: Outcome, study: Study) -> str:
+def report(outcome: Outcome, study: Study) -> str:
     """What the command prints: counts, a table of the judged measures, files."""
     about = outcome.summary
     accepted = about["accepted"]

@@ -122,7 +122,7 @@ fn a_mass_that_no_ply_has_is_warned_of_with_the_likely_unit() {
     assert!(warning(&line("\"4.9 g/m\"")).contains("0.049 kg/m²"));
 }
 
-/// Each once: of a target in the mold the steps before it are not told as well.
+/// Each once: of a target in the mold the steps before it are not reported as well.
 #[test]
 fn grippers_below_the_mold_are_warned_of_once() {
     let target = |z: &str| {
@@ -156,12 +156,12 @@ fn a_motion_through_the_mold_is_warned_of_with_its_step() {
     let output = command().arg("check").arg("--quiet").arg(&scene).output().unwrap();
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stdout.is_empty());
-    let said = text(&output.stderr);
+    let message = text(&output.stderr);
     assert!(
-        said.contains("in step 2 gripper") && said.contains("is 20 mm below the mold"),
-        "{said}"
+        message.contains("in step 2 gripper") && message.contains("is 20 mm below the mold"),
+        "{message}"
     );
-    assert_eq!(said.lines().count(), 1, "{said}");
+    assert_eq!(message.lines().count(), 1, "{message}");
 }
 
 /// The duration of a straight motion is kept by the simulation and refused by the plan, with the key that it keeps.
@@ -177,13 +177,13 @@ fn a_duration_that_a_plan_would_ignore_is_refused_by_it() {
     let output = command().arg("plan").arg(&scene).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
-    let said = words(&output.stderr);
+    let message = words(&output.stderr);
     for part in [
         "duration \"20 s\" of [motion]",
         "write duration = \"20 s\" in [limits]",
         "scene.toml:19:12",
     ] {
-        assert!(said.contains(part), "{part}\n{said}");
+        assert!(message.contains(part), "{part}\n{message}");
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }

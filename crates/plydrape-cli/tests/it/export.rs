@@ -95,9 +95,9 @@ fn other_files_are_refused_with_a_remedy() {
         std::fs::write(&file, content).unwrap();
         for arguments in [&["export", "--to", "vtk"][..], &["report"]] {
             let output = plydrape(arguments, &file);
-            let said = words(&output.stderr);
-            assert_eq!(output.status.code(), Some(2), "{name}: {said}");
-            assert!(said.contains(reason) && said.contains(remedy), "{name}: {said}");
+            let message = words(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{name}: {message}");
+            assert!(message.contains(reason) && message.contains(remedy), "{name}: {message}");
             assert!(output.stdout.is_empty());
             assert_eq!(files(&folder), ["result.json"], "{name}");
         }

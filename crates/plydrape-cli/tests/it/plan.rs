@@ -64,7 +64,7 @@ fn all_files_go_beside_the_scene_or_to_the_folder_asked_for() {
     assert_eq!(files(&asked), FILES);
 }
 
-/// The exit code is that of the verdict, in words and in JSON.
+/// The exit code is that of the verdict, as text and in JSON.
 #[test]
 fn exit_code_is_the_verdict() {
     let folder = tempfile::tempdir().unwrap();
@@ -145,7 +145,7 @@ fn impossible_limits_are_named_with_amount_and_place_and_exit_with_one() {
     let slow = SCENE.replace("steps = 12", "steps = 12\nmove_limit = \"1 mm\"");
     let shear = "\n[limits]\nshear = \"15 deg\"\n";
     let workspace = "\n[limits]\nworkspace = [[-1, \"300 mm\"], [-1, 1], [-1, 1]]\n";
-    for (text, said, place) in [
+    for (text, message, place) in [
         (sheared + shear, "shear 20° against 15°", "net cell ["),
         (far + workspace, "workspace 300 mm against 0 mm", "] at the target"),
         (slow, "move limit 75.", "gripper [1,1] in 11 moves"),
@@ -154,7 +154,7 @@ fn impossible_limits_are_named_with_amount_and_place_and_exit_with_one() {
         let output = plan(&scene(folder.path(), &text), &[]);
         let shown = text_of_obstacles(&output);
         assert_eq!(output.status.code(), Some(1), "{shown}");
-        assert!(shown.contains(said) && shown.contains(place), "{said}, {place}: {shown}");
+        assert!(shown.contains(message) && shown.contains(place), "{message}, {place}: {shown}");
         assert!(words(&output.stdout).contains("not accepted: "));
         assert_eq!(files(&folder.path().join("flat.plan")), FILES);
     }

@@ -204,7 +204,7 @@ fn the_same_scene_gives_the_same_bytes() {
     }
 }
 
-/// `plydrape … | head` ends without a word.
+/// `plydrape … | head` ends silently.
 #[test]
 fn a_closed_pipe_is_no_failure() {
     let folder = tempfile::tempdir().unwrap();
@@ -228,7 +228,7 @@ fn a_closed_pipe_is_no_failure() {
     assert_eq!(files(Path::new(out)), FILES);
 }
 
-/// A scene of 3000 steps, interrupted early: files that are whole, and tell of the steps done alone.
+/// A scene of 3000 steps, interrupted early: files that are whole, and hold the steps done alone.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_leaves_complete_files_of_the_steps_done() {
@@ -270,7 +270,7 @@ fn an_interrupt_leaves_complete_files_of_the_steps_done() {
 }
 
 /// A ply stiffer than any, inextensible and with slack: no force in floating point gives its spans their lengths. The step says so
-/// in words, and the exit code is 3, not that of a limit.
+/// as text, and the exit code is 3, not that of a limit.
 #[test]
 fn a_step_without_a_solution_exits_with_three() {
     let folder = tempfile::tempdir().unwrap();
@@ -332,8 +332,11 @@ fn a_simulation_into_the_folder_of_its_plan_keeps_what_it_follows() {
     let before = std::fs::read(out.join("trajectory.csv")).unwrap();
     let output = run(&[&scene], "simulate");
     assert_eq!(output.status.code(), Some(2));
-    let said = words(&output.stderr);
-    assert!(said.contains("trajectory.csv is read by this run") && said.contains("-o"), "{said}");
+    let message = words(&output.stderr);
+    assert!(
+        message.contains("trajectory.csv is read by this run") && message.contains("-o"),
+        "{message}"
+    );
     assert_eq!(std::fs::read(out.join("trajectory.csv")).unwrap(), before);
 }
 
@@ -361,9 +364,9 @@ fn a_second_run_into_a_folder_is_refused_and_a_termination_is_an_interrupt() {
     let mut second = command();
     let second = second.arg("simulate").arg(headline()).arg("-o").arg(&out).output().unwrap();
     assert_eq!(second.status.code(), Some(2));
-    let said = words(&second.stderr);
+    let message = words(&second.stderr);
     let owner = format!("`plydrape simulate`, process {}", first.id());
-    assert!(said.contains("is being written by") && said.contains(&owner), "{said}");
+    assert!(message.contains("is being written by") && message.contains(&owner), "{message}");
     let kill = Command::new("kill").args(["-TERM", &first.id().to_string()]).status();
     assert!(kill.unwrap().success());
     assert_eq!(first.wait_with_output().unwrap().status.code(), Some(130));

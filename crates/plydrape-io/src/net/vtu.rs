@@ -139,9 +139,9 @@ fn section(out: &mut String, name: &str, arrays: &[Array]) {
             "<DataArray type=\"Float64\" Name=\"{name}\"{components} format=\"ascii\">"
         );
         for entry in values.chunks(*width) {
-            let words: Vec<String> =
+            let numbers: Vec<String> =
                 entry.iter().map(|v| format!("{v:?}").to_lowercase()).collect();
-            let _ = writeln!(out, "{}", words.join(" "));
+            let _ = writeln!(out, "{}", numbers.join(" "));
         }
         out.push_str("</DataArray>\n");
     }

@@ -23,10 +23,10 @@ const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
 /// Smallest and largest gravity (m/s²).
 const GRAVITY: [f64; 2] = [1e-3, 1e3];
 
-/// Checks a scene file, on a mold of its own or on a `given` one; other files it names are relative to `base`.
+/// Checks a scene file, on a mold of its own or on one that a program has `made`; other files it names are relative to `base`.
 pub(super) fn scene(
     file: &SceneKeys,
-    given: Option<Mold>,
+    made: Option<Mold>,
     document: &Document,
     base: &Path,
 ) -> Result<SceneFile, SceneError> {
@@ -36,7 +36,7 @@ pub(super) fn scene(
             let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
             (Some(mold), report)
         }
-        None => (given, None),
+        None => (made, None),
     };
     let mut settings = settings(file, &ply, document)?;
     if let Some(Some(tilt)) = file.grippers.as_ref().map(|g| &g.value.max_tilt) {
@@ -70,14 +70,14 @@ pub(super) fn scene(
     })
 }
 
-/// The title that is given, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.
+/// The title that is written, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.
 pub(super) fn title(
-    given: Option<&Located<String>>,
+    written: Option<&Located<String>>,
     document: &Document,
     base: &Path,
 ) -> Result<String, SceneError> {
-    if let Some(given) = given {
-        return line(given, document);
+    if let Some(title) = written {
+        return line(title, document);
     }
     let stem = Path::new(&document.file).file_stem().unwrap_or_default();
     let name = match base.file_name() {
@@ -204,7 +204,7 @@ fn placing_key(keys: &GrippersTable) -> Option<&'static str> {
         ("height", keys.height.is_some()),
     ]
     .into_iter()
-    .find_map(|(key, given)| given.then_some(key))
+    .find_map(|(key, present)| present.then_some(key))
     .or(start::other_key(keys))
 }
 

@@ -88,11 +88,11 @@ fn hold(
     start: &Places,
     document: &Document,
 ) -> Result<Motion, SceneError> {
-    let stray = keys.and_then(|keys| {
+    let misplaced = keys.and_then(|keys| {
         let steps = keys.steps.as_ref().map(|steps| &steps.span);
         steps.or(keys.duration.as_ref().map(|duration| &duration.span))
     });
-    if let Some(span) = stray {
+    if let Some(span) = misplaced {
         return Err(document.error(
             span.clone(),
             "a ply that is held has one step and no duration",

@@ -1,6 +1,6 @@
 //! From bytes to a text, and from a text to the keys of a file.
 
-use super::complaint;
+use super::diagnostic;
 use super::error::{Document, SceneError};
 use crate::{input, shown};
 use serde::de::DeserializeOwned;
@@ -65,5 +65,5 @@ fn reason(error: &std::io::Error) -> String {
 
 /// Reads the keys of a TOML text.
 pub(super) fn keys<T: DeserializeOwned>(document: &Document) -> Result<T, SceneError> {
-    toml::from_str(&document.text).map_err(|error| complaint::in_plain_words(document, &error))
+    toml::from_str(&document.text).map_err(|error| diagnostic::scene_error(document, &error))
 }
