@@ -211,7 +211,7 @@ fn memory(folder: &Path) -> Result<Memory, Failure> {
 fn best(progress: &Progress) -> String {
     let best = match table::limiting(progress.best) {
         _ if progress.accepted => "; the best so far is accepted".into(),
-        Some(worst) => format!("; best so far: {}", table::in_words(worst)),
+        Some(worst) => format!("; best so far: {}", table::verdict_text(worst)),
         None => String::new(),
     };
     format!("{}{best}", progress.stage)
@@ -237,7 +237,7 @@ fn text(planned: &Planned, result: &ResultFile, printed: &Printed) -> String {
     if result.summary.accepted
         && let Some(closest) = table::closest(&result.summary.limits)
     {
-        text += &format!("closest to its limit: {}\n", table::in_words(closest));
+        text += &format!("closest to its limit: {}\n", table::verdict_text(closest));
     }
     text
 }

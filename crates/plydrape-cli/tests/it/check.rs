@@ -1,6 +1,6 @@
 //! `plydrape check` as a user reads it: where the ply starts and shall end, and warnings of what can hardly be meant.
 
-use crate::common::{command, text, words};
+use crate::common::{command, one_line, text};
 use std::process::Output;
 
 /// Grippers over a flat mold, all numbers in a unit of length to come.
@@ -55,7 +55,7 @@ fn in_unit(unit: &str) -> String {
 fn start_and_target_are_shown_in_x_y_z_with_the_longest_way() {
     let output = check(&in_unit("mm"), &[]);
     assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
-    let shown = words(&output.stdout);
+    let shown = one_line(&output.stdout);
     for line in [
         "start x 10 to 304 mm, y -20 to 78 mm, z 75 mm, middle (157, 29, 75) mm",
         "x 0 to 300 mm, y 0 to 100 mm, z 0 mm, middle (150, 50, 0) mm",
@@ -71,7 +71,7 @@ fn start_and_target_are_shown_in_x_y_z_with_the_longest_way() {
 #[test]
 fn a_held_ply_has_no_way() {
     let scene = in_unit("mm").replace("[target]\n", "[motion]\nkind = \"hold\"\n");
-    let shown = words(&check(&scene, &[]).stdout);
+    let shown = one_line(&check(&scene, &[]).stdout);
     assert!(shown.contains("start x 10 to 304 mm"), "{shown}");
     assert!(shown.contains("target none"), "{shown}");
     assert!(!shown.contains("straight line"), "{shown}");
@@ -171,13 +171,13 @@ fn a_duration_that_a_plan_would_ignore_is_refused_by_it() {
     let scene = folder.path().join("scene.toml");
     let motion = "\n[motion]\nkind = \"straight\"\nsteps = 3\nduration = \"20 s\"\n";
     std::fs::write(&scene, in_unit("mm") + motion).unwrap();
-    let shown = words(&command().arg("check").arg(&scene).output().unwrap().stdout);
+    let shown = one_line(&command().arg("check").arg(&scene).output().unwrap().stdout);
     assert!(shown.contains("motion 3 steps in 20 s"), "{shown}");
 
     let output = command().arg("plan").arg(&scene).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
-    let message = words(&output.stderr);
+    let message = one_line(&output.stderr);
     for part in [
         "duration \"20 s\" of [motion]",
         "write duration = \"20 s\" in [limits]",

@@ -1,7 +1,7 @@
 //! `plydrape study` hands over to Python; here a script stands in for it.
 #![cfg(unix)]
 
-use crate::common::{command, text, words};
+use crate::common::{command, one_line, text};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ fn a_missing_package_is_one_message_with_the_remedy() {
     let home = tempfile::tempdir().unwrap();
     let output = study(&python(home.path(), "exit 97"), &["study.toml"]);
     assert_eq!(output.status.code(), Some(2));
-    let message = words(&output.stderr);
+    let message = one_line(&output.stderr);
     for part in ["has no package plydrape", "pip install 'plydrape[study]'", "PLYDRAPE_PYTHON"] {
         assert!(message.contains(part), "{message}");
     }
@@ -35,7 +35,7 @@ fn a_missing_package_is_one_message_with_the_remedy() {
 fn a_missing_python_is_one_message_with_the_remedy() {
     let output = study(Path::new("/no/such/python"), &["study.toml"]);
     assert_eq!(output.status.code(), Some(2));
-    let message = words(&output.stderr);
+    let message = one_line(&output.stderr);
     assert!(message.contains("/no/such/python") && message.contains("install Python"), "{message}");
 }
 

@@ -3,7 +3,7 @@
 use super::error::{Document, SceneError};
 use super::file::{EndKey, GrippersTable, MotionKind, PlyTable, SceneKeys, Slopes, SteppingKey};
 use super::limits::{acute, limits};
-use super::located::{Count, Located};
+use super::located::{Count, Located, Whole};
 use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::trajectory::trajectory;
@@ -17,7 +17,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Most grippers along u or v.
-const MOST_GRIPPERS: i64 = 1000;
+const MOST_GRIPPERS: i128 = 1000;
 /// Smallest and largest finite axial stiffness (N).
 const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
 /// Smallest and largest gravity (m/s²).
@@ -114,11 +114,11 @@ pub(super) fn ply(table: &PlyTable, document: &Document, base: &Path) -> Result<
 
 fn gripper_count(
     count: &Located<Count>,
-    least: i64,
+    least: i128,
     along: &str,
     document: &Document,
 ) -> Result<usize, SceneError> {
-    let Count(value) = count.value;
+    let Whole(value) = count.value;
     if (least..=MOST_GRIPPERS).contains(&value)
         && let Ok(value) = usize::try_from(value)
     {
@@ -189,7 +189,7 @@ impl Surroundings<'_> {
         start::check(&start, self)?;
         if let Some(steps) = file.motion.as_ref().and_then(|table| table.value.steps.as_ref()) {
             // before so many positions are made
-            let Count(count) = steps.value;
+            let Whole(count) = steps.value;
             self.fits(&steps.span, usize::try_from(count).unwrap_or(0))?;
         }
         motion(file.motion.as_ref(), &start, target, ply, document)

@@ -2,7 +2,7 @@
 
 use super::error::{Document, SceneError};
 use super::file::{MotionKind, MotionTable};
-use super::located::{Count, Located};
+use super::located::{Count, Located, Whole};
 use super::places::Places;
 use plydrape::mold::vector;
 use plydrape::motion::{MOST_POSITIONS, MOST_STEPS};
@@ -107,7 +107,7 @@ fn step_count(
     grid: Grid,
     document: &Document,
 ) -> Result<usize, SceneError> {
-    let Count(written) = steps.value;
+    let Whole(written) = steps.value;
     let most = MOST_STEPS.min(MOST_POSITIONS / grid.grippers());
     match usize::try_from(written) {
         Ok(count) if (2..=most).contains(&count) => Ok(count),
