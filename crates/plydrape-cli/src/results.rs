@@ -23,7 +23,7 @@ pub struct Results {
     /// The scene file.
     pub scene: PathBuf,
 
-    /// Folder of the files; beside the scene, with its name and the ending said below, unless given.
+    /// Folder of the files; beside the scene, with its name and the ending named below, unless given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 
