@@ -33,7 +33,7 @@ const PLAN: f64 = 2.0;
 /// Memory that a triangle of a mold takes while a mesh is built (bytes).
 const TRIANGLE: f64 = 500.0;
 /// Memory per byte of a result file that is read and made into something else.
-const RESULT: f64 = 4.0;
+const RESULT: f64 = 10.0;
 
 /// Why work is refused before it is begun.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -97,9 +97,9 @@ fn the_paper_s_example_has_its_printed_contacts_and_shear() {
     assert_eq!(printed["accepted"], false);
     assert_eq!(printed["steps"], 30);
     assert_eq!(printed["first_contact_step"], 26);
-    let diagonal = |from: [usize; 2], to: [usize; 2]| serde_json::json!({"kind": "diagonal", "from": from, "to": to});
+    let falling = |from: [usize; 2], to: [usize; 2]| serde_json::json!({"kind": "falling", "from": from, "to": to});
     let contacts = printed["first_contact"].as_array().unwrap();
-    let expected = [diagonal([1, 0], [0, 1]), diagonal([2, 0], [1, 1]), diagonal([3, 0], [2, 1])];
+    let expected = [falling([1, 0], [0, 1]), falling([2, 0], [1, 1]), falling([3, 0], [2, 1])];
     assert_eq!(contacts.as_slice(), expected);
     assert_eq!(printed["first_shear_step"], 5);
     assert_eq!(printed["all_shear_step"], 5);

@@ -148,7 +148,7 @@ fn unit_size(
         Ok((_, found)) => Err(document.error(
             title,
             format!("`{written}` is the unit of {found}"),
-            format!("{dimension} is expected in this column"),
+            format!("{dimension} is wanted in this column"),
         )),
         Err(fault) => Err(document.error(
             title,
