@@ -95,12 +95,12 @@ def program(folder: Path, body: str) -> Path:
 
 def fuzz(binary: Path, *options: str) -> subprocess.CompletedProcess[str]:
     """Runs the fuzzer on a program, with scenes."""
-    words = [str(ROOT / "scripts" / "fuzz"), "--binary", str(binary)]
-    words += ["--keep", str(binary.parent / "kept")]
-    words += ["--kind", "scene", "--jobs", "1", *options]
+    command = [str(ROOT / "scripts" / "fuzz"), "--binary", str(binary)]
+    command += ["--keep", str(binary.parent / "kept")]
+    command += ["--kind", "scene", "--jobs", "1", *options]
     surroundings = os.environ | {"PYTHON": sys.executable}
     return subprocess.run(
-        words, env=surroundings, capture_output=True, text=True, timeout=120, check=False
+        command, env=surroundings, capture_output=True, text=True, timeout=120, check=False
     )
 
 
@@ -148,6 +148,6 @@ def test_a_mutation_that_the_fault_does_not_need_is_left_out(tmp_path: Path) -> 
     reports = done.stdout.split("BROKEN ")[1:]
     assert reports
     for report in reports:
-        said = report.split("\n\n")[0].splitlines()[1:]
-        told = [line for line in said if line.startswith("  ") and line[2] != "|"]
-        assert [line.split()[0] for line in told] == ["plydrape", "scripts/fuzz"], report
+        lines = report.split("\n\n")[0].splitlines()[1:]
+        commands = [line for line in lines if line.startswith("  ") and line[2] != "|"]
+        assert [line.split()[0] for line in commands] == ["plydrape", "scripts/fuzz"], report
