@@ -1,6 +1,7 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
 use crate::result::ResultFile;
+use crate::shown;
 use plydrape::draping::record::{Step, Verdict};
 use plydrape::equilibrium::Status;
 use plydrape::measure::Name;
@@ -9,6 +10,9 @@ use std::fmt::Write;
 
 /// From this many steps on, only selected ones are shown.
 const MOST_ROWS: usize = 40;
+
+/// Most characters of a line, beside the ellipsis where it is cut.
+const WIDTH: usize = 99;
 
 /// Columns after the step, with their units.
 const COLUMNS: [&str; 7] =
@@ -141,7 +145,10 @@ pub fn verdict(result: &ResultFile) -> String {
         None if summary.accepted => text.push_str("accepted\n"),
         None => text.push_str("not accepted\n"),
         Some(worst) => {
-            text.push_str(&shortened(&format!("not accepted: {}", verdict_text(worst)), 100));
+            text.push_str(&shown::excerpt(
+                &format!("not accepted: {}", verdict_text(worst)),
+                WIDTH,
+            ));
             text.push('\n');
         }
     }
@@ -177,7 +184,8 @@ pub fn obstacles(verdicts: &[Verdict]) -> String {
     if verdicts.is_empty() {
         return String::new();
     }
-    let lines = verdicts.iter().map(|v| shortened(&format!("  {}", verdict_text(v)), 100) + "\n");
+    let lines =
+        verdicts.iter().map(|v| shown::excerpt(&format!("  {}", verdict_text(v)), WIDTH) + "\n");
     "no plan can keep these limits:\n".to_owned() + &lines.collect::<String>()
 }
 
@@ -220,20 +228,10 @@ fn aligned(rows: &[Vec<String>], texts: &[usize]) -> String {
             }
         };
         let line: Vec<String> = row.iter().enumerate().map(set).collect();
-        text.push_str(&shortened(line.join("  ").trim_end(), 100));
+        text.push_str(&shown::excerpt(line.join("  ").trim_end(), WIDTH));
         text.push('\n');
     }
     text
-}
-
-/// At most so many characters, the last an ellipsis if something was cut.
-fn shortened(line: &str, most: usize) -> String {
-    if line.chars().count() <= most {
-        return line.to_owned();
-    }
-    let mut cut: String = line.chars().take(most - 1).collect();
-    cut.push('…');
-    cut
 }
 
 #[cfg(test)]
