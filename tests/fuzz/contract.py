@@ -31,7 +31,7 @@ SIMULATED = {"result.json", "steps.csv", "trajectory.csv", "figure.svg", "report
 WRITTEN = {
     "simulate": SIMULATED,
     "plan": SIMULATED | {"motion.csv", "plan.json"},
-    "net": {"nodes.csv", "shear.svg", "net.vtu", "mold.vtu"},
+    "net": {"nodes.csv", "shear.svg", "net.vtp", "mold.vtp"},
     "report": {"report.html"},
     "study": {"study.parquet", "summary.json", "summary.html"},
 }
@@ -199,7 +199,7 @@ def of_file(path: Path) -> Iterator[Fault]:
             of_page(path.read_text())
         elif path.suffix in (".svg", ".pvd"):
             of_xml(path.read_text())
-        elif path.suffix in (".vtp", ".vtu"):
+        elif path.suffix == ".vtp":
             of_vtk(path.read_bytes())
         elif path.suffix in (".csv", ".yaml", ".inp"):
             of_text(path.read_text(), "**" if path.suffix == ".inp" else "#")
