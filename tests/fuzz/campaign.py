@@ -163,10 +163,10 @@ class Fuzzer:
         """What the command wrote, it reads."""
         to = rng.choice(("csv", "svg", "inp", "ros2", "vtk"))
         found = []
-        for name, words in (("report", ()), ("export", ("--to", to))):
+        for name, options in (("report", ()), ("export", ("--to", to))):
             place = folder / name
             place.mkdir()
-            ended = self.program.run((name, str(wrote), *words, "-o", "out"), place)
+            ended = self.program.run((name, str(wrote), *options, "-o", "out"), place)
             faults = contract.faults(ended, place, {}, Outlet.KEPT)
             if ended.code == 2 and name == "report":
                 faults.append(Fault("what is written can be read", ended.stderr.decode()[:500]))
@@ -195,14 +195,14 @@ class Fuzzer:
     ) -> Broken:
         """Keeps the files of a case, and says how it is run again."""
         place = self.keep / f"{kind}-{self.seed}-{number}-{zlib.crc32(key.encode()):08x}"
-        words = shlex.join(["plydrape", *ended.command])
-        command = f"{words} {case.outlet.value if case.outlet is not Outlet.KEPT else ''}".rstrip()
+        text = shlex.join(["plydrape", *ended.command])
+        command = f"{text} {case.outlet.value if case.outlet is not Outlet.KEPT else ''}".rstrip()
         shutil.rmtree(place, ignore_errors=True)  # of an earlier campaign
         place.mkdir(parents=True)
         steps = case.write(place)
         again = f"scripts/fuzz --kind {kind} --seed {self.seed} --case {number}"
-        said = [key, "", fault.detail, "", *steps, "", command, again, ""]
-        (place / "fault.txt").write_text("\n".join(said))
+        lines = [key, "", fault.detail, "", *steps, "", command, again, ""]
+        (place / "fault.txt").write_text("\n".join(lines))
         return Broken(key, kind, number, fault, command, steps)
 
 
@@ -240,7 +240,7 @@ def work(
 
 
 def campaign(
-    fuzzer: Fuzzer, jobs: int, most: int, seconds: float, tell: Callable[[Broken], None]
+    fuzzer: Fuzzer, jobs: int, most: int, seconds: float, report: Callable[[Broken], None]
 ) -> tuple[int, Counter[str], Counter[str]]:
     """Runs cases on several workers: how many, how they ended, and the faults found by key."""
     if "result" in fuzzer.kinds_in_turn:
@@ -256,13 +256,13 @@ def campaign(
     done, codes, found, running = 0, Counter[str](), Counter[str](), jobs
     while running:
         try:
-            told = out.get()
+            message = out.get()
         except KeyboardInterrupt:
             continue  # the workers end too, and say how far they came
-        match told:
+        match message:
             case Broken() as broken:
                 if not found[broken.key]:
-                    tell(broken)
+                    report(broken)
                 found[broken.key] += 1
             case str(failure):
                 raise SystemExit(f"fuzz: {failure}")

@@ -104,13 +104,13 @@ class Case:
     def write(self, folder: Path) -> list[str]:
         """Writes the mutated files into an empty folder; what was done to them."""
         files = self.files()
-        said = [mutate(Random(seed), files) for mutate, seed in self.steps]
+        done = [mutate(Random(seed), files) for mutate, seed in self.steps]
         for name, content in files.items():
             place(folder / name, content)
         self.occupy(folder / "out")
         if self.occupied is not Occupied.NOTHING:
-            said.append(self.occupied.value)
-        return said
+            done.append(self.occupied.value)
+        return done
 
     def occupy(self, out: Path) -> None:
         """Puts what is the user's in the way."""

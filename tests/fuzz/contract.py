@@ -23,9 +23,10 @@ from xml.etree import ElementTree
 from .case import Outlet
 from .process import Ended
 
-CODES = (0, 1, 2, 3, 130)
-# Codes with which files are written.
-DONE = (0, 1, 3, 130)
+CODES = (0, 1, 2, 3, 4, 130)
+# Codes with which files are written; with 4 unless the message says that none was.
+DONE = (0, 1, 3, 4, 130)
+NOTHING_WRITTEN = "no file was written"
 SIMULATED = {"result.json", "steps.csv", "trajectory.csv", "figure.svg", "report.html"}
 WRITTEN = {
     "simulate": SIMULATED,
@@ -57,7 +58,7 @@ class Fault:
 
 def faults(ended: Ended, folder: Path, before: dict[str, bytes], outlet: Outlet) -> list[Fault]:
     """Everything that is wrong with a run; `before` are the files that it found."""
-    found = [*of_ending(ended), *of_words(ended, outlet), *of_inputs(folder, before)]
+    found = [*of_ending(ended), *of_messages(ended, outlet), *of_inputs(folder, before)]
     if found and ended.killed:
         return found  # what a killed program leaves is no fault of its own
     return found + list(of_folder(ended, folder, before))
@@ -65,53 +66,52 @@ def faults(ended: Ended, folder: Path, before: dict[str, bytes], outlet: Outlet)
 
 def of_ending(ended: Ended) -> Iterator[Fault]:
     """Faults of time, signals and exit codes."""
-    words = ended.stderr.decode(errors="replace")
-    if "panicked at" in words or ended.code == 101:
-        yield Fault("no panic", words[-600:] or "exit 101")
+    text = ended.stderr.decode(errors="replace")
+    if "panicked at" in text or ended.code == 101:
+        yield Fault("no panic", text[-600:] or "exit 101")
     elif ended.killed:
         doing = "waits" if ended.cpu < 0.2 else "computes"
         yield Fault("ends in time", f"it still {doing} after {ended.seconds:.0f} s")
-    elif "Traceback (most recent call last)" in words:
-        yield Fault(
-            "no traceback", "\n".join(words.strip().splitlines()[-1:]) + "\n" + words[-1500:]
-        )
+    elif "Traceback (most recent call last)" in text:
+        yield Fault("no traceback", "\n".join(text.strip().splitlines()[-1:]) + "\n" + text[-1500:])
     elif ended.code < 0:
-        yield Fault("no signal", f"signal {-ended.code}: {words[-300:]}")
+        yield Fault("no signal", f"signal {-ended.code}: {text[-300:]}")
     elif ended.code not in CODES:
-        yield Fault("a documented exit code", f"exit {ended.code}: {words[-300:]}")
+        yield Fault("a documented exit code", f"exit {ended.code}: {text[-300:]}")
 
 
-def of_words(ended: Ended, outlet: Outlet) -> Iterator[Fault]:
+def of_messages(ended: Ended, outlet: Outlet) -> Iterator[Fault]:
     """Faults of what was printed."""
     for name, content in (("output", ended.stdout), ("error", ended.stderr)):
         try:
-            said = content.decode()
+            text = content.decode()
         except UnicodeDecodeError as error:
             yield Fault("printable words", f"standard {name} is not UTF-8: {error}")
             continue
-        strange = {c for c in said if unicodedata.category(c) == "Cc" and c not in "\n\t"}
+        strange = {c for c in text if unicodedata.category(c) == "Cc" and c not in "\n\t"}
         if strange:
             yield Fault(
                 "printable words", f"control characters in standard {name}\n{sorted(strange)!r}"
             )
-    said = ended.stderr.decode(errors="replace")
-    if len(said) > LONGEST_MESSAGE:
-        yield Fault("a short message", f"{len(said)} bytes on standard error")
-    if ended.code == 2 and outlet in (Outlet.KEPT, Outlet.NO_ROOM) and "Traceback" not in said:
-        heads = [line for line in said.splitlines() if line.startswith("  × ")]
-        usage = said.startswith("error: ")  # of the command line itself
+    text = ended.stderr.decode(errors="replace")
+    if len(text) > LONGEST_MESSAGE:
+        yield Fault("a short message", f"{len(text)} bytes on standard error")
+    unseen = outlet in (Outlet.STDERR_FULL, Outlet.BOTH_FULL)
+    if ended.code in (2, 4) and not unseen and "Traceback" not in text:
+        heads = [line for line in text.splitlines() if line.startswith("  × ")]
+        usage = text.startswith("error: ")  # of the command line itself
         if len(heads) != 1 and not usage:
-            yield Fault("one message", f"{len(heads)} messages: {said[:500]}")
+            yield Fault("one message", f"{len(heads)} messages: {text[:500]}")
         elif (
             not usage
-            and not REMEDY.search(said)
-            and not (ended.command[0] in ("export", "report") and IN_SENTENCE.search(said))
+            and not REMEDY.search(text)
+            and not (ended.command[0] in ("export", "report") and IN_SENTENCE.search(text))
         ):
-            yield Fault("a remedy", said[:500].strip())
-    if "please report it" in " ".join(said.replace("│", "").split()):
-        yield Fault("no fault of its own", said[:500])
-    if ended.code in (0, 1) and "  × " in said:
-        yield Fault("one message", f"exit {ended.code} with a message: {said[:500]}")
+            yield Fault("a remedy", text[:500].strip())
+    if "please report it" in " ".join(text.replace("│", "").split()):
+        yield Fault("no fault of its own", text[:500])
+    if ended.code in (0, 1) and "  × " in text:
+        yield Fault("one message", f"exit {ended.code} with a message: {text[:500]}")
 
 
 def of_inputs(folder: Path, before: dict[str, bytes]) -> Iterator[Fault]:
@@ -125,9 +125,10 @@ def of_inputs(folder: Path, before: dict[str, bytes]) -> Iterator[Fault]:
 def of_folder(ended: Ended, folder: Path, before: dict[str, bytes]) -> Iterator[Fault]:
     """Faults of the folder that was written, and of what is left beside it."""
     out, command = folder / "out", ended.command[0]
+    done = ended.code in DONE and NOTHING_WRITTEN not in ended.stderr.decode(errors="replace")
     if any(Path(name).parts[0] == "out" for name in before):
         found = {str(path.relative_to(folder)) for path in out.rglob("*")}
-        if ended.code in DONE:
+        if done:
             yield Fault("what is the user's stays", f"exit {ended.code}, though it is in the way")
         elif more := found - set(before):
             yield Fault("what is the user's stays", f"exit {ended.code}, but more\n{sorted(more)}")
@@ -140,18 +141,18 @@ def of_folder(ended: Ended, folder: Path, before: dict[str, bytes]) -> Iterator[
             return
     if command == "new":
         made = [p for p in folder.rglob("*.toml") if "mine" in p.parts]
-        if ended.code != 0 and (made or (folder / "mine").exists()):
+        if not done and (made or (folder / "mine").exists()):
             yield Fault("written whole or not at all", f"exit {ended.code}, but something was made")
-        elif ended.code == 0 and (not made or not made[0].read_bytes().endswith(b"\n")):
-            yield Fault("written whole or not at all", "exit 0, but no scene")
+        elif done and (not made or not made[0].read_bytes().endswith(b"\n")):
+            yield Fault("written whole or not at all", f"exit {ended.code}, but no scene")
         return
-    if command == "check" or ended.code not in DONE:
+    if command == "check" or not done:
         if out.exists():
             left = sorted(p.name for p in out.rglob("*"))
             yield Fault("written whole or not at all", f"exit {ended.code}, but a folder\n{left}")
         return
-    if ended.code == 3 and not out.exists():
-        return  # no solution, and nothing to show
+    if (ended.code == 3 or (ended.code == 4 and not ended.stderr)) and not out.exists():
+        return  # no solution, and nothing to show; or nothing, and nowhere to say so
     names = {p.name for p in out.iterdir()} if out.is_dir() else set()
     if missing := WRITTEN.get(command, set()) - names:
         yield Fault("written whole or not at all", f"exit {ended.code}, but no {sorted(missing)}")
@@ -164,10 +165,14 @@ def of_folder(ended: Ended, folder: Path, before: dict[str, bytes]) -> Iterator[
 def of_manifest(out: Path, names: set[str]) -> Iterator[Fault]:
     """Faults of the list that the folder keeps of its files: check sums and lengths."""
     try:
-        listed: dict[str, Any] = json.loads((out / ".plydrape").read_bytes())
-    except (OSError, ValueError) as error:
-        yield Fault("written whole or not at all", f"the list of files: {error}")
+        manifest: dict[str, Any] = json.loads((out / ".plydrape").read_bytes())
+        is_sealed = manifest["sealed"]
+        listed = {name: entry["contents"] for name, entry in manifest["files"].items()}
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        yield Fault("written whole or not at all", f"the list of files: {error!r}")
         return
+    if is_sealed is not True:
+        yield Fault("written whole or not at all", "the list of files has no seal")
     if set(listed) != names - {".plydrape"}:
         yield Fault(
             "written whole or not at all", f"not as listed\n{sorted(listed)}\n{sorted(names)}"
@@ -175,8 +180,7 @@ def of_manifest(out: Path, names: set[str]) -> Iterator[Fault]:
         return
     for name, stamps in listed.items():
         content = (out / name).read_bytes()
-        stamp = {"crc32": zlib.crc32(content), "length": len(content)}
-        if stamp not in stamps:
+        if stamps != [{"crc32": zlib.crc32(content), "length": len(content)}]:
             yield Fault("written whole or not at all", f"{name} is not what the list says")
 
 
@@ -195,7 +199,7 @@ def of_file(path: Path) -> Iterator[Fault]:
             of_page(path.read_text())
         elif path.suffix in (".svg", ".pvd"):
             of_xml(path.read_text())
-        elif path.suffix in (".vtp", ".vtu"):
+        elif path.suffix == ".vtp":
             of_vtk(path.read_bytes())
         elif path.suffix in (".csv", ".yaml", ".inp"):
             of_text(path.read_text(), "**" if path.suffix == ".inp" else "#")
@@ -216,8 +220,8 @@ def refuse(where: str) -> NoReturn:
 
 def of_text(text: str, comment: str) -> None:
     """No number in a table or a deck is NaN or infinite."""
-    said = text.lower()
-    if "nan" not in said and "inf" not in said:
+    lower = text.lower()
+    if "nan" not in lower and "inf" not in lower:
         return
     for number, line in enumerate(text.splitlines(), 1):
         found = None if line.startswith(comment) else NOT_A_NUMBER.search(line)

@@ -76,22 +76,22 @@ def triangles(points: list[Point], faces: list[Face]) -> list[list[Point]]:
 
 def ascii_stl(points: list[Point], faces: list[Face]) -> bytes:
     """STL as text."""
-    said = [
+    facets = [
         "facet normal 0 0 1\nouter loop\n"
         + "".join("vertex {!r} {!r} {!r}\n".format(*p) for p in t)
         + "endloop\nendfacet\n"
         for t in triangles(points, faces)
     ]
-    return ("solid mold\n" + "".join(said) + "endsolid mold\n").encode()
+    return ("solid mold\n" + "".join(facets) + "endsolid mold\n").encode()
 
 
 def binary_stl(points: list[Point], faces: list[Face]) -> bytes:
     """STL in bytes."""
-    said = [
+    facets = [
         struct.pack("<12fH", 0, 0, 1, *(single(x) for p in t for x in p), 0)
         for t in triangles(points, faces)
     ]
-    return b"mold".ljust(80) + struct.pack("<I", len(said)) + b"".join(said)
+    return b"mold".ljust(80) + struct.pack("<I", len(facets)) + b"".join(facets)
 
 
 def single(value: float) -> float:
@@ -103,9 +103,9 @@ def single(value: float) -> float:
 
 def obj(points: list[Point], faces: list[Face]) -> bytes:
     """Wavefront OBJ."""
-    said = ["v {!r} {!r} {!r}".format(*p) for p in points]
-    said += ["f " + " ".join(str(n + 1) for n in face) for face in faces]
-    return ("\n".join(said) + "\n").encode()
+    lines = ["v {!r} {!r} {!r}".format(*p) for p in points]
+    lines += ["f " + " ".join(str(n + 1) for n in face) for face in faces]
+    return ("\n".join(lines) + "\n").encode()
 
 
 def ply(points: list[Point], faces: list[Face]) -> bytes:
@@ -115,9 +115,9 @@ def ply(points: list[Point], faces: list[Face]) -> bytes:
         f"property float z\nelement face {len(faces)}\n"
         "property list uchar int vertex_indices\nend_header\n"
     )
-    said = ["{!r} {!r} {!r}".format(*p) for p in points]
-    said += [f"{len(face)} " + " ".join(map(str, face)) for face in faces]
-    return (head + "\n".join(said) + "\n").encode()
+    lines = ["{!r} {!r} {!r}".format(*p) for p in points]
+    lines += [f"{len(face)} " + " ".join(map(str, face)) for face in faces]
+    return (head + "\n".join(lines) + "\n").encode()
 
 
 def inp(points: list[Point], faces: list[Face]) -> bytes:
@@ -214,16 +214,16 @@ def line(rng: Random, files: Files) -> str:
     lines = content.split(b"\n")
     at = rng.randrange(len(lines) + 1)
     if rng.random() < 0.4:
-        said = rng.choice(LINES)
-        lines.insert(at, said.encode())
+        new = rng.choice(LINES)
+        lines.insert(at, new.encode())
     else:
         at = min(at, len(lines) - 1)
-        words = lines[at].split(b" ")
-        said = repr(rng.choice((values.number(rng, 100), rng.randint(-3, 60))))
-        words[rng.randrange(len(words))] = said.encode()
-        lines[at] = b" ".join(words)
+        fields = lines[at].split(b" ")
+        new = repr(rng.choice((values.number(rng, 100), rng.randint(-3, 60))))
+        fields[rng.randrange(len(fields))] = new.encode()
+        lines[at] = b" ".join(fields)
     files[name] = b"\n".join(lines)
-    return f"{name}, line {at + 1}: {said}"
+    return f"{name}, line {at + 1}: {new}"
 
 
 def many(rng: Random, files: Files) -> str:

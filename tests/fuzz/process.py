@@ -45,9 +45,9 @@ class Program:
 
     def has_studies(self) -> bool:
         """Whether Python has the package that runs studies."""
-        words = [self.python, "-c", "import plydrape.study"]
+        command_line = [self.python, "-c", "import plydrape.study"]
         try:
-            return subprocess.run(words, capture_output=True, check=False).returncode == 0
+            return subprocess.run(command_line, capture_output=True, check=False).returncode == 0
         except OSError:
             return False
 
@@ -55,7 +55,7 @@ class Program:
         self, command: Sequence[str], folder: Path, outlet: Outlet = Outlet.KEPT, room: int = FILE
     ) -> Ended:
         """Runs it in a folder. `room` is what a full disk takes of a file (bytes)."""
-        words = [str(self.binary), *command]
+        command_line = [str(self.binary), *command]
         surroundings = {
             "PATH": os.environ.get("PATH", ""),
             "NO_COLOR": "1",
@@ -78,7 +78,7 @@ class Program:
             both = outlet is Outlet.BOTH_FULL
             began, cpu = monotonic(), children()
             child = subprocess.Popen(
-                words,
+                command_line,
                 cwd=folder,
                 env=surroundings,
                 stdin=subprocess.DEVNULL,

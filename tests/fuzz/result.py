@@ -33,14 +33,21 @@ def json_text(result: Any) -> str:
     return sealed(json.dumps(result, separators=(",", ":"), ensure_ascii=False))
 
 
-def change(rng: Random, files: Files) -> str:
-    """Changes a value anywhere in the result, most often a number, and seals it."""
+def opened(files: Files) -> Any:
+    """The result as plain values, if it can still be read."""
     content = files[NAME]
     if isinstance(content, case.Odd):
-        return "no result to change"
+        return None
     try:
-        result = json.loads(content)
+        return json.loads(content)
     except (ValueError, RecursionError):
+        return None
+
+
+def change(rng: Random, files: Files) -> str:
+    """Changes a value anywhere in the result, most often a number, and seals it."""
+    result = opened(files)
+    if result is None:
         return "no result to change"
     what = (tree.change if rng.random() < 0.15 else tree.change_number)(rng, result)
     files[NAME] = json_text(result).encode(errors="replace")
@@ -49,12 +56,8 @@ def change(rng: Random, files: Files) -> str:
 
 def everywhere(rng: Random, files: Files) -> str:
     """Changes the same key wherever it stands, and seals the result."""
-    content = files[NAME]
-    if isinstance(content, case.Odd):
-        return "no result to change"
-    try:
-        result = json.loads(content)
-    except (ValueError, RecursionError):
+    result = opened(files)
+    if result is None:
         return "no result to change"
     chosen = tree.choose(rng, result)
     if chosen is None:

@@ -18,6 +18,8 @@ NAME = "scene.toml"
 
 # Few steps and drapes, so that a case takes a moment.
 MOTION, PLAN = {"steps": 4}, {"steps": 6, "evaluations": 2}
+# Steps of a plan: also one that is interrupted ends with a drape along all of them.
+MOST_PLANNED = 100
 
 
 def short(text: str) -> str:
@@ -69,6 +71,10 @@ def change(rng: Random, files: Files) -> str:
     if scene is None:
         return "no scene to change"
     what = (tree.change if rng.random() < 0.5 else tree.change_number)(rng, scene)
+    plan = scene.get("plan")
+    steps = plan.get("steps") if isinstance(plan, dict) else None
+    if isinstance(steps, int) and MOST_PLANNED < steps <= 10_000:
+        scene["plan"]["steps"] = MOST_PLANNED  # sound, and would take long
     files[NAME] = toml.text(scene).encode()
     return what
 
@@ -137,8 +143,13 @@ def sample(rng: Random, node: Any, depth: int = 0) -> Any:
         case "integer":
             return rng.choice((0, 1, 2, 3, 4, 8))
         case "string":
-            said = [*node.get("examples", []), "100 mm", "10 deg", "0.1*x^2 - 0.2*y^2 + 0.01*x*y"]
-            return rng.choice(said) if rng.random() < 0.9 else values.text(rng)
+            choices = [
+                *node.get("examples", []),
+                "100 mm",
+                "10 deg",
+                "0.1*x^2 - 0.2*y^2 + 0.01*x*y",
+            ]
+            return rng.choice(choices) if rng.random() < 0.9 else values.text(rng)
         case _:
             return rng.choice((0.0, 0.05, 0.1, 0.3, 0.5, 1.0, 2.0, -0.1))
 

@@ -131,11 +131,11 @@ def changed(rng: Random, rows: Rows) -> str:
                 r[column : column + 1] = [scaled(c, factor) for c in r[column : column + 1]]
             return f"column {column} times {factor!r}"
         case _:
-            word = rng.choice(
+            content = rng.choice(
                 (repr(values.number(rng)), values.text(rng), "0-9", "9-9", "-1", "1e5000")
             )
-            rows[row][column : column + 1] = [word]
-            return f"row {row}, column {column} is {word!r:.40}"
+            rows[row][column : column + 1] = [content]
+            return f"row {row}, column {column} is {content!r:.40}"
 
 
 def scaled(cell: str, factor: float) -> str:

@@ -15,14 +15,15 @@ ROOT = Path(__file__).resolve().parents[2]
 REFUSE = 'print("  × nothing is right\\n  help: no idea", file=sys.stderr); sys.exit(2)'
 # Writes files into `out`, with the list of their check sums.
 WRITE = """
-def write(**files):
+def write(sealed=True, **files):
     os.mkdir("out")
     listed = {}
     for name, text in files.items():
         name = name.replace("_", ".")
         open("out/" + name, "w").write(text)
-        listed[name] = [{"crc32": zlib.crc32(text.encode()), "length": len(text.encode())}]
-    open("out/.plydrape", "w").write(json.dumps(listed))
+        stamp = {"crc32": zlib.crc32(text.encode()), "length": len(text.encode())}
+        listed[name] = {"by": sys.argv[1], "contents": [stamp]}
+    open("out/.plydrape", "w").write(json.dumps({"sealed": sealed, "files": listed}))
 """
 
 # What a program does when it should write `out`, and the promise that it breaks so.
@@ -47,6 +48,10 @@ FAULTS = {
     ),
     "leaves half a folder": (f'os.mkdir("out"); {REFUSE}', "written whole or not at all"),
     "leaves out files": ('write(steps_csv="step\\n1\\n")', "written whole or not at all"),
+    "leaves a list without a seal": (
+        'write(sealed=False, a_csv="step\\n1\\n")',
+        "the list of files has no seal",
+    ),
     "leaves its stage": (f'os.mkdir(".plydrape-a1"); {REFUSE}', "nothing is left behind"),
     "writes NaN into a table": ('write(steps_csv="step,x\\n1,NaN\\n")', "no NaN and no infinity"),
     "writes infinity as JSON": ('write(a_json="[1, Infinity]")', "no NaN and no infinity"),
@@ -90,12 +95,12 @@ def program(folder: Path, body: str) -> Path:
 
 def fuzz(binary: Path, *options: str) -> subprocess.CompletedProcess[str]:
     """Runs the fuzzer on a program, with scenes."""
-    words = [str(ROOT / "scripts" / "fuzz"), "--binary", str(binary)]
-    words += ["--keep", str(binary.parent / "kept")]
-    words += ["--kind", "scene", "--jobs", "1", *options]
+    command = [str(ROOT / "scripts" / "fuzz"), "--binary", str(binary)]
+    command += ["--keep", str(binary.parent / "kept")]
+    command += ["--kind", "scene", "--jobs", "1", *options]
     surroundings = os.environ | {"PYTHON": sys.executable}
     return subprocess.run(
-        words, env=surroundings, capture_output=True, text=True, timeout=120, check=False
+        command, env=surroundings, capture_output=True, text=True, timeout=120, check=False
     )
 
 
@@ -143,6 +148,6 @@ def test_a_mutation_that_the_fault_does_not_need_is_left_out(tmp_path: Path) -> 
     reports = done.stdout.split("BROKEN ")[1:]
     assert reports
     for report in reports:
-        said = report.split("\n\n")[0].splitlines()[1:]
-        told = [line for line in said if line.startswith("  ") and line[2] != "|"]
-        assert [line.split()[0] for line in told] == ["plydrape", "scripts/fuzz"], report
+        lines = report.split("\n\n")[0].splitlines()[1:]
+        commands = [line for line in lines if line.startswith("  ") and line[2] != "|"]
+        assert [line.split()[0] for line in commands] == ["plydrape", "scripts/fuzz"], report

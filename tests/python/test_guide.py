@@ -41,9 +41,8 @@ def test_a_chapter_does_what_it_says(chapter: Path, tmp_path: Path) -> None:
     programs.mkdir()
     (programs / "plydrape").symlink_to(binary().resolve())
     clone = tmp_path / "plydrape"
-    for folder in ("examples", "materials"):
-        made = shutil.ignore_patterns("*.results", "*.plan", "*.net")
-        shutil.copytree(ROOT / folder, clone / folder, ignore=made)
+    made = shutil.ignore_patterns("*.results", "*.plan", "*.net")
+    shutil.copytree(ROOT / "examples", clone / "examples", ignore=made)
 
     reader = Reader(clone, [programs, Path(sys.executable).parent])
     for block in blocks_of(chapter):

@@ -1,7 +1,7 @@
 //! `plydrape completions` and `plydrape man`: made from the definition of the command line.
 
 use crate::Cli;
-use crate::diagnostic::Done;
+use crate::failure::Done;
 use clap::CommandFactory;
 use clap_complete::Shell;
 use std::io::{self, Write};

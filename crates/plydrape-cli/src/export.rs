@@ -1,6 +1,6 @@
 //! `plydrape export`: files for other programs, from a result alone.
 
-use crate::diagnostic::Done;
+use crate::failure::Done;
 use crate::results;
 use clap::ValueEnum;
 use plydrape_io::{export, read};

@@ -2,8 +2,8 @@
 
 mod check;
 mod complete;
-mod diagnostic;
 mod export;
+mod failure;
 mod net;
 mod new;
 mod numbers;

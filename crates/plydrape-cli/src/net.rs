@@ -1,6 +1,6 @@
 //! `plydrape net`: lays the ply of a scene on its mold as a net, and says how it lies.
 
-use crate::diagnostic::Done;
+use crate::failure::Done;
 use crate::results::Results;
 use plydrape::net::Net;
 use plydrape_io::net::{Summary, write_all};
@@ -33,7 +33,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let results = &arguments.results;
     let ideal = plydrape_io::scene::read_ideal_drape(&results.scene)?;
     let (mold, net) = (&ideal.mold, &ideal.net);
-    // once more, to tell how long it takes apart from all else that reading a scene does
+    // once more, to measure how long it takes apart from all else that reading a scene does
     let start = Instant::now();
     let again = Net::drape(mold, net.layup);
     let time_ms = start.elapsed().as_secs_f64() * 1e3;

@@ -1,6 +1,6 @@
 //! `plydrape new`: writes a commented scene to start from.
 
-use crate::diagnostic::{Done, Failure};
+use crate::failure::{Done, Failure};
 use plydrape_io::scene::TEMPLATE;
 use plydrape_io::shown;
 use std::fs;

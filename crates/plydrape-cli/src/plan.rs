@@ -1,6 +1,6 @@
 //! `plydrape plan`: finds a motion that puts the ply on its mold, and says how it went.
 
-use crate::diagnostic::{Done, Failure};
+use crate::failure::{Done, Failure};
 use crate::numbers::short;
 use crate::outcome::{self, exit_code};
 use crate::results::Results;
@@ -111,9 +111,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
     let folder = Folder::claim(&results.folder("plan"), "plan")?;
-    folder.spare(&NAMES, &scene.files)?;
-    let tell = !quiet && !results.json;
-    if tell {
+    folder.refuse_inputs(&NAMES, &scene.files)?;
+    let verbose = !quiet && !results.json;
+    if verbose {
         let mut out = io::stdout().lock();
         writeln!(out, "{}\n", scene.title)?;
         let found = infeasible_limits(&scene);
@@ -211,7 +211,7 @@ fn checkpoint(folder: &Path) -> Result<Checkpoint, Failure> {
 fn best(progress: &Progress) -> String {
     let best = match table::limiting(progress.best) {
         _ if progress.accepted => "; the best so far is accepted".into(),
-        Some(worst) => format!("; best so far: {}", table::in_words(worst)),
+        Some(worst) => format!("; best so far: {}", table::verdict_text(worst)),
         None => String::new(),
     };
     format!("{}{best}", progress.stage)
@@ -237,7 +237,7 @@ fn text(planned: &Planned, result: &ResultFile, printed: &Printed) -> String {
     if result.summary.accepted
         && let Some(closest) = table::closest(&result.summary.limits)
     {
-        text += &format!("closest to its limit: {}\n", table::in_words(closest));
+        text += &format!("closest to its limit: {}\n", table::verdict_text(closest));
     }
     text
 }

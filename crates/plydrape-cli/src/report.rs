@@ -1,6 +1,6 @@
 //! `plydrape report`: the page of a result once more.
 
-use crate::diagnostic::Done;
+use crate::failure::Done;
 use crate::results;
 use plydrape_io::{folder, page, read};
 use std::path::{Path, PathBuf};

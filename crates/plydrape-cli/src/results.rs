@@ -1,6 +1,6 @@
 //! What every command that leaves a folder of results takes, and how it prints what it found.
 
-use crate::diagnostic::Failure;
+use crate::failure::Failure;
 use plydrape_io::{OutputError, json, shown};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -23,7 +23,7 @@ pub struct Results {
     /// The scene file.
     pub scene: PathBuf,
 
-    /// Folder of the files; beside the scene, with its name and the ending said below, unless given.
+    /// Folder of the files; beside the scene, with its name and the ending named below, unless given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 

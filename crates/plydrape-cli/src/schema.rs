@@ -1,6 +1,6 @@
 //! `plydrape schema`: the JSON Schema of scene files.
 
-use crate::diagnostic::Done;
+use crate::failure::Done;
 use std::io::{self, Write};
 use std::process::ExitCode;
 

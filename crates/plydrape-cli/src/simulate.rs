@@ -1,6 +1,6 @@
 //! `plydrape simulate`: drapes the ply of a scene along its motion, and says how it went.
 
-use crate::diagnostic::Done;
+use crate::failure::Done;
 use crate::outcome::{Printed, exit_code};
 use crate::results::Results;
 use crate::watch::{Interrupt, bar};
@@ -26,7 +26,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let scene = plydrape_io::scene::read(&results.scene)?;
 
     let folder = Folder::claim(&results.folder("results"), "simulate")?;
-    folder.spare(&NAMES[..5], &scene.files)?;
+    folder.refuse_inputs(&NAMES[..5], &scene.files)?;
 
     let steps = scene.motion.positions.len();
     let bar = bar(steps, "draping {bar:40} step {pos} of {len}, {eta} left", quiet);

@@ -3,7 +3,7 @@
 mod picture;
 mod text;
 
-use crate::diagnostic::{Done, Failure};
+use crate::failure::{Done, Failure};
 use plydrape::catenary::{EndCondition, Profile, Root, Span, SpanState, Station};
 use plydrape_io::json;
 use plydrape_io::scene::{Measured, quantity};
@@ -229,7 +229,7 @@ impl Solved {
         })
     }
 
-    /// How the span holds its length, in a word or two.
+    /// How the span holds its length, briefly.
     fn state(&self) -> &'static str {
         let is_longer = self.span.chord() > self.span.length * (1.0 + 1e-13);
         match (self.root.state, self.root.force) {

@@ -3,7 +3,7 @@
 //! Sampling, Parquet and clusters are Python's; this command finds Python, hands its arguments over
 //! and passes the exit code on.
 
-use crate::diagnostic::{Done, Failure};
+use crate::failure::{Done, Failure};
 use std::env;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use std::process::{Command, ExitCode};
 The rows go to DIR/study.parquet, their distributions to DIR/summary.html. An interrupted study goes \
 on with the same command. It runs by the Python package: pip install 'plydrape[study]'; \
 PLYDRAPE_PYTHON names the Python that has it, python3 unless given. Exit codes: 0 done, 2 bad \
-input, 130 interrupted.")]
+input, 4 standard output could not be written, 130 interrupted.")]
 pub struct Arguments {
     /// The study file, TOML.
     study: PathBuf,
@@ -61,7 +61,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     };
     let mut child = Command::new(&python)
         .args(["-c", PROGRAM])
-        .args(words(arguments, quiet))
+        .args(arguments_of(arguments, quiet))
         .spawn()
         .map_err(unknown)?;
     // Python keeps what is finished and says how to go on; here it is waited for. Ctrl-C reaches both, what is sent to
@@ -95,8 +95,8 @@ fn terminate(id: u32) {
 fn terminate(_: u32) {}
 
 /// The arguments once more, for Python.
-fn words(arguments: &Arguments, quiet: bool) -> Vec<OsString> {
-    let mut words: Vec<OsString> = Vec::new();
+fn arguments_of(arguments: &Arguments, quiet: bool) -> Vec<OsString> {
+    let mut list: Vec<OsString> = Vec::new();
     let options = [
         ("--output", arguments.output.clone().map(OsString::from)),
         ("--scheduler", arguments.scheduler.clone().map(OsString::from)),
@@ -104,15 +104,15 @@ fn words(arguments: &Arguments, quiet: bool) -> Vec<OsString> {
     ];
     for (name, value) in options {
         if let Some(value) = value {
-            // In one word, so that a value may begin with a dash.
-            let mut word = OsString::from(format!("{name}="));
-            word.push(value);
-            words.push(word);
+            // In one argument, so that a value may begin with a dash.
+            let mut argument = OsString::from(format!("{name}="));
+            argument.push(value);
+            list.push(argument);
         }
     }
     if quiet {
-        words.push("--quiet".into());
+        list.push("--quiet".into());
     }
-    words.extend(["--".into(), arguments.study.clone().into()]);
-    words
+    list.extend(["--".into(), arguments.study.clone().into()]);
+    list
 }

@@ -93,7 +93,7 @@ impl Folder {
     ///
     /// # Errors
     /// [`OutputError::Input`] with the first such file.
-    pub fn spare(&self, names: &[&str], read: &[PathBuf]) -> Result<(), OutputError> {
+    pub fn refuse_inputs(&self, names: &[&str], read: &[PathBuf]) -> Result<(), OutputError> {
         let same = |name: &&&str| {
             let place = fs::canonicalize(self.dir.join(name)).ok();
             place.is_some() && read.iter().any(|file| fs::canonicalize(file).ok() == place)

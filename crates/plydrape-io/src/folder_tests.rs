@@ -218,7 +218,7 @@ fn added_files_stand_beside_earlier_ones() {
     assert_eq!([&read("b.csv")[..], &read("c.csv")[..]], [&b"6"[..], &b"mine"[..]]);
 }
 
-/// A second run is refused while the first holds its claim, and is told who that is; afterwards it may write.
+/// A second run is refused while the first holds its claim, and hears who that is; afterwards it may write.
 #[test]
 fn a_claimed_folder_is_refused_with_who_holds_it() {
     let dir = tempfile::tempdir().unwrap();
@@ -281,8 +281,8 @@ fn old_files_of_other_commands_and_inputs_stay() {
     assert_eq!(names(dir.path()), [".plydrape", "in", "more", "old", "plan.json", "result.json"]);
     let folder = Folder::claim(dir.path(), "simulate").unwrap();
     let read = [dir.path().join("in")];
-    assert!(matches!(folder.spare(&["a", "in"], &read), Err(OutputError::Input { .. })));
-    folder.spare(&["a"], &read).unwrap();
+    assert!(matches!(folder.refuse_inputs(&["a", "in"], &read), Err(OutputError::Input { .. })));
+    folder.refuse_inputs(&["a"], &read).unwrap();
     folder.write(&[("result.json", &b"3"[..])], &read).unwrap();
     assert_eq!(names(dir.path()), [".plydrape", "in", "old", "plan.json", "result.json"]);
 }

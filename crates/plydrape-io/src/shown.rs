@@ -37,16 +37,48 @@ pub fn path(path: &Path) -> String {
     name(&path.to_string_lossy())
 }
 
-/// A text of the same length in bytes without control characters but line ends and tabs, for a source that is shown with
+/// A text of the same length in bytes without control characters but line feeds and tabs, for a source that is shown with
 /// places in it.
 #[must_use]
 pub fn blanked(text: &str) -> String {
     let plain = |c: char| match c {
-        '\n' | '\r' | '\t' => c,
+        '\n' | '\t' => c,
         c if c.is_control() && c.len_utf8() == 1 => '?',
         // the other control characters take two bytes, as this sign does
         c if c.is_control() => '¿',
         c => c,
     };
-    text.chars().map(plain).collect()
+    text.replace("\r\n", " \n").chars().map(plain).collect()
+}
+
+/// The first line of a text, at most so many characters of it, with an ellipsis where more follows.
+#[must_use]
+pub fn excerpt(text: &str, characters: usize) -> String {
+    let line = text.lines().next().unwrap_or_default();
+    let mut short: String = line.chars().take(characters).collect();
+    if short.len() < text.trim_end().len() {
+        short.push('…');
+    }
+    short
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A carriage return alone would let the next words write over those before it.
+    #[test]
+    fn a_blanked_text_keeps_its_length_and_no_control_character_but_line_feeds_and_tabs() {
+        let text = "a\r\nb\rc\td\u{1b}e\u{85}f\n";
+        assert_eq!(blanked(text), "a \nb?c\td?e¿f\n");
+        assert_eq!(blanked(text).len(), text.len());
+    }
+
+    /// Counted in characters, not in bytes.
+    #[test]
+    fn an_excerpt_ends_with_an_ellipsis_where_something_is_left_out() {
+        assert_eq!(excerpt("µµµ\n", 3), "µµµ");
+        assert_eq!(excerpt("µµµ", 2), "µµ…");
+        assert_eq!(excerpt("µµ\nµ", 2), "µµ…");
+    }
 }

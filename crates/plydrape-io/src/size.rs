@@ -28,10 +28,12 @@ const UNITS: [(&str, f64); 8] = [
 const CATENARY: f64 = 5e3;
 /// Memory that a gripper of a step takes (bytes).
 const GRIPPER: f64 = 1e3;
+/// Memory that a plan takes, as a multiple of that of a drape with its steps.
+const PLAN: f64 = 2.0;
 /// Memory that a triangle of a mold takes while a mesh is built (bytes).
 const TRIANGLE: f64 = 500.0;
 /// Memory per byte of a result file that is read and made into something else.
-const RESULT: f64 = 4.0;
+const RESULT: f64 = 10.0;
 
 /// Why work is refused before it is begun.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -120,10 +122,22 @@ pub fn check(estimate: f64, what: impl FnOnce() -> String) -> Result<(), SizeErr
 /// # Errors
 /// As [`check`].
 pub fn drape(ply: &Ply, steps: usize) -> Result<(), SizeError> {
+    of_steps("the result", 1.0, ply, steps)
+}
+
+/// Refuses a plan that would be too large.
+///
+/// # Errors
+/// As [`check`].
+pub fn plan(ply: &Ply, steps: usize) -> Result<(), SizeError> {
+    of_steps("a plan", PLAN, ply, steps)
+}
+
+fn of_steps(what: &str, factor: f64, ply: &Ply, steps: usize) -> Result<(), SizeError> {
     let (grippers, catenaries) = (ply.grid.grippers(), ply.grid.catenaries());
     let step = GRIPPER * grippers as f64 + CATENARY * catenaries as f64;
-    check(step * steps as f64, || {
-        format!("the result of {steps} steps with {grippers} grippers and {catenaries} catenaries")
+    check(factor * step * steps as f64, || {
+        format!("{what} of {steps} steps with {grippers} grippers and {catenaries} catenaries")
     })
 }
 

@@ -1,6 +1,7 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
 use crate::result::ResultFile;
+use crate::shown;
 use plydrape::draping::record::{Step, Verdict};
 use plydrape::equilibrium::Status;
 use plydrape::measure::Name;
@@ -9,6 +10,9 @@ use std::fmt::Write;
 
 /// From this many steps on, only selected ones are shown.
 const MOST_ROWS: usize = 40;
+
+/// Most characters of a line, beside the ellipsis where it is cut.
+const WIDTH: usize = 99;
 
 /// Columns after the step, with their units.
 const COLUMNS: [&str; 7] =
@@ -141,7 +145,10 @@ pub fn verdict(result: &ResultFile) -> String {
         None if summary.accepted => text.push_str("accepted\n"),
         None => text.push_str("not accepted\n"),
         Some(worst) => {
-            text.push_str(&shortened(&format!("not accepted: {}", in_words(worst)), 100));
+            text.push_str(&shown::excerpt(
+                &format!("not accepted: {}", verdict_text(worst)),
+                WIDTH,
+            ));
             text.push('\n');
         }
     }
@@ -161,9 +168,9 @@ pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
     kept.max_by(|a, b| a.ratio().total_cmp(&b.ratio()))
 }
 
-/// A verdict in words: name, value, limit, step and place.
+/// A verdict as text: name, value, limit, step and place.
 #[must_use]
-pub fn in_words(v: &Verdict) -> String {
+pub fn verdict_text(v: &Verdict) -> String {
     let (name, unit) = (v.name.title(), unit(&v.unit));
     let (value, limit) = (significant(v.value), significant(v.limit));
     let step = v.step.map(|step| format!(" in step {step}")).unwrap_or_default();
@@ -177,7 +184,8 @@ pub fn infeasible_limits(verdicts: &[Verdict]) -> String {
     if verdicts.is_empty() {
         return String::new();
     }
-    let lines = verdicts.iter().map(|v| shortened(&format!("  {}", in_words(v)), 100) + "\n");
+    let lines =
+        verdicts.iter().map(|v| shown::excerpt(&format!("  {}", verdict_text(v)), WIDTH) + "\n");
     "no plan can keep these limits:\n".to_owned() + &lines.collect::<String>()
 }
 
@@ -205,8 +213,8 @@ fn significant(value: f64) -> String {
     }
 }
 
-/// Columns aligned, two spaces between; numbers to the right, the columns of words to the left.
-fn aligned(rows: &[Vec<String>], words: &[usize]) -> String {
+/// Columns aligned, two spaces between; numbers to the right, the columns of text to the left.
+fn aligned(rows: &[Vec<String>], texts: &[usize]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let cells = |column: usize| rows.iter().map(move |r| r[column].chars().count());
     let widths: Vec<usize> = (0..columns).map(|c| cells(c).max().unwrap_or(0)).collect();
@@ -214,26 +222,16 @@ fn aligned(rows: &[Vec<String>], words: &[usize]) -> String {
     for row in rows {
         let set = |(column, cell): (usize, &String)| {
             let pad = " ".repeat(widths[column] - cell.chars().count());
-            match words.contains(&column) {
+            match texts.contains(&column) {
                 true => format!("{cell}{pad}"),
                 false => format!("{pad}{cell}"),
             }
         };
         let line: Vec<String> = row.iter().enumerate().map(set).collect();
-        text.push_str(&shortened(line.join("  ").trim_end(), 100));
+        text.push_str(&shown::excerpt(line.join("  ").trim_end(), WIDTH));
         text.push('\n');
     }
     text
-}
-
-/// At most so many characters, the last an ellipsis if something was cut.
-fn shortened(line: &str, most: usize) -> String {
-    if line.chars().count() <= most {
-        return line.to_owned();
-    }
-    let mut cut: String = line.chars().take(most - 1).collect();
-    cut.push('…');
-    cut
 }
 
 #[cfg(test)]
@@ -243,6 +241,11 @@ mod tests {
 
     fn widest(text: &str) -> usize {
         text.lines().map(|l| l.chars().count()).max().unwrap_or(0)
+    }
+
+    fn limit(name: Name, value: f64, limit: f64, ok: bool) -> Verdict {
+        let (unit, at) = ("mm".into(), "gripper [0,0]".into());
+        Verdict { name, value, limit, unit, ok, step: Some(30), at, place: None }
     }
 
     /// Up to forty steps are all there, in aligned columns.
@@ -273,16 +276,6 @@ mod tests {
     #[test]
     fn verdict_names_the_worst_limit() {
         let mut result = sample::draped(4, 2, 30);
-        let limit = |name: Name, value, limit, ok| Verdict {
-            name,
-            value,
-            limit,
-            unit: "mm".into(),
-            ok,
-            step: Some(30),
-            at: "edge [1, 0]–[2, 0]".into(),
-            place: None,
-        };
         result.summary.accepted = false;
         result.summary.limits = vec![
             limit(Name::Tilt, 12.0, 40.0, true),
@@ -290,12 +283,8 @@ mod tests {
             limit(Name::ContactShare, 10.0, 90.0, false),
         ];
         let text = verdict(&result);
-        assert!(
-            text.ends_with(
-                "not accepted: contact share 10 mm against 90 mm in step 30, edge [1, 0]–[2, 0]\n"
-            ),
-            "{text}"
-        );
+        let worst = "not accepted: contact share 10 mm against 90 mm in step 30, gripper [0,0]\n";
+        assert!(text.ends_with(worst), "{text}");
         assert!(widest(&text) <= 100);
         result.summary.limits.truncate(1);
         result.summary.accepted = true;
@@ -305,16 +294,6 @@ mod tests {
     /// 38° of 40° is nearer to its limit than 60 mm, where 50 mm is the least; a limit of zero is never near.
     #[test]
     fn the_closest_limit_is_the_one_with_the_smallest_margin() {
-        let limit = |name: Name, value, limit, ok| Verdict {
-            name,
-            value,
-            limit,
-            unit: "mm".into(),
-            ok,
-            step: None,
-            at: "gripper [0,0]".into(),
-            place: None,
-        };
         let limits = [
             limit(Name::GripperDistance, 60.0, 50.0, true),
             limit(Name::Tilt, 38.0, 40.0, true),
@@ -323,10 +302,10 @@ mod tests {
         ];
         assert_eq!(closest(&limits).map(|v| v.name), Some(Name::Tilt));
         assert_eq!(limiting(&limits).map(|v| v.name), Some(Name::SlackRatio));
-        assert_eq!(in_words(&limits[1]), "tilt 38 mm against 40 mm, gripper [0,0]");
+        assert_eq!(verdict_text(&limits[1]), "tilt 38 mm against 40 mm in step 30, gripper [0,0]");
         assert_eq!(
             infeasible_limits(&limits[3..]),
-            "no plan can keep these limits:\n  slack ratio 0.05 mm against 0.05 mm, gripper [0,0]\n"
+            "no plan can keep these limits:\n  slack ratio 0.05 mm against 0.05 mm in step 30, gripper [0,0]\n"
         );
         assert_eq!(infeasible_limits(&[]), "");
     }
@@ -339,7 +318,7 @@ mod tests {
         assert_eq!(fixed(Some(-1e-12), 2), "0.00");
     }
 
-    /// A place in words may be long; the table stays within its width.
+    /// The text of a place may be long; the table stays within its width.
     #[test]
     fn long_places_are_cut() {
         let mut result = sample::draped(4, 2, 2);

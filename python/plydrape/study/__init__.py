@@ -4,11 +4,11 @@ A study file (or a dict with the same keys) names a scene, what varies and how, 
 scenarios there are. `run` drapes them all, on the cores of this machine or on a Dask cluster, and
 gives one row a scenario: its inputs, its measures, its version and any error.
 
-    definition.py   what a study file says, checked       (given.py, source.py, varied.py,
-                                                           keys.py, law.py)
+    definition.py   what a study file says, checked       (parameters.py, source.py,
+                                                           varied.py, keys.py, law.py)
     sample.py       the inputs of every scenario          (placement.py)
     scenario.py     one scenario: its scene, its drape, its row
-    carry.py        chunks of scenarios to workers        (local.py, worker.py, cluster.py)
+    chunks.py       chunks of scenarios to workers        (local.py, worker.py, cluster.py)
     folder.py       what is done stands on the disk       (table.py)
     summary.py      distributions and what drives them    (page.py, figures.py)
 

@@ -11,19 +11,21 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TextIO
 
 from plydrape import PlydrapeError
 
 from .definition import Study
 from .error import StudyError
+from .labels import amount, name
 from .outcome import Outcome
 from .run import beside, run
-from .words import amount, name
 
 EXIT_CODES = """\
 Exit codes:
   0    done: every scenario has its row
   2    bad input, or a file that cannot be written: the message names it, and the remedy
+  4    standard output could not be written: the rows are in their folder
   130  interrupted by Ctrl-C or SIGTERM: the same command goes on
 """
 # Signals with these handlers are not for Python.
@@ -57,23 +59,23 @@ def parser() -> argparse.ArgumentParser:
 
 def main(arguments: list[str] | None = None) -> int:
     """Runs a study; the exit code."""
-    given = parser().parse_args(arguments)
+    options = parser().parse_args(arguments)
     with interruptible():
-        return command(given)
+        return command(options)
 
 
-def command(given: argparse.Namespace) -> int:
+def command(options: argparse.Namespace) -> int:
     """Runs the study of the options; the exit code."""
     folder = None
     try:
-        study = Study.read(given.study)
-        folder = Path(given.output or beside(study))
+        study = Study.read(options.study)
+        folder = Path(options.output or beside(study))
         outcome = run(
             study,
             output=folder,
-            scheduler=given.scheduler,
-            workers=given.workers,
-            progress=not given.quiet,
+            scheduler=options.scheduler,
+            workers=options.workers,
+            progress=not options.quiet,
         )
     except StudyError as error:
         where = f"{error.file}: " if error.file else ""
@@ -86,9 +88,9 @@ def command(given: argparse.Namespace) -> int:
         return refuse(f"the study cannot be run: {error}", "")
     except KeyboardInterrupt:
         kept = f"finished rows are in {folder}" if folder and folder.is_dir() else "nothing was run"
-        print(f"interrupted: {kept}; the same command goes on", file=sys.stderr)
+        write(f"interrupted: {kept}; the same command goes on", sys.stderr)
         return 130
-    return 0 if given.quiet else show(told(outcome, study))
+    return 0 if options.quiet else show(report(outcome, study))
 
 
 @contextlib.contextmanager
@@ -122,26 +124,34 @@ def interruptible() -> Iterator[None]:
 
 def show(text: str) -> int:
     """Prints on standard output; the exit code."""
-    try:
-        print(text, flush=True)
-    except OSError as error:
-        # Python would try once more at its end.
-        with contextlib.suppress(OSError, ValueError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        # A reader that has seen enough, such as `head`, is no failure.
-        if not isinstance(error, BrokenPipeError):
-            why = error.strerror or error
-            return refuse(f"the output cannot be written: {why}", "the rows are in their folder")
-    return 0
+    error = write(text, sys.stdout)
+    # A reader that has seen enough, such as `head`, is no failure.
+    if error is None or isinstance(error, BrokenPipeError):
+        return 0
+    why = error.strerror or error
+    refuse(f"standard output cannot be written: {why}", "the rows are in their folder")
+    return 4
 
 
 def refuse(message: str, remedy: str) -> int:
-    """Says what is wrong, as the other commands do."""
-    print(f"  × {message}" + (f"\n  help: {remedy}" if remedy else ""), file=sys.stderr)
+    """Says what is wrong, as the other commands do; the exit code."""
+    write(f"  × {message}" + (f"\n  help: {remedy}" if remedy else ""), sys.stderr)
     return 2
 
 
-def told(outcome: Outcome, study: Study) -> str:
+def write(text: str, stream: TextIO) -> OSError | None:
+    """Prints on a stream; why that is not possible, if so."""
+    try:
+        print(text, file=stream, flush=True)
+    except OSError as error:
+        # Python would try once more at its end.
+        with contextlib.suppress(OSError, ValueError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        return error
+    return None
+
+
+def report(outcome: Outcome, study: Study) -> str:
     """What the command prints: counts, a table of the judged measures, files."""
     about = outcome.summary
     accepted = about["accepted"]

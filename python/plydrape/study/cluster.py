@@ -1,8 +1,8 @@
 """Workers of a Dask cluster.
 
 The task travels with every chunk: data that was put on a worker beforehand would be lost with it.
-The scheduler itself gives a chunk to other workers when one dies, three times unless it is told
-otherwise; only then does it count as lost here.
+The scheduler itself gives a chunk to other workers when one dies, three times unless it is
+configured otherwise; only then does it count as lost here.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from concurrent import futures
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from .carry import TRIES, Chunk, Done, Lost
+from .chunks import TRIES, Chunk, Done, Lost
 from .error import StudyError
 from .sample import Row
 from .scenario import Batch, Task
@@ -114,7 +114,7 @@ class Cluster:
 
     @contextlib.contextmanager
     def _connected(self) -> Iterator[None]:
-        """Says in plain words that the scheduler cannot be reached."""
+        """Says that the scheduler cannot be reached."""
         try:
             yield
         except (OSError, asyncio.CancelledError, futures.CancelledError) as error:

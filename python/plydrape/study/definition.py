@@ -17,14 +17,14 @@ from typing import TYPE_CHECKING, Any
 
 import plydrape
 
-from . import given, sample, source
+from . import parameters, sample, source
 from .error import StudyError
 from .keys import Value, nearest, put
+from .labels import shown
 from .law import Input
 from .placement import COLUMNS, Placement
-from .scenario import Motion, Task, build, said
+from .scenario import Motion, Task, build, message
 from .varied import inputs, placement
-from .words import shown
 
 if TYPE_CHECKING:
     from .sample import Row
@@ -196,11 +196,11 @@ class Study:
             "scene": self.tables,
             "files": dict(self.files),
         }
-        return given.plain(about)  # type: ignore[no-any-return]
+        return parameters.plain(about)  # type: ignore[no-any-return]
 
 
 def _study(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
-    """Checks a table; every complaint gets the name of the file."""
+    """Checks a table; every error gets the name of the file."""
     try:
         return _checked(table, base, file)
     except StudyError as error:
@@ -220,10 +220,10 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
                 help=f"its keys are {', '.join(KEYS)}{nearest(key, KEYS)}",
                 key=key,
             )
-    given.bounded(table)
-    command = given.one_of(table, "command", COMMANDS, "simulate")
-    sampling = given.one_of(table, "sampling", SAMPLINGS, "latin-hypercube")
-    seed = given.whole(table, "seed", 0, least=0)
+    parameters.bounded(table)
+    command = parameters.one_of(table, "command", COMMANDS, "simulate")
+    sampling = parameters.one_of(table, "sampling", SAMPLINGS, "latin-hypercube")
+    seed = parameters.whole(table, "seed", 0, least=0)
     title = table.get("title")
     if title is not None and not isinstance(title, str):
         raise StudyError(
@@ -236,14 +236,14 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
     if not isinstance(varied, Mapping):
         raise StudyError(f"`vary` = {shown(varied)} is no table", help=VARY, key="vary")
     tables = source.expanded(tables, home, varied)
-    motion = given.motion(table, command, base)
+    motion = parameters.motion(table, command, base)
 
     # What varies.
     laws = inputs(varied, tables, command, sampling)
     errs = placement(varied, command, sampling)
     if not laws and errs is None:
         raise StudyError("`vary` names nothing that varies", help=VARY, key="vary")
-    samples = given.scenarios(table, sampling, laws)
+    samples = parameters.scenarios(table, sampling, laws)
     study = Study(
         title=title or str(tables.get("title", "")) or (file.stem if file else "Study"),
         tables=tables,
@@ -295,6 +295,6 @@ def _probe(study: Study) -> None:
             refused, why = faults[0]
             raise StudyError(
                 f"`{x.key}` cannot vary like this: with {shown(refused)} the scene is refused",
-                help=said(why),
+                help=message(why),
                 key=x.key,
             )

@@ -1,4 +1,4 @@
-"""What a study refuses, and the one word about what is not installed."""
+"""What a study refuses, and the error about what is not installed."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def toml() -> ModuleType:
 
 
 def require(*modules: str) -> None:
-    """Tells at the start, not after an hour, that a package of the extra is missing.
+    """Reports at the start, not after an hour, that a package of the extra is missing.
 
     Raises:
         ExtraError: one of the modules is not installed.

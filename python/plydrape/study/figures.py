@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .words import amount
+from .labels import amount
 
 WIDTH, HEIGHT = 340, 150
 LEFT, RIGHT, TOP, BOTTOM = 8, 8, 20, 24
@@ -178,7 +178,7 @@ def ends(x: Numbers) -> tuple[float, float]:
 
 
 def mark(x: Axis, limit: float | None, unit: str) -> str:
-    """The limit as a line, or a word where it lies if that is outside."""
+    """The limit as a line, or text where it lies if that is outside."""
     if limit is None:
         return ""
     label = f"limit {amount(limit)} {escape(unit)}"

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from .error import StudyError
-from .words import shown
+from .labels import shown
 
 Value = float | int | str | bool
 Tables = Mapping[str, Any]
@@ -155,7 +155,7 @@ def idle(command: str, key: str) -> str | None:
     return why if any(key == k or key.startswith(f"{k}.") for k in keys) else None
 
 
-def nearest(word: str, known: Any) -> str:
-    """A question that names the known word nearest to one that is not known; may be empty."""
-    close = difflib.get_close_matches(word, list(map(str, known)), n=1)
+def nearest(name: str, known: Any) -> str:
+    """A question that names the known name nearest to one that is not known; may be empty."""
+    close = difflib.get_close_matches(name, list(map(str, known)), n=1)
     return f"; did you mean `{close[0]}`?" if close else ""

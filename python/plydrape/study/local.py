@@ -12,7 +12,7 @@ import sys
 import threading
 from typing import Any
 
-from .carry import Chunk, Done, Lost
+from .chunks import Chunk, Done, Lost
 from .error import StudyError
 from .sample import Row
 from .scenario import Task
@@ -150,7 +150,7 @@ class Local:
         raise StudyError(f"a worker process ends before it begins: {cause}", help="see above")
 
     def _end(self, process: subprocess.Popen[bytes]) -> str:
-        """Ends a process; why it had ended, in words."""
+        """Ends a process; returns why it had ended."""
         for pipe in (process.stdin, process.stdout):
             with contextlib.suppress(OSError):
                 if pipe is not None:

@@ -1,4 +1,4 @@
-"""The rows of a study, and what can be said of them."""
+"""The rows of a study, and their statistics."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ class Outcome:
     def __repr__(self) -> str:
         """In a line: `<plydrape.study.Outcome 256 rows, 12.5 % accepted>`."""
         share = self.accepted_share
-        said = "none draped" if share is None else f"{100 * share:.1f} % accepted"
-        return f"<plydrape.study.Outcome {self._rows.num_rows} rows, {said}>"
+        accepted = "none draped" if share is None else f"{100 * share:.1f} % accepted"
+        return f"<plydrape.study.Outcome {self._rows.num_rows} rows, {accepted}>"
 
     def table(self) -> pa.Table:
         """All rows, one a scenario. Units are in the fields' metadata: `table.units(rows)`.

@@ -17,9 +17,9 @@ import plydrape
 
 from . import figures
 from .definition import Study
+from .labels import amount, is_least, name
 from .outcome import Outcome
 from .summary import flags, numbers
-from .words import amount, is_least, name
 
 # Bars of correlations: half their width.
 HALF = 60
@@ -63,10 +63,10 @@ def moves(measure: dict[str, Any]) -> bool:
 
 
 def label(key: str) -> str:
-    """A name in words that may break behind a dot or an underscore."""
-    words = escape(name(key))
-    words = words[:1].upper() + words[1:] if key.startswith("value_") else words
-    return words.replace(".", ".<wbr>").replace("_", "_<wbr>")
+    """A label that may break behind a dot or an underscore."""
+    text = escape(name(key))
+    text = text[:1].upper() + text[1:] if key.startswith("value_") else text
+    return text.replace(".", ".<wbr>").replace("_", "_<wbr>")
 
 
 def percent(x: float) -> str:
@@ -136,13 +136,13 @@ def overview(about: dict[str, Any], judged: dict[str, Any]) -> str:
         limit = "varies" if m["limit"] is None else amount(m["limit"])
         over = m["exceeded"] or 0.0
         by = label(m["driver"]) if m["driver"] else "–"
-        words, extent = label(key), "always"
+        text, extent = label(key), "always"
         if moves(m):
-            words = f'<a href="#{key}">{words}</a>'
+            text = f'<a href="#{key}">{text}</a>'
             extent = f"{amount(at['5'])} – {amount(at['95'])}"
         share = f"<b>{percent(over)}</b>" if over else '<span class="quiet">never</span>'
         rows.append(
-            f"<tr><th>{words}</th>"
+            f"<tr><th>{text}</th>"
             f'<td class="over"><i style="width:{100 * over:.1f}%"></i>{share}</td>'
             f"<td>{limit}</td><td>{amount(at['50'])}</td>"
             f'<td>{extent}</td><td class="unit">{unit}</td>'
@@ -211,7 +211,7 @@ def card(key: str, about: dict[str, Any], outcome: Outcome) -> str:
     assert values is not None
     known = np.isfinite(values)
     at_least = is_least(limit_name)
-    words = label(key)
+    text = label(key)
     picture = figures.histogram(values[known], m["limit"], at_least, m["unit"], name(key))
 
     related = {k: r for k, r in m["correlations"].items() if r is not None}
@@ -239,7 +239,7 @@ def card(key: str, about: dict[str, Any], outcome: Outcome) -> str:
     at = m["percentiles"]
     over = f"not kept in {percent(m['exceeded'])}" if m["exceeded"] else "always kept"
     return (
-        f'<section class="card" id="{key}"><h2>{words}<span class="unit">{unit}</span>'
+        f'<section class="card" id="{key}"><h2>{text}<span class="unit">{unit}</span>'
         f'<span class="{"failed" if m["exceeded"] else "kept"}">{over}</span></h2>'
         f'<div class="row"><figure><figcaption>median {amount(at["50"])}, '
         f"90 % within {amount(at['5'])} and {amount(at['95'])}</figcaption>{picture}</figure>"
@@ -252,11 +252,11 @@ def constant(judged: dict[str, Any], still: list[str]) -> str:
     """Measures that are the same in every drape."""
     if not still:
         return ""
-    said = ", ".join(
+    constants = ", ".join(
         f"{escape(name(key))} {amount(judged[key]['mean'])} {escape(judged[key]['unit'])}"
         for key in still
     )
-    return f'<section class="card"><h2>The same in every drape</h2><p>{said}</p></section>'
+    return f'<section class="card"><h2>The same in every drape</h2><p>{constants}</p></section>'
 
 
 def failures(about: dict[str, Any]) -> str:

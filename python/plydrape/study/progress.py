@@ -38,11 +38,11 @@ class Progress:
         self._last = time.monotonic()
         share = self._done / self._total if self._total else 1.0
         bar = "█" * int(share * WIDTH) + "░" * (WIDTH - int(share * WIDTH))
-        words = f"{bar} {self._done} of {self._total} scenarios"
+        text = f"{bar} {self._done} of {self._total} scenarios"
         new = self._done - self._before
         if new:
             left = (self._last - self._start) / new * (self._total - self._done)
-            words += f", {left // 60:.0f}:{left % 60:02.0f} left"
+            text += f", {left // 60:.0f}:{left % 60:02.0f} left"
         if self._failed:
-            words += f", {self._failed} failed"
-        print(f"\r\x1b[K{words}", end="", file=self._stream, flush=True)
+            text += f", {self._failed} failed"
+        print(f"\r\x1b[K{text}", end="", file=self._stream, flush=True)

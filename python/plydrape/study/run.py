@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from .carry import Executor, carry_out
+from .chunks import Executor, run_chunks
 from .definition import Study
 from .error import StudyError, require
 from .folder import FINISHED, Folder, missing, text
@@ -77,7 +77,7 @@ def run(
 
 
 def beside(study: Study) -> Path:
-    """The folder of a study that was not told of one."""
+    """The folder of a study that names none."""
     assert study.file is not None
     return study.file.with_name(f"{study.file.stem}.results")
 
@@ -115,7 +115,7 @@ def _run(
         if left:
             executor = _executor(study, scheduler, min(workers or cores(), left))
             try:
-                carry_out(executor, study.task, study.values, todo, keep, every)
+                run_chunks(executor, study.task, study.values, todo, keep, every)
             finally:
                 executor.close()
                 bar.close()
@@ -132,9 +132,9 @@ def _run(
             "summary.html": lambda: page.html(outcome, study).encode(),
         }
         # What a finished study has is left as it is, with what its user may have added.
-        wanted = FINISHED if left else folder.missing()
+        names = FINISHED if left else folder.missing()
         outcome.ran = left
-        outcome.written = folder.finish({name: make[name]() for name in wanted})
+        outcome.written = folder.finish({name: make[name]() for name in names})
         return outcome
     finally:
         folder.close()
@@ -166,16 +166,18 @@ def read_part(first: int, stop: int, path: Path, columns: list[str] | None = Non
     except Exception as error:
         raise StudyError(f"`{path}` cannot be read: {error}", help=REMOVE) from error
     if len(held) != stop - first or held != list(range(first, stop)):
-        said = f"the scenarios {first} to {stop - 1}" if stop - first > 1 else f"scenario {first}"
+        expected = (
+            f"the scenarios {first} to {stop - 1}" if stop - first > 1 else f"scenario {first}"
+        )
         raise StudyError(
-            f"`{path}` should hold {said}, as its name says, and holds {ranged(held)}",
+            f"`{path}` should hold {expected}, as its name says, and holds {ranged(held)}",
             help=REMOVE,
         )
     return rows
 
 
 def ranged(held: list[int]) -> str:
-    """The scenarios of a part in words.
+    """The scenarios of a part as text.
 
     Example:
         >>> ranged([24, 25, 26]), ranged([7])

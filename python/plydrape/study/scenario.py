@@ -20,9 +20,9 @@ import plydrape
 
 from .error import StudyError
 from .keys import SCENE, Tables, Value, put
+from .labels import BY_KEY, is_least
 from .law import Input
 from .placement import Placement
-from .words import BY_KEY, is_least
 
 Numbers = np.ndarray[Any, Any]
 
@@ -112,7 +112,7 @@ class Task:
         except (KeyboardInterrupt, SystemExit):
             raise
         except BaseException as error:  # A panic of the extension is no Exception.
-            row.update(failed(type(error).__name__, said(error)))
+            row.update(failed(type(error).__name__, message(error)))
         return row
 
     def begun(self, scenario: int, values: Sequence[Value]) -> Line:
@@ -224,7 +224,7 @@ def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
     return row
 
 
-def said(error: BaseException) -> str:
+def message(error: BaseException) -> str:
     """An error's text; a refused scene without its line, which is none of a file's."""
     if isinstance(error, plydrape.SceneError):
         return f"{error.message}; {error.help}" if error.help else error.message

@@ -15,8 +15,8 @@ import plydrape
 
 from .error import StudyError, toml
 from .keys import SCENE, Tables, nearest
+from .labels import shown
 from .law import Choice, Input
-from .words import shown
 
 SCENE_KEY = 'name one: scene = "scene.toml"'
 
@@ -36,11 +36,17 @@ def document(path: Path, kind: str) -> dict[str, Any]:
             f"there is no {kind} `{path}`", help="check its name and folder"
         ) from error
     except (OSError, UnicodeDecodeError) as error:
-        raise StudyError(f"the {kind} `{path}` cannot be read: {error}") from error
+        raise StudyError(
+            f"the {kind} `{path}` cannot be read: {error}",
+            help="name a TOML file in UTF-8 that you may read",
+        ) from error
     try:
         return dict(reader.loads(text))
     except reader.TOMLDecodeError as error:
-        raise StudyError(f"the {kind} `{path}` is no TOML: {error}") from error
+        raise StudyError(
+            f"the {kind} `{path}` is no TOML: {error}",
+            help="write `key = value` under a `[table]`, each key once, text in double quotes",
+        ) from error
     except ValueError as error:  # Python converts no digits beyond a few thousands.
         raise StudyError(
             f"the {kind} `{path}` has a whole number of too many digits{digits(text)}",
@@ -80,7 +86,7 @@ def place(text: str, at: int) -> str:
     return f" (at line {text.count(chr(10), 0, at) + 1}, column {at - text.rfind(chr(10), 0, at)})"
 
 
-def scene(given: object, base: Path) -> tuple[dict[str, Any], Path]:
+def scene(choice: object, base: Path) -> tuple[dict[str, Any], Path]:
     """The tables of the scene, and the folder that its paths are relative to.
 
     Raises:
@@ -88,8 +94,8 @@ def scene(given: object, base: Path) -> tuple[dict[str, Any], Path]:
         SceneError: the scene file is refused.
 
     """
-    if isinstance(given, Mapping):
-        tables, home = dict(native(given)), base
+    if isinstance(choice, Mapping):
+        tables, home = dict(native(choice)), base
         for key in tables:
             if key not in (*SCENE, "title"):
                 raise StudyError(
@@ -98,26 +104,26 @@ def scene(given: object, base: Path) -> tuple[dict[str, Any], Path]:
                     key="scene",
                 )
         return tables, home
-    if isinstance(given, plydrape.Scene):
-        if given.text is None:
+    if isinstance(choice, plydrape.Scene):
+        if choice.text is None:
             raise StudyError(
                 "this scene has no text whose numbers could vary",
                 help="give its file, or its tables as a dict",
                 key="scene",
             )
-        return dict(toml().loads(given.text)), Path(getattr(given, "base", base))
-    if isinstance(given, str | os.PathLike):
-        path = base / given
+        return dict(toml().loads(choice.text)), Path(getattr(choice, "base", base))
+    if isinstance(choice, str | os.PathLike):
+        path = base / choice
         if not path.is_file():
             raise StudyError(
-                f"`scene` = {shown(str(given))}: there is no such file",
+                f"`scene` = {shown(str(choice))}: there is no such file",
                 help=f"the path is relative to {base.resolve()}",
                 key="scene",
             )
         # Read by plydrape first: its messages point at the line.
         plydrape.Scene.read(str(path))
         return document(path, "scene"), path.parent
-    what = "is missing" if given is None else f"= {shown(given)} is no scene"
+    what = "is missing" if choice is None else f"= {shown(choice)} is no scene"
     raise StudyError(f"`scene` {what}", help=SCENE_KEY, key="scene")
 
 
@@ -154,8 +160,8 @@ def files(tables: Tables, home: Path, inputs: Iterable[Input]) -> dict[str, str]
     names = set(_named(tables, ""))
     for x in inputs:
         if isinstance(x.law, Choice):
-            words = (value for value in x.law.values if isinstance(value, str))
-            names |= {word for word in words if (home / word).is_file()}
+            texts = (value for value in x.law.values if isinstance(value, str))
+            names |= {text for text in texts if (home / text).is_file()}
     return {name: _checksum(home / name) for name in sorted(names)}
 
 

@@ -1,6 +1,6 @@
 """What a study shows: how each measure is distributed, what drives it, how many are accepted.
 
-The share of accepted drapes has Wilson's interval; what drives a measure is told by Spearman's
+The share of accepted drapes has Wilson's interval; what drives a measure is found by Spearman's
 rank correlation, which sees any steady rise or fall, straight or not. A correlation smaller than
 1.96/√(n − 1) is what independent numbers show by chance once in twenty times, and names no driver.
 """

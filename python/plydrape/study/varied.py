@@ -8,9 +8,9 @@ from typing import Any
 
 from .error import StudyError
 from .keys import ABSENT, WHOLE, Tables, Value, idle, look, quantity
+from .labels import shown
 from .law import Choice, Input, Law, Normal, Uniform, Whole, finite
 from .placement import LENGTHS, Placement
-from .words import shown
 
 FORMS = (
     'write { from = "60 mm", to = "90 mm" }, { values = [...] }, { deviation = "1 mm" }, '
@@ -51,7 +51,7 @@ def inputs(
 
 
 def placement(varied: Mapping[str, Any], command: str, sampling: str) -> Placement | None:
-    """How grippers err, or None where nothing is said of it.
+    """How grippers err, or None where the table has no such key.
 
     Raises:
         StudyError: it cannot be, or not with this command or sampling.
@@ -85,14 +85,14 @@ def placement(varied: Mapping[str, Any], command: str, sampling: str) -> Placeme
             key="placement",
         )
     if keys == {"deviation"}:
-        kind, given = "normal", [spec["deviation"]]
+        kind, bounds = "normal", [spec["deviation"]]
     elif keys == {"from", "to"}:
-        kind, given = "uniform", [spec["from"], spec["to"]]
+        kind, bounds = "uniform", [spec["from"], spec["to"]]
     else:
         raise StudyError(
             f"`placement` = {shown(dict(spec))} says no law", help=PLACEMENT, key="placement"
         )
-    numbers, unit = _numbers("placement", given)
+    numbers, unit = _numbers("placement", bounds)
     if unit not in LENGTHS:
         raise StudyError(
             f"`placement` is in `{unit}`, which is no length known here",
@@ -132,7 +132,7 @@ class _Spec:
             raise StudyError(f"`{key}` = {shown(spec)} is no law", help=FORMS, key=key)
         self.spec = dict(spec)
 
-    def complain(self, what: str, remedy: str) -> StudyError:
+    def error(self, what: str, remedy: str) -> StudyError:
         """The error for this line."""
         return StudyError(f"`{self.key}` = {shown(self.spec)} {what}", help=remedy, key=self.key)
 
@@ -142,7 +142,7 @@ class _Spec:
         points = self._points(spec)
         if "relative" in spec:
             if len(spec) > 1:
-                raise self.complain("says more than one law", FORMS)
+                raise self.error("says more than one law", FORMS)
             law, unit = self._relative(spec["relative"])
         else:
             law, unit = self._law(spec, self.own)
@@ -151,9 +151,9 @@ class _Spec:
             law = self._whole(law)
         if self.sampling == "grid":
             if isinstance(law, Normal):
-                raise self.complain("is normal, which has no grid", "write from, to and points")
+                raise self.error("is normal, which has no grid", "write from, to and points")
             if not isinstance(law, Choice) and points is None:
-                raise self.complain(
+                raise self.error(
                     "does not say how many numbers of the range a grid has", "add points = 5"
                 )
         return Input(self.key, law, unit, points)
@@ -163,11 +163,9 @@ class _Spec:
         if points is None:
             return None
         if isinstance(points, bool) or not isinstance(points, int) or points < 1:
-            raise self.complain("has no whole number of points", "write points = 5")
+            raise self.error("has no whole number of points", "write points = 5")
         if self.sampling != "grid" or "values" in spec:
-            raise self.complain(
-                "has points", 'they divide a range of sampling = "grid"; remove them'
-            )
+            raise self.error("has points", 'they divide a range of sampling = "grid"; remove them')
         return points
 
     def _law(self, spec: dict[str, Any], own: Any) -> tuple[Law, str]:
@@ -176,31 +174,31 @@ class _Spec:
         if keys == {"from", "to"}:
             (lower, upper), unit = _numbers(self.key, [spec["from"], spec["to"]])
             if lower >= upper:
-                raise self.complain("is an empty range", "`from` must be less than `to`")
+                raise self.error("is an empty range", "`from` must be less than `to`")
             return Uniform(lower, upper), unit
         if keys in ({"deviation"}, {"mean", "deviation"}):
             mean = spec.get("mean", own)
             if mean is ABSENT:
-                raise self.complain("has no mean, nor has the scene one", 'add mean = "…"')
+                raise self.error("has no mean, nor has the scene one", 'add mean = "…"')
             (middle, deviation), unit = _numbers(self.key, [mean, spec["deviation"]])
             if deviation <= 0:
-                raise self.complain("does not vary", "the deviation must be more than 0")
+                raise self.error("does not vary", "the deviation must be more than 0")
             return Normal(middle, deviation), unit
         if keys == {"values"}:
             return self._choice(spec["values"])
-        raise self.complain("is no law", FORMS)
+        raise self.error("is no law", FORMS)
 
     def _choice(self, values: Any) -> tuple[Law, str]:
         if not isinstance(values, list | tuple) or not values:
-            raise self.complain("has no values", 'write values = ["60 mm", "75 mm"]')
-        words = all(isinstance(value, str) and quantity(value) is None for value in values)
-        if words or (len(kinds := {type(value) for value in values}) == 1 and kinds <= {bool, int}):
+            raise self.error("has no values", 'write values = ["60 mm", "75 mm"]')
+        texts = all(isinstance(value, str) and quantity(value) is None for value in values)
+        if texts or (len(kinds := {type(value) for value in values}) == 1 and kinds <= {bool, int}):
             law, unit = Choice(tuple(values)), ""
         else:
             numbers, unit = _numbers(self.key, list(values))
             law = Choice(tuple(numbers))
         if len(set(law.values)) < len(law.values):
-            raise self.complain("has a value twice", "give each once")
+            raise self.error("has a value twice", "give each once")
         return law, unit
 
     def _relative(self, spec: Any) -> tuple[Law, str]:
@@ -208,7 +206,7 @@ class _Spec:
         own = quantity(self.own)
         if own is None or own[0] == 0 or not finite(own[0]):
             what = "gives none" if self.own is ABSENT else f"has {shown(self.own)}"
-            raise self.complain(
+            raise self.error(
                 f"is relative to the scene's own number, and the scene {what}",
                 "write the number into the scene, or its range here",
             )
@@ -216,10 +214,10 @@ class _Spec:
         if isinstance(spec, list | tuple) and len(spec) == 2:
             spec = {"from": spec[0], "to": spec[1]}
         if not isinstance(spec, Mapping):
-            raise self.complain("has no factors", RELATIVE)
+            raise self.error("has no factors", RELATIVE)
         law, of_factors = self._law(dict(spec), 1.0)
         if of_factors or (isinstance(law, Choice) and not Input("", law).numeric):
-            raise self.complain("has factors with a unit", RELATIVE)
+            raise self.error("has factors with a unit", RELATIVE)
         if isinstance(law, Uniform):
             ends = sorted((number * law.lower, number * law.upper))
             return Uniform(*ends), unit
@@ -238,7 +236,7 @@ class _Spec:
             numbers = law.values if isinstance(law, Choice) and Input("", law).numeric else ()
             sound = finite(*map(float, numbers))
         if not sound:
-            raise self.complain(
+            raise self.error(
                 "goes beyond the largest floating-point number, 1.8e308",
                 "write numbers that a scene can have",
             )
@@ -251,7 +249,7 @@ class _Spec:
         elif isinstance(law, Choice) and Input("", law).numeric:
             ends = law.values
         if any(abs(float(end)) > EXACT for end in ends):
-            raise self.complain(
+            raise self.error(
                 f"goes beyond {EXACT}, the largest whole number that can vary", "write less"
             )
         if isinstance(law, Uniform):
@@ -259,14 +257,14 @@ class _Spec:
         elif isinstance(law, Choice) and Input("", law).numeric:
             law = Choice(tuple(round(float(value)) for value in law.values))
         if not Input(self.key, law).whole:
-            raise self.complain("is no law of whole numbers", "write from and to, or values")
+            raise self.error("is no law of whole numbers", "write from and to, or values")
         return law
 
 
-def _numbers(key: str, given: list[Value]) -> tuple[list[float], str]:
+def _numbers(key: str, values: list[Value]) -> tuple[list[float], str]:
     """Numbers that have one unit in common."""
     found = []
-    for value in given:
+    for value in values:
         split = quantity(value)
         if split is None or not finite(split[0]):
             raise StudyError(
@@ -278,7 +276,7 @@ def _numbers(key: str, given: list[Value]) -> tuple[list[float], str]:
     units = {unit for _, unit in found}
     if len(units) > 1:
         raise StudyError(
-            f"`{key}`: {', '.join(map(repr, given))} are in different units",
+            f"`{key}`: {', '.join(map(repr, values))} are in different units",
             help="write all of them in one",
             key=key,
         )

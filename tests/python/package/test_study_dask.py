@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 from deadly import Deadly
 from plydrape.study import StudyError, cluster
-from plydrape.study.carry import carry_out
+from plydrape.study.chunks import run_chunks
 from plydrape.study.cluster import Cluster
 from plydrape.study.folder import Folder
 from plydrape.study.run import run
@@ -105,7 +105,7 @@ def test_a_scenario_that_kills_dask_workers_is_a_row(processes: Processes) -> No
     for _ in range(6):
         processes.add_worker()
     try:
-        carry_out(executor, task, made.values, [(0, 3)], kept.append, every=1e-9)
+        run_chunks(executor, task, made.values, [(0, 3)], kept.append, every=1e-9)
     finally:
         executor.close()
     rows = {row["scenario"]: row for batch in kept for row in batch.rows}

@@ -196,7 +196,7 @@ def test_a_message_names_its_file(tmp_path: Path) -> None:
     with pytest.raises(StudyError, match=r"study\.toml: `seed` = -2"):
         Study.read(path)
     path.write_text("samples = \n")
-    with pytest.raises(StudyError, match="line 1"):
+    with pytest.raises(StudyError, match=r"line 1.*; write `key = value`"):
         Study.read(path)
     with pytest.raises(StudyError, match="no study"):
         Study.read(tmp_path / "absent.toml")
@@ -237,6 +237,25 @@ def test_a_plan_of_another_array_cannot_be_followed(tmp_path: Path) -> None:
     plydrape.simulate(other).write(tmp_path)
     with pytest.raises(StudyError, match="cannot follow"):
         study(command="follow", plan=str(tmp_path), vary={"model.gravity": {"values": [9.8, 1.6]}})
+
+
+def test_a_plan_in_a_folder_of_two_runs_or_changed_since_is_not_followed(tmp_path: Path) -> None:
+    """A study reads no other files of earlier runs, and refuses these as `plydrape report` does."""
+    plydrape.simulate(plydrape.Scene.read(PAPER)).write(tmp_path)
+    keys: dict[str, Any] = {"command": "follow", "plan": str(tmp_path)}
+    keys |= {"vary": {"model.gravity": {"values": [9.8, 1.6]}}}
+    assert study(**keys).motion is not None
+    files, result = tmp_path / ".plydrape", tmp_path / "result.json"
+    whole = files.read_text()
+    files.write_text(whole.replace('"sealed":true', '"sealed":false'))
+    with pytest.raises(
+        plydrape.ResultError, match=r"are of two runs.*cut off.*run the scene again"
+    ):
+        study(**keys)
+    files.write_text(whole)
+    result.write_text(result.read_text().replace('"time":1.0', '"time":1.5', 1))
+    with pytest.raises(plydrape.ResultError, match="was changed since plydrape wrote it"):
+        study(**keys)
 
 
 def test_the_check_sum_is_of_what_rows_depend_on(tmp_path: Path) -> None:

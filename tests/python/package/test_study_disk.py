@@ -18,12 +18,14 @@ resource = pytest.importorskip("resource")
 FULL = Path("/dev/full")
 
 
-def command(path: Path, most: int = -1, stdout: int = subprocess.PIPE) -> tuple[int, str]:
+def command(
+    path: Path, most: int = -1, stdout: int = subprocess.PIPE, stderr: int = subprocess.PIPE
+) -> tuple[int, str]:
     """The exit code and what it says on standard error; no file grows beyond `most` bytes."""
     done = subprocess.run(
         [sys.executable, "-m", "plydrape.study", str(path), "--workers", "1"],
         stdout=stdout,
-        stderr=subprocess.PIPE,
+        stderr=stderr,
         text=True,
         timeout=120,
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most)),
@@ -66,16 +68,17 @@ def test_a_full_disk_is_named(tmp_path: Path) -> None:
     assert (tmp_path / "file").read_bytes() == b"before"
 
 
-def test_output_that_cannot_be_written_ends_with_2(tmp_path: Path) -> None:
+def test_output_that_cannot_be_written_ends_with_4(tmp_path: Path) -> None:
     """The rows are there; a reader that has seen enough is no failure."""
     path = write(tmp_path, 3)
     if not FULL.exists():
         pytest.skip("NOT CHECKED: this system has no /dev/full")
     full = os.open(FULL, os.O_WRONLY)
     code, said = command(path, stdout=full)
+    silent, _ = command(path, stdout=full, stderr=full)
     os.close(full)
-    assert code == 2 and "Traceback" not in said
-    assert said.startswith("  × the output cannot be written: No space left on device")
+    assert (code, silent) == (4, 4) and "Traceback" not in said
+    assert said.startswith("  × standard output cannot be written: No space left on device")
     assert (tmp_path / "study.results" / "study.parquet").is_file()
 
     read, written = os.pipe()

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from deadly import Deadly
 from plydrape.study import local
-from plydrape.study.carry import TRIES, Chunk, Done, Lost, carry_out
+from plydrape.study.chunks import TRIES, Chunk, Done, Lost, run_chunks
 from plydrape.study.error import StudyError
 from plydrape.study.local import Local
 from plydrape.study.sample import Row
@@ -61,7 +61,7 @@ def test_each_scenario_is_kept_once_whatever_is_lost(seed: int) -> None:
     executor = Unreliable(seed, {5, 177, 299})
     kept: list[Batch] = []
     todo = [(0, 40), (60, 61), (100, 300)]
-    carry_out(executor, made.task, made.values, todo, kept.append, every=0.5)
+    run_chunks(executor, made.task, made.values, todo, kept.append, every=0.5)
     rows = [row for batch in sorted(kept, key=lambda batch: batch.first) for row in batch.rows]
     assert [row["scenario"] for row in rows] == [k for a, b in todo for k in range(a, b)]
     assert {row["scenario"] for row in rows if row["error"]} == {5, 177, 299}
@@ -75,7 +75,7 @@ def test_a_deadly_scenario_is_soon_alone() -> None:
     made = study(2000)
     executor = Unreliable(0, {1234})
     executor.random.random = lambda: 1.0  # type: ignore[method-assign]
-    carry_out(executor, made.task, made.values, [(0, 2000)], lambda _: None, every=1e9)
+    run_chunks(executor, made.task, made.values, [(0, 2000)], lambda _: None, every=1e9)
     assert executor.deaths <= 2 + TRIES
 
 
@@ -86,7 +86,7 @@ def test_a_scenario_that_kills_its_worker_is_a_row() -> None:
     kept: list[Batch] = []
     executor = Local(task, workers=2)
     try:
-        carry_out(executor, task, made.values, [(0, 30)], kept.append, every=0.2)
+        run_chunks(executor, task, made.values, [(0, 30)], kept.append, every=0.2)
     finally:
         executor.close()
     rows = {row["scenario"]: row for batch in kept for row in batch.rows}
@@ -111,7 +111,7 @@ def test_a_killed_worker_costs_no_row() -> None:
             os.kill(killed[-1], signal.SIGKILL)
 
     try:
-        carry_out(executor, made.task, made.values, [(0, 120)], keep, every=0.05)
+        run_chunks(executor, made.task, made.values, [(0, 120)], keep, every=0.05)
         # The dead are replaced, and nobody else is there.
         assert len(killed) == 2 and not set(killed) & set(executor.pids)
         assert len(executor.pids) <= 2
@@ -152,7 +152,7 @@ def test_a_worker_killed_while_it_starts_is_begun_again(monkeypatch: pytest.Monk
     executor = Local(made.task, workers=1)
     kept: list[Batch] = []
     try:
-        carry_out(executor, made.task, made.values, [(0, 6)], kept.append, every=0.05)
+        run_chunks(executor, made.task, made.values, [(0, 6)], kept.append, every=0.05)
     finally:
         executor.close()
     assert len(killed) == 2
@@ -167,6 +167,6 @@ def test_a_worker_of_another_version_is_refused() -> None:
     executor = Local(task, workers=1)
     try:
         with pytest.raises(StudyError, match=r"plydrape 0\..*the study 9\.9\.9"):
-            carry_out(executor, task, made.values, [(0, 4)], lambda _: None, every=1.0)
+            run_chunks(executor, task, made.values, [(0, 4)], lambda _: None, every=1.0)
     finally:
         executor.close()

@@ -5,7 +5,7 @@ mod rules;
 mod warnings;
 mod way;
 
-use crate::diagnostic::Done;
+use crate::failure::Done;
 use crate::numbers::{degrees, millimetres, short};
 use plydrape::material::{Material, Section, ShearCurve};
 use plydrape::ply::Direction;

@@ -1,4 +1,4 @@
-//! What a mold is, in words.
+//! What a mold is, as text.
 
 use super::Line;
 use crate::numbers::{degrees, millimetres};

@@ -1,4 +1,4 @@
-//! Rules of the model, limits and the planner, in words.
+//! Rules of the model, limits and the planner, as text.
 
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};

@@ -1,4 +1,4 @@
-//! The way of the grippers, in words: the start, the target, and how far apart they are.
+//! The way of the grippers, as text: the start, the target, and how far apart they are.
 
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};

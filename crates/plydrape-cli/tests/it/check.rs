@@ -1,6 +1,6 @@
 //! `plydrape check` as a user reads it: where the ply starts and shall end, and warnings of what can hardly be meant.
 
-use crate::common::{command, text, words};
+use crate::common::{command, one_line, text};
 use std::process::Output;
 
 /// Grippers over a flat mold, all numbers in a unit of length to come.
@@ -55,7 +55,7 @@ fn in_unit(unit: &str) -> String {
 fn start_and_target_are_shown_in_x_y_z_with_the_longest_way() {
     let output = check(&in_unit("mm"), &[]);
     assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
-    let shown = words(&output.stdout);
+    let shown = one_line(&output.stdout);
     for line in [
         "start x 10 to 304 mm, y -20 to 78 mm, z 75 mm, middle (157, 29, 75) mm",
         "x 0 to 300 mm, y 0 to 100 mm, z 0 mm, middle (150, 50, 0) mm",
@@ -71,7 +71,7 @@ fn start_and_target_are_shown_in_x_y_z_with_the_longest_way() {
 #[test]
 fn a_held_ply_has_no_way() {
     let scene = in_unit("mm").replace("[target]\n", "[motion]\nkind = \"hold\"\n");
-    let shown = words(&check(&scene, &[]).stdout);
+    let shown = one_line(&check(&scene, &[]).stdout);
     assert!(shown.contains("start x 10 to 304 mm"), "{shown}");
     assert!(shown.contains("target none"), "{shown}");
     assert!(!shown.contains("straight line"), "{shown}");
@@ -122,7 +122,7 @@ fn a_mass_that_no_ply_has_is_warned_of_with_the_likely_unit() {
     assert!(warning(&line("\"4.9 g/m\"")).contains("0.049 kg/m²"));
 }
 
-/// Each once: of a target in the mold the steps before it are not told as well.
+/// Each once: of a target in the mold the steps before it are not reported as well.
 #[test]
 fn grippers_below_the_mold_are_warned_of_once() {
     let target = |z: &str| {
@@ -156,12 +156,12 @@ fn a_motion_through_the_mold_is_warned_of_with_its_step() {
     let output = command().arg("check").arg("--quiet").arg(&scene).output().unwrap();
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stdout.is_empty());
-    let said = text(&output.stderr);
+    let message = text(&output.stderr);
     assert!(
-        said.contains("in step 2 gripper") && said.contains("is 20 mm below the mold"),
-        "{said}"
+        message.contains("in step 2 gripper") && message.contains("is 20 mm below the mold"),
+        "{message}"
     );
-    assert_eq!(said.lines().count(), 1, "{said}");
+    assert_eq!(message.lines().count(), 1, "{message}");
 }
 
 /// The duration of a straight motion is kept by the simulation and refused by the plan, with the key that it keeps.
@@ -171,19 +171,19 @@ fn a_duration_that_a_plan_would_ignore_is_refused_by_it() {
     let scene = folder.path().join("scene.toml");
     let motion = "\n[motion]\nkind = \"straight\"\nsteps = 3\nduration = \"20 s\"\n";
     std::fs::write(&scene, in_unit("mm") + motion).unwrap();
-    let shown = words(&command().arg("check").arg(&scene).output().unwrap().stdout);
+    let shown = one_line(&command().arg("check").arg(&scene).output().unwrap().stdout);
     assert!(shown.contains("motion 3 steps in 20 s"), "{shown}");
 
     let output = command().arg("plan").arg(&scene).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
-    let said = words(&output.stderr);
+    let message = one_line(&output.stderr);
     for part in [
         "duration \"20 s\" of [motion]",
         "write duration = \"20 s\" in [limits]",
         "scene.toml:19:12",
     ] {
-        assert!(said.contains(part), "{part}\n{said}");
+        assert!(message.contains(part), "{part}\n{message}");
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }

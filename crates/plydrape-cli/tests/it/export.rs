@@ -1,6 +1,6 @@
 //! `plydrape export` and `plydrape report` as a user calls them: from a result.json alone, or a refusal.
 
-use crate::common::{command, example, files, text, words};
+use crate::common::{command, example, files, one_line, text};
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
@@ -95,16 +95,16 @@ fn other_files_are_refused_with_a_remedy() {
         std::fs::write(&file, content).unwrap();
         for arguments in [&["export", "--to", "vtk"][..], &["report"]] {
             let output = plydrape(arguments, &file);
-            let said = words(&output.stderr);
-            assert_eq!(output.status.code(), Some(2), "{name}: {said}");
-            assert!(said.contains(reason) && said.contains(remedy), "{name}: {said}");
+            let message = one_line(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{name}: {message}");
+            assert!(message.contains(reason) && message.contains(remedy), "{name}: {message}");
             assert!(output.stdout.is_empty());
             assert_eq!(files(&folder), ["result.json"], "{name}");
         }
     }
     let output = plydrape(&["report"], &home.path().join("none.json"));
     assert_eq!(output.status.code(), Some(2));
-    assert!(words(&output.stderr).contains("cannot be read"));
+    assert!(one_line(&output.stderr).contains("cannot be read"));
 }
 
 /// A file of the user's is never written over, and then none of the others is written either.
@@ -117,7 +117,7 @@ fn a_file_in_the_way_keeps_all_others_away() {
     std::fs::write(folder.join("trajectory.csv"), "mine").unwrap();
     let output = plydrape(&["export", "--to", "csv"], &result);
     assert_eq!(output.status.code(), Some(2));
-    assert!(words(&output.stderr).contains("trajectory.csv was not written by plydrape"));
+    assert!(one_line(&output.stderr).contains("trajectory.csv was not written by plydrape"));
     assert_eq!(files(&folder), ["trajectory.csv"]);
     assert_eq!(std::fs::read_to_string(folder.join("trajectory.csv")).unwrap(), "mine");
 }

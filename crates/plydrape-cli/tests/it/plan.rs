@@ -1,6 +1,6 @@
 //! `plydrape plan` as a user calls it: what it takes, what it refuses, what it prints and writes.
 
-use crate::common::{command, files, text, words};
+use crate::common::{command, files, one_line, text};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -64,7 +64,7 @@ fn all_files_go_beside_the_scene_or_to_the_folder_asked_for() {
     assert_eq!(files(&asked), FILES);
 }
 
-/// The exit code is that of the verdict, in words and in JSON.
+/// The exit code is that of the verdict, as text and in JSON.
 #[test]
 fn exit_code_is_the_verdict() {
     let folder = tempfile::tempdir().unwrap();
@@ -145,7 +145,7 @@ fn impossible_limits_are_named_with_amount_and_place_and_exit_with_one() {
     let slow = SCENE.replace("steps = 12", "steps = 12\nmove_limit = \"1 mm\"");
     let shear = "\n[limits]\nshear = \"15 deg\"\n";
     let workspace = "\n[limits]\nworkspace = [[-1, \"300 mm\"], [-1, 1], [-1, 1]]\n";
-    for (text, said, place) in [
+    for (text, message, place) in [
         (sheared + shear, "shear 20° against 15°", "net cell ["),
         (far + workspace, "workspace 300 mm against 0 mm", "] at the target"),
         (slow, "move limit 75.", "gripper [1,1] in 11 moves"),
@@ -154,8 +154,8 @@ fn impossible_limits_are_named_with_amount_and_place_and_exit_with_one() {
         let output = plan(&scene(folder.path(), &text), &[]);
         let shown = text_of_obstacles(&output);
         assert_eq!(output.status.code(), Some(1), "{shown}");
-        assert!(shown.contains(said) && shown.contains(place), "{said}, {place}: {shown}");
-        assert!(words(&output.stdout).contains("not accepted: "));
+        assert!(shown.contains(message) && shown.contains(place), "{message}, {place}: {shown}");
+        assert!(one_line(&output.stdout).contains("not accepted: "));
         assert_eq!(files(&folder.path().join("flat.plan")), FILES);
     }
 }
@@ -175,7 +175,7 @@ fn an_overstretched_start_is_refused_with_two() {
     let scene =
         scene(folder.path(), &SCENE.replace("[\"98 mm\", \"98 mm\"]", "[\"101 mm\", \"98 mm\"]"));
     let output = plan(&scene, &[]);
-    let message = words(&output.stderr);
+    let message = one_line(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{message}");
     assert!(message.contains("101") && message.contains("100"), "{message}");
     assert!(!folder.path().join("flat.plan").exists());
@@ -195,7 +195,7 @@ fn a_scene_without_mold_or_target_is_refused_with_a_remedy() {
     {
         let scene = scene(folder.path(), &text);
         let output = plan(&scene, &[]);
-        let message = words(&output.stderr);
+        let message = one_line(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{message}");
         assert!(message.contains(fault) && message.contains(remedy), "{message}");
         assert!(output.stdout.is_empty());
@@ -209,7 +209,7 @@ fn a_broken_scene_exits_with_two_and_writes_nothing() {
     for (from, to) in [("steps = 12", "steps = 1"), ("evaluations", "evaluation")] {
         let scene = scene(folder.path(), &SCENE.replace(from, to));
         let output = plan(&scene, &["--json"]);
-        let message = words(&output.stderr);
+        let message = one_line(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{message}");
         assert!(message.contains("flat.toml:") && message.contains("help:"), "{message}");
         assert!(output.stdout.is_empty());
@@ -258,7 +258,7 @@ fn a_search_goes_on_from_the_folder_of_an_earlier_one() {
 
     let output = go_on(&earlier);
     assert_eq!(output.status.code(), Some(2));
-    let message = words(&output.stderr);
+    let message = one_line(&output.stderr);
     assert!(message.contains("there is no plan to go on from"), "{message}");
     assert!(!earlier.exists());
 
@@ -272,7 +272,7 @@ fn a_search_goes_on_from_the_folder_of_an_earlier_one() {
     std::fs::write(other.join("plan.json"), "{\"mine\": 1}").unwrap();
     let output = go_on(&other);
     assert_eq!(output.status.code(), Some(2));
-    assert!(words(&output.stderr).contains("plan anew, without --continue"));
+    assert!(one_line(&output.stderr).contains("plan anew, without --continue"));
 }
 
 /// Same scene and seed, same bytes, whatever the threads.

@@ -1,6 +1,6 @@
 //! `plydrape simulate` as a user calls it: exit codes, what is printed, what is written and what not.
 
-use crate::common::{command, example, files, text, words};
+use crate::common::{command, example, files, one_line, text};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -97,9 +97,9 @@ fn the_paper_s_example_has_its_printed_contacts_and_shear() {
     assert_eq!(printed["accepted"], false);
     assert_eq!(printed["steps"], 30);
     assert_eq!(printed["first_contact_step"], 26);
-    let diagonal = |from: [usize; 2], to: [usize; 2]| serde_json::json!({"kind": "diagonal", "from": from, "to": to});
+    let falling = |from: [usize; 2], to: [usize; 2]| serde_json::json!({"kind": "falling", "from": from, "to": to});
     let contacts = printed["first_contact"].as_array().unwrap();
-    let expected = [diagonal([1, 0], [0, 1]), diagonal([2, 0], [1, 1]), diagonal([3, 0], [2, 1])];
+    let expected = [falling([1, 0], [0, 1]), falling([2, 0], [1, 1]), falling([3, 0], [2, 1])];
     assert_eq!(contacts.as_slice(), expected);
     assert_eq!(printed["first_shear_step"], 5);
     assert_eq!(printed["all_shear_step"], 5);
@@ -140,7 +140,7 @@ fn a_file_of_the_user_s_stays() {
         assert_eq!(output.status.code(), Some(2), "{name}");
         assert!(output.stdout.is_empty());
         // a long path may break anywhere
-        let message = words(&output.stderr).replace(' ', "");
+        let message = one_line(&output.stderr).replace(' ', "");
         assert!(message.contains(name), "{message}");
         assert!(message.contains("chooseanotherfolderwith-o"), "{message}");
         assert_eq!(std::fs::read_to_string(out.join(name)).unwrap(), "mine");
@@ -204,7 +204,7 @@ fn the_same_scene_gives_the_same_bytes() {
     }
 }
 
-/// `plydrape … | head` ends without a word.
+/// `plydrape … | head` ends silently.
 #[test]
 fn a_closed_pipe_is_no_failure() {
     let folder = tempfile::tempdir().unwrap();
@@ -228,21 +228,30 @@ fn a_closed_pipe_is_no_failure() {
     assert_eq!(files(Path::new(out)), FILES);
 }
 
-/// A scene of 3000 steps, interrupted early: files that are whole, and tell of the steps done alone.
+/// A drape of 1600 grippers and 3000 steps into the folder `out` of another one.
 #[cfg(unix)]
-#[test]
-fn an_interrupt_leaves_complete_files_of_the_steps_done() {
-    let folder = tempfile::tempdir().unwrap();
-    let (scene, out) = (folder.path().join("scene.toml"), folder.path().join("out"));
+fn long_run(folder: &Path) -> Command {
+    let scene = folder.join("scene.toml");
     let large = std::fs::read_to_string(headline())
         .unwrap()
         .replace("grippers = [4, 2]", "grippers = [40, 40]")
         .replace("steps = 30", "steps = 3000");
     std::fs::write(&scene, large).unwrap();
     let mut command = command();
-    command.arg("simulate").arg(&scene).arg("--json").env("PLYDRAPE_MEMORY", "200 GB");
+    command.env("PLYDRAPE_MEMORY", "200 GB");
+    command.arg("simulate").arg(&scene).arg("-o").arg(folder.join("out"));
+    command
+}
+
+/// A scene of 3000 steps, interrupted early: files that are whole, and hold the steps done alone.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_complete_files_of_the_steps_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let mut command = long_run(folder.path());
     let child =
-        command.arg("-o").arg(&out).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        command.arg("--json").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_millis(700));
     let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(kill.unwrap().success());
@@ -270,7 +279,7 @@ fn an_interrupt_leaves_complete_files_of_the_steps_done() {
 }
 
 /// A ply stiffer than any, inextensible and with slack: no force in floating point gives its spans their lengths. The step says so
-/// in words, and the exit code is 3, not that of a limit.
+/// as text, and the exit code is 3, not that of a limit.
 #[test]
 fn a_step_without_a_solution_exits_with_three() {
     let folder = tempfile::tempdir().unwrap();
@@ -332,8 +341,11 @@ fn a_simulation_into_the_folder_of_its_plan_keeps_what_it_follows() {
     let before = std::fs::read(out.join("trajectory.csv")).unwrap();
     let output = run(&[&scene], "simulate");
     assert_eq!(output.status.code(), Some(2));
-    let said = words(&output.stderr);
-    assert!(said.contains("trajectory.csv is read by this run") && said.contains("-o"), "{said}");
+    let message = one_line(&output.stderr);
+    assert!(
+        message.contains("trajectory.csv is read by this run") && message.contains("-o"),
+        "{message}"
+    );
     assert_eq!(std::fs::read(out.join("trajectory.csv")).unwrap(), before);
 }
 
@@ -342,16 +354,9 @@ fn a_simulation_into_the_folder_of_its_plan_keeps_what_it_follows() {
 #[test]
 fn a_second_run_into_a_folder_is_refused_and_a_termination_is_an_interrupt() {
     let folder = tempfile::tempdir().unwrap();
-    let (scene, out) = (folder.path().join("scene.toml"), folder.path().join("out"));
-    let large = std::fs::read_to_string(headline())
-        .unwrap()
-        .replace("grippers = [4, 2]", "grippers = [40, 40]")
-        .replace("steps = 30", "steps = 3000");
-    std::fs::write(&scene, large).unwrap();
-    let mut first = command();
-    first.args(["simulate", "--quiet"]).arg(&scene).arg("-o").arg(&out);
-    first.env("PLYDRAPE_MEMORY", "200 GB");
-    let first = first.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let out = folder.path().join("out");
+    let mut first = long_run(folder.path());
+    let first = first.arg("-q").stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     // until it has claimed its folder
     let start = std::time::Instant::now();
     while !out.exists() && start.elapsed().as_secs() < 60 {
@@ -361,9 +366,9 @@ fn a_second_run_into_a_folder_is_refused_and_a_termination_is_an_interrupt() {
     let mut second = command();
     let second = second.arg("simulate").arg(headline()).arg("-o").arg(&out).output().unwrap();
     assert_eq!(second.status.code(), Some(2));
-    let said = words(&second.stderr);
+    let message = one_line(&second.stderr);
     let owner = format!("`plydrape simulate`, process {}", first.id());
-    assert!(said.contains("is being written by") && said.contains(&owner), "{said}");
+    assert!(message.contains("is being written by") && message.contains(&owner), "{message}");
     let kill = Command::new("kill").args(["-TERM", &first.id().to_string()]).status();
     assert!(kill.unwrap().success());
     assert_eq!(first.wait_with_output().unwrap().status.code(), Some(130));
@@ -383,5 +388,5 @@ fn mixed_files_are_no_result() {
     std::fs::write(out.join(".plydrape"), torn).unwrap();
     let output = command().arg("report").arg(out.join("result.json")).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert!(words(&output.stderr).contains("are of two runs"), "{}", text(&output.stderr));
+    assert!(one_line(&output.stderr).contains("are of two runs"), "{}", text(&output.stderr));
 }

@@ -127,7 +127,7 @@ fn a_stiff_span_is_in_compression() {
     assert!(shown.contains("compression"), "{shown}");
 }
 
-/// Chord = length with EA = ∞ is straight; beyond it the overstretch is said, and nothing fails.
+/// Chord = length with EA = ∞ is straight; beyond it the overstretch is reported, and nothing fails.
 #[test]
 fn a_taut_inextensible_span_is_straight_and_without_a_force() {
     let rise = ("--rise", "21 mm");
@@ -142,14 +142,14 @@ fn a_taut_inextensible_span_is_straight_and_without_a_force() {
         assert!((numbers(&got, "z_mm")[10] - 21.0).abs() < 1e-12);
     }
     let shown = text(&span(&[("--run", "102 mm"), ("--slope-end", "0.1")], &[]).stdout);
-    for words in [
+    for part in [
         "overstretched",
         "none: a straight ply",
         "2 mm (2 %) longer than the ply",
         "cannot take the slopes asked for",
         "--axial-stiffness",
     ] {
-        assert!(shown.contains(words), "{words} in\n{shown}");
+        assert!(shown.contains(part), "{part} in\n{shown}");
     }
 }
 
@@ -166,8 +166,8 @@ fn text_shows_force_sag_slopes_moments_a_table_and_the_shape() {
     let output = span(&[("--slope-end", "0.5")], &[]);
     assert_eq!(output.status.code(), Some(0));
     let shown = text(&output.stdout);
-    for words in ["horizontal force", "sag", "slopes", "moments", "z mm", "(held)", "(free)"] {
-        assert!(shown.contains(words), "{words} in\n{shown}");
+    for part in ["horizontal force", "sag", "slopes", "moments", "z mm", "(held)", "(free)"] {
+        assert!(shown.contains(part), "{part} in\n{shown}");
     }
     let stations = shown.lines().filter(|l| l.split_whitespace().count() == 5);
     assert!(stations.count() >= 11, "{shown}");

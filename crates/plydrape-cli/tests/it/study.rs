@@ -1,7 +1,7 @@
 //! `plydrape study` hands over to Python; here a script stands in for it.
 #![cfg(unix)]
 
-use crate::common::{command, text, words};
+use crate::common::{command, one_line, text};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -24,9 +24,9 @@ fn a_missing_package_is_one_message_with_the_remedy() {
     let home = tempfile::tempdir().unwrap();
     let output = study(&python(home.path(), "exit 97"), &["study.toml"]);
     assert_eq!(output.status.code(), Some(2));
-    let said = words(&output.stderr);
-    for word in ["has no package plydrape", "pip install 'plydrape[study]'", "PLYDRAPE_PYTHON"] {
-        assert!(said.contains(word), "{said}");
+    let message = one_line(&output.stderr);
+    for part in ["has no package plydrape", "pip install 'plydrape[study]'", "PLYDRAPE_PYTHON"] {
+        assert!(message.contains(part), "{message}");
     }
     assert!(output.stdout.is_empty());
 }
@@ -35,11 +35,11 @@ fn a_missing_package_is_one_message_with_the_remedy() {
 fn a_missing_python_is_one_message_with_the_remedy() {
     let output = study(Path::new("/no/such/python"), &["study.toml"]);
     assert_eq!(output.status.code(), Some(2));
-    let said = words(&output.stderr);
-    assert!(said.contains("/no/such/python") && said.contains("install Python"), "{said}");
+    let message = one_line(&output.stderr);
+    assert!(message.contains("/no/such/python") && message.contains("install Python"), "{message}");
 }
 
-/// All options arrive, a value with a dash and a file with a space as one word each; the code comes back.
+/// All options arrive, a value with a dash and a file with a space as one argument each; the code comes back.
 #[test]
 fn arguments_go_over_and_the_exit_code_comes_back() {
     let home = tempfile::tempdir().unwrap();
@@ -49,8 +49,8 @@ fn arguments_go_over_and_the_exit_code_comes_back() {
         ["my study.toml", "--quiet", "--workers", "3", "-o=-out", "--scheduler", "tcp://a:1"];
     let output = study(&python, &given);
     assert_eq!(output.status.code(), Some(130));
-    let wanted = "<--output=-out>\n<--scheduler=tcp://a:1>\n<--workers=3>\n<--quiet>\n<-->\n<my study.toml>\n";
-    assert_eq!(text(&output.stdout), wanted);
+    let expected = "<--output=-out>\n<--scheduler=tcp://a:1>\n<--workers=3>\n<--quiet>\n<-->\n<my study.toml>\n";
+    assert_eq!(text(&output.stdout), expected);
 }
 
 /// A signal ends Python: no code of its own, so it counts as interrupted.

@@ -124,13 +124,13 @@ impl Summary {
             ("folded", self.folded, Reason::Folded),
             ("behind folds", self.unreached, Reason::Unreached),
         ];
-        for (noun, count, reason) in missing {
+        for (label, count, reason) in missing {
             let first = self.first_missing.iter().find(|m| m.reason == reason);
-            lines.push((noun, first.map_or("no node".into(), |first| missing_words(count, first))));
+            lines.push((label, first.map_or("no node".into(), |first| missing_text(count, first))));
         }
         let mut text = String::new();
-        for (noun, words) in lines {
-            let _ = writeln!(text, "{noun:<14} {words}");
+        for (label, entry) in lines {
+            let _ = writeln!(text, "{label:<14} {entry}");
         }
         let _ = writeln!(text, "\n{}", self.verdict());
         text
@@ -174,7 +174,7 @@ impl ShearPlace {
 }
 
 /// How many nodes are missing, and the one next to the seed.
-fn missing_words(count: usize, first: &Missing) -> String {
+fn missing_text(count: usize, first: &Missing) -> String {
     let [i, j] = first.node;
     let text = format!("{count} nodes; next to the seed [{i}, {j}]");
     match (first.beyond, first.near) {

@@ -1,4 +1,4 @@
-//! A measured value given outside a file, as on the command line.
+//! A measured value from outside of a file, as on the command line.
 
 use super::error::{Document, SceneError};
 use super::located::Located;
@@ -39,9 +39,9 @@ pub fn quantity(text: &str, measured: Measured) -> Result<f64, SceneError> {
 fn read<M: Measure>(text: &str) -> Result<f64, SceneError> {
     // as a scene would hold it, so that the messages are the same
     let document = Document::new("", &format!("\"{text}\""));
-    let given: Quantity<M> =
-        Located { value: Unchecked::given(text), span: 0..document.text.len() };
-    given.si_or_infinite(&document)
+    let argument: Quantity<M> =
+        Located { value: Unchecked::of_argument(text), span: 0..document.text.len() };
+    argument.si_or_infinite(&document)
 }
 
 #[cfg(test)]

@@ -3,12 +3,13 @@
 use super::error::{Document, SceneError};
 use super::file::{EndKey, GrippersTable, MotionKind, PlyTable, SceneKeys, Slopes, SteppingKey};
 use super::limits::{acute, limits};
-use super::located::{Count, Located};
+use super::located::{Count, Located, Whole};
 use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::trajectory::trajectory;
 use super::{SceneFile, material, mold, named, start, target};
-use crate::{shown, size};
+use crate::shown;
+use crate::size::{self, SizeError};
 use plydrape::mold::Mold;
 use plydrape::ply::{Direction, Grid, Ply};
 use plydrape::scene::{
@@ -18,16 +19,16 @@ use std::ops::Range;
 use std::path::Path;
 
 /// Most grippers along u or v.
-const MOST_GRIPPERS: i64 = 1000;
+const MOST_GRIPPERS: i128 = 1000;
 /// Smallest and largest finite axial stiffness (N).
 const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
 /// Smallest and largest gravity (m/s²).
 const GRAVITY: [f64; 2] = [1e-3, 1e3];
 
-/// Checks a scene file, on a mold of its own or on a `given` one; other files it names are relative to `base`.
+/// Checks a scene file, on a mold of its own or on one that a program has `made`; other files it names are relative to `base`.
 pub(super) fn scene(
     file: &SceneKeys,
-    given: Option<Mold>,
+    made: Option<Mold>,
     document: &Document,
     base: &Path,
 ) -> Result<SceneFile, SceneError> {
@@ -37,7 +38,7 @@ pub(super) fn scene(
             let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
             (Some(mold), report)
         }
-        None => (given, None),
+        None => (made, None),
     };
     let mut settings = settings(file, &ply, document)?;
     if let Some(Some(tilt)) = file.grippers.as_ref().map(|g| &g.value.max_tilt) {
@@ -58,24 +59,27 @@ pub(super) fn scene(
     places.fits(&file.ply.grippers.span, motion.positions.len())?;
     let limits = limits(&file.limits, &ply, &settings, document)?;
     let plan = plan(&file.plan, ply.grid, document)?;
+    let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
+    let steps = file.plan.steps.as_ref().map_or(&file.ply.grippers.span, |steps| &steps.span);
+    let fits = places.allowed(steps, size::plan(&ply, plan.steps));
     let title = title(file.title.as_ref(), document, base)?;
     Ok(SceneFile {
         scene: Scene { title, ply, mold, motion, target, settings, limits, plan },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,
-        plan_refusal: file.motion.as_ref().and_then(|table| unplanned(&table.value, document)),
+        plan_refusal: unplanned.or(fits.err()).map(Box::new),
     })
 }
 
-/// The title that is given, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.
+/// The title that is written, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.
 pub(super) fn title(
-    given: Option<&Located<String>>,
+    written: Option<&Located<String>>,
     document: &Document,
     base: &Path,
 ) -> Result<String, SceneError> {
-    if let Some(given) = given {
-        return line(given, document);
+    if let Some(title) = written {
+        return line(title, document);
     }
     let stem = Path::new(&document.file).file_stem().unwrap_or_default();
     let name = match base.file_name() {
@@ -112,11 +116,11 @@ pub(super) fn ply(table: &PlyTable, document: &Document, base: &Path) -> Result<
 
 fn gripper_count(
     count: &Located<Count>,
-    least: i64,
+    least: i128,
     along: &str,
     document: &Document,
 ) -> Result<usize, SceneError> {
-    let Count(value) = count.value;
+    let Whole(value) = count.value;
     if (least..=MOST_GRIPPERS).contains(&value)
         && let Ok(value) = usize::try_from(value)
     {
@@ -144,8 +148,11 @@ pub(super) struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// Refuses a drape of so many steps if its result would be too large; `span` is what the scene says of that.
     pub fn fits(&self, span: &Range<usize>, steps: usize) -> Result<(), SceneError> {
-        size::drape(self.ply, steps)
-            .map_err(|fault| self.document.error(span.clone(), fault.to_string(), fault.remedy()))
+        self.allowed(span, size::drape(self.ply, steps))
+    }
+
+    fn allowed(&self, span: &Range<usize>, size: Result<(), SizeError>) -> Result<(), SceneError> {
+        size.map_err(|fault| self.document.error(span.clone(), fault.to_string(), fault.remedy()))
     }
 
     fn motion(&self, file: &SceneKeys, target: Option<&Target>) -> Result<Motion, SceneError> {
@@ -184,7 +191,7 @@ impl Surroundings<'_> {
         start::check(&start, self)?;
         if let Some(steps) = file.motion.as_ref().and_then(|table| table.value.steps.as_ref()) {
             // before so many positions are made
-            let Count(count) = steps.value;
+            let Whole(count) = steps.value;
             self.fits(&steps.span, usize::try_from(count).unwrap_or(0))?;
         }
         motion(file.motion.as_ref(), &start, target, ply, document)
@@ -199,7 +206,7 @@ fn placing_key(keys: &GrippersTable) -> Option<&'static str> {
         ("height", keys.height.is_some()),
     ]
     .into_iter()
-    .find_map(|(key, given)| given.then_some(key))
+    .find_map(|(key, present)| present.then_some(key))
     .or(start::other_key(keys))
 }
 

@@ -93,10 +93,10 @@ impl JsonSchema for Positions {
     }
 }
 
-/// A word that may stand for a place.
-pub(super) trait Word {
-    /// The word.
-    const WORD: &'static str;
+/// A keyword that may stand for a place.
+pub(super) trait Keyword {
+    /// The keyword.
+    const KEYWORD: &'static str;
     /// The place by its coordinates.
     const PAIR: &'static str;
 }
@@ -108,34 +108,34 @@ pub(super) struct Centred;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Middle;
 
-impl Word for Centred {
-    const WORD: &'static str = "centred";
+impl Keyword for Centred {
+    const KEYWORD: &'static str = "centred";
     const PAIR: &'static str = "a place [x, y]";
 }
 
-impl Word for Middle {
-    const WORD: &'static str = "middle";
+impl Keyword for Middle {
+    const KEYWORD: &'static str = "middle";
     const PAIR: &'static str = "a fabric point [u, v]";
 }
 
-/// Two coordinates (m), or a word.
+/// Two coordinates (m), or a keyword.
 #[derive(Debug)]
 pub(super) enum Place<W> {
-    Word(PhantomData<W>),
+    Keyword(PhantomData<W>),
     At(Fixed<Quantity<Length>, 2>),
 }
 
-impl<'de, W: Word> Deserialize<'de> for Place<W> {
+impl<'de, W: Keyword> Deserialize<'de> for Place<W> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Choice<W>(PhantomData<W>);
-        impl<'de, W: Word> Visitor<'de> for Choice<W> {
+        impl<'de, W: Keyword> Visitor<'de> for Choice<W> {
             type Value = Place<W>;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "{} or \"{}\"", W::PAIR, W::WORD)
+                write!(f, "{} or \"{}\"", W::PAIR, W::KEYWORD)
             }
             fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
-                if word == W::WORD {
-                    return Ok(Place::Word(PhantomData));
+                if word == W::KEYWORD {
+                    return Ok(Place::Keyword(PhantomData));
                 }
                 Err(E::invalid_value(Unexpected::Str(word), &self))
             }
@@ -147,15 +147,15 @@ impl<'de, W: Word> Deserialize<'de> for Place<W> {
     }
 }
 
-impl<W: Word> JsonSchema for Place<W> {
+impl<W: Keyword> JsonSchema for Place<W> {
     fn inline_schema() -> bool {
         true
     }
     fn schema_name() -> Cow<'static, str> {
-        W::WORD.into()
+        W::KEYWORD.into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let pair = generator.subschema_for::<Fixed<Quantity<Length>, 2>>();
-        json_schema!({ "anyOf": [{ "const": W::WORD }, pair] })
+        json_schema!({ "anyOf": [{ "const": W::KEYWORD }, pair] })
     }
 }

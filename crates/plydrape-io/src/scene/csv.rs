@@ -18,9 +18,9 @@ pub(super) struct Column {
 /// A table whose header is read.
 pub(super) struct Csv<'a> {
     document: &'a Document,
-    /// Place of each wanted column in a row, and the size of its unit.
+    /// Place of each expected column in a row, and the size of its unit.
     columns: Vec<(usize, f64)>,
-    wanted: &'a [Column],
+    expected: &'a [Column],
     /// The header's bytes.
     pub header: Range<usize>,
 }
@@ -34,15 +34,15 @@ pub(super) struct Row<'a> {
 
 impl<'a> Csv<'a> {
     /// Reads the header.
-    pub fn new(document: &'a Document, wanted: &'a [Column]) -> Result<Self, SceneError> {
-        let names: Vec<&str> = wanted.iter().map(|column| column.name).collect();
+    pub fn new(document: &'a Document, expected: &'a [Column]) -> Result<Self, SceneError> {
+        let names: Vec<&str> = expected.iter().map(|column| column.name).collect();
         let help = format!("its first line names the columns {}", names.join(", "));
         let Some(header) = lines(&document.text).next() else {
             return Err(document.error_anywhere(format!("`{}` is empty", document.file), help));
         };
         let fields = fields(&document.text, &header);
-        let mut columns = Vec::with_capacity(wanted.len());
-        for column in wanted {
+        let mut columns = Vec::with_capacity(expected.len());
+        for column in expected {
             let found = fields.iter().position(|field| {
                 let title = &document.text[field.clone()];
                 title.split('(').next().unwrap_or_default().trim() == column.name
@@ -60,7 +60,7 @@ impl<'a> Csv<'a> {
             };
             columns.push((index, unit_size(document, fields[index].clone(), column.dimension)?));
         }
-        Ok(Csv { document, columns, wanted, header })
+        Ok(Csv { document, columns, expected, header })
     }
 
     /// The rows below the header.
@@ -74,26 +74,29 @@ impl<'a> Csv<'a> {
 }
 
 impl Row<'_> {
-    /// The bytes of a wanted column's field; the whole row where it has none.
+    /// The bytes of an expected column's field; the whole row where it has none.
     pub fn place(&self, column: usize) -> Range<usize> {
         let (index, _) = self.csv.columns[column];
         self.fields.get(index).unwrap_or(&self.span).clone()
     }
 
-    /// The text in a wanted column.
+    /// The text in an expected column.
     pub fn text(&self, column: usize) -> Result<&str, SceneError> {
         let (index, _) = self.csv.columns[column];
         match self.fields.get(index) {
             Some(field) if !field.is_empty() => Ok(&self.csv.document.text[field.clone()]),
             _ => Err(self.csv.document.error(
                 self.span.clone(),
-                format!("this row has no value for the column `{}`", self.csv.wanted[column].name),
+                format!(
+                    "this row has no value for the column `{}`",
+                    self.csv.expected[column].name
+                ),
                 format!("every row has {} fields or more, separated by commas", index + 1),
             )),
         }
     }
 
-    /// The number in a wanted column, in SI units.
+    /// The number in an expected column, in SI units.
     pub fn number(&self, column: usize) -> Result<f64, SceneError> {
         let text = self.text(column)?;
         match text.parse::<f64>() {
@@ -106,7 +109,7 @@ impl Row<'_> {
         }
     }
 
-    /// The whole number in a wanted column.
+    /// The whole number in an expected column.
     pub fn whole(&self, column: usize) -> Result<usize, SceneError> {
         let text = self.text(column)?;
         text.parse().map_err(|_| {
@@ -118,7 +121,7 @@ impl Row<'_> {
         })
     }
 
-    /// An error at a wanted column's field.
+    /// An error at an expected column's field.
     pub fn fault(
         &self,
         column: usize,
@@ -161,8 +164,8 @@ fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
     text.split_inclusive('\n').filter_map(move |line| {
         let from = start;
         start += line.len();
-        let said = line.trim_end();
-        (!said.is_empty() && !said.starts_with('#')).then_some(from..from + said.len())
+        let text = line.trim_end();
+        (!text.is_empty() && !text.starts_with('#')).then_some(from..from + text.len())
     })
 }
 

@@ -1,5 +1,6 @@
 //! Why a scene was refused: the place in its file, what is wrong there, and what would be right.
 
+use crate::shown;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -93,14 +94,13 @@ impl Document {
 
     /// The text at a span, shortened for a message.
     pub fn excerpt(&self, span: &Range<usize>) -> String {
-        let text = self.text.get(span.clone()).unwrap_or_default();
-        let line = text.lines().next().unwrap_or_default();
-        let mut short: String = line.chars().take(EXCERPT).collect();
-        if short.len() < text.trim_end().len() {
-            short.push('…');
-        }
-        short
+        excerpt(self.text.get(span.clone()).unwrap_or_default())
     }
+}
+
+/// A text as a message quotes it.
+pub(super) fn excerpt(text: &str) -> String {
+    shown::excerpt(text, EXCERPT)
 }
 
 /// Characters of a value that a message quotes at most.

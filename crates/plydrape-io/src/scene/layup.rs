@@ -111,7 +111,7 @@ impl Seed {
         };
         let span = Some(written.span.clone());
         let point = match &written.value {
-            Place::Word(_) => return Ok(Seed { cells: most.map(|count| 0.5 * count), span }),
+            Place::Keyword(_) => return Ok(Seed { cells: most.map(|count| 0.5 * count), span }),
             Place::At(point) => coordinates(point, document)?,
         };
         let cells = [0, 1].map(|n| point[n] / ply.cell[n]);

@@ -33,73 +33,43 @@ impl<T: JsonSchema> JsonSchema for Located<T> {
     }
 }
 
-/// A whole number.
+/// A whole number; a schema allows `LEAST` or more.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Count(pub i64);
+pub(super) struct Whole<const LEAST: u8>(pub i128);
 
-impl<'de> Deserialize<'de> for Count {
+/// How many there are of something.
+pub(super) type Count = Whole<1>;
+/// The seed of a random search.
+pub(super) type Seed = Whole<0>;
+
+impl<'de, const LEAST: u8> Deserialize<'de> for Whole<LEAST> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Whole;
-        impl Visitor<'_> for Whole {
-            type Value = Count;
+        struct Number;
+        impl Visitor<'_> for Number {
+            type Value = i128;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("a whole number, e.g. 4")
             }
-            fn visit_i64<E>(self, value: i64) -> Result<Count, E> {
-                Ok(Count(value))
+            fn visit_i64<E>(self, value: i64) -> Result<i128, E> {
+                Ok(value.into())
             }
-            fn visit_u64<E>(self, value: u64) -> Result<Count, E> {
-                Ok(Count(i64::try_from(value).unwrap_or(i64::MAX)))
+            fn visit_u64<E>(self, value: u64) -> Result<i128, E> {
+                Ok(value.into())
             }
         }
-        deserializer.deserialize_any(Whole)
+        deserializer.deserialize_any(Number).map(Whole)
     }
 }
 
-impl JsonSchema for Count {
+impl<const LEAST: u8> JsonSchema for Whole<LEAST> {
     fn inline_schema() -> bool {
         true
     }
     fn schema_name() -> Cow<'static, str> {
-        "count".into()
+        format!("whole number from {LEAST}").into()
     }
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "integer", "minimum": 1 })
-    }
-}
-
-/// A whole number of zero or more, as far as 64 bits reach.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Seed(pub i128);
-
-impl<'de> Deserialize<'de> for Seed {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Whole;
-        impl Visitor<'_> for Whole {
-            type Value = Seed;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a whole number, e.g. 0")
-            }
-            fn visit_i64<E>(self, value: i64) -> Result<Seed, E> {
-                Ok(Seed(value.into()))
-            }
-            fn visit_u64<E>(self, value: u64) -> Result<Seed, E> {
-                Ok(Seed(value.into()))
-            }
-        }
-        deserializer.deserialize_any(Whole)
-    }
-}
-
-impl JsonSchema for Seed {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> Cow<'static, str> {
-        "seed".into()
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "integer", "minimum": 0 })
+        json_schema!({ "type": "integer", "minimum": LEAST })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::check::line;
 use super::choice::MaterialChoice;
-use super::error::{Document, SceneError};
+use super::error::{Document, SceneError, excerpt};
 use super::file::{MaterialTable, ShearCurveTable};
 use super::located::Located;
 use super::quantity::{Measure, Quantity};
@@ -14,8 +14,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// The materials that come with the program: name and file.
-const SHIPPED: [(&str, &str); 1] =
-    [("krogh2018", include_str!("../../../../materials/krogh2018.toml"))];
+const SHIPPED: [(&str, &str); 1] = [("krogh2018", include_str!("../../materials/krogh2018.toml"))];
 
 /// Smallest and largest mass per length (kg/m) or area (kg/m²).
 const MASSES: [f64; 2] = [1e-6, 1e3];
@@ -60,7 +59,7 @@ fn named(
         let shipped: Vec<_> = shipped_materials().map(|n| format!("\"{n}\"")).collect();
         return Err(scene.error(
             span.clone(),
-            format!("there is no material \"{name}\""),
+            format!("there is no material \"{}\"", excerpt(name)),
             format!(
                 "plydrape comes with {}; a file of your own is named with its ending, e.g. \"mine.toml\"",
                 shipped.join(", ")
@@ -112,9 +111,9 @@ fn from_table(
         Some(curve) => Some(shear_curve(curve, document)?),
         None => None,
     };
-    let given =
+    let text_of =
         |text: &Option<Located<String>>| text.as_ref().map(|text| line(text, document)).transpose();
-    let mut source = given(&table.source)?.unwrap_or_else(|| "stated in the scene".into());
+    let mut source = text_of(&table.source)?.unwrap_or_else(|| "stated in the scene".into());
     let locking_angle = match (&table.locking_angle, &table.locking_test) {
         (Some(angle), Some(test)) => {
             let test = line(test, document)?;
@@ -132,7 +131,7 @@ fn from_table(
         (None, _) => None,
     };
     Ok(Material {
-        name: given(&table.name)?.unwrap_or_else(|| shown::name(name)),
+        name: text_of(&table.name)?.unwrap_or_else(|| shown::name(name)),
         source,
         section: section(table, document, place)?,
         shear_curve,

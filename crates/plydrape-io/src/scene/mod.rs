@@ -3,8 +3,8 @@
 //! A file becomes a scene in three stages, each refusing what it cannot pass on with the place in
 //! the file, what is wrong there and what would be right ([`SceneError`]):
 //!
-//! 1. `read`, `complaint`: bytes become a text, a text the keys of `file`;
-//! 2. `quantity`, `units`: values with a unit become SI numbers of the wanted dimension;
+//! 1. `read`, `diagnostic`: bytes become a text, a text the keys of `file`;
+//! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
 //! 3. `check` with `material`, `mold`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `plan`: numbers
 //!    become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
@@ -13,8 +13,8 @@
 mod argument;
 mod check;
 mod choice;
-mod complaint;
 mod csv;
+mod diagnostic;
 mod error;
 mod file;
 mod heading;

@@ -2,7 +2,7 @@
 
 use super::error::{Document, SceneError};
 use super::file::{MotionKind, MotionTable};
-use super::located::{Count, Located};
+use super::located::{Count, Located, Whole};
 use super::places::Places;
 use plydrape::mold::vector;
 use plydrape::motion::{MOST_POSITIONS, MOST_STEPS};
@@ -68,10 +68,10 @@ pub(super) fn motion(
 }
 
 /// Why a plan of a scene with this motion is refused: it has a time law of its own and would ignore the duration.
-pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<Box<SceneError>> {
+pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<SceneError> {
     let span = &keys.duration.as_ref()?.span;
     let written = document.excerpt(span);
-    Some(Box::new(document.error(
+    Some(document.error(
         span.clone(),
         format!(
             "a plan does not keep the duration {} of [motion]: how long it takes follows from the limits of its grippers",
@@ -80,7 +80,7 @@ pub(super) fn unplanned(keys: &MotionTable, document: &Document) -> Option<Box<S
         format!(
             "remove it, or comment it out; if a plan shall take no longer, write duration = {written} in [limits]"
         ),
-    )))
+    ))
 }
 
 fn hold(
@@ -88,11 +88,11 @@ fn hold(
     start: &Places,
     document: &Document,
 ) -> Result<Motion, SceneError> {
-    let stray = keys.and_then(|keys| {
+    let misplaced = keys.and_then(|keys| {
         let steps = keys.steps.as_ref().map(|steps| &steps.span);
         steps.or(keys.duration.as_ref().map(|duration| &duration.span))
     });
-    if let Some(span) = stray {
+    if let Some(span) = misplaced {
         return Err(document.error(
             span.clone(),
             "a ply that is held has one step and no duration",
@@ -107,7 +107,7 @@ fn step_count(
     grid: Grid,
     document: &Document,
 ) -> Result<usize, SceneError> {
-    let Count(written) = steps.value;
+    let Whole(written) = steps.value;
     let most = MOST_STEPS.min(MOST_POSITIONS / grid.grippers());
     match usize::try_from(written) {
         Ok(count) if (2..=most).contains(&count) => Ok(count),

@@ -2,7 +2,7 @@
 
 use super::error::{Document, SceneError};
 use super::file::{MethodKey, PlanTable};
-use super::located::{Count, Located, Seed};
+use super::located::{Count, Located, Seed, Whole};
 use plydrape::motion::MOST_POSITIONS;
 use plydrape::ply::Grid;
 use plydrape::scene::{Plan, PlanMethod};
@@ -54,7 +54,7 @@ fn count(
     of: &str,
     document: &Document,
 ) -> Result<usize, SceneError> {
-    let Count(value) = written.value;
+    let Whole(value) = written.value;
     if let Ok(value) = usize::try_from(value)
         && (least..=most).contains(&value)
     {
@@ -76,7 +76,7 @@ fn count(
 
 /// The seed of the search.
 fn number(seed: &Located<Seed>, document: &Document) -> Result<u64, SceneError> {
-    let Seed(value) = seed.value;
+    let Whole(value) = seed.value;
     u64::try_from(value).map_err(|_| {
         document.error(
             seed.span.clone(),

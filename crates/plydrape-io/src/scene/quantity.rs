@@ -1,4 +1,4 @@
-//! Measured values of a scene file, held against the dimension and the range wanted of them.
+//! Measured values of a scene file, held against the dimension and the range that they must have.
 
 use super::error::{Document, SceneError};
 use super::located::Located;
@@ -81,8 +81,8 @@ pub(super) struct Unchecked<M> {
 }
 
 impl<M> Unchecked<M> {
-    /// A value given outside a file, where no quotes tell a number from a text.
-    pub fn given(text: &str) -> Self {
+    /// A value from outside of a file, where no quotes tell a number from a text.
+    pub fn of_argument(text: &str) -> Self {
         let raw = match units::quantity(text) {
             Ok((number, None)) => Raw::Number(number),
             _ => Raw::Text(text.to_string()),
@@ -128,24 +128,24 @@ impl<M: Measure> Quantity<M> {
     ) -> Result<(f64, Option<Dimension>), SceneError> {
         let error =
             |message: String, help: String| document.error(self.span.clone(), message, help);
-        let wanted = format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE);
+        let remedy = format!("{} is wanted, e.g. \"{}\"", M::NAME, M::EXAMPLE);
         let text = match &self.value.raw {
             Raw::Number(number) => return Ok((*number, None)),
             Raw::Text(text) => text,
         };
         let shown = document.excerpt(&self.span);
         let (value, dimension) = units::quantity(text).map_err(|fault| {
-            error(format!("{shown} cannot be read: {fault}"), format!("{wanted}; {}", fault.help()))
+            error(format!("{shown} cannot be read: {fault}"), format!("{remedy}; {}", fault.help()))
         })?;
         match dimension {
             Some(found) if M::DIMENSIONS.contains(&found) => Ok((value, Some(found))),
-            Some(found) => Err(error(format!("{shown} is {found}"), wanted)),
+            Some(found) => Err(error(format!("{shown} is {found}"), remedy)),
             None if M::DIMENSIONS.contains(&Dimension::NONE) || value.is_infinite() => {
                 Ok((value, None))
             }
             None => Err(error(
                 format!("{shown} has no unit"),
-                format!("{wanted}; a plain number, without quotes, is in {}", M::UNIT),
+                format!("{remedy}; a plain number, without quotes, is in {}", M::UNIT),
             )),
         }
     }

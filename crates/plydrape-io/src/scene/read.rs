@@ -1,8 +1,8 @@
 //! From bytes to a text, and from a text to the keys of a file.
 
-use super::complaint;
+use super::diagnostic;
 use super::error::{Document, SceneError};
-use crate::input;
+use crate::{input, shown};
 use serde::de::DeserializeOwned;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -12,9 +12,13 @@ pub(super) const LARGEST_TOML: u64 = 16 << 20;
 /// Largest CSV file that is read (bytes).
 pub(super) const LARGEST_CSV: u64 = 1 << 30;
 
+/// Characters of a path that a message repeats at most.
+const LONGEST_PATH: usize = 400;
+
 /// Reads a file, named `name` in messages.
 pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, SceneError> {
     let nothing = Document::new(name, "");
+    let name = shown::excerpt(name, LONGEST_PATH);
     if path.is_dir() {
         return Err(nothing.error_anywhere(
             format!("`{name}` is a folder, not a file"),
@@ -28,7 +32,7 @@ pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, Sc
         ),
         _ => nothing.error_anywhere(
             format!("`{name}` cannot be read: {}", reason(&error)),
-            format!("looked for {}", path.display()),
+            format!("looked for {}", shown::excerpt(&path.to_string_lossy(), LONGEST_PATH)),
         ),
     })
 }
@@ -61,5 +65,5 @@ fn reason(error: &std::io::Error) -> String {
 
 /// Reads the keys of a TOML text.
 pub(super) fn keys<T: DeserializeOwned>(document: &Document) -> Result<T, SceneError> {
-    toml::from_str(&document.text).map_err(|error| complaint::in_plain_words(document, &error))
+    toml::from_str(&document.text).map_err(|error| diagnostic::scene_error(document, &error))
 }

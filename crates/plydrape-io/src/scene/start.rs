@@ -88,7 +88,7 @@ pub(super) fn other_key(keys: &GrippersTable) -> Option<&'static str> {
         ("parallel_to_mold", keys.parallel_to_mold.is_some()),
     ]
     .into_iter()
-    .find_map(|(key, given)| given.then_some(key))
+    .find_map(|(key, present)| present.then_some(key))
 }
 
 /// A rectangle of grippers: level, or parallel to the mold.
@@ -108,7 +108,7 @@ fn rectangle(
         None => ([0.0; 2], 0.0),
         Some(origin) => match &origin.value {
             Place::At(origin) => (coordinates(origin, document)?, 0.0),
-            Place::Word(_) => {
+            Place::Keyword(_) => {
                 let Some(target) = target else {
                     return Err(document.error(
                         origin.span.clone(),

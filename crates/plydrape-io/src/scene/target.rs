@@ -78,7 +78,7 @@ fn laying_key(keys: &TargetTable) -> Option<&'static str> {
         ("edges", keys.edges.is_some()),
     ]
     .into_iter()
-    .find_map(|(key, given)| given.then_some(key))
+    .find_map(|(key, present)| present.then_some(key))
 }
 
 /// The bytes of `[target]` itself.

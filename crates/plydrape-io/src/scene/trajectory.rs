@@ -36,9 +36,9 @@ pub(super) fn trajectory(
             "add file = \"trajectory.csv\" with the columns t, gripper, x, y, z",
         ));
     };
-    let stray = table.value.steps.as_ref().map(|steps| &steps.span);
-    let stray = stray.or(table.value.duration.as_ref().map(|duration| &duration.span));
-    if let Some(span) = stray {
+    let misplaced = table.value.steps.as_ref().map(|steps| &steps.span);
+    let misplaced = misplaced.or(table.value.duration.as_ref().map(|duration| &duration.span));
+    if let Some(span) = misplaced {
         return Err(scene.error(
             span.clone(),
             "the motion comes from a file, which has its own steps and times",

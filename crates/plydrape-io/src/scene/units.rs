@@ -194,10 +194,10 @@ pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
         let end = rest.find(|c: char| is_separator(c) || is_power(c));
         let (symbol, tail) = rest.split_at(end.unwrap_or(rest.len()));
         if symbol.is_empty() {
-            let stray = rest.chars().next().unwrap_or(' ');
+            let character = rest.chars().next().unwrap_or(' ');
             return Err(match operator {
                 Some(operator) => UnitError::Dangling(operator),
-                None => UnitError::Unknown(stray.to_string()),
+                None => UnitError::Unknown(character.to_string()),
             });
         }
         let (_, size, dimension) = UNITS

@@ -2,7 +2,7 @@
 
 mod constraint;
 mod curved;
-mod doors;
+mod damaged_files;
 mod draping;
 mod equilibrium;
 mod examples;

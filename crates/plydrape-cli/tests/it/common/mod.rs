@@ -23,7 +23,7 @@ pub fn text(bytes: &[u8]) -> String {
 }
 
 /// A message without the line breaks that depend on the length of a path.
-pub fn words(bytes: &[u8]) -> String {
+pub fn one_line(bytes: &[u8]) -> String {
     text(bytes).replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 

@@ -14,7 +14,7 @@ use std::path::Path;
 
 /// Checks the keys of a saddle.
 pub(super) fn saddle(keys: &Keys) -> Result<Mold, SceneError> {
-    let radii = keys.wanted(&keys.table.radii, "radii", "[\"800 mm\", \"500 mm\"]")?;
+    let radii = keys.required(&keys.table.radii, "radii", "[\"800 mm\", \"500 mm\"]")?;
     let [along, across] = &radii.value.0;
     let radii = [along.size(keys.document)?, across.size(keys.document)?];
     let domain = range(keys)?;
@@ -25,7 +25,7 @@ pub(super) fn saddle(keys: &Keys) -> Result<Mold, SceneError> {
 /// Checks the keys of a formula, which must be defined wherever the mold is.
 pub(super) fn formula(keys: &Keys, ply: &Ply) -> Result<Mold, SceneError> {
     let document = keys.document;
-    let text = keys.wanted(&keys.table.z, "z", "\"0.1*x^2 - y^2\"")?;
+    let text = keys.required(&keys.table.z, "z", "\"0.1*x^2 - y^2\"")?;
     let z = formula::read(&text.value).map_err(|error| in_place(text, document, &error))?;
     let domain = range(keys)?;
     let reach = (0..2).map(|n| extent(ply)[n]).fold(0.0, f64::hypot);
@@ -55,7 +55,8 @@ pub(super) fn formula(keys: &Keys, ply: &Ply) -> Result<Mold, SceneError> {
 
 /// Checks the keys of a height grid, and reads its file.
 pub(super) fn height_grid(keys: &Keys, base: &Path) -> Result<Mold, SceneError> {
-    let file = keys.wanted(&keys.table.file, "file", "\"heights.csv\" with the columns x, y, z")?;
+    let file =
+        keys.required(&keys.table.file, "file", "\"heights.csv\" with the columns x, y, z")?;
     let grid = heights(file, keys.document, base)?;
     let domain = Some(grid.range());
     let pose = keys.upward_pose()?;
@@ -68,11 +69,11 @@ fn range(keys: &Keys) -> Result<Option<[[f64; 2]; 2]>, SceneError> {
         (Some(x), Some(y)) => (x, y),
         (None, None) => return Ok(None),
         (Some(one), None) | (None, Some(one)) => {
-            let (given, other) = if keys.table.x.is_some() { ("x", "y") } else { ("y", "x") };
+            let (present, other) = if keys.table.x.is_some() { ("x", "y") } else { ("y", "x") };
             return Err(keys.document.error(
                 one.span.clone(),
-                format!("the mold has a range `{given}` and no `{other}`"),
-                format!("add {other} = [\"-0.2 m\", \"0.2 m\"], or remove `{given}`: the mold then has no boundary"),
+                format!("the mold has a range `{present}` and no `{other}`"),
+                format!("add {other} = [\"-0.2 m\", \"0.2 m\"], or remove `{present}`: the mold then has no boundary"),
             ));
         }
     };

@@ -85,8 +85,8 @@ fn in_order(
             "give every node of the grid one row",
         ));
     }
-    let missing = rows.iter().zip(0..).find(|((node, _), wanted)| node != wanted);
-    let missing = missing.map(|(_, wanted)| wanted);
+    let missing = rows.iter().zip(0..).find(|((node, _), expected)| node != expected);
+    let missing = missing.map(|(_, expected)| expected);
     let missing = missing.or((rows.len() < x.len() * y.len()).then_some(rows.len()));
     if let Some(node) = missing {
         let [px, py] = [x[node % x.len()], y[node / x.len()]];

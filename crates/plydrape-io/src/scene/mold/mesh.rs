@@ -13,7 +13,8 @@ use std::sync::Arc;
 /// Checks the keys of a mesh, and reads its file.
 pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), SceneError> {
     let document = keys.document;
-    let file = keys.wanted(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
+    let file =
+        keys.required(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
     let at_file =
         |error: MeshFileError| document.error(file.span.clone(), error.to_string(), error.remedy());
     let path = base.join(&file.value);

@@ -52,7 +52,7 @@ pub(super) fn mold(
 
 impl Keys<'_> {
     /// Every key beside `kind`, with its place where it is given.
-    fn given(&self) -> [(&'static str, Option<&Range<usize>>); 16] {
+    fn places(&self) -> [(&'static str, Option<&Range<usize>>); 16] {
         fn place<T>(key: &Option<Located<T>>) -> Option<&Range<usize>> {
             key.as_ref().map(|located| &located.span)
         }
@@ -80,11 +80,11 @@ impl Keys<'_> {
     /// Refuses a key that belongs to molds of another kind.
     fn check_belonging(&self) -> Result<(), SceneError> {
         let kind = self.table.kind.value;
-        let stray = self.given().into_iter().find_map(|(key, place)| {
+        let misplaced = self.places().into_iter().find_map(|(key, place)| {
             let place = place.filter(|_| !kind.keys().contains(&key))?;
             Some((key, place.clone()))
         });
-        let Some((key, place)) = stray else {
+        let Some((key, place)) = misplaced else {
             return Ok(());
         };
         let owners: Vec<String> = MoldKind::ALL
@@ -106,7 +106,7 @@ impl Keys<'_> {
     }
 
     /// A key that its kind cannot do without.
-    fn wanted<'k, T>(
+    fn required<'k, T>(
         &self,
         key: &'k Option<T>,
         name: &str,
@@ -151,9 +151,9 @@ impl Keys<'_> {
     }
 }
 
-/// Words with commas and an `and`.
-fn listed(words: &[String]) -> String {
-    match words {
+/// A list with commas and an `and`.
+fn listed(items: &[String]) -> String {
+    match items {
         [] => String::new(),
         [only] => only.clone(),
         [most @ .., last] => format!("{} and {last}", most.join(", ")),

@@ -10,7 +10,7 @@ const UPRIGHT: f64 = 0.999_998;
 
 /// Checks the keys of a cylinder.
 pub(super) fn cylinder(keys: &Keys) -> Result<Mold, SceneError> {
-    let radius = keys.wanted(&keys.table.radius, "radius", "\"500 mm\"")?.size(keys.document)?;
+    let radius = keys.required(&keys.table.radius, "radius", "\"500 mm\"")?.size(keys.document)?;
     let (pose, face) = turned(keys)?;
     match &keys.table.rotation {
         Some(rotation) if pose.axes[0][2].abs() > UPRIGHT => Err(keys.document.error(
@@ -24,7 +24,7 @@ pub(super) fn cylinder(keys: &Keys) -> Result<Mold, SceneError> {
 
 /// Checks the keys of a sphere.
 pub(super) fn sphere(keys: &Keys) -> Result<Mold, SceneError> {
-    let radius = keys.wanted(&keys.table.radius, "radius", "\"500 mm\"")?.size(keys.document)?;
+    let radius = keys.required(&keys.table.radius, "radius", "\"500 mm\"")?.size(keys.document)?;
     let (pose, face) = turned(keys)?;
     Ok(Mold::Sphere(Sphere { pose, radius, face }))
 }
@@ -32,8 +32,8 @@ pub(super) fn sphere(keys: &Keys) -> Result<Mold, SceneError> {
 /// Checks the keys of a torus.
 pub(super) fn torus(keys: &Keys) -> Result<Mold, SceneError> {
     let (table, document) = (keys.table, keys.document);
-    let ring = keys.wanted(&table.ring_radius, "ring_radius", "\"500 mm\"")?;
-    let tube = keys.wanted(&table.tube_radius, "tube_radius", "\"200 mm\"")?;
+    let ring = keys.required(&table.ring_radius, "ring_radius", "\"500 mm\"")?;
+    let tube = keys.required(&table.tube_radius, "tube_radius", "\"200 mm\"")?;
     let [ring_radius, tube_radius] = [ring.size(document)?, tube.size(document)?];
     if tube_radius >= ring_radius {
         return Err(document.error(

@@ -264,6 +264,22 @@ fn a_million_steps_are_refused_with_their_estimate() {
     assert!(steps(1000).is_ok());
 }
 
+/// The search of a plan holds two such results. A drape of the same scene has three steps only, and is not refused.
+#[test]
+fn a_plan_of_more_steps_than_fit_the_memory_is_refused_with_its_estimate() {
+    let scene = |grippers: usize| {
+        let text = SCENE.replace("[2, 2]", &format!("[{grippers}, {grippers}]"));
+        parse(&format!("{text}\n[plan]\nsteps = 90\n")).unwrap()
+    };
+    assert!(scene(4).plan_refusal.is_none());
+    let refused = scene(50).plan_refusal.unwrap();
+    assert!(
+        refused.message.contains("a plan of 90 steps with 2500 grippers")
+            && refused.help.contains("PLYDRAPE_MEMORY"),
+        "{refused}"
+    );
+}
+
 /// Texts for people are plain; names of files, which a user may not choose, are shown escaped.
 #[test]
 fn control_characters_in_titles_are_refused_and_those_of_names_are_escaped() {

@@ -14,9 +14,9 @@ import plydrape
 
 from .error import StudyError
 from .keys import nearest
+from .labels import shown
 from .law import Input
 from .scenario import Motion
-from .words import shown
 
 # Scenarios of a study that does not say how many it may have: a slip of the pen is likelier.
 MOST = 1_000_000
@@ -64,7 +64,7 @@ def bounded(table: Mapping[str, Any]) -> None:
 
 
 def one_of(table: Mapping[str, Any], key: str, known: tuple[str, ...], usual: str) -> str:
-    """A word out of several.
+    """A name out of several.
 
     Raises:
         StudyError: it is another.
@@ -97,7 +97,7 @@ def whole(table: Mapping[str, Any], key: str, usual: int | None, least: int) -> 
 
 
 def scenarios(table: Mapping[str, Any], sampling: str, laws: tuple[Input, ...]) -> int:
-    """Number of scenarios: as given, or of a grid as follows. Nothing is made yet.
+    """Number of scenarios: as written, or of a grid as follows. Nothing is made yet.
 
     Raises:
         StudyError: none is given, or more than `max_scenarios`, with what they would take.
@@ -110,15 +110,15 @@ def scenarios(table: Mapping[str, Any], sampling: str, laws: tuple[Input, ...]) 
                 help="remove it: a grid has every combination of its numbers",
                 key="samples",
             )
-        samples, said = math.prod(x.count for x in laws), "the grid"
+        samples, source = math.prod(x.count for x in laws), "the grid"
         remedy = "give fewer points or values"
     else:
         samples = whole(table, "samples", None, least=1)
-        said, remedy = f"`samples` = {samples}", "write fewer"
+        source, remedy = f"`samples` = {samples}", "write fewer"
     if samples > most:
         number = str(samples) if samples <= LARGEST else f"about 1e{len(str(samples)) - 1}"
         raise StudyError(
-            f"{said} makes {number} scenarios, which is more than {most}; their rows would take "
+            f"{source} makes {number} scenarios, which is more than {most}; their rows would take "
             f"about {size(samples * ROW)} of memory",
             help=f"{remedy}, or allow them by max_scenarios = {min(samples, LARGEST)}",
             key="vary" if sampling == "grid" else "samples",
@@ -154,22 +154,22 @@ def motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None:
         StudyError: it is absent, or given with another command.
         ResultError: it is no result of this version.
     """
-    given = table.get("plan")
+    plan = table.get("plan")
     if command != "follow":
-        if given is None:
+        if plan is None:
             return None
         raise StudyError(
-            f'`plan` = {shown(given)} goes with command = "follow" only, and this is {command!r}',
+            f'`plan` = {shown(plan)} goes with command = "follow" only, and this is {command!r}',
             help="remove it, or follow the plan",
             key="plan",
         )
-    if not isinstance(given, str | os.PathLike):
+    if not isinstance(plan, str | os.PathLike):
         raise StudyError(
             "`plan` is missing: what is to be followed?",
             help='name a finished plan: plan = "scene.plan/result.json"',
             key="plan",
         )
-    path = base / given
+    path = base / plan
     if path.is_dir():
         path = path / "result.json"
     result = plydrape.Result.read(str(path))

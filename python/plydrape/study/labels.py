@@ -1,4 +1,4 @@
-"""Numbers and names as people read them."""
+"""Labels of columns and measures, and numbers as people read them."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def shown(value: object) -> str:
 
 
 def name(key: str) -> str:
-    """A column's name in words.
+    """A column's label.
 
     Example:
         >>> name("value_slack_ratio"), name("worst_force_n"), name("first_contact_step")

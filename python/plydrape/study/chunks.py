@@ -1,4 +1,4 @@
-"""Carries a study out: runs of scenarios go to workers, rows come back, none is lost.
+"""Runs a study: runs of scenarios go to workers, rows come back, none is lost.
 
 A *chunk* is a run of neighbouring scenarios that takes a worker about a second: long enough for
 its transport not to matter, short enough that little is lost with a worker. When a worker dies
@@ -46,7 +46,7 @@ class Chunk:
 
 @dataclass(frozen=True)
 class Lost:
-    """A chunk whose worker died; `deaths` counts how often that happened, `cause` is in words."""
+    """A chunk whose worker died; `deaths` counts how often that happened, `cause` says why."""
 
     chunk: Chunk
     cause: str
@@ -82,7 +82,7 @@ class Executor(Protocol):
         """Ends what is under way."""
 
 
-def carry_out(
+def run_chunks(
     executor: Executor,
     task: Task,
     values: list[Row],
@@ -144,7 +144,7 @@ def _cut(ranges: deque[Chunk], size: int) -> Chunk:
 
 
 class Size:
-    """How many scenarios take the wanted time, from the chunks so far; it at most quadruples."""
+    """How many scenarios take that time, from the chunks so far; it at most quadruples."""
 
     def __init__(self, every: float) -> None:
         """Starts with one scenario."""

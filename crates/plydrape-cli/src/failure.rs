@@ -159,7 +159,7 @@ impl Diagnostic for Failure {
     }
 }
 
-/// A failure whose words hold no control characters, whatever names of files are in them.
+/// A failure whose text holds no control characters, whatever names of files are in them.
 #[derive(Debug)]
 struct Shown<'a>(&'a Failure);
 

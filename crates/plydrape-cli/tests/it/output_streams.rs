@@ -1,6 +1,6 @@
 //! What the command does where nothing can be written, and what it shows of names and texts.
 
-use crate::common::{command, example, text, words};
+use crate::common::{command, example, one_line, text};
 use std::fs::File;
 use std::process::{Command, Output, Stdio};
 
@@ -22,7 +22,7 @@ fn standard_output_that_is_full_is_exit_four_with_the_files_that_are_written() {
     for more in [&[][..], &["--json"]] {
         let output = run(more);
         assert_eq!(output.status.code(), Some(4), "{}", text(&output.stderr));
-        let message = words(&output.stderr);
+        let message = one_line(&output.stderr);
         assert!(message.contains("standard output cannot be written"), "{message}");
         assert!(message.contains("are written and complete: result.json"), "{message}");
         assert!(message.replace(' ', "").contains(&out.display().to_string()), "{message}");
@@ -32,11 +32,11 @@ fn standard_output_that_is_full_is_exit_four_with_the_files_that_are_written() {
     let result = out.join("result.json");
     let output = command().arg("report").arg(&result).stdout(full()).output().unwrap();
     assert_eq!(output.status.code(), Some(4));
-    assert!(words(&output.stderr).contains("is written and complete"));
+    assert!(one_line(&output.stderr).contains("is written and complete"));
     for arguments in [&["schema"][..], &["man"], &["completions", "bash"]] {
         let output = command().args(arguments).stdout(full()).output().unwrap();
         assert_eq!(output.status.code(), Some(4), "{arguments:?}");
-        assert!(words(&output.stderr).contains("no file was written"));
+        assert!(one_line(&output.stderr).contains("no file was written"));
     }
 }
 
@@ -76,12 +76,12 @@ fn a_scene_that_cannot_be_written_whole_is_not_there_at_all() {
     };
     let output = new("trap '' XFSZ; ulimit -f 0;");
     assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
-    assert!(words(&output.stderr).contains("`one.toml` cannot be written"));
+    assert!(one_line(&output.stderr).contains("`one.toml` cannot be written"));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     assert_eq!(new("").status.code(), Some(0));
     let again = new("");
     assert_eq!(again.status.code(), Some(2));
-    assert!(words(&again.stderr).contains("it exists"));
+    assert!(one_line(&again.stderr).contains("it exists"));
 }
 
 /// A terminal is never sent what a file or its name says to it.
@@ -100,7 +100,7 @@ fn no_escape_sequence_reaches_the_terminal() {
     };
     let missing = run(&["check"]);
     plain(&missing);
-    assert!(words(&missing.stderr).contains("\\u{1b}[31mred"));
+    assert!(one_line(&missing.stderr).contains("\\u{1b}[31mred"));
     let written = std::fs::read_to_string(example("02_hanging_strip")).unwrap();
     let untitled: String =
         written.lines().filter(|l| !l.starts_with("title")).map(|l| l.to_owned() + "\n").collect();
@@ -131,7 +131,7 @@ fn pipes_and_devices_are_refused_at_once() {
     let refused = |arguments: &[&str]| {
         let output = command().args(arguments).current_dir(folder.path()).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        let message = words(&output.stderr);
+        let message = one_line(&output.stderr);
         assert!(message.contains("not a regular file"), "{message}");
     };
     refused(&["check", "plan.json"]);
@@ -150,7 +150,7 @@ fn the_memory_that_is_allowed_can_be_set() {
     let check = |memory: &str| {
         let output =
             command().env("PLYDRAPE_MEMORY", memory).arg("check").arg(&scene).output().unwrap();
-        (output.status.code(), words(&output.stderr))
+        (output.status.code(), one_line(&output.stderr))
     };
     assert_eq!(check("16 GB").0, Some(0));
     let (code, message) = check("1 MB");

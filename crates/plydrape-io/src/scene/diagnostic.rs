@@ -1,10 +1,10 @@
-//! What the TOML reader and serde complain about, in plain words and with a remedy.
+//! Diagnostics of the TOML reader and of serde, rewritten in the terms of a scene and with a remedy.
 
-use super::error::{Document, SceneError};
+use super::error::{Document, SceneError, excerpt};
 use std::ops::Range;
 
-/// A complaint of the TOML reader or of serde as a [`SceneError`].
-pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> SceneError {
+/// A diagnostic of the TOML reader or of serde as a [`SceneError`].
+pub(super) fn scene_error(document: &Document, error: &toml::de::Error) -> SceneError {
     let mut span = error.span().unwrap_or(0..0);
     let text = error.message().trim();
     let (head, expected) = match text.split_once(", expected ") {
@@ -23,7 +23,7 @@ pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> Sc
         let known = every_tick(expected);
         let suggestion = suggestion(quoted, &known);
         (
-            format!("\"{quoted}\" is no choice here"),
+            format!("\"{}\" is no choice here", excerpt(quoted)),
             match known.as_slice() {
                 [only] => format!("the only choice is \"{only}\""),
                 _ => format!("{suggestion}the choices are {}", listed(&known, '"')),
@@ -35,15 +35,15 @@ pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> Sc
                 "1" => "one value stands here".into(),
                 _ => format!("{found} values stand here"),
             },
-            wanted(expected),
+            remedy(expected),
         )
     } else if head.starts_with("invalid value: string") {
-        (format!("{} is no choice here", document.quoted(&span)), wanted(expected))
+        (format!("{} is no choice here", document.quoted(&span)), remedy(expected))
     } else if text == "wanted string or table" {
         let remedy = "a choice in double quotes is wanted, as in kind = \"plane\"";
         (format!("{} is {}", document.quoted(&span), kind_of(document, &span)), remedy.into())
     } else if head.starts_with("invalid type") || head.starts_with("invalid value") {
-        (format!("{} is {}", document.quoted(&span), kind_of(document, &span)), wanted(expected))
+        (format!("{} is {}", document.quoted(&span), kind_of(document, &span)), remedy(expected))
     } else if text.starts_with("duplicate key") {
         (
             format!("the key `{}` stands here twice", document.excerpt(&span)),
@@ -64,7 +64,7 @@ pub(super) fn in_plain_words(document: &Document, error: &toml::de::Error) -> Sc
     document.error(span, message, help)
 }
 
-/// What a value is, in TOML's words, from its first character.
+/// What a value is, in TOML's terms, from its first character.
 fn kind_of(document: &Document, span: &Range<usize>) -> &'static str {
     let text = document.text.get(span.clone()).unwrap_or_default();
     match text.trim_start().chars().next() {
@@ -92,7 +92,7 @@ fn starts_a_line(document: &Document, at: usize) -> bool {
 }
 
 /// `a length is wanted, e.g. "98 mm"` from `a length, e.g. "98 mm"`.
-fn wanted(expected: &str) -> String {
+fn remedy(expected: &str) -> String {
     match expected.split_once(", e.g. ") {
         _ if expected == "a string" => "a text in double quotes is wanted".into(),
         Some((what, example)) => format!("{what} is wanted, e.g. {example}"),
@@ -108,7 +108,7 @@ fn header(document: &Document, span: Range<usize>) -> Range<usize> {
 }
 
 fn unknown_key(key: &str, known: &[&str]) -> (String, String) {
-    let message = format!("`{key}` is no key here");
+    let message = format!("`{}` is no key here", excerpt(key));
     if key == "material" && known.contains(&"flexural_rigidity") {
         let help = "a material file cannot name another material: give its mass and rigidity";
         return (message, help.into());
