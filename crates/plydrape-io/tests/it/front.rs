@@ -1,5 +1,6 @@
 //! A front that lays the ply: the lifted mold, the formation of grippers on it, and corrections by gradients.
 
+use crate::common::{distance, example};
 use plydrape::measure::Name;
 use plydrape::mold::{HeightGrid, Lift, Lifted};
 use plydrape::planner::board::Board;
@@ -7,19 +8,7 @@ use plydrape::planner::judge;
 use plydrape::planner::path::{Formation, Ground, Strategy, correction, longest_move, trajectory};
 use plydrape::scene::Scene;
 use std::ops::ControlFlow;
-use std::path::Path;
 use std::sync::Arc;
-
-fn example(name: &str) -> Scene {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-    plydrape_io::scene::read(&root.join(name).join("scene.toml"))
-        .expect("an example is sound")
-        .scene
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
-}
 
 const RING: Strategy =
     Strategy { start: [0.5; 2], ratio: 1.0, angle: 0.0, curvature: 4.0, slope: 0.4, pull: 1e-4 };
