@@ -38,25 +38,12 @@ describe("results page", { skip: missing ?? false }, () => {
     rmSync(scratch, { recursive: true, force: true });
   });
 
-  for (const report of reports) {
-    describe(report.name, () => {
-      let opened;
-      before(async () => {
-        opened = await openReport(browser, report.file);
-      });
-      after(() => opened?.context.close());
-      test("opens without a complaint and asks for nothing", () => opens(report, opened));
-      test("the slider moves the ply to the result's positions", () => sliderMoves(report, opened.page));
-      test("plays, stops, and steps by keyboard", () => playsAndSteps(opened.page));
-      test("every colour mode has its own legend", () => coloursHaveLegends(opened.page));
-      test("a limit leads to its step and place", () => limitsLead(report, opened.page));
-      test("charts hold the numbers of steps.csv, and a click goes to a step", () =>
-        chartsHold(report, opened.page));
-      test("prints without controls, in light", () => prints(opened.page));
-      test("has complained of nothing in all this", () => assert.deepEqual(opened.complaints, []));
-    });
-  }
+  // Two pages at a time, each with its tests in order.
+  describe("of every example", { concurrency: 2 }, () => {
+    for (const report of reports) describe(report.name, { concurrency: 1 }, () => shows(report));
+  });
 
+  test("plays from the first step to the last", () => playsThrough(reports[0]));
   test("light and dark differ, by the system and by the button", () => themesDiffer(reports[0]));
   test("views look from elsewhere, and the list of keys opens", () => viewsDiffer(reports[0]));
   test("damaged data gives one sentence", () => damagedDataIsSaid(reports[0]));
@@ -71,13 +58,49 @@ describe("results page", { skip: missing ?? false }, () => {
   );
 });
 
+/** What holds for every page, tried on one that stays open. */
+function shows(report) {
+  let opened;
+  before(async () => {
+    opened = await openReport(browser, report.file);
+  });
+  after(() => opened?.context.close());
+  test("opens without a complaint and asks for nothing", () => opens(report, opened));
+  test("the slider moves the ply to the result's positions", () => sliderMoves(report, opened.page));
+  test("plays, stops, and steps by keyboard", () => playsAndSteps(opened.page));
+  test("every colour mode has its own legend", () => coloursHaveLegends(opened.page));
+  test("a limit leads to its step and place", () => limitsLead(report, opened.page));
+  test("charts hold the numbers of steps.csv, and a click goes to a step", () =>
+    chartsHold(report, opened.page));
+  test("prints without controls, in light", () => prints(opened.page));
+  test("has complained of nothing in all this", () => assert.deepEqual(opened.complaints, []));
+}
+
+/** Waits until so many frames were drawn. */
+async function frames(page, count) {
+  await page.evaluate(async (n) => {
+    for (let k = 0; k < n; k++) await new Promise(requestAnimationFrame);
+  }, count);
+}
+
+/** Checks until it holds, for two seconds at most. */
+async function eventually(check) {
+  for (const end = performance.now() + 2000; ; await new Promise((again) => setTimeout(again, 10))) {
+    try {
+      return await check();
+    } catch (error) {
+      if (performance.now() > end) throw error;
+    }
+  }
+}
+
 async function opens(report, { page, complaints, requests }) {
   for (const [width, height] of [
     [1920, 1080],
     [1280, 720],
   ]) {
     await page.setViewportSize({ width, height });
-    await page.waitForTimeout(200);
+    await frames(page, 2);
     // Title, verdict and picture are in view, and nothing is wider than the window.
     for (const selector of ["#title", "#verdict", "#picture", "#slider"]) {
       const box = await page.locator(selector).boundingBox();
@@ -200,15 +223,34 @@ async function playsAndSteps(page) {
   await page.keyboard.press("Space");
   assert.ok(!(await page.evaluate(() => window.plydrape.playing)));
   const stopped = await now();
-  await page.waitForTimeout(400);
+  const played = () => page.evaluate(() => window.plydrape.frames.length);
+  const before = await played();
+  await frames(page, 5);
   assert.equal(await now(), stopped, "it stands still");
+  assert.equal(await played(), before, "no frame is played any more");
 
+  await setSlider(page, Math.max(last - 3, 0));
+  await page.locator("#speed").selectOption("4");
+  await page.locator("#play").click();
+  await playsToTheEnd(page);
+}
+
+/** Playing ends by itself, at the last step. */
+async function playsToTheEnd(page) {
+  await page.waitForFunction(
+    () => window.plydrape.step === window.plydrape.steps.at(-1) && !window.plydrape.playing,
+    null,
+    { timeout: 20_000 },
+  );
+}
+
+async function playsThrough(report) {
+  const { page, context } = await openReport(browser, report.file);
   await page.keyboard.press("Home");
   await page.locator("#speed").selectOption("4");
   await page.locator("#play").click();
-  await page.waitForFunction((end) => window.plydrape.step === end && !window.plydrape.playing, steps[last], {
-    timeout: 20_000,
-  });
+  await playsToTheEnd(page);
+  await context.close();
 }
 
 async function coloursHaveLegends(page) {
@@ -342,12 +384,18 @@ async function chartsHold(report, page) {
   for (const number of [steps[0], steps[steps.length - 1]]) {
     await page.evaluate((step) => window.plydrape.goto(step), number);
     const index = steps.indexOf(number);
-    await page.waitForTimeout(150); // markers follow within a tenth of a second
-    for (const { key, values } of charted) {
-      const title = await page.locator(`.chart[data-measure="${key}"] .chart-value`).getAttribute("title");
-      if (values[index] === null) assert.match(title, /no value/);
-      else assert.equal(parseFloat(title.replaceAll("−", "-")), values[index], key);
-    }
+    // markers follow within a tenth of a second
+    await eventually(async () => {
+      const titles = await page.evaluate(
+        (keys) =>
+          keys.map((key) => document.querySelector(`.chart[data-measure="${key}"] .chart-value`).title),
+        charted.map(({ key }) => key),
+      );
+      charted.forEach(({ key, values }, k) => {
+        if (values[index] === null) assert.match(titles[k], /no value/);
+        else assert.equal(parseFloat(titles[k].replaceAll("−", "-")), values[index], key);
+      });
+    });
   }
 
   // A click in the middle of a chart goes to the step in the middle, and the marker follows.
@@ -359,10 +407,11 @@ async function chartsHold(report, page) {
     const middle = (steps[0] + steps[steps.length - 1]) / 2;
     assert.ok(Math.abs(step - middle) <= 1, `step ${step}, the middle is ${middle}`);
     assert.equal(await page.locator("#slider").inputValue(), String(steps.indexOf(step)));
-    await page.waitForTimeout(150);
-    const marker = await page.locator(".chart .chart-marker").first().boundingBox();
     const expected = box.x + (box.width * (step - steps[0])) / (steps[steps.length - 1] - steps[0]);
-    assert.ok(Math.abs(marker.x + marker.width / 2 - expected) <= 1.5, "the marker stands on the step");
+    await eventually(async () => {
+      const marker = await page.locator(".chart .chart-marker").first().boundingBox();
+      assert.ok(Math.abs(marker.x + marker.width / 2 - expected) <= 1.5, "the marker stands on the step");
+    });
   }
 }
 
