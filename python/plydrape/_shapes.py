@@ -14,9 +14,6 @@ if TYPE_CHECKING:
 GRIPPER = 0.12
 """Radius of a gripper as a share of the shorter side of a cell; it is drawn, not modelled."""
 
-FLAT = 5e-4
-"""Slack ratio up to which a span that lies on the mold counts as touching it along its length."""
-
 
 class Ply(NamedTuple):
     """The ply's surface of one step, with a value for its colour at every triangle or point."""
@@ -54,10 +51,10 @@ def edges(grid: tuple[int, int]) -> int:
     return (nu - 1) * nv + nu * (nv - 1)
 
 
-def radius(record: dict[str, Any]) -> float:
+def radius(result: Result) -> float:
     """Radius of a gripper's disc (m)."""
-    u, v = record["scene"]["cell"]
-    return GRIPPER * float(min(u, v) if record["scene"]["grid"]["nv"] > 1 else u)
+    u, v = result.cell
+    return GRIPPER * (min(u, v) if result.grid[1] > 1 else u)
 
 
 def discs(result: Result, step: int, size: float, corners: int = 28) -> NDArray[np.float64]:
@@ -73,30 +70,6 @@ def turned(quaternions: NDArray[np.float64], points: NDArray[np.float64]) -> NDA
     axis, w = quaternions[:, None, :3], quaternions[:, None, 3:]
     once = 2.0 * np.cross(axis, points[None, :, :])
     return np.asarray(points[None, :, :] + w * once + np.cross(axis, once))
-
-
-def touching(record: dict[str, Any], step: int) -> list[NDArray[np.float64]]:
-    """The parts of catenaries that touch the mold at a step, each a polyline (N, 3) in m."""
-    out = []
-    for line in record["steps"][step - 1]["catenaries"]:
-        parts = [
-            (span["arc"], span["points"])
-            for span in line["spans"]
-            if span["state"] == "lying" and (span["slack_ratio"] or 0.0) < FLAT
-        ]
-        if line.get("contact"):
-            parts.append((line["contact"]["arc"], line["contact"]["points"]))
-        # parts that follow one another along the fabric are one
-        parts.sort(key=lambda part: sum(part[0]))
-        joined: list[list[Any]] = []
-        end = -np.inf
-        for arc, points in parts:
-            if arc[0] > end + 1e-9 or not joined:
-                joined.append([])
-            joined[-1] += points
-            end = arc[1]
-        out += [np.asarray(points, float) for points in joined if points]
-    return out
 
 
 def outline(net: Any) -> list[NDArray[np.float64]]:

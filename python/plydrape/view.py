@@ -87,7 +87,6 @@ def scene3d(
         raise ValueError(f"the result has no step {step}; its steps are 1 to {last}")
     if intervals < 1:
         raise ValueError(f"{intervals} intervals in a cell; 1 or more make a surface")
-    record = result.to_dict()
     curved = result.mold is not None and result.mold.kind != "plane"
     kind = colour or ("gap" if curved else "height")
     if kind not in NAMES:
@@ -100,17 +99,17 @@ def scene3d(
     new = plotter is None
     out: Any = pv.Plotter() if plotter is None else plotter
     if mold:
-        _mold(pv, out, result, 0.05 * _shapes.radius(record))
+        _mold(pv, out, result, 0.05 * _shapes.radius(result))
     ply = _shapes.ply(result, chosen, intervals)
     if ply is not None:
         _ply(pv, out, ply, kind, limits)
     lines = result.lines(chosen)
     edges = _shapes.edges(result.grid)
-    radius = _shapes.radius(record)
+    radius = _shapes.radius(result)
     _lines(pv, out, lines[:edges], "edges", RED, 0.07 * radius)
     if diagonals:
         _lines(pv, out, lines[edges:], "diagonals", RED, 0.04 * radius)
-    _lines(pv, out, _shapes.touching(record, chosen), "touching", RED, 0.13 * radius)
+    _lines(pv, out, result.contact_lines(chosen), "touching", RED, 0.13 * radius)
     discs = _prisms(pv, _shapes.discs(result, chosen, radius), 0.28 * radius)
     out.add_mesh(discs, color=BLACK, name="grippers")
     if new:

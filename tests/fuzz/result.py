@@ -1,6 +1,6 @@
 """Results: written by the command, changed, and sealed again, so that their contents are judged.
 
-The check sum of a result file is the CRC-32 of its text with an empty check sum in it.
+The check sum of a result file, its last value, is the CRC-32 of all that stands before it.
 """
 
 from __future__ import annotations
@@ -20,13 +20,12 @@ KEY = '"checksum":'
 
 def sealed(text: str) -> str:
     """The text with the check sum that belongs to it; as it is where it has no place for one."""
-    start = text.find(KEY + '"')
-    end = text.find('"', start + len(KEY) + 1)
-    if start < 0 or end < 0:
+    start = text.rfind(KEY + '"')
+    if start < 0:
         return text
-    head, tail = text[:start], text[end + 1 :]
-    crc = zlib.crc32((head + KEY + '""' + tail.rstrip()).encode(errors="replace"))
-    return f'{head}{KEY}"crc32:{crc:08x}"{tail}'
+    head = text[: start + len(KEY)]
+    crc = zlib.crc32(head.encode(errors="replace"))
+    return f'{head}"crc32:{crc:08x}"}}\n'
 
 
 def json_text(result: Any) -> str:

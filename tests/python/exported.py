@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import record
 from program import run
 
 RADIUS = 0.5
@@ -88,16 +88,18 @@ def made(command: str, home: Path, text: str = SCENE) -> Result:
     text = text.replace(DURATION, "") if command == "plan" else text
     (home / "scene.toml").write_text(text)
     run(command, str(home / "scene.toml"), "-o", str(home / command), "--quiet")
-    content = json.loads((home / command / "result.json").read_text())
-    return Result(home / command, content)
+    return Result(home / command, record.read(home / command / "result.json"))
 
 
-def stations(step: dict[str, Any]) -> Iterator[tuple[dict[str, Any], str, list[list[float]]]]:
-    """Every drawn piece of every catenary: the catenary, `span` or `contact`, its points."""
+def pieces(
+    step: dict[str, Any],
+) -> Iterator[tuple[dict[str, Any], dict[str, Any] | None]]:
+    """Every drawn piece of every catenary: the catenary, and the span or None for its contact."""
     for line in step["catenaries"]:
         for span in line["spans"]:
-            # a rest of no length has no points
-            if span["points"]:
-                yield line, "span", span["points"]
+            # a segment of no length has no points, and one that lies whole is drawn by its contact
+            lies = span["hold"] == "lying"
+            if not lies or 0.0 < span["length"] < line["length"]:
+                yield line, span
         if line["contact"]:
-            yield line, "contact", line["contact"]["points"]
+            yield line, None

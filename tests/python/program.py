@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 from pathlib import Path
 from typing import Any
 
 import pytest
+import record
 from oracle import Problem
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -82,4 +82,4 @@ def simulate(problem: Problem, folder: Path) -> Any:
     path = folder / "scene.toml"
     path.write_text(scene(problem))
     run("simulate", str(path), "-o", str(folder / "out"), "--json")
-    return json.loads((folder / "out" / "result.json").read_text())["steps"][0]
+    return record.read(folder / "out" / "result.json")["steps"][0]

@@ -5,7 +5,7 @@ CalculiX knows nothing of catenaries: it hangs a sheet of shells from the same g
 
 from __future__ import annotations
 
-import json
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,10 @@ import meshio
 import numpy as np
 import pytest
 from calculix import Array, Deck, ccx
+import record
 from program import ROOT, run
+
+import plydrape
 
 AREAL_MASS, RIGIDITY, GRAVITY = 3.143, 9e-5, 9.8
 """The paper's ply, as strips of 100 mm: kg/m², N m, m/s²."""
@@ -42,6 +45,8 @@ class Drape:
     """A result and the deck made from it."""
 
     result: Any
+    lines: Callable[[int], list[Array]]
+    """The catenaries of a step from gripper to gripper (m)."""
     deck: Deck
 
 
@@ -51,7 +56,7 @@ def drape(scene: Path, home: Path) -> Drape:
     result = home / "out" / "result.json"
     run("export", str(result), "--to", "inp", "-o", str(home / "deck"), "--quiet")
     deck = Deck((home / "deck" / "ply.inp").read_text())
-    return Drape(json.loads(result.read_text()), deck)
+    return Drape(record.read(result), plydrape.Result.read(result).lines, deck)
 
 
 def hanging(nu: int, nv: int, home: Path) -> Drape:
@@ -97,18 +102,19 @@ def solved(ply: Drape, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Ar
 
 def sag_of_model(drape: Drape, cell: int, row: int) -> float:
     """Depth (m) of the model's catenary along u below its grippers, in the last step."""
+    nu = drape.result["scene"]["ply"]["grid"]["nu"]
     (edge,) = [
-        c
-        for c in drape.result["steps"][-1]["catenaries"]
-        if c["kind"] == "edge" and c["from"] == [cell, row] and c["to"] == [cell + 1, row]
+        n
+        for n, line in enumerate(drape.result["steps"][-1]["catenaries"])
+        if line["from"] == [cell, row] and line["to"] == [cell + 1, row]
     ]
-    heights = np.array([p[2] for span in edge["spans"] for p in span["points"]])
+    heights = drape.lines(-1)[edge][:, 2]
     return float(heights[0] - heights.min())
 
 
 def sag_of_sheet(drape: Drape, found: dict[str, Array], cell: int, row: int) -> float:
     """Depth (m) of the sheet in the middle of that edge; the grippers are level."""
-    nu = drape.result["scene"]["grid"]["nu"]
+    nu = drape.result["scene"]["ply"]["grid"]["nu"]
     node = drape.deck.node_set("MIDDLE_U")[row * (nu - 1) + cell]
     rows = found["MIDDLE_U U"]
     (moved,) = rows[rows[:, 0] == node]
@@ -223,7 +229,7 @@ def test_meshio_reads_the_deck(name: str, request: pytest.FixtureRequest, tmp_pa
     (tmp_path / "ply.inp").write_text(drape.deck.text)
     mesh = meshio.read(tmp_path / "ply.inp")
     cells = {block.type: block.data for block in mesh.cells}
-    grid = drape.result["scene"]["grid"]
+    grid = drape.result["scene"]["ply"]["grid"]
     along, across = grid["nu"] - 1, max(grid["nv"] - 1, 1)
     n, m = 10 * along, 10 * across
     quads = cells["quad8"]

@@ -9,13 +9,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from exported import RADIUS, SCENE, Numbers, Result, made, stations
+import record
+from exported import RADIUS, SCENE, Numbers, Result, made, pieces
 from scipy.spatial.transform import Rotation
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkCommand
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-KINDS = {"edge": 0, "diagonal": 1}
+import plydrape
+
 DIRECTIONS = {"u": 0, "v": 1, "rising": 2, "falling": 3}
 STATES = {"hanging": 0, "overstretched": 1, "straight": 2, "lying": 3}
 
@@ -126,42 +128,57 @@ def test_every_file_is_in_a_series_and_opens(drape: Exported) -> None:
 def test_catenaries_are_those_of_the_result(drape: Exported) -> None:
     """Every piece is one line through the same points, with the same numbers to the last bit."""
     touched = False
+    drawn = plydrape.Result.read(drape.result.folder / "result.json")
     for index, step in enumerate(drape.result.steps):
         poly = drape.step("catenaries", index)
-        pieces = [(line, kind, points) for line, kind, points in stations(step)]
-        assert not poly.verts and not poly.polys and len(poly.lines) == len(pieces)
-        for joined, (_, _, points) in zip(poly.lines, pieces, strict=True):
-            # a touch in a single point is a line from it to itself
-            assert np.array_equal(poly.points[joined], points * (2 if len(points) == 1 else 1))
-        spans = [
-            (line, span) for line in step["catenaries"] for span in line["spans"] if span["points"]
-        ]
+        found = list(pieces(step))
+        whole = [{*map(tuple, line)} for line in drawn.lines(index + 1)]
+        assert not poly.verts and not poly.polys and len(poly.lines) == len(found)
+        for joined, n, (line, span) in zip(poly.lines, poly.in_cells["catenary"], found, strict=True):
+            points = poly.points[joined]
+            if span is None:
+                # a touch in a single point is a line from it to itself
+                due = line["contact"]["points"]
+                assert np.array_equal(points, due * (2 if len(due) == 1 else 1))
+            # a part of the line that the package draws from gripper to gripper
+            assert {*map(tuple, points)} <= whole[n]
+        spans = [(line, span) for line, span in found if span is not None]
         held = poly.in_cells["state"] != 4
-        assert held.tolist() == [kind == "span" for _, kind, _ in pieces]
+        assert held.tolist() == [span is not None for _, span in found]
         touched |= not held.all()
 
-        def of_line(key: str, pieces: Any = pieces) -> list[Any]:
-            return [line[key] for line, _, _ in pieces]
+        def of_line(key: str, found: Any = found) -> list[Any]:
+            return [line[key] for line, _ in found]
 
         data = poly.in_cells
-        assert data["kind"].tolist() == [KINDS[k] for k in of_line("kind")]
-        assert data["direction"].tolist() == [DIRECTIONS[d] for d in of_line("direction")]
+        kinds = of_line("kind")
+        assert data["kind"].tolist() == [not kind.startswith("edge") for kind in kinds]
+        assert data["direction"].tolist() == [
+            DIRECTIONS[kind.removeprefix("edge-")] for kind in kinds
+        ]
         assert data["set_length_m"].tolist() == of_line("length")
         assert data["shearing"].tolist() == of_line("shearing")
         for end in ["from", "to"]:
             ids = np.column_stack([data[f"{end}_i"], data[f"{end}_j"]])
             assert ids.tolist() == of_line(end)
         lines = [step["catenaries"][n] for n in data["catenary"]]
-        assert all(line is piece[0] for line, piece in zip(lines, pieces, strict=True))
-        assert data["state"][held].tolist() == [STATES[span["state"]] for _, span in spans]
+        assert all(line is piece[0] for line, piece in zip(lines, found, strict=True))
+        assert data["state"][held].tolist() == [STATES[span["hold"]] for _, span in spans]
         forces = [span["H_N"] for _, span in spans]
         assert data["has_force"][held].tolist() == [force is not None for force in forces]
         assert data["H_N"][held].tolist() == [force or 0.0 for force in forces]
-        for name, key in [("length_m", "length")] + [
-            (key, key)
-            for key in ["slack_mm", "slack_ratio", "wrinkle_mm", "overstretch", "overstretch_mm"]
-        ]:
-            assert data[name][held].tolist() == [span[key] for _, span in spans], name
+        slack = np.array([record.slack_mm(span, line["length"]) for line, span in spans])
+        stretch = np.array([record.overstretch_mm(span, line["length"]) for line, span in spans])
+        length = np.array([span["length"] for _, span in spans])
+        assert data["length_m"][held].tolist() == length.tolist()
+        assert data["slack_mm"][held].tolist() == slack.tolist()
+        assert data["overstretch_mm"][held].tolist() == stretch.tolist()
+        assert np.allclose(data["slack_ratio"][held], slack / length / 1e3, rtol=1e-14, atol=0)
+        shares = stretch / [line["length"] for line, _ in spans] / 1e3
+        assert np.allclose(data["overstretch"][held], shares, rtol=1e-14, atol=0)
+        if "wrinkle_mm" in step["measures"]:
+            worst = step["measures"]["wrinkle_mm"]["value"]
+            assert data["wrinkle_mm"][data["kind"] == 0].max() <= worst * (1 + 1e-12)
         for name in ["H_N", "has_force", "slack_mm", "overstretch"]:
             assert not data[name][~held].any()
         for joined, state in zip(poly.lines, data["state"], strict=True):
@@ -257,5 +274,6 @@ def test_a_strip_has_neither_surface_nor_mold(tmp_path_factory: pytest.TempPathF
     assert sorted(path.name for path in strip.folder.glob("*.vtp")) == parts
     [span] = result.steps[0]["catenaries"][0]["spans"]
     poly = strip.step("catenaries", 0)
-    assert np.array_equal(poly.points, span["points"])
+    [line] = plydrape.Result.read(result.folder / "result.json").lines(1)
+    assert np.array_equal(poly.points, line)
     assert poly.in_cells["has_force"].tolist() == [1] and poly.in_cells["H_N"] == [span["H_N"]]

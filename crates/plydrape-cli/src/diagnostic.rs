@@ -54,7 +54,7 @@ pub enum Failure {
     Results(#[from] plydrape_io::OutputError),
     /// A result file was refused.
     #[error(transparent)]
-    Read(#[from] plydrape_io::read::ReadError),
+    Read(#[from] plydrape_io::result::read::ReadError),
     /// Standard output could not be written; the files are.
     #[error("standard output cannot be written: {reason}")]
     Stdout {

@@ -82,7 +82,7 @@ pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
 pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError> {
     match (&result.plan, result.motion()?) {
         (Some(plan), Some((timed, attitudes))) => {
-            motion(&timed, &attitudes, result.scene.grid, plan.rate).map(Some)
+            motion(&timed, &attitudes, result.scene.ply.grid, plan.rate).map(Some)
         }
         _ => Ok(None),
     }

@@ -10,9 +10,9 @@
 //! runs that were killed have left is cleared by the next one.
 
 use super::OutputError;
-use super::manifest::{Manifest, NAME as MANIFEST};
+use super::manifest::{Manifest, NAME as MANIFEST, Stamp, Stamping};
 use std::fs::{self, File, TryLockError};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -21,6 +21,27 @@ const STAGE: &str = ".plydrape-";
 
 /// The file of a stage that says whose it is.
 const OWNER: &str = "owner";
+
+/// What a file will hold: bytes, or something that writes itself piece by piece.
+pub trait Content {
+    /// Writes all of it.
+    ///
+    /// # Errors
+    /// If the writer refuses, or there is something that cannot be written.
+    fn write(&self, to: &mut dyn Write) -> io::Result<()>;
+}
+
+impl Content for &[u8] {
+    fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        to.write_all(self)
+    }
+}
+
+impl Content for &dyn Content {
+    fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        (**self).write(to)
+    }
+}
 
 /// A folder that one run has claimed.
 #[derive(Debug)]
@@ -92,9 +113,9 @@ impl Folder {
     /// # Errors
     /// [`OutputError::Foreign`] if a file in the way was not written by plydrape or was changed since;
     /// the other variants where the folder or the disk refuses.
-    pub fn write(
+    pub fn write<C: Content>(
         mut self,
-        files: &[(&str, &[u8])],
+        files: &[(&str, C)],
         read: &[PathBuf],
     ) -> Result<Vec<PathBuf>, OutputError> {
         self.put(files, Some(read))
@@ -104,13 +125,16 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::write`].
-    pub fn write_more(mut self, files: &[(&str, &[u8])]) -> Result<Vec<PathBuf>, OutputError> {
+    pub fn write_more<C: Content>(
+        mut self,
+        files: &[(&str, C)],
+    ) -> Result<Vec<PathBuf>, OutputError> {
         self.put(files, None)
     }
 
-    fn put(
+    fn put<C: Content>(
         &mut self,
-        files: &[(&str, &[u8])],
+        files: &[(&str, C)],
         read: Option<&[PathBuf]>,
     ) -> Result<Vec<PathBuf>, OutputError> {
         // Nothing is touched before every name is known to be free or our own.
@@ -138,16 +162,17 @@ impl Folder {
 
         // Stage everything on the disk, beside its place.
         let Some(stage) = self.stage.take() else { return Ok(Vec::new()) };
-        let new = Manifest::of(self.by, files);
+        let mut stamps = Vec::with_capacity(files.len());
+        for (name, content) in files {
+            stamps.push(((*name).to_owned(), stage_file(&stage, &dir, name, content)?));
+        }
+        let new = Manifest::of(self.by, stamps);
         let both = earlier.with(&new);
         // files that went were ours, and files that came are: what stays is listed as it was
         let sealed = read.is_some() || earlier.is_sealed();
         let own = earlier.without(&stale).replaced_by(&new, sealed);
-        for (name, content) in files {
-            stage_file(&stage, &dir, name, content)?;
-        }
-        stage_file(&stage, &dir, "both", both.text()?.as_bytes())?;
-        stage_file(&stage, &dir, "sealed", own.text()?.as_bytes())?;
+        stage_file(&stage, &dir, "both", &both.text()?.as_bytes())?;
+        stage_file(&stage, &dir, "sealed", &own.text()?.as_bytes())?;
 
         // Move in, the list first: a cut in power from here on leaves only files that it knows.
         let mut moves = Moves::new(&dir, stage);
@@ -238,12 +263,22 @@ fn make(dir: &Path) -> Result<bool, OutputError> {
     }
 }
 
-fn stage_file(stage: &TempDir, dir: &Path, name: &str, content: &[u8]) -> Result<(), OutputError> {
+fn stage_file<C: Content>(
+    stage: &TempDir,
+    dir: &Path,
+    name: &str,
+    content: &C,
+) -> Result<Stamp, OutputError> {
+    let write = |file: File| {
+        let mut to = Stamping::new(BufWriter::new(&file));
+        content.write(&mut to)?;
+        to.flush()?;
+        let stamp = to.stamp();
+        file.sync_all()?;
+        Ok(stamp)
+    };
     File::create_new(stage.path().join(format!("new-{name}")))
-        .and_then(|mut file| {
-            file.write_all(content)?;
-            file.sync_all()
-        })
+        .and_then(write)
         .map_err(|e| OutputError::io("write", &dir.join(name), e))
 }
 

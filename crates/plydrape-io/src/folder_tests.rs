@@ -77,7 +77,7 @@ fn a_move_that_fails_in_the_middle_is_undone() {
     let before = contents(dir.path());
     let stage = tempfile::Builder::new().prefix(".plydrape-").tempdir_in(dir.path()).unwrap();
     for name in ["a", "b"] {
-        stage_file(&stage, dir.path(), name, b"2").unwrap();
+        stage_file(&stage, dir.path(), name, &&b"2"[..]).unwrap();
     }
     let mut moves = Moves::new(dir.path(), stage);
     moves.put("a", "a").unwrap();
@@ -89,13 +89,19 @@ fn a_move_that_fails_in_the_middle_is_undone() {
     assert_eq!(contents(dir.path()), before);
 }
 
+/// A list of two files that both hold `2`.
+fn of_two() -> Manifest {
+    let stamp = |name: &str| (name.into(), Stamp::of(&b"2"[..]).unwrap());
+    Manifest::of("simulate", ["a", "b"].map(stamp))
+}
+
 /// Between the two lists a power cut may fall: both the old and the new files are known then.
 #[test]
 fn a_cut_between_list_and_files_leaves_a_folder_that_a_rerun_knows() {
     let dir = tempfile::tempdir().unwrap();
     write(dir.path(), "simulate", &[("a", b"1"), ("b", b"1")]).unwrap();
     let old = Manifest::read(dir.path()).unwrap();
-    let both = old.with(&Manifest::of("simulate", &[("a", b"2"), ("b", b"2")]));
+    let both = old.with(&of_two());
     fs::write(dir.path().join(MANIFEST), both.text().unwrap()).unwrap();
     fs::write(dir.path().join("a"), "2").unwrap();
     write(dir.path(), "simulate", &[("a", b"3"), ("b", b"3")]).unwrap();
@@ -222,7 +228,7 @@ fn a_claimed_folder_is_refused_with_who_holds_it() {
     assert!(said.contains("`plydrape simulate`"), "{said}");
     assert!(said.contains(&std::process::id().to_string()), "{said}");
     drop(first);
-    Folder::claim(dir.path(), "plan").unwrap().write(&[("a", b"1")], &[]).unwrap();
+    Folder::claim(dir.path(), "plan").unwrap().write(&[("a", &b"1"[..])], &[]).unwrap();
 }
 
 /// A claim that writes nothing leaves nothing, not even the folder that it made.
@@ -255,7 +261,7 @@ fn the_seal_comes_last() {
     write(dir.path(), "simulate", &[("a", b"1"), ("b", b"1")]).unwrap();
     assert!(is_sealed(dir.path()));
     let both = Manifest::read(dir.path()).unwrap();
-    let both = both.with(&Manifest::of("simulate", &[("a", b"2"), ("b", b"2")]));
+    let both = both.with(&of_two());
     fs::write(dir.path().join(MANIFEST), both.text().unwrap()).unwrap();
     fs::write(dir.path().join("a"), "2").unwrap();
     assert!(!is_sealed(dir.path()));
@@ -277,6 +283,6 @@ fn old_files_of_other_commands_and_inputs_stay() {
     let read = [dir.path().join("in")];
     assert!(matches!(folder.spare(&["a", "in"], &read), Err(OutputError::Input { .. })));
     folder.spare(&["a"], &read).unwrap();
-    folder.write(&[("result.json", b"3")], &read).unwrap();
+    folder.write(&[("result.json", &b"3"[..])], &read).unwrap();
     assert_eq!(names(dir.path()), [".plydrape", "in", "old", "plan.json", "result.json"]);
 }

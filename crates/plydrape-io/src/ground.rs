@@ -10,7 +10,7 @@ const BEYOND: f64 = 0.15;
 /// (m); none of a result without steps and target.
 pub(super) fn extent(result: &ResultFile) -> Option<[[f64; 2]; 2]> {
     let places = result.steps.iter().flat_map(|step| &step.grippers).map(|g| g.position);
-    let targets = result.scene.target_grippers.iter().flatten().copied();
+    let targets = result.scene.target_grippers().into_iter().flatten().copied();
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for place in places.chain(targets) {
         for c in 0..2 {

@@ -22,11 +22,9 @@ pub mod input;
 pub mod json;
 mod manifest;
 pub mod mesh;
-mod mold_record;
 pub mod net;
 pub mod page;
 pub mod plan;
-pub mod read;
 pub mod result;
 pub mod ros2;
 pub mod scene;
@@ -41,8 +39,8 @@ mod sample;
 
 pub use error::OutputError;
 
-pub use folder::Folder;
-pub use result::ResultFile;
+pub use folder::{Content, Folder};
+pub use result::{ResultFile, read};
 
 use std::path::{Path, PathBuf};
 
@@ -80,24 +78,24 @@ pub const NAMES: [&str; 7] = [
 pub fn write_into(
     folder: Folder,
     result: &ResultFile,
-    more: &[(&str, &[u8])],
+    more: &[(&str, &dyn Content)],
     read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, OutputError> {
-    // First of all: it proves every number finite.
-    let json = json::text(result)?;
+    // First of all: no number that is not finite goes on.
+    result.check_finite()?;
     let steps = csv::steps(result)?;
     let trajectory = csv::trajectory(result)?;
     let motion = csv::planned_motion(result)?;
     let figure = figure::svg(result, &figure::default_steps(result))?;
     let page = page::html(result)?;
-    let mut files = vec![
-        ("result.json", json.as_bytes()),
-        ("steps.csv", steps.as_bytes()),
-        ("trajectory.csv", trajectory.as_bytes()),
-    ];
-    files.extend(motion.as_ref().map(|motion| ("motion.csv", motion.as_bytes())));
-    files.push(("figure.svg", figure.as_bytes()));
-    files.push(("report.html", page.as_bytes()));
+    let [steps, trajectory, figure, page] =
+        [&steps, &trajectory, &figure, &page].map(|text| text.as_bytes());
+    let motion = motion.as_ref().map(|motion| motion.as_bytes());
+    let mut files: Vec<(&str, &dyn Content)> =
+        vec![("result.json", result), ("steps.csv", &steps), ("trajectory.csv", &trajectory)];
+    files.extend(motion.as_ref().map(|motion| ("motion.csv", motion as &dyn Content)));
+    files.push(("figure.svg", &figure));
+    files.push(("report.html", &page));
     files.extend(more);
     folder.write(&files, read)
 }

@@ -4,7 +4,7 @@ use super::OutputError;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind, Write};
 use std::path::{Component, Path};
 
 /// Name of the list in its folder.
@@ -12,7 +12,7 @@ pub(super) const NAME: &str = ".plydrape";
 
 /// CRC-32 (IEEE) and length in bytes of one content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-struct Stamp {
+pub(super) struct Stamp {
     crc32: u32,
     length: u64,
 }
@@ -43,8 +43,41 @@ impl Default for Manifest {
 }
 
 impl Stamp {
-    fn of(content: &[u8]) -> Self {
-        Stamp { crc32: crc32fast::hash(content), length: content.len() as u64 }
+    /// That of all that is left to read.
+    pub(super) fn of(mut content: impl io::Read) -> io::Result<Self> {
+        let mut stamping = Stamping::new(io::sink());
+        io::copy(&mut content, &mut stamping)?;
+        Ok(stamping.stamp())
+    }
+}
+
+/// Passes on what is written and takes its stamp.
+pub(super) struct Stamping<W> {
+    to: W,
+    sum: crc32fast::Hasher,
+    length: u64,
+}
+
+impl<W: Write> Stamping<W> {
+    pub(super) fn new(to: W) -> Self {
+        Stamping { to, sum: crc32fast::Hasher::new(), length: 0 }
+    }
+
+    pub(super) fn stamp(self) -> Stamp {
+        Stamp { crc32: self.sum.finalize(), length: self.length }
+    }
+}
+
+impl<W: Write> Write for Stamping<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.to.write(bytes)?;
+        self.sum.update(&bytes[..count]);
+        self.length += count as u64;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
     }
 }
 
@@ -72,9 +105,9 @@ impl Manifest {
     }
 
     /// The list of a set of files that a command writes.
-    pub(super) fn of(by: &str, files: &[(&str, &[u8])]) -> Self {
-        let entry = |content: &[u8]| Entry { by: by.into(), contents: vec![Stamp::of(content)] };
-        let files = files.iter().map(|(name, content)| ((*name).to_owned(), entry(content)));
+    pub(super) fn of(by: &str, files: impl IntoIterator<Item = (String, Stamp)>) -> Self {
+        let entry = |stamp| Entry { by: by.into(), contents: vec![stamp] };
+        let files = files.into_iter().map(|(name, stamp)| (name, entry(stamp)));
         Manifest { sealed: true, files: files.collect() }
     }
 
@@ -126,7 +159,9 @@ impl Manifest {
             return false;
         };
         fs::symlink_metadata(&path).is_ok_and(|found| found.is_file())
-            && fs::read(&path).is_ok_and(|content| contents.contains(&Stamp::of(&content)))
+            && fs::File::open(&path)
+                .and_then(Stamp::of)
+                .is_ok_and(|stamp| contents.contains(&stamp))
     }
 
     /// The list as JSON, one line.

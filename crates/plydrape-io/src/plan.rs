@@ -95,5 +95,5 @@ pub fn write_into(
     read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, OutputError> {
     let plan = text(search)?;
-    super::write_into(folder, result, &[("plan.json", plan.as_bytes())], read)
+    super::write_into(folder, result, &[("plan.json", &plan.as_bytes())], read)
 }

@@ -1,15 +1,15 @@
 //! Made-up results for the tests of this folder: parabolas between grippers that move to a sheared
 //! target, cut off where they meet the mold. They look like a drape and solve nothing.
 
-use crate::result::{FORMAT, ResultFile, SceneEcho, VERSION};
+use crate::result::{ResultFile, SceneEcho};
 use plydrape::draping::ContactStatus;
 use plydrape::draping::record::*;
 use plydrape::equilibrium::Status;
 use plydrape::material::{Material, Section};
 use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
-use plydrape::ply::{Catenary, Direction, Grid, Kind};
-use plydrape::scene::{Contact, ContactEnd, Limits, Settings, SlopeRule, Stepping};
+use plydrape::ply::{Catenary, Direction, Grid, Kind, Ply};
+use plydrape::scene::{Contact, ContactEnd, Limits, Settings, SlopeRule, Stepping, Target};
 
 const CELL: f64 = 0.1;
 const SPACING: f64 = 0.098;
@@ -30,7 +30,7 @@ pub(super) fn draped(nu: usize, nv: usize, steps: usize) -> ResultFile {
         let grippers: Vec<_> = start.iter().zip(&target).map(|(a, b)| mix(a, b)).collect();
         result.steps.push(step(grid, k + 1, t, &grippers, Some(0.0)));
     }
-    result.scene.target_grippers = Some(target);
+    result.scene.target = Some(Target { grippers: target, drape: None });
     summarize(&mut result);
     result
 }
@@ -148,49 +148,34 @@ fn lift_crossings(grid: Grid, shapes: &mut [Vec<[f64; 3]>]) {
 }
 
 fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) -> CatenaryState {
-    let edge = line.kind.is_edge();
     let arc = |k: usize| length * k as f64 / (STATIONS - 1) as f64;
     let touches = |k: &usize| mold.is_some_and(|z| shape[*k][2] < z + 0.001);
     let low = (0..STATIONS).find(touches);
     let high = (0..STATIONS).rev().find(touches);
-    let span = |a: usize, b: usize| SpanState {
-        arc: [arc(a), arc(b)],
+    let span = |segment: usize, a: usize, b: usize| SpanState {
+        segment,
+        hold: Hold::Hanging,
         length: arc(b) - arc(a),
-        run: distance(shape[a], shape[b]),
-        rise: shape[b][2] - shape[a][2],
-        state: Hold::Hanging,
+        way: 0.98 * (arc(b) - arc(a)),
         force: Some(0.37),
         slopes: [-0.3, 0.3],
         prescribed: [false; 2],
-        points: shape[a..=b].to_vec(),
-        slack_mm: 2.0,
-        slack_ratio: 0.02,
-        wrinkle_mm: 8.9,
-        overstretch_mm: 0.0,
-        overstretch: 0.0,
     };
     let (spans, contact) = match low.zip(high) {
-        None => (vec![span(0, STATIONS - 1)], None),
+        None => (vec![span(0, 0, STATIONS - 1)], None),
         Some((a, b)) => {
-            let rests = [(0, a), (b, STATIONS - 1)];
+            let free = [(0, 0, a), (1, b, STATIONS - 1)].into_iter().filter(|(_, a, b)| b > a);
             let segment = ContactState {
-                arc: [arc(a), arc(b)],
+                arc: (a..=b).map(arc).collect(),
                 points: shape[a..=b].iter().map(|p| [p[0], p[1], mold.unwrap_or(p[2])]).collect(),
                 landing_error_mm: None,
                 fibre_angle_deg: None,
             };
-            let free = rests.into_iter().filter(|(a, b)| b > a);
-            (free.map(|(a, b)| span(a, b)).collect(), Some(segment))
+            (free.map(|(segment, a, b)| span(segment, a, b)).collect(), Some(segment))
         }
     };
     CatenaryState {
-        kind: if edge { CatenaryKind::Edge } else { CatenaryKind::Diagonal },
-        direction: match line.kind {
-            Kind::EdgeU => CatenaryDirection::U,
-            Kind::EdgeV => CatenaryDirection::V,
-            Kind::Rising => CatenaryDirection::Rising,
-            Kind::Falling => CatenaryDirection::Falling,
-        },
+        kind: line.kind,
         from: line.from,
         to: line.to,
         length,
@@ -239,26 +224,24 @@ fn summarize(result: &mut ResultFile) {
 
 fn frame(grid: Grid) -> ResultFile {
     ResultFile {
-        format: FORMAT.into(),
-        version: VERSION,
-        checksum: String::new(),
         program: "test".into(),
         scene: SceneEcho {
             title: "Flat sheared mold".into(),
             input: None,
-            grid,
-            cell: [CELL, CELL],
-            material: Material {
-                name: "fabric".into(),
-                source: "made up".into(),
-                section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
-                shear_curve: None,
-                locking_angle: None,
+            ply: Ply {
+                grid,
+                cell: [CELL, CELL],
+                material: Material {
+                    name: "fabric".into(),
+                    source: "made up".into(),
+                    section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
+                    shear_curve: None,
+                    locking_angle: None,
+                },
+                warp: Direction::U,
             },
-            warp: Direction::U,
             mold: None,
-            target_grippers: None,
-            ideal_drape: None,
+            target: None,
             settings: Settings {
                 slopes: SlopeRule::MinForce,
                 axial_stiffness: 1e5,
@@ -331,12 +314,10 @@ pub(super) fn tilted(nu: usize, nv: usize) -> ResultFile {
     for step in &mut result.steps {
         step.grippers.iter_mut().for_each(|g| lean(&mut g.position));
         for catenary in &mut step.catenaries {
-            let spans = catenary.spans.iter_mut().flat_map(|s| &mut s.points);
-            let contact = catenary.contact.iter_mut().flat_map(|c| &mut c.points);
-            spans.chain(contact).for_each(lean);
+            catenary.contact.iter_mut().flat_map(|c| &mut c.points).for_each(lean);
         }
     }
-    result.scene.target_grippers.iter_mut().flatten().for_each(lean);
+    result.scene.target.iter_mut().flat_map(|target| &mut target.grippers).for_each(lean);
     let norm = (1.0_f64 + 0.25 * 0.25 + 0.1 * 0.1).sqrt();
     result.scene.mold = Some(Mold::Plane(Plane {
         point: [0.0; 3],

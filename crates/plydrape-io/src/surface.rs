@@ -39,9 +39,9 @@ impl Surface {
     /// is one row of points.
     #[must_use]
     pub fn new(result: &ResultFile, step: &Step, intervals: usize) -> Self {
-        let (grid, n) = (result.scene.grid, intervals.max(1));
+        let (grid, n) = (result.scene.ply.grid, intervals.max(1));
         let size = [(grid.nu - 1) * n + 1, (grid.nv - 1) * n + 1];
-        let lines = lines(grid, step, n);
+        let lines = lines(result, step, n);
         let mut vertices = vec![[0.0; 3]; size[0] * size[1]];
         let mut put = |i: usize, j: usize, p: Point| vertices[j * size[0] + i] = p;
         for j in 0..grid.nv - 1 {
@@ -86,14 +86,15 @@ fn mix(a: Point, b: Point, t: f64) -> Point {
     [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]))
 }
 
-/// The whole shape of a catenary, free spans and contact in their order, from gripper to gripper.
+/// The whole shape of a catenary, the curves of its spans and its contact in their order, from gripper to gripper.
 #[must_use]
-pub fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
-    let spans = line.spans.iter().map(|s| (s.arc, &s.points));
-    let contact = line.contact.iter().map(|c| (c.arc, &c.points));
-    let mut pieces: Vec<_> = spans.chain(contact).collect();
-    pieces.sort_by(|a, b| (a.0[0] + a.0[1]).total_cmp(&(b.0[0] + b.0[1])));
-    let mut points: Vec<Point> = pieces.iter().flat_map(|(_, p)| p.iter().copied()).collect();
+pub fn shape(line: &CatenaryState, curves: &[Vec<Point>], ends: [Point; 2]) -> Vec<Point> {
+    let side = |after: usize| {
+        let spans = line.spans.iter().zip(curves);
+        spans.filter(move |(span, _)| span.segment == after).flat_map(|(_, curve)| curve)
+    };
+    let contact = line.contact.iter().flat_map(|contact| &contact.points);
+    let mut points: Vec<Point> = side(0).chain(contact).chain(side(1)).copied().collect();
     // Fabric that lies begins at the gripper's foot on the mold; the line begins at the gripper itself. A line
     // without stations still has its two grippers.
     points.insert(0, ends[0]);
@@ -105,11 +106,25 @@ pub fn shape(line: &CatenaryState, ends: [Point; 2]) -> Vec<Point> {
 /// Slack ratio below which a lying rest counts as contact, not as a wrinkle.
 const FLAT: f64 = 5e-4;
 
-/// The lines in which a catenary touches the mold: its segment, and rests that lie flat beside it.
-pub(crate) fn touching(line: &CatenaryState) -> impl Iterator<Item = &[Point]> {
-    let flat = |span: &&SpanState| span.state == Hold::Lying && span.slack_ratio < FLAT;
-    let segment = line.contact.iter().map(|contact| contact.points.as_slice());
-    segment.chain(line.spans.iter().filter(flat).map(|span| span.points.as_slice()))
+/// The line in which a catenary touches the mold, first to last (m): its contact segment, and segments that lie flat beside
+/// it; none where it does not touch.
+fn touching(line: &CatenaryState, curves: &[Vec<Point>]) -> Option<Vec<Point>> {
+    let contact = line.contact.as_ref()?;
+    let flat = |span: &SpanState| span.hold == Hold::Lying && span.slack_ratio(line.length) < FLAT;
+    let beside = |segment: usize| {
+        let spans = line.spans.iter().zip(curves);
+        let lying = spans.filter(move |(span, _)| span.segment == segment && flat(span));
+        lying.flat_map(|(_, curve)| curve)
+    };
+    Some(beside(0).chain(&contact.points).chain(beside(1)).copied().collect())
+}
+
+/// The lines in which the ply touches the mold in a step (m), one for each of its first `count` catenaries that does.
+#[must_use]
+pub fn contact_lines(result: &ResultFile, step: &Step, count: usize) -> Vec<Vec<Point>> {
+    let curves = result.curves(step);
+    let lines = step.catenaries.iter().zip(&curves).take(count);
+    lines.filter_map(|(line, curves)| touching(line, curves)).collect()
 }
 
 /// Points of a polyline at equal shares of its horizontal way (of its length, if it is upright).
@@ -150,14 +165,15 @@ pub(crate) fn stations(line: &[Point], count: usize) -> Vec<Point> {
 
 /// All catenaries of a step, each at `count + 1` stations, in the grid's order; a catenary that is
 /// missing in the result is straight.
-pub(crate) fn lines(grid: Grid, step: &Step, count: usize) -> Vec<Vec<Point>> {
+pub(crate) fn lines(result: &ResultFile, step: &Step, count: usize) -> Vec<Vec<Point>> {
+    let (grid, curves) = (result.scene.ply.grid, result.curves(step));
     let at = |id| step.grippers[grid.index(id)].position;
     (0..grid.catenaries())
         .map(|k| {
             let line = grid.catenary(k);
             let ends = [at(line.from), at(line.to)];
             let whole = match step.catenaries.get(k) {
-                Some(state) => shape(state, ends),
+                Some(state) => shape(state, &curves[k], ends),
                 None => ends.to_vec(),
             };
             stations(&whole, count)
@@ -232,8 +248,8 @@ mod tests {
     #[test]
     fn the_surface_passes_through_edges_and_diagonals() {
         let result = sample::hanging(3, 2);
-        let (grid, n) = (result.scene.grid, 8);
-        let lines = lines(grid, &result.steps[0], n);
+        let (grid, n) = (result.scene.ply.grid, 8);
+        let lines = lines(&result, &result.steps[0], n);
         let cell = cell(grid, &lines, [1, 0], n);
         let on = |s: usize, t: usize| cell[t * (n + 1) + s];
         let near = |a: Point, b: Point| {

@@ -2,7 +2,7 @@
 
 use plydrape::planner::PlanError;
 use plydrape_io::OutputError;
-use plydrape_io::read::ReadError;
+use plydrape_io::result::read::ReadError;
 use plydrape_io::scene::SceneError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

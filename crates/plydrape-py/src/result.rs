@@ -10,7 +10,7 @@ use plydrape::draping::record::{CatenaryState, Step};
 use plydrape::equilibrium::Status;
 use plydrape::measure::{Name, Scope};
 use plydrape_io::ground::ground;
-use plydrape_io::{ResultFile, export, figure, folder, json, page, read, surface};
+use plydrape_io::{ResultFile, export, figure, folder, page, read, surface};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -53,14 +53,14 @@ impl Result {
         &self,
         find: impl Fn(&plydrape::draping::record::Gripper) -> [f64; N],
     ) -> Array<f64> {
-        let shape = [self.0.steps.len(), self.0.scene.grid.grippers(), N];
+        let shape = [self.0.steps.len(), self.0.scene.ply.grid.grippers(), N];
         let axes = if N == 1 { 2 } else { 3 };
         Array::rows(&shape[..axes], self.0.steps.iter().flat_map(|s| &s.grippers).map(find))
     }
 
     /// A number of each catenary in each step.
     fn catenaries(&self, find: impl Fn(&CatenaryState) -> f64) -> Array<f64> {
-        let shape = [self.0.steps.len(), self.0.scene.grid.catenaries()];
+        let shape = [self.0.steps.len(), self.0.scene.ply.grid.catenaries()];
         Array::new(&shape, self.0.steps.iter().flat_map(|s| &s.catenaries).map(find).collect())
     }
 }
@@ -124,7 +124,13 @@ impl Result {
     /// Grippers along u and v.
     #[getter]
     fn grid(&self) -> (usize, usize) {
-        (self.0.scene.grid.nu, self.0.scene.grid.nv)
+        (self.0.scene.ply.grid.nu, self.0.scene.ply.grid.nv)
+    }
+
+    /// Fabric length of a cell along u and v (m).
+    #[getter]
+    fn cell(&self) -> (f64, f64) {
+        self.0.scene.ply.cell.into()
     }
 
     /// Its mold, if any.
@@ -136,7 +142,7 @@ impl Result {
     /// The ideal drape, where it is known.
     #[getter]
     fn net(&self) -> Option<Net> {
-        self.0.scene.ideal_drape.clone().map(Net)
+        self.0.scene.target.as_ref().and_then(|target| target.drape.clone()).map(Net)
     }
 
     /// Whether every limit holds.
@@ -182,7 +188,7 @@ impl Result {
     ///     >>> result.to_json()[:28]
     ///     '{"format":"plydrape-result",'
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| json::text(&self.0)).map_err(|fault| error::output(&fault.into()))
+        py.detach(|| ResultFile::text(&self.0)).map_err(|fault| error::output(&fault.into()))
     }
 
     /// Time of each step (s), shape (steps,).
@@ -225,19 +231,19 @@ impl Result {
     /// Slack of each catenary (mm), shape (steps, catenaries): all of its rests.
     #[getter]
     fn slack_mm(&self) -> Array<f64> {
-        self.catenaries(|c| c.spans.iter().map(|span| span.slack_mm).sum())
+        self.catenaries(|c| c.spans.iter().map(|span| span.slack_mm(c.length)).sum())
     }
 
     /// Fabric length of each catenary that the mold has caught (m), shape (steps, catenaries).
     #[getter]
     fn contact(&self) -> Array<f64> {
-        self.catenaries(|c| c.contact.as_ref().map_or(0.0, |seen| seen.arc[1] - seen.arc[0]))
+        self.catenaries(|c| c.contact.as_ref().map_or(0.0, |contact| contact.length()))
     }
 
     /// Shear angle of each cell (°), shape (steps, cells along v, cells along u); 0 where no diagonal shears.
     #[getter]
     fn shear_deg(&self) -> Array<f64> {
-        let grid = self.0.scene.grid;
+        let grid = self.0.scene.ply.grid;
         let shape = [self.0.steps.len(), grid.nv - 1, grid.nu - 1];
         let cells = self.0.steps.iter().flat_map(|step| &step.cells);
         Array::new(&shape, cells.map(|cell| cell.shear_deg).collect())
@@ -265,13 +271,27 @@ impl Result {
     ///     >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
     ///     (16, 3)
     fn lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
-        let (grid, step) = (self.0.scene.grid, self.step(step)?);
-        let line = |c: &CatenaryState| {
+        let (grid, step) = (self.0.scene.ply.grid, self.step(step)?);
+        let curves = self.0.curves(step);
+        let line = |(c, curves): (&CatenaryState, &Vec<_>)| {
             let ends = [c.from, c.to].map(|id| step.grippers[grid.index(id)].position);
-            let points = surface::shape(c, ends);
+            let points = surface::shape(c, curves, ends);
             Array::rows(&[points.len(), 3], points)
         };
-        Ok(step.catenaries.iter().map(line).collect())
+        Ok(step.catenaries.iter().zip(&curves).map(line).collect())
+    }
+
+    /// The lines in which the ply touches the mold in a step (m), one for each catenary that does, arrays of
+    /// shape (n, 3).
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> result = plydrape.simulate(scene)
+    ///     >>> len(result.contact_lines(1)), len(result.contact_lines(26))
+    ///     (0, 3)
+    fn contact_lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
+        let lines = surface::contact_lines(&self.0, self.step(step)?, usize::MAX);
+        Ok(lines.into_iter().map(|line| Array::rows(&[line.len(), 3], line)).collect())
     }
 
     /// The ply of a step as a surface with so many intervals along each side of a cell.

@@ -76,6 +76,8 @@ pub struct Motion {
 
 /// Where the ideal drape puts the grippers and the fabric.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Target {
     /// Final gripper positions (m), in the order of [`crate::ply::Grid::index`].
     pub grippers: Vec<[f64; 3]>,

@@ -69,7 +69,7 @@ def panel(axes: Axes3D, stage: Stage, step: int) -> None:
         size = {"markersize": 2.8 * stage.fine, "markeredgewidth": 0.7 * stage.fine}
         axes.plot(x, y, z, "o", mfc="white", mec=RED, zorder=5, gid="contact", **size)
 
-    discs = _shapes.discs(result, step, _shapes.radius(stage.record))
+    discs = _shapes.discs(result, step, _shapes.radius(result))
     seen = ~stage.hides(result.positions[step - 1])
     grippers = Poly3DCollection(
         discs[seen] * 1e3,
@@ -84,8 +84,8 @@ def panel(axes: Axes3D, stage: Stage, step: int) -> None:
 
 def _touching(stage: Stage, step: int) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
     """Touching parts, and a spot (N, 3) in each that is too short to be seen as a line; in m."""
-    parts = _shapes.touching(stage.record, step)
-    short = SHORT * min(stage.record["scene"]["cell"])
+    parts = stage.result.contact_lines(step)
+    short = SHORT * min(stage.result.cell)
     spots = [_shapes.middle(part) for part in parts if _shapes.length(part) < short]
     return [part for part in parts if len(part) > 1], np.array(spots).reshape(-1, 3)
 

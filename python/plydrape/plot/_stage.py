@@ -30,7 +30,6 @@ class Stage:
     """What all panels share; lengths in mm."""
 
     result: Result
-    record: dict[str, Any]
     colour: str
     view: tuple[float, float]
     intervals: int
@@ -53,12 +52,11 @@ def stage(
     result: Result, chosen: list[int], colour: Surface | None, view: tuple[float, float]
 ) -> Stage:
     """The frame that holds all panels, and the scale of their colours."""
-    record = result.to_dict()
     nu, nv = result.grid
     cells = max(1, (nu - 1) * (nv - 1))
     intervals = int(np.clip(np.sqrt(3000.0 / cells / len(chosen) ** 0.5), 1, 8))
-    mold = record["scene"].get("mold")
-    curved = mold is not None and mold["kind"] != "plane"
+    mold = result.mold
+    curved = mold is not None and mold.kind != "plane"
     kind = colour or ("gap" if curved else "height")
     if kind not in ("gap", "height", "shear"):
         raise ValueError(
@@ -68,7 +66,7 @@ def stage(
         raise ValueError('without a mold there is no gap; choose colour="height" or "shear"')
 
     lines = [line for step in chosen for line in result.lines(step)]
-    size = _shapes.radius(record)
+    size = _shapes.radius(result)
     around = [_shapes.discs(result, step, size).reshape(-1, 3) for step in chosen]
     net = result.net
     every = np.concatenate([*lines, *around, *_shapes.outline(net)]) * 1e3
@@ -91,7 +89,7 @@ def stage(
     if thin > 0.0:
         low[2], high[2] = low[2] - thin / 2.0, high[2] + thin / 2.0
 
-    shared = Stage(result, record, kind, view, intervals, low, high, Normalize(), patch, screen)
+    shared = Stage(result, kind, view, intervals, low, high, Normalize(), patch, screen)
     found = [value for step in chosen if (value := values(shared, step)) is not None]
     known = np.concatenate(found)[np.isfinite(np.concatenate(found))] if found else np.zeros(0)
     bottom, top = (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)

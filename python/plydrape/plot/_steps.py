@@ -56,7 +56,7 @@ def figure(
     scale = min((box - sum(LEFT_RIGHT)) / unit[0], 75.0 / unit[1])
     panel = CAPTION + scale * unit[1] + sum(TOP_BOTTOM)
     side = max(box, panel)
-    stage.fine = float(np.clip(min(stage.record["scene"]["cell"]) * 1e3 * scale / CELL, 0.2, 1.0))
+    stage.fine = float(np.clip(min(stage.result.cell) * 1e3 * scale / CELL, 0.2, 1.0))
     free = rows * across - len(chosen)
     strip = 0.0 if free and across > 1 else 13.0 if wide >= 120.0 else 21.0
     head = 6.0 if title else 0.0

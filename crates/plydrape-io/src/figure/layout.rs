@@ -61,7 +61,7 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
         stage.draw(&mut canvas, &unit.placed(scale, origin), step)?;
     }
     // Lines alone carry no colour of height.
-    if result.scene.grid.cells() > 0 {
+    if result.scene.ply.grid.cells() > 0 {
         let name = if curved(result).is_some() { "gap (mm)" } else { "z (mm)" };
         let between = [HEAD + 40.0, size[1] - LEGEND - 24.0];
         bar(&mut canvas, name, stage.scale.times(1e3), PANELS + 24.0, between)?;
@@ -108,7 +108,7 @@ fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
 
 /// Box, colour scale and mold patch that hold all shown steps.
 fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
-    let shown: Vec<Point> = steps.iter().flat_map(|s| points(s)).collect();
+    let shown: Vec<Point> = steps.iter().flat_map(|s| points(result, s)).collect();
     let [bottom, top] = bounds(&shown);
     let scale = match curved(result) {
         None if top[2] - bottom[2] < 1e-5 => Scale::Even([bottom[2] - 5e-4, top[2] + 5e-4]),
@@ -120,7 +120,7 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
         }
     };
     let finite = |p: &&Point| p.iter().all(|c| c.is_finite() && c.abs() < 1e6);
-    let target = result.scene.target_grippers.iter().flatten().filter(finite);
+    let target = result.scene.target_grippers().into_iter().flatten().filter(finite);
     let all: Vec<Point> = shown.iter().chain(target).copied().collect();
     let [mut low, mut high] = bounds(&all);
 
@@ -207,7 +207,7 @@ fn legend(canvas: &mut Canvas, stage: &Stage, steps: &[&Step], y: f64) -> Result
         word(canvas, "contact with the mold", x + 17.0)?;
         x += 176.0;
     }
-    if stage.mold.is_some() && stage.result.scene.target_grippers.is_some() {
+    if stage.mold.is_some() && stage.result.scene.target.is_some() {
         canvas.line(&[[x, y], [x + 26.0, y]], TARGET, 1.2)?;
         word(canvas, "target outline", x + 34.0)?;
     }

@@ -103,14 +103,14 @@ pub fn svg(result: &ResultFile, steps: &[usize]) -> Result<String, FigureError> 
         found.ok_or(FigureError::NoSuchStep { step: *step, first: first.step, last: last.step })
     };
     let shown: Vec<&Step> = steps.iter().map(find).collect::<Result<_, _>>()?;
-    let grid = result.scene.grid;
+    let grid = result.scene.ply.grid;
     for step in &shown {
         let found = step.grippers.len();
         if found != grid.grippers() || grid.nu < 2 || grid.nv < 1 {
             let (step, nu, nv) = (step.step, grid.nu, grid.nv);
             return Err(FigureError::Grippers { step, found, nu, nv });
         }
-        if !points(step).all(|p| p.iter().all(|c| c.is_finite() && c.abs() < 1e6)) {
+        if !points(result, step).all(|p| p.iter().all(|c| c.is_finite() && c.abs() < 1e6)) {
             return Err(FigureError::NotFinite { step: step.step });
         }
     }
@@ -121,13 +121,11 @@ pub fn svg(result: &ResultFile, steps: &[usize]) -> Result<String, FigureError> 
 }
 
 /// Every point of a step that the figure draws (m).
-fn points(step: &Step) -> impl Iterator<Item = [f64; 3]> {
-    let spans = step.catenaries.iter().flat_map(|c| &c.spans);
+fn points(result: &ResultFile, step: &Step) -> impl Iterator<Item = [f64; 3]> {
+    let curves = result.curves(step).into_iter().flatten().flatten();
     let contact = step.catenaries.iter().filter_map(|c| c.contact.as_ref());
     let grippers = step.grippers.iter().map(|g| g.position);
-    grippers
-        .chain(spans.flat_map(|s| s.points.iter().copied()))
-        .chain(contact.flat_map(|c| c.points.iter().copied()))
+    grippers.chain(curves).chain(contact.flat_map(|c| c.points.iter().copied()))
 }
 
 #[cfg(test)]

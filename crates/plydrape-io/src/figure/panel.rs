@@ -39,7 +39,7 @@ struct Detail {
 impl Detail {
     /// For one of so many panels, with cells of so many picture points.
     fn of(result: &ResultFile, panels: usize, cell: f64) -> Self {
-        let cells = result.scene.grid.cells().max(1) as f64;
+        let cells = result.scene.ply.grid.cells().max(1) as f64;
         let most = (6000.0 / cells / panels as f64).sqrt();
         let squares = (cell / 9.0).max(4.0).min(most).clamp(1.0, 28.0) as usize;
         Detail {
@@ -94,8 +94,8 @@ pub(crate) fn colour_value(result: &ResultFile, p: Point) -> f64 {
 
 /// Radius of a gripper's disc (m).
 pub(crate) fn gripper_radius(result: &ResultFile) -> f64 {
-    let [a, b] = result.scene.cell;
-    let side = if result.scene.grid.nv > 1 { a.min(b) } else { a };
+    let [a, b] = result.scene.ply.cell;
+    let side = if result.scene.ply.grid.nv > 1 { a.min(b) } else { a };
     GRIPPER * side
 }
 
@@ -129,11 +129,11 @@ impl Stage<'_> {
 
     /// The outline of where the ply should end, side by side, each on the mold.
     fn outline(&self) -> Vec<Vec<Point>> {
-        let (Some(target), Some(mold)) = (&self.result.scene.target_grippers, curved(self.result))
+        let (Some(target), Some(mold)) = (self.result.scene.target_grippers(), curved(self.result))
         else {
             return Vec::new();
         };
-        let grid = self.result.scene.grid;
+        let grid = self.result.scene.ply.grid;
         let border = (0..grid.edges()).map(|k| grid.catenary(k)).filter(|edge| {
             let ([i, j], [k, m]) = (edge.from, edge.to);
             let along_u = j == m && (j == 0 || j + 1 == grid.nv);
@@ -158,8 +158,8 @@ impl Stage<'_> {
             return Ok(());
         };
         canvas.polygon(&patch.map(|p| view.at(p)), MOLD)?;
-        if let Some(target) = &self.result.scene.target_grippers {
-            let grid = self.result.scene.grid;
+        if let Some(target) = self.result.scene.target_grippers() {
+            let grid = self.result.scene.ply.grid;
             let (nu, nv) = (grid.nu - 1, grid.nv - 1);
             let corners = [[0, 0], [nu, 0], [nu, nv], [0, nv], [0, 0]];
             let path: Vec<Px> = corners
@@ -180,13 +180,13 @@ impl Stage<'_> {
 
     /// The longer side of a cell (m); of a strip, its length.
     fn cell_length(&self) -> f64 {
-        let [a, b] = self.result.scene.cell;
-        if self.result.scene.grid.nv > 1 { a.max(b) } else { a }
+        let [a, b] = self.result.scene.ply.cell;
+        if self.result.scene.ply.grid.nv > 1 { a.max(b) } else { a }
     }
 
     /// How many catenaries are drawn; edges come first.
     fn drawn(&self, detail: Detail) -> usize {
-        let grid = self.result.scene.grid;
+        let grid = self.result.scene.ply.grid;
         match detail.diagonals {
             true => grid.catenaries(),
             false => grid.edges(),
@@ -195,10 +195,10 @@ impl Stage<'_> {
 
     /// Surface and catenaries.
     fn ply(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step, detail: Detail) {
-        let grid = self.result.scene.grid;
+        let grid = self.result.scene.ply.grid;
         let n = detail.squares;
         let lift = self.lift(detail);
-        let edges = surface::lines(grid, step, n);
+        let edges = surface::lines(self.result, step, n);
         for k in 0..grid.cells() {
             let id = [k % (grid.nu - 1), k / (grid.nu - 1)];
             let points = surface::cell(grid, &edges, id, n);
@@ -221,7 +221,7 @@ impl Stage<'_> {
             }
         }
 
-        let lines = surface::lines(grid, step, detail.pieces);
+        let lines = surface::lines(self.result, step, detail.pieces);
         let count = self.drawn(detail);
         // Finer lines leave colour to be seen in small cells.
         let finer = (self.cell_length() * view.scale() / 70.0).clamp(0.4, 1.0);
@@ -274,8 +274,7 @@ impl Stage<'_> {
         let radius = (0.045 * cell * view.scale()).min(MOST_MARK);
         let apart = (MARKS_APART * cell).max(5.0 * radius / view.scale());
         let count = self.drawn(detail);
-        let lines = step.catenaries.iter().take(count);
-        for line in lines.flat_map(surface::touching) {
+        for line in surface::contact_lines(self.result, step, count) {
             let [Some(first), Some(last)] = [line.first(), line.last()] else {
                 continue;
             };
@@ -283,10 +282,10 @@ impl Stage<'_> {
             let marks = (square.sqrt() / apart).floor().min(50.0) as usize;
             let spots = match marks {
                 0 => vec![line[line.len() / 2]],
-                _ => surface::stations(line, marks),
+                _ => surface::stations(&line, marks),
             };
             if line.len() > 1 {
-                let thick = surface::stations(line, detail.pieces);
+                let thick = surface::stations(&line, detail.pieces);
                 thread(pieces, view, &thick, lift, RED, 0.65 * radius);
             }
             // On a large array the lines alone can tell.

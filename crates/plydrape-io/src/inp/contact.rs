@@ -28,7 +28,7 @@ impl RigidMold {
     /// that of its shells (m).
     pub fn new(result: &ResultFile, weight: f64, thickness: f64) -> Option<RigidMold> {
         let mold = result.scene.mold.as_ref()?;
-        let margin = 0.5 * result.scene.cell[0].max(result.scene.cell[1]);
+        let margin = 0.5 * result.scene.ply.cell[0].max(result.scene.ply.cell[1]);
         let [low, high] = extent(result)?;
         let surface = patch(mold, low.map(|c| c - margin), high.map(|c| c + margin), TRIANGLES);
         let depth = 0.1 * result.scene.settings.contact.tolerance;

@@ -32,7 +32,7 @@ pub(super) fn write(
             "Ply: {n} x {m} shells S8R of {:.4} x {:.4} m, flat at the start, at the rigid place that best fits the grippers of step 1. Axis 1 of the material is the warp, along {} of the grid.",
             mesh.side[0],
             mesh.side[1],
-            if scene.warp == Direction::U { "u" } else { "v" },
+            if scene.ply.warp == Direction::U { "u" } else { "v" },
         ),
     );
     paragraph(

@@ -53,13 +53,13 @@ pub enum InpError {
 /// [`InpError`] within [`OutputError`] if the result has no steps or its grippers start on one line; a number that is not
 /// finite is refused as in [`super::json`].
 pub fn text(result: &ResultFile) -> Result<String, OutputError> {
-    super::finite::check(result)?;
+    result.check_finite()?;
     let scene = &result.scene;
     let first = result.steps.first().ok_or(InpError::NoSteps)?;
     let (flat, places): (Vec<_>, Vec<_>) =
-        first.grippers.iter().map(|g| (fabric(g.id, scene.cell), g.position)).unzip();
+        first.grippers.iter().map(|g| (fabric(g.id, scene.ply.cell), g.position)).unzip();
     let pose = Pose::fit(&flat, &places).ok_or(InpError::NoPlace)?;
-    let mesh = Mesh::new(scene.grid, scene.cell);
+    let mesh = Mesh::new(scene.ply.grid, scene.ply.cell);
     let section = ShellSection::new(scene);
     let tracks = Tracks::new(result, &pose);
     let weight = section.areal_mass * scene.settings.gravity;
@@ -73,7 +73,7 @@ pub fn text(result: &ResultFile) -> Result<String, OutputError> {
     elements(&mesh, &mut deck);
     tracks.node_sets(&mesh, &mut deck);
     middles(result, &mesh, &mut deck);
-    material(&section, scene.warp, &pose, &mut deck);
+    material(&section, scene.ply.warp, &pose, &mut deck);
     if let Some(mold) = &mold {
         mold.elements(mesh.nodes(), mesh.count[0] * mesh.count[1], &mut deck);
         mold.pair(&mut deck);
@@ -116,7 +116,7 @@ fn elements(mesh: &Mesh, deck: &mut Deck) {
 
 /// The nodes in the middle of the edges along u and along v, each set in the order of the model's edges.
 fn middles(result: &ResultFile, mesh: &Mesh, deck: &mut Deck) {
-    let grid = result.scene.grid;
+    let grid = result.scene.ply.grid;
     for (along, name) in ["MIDDLE_U", "MIDDLE_V"].into_iter().enumerate() {
         let ids = (0..grid.nv).flat_map(|j| (0..grid.nu).map(move |i| [i, j]));
         let nodes: Vec<usize> = ids.filter_map(|id| mesh.middle(id, along)).collect();

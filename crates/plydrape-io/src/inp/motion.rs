@@ -39,7 +39,7 @@ pub(super) struct Tracks {
 impl Tracks {
     /// From the flat ply through all steps of a result; a step at the time of the one before it takes its place.
     pub fn new(result: &ResultFile, pose: &Pose) -> Tracks {
-        let cell = result.scene.cell;
+        let cell = result.scene.ply.cell;
         let mut times = vec![0.0, LOAD];
         let mut tracks: Vec<Track> = (result.steps.first().into_iter())
             .flat_map(|step| &step.grippers)
@@ -140,7 +140,7 @@ mod tests {
     use crate::sample;
 
     fn pose(result: &ResultFile) -> Pose {
-        let cell = result.scene.cell;
+        let cell = result.scene.ply.cell;
         let (flat, places): (Vec<_>, Vec<_>) =
             (result.steps[0].grippers.iter()).map(|g| (fabric(g.id, cell), g.position)).unzip();
         Pose::fit(&flat, &places).unwrap()
@@ -155,7 +155,7 @@ mod tests {
         assert_eq!(tracks.times.len(), 9);
         for (k, track) in tracks.tracks.iter().enumerate() {
             assert_eq!(track.moves[..2], [[0.0; 3]; 2]);
-            let flat = pose.place(fabric(track.id, result.scene.cell));
+            let flat = pose.place(fabric(track.id, result.scene.ply.cell));
             for (step, moved) in result.steps.iter().zip(&track.moves[2..]) {
                 let due = step.grippers[k].position;
                 assert!((0..3).all(|c| (flat[c] + moved[c] - due[c]).abs() < 1e-15));

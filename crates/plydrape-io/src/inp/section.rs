@@ -56,9 +56,9 @@ impl ShellSection {
     /// The section of a scene's ply.
     pub fn new(scene: &SceneEcho) -> ShellSection {
         let mut assumed = Vec::new();
-        let [a, b] = scene.cell;
-        let width = if scene.grid.nv == 1 { b } else { (a * b).sqrt() };
-        let (areal_mass, mut rigidity) = match scene.material.section {
+        let [a, b] = scene.ply.cell;
+        let width = if scene.ply.grid.nv == 1 { b } else { (a * b).sqrt() };
+        let (areal_mass, mut rigidity) = match scene.ply.material.section {
             Section::Line { mass, flexural_rigidity } => {
                 assumed.push(format!(
                     "Mass and rigidity are given per catenary: each stands for {} mm of width.",
@@ -93,7 +93,7 @@ impl ShellSection {
         let membrane = given.min(stiffest);
 
         // shear
-        let shear = match &scene.material.shear_curve {
+        let shear = match &scene.ply.material.shear_curve {
             None => {
                 assumed.push(format!(
                     "The material has no shear curve: the shear stiffness of {SHEAR} N/m per rad is ASSUMED. Set G12 to yours."
@@ -180,7 +180,7 @@ mod tests {
     #[test]
     fn unlike_rigidities_are_both_exact() {
         let mut scene = sample::hanging(3, 3).scene;
-        scene.material.section =
+        scene.ply.material.section =
             Section::Areal { mass: 0.6, warp_rigidity: 4e-4, weft_rigidity: 1e-4 };
         scene.settings.axial_stiffness = 2e3;
         let section = ShellSection::new(&scene);
@@ -195,9 +195,9 @@ mod tests {
     #[test]
     fn what_shells_cannot_do_is_said() {
         let mut scene = sample::hanging(4, 2).scene;
-        scene.material.section = Section::Line { mass: 0.3143, flexural_rigidity: 0.0 };
+        scene.ply.material.section = Section::Line { mass: 0.3143, flexural_rigidity: 0.0 };
         scene.settings.axial_stiffness = f64::INFINITY;
-        scene.material.shear_curve =
+        scene.ply.material.shear_curve =
             Some(ShearCurve::Polynomial { coefficients: vec![0.0, 0.0, 1.0] });
         let section = ShellSection::new(&scene);
         assert!(section.thickness.is_finite() && section.thickness > 0.0);
@@ -212,7 +212,7 @@ mod tests {
     fn a_shear_curve_gives_its_secant() {
         let mut scene = sample::hanging(4, 2).scene;
         let coefficients = vec![250.0, 0.0, 1000.0];
-        scene.material.shear_curve = Some(ShearCurve::Polynomial { coefficients });
+        scene.ply.material.shear_curve = Some(ShearCurve::Polynomial { coefficients });
         assert!(near(ShellSection::new(&scene).shear, 260.0));
     }
 }

@@ -41,7 +41,7 @@ fn every_line_can_be_read() {
 fn fibres_follow_the_warp() {
     let mut result = sample::tilted(3, 2);
     for (warp, gripper) in [(plydrape::ply::Direction::U, 1), (plydrape::ply::Direction::V, 3)] {
-        result.scene.warp = warp;
+        result.scene.ply.warp = warp;
         let deck = text(&result).unwrap();
         let axes = numbers(block(&deck, "*ORIENTATION")[0]);
         let at = |k: usize| result.steps[0].grippers[k].position;

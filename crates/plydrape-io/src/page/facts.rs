@@ -18,12 +18,12 @@ pub(super) struct Fact {
 pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
     let scene = &result.scene;
     let mm = |length: f64| shown(length * 1e3);
-    let [a, b] = scene.cell;
-    let warp = match scene.warp {
+    let [a, b] = scene.ply.cell;
+    let warp = match scene.ply.warp {
         Direction::U => "u",
         Direction::V => "v",
     };
-    let grid = scene.grid;
+    let grid = scene.ply.grid;
     let motion = match (&result.plan, result.steps.last()) {
         (Some(plan), last) => format!(
             "planned by {}, {} drapes tried; {} s",
@@ -64,7 +64,7 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
 }
 
 fn material(result: &ResultFile) -> String {
-    let material = &result.scene.material;
+    let material = &result.scene.ply.material;
     let section = match material.section {
         Section::Line { mass, flexural_rigidity } => {
             let [mass, rigidity] = [mass * 1e3, flexural_rigidity * 1e6].map(shown);

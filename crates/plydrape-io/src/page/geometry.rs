@@ -3,7 +3,7 @@
 use super::block::Block;
 use crate::ground::ground;
 use crate::result::ResultFile;
-use crate::surface::{Surface, lines, stations, touching};
+use crate::surface::{Surface, contact_lines, lines, stations};
 use plydrape::draping::record::Step;
 use plydrape::ply::Direction;
 use rayon::prelude::*;
@@ -37,7 +37,7 @@ pub(super) struct Detail {
 impl Detail {
     /// The finest that keeps the page small.
     pub fn of(result: &ResultFile) -> Self {
-        let (grid, all) = (result.scene.grid, result.steps.len());
+        let (grid, all) = (result.scene.ply.grid, result.steps.len());
         let surface = |n: usize| ((grid.nu - 1) * n + 1) * ((grid.nv - 1) * n + 1);
         let across = |n: usize| 2 * grid.cells() * (n + 1);
         let fits = |points: usize, steps: usize| points.saturating_mul(steps) <= MOST_POINTS;
@@ -118,7 +118,7 @@ fn range(values: impl Iterator<Item = i32> + Clone, unit: f64) -> [f64; 2] {
 impl Geometry {
     /// Everything that is drawn, and the ranges of what its colours tell.
     pub fn of(result: &ResultFile, detail: &Detail) -> (Self, Ranges) {
-        let (grid, n) = (result.scene.grid, detail.intervals);
+        let (grid, n) = (result.scene.ply.grid, detail.intervals);
         let steps: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
         let count = steps.len();
         let surfaces: Vec<Surface> =
@@ -133,7 +133,7 @@ impl Geometry {
         });
         let across = if detail.diagonals { grid.edges()..grid.catenaries() } else { 0..0 };
         let diagonals = points(&mut steps.iter().flat_map(|step| {
-            let lines = if across.is_empty() { Vec::new() } else { lines(grid, step, n) };
+            let lines = if across.is_empty() { Vec::new() } else { lines(result, step, n) };
             lines.into_iter().skip(across.start).flatten()
         }));
         let hands = || steps.iter().flat_map(|step| &step.grippers);
@@ -173,8 +173,8 @@ impl Geometry {
 /// Angle of the warp in each cell from the x axis, as seen from above (°): the mean of its two edges along the
 /// warp. A fibre has no sign; angles stay within 90° of the warp at the first gripper of the first step.
 fn directions(result: &ResultFile, step: &Step) -> Vec<f64> {
-    let grid = result.scene.grid;
-    let [[a, b], [c, d]] = match result.scene.warp {
+    let grid = result.scene.ply.grid;
+    let [[a, b], [c, d]] = match result.scene.ply.warp {
         Direction::U => [[1, 0], [0, 1]],
         Direction::V => [[0, 1], [1, 0]],
     };
@@ -197,15 +197,15 @@ fn directions(result: &ResultFile, step: &Step) -> Vec<f64> {
 
 /// Places where the ply touches the mold, evenly along everything that lies.
 fn contacts(result: &ResultFile, step: &Step) -> Vec<[f64; 3]> {
-    let [a, b] = result.scene.cell;
-    let marks = if result.scene.grid.cells() <= SMALL { MARKS } else { 1.0 };
+    let [a, b] = result.scene.ply.cell;
+    let marks = if result.scene.ply.grid.cells() <= SMALL { MARKS } else { 1.0 };
     let apart = a.min(b) / marks;
     let mut out = Vec::new();
-    for line in step.catenaries.iter().flat_map(touching) {
+    for line in contact_lines(result, step, usize::MAX) {
         let (Some(first), Some(last)) = (line.first(), line.last()) else { continue };
         match (plydrape::mold::distance(*first, *last) / apart).round() as usize {
             0 => out.push(line[line.len() / 2]),
-            count => out.extend(stations(line, count)),
+            count => out.extend(stations(&line, count)),
         }
     }
     out

@@ -118,7 +118,7 @@ fn page(result: &ResultFile) -> Page<'_> {
         stopped: summary.stopped.as_deref(),
         steps: shown.iter().map(|step| step.step).collect(),
         times: shown.iter().map(|step| step.time).collect(),
-        grid: [scene.grid.nu, scene.grid.nv],
+        grid: [scene.ply.grid.nu, scene.ply.grid.nv],
         divisions: detail.intervals,
         limits: limits(result),
         measures: courses(result, &shown),
@@ -186,7 +186,7 @@ fn fields(result: &ResultFile, ranges: &Ranges) -> Vec<Field> {
     if let Some(range) = ranges.gap {
         out.push(field("gap", "gap to the mold", "mm", "vertex", range, None));
     }
-    if result.scene.grid.cells() > 0 {
+    if result.scene.ply.grid.cells() > 0 {
         let limit = Some(result.scene.limits.shear.to_degrees());
         out.push(field("shear", "shear angle", "°", "cell", ranges.shear, limit));
         out.push(field("direction", "warp direction", "°", "cell", ranges.direction, None));
@@ -231,7 +231,7 @@ mod tests {
         let small = Detail::of(&sample::draped(4, 2, 3));
         assert!(small.left_out(3).is_empty() && small.intervals == 12);
         let mut result = sample::draped(2, 2, 2);
-        result.scene.grid = plydrape::ply::Grid { nu: 100, nv: 100 };
+        result.scene.ply.grid = plydrape::ply::Grid { nu: 100, nv: 100 };
         let step = result.steps[0].clone();
         result.steps = vec![step; 200];
         let large = Detail::of(&result);

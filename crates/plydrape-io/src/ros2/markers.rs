@@ -9,7 +9,7 @@ use crate::figure;
 use crate::ground::ground;
 use crate::result::ResultFile;
 use crate::surface::Surface;
-use plydrape::draping::record::{CatenaryKind, Gripper, Step};
+use plydrape::draping::record::{Gripper, Step};
 
 type Point = [f64; 3];
 
@@ -44,7 +44,7 @@ pub(super) struct Paint {
 impl Paint {
     /// Fine enough to look round, coarse enough to play; one range of colours for the whole drape.
     pub fn of(result: &ResultFile) -> Self {
-        let cells = result.scene.grid.cells().max(1);
+        let cells = result.scene.ply.grid.cells().max(1);
         let divisions = (TRIANGLES / (2 * cells)).isqrt().clamp(1, DIVISIONS);
         let grippers = result.steps.iter().flat_map(|step| &step.grippers);
         let value = |gripper: &Gripper| figure::colour_value(result, gripper.position);
@@ -66,15 +66,18 @@ impl Paint {
 pub(super) fn ply(result: &ResultFile, step: &Step, paint: &Paint) -> MarkerArray {
     let radius = figure::gripper_radius(result);
     let mut markers = Vec::with_capacity(4 + step.grippers.len());
-    if result.scene.grid.cells() > 0 {
+    if result.scene.ply.grid.cells() > 0 {
         markers.push(surface(result, step, paint));
     }
-    let spans = |kind: CatenaryKind| {
-        let lines = step.catenaries.iter().filter(|line| line.kind == kind);
-        segments(lines.flat_map(|line| line.spans.iter().map(|span| &span.points)))
+    let curves = result.curves(step);
+    let spans = |edges: bool| {
+        let lines = step.catenaries.iter().zip(&curves);
+        segments(
+            lines.filter(|(line, _)| line.kind.is_edge() == edges).flat_map(|(_, curves)| curves),
+        )
     };
-    markers.push(lines("catenaries", 0, spans(CatenaryKind::Edge), RED, LINE * radius));
-    markers.push(lines("catenaries", 1, spans(CatenaryKind::Diagonal), PINK, 0.6 * LINE * radius));
+    markers.push(lines("catenaries", 0, spans(true), RED, LINE * radius));
+    markers.push(lines("catenaries", 1, spans(false), PINK, 0.6 * LINE * radius));
     let (lying, touching) = caught(step);
     markers.push(lines("contact", 0, segments(lying.into_iter()), BLUE, 1.6 * LINE * radius));
     markers.push(points(touching, radius));

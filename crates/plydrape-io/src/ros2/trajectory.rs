@@ -20,7 +20,7 @@ use plydrape::ply::Grid;
 /// # Errors
 /// [`OutputError`] if a time is none that ROS 2 can say, or the plan is not one of this result.
 pub(super) fn trajectory(result: &ResultFile) -> Result<MultiDofJointTrajectory, OutputError> {
-    let grid = result.scene.grid;
+    let grid = result.scene.ply.grid;
     let points = match (&result.plan, result.motion()?) {
         (Some(plan), Some((motion, attitudes))) => samples(&motion, &attitudes, grid, plan.rate)?,
         _ => steps(&result.steps)?,

@@ -1,5 +1,5 @@
-//! The catenaries in their pieces, as they are in the result file: those that hang or lie, and what the mold has
-//! caught. A touch in a single point is a line from it to itself; a rest of no length has no points and is left out.
+//! The catenaries in their pieces: spans that hang or lie, and what is in contact with the mold. A touch in a single point is
+//! a line from it to itself; a segment of no length has no points and is left out.
 //!
 //! Point data: `contact`, 1 on pieces that lie on the mold. Cell data, of the catenary:
 //!
@@ -16,105 +16,95 @@
 //!
 //! | array | |
 //! |---|---|
-//! | `state` | 0 hanging, 1 overstretched, 2 straight, 3 lying with slack, 4 caught by the mold |
+//! | `state` | 0 hanging, 1 overstretched, 2 straight, 3 lying with slack, 4 in contact |
 //! | `length_m` | its fabric length (m) |
 //! | `H_N`, `has_force` | horizontal force (N), and 1 where the model gives one; else both 0 |
-//! | `slack_mm`, `slack_ratio`, `wrinkle_mm`, `overstretch`, `overstretch_mm` | as in the result file; 0 for what is caught |
+//! | `slack_mm`, `slack_ratio`, `wrinkle_mm`, `overstretch`, `overstretch_mm` | as in `steps.csv`, of this piece; 0 for what is in contact |
 
 use super::polydata::{Array, Kind, PolyData};
-use plydrape::draping::record::{
-    CatenaryDirection, CatenaryKind, CatenaryState, ContactState, Hold, SpanState, Step,
-};
+use crate::result::ResultFile;
+use plydrape::draping::record::{CatenaryState, Hold, SpanState, Step};
+use plydrape::ply::Kind as Family;
 
 /// A piece of a catenary.
 struct Piece<'a> {
     number: usize,
     line: &'a CatenaryState,
-    rest: Rest<'a>,
-}
-
-enum Rest<'a> {
-    Span(&'a SpanState),
-    Caught(&'a ContactState),
+    /// None for what is in contact.
+    span: Option<&'a SpanState>,
+    points: &'a [[f64; 3]],
+    /// Height of the ruck that its slack makes (mm).
+    wrinkle: f64,
 }
 
 impl Piece<'_> {
-    fn points(&self) -> &[[f64; 3]] {
-        match self.rest {
-            Rest::Span(span) => &span.points,
-            Rest::Caught(contact) => &contact.points,
-        }
-    }
-
-    /// A number of a span; 0 for what is caught.
-    fn of(&self, number: fn(&SpanState) -> f64) -> f64 {
-        match self.rest {
-            Rest::Span(span) => number(span),
-            Rest::Caught(_) => 0.0,
-        }
+    /// A number of a span from the length of its catenary; 0 for what is in contact.
+    fn of(&self, number: fn(&SpanState, f64) -> f64) -> f64 {
+        self.span.map_or(0.0, |span| number(span, self.line.length))
     }
 
     fn force(&self) -> Option<f64> {
-        match self.rest {
-            Rest::Span(span) => span.force,
-            Rest::Caught(_) => None,
-        }
+        self.span.and_then(|span| span.force)
     }
 
     fn length(&self) -> f64 {
-        match self.rest {
-            Rest::Span(span) => span.length,
-            Rest::Caught(contact) => contact.arc[1] - contact.arc[0],
-        }
+        let contact = || self.line.contact.as_ref().map_or(0.0, |contact| contact.length());
+        self.span.map_or_else(contact, |span| span.length)
     }
 
     fn state(&self) -> u8 {
-        match self.rest {
-            Rest::Span(span) => match span.state {
-                Hold::Hanging => 0,
-                Hold::Overstretched => 1,
-                Hold::Straight => 2,
-                Hold::Lying => 3,
-            },
-            Rest::Caught(_) => 4,
+        match self.span.map(|span| span.hold) {
+            Some(Hold::Hanging) => 0,
+            Some(Hold::Overstretched) => 1,
+            Some(Hold::Straight) => 2,
+            Some(Hold::Lying) => 3,
+            None => 4,
         }
     }
 }
 
 /// The catenaries of a step.
-pub(super) fn catenaries(step: &Step) -> PolyData {
+pub(super) fn catenaries(result: &ResultFile, step: &Step) -> PolyData {
+    let curves = result.curves(step);
+    let (ply, gravity) = (&result.scene.ply, result.scene.settings.gravity);
     let mut pieces = Vec::new();
-    for (number, line) in step.catenaries.iter().enumerate() {
-        let spans = line.spans.iter().map(Rest::Span);
-        let caught = line.contact.iter().map(Rest::Caught);
-        pieces.extend(spans.chain(caught).map(|rest| Piece { number, line, rest }));
+    for (number, (line, curves)) in step.catenaries.iter().zip(&curves).enumerate() {
+        for (span, points) in line.spans.iter().zip(curves) {
+            let wrinkle = span.ruck(ply, gravity, line).map_or(0.0, |ruck| 1e3 * ruck.height());
+            pieces.push(Piece { number, line, span: Some(span), points, wrinkle });
+        }
+        let contact = line.contact.iter().map(|contact| contact.points.as_slice());
+        pieces.extend(contact.map(|points| Piece {
+            number,
+            line,
+            span: None,
+            points,
+            wrinkle: 0.0,
+        }));
     }
-    pieces.retain(|piece| !piece.points().is_empty());
+    pieces.retain(|piece| !piece.points.is_empty());
 
     let mut first = 0;
     let mut joined = |piece: &Piece| {
-        let count = piece.points().len();
+        let count = piece.points.len();
         first += count;
         // a touch in one point is a line from it to itself
         if count == 1 { vec![first - 1; 2] } else { (first - count..first).collect() }
     };
     let cells = pieces.iter().map(&mut joined).collect();
-    let on_mold = |piece: &Piece| vec![u8::from(piece.state() > 2); piece.points().len()];
+    let on_mold = |piece: &Piece| vec![u8::from(piece.state() > 2); piece.points.len()];
 
     let numbers = |name, of: fn(&Piece) -> f64| Array::new(name, pieces.iter().map(of).collect());
     let codes = |name, of: fn(&Piece) -> u8| Array::codes(name, pieces.iter().map(of).collect());
     let whole = |name, of: fn(&Piece) -> usize| Array::whole(name, pieces.iter().map(of));
     let in_cells = vec![
         whole("catenary", |p| p.number),
-        codes("kind", |p| match p.line.kind {
-            CatenaryKind::Edge => 0,
-            CatenaryKind::Diagonal => 1,
-        }),
-        codes("direction", |p| match p.line.direction {
-            CatenaryDirection::U => 0,
-            CatenaryDirection::V => 1,
-            CatenaryDirection::Rising => 2,
-            CatenaryDirection::Falling => 3,
+        codes("kind", |p| u8::from(!p.line.kind.is_edge())),
+        codes("direction", |p| match p.line.kind {
+            Family::EdgeU => 0,
+            Family::EdgeV => 1,
+            Family::Rising => 2,
+            Family::Falling => 3,
         }),
         whole("from_i", |p| p.line.from[0]),
         whole("from_j", |p| p.line.from[1]),
@@ -126,14 +116,14 @@ pub(super) fn catenaries(step: &Step) -> PolyData {
         numbers("length_m", |p| p.length()),
         numbers("H_N", |p| p.force().unwrap_or(0.0)),
         codes("has_force", |p| p.force().is_some().into()),
-        numbers("slack_mm", |p| p.of(|span| span.slack_mm)),
-        numbers("slack_ratio", |p| p.of(|span| span.slack_ratio)),
-        numbers("wrinkle_mm", |p| p.of(|span| span.wrinkle_mm)),
-        numbers("overstretch", |p| p.of(|span| span.overstretch)),
-        numbers("overstretch_mm", |p| p.of(|span| span.overstretch_mm)),
+        numbers("slack_mm", |p| p.of(SpanState::slack_mm)),
+        numbers("slack_ratio", |p| p.of(SpanState::slack_ratio)),
+        numbers("wrinkle_mm", |p| p.wrinkle),
+        numbers("overstretch", |p| p.span.map_or(0.0, |span| p.line.overstretch(span))),
+        numbers("overstretch_mm", |p| p.of(SpanState::overstretch_mm)),
     ];
     PolyData {
-        points: pieces.iter().flat_map(|piece| piece.points()).copied().collect(),
+        points: pieces.iter().flat_map(|piece| piece.points).copied().collect(),
         kind: Kind::Lines,
         cells,
         at_points: vec![Array::codes("contact", pieces.iter().flat_map(on_mold).collect())],

@@ -28,10 +28,10 @@ use collection::{Collection, Part};
 /// # Errors
 /// [`OutputError`] if a number is not finite.
 pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError> {
-    super::finite::check(&result.steps)?;
+    result.check_finite()?;
     let mut files = Vec::new();
     let mut all = Collection::default();
-    let surface = result.scene.grid.cells() > 0;
+    let surface = result.scene.ply.grid.cells() > 0;
     let mut series = ["ply", "catenaries", "grippers"].map(|name| (name, Collection::default()));
     // a drape of 10 000 steps still stands in order in a folder
     let digits = result.steps.last().map_or(1, |step| step.step).to_string().len().max(4);
@@ -42,7 +42,7 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
             let data = match *name {
                 "ply" if !surface => continue,
                 "ply" => ply::ply(result, step),
-                "catenaries" => catenaries::catenaries(step),
+                "catenaries" => catenaries::catenaries(result, step),
                 _ => grippers::grippers(step),
             };
             let file = format!("{name}_{:0digits$}.vtp", step.step);

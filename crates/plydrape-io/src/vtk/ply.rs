@@ -24,14 +24,14 @@ const INTERVALS: usize = 10;
 
 /// The surface of a step.
 pub(super) fn ply(result: &ResultFile, step: &Step) -> PolyData {
-    let grid = result.scene.grid;
+    let grid = result.scene.ply.grid;
     let intervals = (QUADS / grid.cells().max(1)).isqrt().clamp(1, INTERVALS);
     let Surface { size: [nu, nv], vertices, gap } = Surface::new(result, step, intervals);
 
     // fabric coordinates and fibres
     let place = |k: usize| [k % nu, k / nu];
     let fabric = |direction: usize| -> Vec<f64> {
-        let side = result.scene.cell[direction];
+        let side = result.scene.ply.cell[direction];
         let at = |k: usize| side * place(k)[direction] as f64 / intervals as f64;
         (0..vertices.len()).map(at).collect()
     };
@@ -45,7 +45,7 @@ pub(super) fn ply(result: &ResultFile, step: &Step) -> PolyData {
         };
         (0..vertices.len()).map(along).collect()
     };
-    let names = match result.scene.warp {
+    let names = match result.scene.ply.warp {
         Direction::U => ["warp", "weft"],
         Direction::V => ["weft", "warp"],
     };

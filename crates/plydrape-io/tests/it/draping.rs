@@ -3,10 +3,11 @@
 
 use crate::common::{drape, example};
 use plydrape::draping::record::CatenaryState;
-use plydrape::draping::record::{CatenaryDirection, CatenaryKind, Hold};
+use plydrape::draping::record::Hold;
 use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::{EdgeRule, Generators, Layup, Net};
+use plydrape::ply::Kind;
 use plydrape::scene::{Contact, ContactEnd, Motion, Scene, SlopeRule, Stepping, Target};
 use plydrape_io::result::ResultFile;
 use proptest::prelude::*;
@@ -43,14 +44,10 @@ fn the_paper_example_touches_first_in_iteration_26_on_its_short_diagonals() {
     assert_eq!(summary.first_contact_step, Some(26));
     let touched: Vec<_> = summary.first_contact.iter().map(|c| (c.kind, c.from, c.to)).collect();
     let short = [([1, 0], [0, 1]), ([2, 0], [1, 1]), ([3, 0], [2, 1])];
-    assert_eq!(touched, short.map(|(a, b)| (CatenaryKind::Diagonal, a, b)));
+    assert_eq!(touched, short.map(|(a, b)| (Kind::Falling, a, b)));
     assert_eq!(summary.first_shear_step, Some(5));
     for step in &result.steps {
-        let sheared = step
-            .cells
-            .iter()
-            .filter(|cell| cell.shearing == Some(CatenaryDirection::Rising))
-            .count();
+        let sheared = step.cells.iter().filter(|cell| cell.shearing == Some(Kind::Rising)).count();
         assert_eq!(sheared, if step.step < 5 { 0 } else { 3 }, "step {}", step.step);
     }
     // 100 mm sides sheared by 20°
@@ -78,7 +75,7 @@ fn the_first_contact_does_not_hang_on_the_start_height() {
         let scene = in_steps(&scene, 30);
         let summary = drape(&scene).summary;
         assert_eq!(summary.first_contact_step, Some(26), "{height}");
-        assert!(summary.first_contact.iter().all(|c| c.kind == CatenaryKind::Diagonal));
+        assert!(summary.first_contact.iter().all(|c| !c.kind.is_edge()));
         assert_eq!(summary.first_contact.len(), 3, "{height}");
     }
 }
@@ -86,12 +83,8 @@ fn the_first_contact_does_not_hang_on_the_start_height() {
 /// Fabric of a catenary that is free, in contact or lying (m).
 fn accounted(c: &CatenaryState) -> f64 {
     let spans: f64 = c.spans.iter().map(|span| span.length).sum();
-    let whole = c.spans.iter().any(|span| span.state == Hold::Lying && span.length == c.length);
-    spans
-        + c.contact
-            .as_ref()
-            .filter(|_| !whole)
-            .map_or(0.0, |contact| contact.arc[1] - contact.arc[0])
+    let whole = c.spans.iter().any(|span| span.hold == Hold::Lying && span.length == c.length);
+    spans + c.contact.as_ref().filter(|_| !whole).map_or(0.0, |contact| contact.length())
 }
 
 /// Nothing is lost: contact and free lengths add up to the set length, and stay what they were once
@@ -99,17 +92,17 @@ fn accounted(c: &CatenaryState) -> f64 {
 fn check_record(result: &ResultFile) {
     for step in &result.steps {
         for (n, c) in step.catenaries.iter().enumerate() {
-            let place = format!("step {} {} {:?}", step.step, c.kind, c.from);
+            let place = format!("step {} {:?} {:?}", step.step, c.kind, c.from);
             assert!(
                 (accounted(c) - c.length).abs() < 1e-9,
                 "{place}: {} {}",
                 accounted(c),
                 c.length
             );
-            if c.kind == CatenaryKind::Edge {
+            if c.kind.is_edge() {
                 assert_eq!(
                     c.length,
-                    result.scene.cell[usize::from(c.direction == CatenaryDirection::V)],
+                    result.scene.ply.cell[usize::from(c.kind == Kind::EdgeV)],
                     "{place}"
                 );
             }
@@ -120,9 +113,9 @@ fn check_record(result: &ResultFile) {
                 // laid, not snapped: as long on the mold as in the fabric
                 let [a, b] = [contact.points[0], contact.points[1]];
                 let length = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
-                let arc = contact.arc[1] - contact.arc[0];
+                let arc = contact.length();
                 let whole =
-                    c.spans.iter().any(|s| s.state == Hold::Lying && s.arc == [0.0, c.length]);
+                    c.spans.iter().any(|s| s.hold == Hold::Lying && c.arc(s) == [0.0, c.length]);
                 // both ends of a run may have grown in planes of their own
                 assert!(whole || length <= arc + 1e-9, "{place}: {length} {arc}");
             }
@@ -130,7 +123,7 @@ fn check_record(result: &ResultFile) {
                 && let (Some(now), Some(then)) = (&c.contact, &next.contact)
             {
                 assert!(
-                    then.arc[0] <= now.arc[0] && then.arc[1] >= now.arc[1],
+                    then.ends()[0] <= now.ends()[0] && then.ends()[1] >= now.ends()[1],
                     "{place}: it stays"
                 );
                 assert_eq!(c.length, next.length, "{place}: fixed from the first touch on");
@@ -196,7 +189,7 @@ fn contact_converges_in_steps_and_tolerance() {
         };
         let result = drape(&scene);
         let last = result.steps.last().expect("steps").catenaries[0].clone();
-        last.contact.expect("the strip touches").arc
+        last.contact.expect("the strip touches").ends()
     };
     let close = |a: [f64; 2], b: [f64; 2], tolerance: f64| {
         assert!((a[0] - b[0]).abs() < tolerance && (a[1] - b[1]).abs() < tolerance, "{a:?} {b:?}");
@@ -214,7 +207,7 @@ fn contact_converges_in_steps_and_tolerance() {
     let still = vec![[0.0, 0.0, 0.006], [0.098, 0.0, 0.006]];
     scene.motion = Motion { times: (0..60).map(f64::from).collect(), positions: vec![still; 60] };
     let result = drape(&scene);
-    let arc = |n: usize| result.steps[n].catenaries[0].contact.as_ref().expect("it touches").arc;
+    let arc = |n: usize| result.steps[n].catenaries[0].contact.as_ref().expect("it touches").ends();
     close(arc(59), arc(5), 1e-6);
 }
 
@@ -304,7 +297,7 @@ proptest! {
         scene.motion = Motion { times: vec![0.0, 1.0, 2.0, 3.0], positions: vec![place(0), place(1), place(2), place(3)] };
         scene.target = None;
         let result = drape(&scene);
-        let text = plydrape_io::json::text(&result);
+        let text = result.text();
         prop_assert!(text.is_ok(), "{:?}", text.err());
         // a drape that no ply survives ends early
         let last = result.summary.steps;

@@ -2,9 +2,10 @@
 //! earlier trial of the model.
 
 use crate::common::{distance, drape, example, examples};
-use plydrape::draping::record::{CatenaryDirection, CatenaryKind, Hold};
+use plydrape::draping::record::Hold;
 use plydrape::mold::{Graph, Mold, Pose, Surface};
 use plydrape::net::Net;
+use plydrape::ply::Kind;
 use plydrape::scene::{Scene, Target};
 use plydrape_io::ResultFile;
 
@@ -17,11 +18,8 @@ fn target(scene: &Scene) -> (&Target, &Net, &Mold) {
 /// Worst landing error of the edges at the end (mm).
 fn edges_off(result: &ResultFile) -> f64 {
     let last = result.steps.last().expect("steps");
-    let contacts = last
-        .catenaries
-        .iter()
-        .filter(|c| c.kind == CatenaryKind::Edge)
-        .filter_map(|c| c.contact.as_ref());
+    let contacts =
+        last.catenaries.iter().filter(|c| c.kind.is_edge()).filter_map(|c| c.contact.as_ref());
     let errors = contacts.flat_map(|c| c.landing_error_mm.iter().flatten().flatten());
     errors.copied().fold(0.0, f64::max)
 }
@@ -50,9 +48,9 @@ fn straight_paths_leave_wrinkles(scene: &Scene, off: f64) -> ResultFile {
         let whole = catenary
             .spans
             .iter()
-            .any(|span| span.state == Hold::Lying && span.arc == [0.0, catenary.length]);
+            .any(|span| span.hold == Hold::Lying && catenary.arc(span) == [0.0, catenary.length]);
         let Some(contact) = &catenary.contact else { continue };
-        let laid = if whole { 0.0 } else { contact.arc[1] - contact.arc[0] };
+        let laid = if whole { 0.0 } else { contact.length() };
         let total = lengths.sum::<f64>() + laid;
         assert!((total - catenary.length).abs() < 1e-9, "{total} {}", catenary.length);
         for point in &contact.points {
@@ -110,19 +108,16 @@ fn a_saddle_by_straight_paths_is_bridged_along_its_hollow() {
     let result = straight_paths_leave_wrinkles(&scene, 1e-9);
     let off = edges_off(&result);
     assert!((off - 1.04).abs() < 0.15, "{off} mm");
-    let lies = |direction: CatenaryDirection| -> f64 {
+    let lies = |direction: Kind| -> f64 {
         let last = result.steps.last().expect("steps");
-        let edges = last
-            .catenaries
-            .iter()
-            .filter(|c| c.kind == CatenaryKind::Edge && c.direction == direction);
-        edges.filter_map(|c| c.contact.as_ref()).map(|c| c.arc[1] - c.arc[0]).sum()
+        let edges = last.catenaries.iter().filter(|c| c.kind == direction);
+        edges.filter_map(|c| c.contact.as_ref()).map(|c| c.length()).sum()
     };
     assert!(
-        lies(CatenaryDirection::U) > 1.5 * lies(CatenaryDirection::V),
+        lies(Kind::EdgeU) > 1.5 * lies(Kind::EdgeV),
         "{} {}",
-        lies(CatenaryDirection::U),
-        lies(CatenaryDirection::V)
+        lies(Kind::EdgeU),
+        lies(Kind::EdgeV)
     );
 }
 

@@ -2,11 +2,11 @@
 //! along the files that were written. Limits are the defaults of `[limits]`, repeated here as numbers.
 
 use crate::common::{distance, drape, examples};
-use plydrape::draping::record::CatenaryKind;
-use plydrape::draping::record::{CatenaryDirection, CatenaryState, Step, Verdict};
+use plydrape::draping::record::{CatenaryState, Step, Verdict};
 use plydrape::equilibrium::Status;
 use plydrape::measure::Name;
 use plydrape::planner::{self, Planned};
+use plydrape::ply::Kind;
 use plydrape::scene::Scene;
 use plydrape_io::result::ResultFile;
 use plydrape_io::scene;
@@ -119,20 +119,19 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     assert!(result.steps.iter().all(|step| step.solver.status == Status::Converged), "{what}");
 
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-    let edges =
-        |step: usize| result.steps[step].catenaries.iter().filter(|c| c.kind == CatenaryKind::Edge);
+    let edges = |step: usize| result.steps[step].catenaries.iter().filter(|c| c.kind.is_edge());
     let last = result.steps.last().expect("steps");
     let contacts = || last.catenaries.iter().filter_map(|line| line.contact.as_ref());
 
     // what all segments of an edge keep of slack, as a share of the edge; segments may be as short as one likes
     let share = |line: &CatenaryState| {
-        1e-3 * line.spans.iter().map(|span| span.slack_mm).sum::<f64>() / line.length
+        1e-3 * line.spans.iter().map(|span| span.slack_mm(line.length)).sum::<f64>() / line.length
     };
     let slack = largest(&mut edges(result.steps.len() - 1).map(share));
     assert!(slack <= SLACK, "{what}: slack of {slack} of an edge's length");
     // a diagonal is no fibre: its cell landed with the shear that it ends with
     let shears = last.cells.iter().flat_map(|cell| {
-        let sign = if cell.shearing == Some(CatenaryDirection::Falling) { -1.0 } else { 1.0 };
+        let sign = if cell.shearing == Some(Kind::Falling) { -1.0 } else { 1.0 };
         let end = sign * cell.shear_deg;
         cell.landed_deg.into_iter().flatten().map(move |landed| (landed - end).abs())
     });
@@ -143,8 +142,10 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     let gap = largest(&mut edges(result.steps.len() - 1).filter_map(gap));
     assert!(gap <= BRIDGING, "{what}: a bridge of {gap} m");
 
-    let stretches = (0..result.steps.len()).flat_map(edges).flat_map(|edge| &edge.spans);
-    let stretch = largest(&mut stretches.map(|span| span.overstretch));
+    let stretches = (0..result.steps.len())
+        .flat_map(edges)
+        .flat_map(|edge| edge.spans.iter().map(|span| edge.overstretch(span)));
+    let stretch = largest(&mut stretches.into_iter());
     assert!(stretch <= OVERSTRETCH, "{what}: overstretch {stretch}");
 
     let laid = edges(result.steps.len() - 1).filter_map(|line| line.contact.as_ref());
@@ -152,7 +153,7 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     let errors: Vec<f64> = errors.map(|error| error.expect("an ideal place")).collect();
     let off = largest(&mut errors.iter().copied());
     assert!(!errors.is_empty() && off <= LANDING[0], "{what}: landed {off} mm off");
-    let ideal = result.scene.target_grippers.as_ref().expect("targets");
+    let ideal = result.scene.target_grippers().expect("targets");
     let misses = last.grippers.iter().zip(ideal).map(|(g, there)| distance(g.position, *there));
     let miss = 1e3 * largest(&mut misses.into_iter());
     assert!(miss <= LANDING[1], "{what}: a gripper {miss} mm off");

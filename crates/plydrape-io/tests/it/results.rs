@@ -6,7 +6,7 @@ use plydrape::planner;
 use plydrape::scene::{Motion, Scene};
 use plydrape_io::ResultFile;
 use plydrape_io::scene::{self, SceneFile};
-use plydrape_io::{csv, figure, json, page, read};
+use plydrape_io::{csv, figure, page, read};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -42,7 +42,7 @@ fn drape(scene: &SceneFile) -> ResultFile {
 }
 
 fn again(result: &ResultFile) -> ResultFile {
-    read::parse(json::text(result).unwrap().as_bytes(), Path::new("result.json")).unwrap()
+    read::parse(result.text().unwrap().as_bytes(), Path::new("result.json")).unwrap()
 }
 
 /// Every example's result reads back to what writes the same bytes: the file, its tables, figure and page.
@@ -52,7 +52,7 @@ fn all_outputs_can_be_made_from_the_file_alone() {
         let result = drape(&scene);
         let back = again(&result);
         let what = &scene.title;
-        assert_eq!(json::text(&back).unwrap(), json::text(&result).unwrap(), "{what}");
+        assert_eq!(back.text().unwrap(), result.text().unwrap(), "{what}");
         assert_eq!(csv::steps(&back).unwrap(), csv::steps(&result).unwrap(), "{what}");
         assert_eq!(csv::trajectory(&back).unwrap(), csv::trajectory(&result).unwrap(), "{what}");
         let figures = [&back, &result].map(|r| figure::svg(r, &figure::default_steps(r)).unwrap());

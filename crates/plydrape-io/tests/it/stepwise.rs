@@ -2,7 +2,6 @@
 //! judged by draping along them.
 
 use crate::common::{Point, distance, example};
-use plydrape::draping::record::CatenaryKind;
 use plydrape::draping::simulate;
 use plydrape::draping::spans::{Shape, shape};
 use plydrape::equilibrium::{Side, Solver, Status};
@@ -269,8 +268,8 @@ fn drape(scene: &Scene, plan: &Stepwise) -> ResultFile {
 /// Largest slack of an edge at the end (mm).
 fn slack(result: &ResultFile) -> f64 {
     let last = result.steps.last().expect("steps");
-    let edges = last.catenaries.iter().filter(|c| c.kind == CatenaryKind::Edge);
-    edges.flat_map(|c| &c.spans).map(|span| span.slack_mm).fold(0.0, f64::max)
+    let edges = last.catenaries.iter().filter(|c| c.kind.is_edge());
+    edges.flat_map(|c| c.spans.iter().map(|span| span.slack_mm(c.length))).fold(0.0, f64::max)
 }
 
 /// Largest value of a limit, and whether it holds.

@@ -25,6 +25,8 @@ const PULL: f64 = 1e-4;
 
 /// A touch away from the contact segment: the ply bridges what is between.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Bridge {
     /// Place of the largest gap between segment and touch (m).
     pub place: Point,

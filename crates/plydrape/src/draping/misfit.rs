@@ -34,17 +34,20 @@ impl Misfit {
     /// Fabric beyond the way (m), not negative.
     #[must_use]
     pub fn slack(&self) -> f64 {
-        // what rounding leaves of a taut line is none; what is no number stays it
-        let slack = self.excess();
-        if slack <= 1e-12 * self.whole { 0.0 } else { slack }
+        slack(self.excess(), self.whole)
     }
 
     /// Way beyond the fabric (m), not negative.
     #[must_use]
     pub fn overstretch(&self) -> f64 {
-        let short = -self.excess();
-        if short <= 1e-12 * self.whole { 0.0 } else { short }
+        slack(-self.excess(), self.whole)
     }
+}
+
+/// What is slack (m) of an excess of fabric (m): what rounding leaves of a taut line is none.
+pub fn slack(excess: f64, whole: f64) -> f64 {
+    // what is no number stays it
+    if excess <= 1e-12 * whole { 0.0 } else { excess }
 }
 
 fn middle(a: Point, b: Point) -> Point {
@@ -93,17 +96,12 @@ pub fn lying_segments(
     if !laid.is_whole() && laid.hangs(0) && laid.hangs(1) {
         return Vec::new();
     }
-    let straight = |a, b| Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] };
-    let foot = |gripper: Point| {
-        let foot = mold.foot(gripper);
-        (foot.distance <= tolerance).then_some(foot.point)
-    };
     let fit = |length, way, line: &Strand| {
         let place = middle(line.points[0], line.end());
         Misfit { catenary, length, way, whole: laid.length, place }
     };
     if laid.is_whole() {
-        let line = match grippers.map(foot) {
+        let line = match grippers.map(|gripper| standing(gripper, mold, tolerance)) {
             [Some(a), Some(b)] => mold.path(a, b).unwrap_or_else(|| straight(a, b)),
             _ => straight(grippers[0], grippers[1]),
         };
@@ -111,12 +109,8 @@ pub fn lying_segments(
         return vec![LyingSegment { which: None, misfit, line }];
     }
     let segment = |which: usize| {
-        let end = laid.point()[which];
-        let gripper = foot(grippers[which]);
+        let (line, gripper) = taut(which, laid.point()[which], grippers[which], mold, tolerance);
         let place = gripper.unwrap_or(grippers[which]);
-        let [a, b] = if which == 0 { [place, end] } else { [end, place] };
-        let along = gripper.and_then(|_| mold.path(a, b));
-        let line = along.unwrap_or_else(|| straight(a, b));
         // behind the end the line leads back over what is in contact
         let behind = laid.is_behind(which, place);
         let way = match gripper {
@@ -127,4 +121,31 @@ pub fn lying_segments(
         LyingSegment { which: Some(which), misfit: fit(laid.rest(which), way, &line), line }
     };
     (0..2).filter(|&which| !laid.hangs(which)).map(segment).collect()
+}
+
+/// The taut line before (0) or after (1) a contact segment that ends at `end`, from first to last, and the surface point
+/// that its gripper stands on; none for a gripper farther from the mold than `tolerance` (m), which pulls straight.
+#[must_use]
+pub fn taut(
+    which: usize,
+    end: Point,
+    gripper: Point,
+    mold: &Mold,
+    tolerance: f64,
+) -> (Strand, Option<Point>) {
+    let stands = standing(gripper, mold, tolerance);
+    let place = stands.unwrap_or(gripper);
+    let [a, b] = if which == 0 { [place, end] } else { [end, place] };
+    let along = stands.and_then(|_| mold.path(a, b));
+    (along.unwrap_or_else(|| straight(a, b)), stands)
+}
+
+/// The surface point that a gripper stands on, within a tolerance (m).
+fn standing(gripper: Point, mold: &Mold, tolerance: f64) -> Option<Point> {
+    let foot = mold.foot(gripper);
+    (foot.distance <= tolerance).then_some(foot.point)
+}
+
+fn straight(a: Point, b: Point) -> Strand {
+    Strand { points: vec![a, b], arc: vec![0.0, distance(a, b)] }
 }

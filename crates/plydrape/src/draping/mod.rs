@@ -6,7 +6,7 @@
 
 pub(crate) mod attitude;
 pub mod contact;
-mod crossing;
+mod curves;
 pub mod gap;
 pub(crate) mod landing;
 pub(crate) mod load;
@@ -23,7 +23,8 @@ use crate::ply::{Grid, Kind, Laid, shear};
 use crate::scene::{Scene, Stepping};
 pub(crate) use attitude::attitude;
 use contact::{Bridge, Diagonal};
-pub(crate) use crossing::hanging as stations;
+pub use curves::curves;
+pub(crate) use curves::hanging as stations;
 use gap::{GapMemory, GapSamples};
 pub(crate) use landing::fabric;
 pub(crate) use misfit::{lying_segments, misfit};

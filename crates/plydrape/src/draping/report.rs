@@ -1,20 +1,18 @@
 //! From snapshots to the record: what every step looked like, and the verdict at the end.
 
-use super::crossing::{STATIONS, lowered};
 use super::landing::Landing;
 use super::misfit::{LyingSegment, Misfit};
 use super::record::{
-    Bridging, CatenaryDirection, CatenaryId, CatenaryKind, CatenaryState, Cell, ContactState,
-    Gripper, Hold, Solver as SolverRecord, SpanState, Step, Summary,
+    CatenaryId, CatenaryState, Cell, ContactState, Gripper, Hold, Solver as SolverRecord,
+    SpanState, Step, Summary,
 };
-use super::spans::{FreeSpan, Point};
+use super::spans::FreeSpan;
 use super::{Snapshot, stop};
 use crate::catenary;
 use crate::equilibrium::Solver;
 use crate::measure::{Before, Judge, Name, State, last_numbers, worst_numbers};
-use crate::mold::vector::along;
-use crate::mold::{Mold, distance};
-use crate::ply::{Kind, Laid, Ruck, shear};
+use crate::mold::distance;
+use crate::ply::{Kind, Laid, shear};
 use crate::scene::Scene;
 
 /// Collects the steps of a drape.
@@ -40,10 +38,6 @@ impl<'a> Report<'a> {
         let (scene, grid) = (self.scene, self.scene.ply.grid);
         let state = State::new(scene, snapshot, solver, self.before.as_ref());
         let measures = self.judge.see_all(&state);
-        let mut points = state.stations().to_vec();
-        for (span, through) in lowered(scene, &snapshot.shape.spans, &snapshot.laid) {
-            points[span] = through;
-        }
         let mut grippers = Vec::with_capacity(grid.grippers());
         for (n, attitude) in state.attitudes().iter().enumerate() {
             let position = snapshot.positions[n];
@@ -70,7 +64,7 @@ impl<'a> Report<'a> {
                 equilibria: snapshot.equilibria,
                 contact: snapshot.contact,
             },
-            catenaries: self.catenaries(&state, points),
+            catenaries: self.catenaries(&state),
             cells: self.cells(snapshot),
             measures,
         });
@@ -79,23 +73,21 @@ impl<'a> Report<'a> {
         goes_on
     }
 
-    fn catenaries(&self, state: &State, points: Vec<Vec<Point>>) -> Vec<CatenaryState> {
+    fn catenaries(&self, state: &State) -> Vec<CatenaryState> {
         let (scene, grid) = (self.scene, self.scene.ply.grid);
         let (snapshot, landings) = (state.snapshot, state.landings());
         let mut misfits = state.misfits().iter();
-        let mut spans = snapshot.shape.spans.iter().zip(points).peekable();
+        let mut spans = snapshot.shape.spans.iter().peekable();
         let mut out = Vec::with_capacity(grid.catenaries());
         for n in 0..grid.catenaries() {
             let c = grid.catenary(n);
-            let (kind, direction) = described(c.kind);
             let laid = snapshot.laid[n].as_ref();
             let shear = (n >= grid.edges())
                 .then(|| snapshot.shear[(n - grid.edges()) / 2])
                 .flatten()
-                .filter(|shear| shear.falling == (direction == CatenaryDirection::Falling));
+                .filter(|shear| shear.falling == (c.kind == Kind::Falling));
             let mut line = CatenaryState {
-                kind,
-                direction,
+                kind: c.kind,
                 from: c.from,
                 to: c.to,
                 length: laid.map_or_else(|| scene.ply.flat_length(c.kind), |laid| laid.length),
@@ -103,26 +95,20 @@ impl<'a> Report<'a> {
                 shear_force_n: shear.and_then(|shear| self.shear_force(&shear)),
                 spans: Vec::with_capacity(2),
                 contact: None,
-                bridging: snapshot.bridges[n].map(|b| Bridging {
-                    place: b.place,
-                    gap: b.gap,
-                    width: b.width,
-                }),
+                bridging: snapshot.bridges[n],
             };
-            while let Some((span, points)) = spans.next_if(|(span, _)| span.catenary == n) {
+            while let Some(span) = spans.next_if(|span| span.catenary == n) {
                 if laid.is_none() {
                     line.length = span.length;
                 }
                 if let Some(misfit) = misfits.next() {
-                    line.spans.push(self.span_state(span, points, misfit));
+                    line.spans.push(span_state(span, misfit));
                 }
             }
-            if let (Some(laid), Some(mold)) = (laid, &scene.mold) {
+            if let Some(laid) = laid {
                 line.contact = Some(contact_state(laid, landings[n].as_ref()));
-                for segment in &state.lying()[n] {
-                    line.spans.push(self.lying_state(laid, segment, mold));
-                }
-                line.spans.sort_by(|a, b| a.arc[0].total_cmp(&b.arc[0]));
+                line.spans.extend(state.lying()[n].iter().map(lying_state));
+                line.spans.sort_by_key(|span| span.segment);
             }
             out.push(line);
         }
@@ -142,8 +128,8 @@ impl<'a> Report<'a> {
             cell: [n % across, n / across],
             shear_deg: shear.map_or(0.0, |shear| shear.angle.to_degrees()),
             shearing: shear.map(|shear| match shear.falling {
-                true => CatenaryDirection::Falling,
-                false => CatenaryDirection::Rising,
+                true => Kind::Falling,
+                false => Kind::Rising,
             }),
             landed_deg: [0, 1].map(|k| {
                 let laid = snapshot.laid[edges + 2 * n + k].as_ref()?;
@@ -189,87 +175,38 @@ impl<'a> Report<'a> {
             equilibria: self.steps.iter().map(|step| step.solver.equilibria).sum(),
         }
     }
+}
 
-    fn span_state(&self, span: &FreeSpan, points: Vec<Point>, misfit: &Misfit) -> SpanState {
-        SpanState {
-            arc: [span.start, span.start + span.length],
-            length: span.length,
-            run: span.run(),
-            rise: span.ends[1][2] - span.ends[0][2],
-            state: match span.state {
-                _ if span.shearing => Hold::Straight,
-                catenary::SpanState::Hanging => Hold::Hanging,
-                catenary::SpanState::Overstretched => Hold::Overstretched,
-                catenary::SpanState::Straight => Hold::Straight,
-            },
-            force: span.force,
-            slopes: span.slopes,
-            prescribed: span.prescribed,
-            points,
-            ..self.fitted(misfit)
-        }
+fn span_state(span: &FreeSpan, misfit: &Misfit) -> SpanState {
+    SpanState {
+        segment: span.rest,
+        hold: match span.state {
+            _ if span.shearing => Hold::Straight,
+            catenary::SpanState::Hanging => Hold::Hanging,
+            catenary::SpanState::Overstretched => Hold::Overstretched,
+            catenary::SpanState::Straight => Hold::Straight,
+        },
+        length: span.length,
+        way: misfit.way,
+        force: span.force,
+        slopes: span.slopes,
+        prescribed: span.prescribed,
     }
+}
 
-    /// A segment that lies on the mold, or one of no length; `None` for a catenary that lies whole.
-    fn lying_state(&self, laid: &Laid, segment: &LyingSegment, mold: &Mold) -> SpanState {
-        let LyingSegment { which, misfit, line } = segment;
-        let arc = match which {
-            None => [0.0, laid.length],
-            Some(0) => [0.0, laid.arc()[0]],
-            Some(_) => [laid.arc()[1], laid.length],
-        };
-        let [a, b] = [line.points[0], line.end()];
-        let run = (b[0] - a[0]).hypot(b[1] - a[1]);
-        let slope = if run > 0.0 { (b[2] - a[2]) / run } else { 0.0 };
-        // its slack stands up as a ruck in its middle; a catenary that lies whole is drawn by its contact
-        let ruck = self.ruck(misfit);
-        let points = match which {
-            Some(_) if misfit.length > 0.0 => (0..STATIONS)
-                .map(|n| {
-                    let s = line.length() * n as f64 / (STATIONS - 1) as f64;
-                    let place = line.at(s);
-                    let height = ruck.map_or(0.0, |ruck| ruck.at(s - 0.5 * line.length()));
-                    along(place, height, mold.normal(place))
-                })
-                .collect(),
-            _ => Vec::new(),
-        };
-        SpanState {
-            arc,
-            length: misfit.length,
-            run,
-            rise: b[2] - a[2],
-            slopes: [slope; 2],
-            points,
-            ..self.fitted(misfit)
-        }
-    }
-
-    fn ruck(&self, misfit: &Misfit) -> Option<Ruck> {
-        let ply = &self.scene.ply;
-        let line = ply.line(ply.grid.catenary(misfit.catenary).kind);
-        Ruck::of(misfit.slack(), line.flexural_rigidity, line.mass * self.scene.settings.gravity)
-    }
-
-    /// What a segment has of its misfit; it lies, and all else is empty.
-    fn fitted(&self, misfit: &Misfit) -> SpanState {
-        let length = misfit.length;
-        SpanState {
-            arc: [0.0; 2],
-            length,
-            run: 0.0,
-            rise: 0.0,
-            state: Hold::Lying,
-            force: None,
-            slopes: [0.0; 2],
-            prescribed: [false; 2],
-            points: Vec::new(),
-            slack_mm: misfit.slack() * 1e3,
-            slack_ratio: if length > 0.0 { misfit.slack() / length } else { 0.0 },
-            wrinkle_mm: self.ruck(misfit).map_or(0.0, |ruck| ruck.height() * 1e3),
-            overstretch_mm: misfit.overstretch() * 1e3,
-            overstretch: misfit.overstretch() / misfit.whole,
-        }
+/// A segment that lies on the mold, or one of no length.
+fn lying_state(LyingSegment { which, misfit, line }: &LyingSegment) -> SpanState {
+    let [a, b] = [line.points[0], line.end()];
+    let run = (b[0] - a[0]).hypot(b[1] - a[1]);
+    let slope = if run > 0.0 { (b[2] - a[2]) / run } else { 0.0 };
+    SpanState {
+        segment: which.unwrap_or(0),
+        hold: Hold::Lying,
+        length: misfit.length,
+        way: misfit.way,
+        force: None,
+        slopes: [slope; 2],
+        prescribed: [false; 2],
     }
 }
 
@@ -277,19 +214,9 @@ fn contact_state(laid: &Laid, landing: Option<&Landing>) -> ContactState {
     let errors = |landing: &Landing| landing.errors.iter().map(|e| e.map(|e| e * 1e3)).collect();
     let angle = landing.and_then(|landing| landing.fibre_angle);
     ContactState {
-        arc: laid.arc(),
         points: laid.line.points.clone(),
+        arc: laid.line.arc.clone(),
         landing_error_mm: landing.map(errors),
         fibre_angle_deg: angle.map(|(angle, _)| angle.to_degrees()),
-    }
-}
-
-/// The kind of a catenary as the record has it.
-fn described(kind: Kind) -> (CatenaryKind, CatenaryDirection) {
-    match kind {
-        Kind::EdgeU => (CatenaryKind::Edge, CatenaryDirection::U),
-        Kind::EdgeV => (CatenaryKind::Edge, CatenaryDirection::V),
-        Kind::Rising => (CatenaryKind::Diagonal, CatenaryDirection::Rising),
-        Kind::Falling => (CatenaryKind::Diagonal, CatenaryDirection::Falling),
     }
 }

@@ -15,6 +15,8 @@ use crate::material::{Line, Material, Section};
 
 /// A rectangular woven ply held by a grid of grippers.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Ply {
     /// Grippers along u and v.
     pub grid: Grid,

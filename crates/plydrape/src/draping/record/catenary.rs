@@ -1,33 +1,8 @@
-//! The catenaries of a step: kind, direction, spans, contact.
+//! The catenaries of a step: what their shapes and measures follow from.
 
-use crate::ply::GripperId;
-use std::fmt;
-
-/// Whether a catenary bounds cells or crosses one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
-pub enum CatenaryKind {
-    /// Along a fibre direction, between two cells or at the ply's border.
-    Edge,
-    /// Across a cell.
-    Diagonal,
-}
-
-/// Where a catenary leads.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
-pub enum CatenaryDirection {
-    /// Along the first gripper index.
-    U,
-    /// Along the second gripper index.
-    V,
-    /// From `[i, j]` to `[i+1, j+1]`.
-    Rising,
-    /// From `[i+1, j]` to `[i, j+1]`.
-    Falling,
-}
+use crate::draping::contact::Bridge;
+use crate::draping::misfit;
+use crate::ply::{GripperId, Kind, Ply, Ruck};
 
 /// What holds a span in its shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,30 +19,11 @@ pub enum Hold {
     Lying,
 }
 
-/// The word of the file.
-macro_rules! words {
-    ($name:ident: $($variant:ident $word:literal),*) => {
-        impl fmt::Display for $name {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(match self { $($name::$variant => $word),* })
-            }
-        }
-    };
-}
-
-words!(CatenaryKind: Edge "edge", Diagonal "diagonal");
-words!(CatenaryDirection: U "u", V "v", Rising "rising", Falling "falling");
-words!(Hold: Hanging "hanging", Overstretched "overstretched", Straight "straight", Lying "lying");
-
 /// One catenary in one step.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[derive(Debug, Clone, PartialEq)]
 pub struct CatenaryState {
-    /// `edge` or `diagonal`.
-    pub kind: CatenaryKind,
-    /// `u`, `v`, `rising` or `falling`.
-    pub direction: CatenaryDirection,
+    /// Its family.
+    pub kind: Kind,
     /// Gripper at its first end.
     pub from: GripperId,
     /// Gripper at its second end.
@@ -78,75 +34,109 @@ pub struct CatenaryState {
     pub shearing: bool,
     /// Force of a shearing diagonal (N), where the material has a shear curve.
     pub shear_force_n: Option<f64>,
-    /// Rests, in order: those that hang, and those that lie on the mold with what slack they keep.
+    /// Segments outside of contact, in order: those that hang, and those that lie on the mold with what slack they keep.
     pub spans: Vec<SpanState>,
-    /// What the mold has caught.
+    /// The segment in contact with the mold.
     pub contact: Option<ContactState>,
     /// A touch away from the contact segment.
-    pub bridging: Option<Bridging>,
+    pub bridging: Option<Bridge>,
 }
 
-/// One free span in one step.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+impl CatenaryState {
+    /// Fabric arc length of the ends of one of its spans from the first gripper (m).
+    #[must_use]
+    pub fn arc(&self, span: &SpanState) -> [f64; 2] {
+        match (&self.contact, span.segment) {
+            (Some(contact), 1) => [contact.ends()[1], self.length],
+            (Some(contact), _) if span.hold != Hold::Lying || span.length < self.length => {
+                [0.0, contact.ends()[0]]
+            }
+            _ => [0.0, self.length],
+        }
+    }
+
+    /// Way of one of its spans beyond its fabric, as a share of the whole catenary.
+    #[must_use]
+    pub fn overstretch(&self, span: &SpanState) -> f64 {
+        1e-3 * span.overstretch_mm(self.length) / self.length
+    }
+}
+
+/// One segment outside of contact in one step.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpanState {
-    /// Fabric arc length of its ends from the first gripper (m).
-    pub arc: [f64; 2],
+    /// 0 for a whole catenary or the segment before the one in contact, 1 for the segment after it.
+    pub segment: usize,
+    /// Whether it hangs, is pulled or lies.
+    pub hold: Hold,
     /// Fabric length (m).
     pub length: f64,
-    /// Horizontal distance of its ends (m).
-    pub run: f64,
-    /// Height of its second end above its first (m).
-    pub rise: f64,
-    /// Whether it hangs, is pulled or lies.
-    pub state: Hold,
-    /// Horizontal force (N); null where the model gives none.
-    #[cfg_attr(feature = "serde", serde(rename = "H_N"))]
+    /// Way between its ends (m), negative where a gripper has passed the end of what is in contact: a fold.
+    pub way: f64,
+    /// Horizontal force (N); none where the model gives none.
     pub force: Option<f64>,
     /// Slopes at its ends.
     pub slopes: [f64; 2],
     /// Which of these slopes were prescribed; the others are free.
     pub prescribed: [bool; 2],
-    /// Its shape at equally spaced stations (m); slack of a lying rest is drawn as a wrinkle.
-    pub points: Vec<[f64; 3]>,
-    /// Free length minus the way between its ends (mm), not negative; a fold where the gripper has passed the contact.
-    pub slack_mm: f64,
-    /// Slack as a share of its free length.
-    pub slack_ratio: f64,
-    /// Height of the ruck that the slack makes on the mold (mm), [`crate::ply::Ruck`].
-    pub wrinkle_mm: f64,
-    /// Way beyond the free length (mm), not negative.
-    pub overstretch_mm: f64,
-    /// Way beyond the free length as a share of the whole catenary.
-    pub overstretch: f64,
 }
 
-/// The segment of a catenary that the mold has caught; rests beside it may lie there too.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+impl SpanState {
+    /// Fabric beyond the way (mm), not negative; `whole` is the length of its catenary (m).
+    #[must_use]
+    pub fn slack_mm(&self, whole: f64) -> f64 {
+        1e3 * misfit::slack(self.length - self.way, whole)
+    }
+
+    /// Slack as a share of its fabric.
+    #[must_use]
+    pub fn slack_ratio(&self, whole: f64) -> f64 {
+        if self.length > 0.0 {
+            misfit::slack(self.length - self.way, whole) / self.length
+        } else {
+            0.0
+        }
+    }
+
+    /// Way beyond the fabric (mm), not negative.
+    #[must_use]
+    pub fn overstretch_mm(&self, whole: f64) -> f64 {
+        1e3 * misfit::slack(self.way - self.length, whole)
+    }
+
+    /// The ruck that its slack makes on the mold, if it has any.
+    #[must_use]
+    pub fn ruck(&self, ply: &Ply, gravity: f64, catenary: &CatenaryState) -> Option<Ruck> {
+        let line = ply.line(catenary.kind);
+        let slack = misfit::slack(self.length - self.way, catenary.length);
+        Ruck::of(slack, line.flexural_rigidity, line.mass * gravity)
+    }
+}
+
+/// The segment of a catenary that is in contact; segments beside it may lie there too.
+#[derive(Debug, Clone, PartialEq)]
 pub struct ContactState {
-    /// Fabric arc length of its ends from the first gripper (m).
-    pub arc: [f64; 2],
     /// Its line on the mold (m), first to last.
     pub points: Vec<[f64; 3]>,
-    /// Distance of each of these points from its place in the ideal drape (mm); null where that is not
-    /// known.
+    /// Fabric arc length of each of these points from the first gripper (m).
+    pub arc: Vec<f64>,
+    /// Distance of each of these points from its place in the ideal drape (mm); none where that is not known.
     pub landing_error_mm: Option<Vec<Option<f64>>>,
     /// Angle between the line, from end to end, and the same fabric in the ideal drape (°); edges only.
     pub fibre_angle_deg: Option<f64>,
 }
 
-/// A touch away from the contact segment, which the model does not follow.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Bridging {
-    /// Place of the largest gap between segment and touch (m).
-    pub place: [f64; 3],
-    /// That gap (m).
-    pub gap: f64,
-    /// Straight distance between the touches on both sides of it (m).
-    pub width: f64,
+impl ContactState {
+    /// Fabric arc length of its ends from the first gripper (m).
+    #[must_use]
+    pub fn ends(&self) -> [f64; 2] {
+        [self.arc[0], self.arc[self.arc.len() - 1]]
+    }
+
+    /// Its fabric length (m).
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let [from, to] = self.ends();
+        to - from
+    }
 }

@@ -1,19 +1,19 @@
-//! The record of a drape: every force, slope, shape, contact and measure of every step.
+//! The record of a drape: every force, slope, contact and measure of every step; shapes are made from it by
+//! [`crate::draping::curves`].
 //!
 //! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise.
 
 mod catenary;
 mod outcome;
 
+pub use super::contact::Bridge;
 pub use crate::measure::{Measures, Numbers, Verdict, Worst};
-pub use catenary::{
-    Bridging, CatenaryDirection, CatenaryKind, CatenaryState, ContactState, Hold, SpanState,
-};
+pub use catenary::{CatenaryState, ContactState, Hold, SpanState};
 pub use outcome::{CatenaryId, Summary};
 
 use crate::draping::ContactStatus;
 use crate::equilibrium::Status;
-use crate::ply::GripperId;
+use crate::ply::{GripperId, Kind};
 use crate::scene::PlanMethod;
 
 /// A plan: what a motion is made from again, see [`PlanRecord::motion`].
@@ -35,9 +35,7 @@ pub struct PlanRecord {
 }
 
 /// The ply in one step.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Step {
     /// Counts from 1, the start.
     pub step: usize,
@@ -56,9 +54,7 @@ pub struct Step {
 }
 
 /// A gripper in one step.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Gripper {
     /// Grid indices.
     pub id: GripperId,
@@ -85,7 +81,7 @@ impl Gripper {
 }
 
 /// How the equilibrium of a step was found.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Solver {
@@ -110,16 +106,14 @@ impl Solver {
 }
 
 /// A cell in one step.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Cell {
     /// Its lowest gripper.
     pub cell: GripperId,
     /// Shear angle (°), 0 where no diagonal shears.
     pub shear_deg: f64,
     /// The shearing diagonal, `rising` or `falling`.
-    pub shearing: Option<CatenaryDirection>,
+    pub shearing: Option<Kind>,
     /// Shear angle (°) that each of its diagonals landed with, rising and falling, positive where the rising one is the
     /// longer one; null where it has not.
     pub landed_deg: [Option<f64>; 2],

@@ -1,16 +1,15 @@
 //! How a drape came out: worst values of every step, limits, the verdict.
 
-use super::CatenaryKind;
 use crate::measure::{Numbers, Verdict};
-use crate::ply::GripperId;
+use crate::ply::{GripperId, Kind};
 
 /// A catenary by its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CatenaryId {
-    /// `edge` or `diagonal`.
-    pub kind: CatenaryKind,
+    /// Its family.
+    pub kind: Kind,
     /// Gripper at its first end.
     pub from: GripperId,
     /// Gripper at its second end.

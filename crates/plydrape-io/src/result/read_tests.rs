@@ -1,19 +1,19 @@
 use super::*;
-use crate::{json, sample};
+use crate::sample;
 
 fn read(text: &str) -> Result<ResultFile, ReadError> {
     parse(text.as_bytes(), Path::new("result.json"))
 }
 
 fn written() -> String {
-    json::text(&sample::draped(3, 2, 3)).unwrap()
+    ResultFile::text(&sample::draped(3, 2, 3)).unwrap()
 }
 
 /// What is read is what was written, to the last bit: written again it is the same text.
 #[test]
 fn a_result_that_is_read_writes_the_same_text() {
     let text = written();
-    assert_eq!(json::text(&read(&text).unwrap()).unwrap(), text);
+    assert_eq!(ResultFile::text(&read(&text).unwrap()).unwrap(), text);
 }
 
 /// A file that was copied in part is told apart from one that was never a result.
@@ -62,12 +62,12 @@ fn a_result_must_have_all_of_its_ply() {
         |r| r.steps[1].grippers.truncate(1),
         |r| r.steps[0].cells.truncate(1),
         |r| r.steps[2].catenaries.truncate(1),
-        |r| r.scene.grid.nu = 0,
+        |r| r.scene.ply.grid.nu = 0,
     ];
     for spoil in spoilt {
         let mut result = sample::draped(3, 2, 3);
         spoil(&mut result);
-        let refused = read(&json::text(&result).unwrap()).unwrap_err();
+        let refused = read(&ResultFile::text(&result).unwrap()).unwrap_err();
         assert!(matches!(refused, ReadError::Changed { .. }), "{refused}");
     }
 }

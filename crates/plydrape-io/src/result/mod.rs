@@ -1,48 +1,43 @@
-//! The result file: the scene as it was understood, and every force, slope, shape, contact and measure of every
-//! step.
+//! The result file: the scene as it was understood, and every force, slope, contact and measure of every step.
 //!
-//! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise. All other
-//! outputs can be made from it.
+//! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise. All other outputs can be made
+//! from it. What a [`ResultFile`] is in memory has the physics' own types; as a file it has columns, see [`document`].
 
-use crate::mold_record;
-use plydrape::draping::Drape;
+mod check;
+mod contact;
+pub mod document;
+mod mold;
+pub mod read;
+mod step;
+
 use plydrape::draping::record::{PlanRecord, Step, Summary};
-use plydrape::material::Material;
+use plydrape::draping::{Drape, curves};
 use plydrape::mold::Mold;
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
-use plydrape::net::Net;
 use plydrape::planner::Planned;
-use plydrape::ply::{Direction, Grid};
-use plydrape::scene::{Limits, Scene, Settings};
+use plydrape::ply::Ply;
+use plydrape::scene::{Limits, Scene, Settings, Target};
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 5;
+pub const VERSION: u32 = 6;
 
-/// A whole result file.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// A whole result.
+#[derive(Debug, Clone)]
 pub struct ResultFile {
-    /// [`FORMAT`].
-    pub format: Cow<'static, str>,
-    /// [`VERSION`].
-    pub version: u32,
-    /// Check sum of the whole file with nothing here; empty until it is written.
-    pub checksum: String,
-    /// Version of the program that wrote it.
+    /// Version of the program that made it.
     pub program: String,
     /// The scene, as it was understood.
     pub scene: SceneEcho,
     /// The plan that the drape follows, if it was planned.
     pub plan: Option<PlanRecord>,
-    /// One entry a step, the start being step 1.
-    pub steps: Vec<Step>,
     /// The outcome.
     pub summary: Summary,
+    /// One entry a step, the start being step 1.
+    pub steps: Vec<Step>,
 }
 
 /// The scene, as it was understood.
@@ -53,21 +48,13 @@ pub struct SceneEcho {
     pub title: String,
     /// The scene file; none of a scene that was made in a program.
     pub input: Option<Arc<str>>,
-    /// Grippers along u and v.
-    pub grid: Grid,
-    /// Fabric length of a cell along u and v (m).
-    pub cell: [f64; 2],
-    /// The ply's material.
-    pub material: Material,
-    /// The grid direction of the warp.
-    pub warp: Direction,
+    /// The ply.
+    pub ply: Ply,
     /// The mold, if any.
-    #[serde(with = "mold_record")]
+    #[serde(with = "mold")]
     pub mold: Option<Mold>,
-    /// Final gripper positions of the ideal drape (m), if the ply is to be draped.
-    pub target_grippers: Option<Vec<[f64; 3]>>,
-    /// The ideal drape, a net, where it is known.
-    pub ideal_drape: Option<Arc<Net>>,
+    /// Where the ply should end, if it is to be draped.
+    pub target: Option<Target>,
     /// Rules of the model.
     pub settings: Settings,
     /// Limits of an accepted drape.
@@ -78,20 +65,23 @@ impl SceneEcho {
     /// What a result keeps of a scene and of the text of its file.
     #[must_use]
     pub fn new(scene: &Scene, input: Option<Arc<str>>) -> Self {
-        let target = scene.target.as_ref();
         SceneEcho {
             title: scene.title.clone(),
             input,
-            grid: scene.ply.grid,
-            cell: scene.ply.cell,
-            material: scene.ply.material.clone(),
-            warp: scene.ply.warp,
+            ply: scene.ply.clone(),
             mold: scene.mold.clone(),
-            target_grippers: target.map(|target| target.grippers.clone()),
-            ideal_drape: target.and_then(|target| target.drape.clone()),
+            target: scene.target.clone(),
             settings: scene.settings,
             limits: scene.limits,
         }
+    }
+}
+
+impl SceneEcho {
+    /// Final gripper positions of the ideal drape (m), if the ply is to be draped.
+    #[must_use]
+    pub fn target_grippers(&self) -> Option<&[[f64; 3]]> {
+        self.target.as_ref().map(|target| target.grippers.as_slice())
     }
 }
 
@@ -100,14 +90,11 @@ impl ResultFile {
     #[must_use]
     pub fn new(scene: &Scene, input: Option<Arc<str>>, drape: Drape) -> Self {
         ResultFile {
-            format: FORMAT.into(),
-            version: VERSION,
-            checksum: String::new(),
             program: crate::PROGRAM.into(),
             scene: SceneEcho::new(scene, input),
             plan: None,
-            steps: drape.steps,
             summary: drape.summary,
+            steps: drape.steps,
         }
     }
 
@@ -116,6 +103,13 @@ impl ResultFile {
     pub fn planned(scene: &Scene, input: Option<Arc<str>>, planned: &Planned) -> Self {
         let plan = Some(planned.record.clone());
         ResultFile { plan, ..ResultFile::new(scene, input, planned.drape.clone()) }
+    }
+
+    /// The curves of a step (m): for each catenary, one for each of its spans, see [`plydrape::draping::curves`].
+    #[must_use]
+    pub fn curves(&self, step: &Step) -> Vec<Vec<Vec<[f64; 3]>>> {
+        let SceneEcho { ply, settings, mold, .. } = &self.scene;
+        curves(ply, settings, mold.as_ref(), step)
     }
 
     /// The motion of a planned drape at any time, and the orientations along it; none of a simulated one.

@@ -1,0 +1,155 @@
+//! What is impossible in a result that was read.
+
+use super::{ResultFile, SceneEcho};
+use crate::json::JsonError;
+use crate::shown;
+use plydrape::draping::record::CatenaryState;
+use plydrape::material::Section;
+use plydrape::ply::{FARTHEST, Grid, GripperId, is_near};
+use plydrape::scene::Settings;
+
+/// What is impossible in a result, in words: a file whose check sum was made anew may hold anything, and everything made of
+/// it relies on this.
+pub(super) fn fault(result: &ResultFile) -> Option<String> {
+    of_net(&result.scene).or_else(|| of_steps(result)).or_else(|| of_summary(result)).or_else(
+        || match result.check_within(LARGEST_NUMBER) {
+            Err(JsonError::NotFinite { key, value }) => {
+                Some(format!("`{key}` is {value}, beyond {LARGEST_NUMBER:e}"))
+            }
+            _ => None,
+        },
+    )
+}
+
+/// Largest number of a result in size: its square and its cube are far from overflow.
+const LARGEST_NUMBER: f64 = 1e30;
+/// Rounding of an arc length, as a share of it.
+const ROUNDING: f64 = 1e-12;
+/// Most grippers along a side, as in scenes.
+const MOST_GRIPPERS: usize = 1000;
+/// Smallest and largest fabric length of a cell (m), as in scenes.
+const CELLS: [f64; 2] = [1e-6, 1e4];
+
+/// What is impossible in the scene's ply.
+pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
+    let Grid { nu, nv } = scene.ply.grid;
+    if !(2..=MOST_GRIPPERS).contains(&nu) || !(1..=MOST_GRIPPERS).contains(&nv) {
+        return Some(format!("there is no ply of {nu} × {nv} grippers"));
+    }
+    let [a, b] = scene.ply.cell;
+    if ![a, b].iter().all(|side| (CELLS[0]..=CELLS[1]).contains(side)) {
+        return Some(format!("there is no cell of {a} × {b} m"));
+    }
+    if let Some(c) = shown::control(&scene.title) {
+        return Some(format!("its title holds the control character {}", c.escape_unicode()));
+    }
+    let sound = match scene.ply.material.section {
+        Section::Line { mass, flexural_rigidity } => mass > 0.0 && flexural_rigidity >= 0.0,
+        Section::Areal { mass, warp_rigidity, weft_rigidity } => {
+            mass > 0.0 && warp_rigidity >= 0.0 && weft_rigidity >= 0.0
+        }
+    };
+    let Settings { axial_stiffness, gravity, max_tilt, .. } = scene.settings;
+    if !(sound && axial_stiffness > 0.0 && gravity > 0.0) {
+        return Some("mass, stiffness and gravity must be above zero".into());
+    }
+    if !(max_tilt > 0.0 && max_tilt < std::f64::consts::FRAC_PI_2) {
+        return Some(format!("there is no largest tilt of {max_tilt} rad"));
+    }
+    let target = &scene.target.as_ref()?.grippers;
+    match (target.len(), scene.ply.grid.grippers()) {
+        (found, count) if found != count => {
+            Some(format!("its target has {found} grippers, not {count}"))
+        }
+        _ => target.iter().find_map(|place| far("a target", place)),
+    }
+}
+
+fn of_net(scene: &SceneEcho) -> Option<String> {
+    let net = scene.target.as_ref()?.drape.as_ref()?;
+    let [nu, nv] = net.layup.nodes;
+    let nodes = nu.checked_mul(nv).filter(|_| nu > 0 && nv > 0);
+    let cells = nodes.map(|_| (nu - 1) * (nv - 1));
+    let seed = (0..2).all(|n| net.layup.seed[n] < net.layup.nodes[n]);
+    let missing = net.missing.iter().all(|m| m.node[0] < nu && m.node[1] < nv);
+    let mesh = net.layup.mesh.iter().all(|width| (CELLS[0]..=CELLS[1]).contains(width));
+    if nodes != Some(net.nodes.len())
+        || cells != Some(net.shear.len())
+        || !seed
+        || !missing
+        || !mesh
+    {
+        return Some(format!("its ideal drape is no net of {nu} × {nv} nodes"));
+    }
+    net.nodes.iter().flatten().find_map(|place| far("a node of the ideal drape", place))
+}
+
+fn of_steps(result: &ResultFile) -> Option<String> {
+    if result.steps.is_empty() {
+        return Some("it has no step".into());
+    }
+    if let Some(n) =
+        (1..result.steps.len()).find(|n| result.steps[*n].time <= result.steps[n - 1].time)
+    {
+        return Some(format!("the time of step {} is not after that of the step before", n + 1));
+    }
+    result.steps.iter().zip(1..).find_map(|(step, number)| {
+        if step.step != number {
+            return Some(format!("step {number} has the number {}", step.step));
+        }
+        let mut grippers = step.grippers.iter();
+        let gripper = grippers.find_map(|gripper| {
+            let length = gripper.quaternion.iter().map(|q| q * q).sum::<f64>().sqrt();
+            if (length - 1.0).abs() > 1e-3 {
+                return Some(format!(
+                    "the quaternion of gripper {:?} has the length {length}",
+                    gripper.id
+                ));
+            }
+            far("a gripper", &gripper.position)
+        });
+        let catenary = || step.catenaries.iter().find_map(of_catenary);
+        gripper.or_else(catenary).map(|what| format!("in step {number}, {what}"))
+    })
+}
+
+fn of_catenary(line: &CatenaryState) -> Option<String> {
+    let named = |what: String| Some(format!("catenary {:?}–{:?} has {what}", line.from, line.to));
+    if line.length <= 0.0 {
+        return named(format!("the length {}", line.length));
+    }
+    if let Some(span) = line.spans.iter().find(|span| span.length < 0.0) {
+        return named(format!("a segment of the length {}", span.length));
+    }
+    let contact = line.contact.as_ref()?;
+    let [from, to] = contact.ends();
+    if !(0.0 <= from && from <= to && to <= line.length * (1.0 + ROUNDING)) {
+        return named(format!("contact from {from} to {to} m of {} m", line.length));
+    }
+    contact.points.iter().find_map(|place| far("a contact", place))
+}
+
+fn of_summary(result: &ResultFile) -> Option<String> {
+    let (summary, grid, steps) = (&result.summary, result.scene.ply.grid, result.steps.len());
+    if summary.steps != steps || summary.steps_planned < steps {
+        return Some(format!(
+            "its summary has {} of {} steps",
+            summary.steps, summary.steps_planned
+        ));
+    }
+    let named = [summary.first_contact_step, summary.first_shear_step, summary.all_shear_step];
+    let judged = summary.limits.iter().map(|verdict| verdict.step);
+    if let Some(step) = named.into_iter().chain(judged).flatten().find(|n| !(1..=steps).contains(n))
+    {
+        return Some(format!("its summary names step {step} of {steps}"));
+    }
+    let known = |[i, j]: GripperId| i < grid.nu && j < grid.nv;
+    let unknown =
+        summary.first_contact.iter().find(|line| !(known(line.from) && known(line.to)))?;
+    Some(format!("its summary names a catenary from {:?} to {:?}", unknown.from, unknown.to))
+}
+
+/// What is wrong with a place (m) out of all range.
+fn far(what: &str, place: &[f64; 3]) -> Option<String> {
+    (!is_near(place)).then(|| format!("{what} is at {place:?} m, beyond {FARTHEST:e} m"))
+}

@@ -1,0 +1,282 @@
+//! A result file, read back: the whole of it, unchanged, in this version of the format, or a refusal.
+//!
+//! Everything that is made of a result is made of these numbers, so a file that was cut short, edited or
+//! written by another version is no basis. The check sum stands for all its bytes but white space at the end.
+//!
+//! The file is read as a stream, three times: for its version, for its contents, for its check sum.
+
+use super::check::fault;
+use super::document::{Document, shown};
+use super::step::StepColumns;
+use super::{FORMAT, ResultFile, VERSION};
+use crate::size::{self, SizeError};
+use crate::{folder, input};
+use serde::Deserialize;
+use serde_json::error::Category;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
+use std::path::{Path, PathBuf};
+
+/// Why a file is no result that can be used, and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file system refused.
+    #[error("`{}` cannot be read: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The file system's answer.
+        source: std::io::Error,
+    },
+    /// It would not fit the memory that is allowed.
+    #[error("`{}`: {source}", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// What is too large.
+        source: SizeError,
+    },
+    /// The text breaks off.
+    #[error("`{}` ends in the middle, at line {line}, column {column}: it was cut short", path.display())]
+    Truncated {
+        /// The file.
+        path: PathBuf,
+        /// Line of the end, from 1.
+        line: usize,
+        /// Column of the end, from 1.
+        column: usize,
+    },
+    /// Something else, not written by plydrape.
+    #[error("`{}` is not a result of plydrape: {reason}", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// How that shows.
+        reason: String,
+    },
+    /// Written in a later format.
+    #[error("`{}` is a result in version {found} of the format, written by {program}; this is {} and reads version {VERSION}", path.display(), crate::PROGRAM)]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// Version of the format.
+        found: u64,
+        /// The program that wrote it.
+        program: String,
+    },
+    /// Written in an earlier format.
+    #[error("`{}` is a result in version {found} of the format, written by {program}; this is {} and reads version {VERSION}", path.display(), crate::PROGRAM)]
+    Older {
+        /// The file.
+        path: PathBuf,
+        /// Version of the format.
+        found: u64,
+        /// The program that wrote it.
+        program: String,
+    },
+    /// Beside files of another run: the last one was cut off while it replaced them.
+    #[error("the files of `{}` are of two runs: the last one was cut off while it wrote them", path.display())]
+    Mixed {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Changed since it was written.
+    #[error("`{}` was changed since plydrape wrote it{}", path.display(), reason)]
+    Changed {
+        /// The file.
+        path: PathBuf,
+        /// How that shows, beginning with a colon; empty where only the check sum tells.
+        reason: String,
+    },
+}
+
+impl ReadError {
+    /// What would help.
+    #[must_use]
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            ReadError::Unreadable { .. } => "give the path of a result.json that you may read",
+            ReadError::TooLarge { source, .. } => source.remedy(),
+            ReadError::Truncated { .. } => {
+                "copy it again, or run `plydrape simulate` or `plydrape plan` again"
+            }
+            ReadError::Foreign { .. } => {
+                "give the result.json of `plydrape simulate` or `plydrape plan`"
+            }
+            ReadError::Newer { .. } => "update plydrape, or run the scene again with this version",
+            ReadError::Mixed { .. } => "run the scene again into that folder",
+            ReadError::Older { .. } => "run the scene again with this version",
+            ReadError::Changed { .. } => {
+                "put the file back as it was, or run `plydrape simulate` or `plydrape plan` again"
+            }
+        }
+    }
+}
+
+/// What tells a result file before all of it is understood.
+#[derive(Deserialize)]
+struct Head {
+    format: Option<serde_json::Value>,
+    version: Option<u64>,
+    program: Option<String>,
+}
+
+/// A file that was read.
+type ReadDocument = Document<'static, Vec<StepColumns>, String>;
+
+/// Reads a result file.
+///
+/// # Errors
+/// [`ReadError`] if it cannot be read, or is not, to the last byte, what this version writes.
+pub fn read(path: &Path) -> Result<ResultFile, ReadError> {
+    let fault = |source| ReadError::Unreadable { path: path.into(), source };
+    let size = input::size(path).map_err(fault)?;
+    size::result(size).map_err(|source| ReadError::TooLarge { path: path.into(), source })?;
+    let folder = path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."));
+    if !folder::is_sealed(folder) {
+        return Err(ReadError::Mixed { path: folder.into() });
+    }
+    let file = File::open(path).map_err(fault)?;
+    // what is added to it meanwhile is not read
+    read_from(&mut Bounded { reader: BufReader::new(file), size }, path)
+}
+
+/// The same from the bytes of a file; its path stands in messages.
+///
+/// # Errors
+/// As [`read`].
+pub fn parse(bytes: &[u8], path: &Path) -> Result<ResultFile, ReadError> {
+    read_from(&mut Bounded { reader: Cursor::new(bytes), size: bytes.len() as u64 }, path)
+}
+
+/// A file of a known size.
+struct Bounded<R> {
+    reader: R,
+    size: u64,
+}
+
+impl<R: BufRead + Seek> Bounded<R> {
+    /// All of it, from its beginning.
+    fn all(&mut self) -> io::Result<impl BufRead> {
+        self.reader.rewind()?;
+        Ok((&mut self.reader).take(self.size))
+    }
+}
+
+fn read_from<R: BufRead + Seek>(
+    file: &mut Bounded<R>,
+    path: &Path,
+) -> Result<ResultFile, ReadError> {
+    let path = path.to_path_buf();
+    let unreadable = |source| ReadError::Unreadable { path: path.clone(), source };
+    let changed =
+        |what: String| ReadError::Changed { path: path.clone(), reason: format!(": {what}") };
+    let foreign = |reason| ReadError::Foreign { path: path.clone(), reason };
+
+    // Whose it is, and of which version: keys that are unknown here say nothing yet.
+    let head = serde_json::from_reader(file.all().map_err(unreadable)?);
+    let head: Head = match head {
+        Ok(head) => head,
+        Err(error) => {
+            let ours = begins_as_ours(file.all().map_err(unreadable)?).map_err(unreadable)?;
+            return Err(match error.classify() {
+                Category::Io => unreadable(error.into()),
+                Category::Eof if ours => {
+                    let (line, column) = (error.line(), error.column());
+                    ReadError::Truncated { path, line, column }
+                }
+                _ if ours => changed(error.to_string()),
+                Category::Data => foreign(format!("it has no `format` \"{FORMAT}\"")),
+                _ => foreign(format!("it is not JSON, {error}")),
+            });
+        }
+    };
+    let (found, program) = match head {
+        Head { format: Some(format), version: Some(version), program } if format == FORMAT => {
+            (version, program.unwrap_or_else(|| "an unknown program".into()))
+        }
+        _ => return Err(foreign(format!("it has no `format` \"{FORMAT}\" with a `version`"))),
+    };
+    match found.cmp(&u64::from(VERSION)) {
+        std::cmp::Ordering::Less => return Err(ReadError::Older { path, found, program }),
+        std::cmp::Ordering::Greater => return Err(ReadError::Newer { path, found, program }),
+        std::cmp::Ordering::Equal => {}
+    }
+
+    // What it says, and whether that can be.
+    let read: ReadDocument = serde_json::from_reader(file.all().map_err(unreadable)?)
+        .map_err(|error| changed(error.to_string()))?;
+    let (result, sum) = from_columns(read).map_err(changed)?;
+    if let Some(what) = fault(&result) {
+        return Err(changed(what));
+    }
+    match checksum(file.all().map_err(unreadable)?).map_err(unreadable)? {
+        Some(found) if found == sum => Ok(result),
+        _ => Err(changed("its check sum does not match its contents".into())),
+    }
+}
+
+/// The result that a file describes, and the check sum that it names.
+fn from_columns(read: ReadDocument) -> Result<(ResultFile, String), String> {
+    let grid = read.scene.ply.grid;
+    if let Some(what) = super::check::of_ply(&read.scene) {
+        return Err(what);
+    }
+    if !read.catenaries.are_of(grid) {
+        return Err(format!("its catenaries are not those of {} × {} grippers", grid.nu, grid.nv));
+    }
+    let mut known = Vec::new();
+    let step = |(columns, number): (StepColumns, usize)| {
+        columns.step(grid, &mut known).map_err(|what| format!("in step {number}, {what}"))
+    };
+    let result = ResultFile {
+        program: read.program.into_owned(),
+        scene: read.scene.into_owned(),
+        plan: read.plan.into_owned(),
+        summary: read.summary.into_owned(),
+        steps: read.steps.into_iter().zip(1..).map(step).collect::<Result<_, _>>()?,
+    };
+    Ok((result, read.checksum))
+}
+
+/// Check sum of a file up to the value of its last key; none where that is not the check sum.
+fn checksum(mut file: impl BufRead) -> io::Result<Option<String>> {
+    let mut sum = crc32fast::Hasher::new();
+    let mut end: Vec<u8> = Vec::new();
+    loop {
+        let chunk = file.fill_buf()?;
+        if chunk.is_empty() {
+            break;
+        }
+        let count = chunk.len();
+        end.extend(chunk);
+        file.consume(count);
+        let spent = end.len().saturating_sub(END);
+        sum.update(&end[..spent]);
+        end.drain(..spent);
+    }
+    let place = end.windows(CHECKSUM.len()).rposition(|text| text == CHECKSUM);
+    let Some(place) = place.map(|place| place + CHECKSUM.len()) else { return Ok(None) };
+    sum.update(&end[..place]);
+    let sum = shown(sum);
+    let rest = String::from_utf8_lossy(&end[place..]);
+    Ok((rest.trim_end() == format!("\"{sum}\"}}")).then_some(sum))
+}
+
+/// The key of the check sum, as it is written.
+const CHECKSUM: &[u8] = b"\"checksum\":";
+
+/// Bytes at the end of a file among which the check sum is looked for.
+const END: usize = 1024;
+
+/// Whether what is no JSON begins as a result file does.
+fn begins_as_ours(file: impl BufRead) -> io::Result<bool> {
+    let mut start = Vec::new();
+    file.take(64).read_to_end(&mut start)?;
+    start.retain(|byte| !byte.is_ascii_whitespace());
+    Ok(start.starts_with(format!("{{\"format\":\"{FORMAT}\"").as_bytes()))
+}
+
+#[cfg(test)]
+#[path = "read_tests.rs"]
+mod tests;
