@@ -208,7 +208,7 @@ def test_grippers_are_those_of_the_result(drape: Exported) -> None:
 def test_the_surface_joins_the_grippers_and_faces_up(drape: Exported) -> None:
     """Corners of cells are the grippers; gap, fabric, fibres and shear are what they say."""
     content = drape.result.content["scene"]
-    (nu, nv), cell = (content["grid"]["nu"], content["grid"]["nv"]), content["cell"]
+    (nu, nv), cell = content["ply"]["grid"].values(), content["ply"]["cell"]
     near = content["settings"]["contact"]["tolerance"]
     for index, step in enumerate(drape.result.steps):
         poly = drape.step("ply", index)
