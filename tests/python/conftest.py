@@ -1,10 +1,10 @@
-"""Shared by all Python tests: one thread per process, and drapes that several look at."""
+"""Shared by all Python tests: their order on processes, one thread each, drapes that many need."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -15,7 +15,33 @@ if TYPE_CHECKING:
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
+# Files whose tests share what takes long to make, such as equilibria that the oracle has solved.
+TOGETHER = {
+    "test_oracle.py": "oracle",
+    "test_equilibrium.py": "oracle",
+    "test_inp.py": "CalculiX",
+    "test_net.py": "net",
+    "test_notebook.py": "notebook",
+    "test_ros2.py": "ROS 2",
+    "test_vtk.py": "VTK",
+}
+
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+def scope(test: str) -> str:
+    """Tests of one scope run on one process, one after the other; the largest scopes begin."""
+    return TOGETHER.get(Path(test.partition("::")[0]).name, test)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Tests that share much stay together; each other one goes where there is room."""
+    from xdist.scheduler import LoadScopeScheduling
+
+    scheduling = LoadScopeScheduling(config, log)
+    scheduling._split_scope = scope
+    return scheduling
 
 
 def drape(name: str) -> Result:

@@ -252,6 +252,8 @@ class Model:
         self.lowest = np.array(euler) * problem.rigidity / net.run**2
         # Length to reach: L (1 + H sec / EA).
         self.softness = self.length * self.spans.secant / problem.axial_stiffness
+        diagonals = range(net.edges, n)
+        self.planes = {(row, end): self.plane(row, end) for row in diagonals for end in (0, 1)}
 
     def constrained_ends(self) -> dict[tuple[int, int], float]:
         """Slope of each end of an edge that shearing cells constrain: (edge, end).
@@ -263,7 +265,7 @@ class Model:
         net = self.net
         free = None
         if any(0.0 < weight < 1.0 for _, weight in net.planes.values()):
-            free = solve(replace(self.problem, constrained=False)).slopes
+            free = unconstrained(self.problem)
         out = {}
         for index, line in enumerate(net.catenaries[: net.edges]):
             for end, gripper in enumerate(line.ends):
@@ -349,7 +351,7 @@ class Model:
                     slopes[row] = net.rise[row] / net.run[row]
                     continue
                 for end in (0, 1):
-                    parts = self.plane(row, end)
+                    parts = self.planes[row, end]
                     slopes[row, end] = sum(w * slopes[e, tip] for e, tip, w in parts)
                     slopes_by[row, end] = sum(
                         (w * slopes_by[e, tip] for e, tip, w in parts), np.zeros(self.variables)
@@ -377,7 +379,7 @@ class Model:
             one = self.spans.take(np.array([row]))
             for end in (0, 1):
                 if row >= self.net.edges:
-                    parts = self.plane(int(row), end)
+                    parts = self.planes[int(row), end]
                     slopes[row, end] = sum(w * slopes[e, tip] for e, tip, w in parts)
             args = (one, slopes[row : row + 1], float(self.length[row]))
             forces[n] = force_for(*args, self.problem.axial_stiffness)
@@ -394,6 +396,17 @@ class Model:
             out.append(float(np.mean(self.net.rise[rows] / self.net.run[rows])))
         inside: Real = np.clip(np.array(out), -0.95 * self.bound, 0.95 * self.bound)
         return inside
+
+
+_UNCONSTRAINED: dict[str, Real] = {}
+
+
+def unconstrained(problem: Problem) -> Real:
+    """Slopes of all catenaries where shearing cells constrain none, solved once per run."""
+    key = f"{problem} {problem.positions.tobytes().hex()}"
+    if key not in _UNCONSTRAINED:
+        _UNCONSTRAINED[key] = solve(replace(problem, constrained=False)).slopes
+    return _UNCONSTRAINED[key]
 
 
 @dataclass(frozen=True)
@@ -468,6 +481,7 @@ class Scaled:
     unit: Real
     steep: Real
     size: float
+    last: tuple[bytes, tuple[Real, Real]] = (b"", (np.zeros(0), np.zeros(0)))
 
     @classmethod
     def around(cls, model: Model, x: Real) -> Scaled:
@@ -491,9 +505,12 @@ class Scaled:
         return out
 
     def constraints(self, y: Real) -> tuple[Real, Real]:
-        """Scaled length gaps and their derivative."""
-        state = self.model.evaluate(y * self.unit)
-        return state.gap * self.steep, state.gap_by * self.steep[:, None] * self.unit
+        """Scaled length gaps and their derivative; SLSQP asks for each, one after the other."""
+        if self.last[0] != y.tobytes():
+            state = self.model.evaluate(y * self.unit)
+            found = state.gap * self.steep, state.gap_by * self.steep[:, None] * self.unit
+            self.last = y.tobytes(), found
+        return self.last[1]
 
     def kkt(self, y: Real, multipliers: Real) -> Real:
         """Derivative of the Lagrangian, then the constraints."""
@@ -578,12 +595,13 @@ def polish(scaled: Scaled, y: Real, free: Index) -> tuple[Real, Real, Real, floa
     pick = np.concatenate([free, y.size + np.arange(rows)])
     hessian = np.zeros((free.size, free.size))
     best, history = np.inf, (y, multipliers)
-    for _ in range(12):
+    for turn in range(12):
         residual = scaled.kkt(y, multipliers)[pick]
         norm = float(np.max(np.abs(residual)))
         if norm < 0.5 * best:
             best, history = norm, (y.copy(), multipliers.copy())
-        elif best < 1e-11:
+        # it has converged, or it has left: a scaled residual is about 1 far from any answer
+        if turn > 0 and (best < 1e-11 or norm > 1e4):
             break
         _, by = scaled.constraints(y)
         for column, variable in enumerate(free):

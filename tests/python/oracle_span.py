@@ -260,9 +260,10 @@ def solve(s: Spans, force: Array, slopes: Array, share: Real, route: str = "best
         c = galerkin(g, force[thick], slopes[thick])
         t = 2.0 * share[thick] - 1.0
         half = (g.run / 2.0)[:, None]
-        table = legendre.legvander(t, FUNCTIONS + 2)
-        height[thick] = np.einsum("nmk,nk->nm", table, c @ b.height)
-        turn[thick] = np.einsum("nmk,nk->nm", table, c @ b.slope) / half
+        # one table where all spans have the same stations, as in every quadrature of the length
+        table = legendre.legvander(t[:1] if (t == t[0]).all() else t, FUNCTIONS + 2)
+        height[thick] = (table @ (c @ b.height)[:, :, None])[:, :, 0]
+        turn[thick] = (table @ (c @ b.slope)[:, :, None])[:, :, 0] / half
         ends[thick] = (g.rise / g.run)[:, None] + c[:, :2] / half
         signs = (-1.0) ** np.arange(FUNCTIONS + 3)
         modes = c @ b.curvature
@@ -301,10 +302,16 @@ def solve(s: Spans, force: Array, slopes: Array, share: Real, route: str = "best
 LAYER_PANELS = np.array([0.0, 0.5, 1.0, 2.0, 3.0, 4.5, 6.5, 9.0, 13.0, 20.0, 40.0])
 
 
-def quadrature(s: Spans, force: Array, points: int = 20) -> tuple[Real, Real]:
+@lru_cache(maxsize=4)
+def gauss(points: int) -> tuple[Real, Real]:
+    """Nodes and weights of Gauss-Legendre on [-1, 1]."""
+    return legendre.leggauss(points)
+
+
+def quadrature(s: Spans, force: Array, points: int = 10) -> tuple[Real, Real]:
     """Shares x / run and weights of Gauss-Legendre panels that resolve the end layers, (n, m)."""
     n = s.run.size
-    node, weight = legendre.leggauss(points)
+    node, weight = gauss(points)
     k = np.zeros(n)
     thin = layered(s, force)
     k[thin] = np.sqrt(np.real(force)[thin] / s.rigidity[thin]) * s.run[thin]
@@ -323,7 +330,7 @@ def quadrature(s: Spans, force: Array, points: int = 20) -> tuple[Real, Real]:
     )
 
 
-def excess(s: Spans, force: Array, slopes: Array, points: int = 20) -> tuple[Array, Array, Array]:
+def excess(s: Spans, force: Array, slopes: Array, points: int = 10) -> tuple[Array, Array, Array]:
     """Arc length less chord (m, shape (n,)), end slopes and end curvatures (1/m), shape (n, 2).
 
     The difference is integrated itself, without cancellation: with T the chord's slope and

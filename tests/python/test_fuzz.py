@@ -119,7 +119,7 @@ def test_a_broken_promise_is_reported_and_repeats(tmp_path: Path, fault: str) ->
     binary = program(tmp_path, body)
     # what shows in few cases needs more of them
     rare = promise[:11] in ("the same ag", "check refus", "what is the")
-    slow = ("--patience", "1") if "time" in promise else ()
+    slow = ("--patience", "0.2") if "time" in promise else ()
     done = fuzz(binary, "--cases", "60" if rare else "3" if slow else "12", *slow)
     assert done.returncode == 1, done.stdout + done.stderr
     lines = done.stdout.splitlines()

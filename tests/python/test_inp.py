@@ -66,8 +66,8 @@ def hanging(nu: int, nv: int, home: Path) -> Drape:
 
 @pytest.fixture(scope="module")
 def ply(tmp_path_factory: pytest.TempPathFactory) -> Drape:
-    """4 by 2 grippers."""
-    return hanging(4, 2, tmp_path_factory.mktemp("ply"))
+    """3 by 2 grippers."""
+    return hanging(3, 2, tmp_path_factory.mktemp("ply"))
 
 
 @pytest.fixture(scope="module")
@@ -128,7 +128,7 @@ def test_a_sheet_sags_at_its_long_edges_as_the_catenaries_do(
     98 mm; 2 % are left for its strain beside the grippers.
     """
     for row in (0, 1):
-        ours, theirs = sag_of_model(ply, 1, row), sag_of_sheet(ply, solved, 1, row)
+        ours, theirs = sag_of_model(ply, 0, row), sag_of_sheet(ply, solved, 0, row)
         assert abs(theirs / ours - 1) < 0.12, f"{ours * 1e3:.2f} mm, CalculiX {theirs * 1e3:.2f} mm"
         assert ours < theirs < 1.02 * np.sqrt(0.05**2 - 0.049**2)
 
@@ -138,10 +138,10 @@ def test_the_grippers_carry_the_weight(ply: Drape, solved: dict[str, Array]) -> 
 
     CalculiX prints the forces inside the sheet at the held nodes, so without the weight that acts
     on these nodes themselves. A corner of an element of eight nodes has -1/12 of the element's
-    weight; the grippers hold 4 corners of one element and 4 of two.
+    weight; the grippers hold 4 corners of one element and 2 of two.
     """
-    weight = AREAL_MASS * GRAVITY * 0.3 * 0.1
-    own = -(4 * 1 + 4 * 2) / 12 * weight / len(ply.deck.elements("S8R"))
+    weight = AREAL_MASS * GRAVITY * 0.2 * 0.1
+    own = -(4 * 1 + 2 * 2) / 12 * weight / len(ply.deck.elements("S8R"))
     force = solved["GRIPPERS RF total"][0]
     assert force[2] + own == pytest.approx(weight, rel=1e-4)
     assert np.abs(force[:2]).max() < 1e-6 * weight
@@ -150,8 +150,8 @@ def test_the_grippers_carry_the_weight(ply: Drape, solved: dict[str, Array]) -> 
 def test_the_mesh_is_fine_enough(ply: Drape, solved: dict[str, Array], tmp_path: Path) -> None:
     """Elements of twice the side change the sag by less than 5 %; those of half by less still."""
     coarse = ccx(ply.deck.coarser(), tmp_path)
-    fine = sag_of_sheet(ply, solved, 1, 0)
-    assert sag_of_sheet(ply, coarse, 1, 0) == pytest.approx(fine, rel=0.05)
+    fine = sag_of_sheet(ply, solved, 0, 0)
+    assert sag_of_sheet(ply, coarse, 0, 0) == pytest.approx(fine, rel=0.05)
 
 
 def test_a_strip_of_shells_is_a_span(strip: Drape, tmp_path: Path) -> None:
@@ -244,9 +244,14 @@ def test_meshio_reads_the_deck(name: str, request: pytest.FixtureRequest, tmp_pa
         assert (normals[:, 2] > 0).all(), "its upper side is the one that touches"
 
 
-def test_calculix_takes_a_deck_with_a_mold(dome: Drape, tmp_path: Path) -> None:
-    """CalculiX reads all of the deck, and solves the first hundred thousandth of each step."""
-    text, share = dome.deck.text, 1e-5
+def test_calculix_takes_a_deck_with_a_mold(tmp_path: Path) -> None:
+    """CalculiX reads all of the deck, and solves the first hundred thousandth of each step.
+
+    Four grippers on the dome: the mold is as finely divided as below sixteen.
+    """
+    scene = (ROOT / "examples" / "04_dome" / "scene.toml").read_text()
+    (tmp_path / "scene.toml").write_text(scene.replace("grippers = [4, 4]", "grippers = [2, 2]"))
+    text, share = drape(tmp_path / "scene.toml", tmp_path).deck.text, 1e-5
     assert text.count("*STEP") == 2 and "*CONTACT PAIR" in text
     lines = text.splitlines()
     for k, line in enumerate(lines):
@@ -256,18 +261,22 @@ def test_calculix_takes_a_deck_with_a_mold(dome: Drape, tmp_path: Path) -> None:
         if line.startswith("PLY, GRAV"):
             lines[k] = f"PLY, GRAV, {share * GRAVITY}, 0, 0, -1"
     found = ccx("\n".join([*lines, ""]), tmp_path)
-    assert np.isfinite(found["GRIPPERS U"]).all() and len(found["GRIPPERS U"]) == 16
+    assert np.isfinite(found["GRIPPERS U"]).all() and len(found["GRIPPERS U"]) == 4
 
 
 def test_a_sheet_rests_on_the_mold(tmp_path: Path) -> None:
     """Held 3 mm above a plane, a small ply that would sag by 5 mm touches it and is carried by it.
 
     It stays above the plane but for the depth of the penalty, and the grippers do not feel all of
-    the weight; slack between them and the plane even pushes them up.
+    the weight; slack between them and the plane even pushes them up. The plane is a mesh of two
+    triangles, since CalculiX looks for contact in all that there are.
     """
     scene = HANGING.format(nu=2, nv=2).replace("75 mm", "3 mm")
     scene = scene.replace("100 mm", "60 mm").replace("98 mm", "58.8 mm")
-    (tmp_path / "scene.toml").write_text(scene + '[mold]\nkind = "plane"\n')
+    corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"
+    (tmp_path / "mold.obj").write_text(corners + "f 1 2 3\nf 1 3 4\n")
+    mold = '[mold]\nkind = "mesh"\nfile = "mold.obj"\nunit = "m"\n'
+    (tmp_path / "scene.toml").write_text(scene + mold)
     plane = drape(tmp_path / "scene.toml", tmp_path)
     found = ccx(plane.deck.text, tmp_path)
     heights = 0.003 + found["MIDDLE_U U"][:, 3]

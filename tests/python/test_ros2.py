@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -41,9 +42,11 @@ class Exported:
         """The bag."""
         return self.folder / "trajectory.mcap"
 
+    @cached_property
     def message(self) -> dict[str, Any]:
         """The trajectory of the YAML file."""
-        message: dict[str, Any] = yaml.safe_load((self.folder / "trajectory.yaml").read_text())
+        text = (self.folder / "trajectory.yaml").read_text()
+        message: dict[str, Any] = yaml.load(text, yaml.CSafeLoader)
         return message
 
     def decoded(self, topic: str) -> list[tuple[int, Any]]:
@@ -101,7 +104,7 @@ def nanoseconds(duration: Any) -> int:
 
 def test_the_yaml_holds_the_numbers_of_the_table(either: Exported) -> None:
     """Every pose to the last bit, times to the nanosecond, one joint a gripper in order."""
-    message = either.message()
+    message = either.message
     times, poses = table(either)
     assert list(message) == ["header", "joint_names", "points"]
     assert message["header"] == {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "mold"}
@@ -132,7 +135,7 @@ def test_rosbags_decodes_the_numbers_of_the_table(either: Exported) -> None:
     def vector(v: Any) -> dict[str, float]:
         return {"x": v.x, "y": v.y, "z": v.z}
 
-    for found_point, written in zip(message.points, either.message()["points"], strict=True):
+    for found_point, written in zip(message.points, either.message["points"], strict=True):
         for name in ["velocities", "accelerations"]:
             assert written[name] == [
                 {"linear": vector(twist.linear), "angular": vector(twist.angular)}
@@ -189,7 +192,7 @@ def test_late_subscribers_get_what_is_sent_once(planned: Exported) -> None:
 
 def test_a_simulated_drape_has_no_velocities(simulated: Exported) -> None:
     """Between its steps nothing is known."""
-    for point in simulated.message()["points"]:
+    for point in simulated.message["points"]:
         assert point["velocities"] == [] and point["accelerations"] == []
 
 
@@ -208,7 +211,7 @@ def test_velocities_are_the_differences_of_positions(planned: Exported) -> None:
 
     The last sample is nearer than the others, so it is left out.
     """
-    points = planned.message()["points"]
+    points = planned.message["points"]
     times, poses = table(planned)
     h = times[1]
     jerk = planned.result.content["scene"]["limits"]["jerk"]
@@ -230,7 +233,7 @@ def test_velocities_are_the_differences_of_positions(planned: Exported) -> None:
 
 def test_angular_velocities_are_the_differences_of_orientations(planned: Exported) -> None:
     """SciPy's rotation vectors from sample to sample, in the fixed frame; at rest nothing turns."""
-    points = planned.message()["points"]
+    points = planned.message["points"]
     times, poses = table(planned)
     velocities, accelerations = angular(points, "velocities"), angular(points, "accelerations")
     for gripper in range(poses.shape[1]):

@@ -1,5 +1,6 @@
 // The pages that the tests open: folders <name>/ with report.html, result.json and steps.csv, made by the program.
 
+import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 
@@ -13,10 +14,35 @@ export function findReports() {
     .filter(({ file }) => existsSync(file));
 }
 
-/** The result that a page was made from, or null (a made-up page has none). */
-export function readResult({ folder }) {
+const LINES = `
+import json, sys, plydrape
+result = plydrape.Result.read(sys.argv[1])
+nu, nv = result.grid
+edges = [((i, j), (i + 1, j)) for j in range(nv) for i in range(nu - 1)]
+edges += [((i, j), (i, j + 1)) for j in range(nv - 1) for i in range(nu)]
+steps = {}
+for number in json.loads(sys.argv[2]):
+    lines = [line.tolist() for line in result.lines(number)]
+    positions = result.positions[number - 1].tolist()
+    steps[number] = {"positions": positions, "lines": lines, "edges": edges}
+print(json.dumps({"limits": result.summary["limits"], "steps": steps}))
+`;
+const results = new Map();
+
+/**
+ * What the Python package reads from the result that a page was made from: its limits, and of some steps the
+ * positions of the grippers, the curves of all catenaries and the ends of the edges, which come first; or null (a
+ * made-up page has none).
+ */
+export function readResult({ folder }, steps) {
   const file = join(folder, "result.json");
-  return existsSync(file) ? JSON.parse(readFileSync(file, "utf8")) : null;
+  if (!existsSync(file)) return null;
+  if (!results.has(folder)) {
+    const python = process.env.PLYDRAPE_PYTHON ?? join(import.meta.dirname, "../../.venv/bin/python");
+    const text = execFileSync(python, ["-c", LINES, file, JSON.stringify(steps)], { maxBuffer: 2 ** 30 });
+    results.set(folder, JSON.parse(text));
+  }
+  return results.get(folder);
 }
 
 /** Columns of steps.csv by their heads, as text; or null. */
@@ -32,22 +58,6 @@ function splitLine(line) {
   return [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map(
     (m) => m[1]?.replaceAll('""', '"') ?? m[2],
   );
-}
-
-/** Every point known of a catenary, in order: its ends, its spans, its rest on the mold. */
-export function polyline(catenary, positions) {
-  const points = [positions[catenary.from.join()]];
-  let contact = catenary.contact;
-  for (const span of catenary.spans) {
-    if (contact && span.arc[0] >= contact.arc[1] - 1e-12) {
-      points.push(...contact.points);
-      contact = null;
-    }
-    points.push(...span.points);
-  }
-  if (contact) points.push(...contact.points);
-  points.push(positions[catenary.to.join()]);
-  return points;
 }
 
 /** Distance of a point from a polyline (m). */

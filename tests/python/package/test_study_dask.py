@@ -125,7 +125,7 @@ def test_a_scheduler_that_goes_away_ends_the_study(
         processes.scheduler.kill()
 
     monkeypatch.setattr(Folder, "keep", keeping)
-    with pytest.raises(StudyError, match=r"is gone.*finished rows are kept"):
+    with pytest.raises(StudyError, match=r"(?s)is gone.*finished rows are kept"):
         run(made, output=tmp_path / "out", scheduler=processes.address, every=0.1)
     monkeypatch.undo()
     assert list((tmp_path / "out" / "rows").glob("part-*"))

@@ -165,16 +165,18 @@ def part(first: int, last: int) -> str:
     return f"part-{first:06}-{last:06}.parquet"
 
 
-def parts(tmp_path: Path) -> Path:
-    """A study of 12 scenarios whose parts hold 1, 4 and 7 of them; their folder."""
-    run(write(tmp_path, 12), workers=1, every=1e9)
-    rows = tmp_path / "study.results" / "rows"
-    whole = pq.read_table(tmp_path / "study.results" / "study.parquet")
+@pytest.fixture(scope="module")
+def divided(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a study of 12 scenarios whose parts hold 1, 4 and 7 of them."""
+    folder = tmp_path_factory.mktemp("divided")
+    run(write(folder, 12), workers=1, every=1e9)
+    rows = folder / "study.results" / "rows"
+    whole = pq.read_table(folder / "study.results" / "study.parquet")
     for old in rows.iterdir():
         old.unlink()
     for first, stop in ((0, 1), (1, 5), (5, 12)):
         pq.write_table(whole.slice(first, stop - first), rows / part(first, stop - 1))
-    return rows
+    return folder
 
 
 def copied(rows: Path) -> str:
@@ -250,10 +252,15 @@ EARLY = [copied, mixed, emptied, stripped, beyond, foreign]
     ("harm", "complete"), [*((h, True) for h in HARMS), *((h, False) for h in EARLY)]
 )
 def test_a_part_that_does_not_agree_with_its_name_is_refused(
-    tmp_path: Path, harm: Callable[[Path], str], complete: bool, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path,
+    divided: Path,
+    harm: Callable[[Path], str],
+    complete: bool,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """Exit code 2 and one message, whether scenarios are left to run or not; nothing is written."""
-    rows = parts(tmp_path)
+    shutil.copytree(divided, tmp_path, dirs_exist_ok=True)
+    rows = tmp_path / "study.results" / "rows"
     match = harm(rows)
     if not complete:
         (rows / part(5, 11)).unlink()

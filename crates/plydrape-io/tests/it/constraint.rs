@@ -1,47 +1,9 @@
 //! Slopes that shearing cells constrain: geometry of inclined plies, the onset of shear, derivatives through it.
 
+use crate::common::{Point, RULES, free, paper_ply, settings};
 use plydrape::equilibrium::{Direction, Solver, Status, heading};
-use plydrape::material::{Material, Section};
-use plydrape::ply::{ContactSegment, Direction as Along, Grid, Ply, shear};
-use plydrape::scene::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
-
-type Point = [f64; 3];
-
-const RULES: [SlopeRule; 2] = [SlopeRule::MinForce, SlopeRule::MomentBalance];
-
-/// The ply of Krogh et al. 2018, Table 1, in cells of 100 mm.
-fn ply(nu: usize, nv: usize) -> Ply {
-    Ply {
-        grid: Grid { nu, nv },
-        cell: [0.1; 2],
-        material: Material {
-            name: "krogh2018".into(),
-            source: "Krogh et al. 2018, Table 1".into(),
-            section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
-            shear_curve: None,
-            locking_angle: None,
-        },
-        warp: Along::U,
-    }
-}
-
-fn settings(slopes: SlopeRule) -> Settings {
-    Settings {
-        slopes,
-        axial_stiffness: 1e5,
-        gravity: 9.8,
-        max_tilt: 40f64.to_radians(),
-        contact: ContactSettings {
-            tolerance: 1e-3,
-            stepping: Stepping::Once,
-            end: ContactEnd::Free,
-        },
-    }
-}
-
-fn free(ply: &Ply) -> Vec<Option<ContactSegment>> {
-    vec![None; ply.grid.catenaries()]
-}
+use plydrape::ply::{Grid, shear};
+use plydrape::scene::SlopeRule;
 
 /// Parallelogram cells of sides 97.5 mm, sheared by `angle` (rad) in the horizontal plane.
 fn sheared(grid: Grid, angle: f64) -> Vec<Point> {
@@ -87,7 +49,7 @@ fn normal(solver: &Solver, grid: Grid, positions: &[Point], gripper: usize) -> O
 /// mirrored, both senses of shear.
 #[test]
 fn a_sheared_ply_in_an_inclined_plane_has_its_normal_at_every_constrained_gripper() {
-    let ply = ply(4, 3);
+    let ply = paper_ply(4, 3);
     let grid = ply.grid;
     for rule in RULES {
         for (n, angle) in [15f64, -15.0, 15.0].into_iter().enumerate() {
@@ -126,7 +88,7 @@ fn a_sheared_ply_in_an_inclined_plane_has_its_normal_at_every_constrained_grippe
 /// On a level ply every constrained slope is 0, the stretched diagonal's own: the paper's rule, to the last digit.
 #[test]
 fn a_level_sheared_ply_has_level_constrained_grippers() {
-    let ply = ply(4, 2);
+    let ply = paper_ply(4, 2);
     let positions = sheared(ply.grid, 0.3);
     let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce));
     solver.solve(&positions, &free(&ply));
@@ -144,7 +106,7 @@ fn a_level_sheared_ply_has_level_constrained_grippers() {
 /// normal is the mean of both, each with its weight, and in the limit of one cell's onset it is the other's alone.
 #[test]
 fn where_shearing_cells_meet_their_planes_are_averaged() {
-    let ply = ply(3, 2);
+    let ply = paper_ply(3, 2);
     let mut positions = sheared(ply.grid, 0.3);
     positions[2][2] = 0.03;
     positions[5][2] = 0.03;
@@ -154,7 +116,7 @@ fn where_shearing_cells_meet_their_planes_are_averaged() {
     // gripper 4 ends the first cell's diagonal, 1 begins the second's, 0 and 5 see one cell alone
     assert_eq!(at(0), at(4));
     assert_eq!(at(1), at(5));
-    let ply = self::ply(3, 3);
+    let ply = self::paper_ply(3, 3);
     let mut positions = sheared(ply.grid, 0.3);
     for n in [2, 5, 8] {
         positions[n][2] = 0.03;
@@ -190,7 +152,7 @@ fn all_slopes(solver: &Solver) -> Vec<f64> {
 /// and just behind the onset they agree.
 #[test]
 fn slopes_are_continuous_over_the_onset_of_shear() {
-    let ply = ply(2, 2);
+    let ply = paper_ply(2, 2);
     for rule in RULES {
         let mut solver = Solver::new(&ply, &settings(rule));
         let mut before: Option<Vec<f64>> = None;
@@ -220,7 +182,7 @@ fn slopes_are_continuous_over_the_onset_of_shear() {
 /// Where all cells of a ply begin to shear at once, as in the paper's example, no slope jumps either.
 #[test]
 fn slopes_are_continuous_where_all_cells_begin_to_shear_at_once() {
-    let ply = ply(4, 2);
+    let ply = paper_ply(4, 2);
     for rule in RULES {
         let mut solver = Solver::new(&ply, &settings(rule));
         // the onset is where 2·97.5² (1 + sin γ) = 2·100² mm²; bracket it ever closer
@@ -252,7 +214,7 @@ fn slopes_are_continuous_where_all_cells_begin_to_shear_at_once() {
 fn derivatives_in_the_onset_agree_with_central_differences() {
     for rule in RULES {
         for (nu, nv, angle) in [(2, 2, 4.0f64), (3, 2, 4.4), (4, 3, 3.9)] {
-            let ply = ply(nu, nv);
+            let ply = paper_ply(nu, nv);
             let positions = crooked(ply.grid, angle.to_radians());
             let contacts = free(&ply);
             let count = ply.grid.grippers();

@@ -1,30 +1,13 @@
 //! Contact on curved molds: what rolls on lies where it belongs, troughs are bridged, and drapes converge.
 
-use plydrape::draping::simulate;
+use crate::common::{distance, drape, example};
 use plydrape::measure::Name;
 use plydrape::mold::{Cylinder, Face, Graph, HeightGrid, Mold, Pose, Saddle, Sphere, Surface};
 use plydrape::net::{Layup, Net};
 use plydrape::ply::{Grid, Kind};
 use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, Stepping};
 use plydrape_io::ResultFile;
-use std::ops::ControlFlow;
-use std::path::Path;
 use std::sync::Arc;
-
-fn example(name: &str) -> Scene {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
-    plydrape_io::scene::read(&Path::new(root).join(name).join("scene.toml"))
-        .expect("a shipped scene")
-        .scene
-}
-
-fn drape(scene: &Scene) -> ResultFile {
-    ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())))
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
-}
 
 /// The strip of the examples with `grippers` grippers, on a mold, along a motion.
 fn strip(

@@ -1,9 +1,9 @@
 //! The drape: the paper's example as printed, bookkeeping of fabric, convergence, rigid motions, and
 //! scenes that nobody would write.
 
+use crate::common::{drape, example};
 use plydrape::draping::record::CatenaryState;
 use plydrape::draping::record::Hold;
-use plydrape::draping::simulate;
 use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::{EdgeRule, Generators, Layup, Net};
@@ -12,20 +12,7 @@ use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, SlopeRule, Ste
 use plydrape_io::result::ResultFile;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use std::ops::ControlFlow;
-use std::path::Path;
 use std::sync::Arc;
-
-fn example(name: &str) -> Scene {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
-    plydrape_io::scene::read(&Path::new(root).join(name).join("scene.toml"))
-        .expect("a shipped scene")
-        .scene
-}
-
-fn drape(scene: &Scene) -> ResultFile {
-    ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())))
-}
 
 /// The example with its straight motion in another number of steps.
 fn in_steps(scene: &Scene, steps: usize) -> Scene {

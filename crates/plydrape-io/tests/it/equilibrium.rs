@@ -1,43 +1,14 @@
 //! The equilibrium of a ply against printed reference values, its own optimality conditions and
 //! central differences.
 
+use crate::common::{inextensible, paper_ply, settings, squares_of_forces};
 use plydrape::catenary::Profile;
-use plydrape::equilibrium::{Direction, End, Property, Solver, Status};
-use plydrape::material::{Material, Section};
-use plydrape::ply::{Direction as Along, Grid, Kind, Ply};
-use plydrape::scene::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
+use plydrape::equilibrium::{Direction, Property, Solver, Status};
+use plydrape::material::Section;
+use plydrape::ply::{Grid, Kind, Ply};
+use plydrape::scene::{Settings, SlopeRule};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-
-/// The ply of Krogh et al. 2018, Table 1, in cells of 100 mm.
-fn paper_ply(nu: usize, nv: usize) -> Ply {
-    Ply {
-        grid: Grid { nu, nv },
-        cell: [0.1; 2],
-        material: Material {
-            name: "krogh2018".into(),
-            source: "Krogh et al. 2018, Table 1".into(),
-            section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
-            shear_curve: None,
-            locking_angle: None,
-        },
-        warp: Along::U,
-    }
-}
-
-fn settings(slopes: SlopeRule, axial_stiffness: f64, max_tilt_deg: f64) -> Settings {
-    Settings {
-        slopes,
-        axial_stiffness,
-        gravity: 9.8,
-        max_tilt: max_tilt_deg.to_radians(),
-        contact: ContactSettings {
-            tolerance: 1e-3,
-            stepping: Stepping::Once,
-            end: ContactEnd::Free,
-        },
-    }
-}
 
 fn level(grid: Grid, spacing: f64) -> Vec<[f64; 3]> {
     (0..grid.grippers())
@@ -73,7 +44,7 @@ fn close(found: &[f64], expected: &[f64], tolerance: f64) {
 #[test]
 fn min_force_meets_the_reference_solution() {
     let ply = paper_ply(4, 2);
-    let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce, f64::INFINITY, 40.0));
+    let mut solver = Solver::new(&ply, &inextensible(SlopeRule::MinForce));
     let outcome = solver.solve(&level(ply.grid, 0.098), &vec![None; 16]);
     assert_eq!(outcome.status, Status::Converged);
     close(&forces(&solver, Kind::EdgeU), &[0.372456, 0.332103, 0.372456].repeat(2), 6e-7);
@@ -90,7 +61,7 @@ fn min_force_meets_the_reference_solution() {
 #[test]
 fn moment_balance_meets_the_reference_solution() {
     let ply = paper_ply(4, 2);
-    let mut solver = Solver::new(&ply, &settings(SlopeRule::MomentBalance, f64::INFINITY, 40.0));
+    let mut solver = Solver::new(&ply, &inextensible(SlopeRule::MomentBalance));
     let outcome = solver.solve(&level(ply.grid, 0.098), &vec![None; 16]);
     assert_eq!(outcome.status, Status::Converged);
     close(&forces(&solver, Kind::EdgeU), &[0.37426, 0.32819, 0.37426].repeat(2), 6e-6);
@@ -117,43 +88,8 @@ fn any_array() -> impl Strategy<Value = (Ply, Vec<[f64; 3]>)> {
 fn any_rule() -> impl Strategy<Value = Settings> {
     (any::<bool>(), prop::sample::select(vec![3.0, 15.0, 40.0])).prop_map(|(min_force, tilt)| {
         let rule = if min_force { SlopeRule::MinForce } else { SlopeRule::MomentBalance };
-        settings(rule, 1e5, tilt)
+        Settings { max_tilt: f64::to_radians(tilt), ..settings(rule) }
     })
-}
-
-/// Sum of squares of all forces with the shared slopes put where the caller wants them.
-fn norm_at(solver: &Solver, slopes: &[f64]) -> f64 {
-    let problem = solver.problem();
-    let mut outcome = vec![[0.0; 2]; problem.elements.len()];
-    let mut sum = 0.0;
-    for (n, element) in problem.elements.iter().enumerate() {
-        let mut span = solver.span(n);
-        for end in 0..2 {
-            let slope = match element.ends[end] {
-                End::Shared(j) => slopes[j],
-                End::Plane(plane) => {
-                    let at = |source| match source {
-                        plydrape::equilibrium::SlopeSource::Prescribed(s) => s,
-                        plydrape::equilibrium::SlopeSource::Shared(j) => slopes[j],
-                        plydrape::equilibrium::SlopeSource::Outcome(e, k) => {
-                            let pair: [f64; 2] = outcome[e];
-                            pair[k]
-                        }
-                    };
-                    plane.share[0] * at(plane.source[0]) + plane.share[1] * at(plane.source[1])
-                }
-                _ => continue,
-            };
-            span.ends[end] = plydrape::catenary::EndCondition::Slope(slope);
-        }
-        let Some(force) = span.solve(solver.force(n)).force else {
-            continue;
-        };
-        let profile = Profile::new(&span, force);
-        outcome[n] = [profile.end_slope(0), profile.end_slope(1)];
-        sum += force * force;
-    }
-    sum
 }
 
 proptest! {
@@ -186,11 +122,11 @@ proptest! {
         for (joint, slope) in slopes.iter().enumerate() {
             prop_assert!(slope.abs() <= bound);
             if settings.slopes == SlopeRule::MinForce {
-                let best = norm_at(&solver, &slopes);
+                let best = squares_of_forces(&solver, &slopes);
                 for delta in [-1e-4, 1e-4] {
                     let mut other = slopes.clone();
                     other[joint] = (slope + delta).clamp(-bound, bound);
-                    prop_assert!(norm_at(&solver, &other) >= best * (1.0 - 1e-10), "joint {}", joint);
+                    prop_assert!(squares_of_forces(&solver, &other) >= best * (1.0 - 1e-10), "joint {}", joint);
                 }
             } else {
                 let moment = |k: usize| {

@@ -1,37 +1,18 @@
 //! The examples on curved molds: their targets and headline numbers against closed forms, symmetry and an
 //! earlier trial of the model.
 
+use crate::common::{distance, drape, example, examples};
 use plydrape::draping::record::Hold;
-use plydrape::draping::simulate;
 use plydrape::mold::{Graph, Mold, Pose, Surface};
 use plydrape::net::Net;
 use plydrape::ply::Kind;
 use plydrape::scene::{Scene, Target};
 use plydrape_io::ResultFile;
-use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
-}
-
-fn example(name: &str) -> Scene {
-    let path = folder().join(name).join("scene.toml");
-    plydrape_io::scene::read(&path).unwrap_or_else(|error| panic!("{error}")).scene
-}
-
-fn drape(scene: &Scene) -> ResultFile {
-    ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())))
-}
 
 fn target(scene: &Scene) -> (&Target, &Net, &Mold) {
     let target = scene.target.as_ref().expect("a target");
     let net = target.drape.as_ref().expect("an ideal drape");
     (target, net, scene.mold.as_ref().expect("a mold"))
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Worst landing error of the edges at the end (mm).
@@ -188,7 +169,7 @@ fn the_stl_has_the_targets_of_its_formula() {
 /// A ply of 1.2 × 1.0 m in a net of 20 mm lies on the blade mold whole; skipped, loudly, without the deck.
 #[test]
 fn the_blade_mold_takes_a_whole_ply() {
-    let deck = folder().join("../../shared/data/molds/blade_like.inp");
+    let deck = examples().join("../../shared/data/molds/blade_like.inp");
     if !deck.exists() {
         eprintln!("SKIPPED the_blade_mold_takes_a_whole_ply: no {}", deck.display());
         return;

@@ -1,34 +1,16 @@
 //! A front that lays the ply: the lifted mold, the formation of grippers on it, and corrections by gradients.
 
-use plydrape::draping::simulate;
+use crate::common::{distance, example};
 use plydrape::measure::Name;
 use plydrape::mold::{FrontSurface, HeightGrid, Rise};
 use plydrape::motion::{Bounds, TimedMotion};
 use plydrape::planner::path::{Formation, MoldHeights, Strategy, correction, trajectory};
 use plydrape::scene::Scene;
 use std::ops::ControlFlow;
-use std::path::Path;
 use std::sync::Arc;
 
-fn example(name: &str) -> Scene {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-    plydrape_io::scene::read(&root.join(name).join("scene.toml"))
-        .expect("an example is sound")
-        .scene
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
-}
-
-const RING: Strategy = Strategy {
-    start: [0.5; 2],
-    ratio: 1.0,
-    angle: 0.0,
-    curvature: 0.4,
-    slope: 0.4,
-    pretension: 1e-4,
-};
+const RING: Strategy =
+    Strategy { start: [0.5; 2], ratio: 1.0, angle: 0.0, curvature: 4.0, slope: 0.4, pull: 1e-4 };
 
 /// Largest overstretch in the drape along a plan (%).
 fn overstretch(scene: &Scene, positions: &[Vec<[f64; 3]>]) -> f64 {

@@ -1,5 +1,6 @@
 //! The ideal drape against closed forms, printed figures, invariants and an independent solver.
 
+use crate::common::distance;
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
 use plydrape::net::{EdgeRule, Generators, Layup, LayupError, Net, Reason};
 use std::fmt::Write;
@@ -33,10 +34,6 @@ fn published() -> Layup {
 
 fn drape(mold: &Mold, layup: Layup) -> Net {
     Net::drape(mold, layup).expect("a sensible layup")
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

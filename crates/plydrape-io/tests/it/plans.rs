@@ -1,8 +1,8 @@
 //! What a plan must reach: every solved mold of the examples, from two heights, evaluated by draping the ply once more
 //! along the files that were written. Limits are the defaults of `[limits]`, repeated here as numbers.
 
+use crate::common::{distance, drape, examples};
 use plydrape::draping::record::{CatenaryState, Step, Verdict};
-use plydrape::draping::simulate;
 use plydrape::equilibrium::Status;
 use plydrape::measure::Name;
 use plydrape::planner::{self, Planned};
@@ -41,8 +41,7 @@ struct Example {
 
 impl Example {
     fn of(name: &str) -> Self {
-        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
-        let folder = Path::new(root).join(name);
+        let folder = examples().join(name);
         let text = std::fs::read_to_string(folder.join("scene.toml")).expect("a shipped scene");
         Example { folder, text }
     }
@@ -98,10 +97,6 @@ impl Example {
     fn scene(&self) -> Scene {
         scene::parse(&self.text, &self.folder, "scene.toml").unwrap_or_else(|e| panic!("{e}")).scene
     }
-}
-
-fn drape(scene: &Scene) -> ResultFile {
-    ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())))
 }
 
 fn planned(scene: &Scene) -> Planned {
@@ -179,10 +174,6 @@ fn keeps_every_limit(result: &ResultFile, what: &str) {
     };
     let least = result.steps.iter().map(least).fold(f64::INFINITY, f64::min);
     assert!(1e3 * least >= close.limit, "{what}: grippers {least} m apart");
-}
-
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    norm([0, 1, 2].map(|n| a[n] - b[n]))
 }
 
 fn norm(a: [f64; 3]) -> f64 {

@@ -1,5 +1,6 @@
 //! Result files: complete, read back to the same numbers, and the page made from them.
 
+use crate::common;
 use plydrape::draping::simulate;
 use plydrape::planner;
 use plydrape::scene::{Motion, Scene};
@@ -10,9 +11,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 fn examples() -> impl Iterator<Item = SceneFile> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     let mut folders: Vec<_> =
-        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        std::fs::read_dir(common::examples()).unwrap().map(|entry| entry.unwrap().path()).collect();
     folders.sort();
     folders.into_iter().filter_map(|folder| {
         let file = folder.join("scene.toml");
@@ -78,8 +78,8 @@ fn molds_survive_the_file() {
 /// The motion of a plan is made from the file again, at any time to the last bit.
 #[test]
 fn a_planned_motion_survives_the_file() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-    let mut scene = scene::read(&folder.join("01_flat_sheared_mold/scene.toml")).unwrap();
+    let mut scene =
+        scene::read(&common::examples().join("01_flat_sheared_mold/scene.toml")).unwrap();
     (scene.plan.steps, scene.plan.evaluations) = (20, 1);
     let planned = planner::plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
     let back = again(&ResultFile::planned(&scene, None, &planned));

@@ -1,46 +1,18 @@
 //! How a solve ends is reported as it is: measured residuals, early ends, plies that cannot be solved, scaled copies.
 
+use crate::common::{Point, RULES, free, inextensible, paper_ply, settings, squares_of_forces};
 use plydrape::catenary::{EndCondition, Profile};
 use plydrape::equilibrium::{Direction, End, Solver, Status, Tuning};
-use plydrape::material::{Material, Section};
-use plydrape::ply::{ContactSegment, Direction as Along, Grid, Ply};
-use plydrape::scene::{ContactEnd, ContactSettings, Settings, SlopeRule, Stepping};
+use plydrape::material::Section;
+use plydrape::ply::{Grid, Ply};
+use plydrape::scene::{Settings, SlopeRule};
 
-type Point = [f64; 3];
-
-const RULES: [SlopeRule; 2] = [SlopeRule::MinForce, SlopeRule::MomentBalance];
-
+/// A ply of cells of another size, mass (kg/m) and rigidity (N m²).
 fn ply(nu: usize, nv: usize, cell: f64, mass: f64, flexural_rigidity: f64) -> Ply {
-    Ply {
-        grid: Grid { nu, nv },
-        cell: [cell; 2],
-        material: Material {
-            name: "of the test".into(),
-            source: "Krogh et al. 2018, Table 1, unless the test changes it".into(),
-            section: Section::Line { mass, flexural_rigidity },
-            shear_curve: None,
-            locking_angle: None,
-        },
-        warp: Along::U,
-    }
-}
-
-fn settings(slopes: SlopeRule, axial_stiffness: f64) -> Settings {
-    Settings {
-        slopes,
-        axial_stiffness,
-        gravity: 9.8,
-        max_tilt: 40f64.to_radians(),
-        contact: ContactSettings {
-            tolerance: 1e-3,
-            stepping: Stepping::Once,
-            end: ContactEnd::Free,
-        },
-    }
-}
-
-fn free(ply: &Ply) -> Vec<Option<ContactSegment>> {
-    vec![None; ply.grid.catenaries()]
+    let mut ply = paper_ply(nu, nv);
+    ply.cell = [cell; 2];
+    ply.material.section = Section::Line { mass, flexural_rigidity };
+    ply
 }
 
 /// Numbers in −1…1, the same in every run (xorshift).
@@ -90,7 +62,7 @@ fn the_reported_length_residual_is_that_of_the_returned_forces() {
             let ply = ply(4, 2, 0.1, 0.3143, 10f64.powi(exponent));
             for seed in 0..6 {
                 let positions = flung(ply.grid, 0.097, 0.01, 7 + seed);
-                let mut solver = Solver::new(&ply, &settings(rule, f64::INFINITY));
+                let mut solver = Solver::new(&ply, &inextensible(rule));
                 let outcome = solver.solve(&positions, &free(&ply));
                 let error = length_errors(&solver);
                 let rounding = 1e-11;
@@ -115,12 +87,12 @@ fn a_solve_that_is_cut_short_says_so() {
     let ply = ply(4, 2, 0.1, 0.3143, 9e-6);
     let positions = flung(ply.grid, 0.096, 0.01, 3);
     for rule in RULES {
-        let mut whole = Solver::new(&ply, &settings(rule, 1e5));
+        let mut whole = Solver::new(&ply, &settings(rule));
         let outcome = whole.solve(&positions, &free(&ply));
         assert_eq!(outcome.status, Status::Converged);
         assert!(outcome.residual <= 1e-8 && outcome.early_ends == Default::default());
         let tuning = Tuning { iterations: 0, ..Tuning::default() };
-        let mut cut = Solver::new(&ply, &settings(rule, 1e5)).with_tuning(tuning);
+        let mut cut = Solver::new(&ply, &settings(rule)).with_tuning(tuning);
         let outcome = cut.solve(&positions, &free(&ply));
         assert_eq!(outcome.status, Status::IterationLimit, "{outcome:?}");
         assert!(outcome.early_ends.continuation > 0, "the fallback is counted: {outcome:?}");
@@ -133,39 +105,6 @@ fn a_solve_that_is_cut_short_says_so() {
     }
 }
 
-/// Half the sum of squares of the forces with the shared slopes put where the caller wants them.
-fn objective(solver: &Solver, slopes: &[f64]) -> f64 {
-    let problem = solver.problem();
-    let mut outcome = vec![[0.0; 2]; problem.elements.len()];
-    let mut sum = 0.0;
-    for (n, element) in problem.elements.iter().enumerate() {
-        let mut span = solver.span(n);
-        for end in 0..2 {
-            let slope = match element.ends[end] {
-                End::Shared(j) => slopes[j],
-                End::Plane(plane) => {
-                    let at = |source| match source {
-                        plydrape::equilibrium::SlopeSource::Prescribed(s) => s,
-                        plydrape::equilibrium::SlopeSource::Shared(j) => slopes[j],
-                        plydrape::equilibrium::SlopeSource::Outcome(e, k) => {
-                            let pair: [f64; 2] = outcome[e];
-                            pair[k]
-                        }
-                    };
-                    plane.share[0] * at(plane.source[0]) + plane.share[1] * at(plane.source[1])
-                }
-                _ => continue,
-            };
-            span.ends[end] = EndCondition::Slope(slope);
-        }
-        let Some(force) = span.solve(solver.force(n)).force else { continue };
-        let profile = Profile::new(&span, force);
-        outcome[n] = [profile.end_slope(0), profile.end_slope(1)];
-        sum += 0.5 * force * force;
-    }
-    sum
-}
-
 /// Derivative of the objective at a slope, as a change of slope, by central differences: 0 at slopes at a limit that
 /// holds them.
 fn slope_residual(solver: &Solver, bound: f64) -> f64 {
@@ -176,7 +115,7 @@ fn slope_residual(solver: &Solver, bound: f64) -> f64 {
         let at = |x: f64| {
             let mut moved = slopes.clone();
             moved[j] += x;
-            objective(solver, &moved)
+            0.5 * squares_of_forces(solver, &moved)
         };
         let (low, middle, high) = (at(-h), at(0.0), at(h));
         let gradient = (high - low) / (2.0 * h);
@@ -199,7 +138,7 @@ fn min_force_converges_only_where_no_descent_is_left() {
     for seed in 0..120 {
         let ply = ply(4, 2, 0.1, 0.3143, [9e-6, 1e-4, 1e-3][seed as usize % 3]);
         let positions = flung(ply.grid, 0.08, 0.12, 100 + seed);
-        let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce, 1e5));
+        let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce));
         let outcome = solver.solve(&positions, &free(&ply));
         if outcome.status == Status::Converged {
             converged += 1;
@@ -217,7 +156,7 @@ fn a_line_search_that_finds_nothing_is_not_convergence() {
     let ply = ply(4, 2, 0.1, 0.3143, 9e-6);
     let positions = flung(ply.grid, 0.096, 0.01, 3);
     let tuning = Tuning { decrease: 10.0, ..Tuning::default() };
-    let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce, 1e5)).with_tuning(tuning);
+    let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce)).with_tuning(tuning);
     let outcome = solver.solve(&positions, &free(&ply));
     assert_eq!(outcome.status, Status::Stalled, "{outcome:?}");
     assert!(outcome.residual > 1e-4 && outcome.early_ends.line_searches > 0, "{outcome:?}");
@@ -232,7 +171,7 @@ fn balanced_moments_are_a_stable_state() {
     for seed in 0..60 {
         let ply = ply(5, 1, 0.1, 0.3143, [2e-4, 1e-3, 5e-3][seed as usize % 3]);
         let positions = flung(ply.grid, 0.09, 0.03, 400 + seed);
-        let mut solver = Solver::new(&ply, &settings(SlopeRule::MomentBalance, 1e5));
+        let mut solver = Solver::new(&ply, &settings(SlopeRule::MomentBalance));
         let outcome = solver.solve(&positions, &free(&ply));
         unstable_on_the_way += outcome.early_ends.negative_curvatures;
         if outcome.status != Status::Converged {
@@ -305,7 +244,8 @@ fn a_scaled_ply_hangs_in_the_same_shape() {
                             .map(|x| scale * x)
                     })
                     .collect();
-                let mut solver = Solver::new(&ply, &settings(rule, 1e5 * scale));
+                let mut solver =
+                    Solver::new(&ply, &Settings { axial_stiffness: 1e5 * scale, ..settings(rule) });
                 let outcome = solver.solve(&positions, &free(&ply));
                 assert_eq!(outcome.status, Status::Converged, "scale {scale}: {outcome:?}");
                 (solver, outcome)
@@ -336,7 +276,7 @@ fn derivatives_of_a_state_that_is_no_minimum_are_not_sound() {
         let positions = flung(ply.grid, 0.08, 0.03, 700 + seed);
         let tuning = Tuning { iterations: 0, ..Tuning::default() };
         for rule in RULES {
-            let mut solver = Solver::new(&ply, &settings(rule, 1e5)).with_tuning(tuning);
+            let mut solver = Solver::new(&ply, &settings(rule)).with_tuning(tuning);
             solver.solve(&positions, &free(&ply));
             let contacts = free(&ply);
             let mut linearized = solver.linearize(&positions, &contacts);
@@ -357,7 +297,7 @@ fn random_net(seed: u64, rule: SlopeRule) -> (Ply, Vec<Point>, Settings) {
     }
     let [nu, nv] = [2, 1].map(|least| least + (4.0 * share()) as usize);
     let ply = ply(nu, nv, 0.1, 0.3143, 10f64.powf(-6.0 + 4.0 * share()));
-    let settings = settings(rule, if share() < 0.5 { 1e5 } else { f64::INFINITY });
+    let settings = if share() < 0.5 { settings(rule) } else { inextensible(rule) };
     let (spacing, shear) = (0.09 + 0.0099 * share(), 0.6 * share() - 0.3);
     let (noise, tilt) = (0.02 * share(), 0.3 * (3.0 * share()).floor());
     let positions = (0..ply.grid.grippers()).map(|n| {

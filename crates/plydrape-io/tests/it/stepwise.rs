@@ -1,6 +1,7 @@
 //! The stepwise planner: its gradients against central differences of the model solved anew, and its plans
 //! judged by draping along them.
 
+use crate::common::{Point, distance, example};
 use plydrape::draping::simulate;
 use plydrape::draping::spans::{Shape, shape};
 use plydrape::equilibrium::{Side, Solver, Status};
@@ -14,16 +15,6 @@ use plydrape_io::ResultFile;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::ops::ControlFlow;
-use std::path::Path;
-
-type Point = [f64; 3];
-
-fn example(name: &str) -> Scene {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
-    plydrape_io::scene::read(&Path::new(root).join(name).join("scene.toml"))
-        .expect("a shipped scene")
-        .scene
-}
 
 /// A ply above or on a mold, with its contact segments.
 #[derive(Debug, Clone)]
@@ -258,10 +249,6 @@ proptest! {
             prop_assert!((along - difference).abs() < 2e-4 * scale, "{name}: {along} for {difference}");
         }
     }
-}
-
-fn distance(a: Point, b: Point) -> f64 {
-    (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
 }
 
 /// A shipped scene, its contact followed at every place of the grippers.

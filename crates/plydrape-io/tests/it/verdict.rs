@@ -1,35 +1,22 @@
 //! What the verdict of a drape says: depths, folds, landing shear, one rule for all molds, convergence, scale, and that nothing
 //! fails in silence.
 
+use crate::common::{Point, drape, example};
 use plydrape::draping::record::Step;
-use plydrape::draping::{ContactStatus, simulate};
+use plydrape::draping::{ContactStatus, Judged};
 use plydrape::equilibrium::Status;
 use plydrape::material::Section;
 use plydrape::measure::{Name, Verdict};
 use plydrape::mold::{Face, Graph, HeightGrid, Mold, Plane, Pose, Sphere, Surface};
 use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, Stepping};
 use plydrape_io::result::ResultFile;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
-
-type Point = [f64; 3];
-
-fn example(name: &str) -> Scene {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
-    plydrape_io::scene::read(&Path::new(root).join(name).join("scene.toml"))
-        .expect("a shipped scene")
-        .scene
-}
 
 fn parse(text: &str) -> Scene {
     plydrape_io::scene::parse(text, Path::new(""), "of the test")
         .unwrap_or_else(|e| panic!("{e}"))
         .scene
-}
-
-fn drape(scene: &Scene) -> ResultFile {
-    ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())))
 }
 
 fn verdict(result: &ResultFile, name: Name) -> &Verdict {

@@ -1,0 +1,105 @@
+//! What several of these tests need: shipped scenes, their drapes, and the ply of the paper.
+
+use plydrape::catenary::{EndCondition, Profile};
+use plydrape::draping::simulate;
+use plydrape::equilibrium::{End, SlopeSource, Solver};
+use plydrape::material::{Material, Section};
+use plydrape::ply::{Direction, Grid, Laid, Ply};
+use plydrape::scene::{Contact, ContactEnd, Scene, Settings, SlopeRule, Stepping};
+use plydrape_io::ResultFile;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+pub type Point = [f64; 3];
+
+pub const RULES: [SlopeRule; 2] = [SlopeRule::MinForce, SlopeRule::MomentBalance];
+
+/// The folder of the examples.
+pub fn examples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples")
+}
+
+/// The scene of an example.
+pub fn example(name: &str) -> Scene {
+    let path = examples().join(name).join("scene.toml");
+    plydrape_io::scene::read(&path).unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+/// The result of a scene along its own motion.
+pub fn drape(scene: &Scene) -> ResultFile {
+    ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())))
+}
+
+pub fn distance(a: Point, b: Point) -> f64 {
+    (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// The ply of Krogh et al. 2018, Table 1, in cells of 100 mm.
+pub fn paper_ply(nu: usize, nv: usize) -> Ply {
+    Ply {
+        grid: Grid { nu, nv },
+        cell: [0.1; 2],
+        material: Material {
+            name: "krogh2018".into(),
+            source: "Krogh et al. 2018, Table 1".into(),
+            section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
+            shear_curve: None,
+            locking_angle: None,
+        },
+        warp: Direction::U,
+    }
+}
+
+/// Nothing of the ply is on a mold.
+pub fn free(ply: &Ply) -> Vec<Option<Laid>> {
+    vec![None; ply.grid.catenaries()]
+}
+
+/// The paper's settings with an axial stiffness in place of a ply that does not stretch.
+pub fn settings(slopes: SlopeRule) -> Settings {
+    Settings {
+        slopes,
+        axial_stiffness: 1e5,
+        gravity: 9.8,
+        max_tilt: 40f64.to_radians(),
+        contact: Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free },
+    }
+}
+
+/// The same with a ply that does not stretch.
+pub fn inextensible(slopes: SlopeRule) -> Settings {
+    Settings { axial_stiffness: f64::INFINITY, ..settings(slopes) }
+}
+
+/// Sum of the squares of all forces with the shared slopes put where the caller wants them.
+pub fn squares_of_forces(solver: &Solver, slopes: &[f64]) -> f64 {
+    let problem = solver.problem();
+    let mut outcome = vec![[0.0; 2]; problem.elements.len()];
+    let mut sum = 0.0;
+    for (n, element) in problem.elements.iter().enumerate() {
+        let mut span = solver.span(n);
+        for end in 0..2 {
+            let slope = match element.ends[end] {
+                End::Shared(j) => slopes[j],
+                End::Plane(plane) => {
+                    let at = |source| match source {
+                        SlopeSource::Given(s) => s,
+                        SlopeSource::Shared(j) => slopes[j],
+                        SlopeSource::Outcome(e, k) => {
+                            let pair: [f64; 2] = outcome[e];
+                            pair[k]
+                        }
+                    };
+                    plane.share[0] * at(plane.source[0]) + plane.share[1] * at(plane.source[1])
+                }
+                _ => continue,
+            };
+            span.ends[end] = EndCondition::Slope(slope);
+        }
+        let Some(force) = span.solve(solver.force(n)).force else { continue };
+        let profile = Profile::new(&span, force);
+        outcome[n] = [profile.end_slope(0), profile.end_slope(1)];
+        sum += force * force;
+    }
+    sum
+}
