@@ -4,8 +4,8 @@ use plydrape::catenary::{EndCondition, Profile};
 use plydrape::draping::simulate;
 use plydrape::equilibrium::{End, SlopeSource, Solver};
 use plydrape::material::{Material, Section};
-use plydrape::ply::{Direction, Grid, Laid, Ply};
-use plydrape::scene::{Contact, ContactEnd, Scene, Settings, SlopeRule, Stepping};
+use plydrape::ply::{ContactSegment, Direction, Grid, Ply};
+use plydrape::scene::{ContactEnd, ContactSettings, Scene, Settings, SlopeRule, Stepping};
 use plydrape_io::ResultFile;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -51,7 +51,7 @@ pub fn paper_ply(nu: usize, nv: usize) -> Ply {
 }
 
 /// Nothing of the ply is on a mold.
-pub fn free(ply: &Ply) -> Vec<Option<Laid>> {
+pub fn free(ply: &Ply) -> Vec<Option<ContactSegment>> {
     vec![None; ply.grid.catenaries()]
 }
 
@@ -62,7 +62,11 @@ pub fn settings(slopes: SlopeRule) -> Settings {
         axial_stiffness: 1e5,
         gravity: 9.8,
         max_tilt: 40f64.to_radians(),
-        contact: Contact { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free },
+        contact: ContactSettings {
+            tolerance: 1e-3,
+            stepping: Stepping::Once,
+            end: ContactEnd::Free,
+        },
     }
 }
 
@@ -83,7 +87,7 @@ pub fn squares_of_forces(solver: &Solver, slopes: &[f64]) -> f64 {
                 End::Shared(j) => slopes[j],
                 End::Plane(plane) => {
                     let at = |source| match source {
-                        SlopeSource::Given(s) => s,
+                        SlopeSource::Prescribed(s) => s,
                         SlopeSource::Shared(j) => slopes[j],
                         SlopeSource::Outcome(e, k) => {
                             let pair: [f64; 2] = outcome[e];

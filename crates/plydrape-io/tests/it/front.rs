@@ -1,16 +1,24 @@
 //! A front that lays the ply: the lifted mold, the formation of grippers on it, and corrections by gradients.
 
 use crate::common::{distance, example};
+use plydrape::draping::simulate;
 use plydrape::measure::Name;
 use plydrape::mold::{FrontSurface, HeightGrid, Rise};
 use plydrape::motion::{Bounds, TimedMotion};
 use plydrape::planner::path::{Formation, MoldHeights, Strategy, correction, trajectory};
 use plydrape::scene::Scene;
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::sync::Arc;
 
-const RING: Strategy =
-    Strategy { start: [0.5; 2], ratio: 1.0, angle: 0.0, curvature: 4.0, slope: 0.4, pull: 1e-4 };
+const RING: Strategy = Strategy {
+    start: [0.5; 2],
+    ratio: 1.0,
+    angle: 0.0,
+    curvature: 0.4,
+    slope: 0.4,
+    pretension: 1e-4,
+};
 
 /// Largest overstretch in the drape along a plan (%).
 fn overstretch(scene: &Scene, positions: &[Vec<[f64; 3]>]) -> f64 {

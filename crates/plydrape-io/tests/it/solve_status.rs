@@ -342,12 +342,12 @@ fn whole_newton_steps_cross_the_folds_that_stop_a_line_search() {
         let residual = slope_residual(&solver, bound);
         assert!(residual > 0.0 && residual < 1e-6, "net {seed}: {residual}");
         let mut random = random(seed);
-        let found = objective(&solver, solver.slopes());
+        let found = squares_of_forces(&solver, solver.slopes());
         for _ in 0..40 {
             let moved = solver.slopes().iter().map(|s| (s + 1e-4 * random()).clamp(-bound, bound));
             let moved: Vec<f64> = moved.collect();
             // the objective is summed to about 1e-12 of itself
-            let rise = objective(&solver, &moved) - found;
+            let rise = squares_of_forces(&solver, &moved) - found;
             assert!(rise > -1e-11 * found, "net {seed}: {rise} of {found}");
         }
     }

@@ -2,8 +2,8 @@
 //! fails in silence.
 
 use crate::common::{Point, drape, example};
+use plydrape::draping::ContactStatus;
 use plydrape::draping::record::Step;
-use plydrape::draping::{ContactStatus, Judged};
 use plydrape::equilibrium::Status;
 use plydrape::material::Section;
 use plydrape::measure::{Name, Verdict};
