@@ -149,18 +149,20 @@ fn min_force_converges_only_where_no_descent_is_left() {
     assert!(converged > 100, "{converged}");
 }
 
-/// A line search that finds nothing, here because ten times the descent is asked for that there is, leaves a ply that
-/// has not converged, and it is said, with the residual that is left.
+/// A line search that finds nothing leaves a ply that has not converged, if the whole steps of the last attempt find nothing
+/// either. The status says so, with the residual that is left: these nets are at a fold that is not crossed.
 #[test]
 fn a_line_search_that_finds_nothing_is_not_convergence() {
-    let ply = ply(4, 2, 0.1, 0.3143, 9e-6);
-    let positions = flung(ply.grid, 0.096, 0.01, 3);
-    let tuning = Tuning { decrease: 10.0, ..Tuning::default() };
-    let mut solver = Solver::new(&ply, &settings(SlopeRule::MinForce)).with_tuning(tuning);
-    let outcome = solver.solve(&positions, &free(&ply));
-    assert_eq!(outcome.status, Status::Stalled, "{outcome:?}");
-    assert!(outcome.residual > 1e-4 && outcome.early_ends.line_searches > 0, "{outcome:?}");
-    assert!(slope_residual(&solver, 40f64.to_radians().tan()) > 1e-4);
+    let mut descent = 0.0_f64;
+    for seed in [1371, 1521, 1650, 1795, 2663] {
+        let (ply, positions, settings) = random_net(seed, SlopeRule::MinForce);
+        let mut solver = Solver::new(&ply, &settings);
+        let outcome = solver.solve(&positions, &free(&ply));
+        assert_eq!(outcome.status, Status::Stalled, "net {seed}: {outcome:?}");
+        assert!(outcome.residual > 1e-6 && outcome.early_ends.line_searches > 0, "{outcome:?}");
+        descent = descent.max(slope_residual(&solver, 40f64.to_radians().tan()));
+    }
+    assert!(descent > 1e-4, "{descent}");
 }
 
 /// Balanced moments are a stable state: energy rises in every direction. The matrix of the jumps by central

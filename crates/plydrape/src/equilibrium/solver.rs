@@ -171,8 +171,16 @@ impl Solver {
         if cold.status == Status::Converged {
             return cold;
         }
-        // a line search ends where the objective jumps at a fold, and whole steps cross it
-        cold.then(self.attempt(StepLength::Whole))
+        // a line search ends where the objective jumps at a fold, and whole steps cross it; if they find nothing, the state
+        // of the line search stays
+        let (state, warm_start) = (self.state.clone(), self.warm_start.clone());
+        let crossed = cold.then(self.attempt(StepLength::Whole));
+        if crossed.status == Status::Converged {
+            return crossed;
+        }
+        (self.state, self.warm_start) = (state, warm_start);
+        let Equilibrium { iterations, early_ends, .. } = crossed;
+        Equilibrium { iterations, early_ends, ..cold }
     }
 
     /// States the problem, with the flexural rigidity multiplied by `stiffness`.
