@@ -30,10 +30,9 @@ pub struct Lift {
     pub curvature: f64,
     /// Steepest slope σ.
     pub slope: f64,
+    /// Radius over which the tip at r = 0 is rounded (m).
+    pub tip: f64,
 }
-
-/// Rounds the tip of r = 0 (m).
-const TIP: f64 = 1e-4;
 
 impl Lifted {
     /// The height at (x, y) (m).
@@ -63,7 +62,7 @@ impl Lift {
         let [dx, dy] = [x - self.centre[0], y - self.centre[1]];
         let [q0, q1, q2] = self.metric;
         let half = [q0 * dx + q1 * dy, q1 * dx + q2 * dy];
-        let r = (half[0] * dx + half[1] * dy + TIP * TIP).sqrt();
+        let r = (half[0] * dx + half[1] * dy + self.tip * self.tip).sqrt();
         let ahead = r - self.front;
         if ahead <= 0.0 {
             return Height::constant(0.0);
