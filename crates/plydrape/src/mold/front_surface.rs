@@ -29,6 +29,8 @@ pub struct Rise {
     pub curvature: f64,
     /// Steepest slope σ.
     pub slope: f64,
+    /// Radius over which the tip at r = 0 is rounded (m).
+    pub tip: f64,
 }
 
 impl FrontSurface {
@@ -59,7 +61,7 @@ impl Rise {
         let [dx, dy] = [x - self.centre[0], y - self.centre[1]];
         let [q0, q1, q2] = self.metric;
         let half = [q0 * dx + q1 * dy, q1 * dx + q2 * dy];
-        let r = (half[0] * dx + half[1] * dy).max(0.0).sqrt();
+        let r = (half[0] * dx + half[1] * dy + self.tip * self.tip).sqrt();
         let ahead = r - self.front;
         if ahead <= 0.0 {
             return Height::constant(0.0);

@@ -84,7 +84,8 @@ impl<'a> Formation<'a> {
             (along - 1.0) * sin * cos,
             along * sin * sin + cos * cos,
         ];
-        Rise { centre: self.centre, metric, front, curvature: curvature * unit, slope }
+        let (curvature, tip) = (curvature * unit, TUNING.front.tip * self.cell);
+        Rise { centre: self.centre, metric, front, curvature, slope, tip }
     }
 
     /// How far the front has to come to have passed every gripper (m).

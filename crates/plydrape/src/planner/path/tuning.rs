@@ -18,6 +18,8 @@ pub struct Tuning {
 /// Constants of fronts and their trajectories.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Front {
+    /// Radius over which the tip of the lifted mold at the start of the front is rounded (cells).
+    pub tip: f64,
     /// Divisions of a cell of the net on the lifted mold; even, so that the middle of a cell is a node.
     pub divisions: usize,
     /// Nodes of the height grid of the lifted mold along each axis.
@@ -94,6 +96,7 @@ pub struct Refinement {
 /// The constants in use.
 pub const TUNING: Tuning = Tuning {
     front: Front {
+        tip: 1e-3,
         divisions: 4,
         height_nodes: 121,
         height_margin: 0.25,
