@@ -766,9 +766,25 @@ class Result:
         Whether every limit holds.
         """
     @property
+    def cell(self, /) -> tuple[float, float]:
+        """
+        Fabric length of a cell along u and v (m).
+        """
+    @property
     def contact(self, /) -> NDArray[float64]:
         """
         Fabric length of each catenary that the mold has caught (m), shape (steps, catenaries).
+        """
+    def contact_lines(self, /, step: SupportsIndex) -> list[NDArray[float64]]:
+        """
+        The lines in which the ply touches the mold in a step (m), one for each catenary that does, arrays of
+        shape (n, 3).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> len(result.contact_lines(1)), len(result.contact_lines(26))
+            (0, 3)
         """
     @property
     def converged(self, /) -> bool:

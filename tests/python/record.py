@@ -1,4 +1,6 @@
-"""Result files by objects: the columns of result.json put together again, after docs/guide/result_file.md.
+"""Result files by objects: the columns of result.json put together again.
+
+They are described in docs/guide/result_file.md.
 
 Written from that page alone, so that a reader in another language finds there what it needs.
 """
@@ -77,7 +79,7 @@ def catenaries(lines: list[Entry], columns: Entry, contacts: list[Entry | None])
 
 
 def slack_mm(span: Entry, whole: float) -> float:
-    """Fabric of a span beyond its way (mm); what rounding leaves of a catenary of a length is none."""
+    """Fabric of a span beyond its way (mm), none within rounding of the `whole` catenary's."""
     excess = float(span["length"] - span["way"])
     return 0.0 if excess <= 1e-12 * whole else 1e3 * excess
 

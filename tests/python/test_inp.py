@@ -12,12 +12,11 @@ from typing import Any
 
 import meshio
 import numpy as np
-import pytest
-from calculix import Array, Deck, ccx
-import record
-from program import ROOT, run
-
 import plydrape
+import pytest
+import record
+from calculix import Array, Deck, ccx
+from program import ROOT, run
 
 AREAL_MASS, RIGIDITY, GRAVITY = 3.143, 9e-5, 9.8
 """The paper's ply, as strips of 100 mm: kg/m², N m, m/s²."""
@@ -102,7 +101,6 @@ def solved(ply: Drape, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Ar
 
 def sag_of_model(drape: Drape, cell: int, row: int) -> float:
     """Depth (m) of the model's catenary along u below its grippers, in the last step."""
-    nu = drape.result["scene"]["ply"]["grid"]["nu"]
     (edge,) = [
         n
         for n, line in enumerate(drape.result["steps"][-1]["catenaries"])

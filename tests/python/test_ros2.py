@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import plydrape
 import pytest
 import yaml
-from exported import RADIUS, SCENE, Numbers, Result, made, stations
+from exported import RADIUS, SCENE, Numbers, Result, made, pieces
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from rosbags.interfaces import QosDurability, QosReliability
@@ -265,7 +266,8 @@ def test_markers_are_the_shape_of_the_step_at_its_time(either: Exported) -> None
     steps = either.result.steps
     assert [time for time, _ in messages] == [round(step["time"] * 1e9) for step in steps]
     touched = False
-    for (_, message), step in zip(messages, steps, strict=True):
+    drawn = plydrape.Result.read(either.result.folder / "result.json")
+    for index, ((_, message), step) in enumerate(zip(messages, steps, strict=True)):
         markers = by_name(message)
         for number, gripper in enumerate(step["grippers"]):
             disc = markers["grippers", number]
@@ -274,28 +276,34 @@ def test_markers_are_the_shape_of_the_step_at_its_time(either: Exported) -> None
             assert [turn.x, turn.y, turn.z, turn.w] == gripper["quaternion"]
             assert disc.type == 3 and disc.scale.z < 0.2 * disc.scale.x
 
-        pieces: dict[tuple[str, int], list[list[float]]] = {
-            ("catenaries", 0): [],
-            ("catenaries", 1): [],
-            ("contact", 0): [],
-        }
-        for line, kind, points in stations(step):
-            key = ("contact", 0)
-            if kind == "span":
-                key = ("catenaries", int(line["kind"] == "diagonal"))
-            for pair in pairwise(points):
-                pieces[key].extend(pair)
-        touches = [points[0] for _, _, points in stations(step) if len(points) == 1]
+        contacts = [line["contact"]["points"] for line, span in pieces(step) if span is None]
+        touches = [points[0] for points in contacts if len(points) == 1]
         spots = markers["contact", 1]
         assert spots.type == 7 and spots.action == (0 if touches else 2)
         assert np.array_equal(coordinates(spots.points), np.array(touches).reshape(-1, 3))
-        touched |= bool(pieces["contact", 0])
-        for key, expected in pieces.items():
-            assert markers[key].type == 5
-            assert markers[key].action == (0 if expected else 2)
-            assert np.array_equal(
-                coordinates(markers[key].points), np.array(expected).reshape(-1, 3)
-            )
+        due = [point for line in contacts for pair in pairwise(line) for point in pair]
+        touched |= bool(due)
+        lying = markers["contact", 0]
+        assert lying.type == 5 and lying.action == (0 if due else 2)
+        assert np.array_equal(coordinates(lying.points), np.array(due).reshape(-1, 3))
+        # spans are pieces of the lines from gripper to gripper, ten chords each
+        for key, edges in enumerate([True, False]):
+            spans = [
+                line["kind"].startswith("edge") == edges
+                for line, span in pieces(step)
+                if span is not None
+            ]
+            lines = [
+                line
+                for line, state in zip(drawn.lines(index + 1), step["catenaries"], strict=True)
+                if state["kind"].startswith("edge") == edges
+            ]
+            known = {(*a, *b) for line in lines for a, b in pairwise(line)}
+            marker = markers["catenaries", key]
+            assert marker.type == 5 and marker.action == (0 if any(spans) else 2)
+            found = coordinates(marker.points).reshape(-1, 6)
+            assert len(found) == 10 * sum(spans)
+            assert {*map(tuple, found)} <= known
 
         sheet = markers["ply", 0]
         corners = coordinates(sheet.points)

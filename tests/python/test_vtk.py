@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import plydrape
 import pytest
 import record
 from exported import RADIUS, SCENE, Numbers, Result, made, pieces
@@ -15,8 +16,6 @@ from scipy.spatial.transform import Rotation
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkCommand
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-
-import plydrape
 
 DIRECTIONS = {"u": 0, "v": 1, "rising": 2, "falling": 3}
 STATES = {"hanging": 0, "overstretched": 1, "straight": 2, "lying": 3}
@@ -134,7 +133,9 @@ def test_catenaries_are_those_of_the_result(drape: Exported) -> None:
         found = list(pieces(step))
         whole = [{*map(tuple, line)} for line in drawn.lines(index + 1)]
         assert not poly.verts and not poly.polys and len(poly.lines) == len(found)
-        for joined, n, (line, span) in zip(poly.lines, poly.in_cells["catenary"], found, strict=True):
+        for joined, n, (line, span) in zip(
+            poly.lines, poly.in_cells["catenary"], found, strict=True
+        ):
             points = poly.points[joined]
             if span is None:
                 # a touch in a single point is a line from it to itself
@@ -207,7 +208,7 @@ def test_grippers_are_those_of_the_result(drape: Exported) -> None:
 def test_the_surface_joins_the_grippers_and_faces_up(drape: Exported) -> None:
     """Corners of cells are the grippers; gap, fabric, fibres and shear are what they say."""
     content = drape.result.content["scene"]
-    (nu, nv), cell = (content["grid"]["nu"], content["grid"]["nv"]), content["cell"]
+    (nu, nv), cell = content["ply"]["grid"].values(), content["ply"]["cell"]
     near = content["settings"]["contact"]["tolerance"]
     for index, step in enumerate(drape.result.steps):
         poly = drape.step("ply", index)

@@ -8,7 +8,6 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator
 
-from plydrape import _shapes
 from plydrape.plot._sheet import BLACK, MM, RED, TARGET, plain
 from plydrape.plot._stage import TOUCHING
 
