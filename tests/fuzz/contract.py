@@ -30,7 +30,7 @@ SIMULATED = {"result.json", "steps.csv", "trajectory.csv", "figure.svg", "report
 WRITTEN = {
     "simulate": SIMULATED,
     "plan": SIMULATED | {"motion.csv", "plan.json"},
-    "net": {"nodes.csv", "shear.svg", "net.vtu", "mold.vtu"},
+    "net": {"nodes.csv", "shear.svg", "net.vtp", "mold.vtp"},
     "report": {"report.html"},
     "study": {"study.parquet", "summary.json", "summary.html"},
 }

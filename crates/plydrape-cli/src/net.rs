@@ -11,8 +11,8 @@ use std::time::Instant;
 /// Lay the ply on the mold as a net of yarns: where every point should end, and how it shears.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Of the scene it reads [ply], [mold], [target] and [limits]. Writes nodes.csv, shear.svg, net.vtu and \
-mold.vtu to the scene's name with `.net`. A file in the folder that plydrape did not write, or that \
+Of the scene it reads [ply], [mold], [target] and [limits]. Writes nodes.csv, shear.svg, net.vtp and \
+mold.vtp to the scene's name with `.net`. A file in the folder that plydrape did not write, or that \
 was edited since, is never overwritten. Not accepted, with exit code 1, is a ply that runs off the \
 mold, folds, or shears beyond the scene's limit or the material's locking angle.")]
 pub struct Arguments {

@@ -46,7 +46,7 @@ fn a_ply_that_lies_is_accepted_and_written() {
     let done = net(home.path(), &scene(CAP, ""), &[]);
     let table = text(&done.stdout);
     assert_eq!(done.status.code(), Some(0), "{table}{}", text(&done.stderr));
-    for name in ["nodes.csv", "shear.svg", "net.vtu", "mold.vtu"] {
+    for name in ["nodes.csv", "shear.svg", "net.vtp", "mold.vtp"] {
         assert!(home.path().join("cap.net").join(name).is_file(), "{name}");
         assert!(table.contains(&format!("wrote cap.net/{name}")), "{table}");
     }

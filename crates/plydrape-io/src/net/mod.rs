@@ -4,13 +4,13 @@
 //!
 //! - `nodes.csv`, where every point of the fabric should end ([`nodes`]);
 //! - `shear.svg`, the shear map ([`figure::shear_map`]);
-//! - `net.vtu` and `mold.vtu` for ParaView and other readers of VTK's files ([`vtu`]).
+//! - `net.vtp` and `mold.vtp` for ParaView and other readers of VTK's files ([`polygons`]).
 //!
 //! [`Summary`] says in a few numbers how the net lies, and judges it.
 
 pub mod nodes;
+pub mod polygons;
 mod summary;
-pub mod vtu;
 
 pub use summary::{ShearPlace, Summary};
 
@@ -19,7 +19,7 @@ use plydrape::mold::Mold;
 use plydrape::net::Net;
 use std::path::{Path, PathBuf};
 
-/// Writes `nodes.csv`, `shear.svg`, `net.vtu` and `mold.vtu` into a folder, all or none; a mold of which
+/// Writes `nodes.csv`, `shear.svg`, `net.vtp` and `mold.vtp` into a folder, all or none; a mold of which
 /// nothing is near the net has no file.
 ///
 /// Returns the paths written. Same net, same bytes.
@@ -37,14 +37,14 @@ pub fn write_all(
     finite::check(net)?;
     let nodes = nodes::table(net)?;
     let map = figure::shear_map::svg(net, mold, title)?;
-    let cells = vtu::net(net);
-    let surface = vtu::mold(net, mold);
+    let cells = polygons::net(net);
+    let surface = polygons::mold(net, mold);
     let mut files = vec![
         ("nodes.csv", nodes.as_bytes()),
         ("shear.svg", map.as_bytes()),
-        ("net.vtu", cells.as_bytes()),
+        ("net.vtp", cells.as_slice()),
     ];
-    files.extend(surface.iter().map(|text| ("mold.vtu", text.as_bytes())));
+    files.extend(surface.iter().map(|bytes| ("mold.vtp", bytes.as_slice())));
     folder::write(dir, "net", &files)
 }
 

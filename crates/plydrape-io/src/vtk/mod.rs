@@ -17,7 +17,7 @@ mod collection;
 mod grippers;
 mod mold;
 mod ply;
-mod polydata;
+pub(super) mod polydata;
 
 use super::OutputError;
 use crate::result::ResultFile;

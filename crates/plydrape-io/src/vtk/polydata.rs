@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 /// Points and what joins them. All cells are of one kind.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct PolyData {
+pub(crate) struct PolyData {
     pub points: Vec<[f64; 3]>,
     pub kind: Kind,
     pub cells: Vec<Vec<usize>>,
@@ -19,7 +19,7 @@ pub(super) struct PolyData {
 
 /// What the cells are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     Verts,
     Lines,
     Polys,
@@ -27,7 +27,7 @@ pub(super) enum Kind {
 
 /// Numbers with a name.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Array {
+pub(crate) struct Array {
     name: &'static str,
     /// Numbers of one entry.
     width: usize,
