@@ -108,7 +108,7 @@ impl Operation {
             Operation::Subtract => a.plus(-1.0, b),
             Operation::Multiply => a.times(b),
             Operation::Divide => a.times(&b.chain(variable(b.z).recip())),
-            Operation::Whole(n) => a.chain(variable(a.z).powi(n)),
+            Operation::Whole(n) => a.chain(whole(a.z, n)),
             Operation::Real(n) => {
                 // also at zero, where `DualNum::powf` divides by it
                 let power = |shift: f64| a.z.powf(n - shift);
@@ -117,6 +117,19 @@ impl Operation {
             Operation::Power => Function::Exp.of(&b.times(&Function::Ln.of(&a))),
             Operation::Negate => zero.plus(-1.0, &a),
             Operation::Call(function) => function.of(&a),
+        }
+    }
+}
+
+/// zⁿ with its derivatives; `DualNum::powi` takes twice as long.
+fn whole(z: f64, n: i32) -> Dual2_64 {
+    match n {
+        0 => Dual2_64::new(1.0, 0.0, 0.0),
+        1 => variable(z),
+        2 => Dual2_64::new(z * z, 2.0 * z, 2.0),
+        _ => {
+            let (m, base) = (f64::from(n), z.powi(n - 2));
+            Dual2_64::new(base * z * z, m * base * z, m * (m - 1.0) * base)
         }
     }
 }
