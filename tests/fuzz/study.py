@@ -61,7 +61,7 @@ def change(rng: Random, files: Files) -> str:
     else:
         what = tree.change(rng, table)
     samples = table.get("samples")
-    if isinstance(samples, int) and 20 < samples < 10_000:
+    if isinstance(samples, int) and 20 < samples <= 1_000_000:
         table["samples"] = 20  # sound, and would take long
     files[NAME] = toml.text(table).encode()
     return what

@@ -78,14 +78,13 @@ impl Folder {
             let _ = fs::remove_dir_all(stage);
         }
         let stage = tempfile::Builder::new().prefix(STAGE).tempdir_in(dir);
-        let stage = stage.map_err(|e| OutputError::io("write into", dir, e));
-        if stage.is_err() && made {
+        let owner = format!("`plydrape {by}`, process {}", std::process::id());
+        let noted =
+            stage.and_then(|stage| fs::write(stage.path().join(OWNER), owner).map(|()| stage));
+        if noted.is_err() && made {
             let _ = fs::remove_dir(dir);
         }
-        let stage = stage?;
-        let text = format!("`plydrape {by}`, process {}", std::process::id());
-        let noted = fs::write(stage.path().join(OWNER), text);
-        noted.map_err(|e| OutputError::io("write into", dir, e))?;
+        let stage = noted.map_err(|e| OutputError::io("write into", dir, e))?;
         Ok(Folder { dir: dir.into(), by, made, stage: Some(stage), _lock: lock })
     }
 

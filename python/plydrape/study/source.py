@@ -114,7 +114,7 @@ def scene(choice: object, base: Path) -> tuple[dict[str, Any], Path]:
         return dict(toml().loads(choice.text)), Path(getattr(choice, "base", base))
     if isinstance(choice, str | os.PathLike):
         path = base / choice
-        if not path.is_file():
+        if not os.path.isfile(path):  # also where a name is too long for the system
             raise StudyError(
                 f"`scene` = {shown(str(choice))}: there is no such file",
                 help=f"the path is relative to {base.resolve()}",
@@ -161,7 +161,7 @@ def files(tables: Tables, home: Path, inputs: Iterable[Input]) -> dict[str, str]
     for x in inputs:
         if isinstance(x.law, Choice):
             texts = (value for value in x.law.values if isinstance(value, str))
-            names |= {text for text in texts if (home / text).is_file()}
+            names |= {text for text in texts if os.path.isfile(home / text)}
     return {name: _checksum(home / name) for name in sorted(names)}
 
 

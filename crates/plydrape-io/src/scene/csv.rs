@@ -4,7 +4,7 @@
 //! one a column is in SI units. Columns come in any order and others are ignored. Lines that are
 //! empty or start with `#` are skipped. Fields may stand in double quotes but hold no commas.
 
-use super::error::{Document, SceneError};
+use super::error::{Document, SceneError, excerpt};
 use super::units::{self, Dimension};
 use std::ops::Range;
 
@@ -147,12 +147,12 @@ fn unit_size(
         Ok((size, found)) if found == dimension => Ok(size),
         Ok((_, found)) => Err(document.error(
             title,
-            format!("`{written}` is the unit of {found}"),
+            format!("`{}` is the unit of {found}", excerpt(written)),
             format!("{dimension} is wanted in this column"),
         )),
         Err(fault) => Err(document.error(
             title,
-            format!("the unit in `{text}` cannot be read: {fault}"),
+            format!("the unit in `{}` cannot be read: {fault}", excerpt(text)),
             fault.help(),
         )),
     }

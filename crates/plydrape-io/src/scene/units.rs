@@ -4,6 +4,7 @@
 //! divides by the next symbol only, so that `N/m/s` is N/(m·s). Values come out in SI base units.
 //! An angle counts as a dimension of its own: a length in degrees is a mistake worth catching.
 
+use super::error::excerpt;
 use std::fmt;
 
 /// Powers of metre, kilogram, second and radian.
@@ -116,9 +117,9 @@ pub(super) enum UnitError {
     NoNumber,
     #[error("its number has a decimal comma")]
     DecimalComma,
-    #[error("`{0}` is no unit known here")]
+    #[error("`{}` is no unit known here", excerpt(.0))]
     Unknown(String),
-    #[error("`{0}` is no whole power from -9 to 9")]
+    #[error("`{}` is no whole power from -9 to 9", excerpt(.0))]
     Power(String),
     #[error("a unit is missing after `{0}`")]
     Dangling(char),
