@@ -11,7 +11,7 @@ use std::collections::HashMap;
 type Point = [f64; 3];
 
 /// The net. At points: fabric coordinates `u`, `v` (m), grid indices `i`, `j`, `shear_deg` as in
-/// `nodes.csv`. In cells: `shear_deg`, the magnitude; `signed_shear_deg`, positive where u and v stand at
+/// `nodes.csv`, and `has_shear`, 1 where that is known; else both 0. In cells: `shear_deg`, the magnitude; `signed_shear_deg`, positive where u and v stand at
 /// less than 90°; `fibre_u`, `fibre_v`, unit vectors along the two fibre directions in the cell's middle.
 #[must_use]
 pub fn net(net: &Net) -> Vec<u8> {
@@ -20,14 +20,15 @@ pub fn net(net: &Net) -> Vec<u8> {
         || (0..nu * nv).map(|n| [n % nu, n / nu]).filter_map(|id| Some((id, net.node(id)?)));
     let number: HashMap<[usize; 2], usize> = nodes().map(|(id, _)| id).zip(0..).collect();
     let points: Vec<Point> = nodes().map(|(_, place)| place).collect();
-    // beside missing nodes only, VTK's own way to say "unknown"
-    let shear = |id| nodal_shear(net, id).map_or(f64::NAN, f64::to_degrees);
+    // unknown beside missing nodes only
+    let shear: Vec<_> = nodes().map(|(id, _)| nodal_shear(net, id)).collect();
     let at_points = vec![
         Array::new("u", nodes().map(|(id, _)| id[0] as f64 * mesh[0]).collect()),
         Array::new("v", nodes().map(|(id, _)| id[1] as f64 * mesh[1]).collect()),
         Array::whole("i", nodes().map(|(id, _)| id[0])),
         Array::whole("j", nodes().map(|(id, _)| id[1])),
-        Array::new("shear_deg", nodes().map(|(id, _)| shear(id)).collect()),
+        Array::new("shear_deg", shear.iter().map(|s| s.unwrap_or(0.0).to_degrees()).collect()),
+        Array::codes("has_shear", shear.iter().map(|s| s.is_some().into()).collect()),
     ];
 
     let mut cells = Vec::new();
