@@ -79,11 +79,11 @@ def catenaries(lines: list[Entry], columns: Entry, contacts: list[Entry | None])
 
 
 def slack_mm(span: Entry, whole: float) -> float:
-    """Fabric of a span beyond its way (mm), none within rounding of the `whole` catenary's."""
-    excess = float(span["length"] - span["way"])
+    """Fabric of a span beyond its path (mm), none within rounding of the `whole` catenary's."""
+    excess = float(span["length"] - span["path"])
     return 0.0 if excess <= 1e-12 * whole else 1e3 * excess
 
 
 def overstretch_mm(span: Entry, whole: float) -> float:
     """Way of a span beyond its fabric (mm)."""
-    return slack_mm({"length": span["way"], "way": span["length"]}, whole)
+    return slack_mm({"length": span["path"], "path": span["length"]}, whole)

@@ -156,7 +156,7 @@ fn catenary(line: Catenary, length: f64, shape: &[[f64; 3]], mold: Option<f64>) 
         segment,
         hold: Hold::Hanging,
         length: arc(b) - arc(a),
-        way: 0.98 * (arc(b) - arc(a)),
+        path: 0.98 * (arc(b) - arc(a)),
         force: Some(0.37),
         slopes: [-0.3, 0.3],
         prescribed: [false; 2],

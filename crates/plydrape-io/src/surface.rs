@@ -95,7 +95,7 @@ pub fn shape(line: &CatenaryState, curves: &[Vec<Point>], ends: [Point; 2]) -> V
     };
     let contact = line.contact.iter().flat_map(|contact| &contact.points);
     let mut points: Vec<Point> = side(0).chain(contact).chain(side(1)).copied().collect();
-    // Fabric that lies begins at the gripper's foot on the mold; the line begins at the gripper itself. A line
+    // Fabric that lies begins at the closest point of the mold to the gripper; the line begins at the gripper itself. A line
     // without stations still has its two grippers.
     points.insert(0, ends[0]);
     points.push(ends[1]);
@@ -103,7 +103,7 @@ pub fn shape(line: &CatenaryState, curves: &[Vec<Point>], ends: [Point; 2]) -> V
     points
 }
 
-/// Slack ratio below which a lying rest counts as contact, not as a wrinkle.
+/// Slack ratio below which a lying segment counts as contact, not as a wrinkle.
 const FLAT: f64 = 5e-4;
 
 /// The line in which a catenary touches the mold, first to last (m): its contact segment, and segments that lie flat beside
@@ -278,9 +278,9 @@ mod tests {
         for (k, p) in stations(&line, 10).iter().enumerate() {
             assert!((p[0] - 0.1 * k as f64).abs() < 1e-15);
         }
-        // both ends are met, also from a foot straight below them
-        let feet = [[0.0, 0.0, 1.0], [0.0; 3], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0]];
-        assert_eq!([stations(&feet, 4)[0], stations(&feet, 4)[4]], [feet[0], feet[3]]);
+        // both ends are met, also from a point straight below them
+        let corners = [[0.0, 0.0, 1.0], [0.0; 3], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0]];
+        assert_eq!([stations(&corners, 4)[0], stations(&corners, 4)[4]], [corners[0], corners[3]]);
         let upright = [[0.0; 3], [0.0, 0.0, 2.0]];
         assert_eq!(stations(&upright, 2)[1], [0.0, 0.0, 1.0]);
     }

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// The last step of a drape with its derivatives to where the grippers are in it.
 ///
-/// What the mold has caught by then is held: the derivatives are those of the outcome to the grippers' targets as
+/// Fabric in contact by then is held: the derivatives are those of the outcome to the grippers' targets as
 /// long as a slightly different last step catches nothing more, and exact where the state is smooth.
 ///
 /// Example:

@@ -234,7 +234,7 @@ impl Result {
         self.catenaries(|c| c.spans.iter().map(|span| span.slack_mm(c.length)).sum())
     }
 
-    /// Fabric length of each catenary that the mold has caught (m), shape (steps, catenaries).
+    /// Fabric length of each catenary that is in contact (m), shape (steps, catenaries).
     #[getter]
     fn contact(&self) -> Array<f64> {
         self.catenaries(|c| c.contact.as_ref().map_or(0.0, |contact| contact.length()))

@@ -86,7 +86,7 @@ fn deepest(mold: &Mold, grippers: &[[f64; 3]]) -> Option<(usize, f64)> {
     depths.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// A target in the mold, and a motion that dips deeper than its target.
+/// A target in the mold, and a motion that penetrates deeper than its target.
 fn below(scene: &Scene) -> Vec<String> {
     let Some(mold) = &scene.mold else {
         return Vec::new();

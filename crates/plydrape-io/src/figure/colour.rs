@@ -26,8 +26,8 @@ pub(super) const WEAVE: Ink = Ink([255; 3], 0.28);
 pub(super) const RED: Ink = Ink([214, 25, 33], 1.0);
 /// Grippers.
 pub(super) const BLACK: Ink = Ink([20, 22, 26], 1.0);
-/// Rim of a gripper, which keeps it apart from dark parts of the ply.
-pub(super) const RIM: Ink = Ink([255; 3], 0.9);
+/// Edge of a gripper, which keeps it apart from dark parts of the ply.
+pub(super) const EDGE: Ink = Ink([255; 3], 0.9);
 
 /// Viridis at every sixteenth of its range.
 const VIRIDIS: [[u8; 3]; 17] = [

@@ -4,7 +4,7 @@ use super::axes::{self, Frame, ROOM, plain};
 use super::bar::bar;
 use super::canvas::{self, Canvas, Px, Type};
 use super::colour::{BLACK, DARK, RED, TARGET};
-use super::panel::{Ground, MOST_MARK, Stage, colour_value, curved, gripper_radius};
+use super::panel::{MOST_MARK, MoldPicture, Stage, colour_value, curved, gripper_radius};
 use super::projection::{Point, View};
 use super::relief::Relief;
 use super::scale::Scale;
@@ -134,8 +134,8 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
         high[c] += reach;
     }
     let across = (high[0] - low[0]).hypot(high[1] - low[1]);
-    let mold = result.scene.mold.as_ref().and_then(|mold| ground(mold, low, high, across));
-    if let Some([floor, roof]) = mold.as_ref().map(Ground::heights) {
+    let mold = result.scene.mold.as_ref().and_then(|mold| mold_picture(mold, low, high, across));
+    if let Some([floor, roof]) = mold.as_ref().map(MoldPicture::heights) {
         low[2] = low[2].min(floor);
         high[2] = high[2].max(roof);
     }
@@ -172,11 +172,16 @@ fn exaggeration(height: f64, across: f64, relief: f64) -> f64 {
 }
 
 /// The mold over the floor of the box, as far as it does not run far out of the picture.
-pub(super) fn ground(mold: &Mold, low: Point, high: Point, across: f64) -> Option<Ground> {
+pub(super) fn mold_picture(
+    mold: &Mold,
+    low: Point,
+    high: Point,
+    across: f64,
+) -> Option<MoldPicture> {
     let Mold::Plane(plane) = mold else {
         let heights = [low[2] - DEEP * across, high[2] + DEEP * across];
         let patch = Relief::of(mold, [low[0], low[1]], [high[0], high[1]], heights);
-        return patch.map(Ground::Relief);
+        return patch.map(MoldPicture::Relief);
     };
     let [nx, ny, nz] = plane.normal;
     let [px, py, pz] = plane.point;
@@ -184,7 +189,7 @@ pub(super) fn ground(mold: &Mold, low: Point, high: Point, across: f64) -> Optio
     let patch =
         [on(low[0], low[1]), on(high[0], low[1]), on(high[0], high[1]), on(low[0], high[1])];
     let near = |p: &Point| p[2] > low[2] - across && p[2] < high[2] + across;
-    patch.iter().all(near).then_some(Ground::Flat(patch))
+    patch.iter().all(near).then_some(MoldPicture::Flat(patch))
 }
 
 /// What the marks mean, in one line.

@@ -3,7 +3,7 @@
 use super::FigureError;
 use super::axes::Frame;
 use super::canvas::{Canvas, Px};
-use super::colour::{BLACK, MOLD, RED, RIM, TARGET, WEAVE, viridis};
+use super::colour::{BLACK, EDGE, MOLD, RED, TARGET, WEAVE, viridis};
 use super::layout::bounds;
 use super::piece::{self, Form, Piece, grown, thread};
 use super::projection::{Point, View, turned};
@@ -61,23 +61,23 @@ pub(super) struct Stage<'a> {
     /// What the ply's colours stand for (m).
     pub scale: Scale,
     /// The patch of mold that is shown.
-    pub mold: Option<Ground>,
+    pub mold: Option<MoldPicture>,
 }
 
 /// What is shown of a mold.
-pub(super) enum Ground {
+pub(super) enum MoldPicture {
     /// The corners of a flat one.
     Flat([Point; 4]),
     /// The surface of a curved one.
     Relief(Relief),
 }
 
-impl Ground {
+impl MoldPicture {
     /// Lowest and highest point of what is shown (m).
     pub(super) fn heights(&self) -> [f64; 2] {
         match self {
-            Ground::Flat(patch) => bounds(patch).map(|p| p[2]),
-            Ground::Relief(relief) => relief.heights(),
+            MoldPicture::Flat(patch) => bounds(patch).map(|p| p[2]),
+            MoldPicture::Relief(relief) => relief.heights(),
         }
     }
 }
@@ -116,7 +116,7 @@ impl Stage<'_> {
             self.gripper(&mut pieces, view, gripper, detail);
         }
         self.contact(&mut pieces, view, step, detail);
-        if let Some(Ground::Relief(relief)) = &self.mold {
+        if let Some(MoldPicture::Relief(relief)) = &self.mold {
             for line in self.outline() {
                 thread(&mut pieces, view, &line, 0.0, TARGET, 1.2);
             }
@@ -154,7 +154,7 @@ impl Stage<'_> {
 
     /// The patch of a flat mold, and on it the outline of where the ply should end.
     fn mold(&self, canvas: &mut Canvas, view: &View) -> Result<(), FigureError> {
-        let Some(Ground::Flat(patch)) = self.mold else {
+        let Some(MoldPicture::Flat(patch)) = self.mold else {
             return Ok(());
         };
         canvas.polygon(&patch.map(|p| view.at(p)), MOLD)?;
@@ -244,11 +244,11 @@ impl Stage<'_> {
         }
     }
 
-    /// A disc tilted with the ply, with a thin light rim.
+    /// A disc tilted with the ply, with a thin light edge.
     fn gripper(&self, pieces: &mut Vec<Piece>, view: &View, gripper: &Gripper, detail: Detail) {
         let radius = gripper_radius(self.result);
         let corners = detail.corners;
-        let rim_width = (0.1 * radius * view.scale()).min(0.9);
+        let edge_width = (0.1 * radius * view.scale()).min(0.9);
         let edge = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / corners as f64;
             let arm = turned(gripper.quaternion, [radius * angle.cos(), radius * angle.sin(), 0.0]);
@@ -256,13 +256,13 @@ impl Stage<'_> {
         };
         let points: Vec<Px> = (0..corners).map(edge).collect();
         let depth = view.depth(gripper.position) + self.lift(detail) + 2.0 * radius;
-        let mut rim = points.clone();
-        rim.push(points[0]);
+        let mut edge = points.clone();
+        edge.push(points[0]);
         let place = gripper.position;
         let piece = |points, ink, form| Piece { depth, place, points, ink, form };
         pieces.push(piece(points, BLACK, Form::Area));
-        if rim_width > 0.2 {
-            pieces.push(piece(rim, RIM, Form::Line(rim_width)));
+        if edge_width > 0.2 {
+            pieces.push(piece(edge, EDGE, Form::Line(edge_width)));
         }
     }
 
@@ -280,7 +280,7 @@ impl Stage<'_> {
             };
             let square: f64 = (0..3).map(|c| (last[c] - first[c]).powi(2)).sum();
             let marks = (square.sqrt() / apart).floor().min(50.0) as usize;
-            let spots = match marks {
+            let places = match marks {
                 0 => vec![line[line.len() / 2]],
                 _ => surface::stations(&line, marks),
             };
@@ -290,10 +290,10 @@ impl Stage<'_> {
             }
             // On a large array the lines alone can tell.
             if radius > 1.0 {
-                pieces.extend(spots.into_iter().map(|spot| Piece {
-                    depth: view.depth(spot) + lift,
-                    place: spot,
-                    points: vec![view.at(spot)],
+                pieces.extend(places.into_iter().map(|place| Piece {
+                    depth: view.depth(place) + lift,
+                    place: place,
+                    points: vec![view.at(place)],
                     ink: RED,
                     form: Form::Ring(radius),
                 }));

@@ -241,7 +241,7 @@ mod tests {
         let view = View::of([-0.25, -0.2, -0.2], [0.25, 0.2, 0.1], 1.0);
         let towards = view.towards();
         let on = |share: f64| {
-            // along the line of sight as seen from above: −1 the back rim, 1 the front rim
+            // along the line of sight as seen from above: −1 the back edge, 1 the front edge
             let run = towards[0].hypot(towards[1]);
             let [x, y] = [towards[0], towards[1]].map(|c| 0.2 * share * c / run);
             ball().highest_point([x, y]).unwrap()

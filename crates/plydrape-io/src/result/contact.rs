@@ -1,6 +1,6 @@
 //! Contact as it stands in a result file: in each step what is new.
 //!
-//! What the mold has caught stays where it is, so a contact segment is written when it grows, and only its new points. A
+//! Fabric in contact stays where it is, so a contact segment is written when it grows, and only its new points. A
 //! segment that is another one than before is written whole.
 
 use super::step::{alike, line};

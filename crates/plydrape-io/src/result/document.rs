@@ -1,7 +1,7 @@
 //! What stands in a result file: one JSON object, whose lists are columns, so that no name is repeated.
 //!
 //! Its keys are `format`, `version`, `program`, `scene`, `plan`, `summary`, `catenaries`, `steps`, `checksum`, in this order.
-//! `catenaries` names each catenary once; steps refer to it by its number, from 0. What a step holds is told in
+//! `catenaries` names each catenary once; steps refer to it by its number, from 0. What a step holds is described in
 //! `docs/guide/result_file.md`. The check sum (CRC-32) is that of all bytes before its own value.
 //!
 //! A file is written step by step while its check sum is formed, and read without its text being kept.

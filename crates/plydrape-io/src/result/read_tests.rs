@@ -16,7 +16,7 @@ fn a_result_that_is_read_writes_the_same_text() {
     assert_eq!(ResultFile::text(&read(&text).unwrap()).unwrap(), text);
 }
 
-/// A file that was copied in part is told apart from one that was never a result.
+/// A file that was copied in part is distinguished from one that was never a result.
 #[test]
 fn a_cut_text_is_truncated_wherever_it_was_cut() {
     let text = written();

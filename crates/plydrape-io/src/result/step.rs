@@ -55,7 +55,7 @@ struct SpanColumns {
     segment: Vec<usize>,
     hold: Vec<Hold>,
     length: Vec<f64>,
-    way: Vec<f64>,
+    path: Vec<f64>,
     #[serde(rename = "H_N")]
     force: Vec<Option<f64>>,
     slopes: Vec<[f64; 2]>,
@@ -210,7 +210,7 @@ impl SpanColumns {
         self.segment.push(span.segment);
         self.hold.push(span.hold);
         self.length.push(span.length);
-        self.way.push(span.way);
+        self.path.push(span.path);
         self.force.push(span.force);
         self.slopes.push(span.slopes);
         self.prescribed.push(span.prescribed);
@@ -221,7 +221,7 @@ impl SpanColumns {
             self.segment.len(),
             self.hold.len(),
             self.length.len(),
-            self.way.len(),
+            self.path.len(),
             self.force.len(),
             self.slopes.len(),
             self.prescribed.len(),
@@ -232,7 +232,7 @@ impl SpanColumns {
                 segment: self.segment[k],
                 hold: self.hold[k],
                 length: self.length[k],
-                way: self.way[k],
+                path: self.path[k],
                 force: self.force[k],
                 slopes: self.slopes[k],
                 prescribed: self.prescribed[k],

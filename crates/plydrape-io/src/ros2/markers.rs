@@ -1,4 +1,4 @@
-//! Shapes to look at: the ply's surface, its catenaries, what the mold has caught, the grippers, the mold.
+//! Shapes to look at: the ply's surface, its catenaries, what is in contact, the grippers, the mold.
 //!
 //! Every marker stays until its successor comes. They carry no time, so a viewer puts them where the frame is
 //! now; the bag has the time. What a step does not have is deleted, so that a bag can be played again.
@@ -78,7 +78,7 @@ pub(super) fn ply(result: &ResultFile, step: &Step, paint: &Paint) -> MarkerArra
     };
     markers.push(lines("catenaries", 0, spans(true), RED, LINE * radius));
     markers.push(lines("catenaries", 1, spans(false), PINK, 0.6 * LINE * radius));
-    let (lying, touching) = caught(step);
+    let (lying, touching) = contact(step);
     markers.push(lines("contact", 0, segments(lying.into_iter()), BLUE, 1.6 * LINE * radius));
     markers.push(points(touching, radius));
     markers.extend(step.grippers.iter().zip(0..).map(|(gripper, id)| disc(gripper, id, radius)));
@@ -112,8 +112,8 @@ fn surface(result: &ResultFile, step: &Step, paint: &Paint) -> Marker {
     marker
 }
 
-/// The lines of fabric that the mold has caught, and where it has caught no more than a point.
-fn caught(step: &Step) -> (Vec<&Vec<Point>>, Vec<Vector3>) {
+/// The lines of fabric in contact with the mold, and contacts of a single point.
+fn contact(step: &Step) -> (Vec<&Vec<Point>>, Vec<Vector3>) {
     let lines = step.catenaries.iter().filter_map(|line| line.contact.as_ref());
     let (lying, touching): (Vec<_>, Vec<_>) =
         lines.map(|contact| &contact.points).partition(|points| points.len() > 1);

@@ -147,8 +147,8 @@ pub fn taut(
 
 /// The surface point that a gripper stands on, within a tolerance (m).
 fn standing(gripper: Point, mold: &Mold, tolerance: f64) -> Option<Point> {
-    let foot = mold.closest_point(gripper);
-    (foot.distance <= tolerance).then_some(foot.point)
+    let closest = mold.closest_point(gripper);
+    (closest.distance <= tolerance).then_some(closest.point)
 }
 
 fn straight(a: Point, b: Point) -> SurfaceCurve {

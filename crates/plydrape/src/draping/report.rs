@@ -150,8 +150,8 @@ impl<'a> Report<'a> {
         let touched = |step: &&Step| step.catenaries.iter().any(|c| c.contact.is_some());
         let first = self.steps.iter().find(touched);
         let first_contact = first.map_or_else(Vec::new, |step| {
-            let caught = step.catenaries.iter().filter(|c| c.contact.is_some());
-            caught.map(|c| CatenaryId { kind: c.kind, from: c.from, to: c.to }).collect()
+            let touching = step.catenaries.iter().filter(|c| c.contact.is_some());
+            touching.map(|c| CatenaryId { kind: c.kind, from: c.from, to: c.to }).collect()
         });
         let shears = |cell: &Cell| cell.shearing.is_some();
         let first_shear = self.steps.iter().find(|step| step.cells.iter().any(shears));
@@ -188,7 +188,7 @@ fn span_state(span: &FreeSpan, misfit: &Misfit) -> SpanState {
             catenary::SpanState::Straight => Hold::Straight,
         },
         length: span.length,
-        way: misfit.path,
+        path: misfit.path,
         force: span.force,
         slopes: span.slopes,
         prescribed: span.prescribed,
@@ -204,7 +204,7 @@ fn lying_state(LyingSegment { which, misfit, line }: &LyingSegment) -> SpanState
         segment: which.unwrap_or(0),
         hold: Hold::Lying,
         length: misfit.length,
-        way: misfit.path,
+        path: misfit.path,
         force: None,
         slopes: [slope; 2],
         prescribed: [false; 2],

@@ -84,11 +84,11 @@ impl<'a> State<'a> {
             let one = |n: usize| {
                 let own = attitude(self.solver, grid, positions, n, before(n));
                 let Some(mold) = &self.scene.mold else { return own };
-                let foot = mold.closest_point(positions[n]);
-                if foot.beyond || foot.normal[2] <= 0.0 {
+                let closest = mold.closest_point(positions[n]);
+                if closest.beyond || closest.normal[2] <= 0.0 {
                     return own;
                 }
-                own.landing(foot.distance, foot.normal, tolerance, before(n))
+                own.landing(closest.distance, closest.normal, tolerance, before(n))
             };
             (0..grid.grippers()).map(one).collect()
         })

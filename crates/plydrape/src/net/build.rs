@@ -4,7 +4,7 @@ use super::edge::EdgeRule;
 use super::layup::{Generators, Layup, LayupError};
 use super::meet::{Condition, meet};
 use super::missing::Reason;
-use super::surface_point::{Ground, SurfacePoint};
+use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
 use crate::mold::vector::{along, cross, dot};
 
@@ -14,7 +14,7 @@ pub(super) type Node = [isize; 2];
 /// A net being placed.
 pub(super) struct Build<'a> {
     pub layup: &'a Layup,
-    pub ground: Ground<'a>,
+    pub surface: ExtendedSurface<'a>,
     /// Node [i, j] at j·nu + i.
     pub points: Vec<Option<SurfacePoint>>,
     /// Nodes for which no place was found, and the last trial.
@@ -25,7 +25,7 @@ impl Build<'_> {
     /// Places all nodes that can be.
     pub fn run(&mut self) -> Result<(), LayupError> {
         let seed = self.layup.seed.map(|n| n as isize);
-        let start = self.ground.under(self.layup.place);
+        let start = self.surface.under(self.layup.place);
         let directions = self.layup.directions(start.normal)?;
         self.put(seed, start);
         let cells = self.layup.nodes.iter().all(|n| *n > 1);
@@ -116,7 +116,7 @@ impl Build<'_> {
         let sign = (a * b) as f64;
         let mut last = None;
         for guess in twist.map(|t| along(flat, 1.0, t)).into_iter().chain([flat]) {
-            match meet(&self.ground, self.rule(), conditions, guess, self.mesh()) {
+            match meet(&self.surface, self.rule(), conditions, guess, self.mesh()) {
                 Ok(point) => {
                     let u = self.rule().gradient(&along_u, &point);
                     let v = self.rule().gradient(&along_v, &point);

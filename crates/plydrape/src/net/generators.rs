@@ -27,7 +27,7 @@ impl Build<'_> {
             EdgeRule::Along => Condition::Straight(seed, cross(seed.normal, u)),
         };
         let guess = along(seed.point, sign * self.layup.mesh[0], u);
-        meet(&self.ground, self.rule(), [length, course], guess, self.mesh())
+        meet(&self.surface, self.rule(), [length, course], guess, self.mesh())
     }
 
     /// The next node of a straight line that leaves `from` along the unit tangent `course`.
@@ -42,7 +42,7 @@ impl Build<'_> {
             Condition::Straight(from, cross(from.normal, course)),
         ];
         let guess = along(from.point, length, course);
-        meet(&self.ground, self.rule(), conditions, guess, self.mesh())
+        meet(&self.surface, self.rule(), conditions, guess, self.mesh())
     }
 
     /// Four lines from the seed that go straight on over the mold.
@@ -161,7 +161,7 @@ impl Build<'_> {
             let near = self.straight(&a, course, length)?;
             let conditions = [Condition::Length(&b, length), Condition::Length(&near, width)];
             let guess = along(near.point, 1.0, sub(b.point, a.point));
-            let far = meet(&self.ground, self.rule(), conditions, guess, self.mesh())?;
+            let far = meet(&self.surface, self.rule(), conditions, guess, self.mesh())?;
             let shear = self.shear_of([(first, a), (second, b)], step, [near, far]);
             Ok(([near, far], shear - self.layup.shear))
         };

@@ -113,12 +113,12 @@ impl Layup {
             let [shear_deg, heading_deg] = [self.shear, self.heading].map(f64::to_degrees);
             return Err(LayupError::Shear { shear_deg, heading_deg });
         }
-        let foot = mold.closest_point(self.place);
-        if foot.beyond
-            || foot.distance.is_nan()
-            || foot.distance.abs() > TUNING.seed_distance * du.min(dv)
+        let closest = mold.closest_point(self.place);
+        if closest.beyond
+            || closest.distance.is_nan()
+            || closest.distance.abs() > TUNING.seed_distance * du.min(dv)
         {
-            return Err(LayupError::SeedPlace { distance_mm: foot.distance.abs() * 1e3 });
+            return Err(LayupError::SeedPlace { distance_mm: closest.distance.abs() * 1e3 });
         }
         Ok(())
     }

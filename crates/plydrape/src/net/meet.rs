@@ -2,10 +2,10 @@
 //!
 //! Trials always lie on the mold. Each condition has a gap and its gradient, a tangent of the mold at the
 //! trial; a step δ in the tangent plane closes both gaps to second order, the bend of the lengths'
-//! level lines (1/L) included, and the foot of the trial moved by δ is the next trial.
+//! level lines (1/L) included, and the closest of the trial moved by δ is the next trial.
 
 use super::edge::{EdgeRule, straightest};
-use super::surface_point::{Ground, SurfacePoint};
+use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
 use crate::mold::vector::{along, cross, dot, norm, sub};
 
@@ -61,7 +61,7 @@ impl Condition<'_> {
 
 /// The place next to `guess` (m) that meets both conditions; otherwise the best trial.
 pub(super) fn meet(
-    ground: &Ground,
+    surface: &ExtendedSurface,
     rule: EdgeRule,
     conditions: [Condition; 2],
     guess: [f64; 3],
@@ -70,7 +70,7 @@ pub(super) fn meet(
     let largest = guess.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let tolerance = TUNING.gap * mesh + 4.0 * f64::EPSILON * largest;
     let gaps_at = |x: &SurfacePoint| conditions.map(|c| c.gap(x, rule));
-    let mut best = ground.under(guess);
+    let mut best = surface.under(guess);
     let mut gaps = gaps_at(&best);
     let mut part = 1.0;
     let mut step = None;
@@ -83,7 +83,7 @@ pub(super) fn meet(
             step = newton(gaps, conditions.map(|c| c.slope(&best, rule)), mesh);
         }
         let Some(delta) = step else { break };
-        let trial = ground.under(along(best.point, part, delta));
+        let trial = surface.under(along(best.point, part, delta));
         let there = gaps_at(&trial);
         if size(there) < miss {
             (best, gaps, step) = (trial, there, None);

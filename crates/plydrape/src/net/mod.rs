@@ -31,7 +31,7 @@ pub use shear::CellShear;
 
 use crate::mold::Mold;
 use build::Build;
-use surface_point::{Ground, SurfacePoint};
+use surface_point::{ExtendedSurface, SurfacePoint};
 
 /// A ply draped as a pin-jointed net.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +62,7 @@ impl Net {
         let [nu, nv] = layup.nodes;
         let mut build = Build {
             layup: &layup,
-            ground: Ground::new(mold),
+            surface: ExtendedSurface::new(mold),
             points: vec![None; nu * nv],
             folds: Vec::new(),
         };
@@ -79,7 +79,7 @@ impl Net {
             .collect();
         let [i, j] = layup.seed;
         missing.sort_by_key(|m| m.node[0].abs_diff(i) + m.node[1].abs_diff(j));
-        let feet = build.ground.feet();
+        let closest_points = build.surface.closest_points();
         let points = build.points;
 
         let at = |i: usize, j: usize| points[j * nu + i].as_ref().filter(on_mold);
@@ -95,7 +95,7 @@ impl Net {
                 });
             }
         }
-        let report = Report::new(&layup, &points, &shear, &missing, feet);
+        let report = Report::new(&layup, &points, &shear, &missing, closest_points);
         Ok(Net { layup, nodes, missing, shear, report, points })
     }
 

@@ -22,8 +22,8 @@ impl Net {
     pub fn place(&self, mold: &Mold, uv: [f64; 2]) -> Option<[f64; 3]> {
         let (patch, at) = self.patch(uv)?;
         let [p, q] = [0, 1].map(|n| weights(at[n], patch.size[n]).0);
-        let foot = mold.closest_point(self.sum(&patch, p, q));
-        (!foot.beyond).then_some(foot.point)
+        let closest = mold.closest_point(self.sum(&patch, p, q));
+        (!closest.beyond).then_some(closest.point)
     }
 
     /// Unit tangents of u and v at the fabric point `uv` (m); none where [`Net::place`] is none.
@@ -31,11 +31,11 @@ impl Net {
     pub fn fibres(&self, mold: &Mold, uv: [f64; 2]) -> Option<[[f64; 3]; 2]> {
         let (patch, at) = self.patch(uv)?;
         let [(p, dp), (q, dq)] = [0, 1].map(|n| weights(at[n], patch.size[n]));
-        let foot = mold.closest_point(self.sum(&patch, p, q));
-        if foot.beyond {
+        let closest = mold.closest_point(self.sum(&patch, p, q));
+        if closest.beyond {
             return None;
         }
-        let tangent = |d: [f64; 3]| unit(along(d, -dot(d, foot.normal), foot.normal));
+        let tangent = |d: [f64; 3]| unit(along(d, -dot(d, closest.normal), closest.normal));
         let scaled = |d: [f64; 3], width: f64| d.map(|x| x / width);
         let [du, dv] = self.layup.mesh;
         Some([

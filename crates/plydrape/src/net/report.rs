@@ -26,7 +26,7 @@ pub struct Report {
     /// Mean magnitude of the cells' shear (rad); 0 without whole cells.
     pub mean_shear: f64,
     /// Number of closest points that were computed.
-    pub feet: usize,
+    pub closest_points: usize,
 }
 
 impl Report {
@@ -35,7 +35,7 @@ impl Report {
         points: &[Option<SurfacePoint>],
         shear: &[Option<CellShear>],
         missing: &[Missing],
-        feet: usize,
+        closest_points: usize,
     ) -> Self {
         let [nu, nv] = layup.nodes;
         let count = |reason: Reason| missing.iter().filter(|m| m.reason == reason).count();
@@ -75,7 +75,7 @@ impl Report {
             largest_edge_error,
             largest_shear,
             mean_shear,
-            feet,
+            closest_points,
         }
     }
 }

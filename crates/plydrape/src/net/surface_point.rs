@@ -17,36 +17,36 @@ pub(super) struct SurfacePoint {
 
 /// A mold that is extended beyond its open boundary along its tangent planes.
 ///
-/// So a ply that leaves the mold at one place comes back to it at another where it would on flat ground, and
+/// So a ply that leaves the mold at one place comes back to it at another where it would on flat surface, and
 /// a gripper outside still has a place.
-pub(super) struct Ground<'a> {
+pub(super) struct ExtendedSurface<'a> {
     mold: &'a Mold,
     /// Number of closest points computed so far.
-    feet: Cell<usize>,
+    closest_points: Cell<usize>,
 }
 
-impl<'a> Ground<'a> {
+impl<'a> ExtendedSurface<'a> {
     pub fn new(mold: &'a Mold) -> Self {
-        Ground { mold, feet: Cell::new(0) }
+        ExtendedSurface { mold, closest_points: Cell::new(0) }
     }
 
     /// What lies closest to `p` (m).
     pub fn under(&self, p: [f64; 3]) -> SurfacePoint {
-        self.feet.set(self.feet.get() + 1);
-        let foot = self.mold.closest_point(p);
-        if !foot.beyond {
-            return SurfacePoint { point: foot.point, normal: foot.normal, beyond: 0.0 };
+        self.closest_points.set(self.closest_points.get() + 1);
+        let closest = self.mold.closest_point(p);
+        if !closest.beyond {
+            return SurfacePoint { point: closest.point, normal: closest.normal, beyond: 0.0 };
         }
-        let height = dot(sub(p, foot.point), foot.normal);
-        let point = along(p, -height, foot.normal);
-        let aside = sub(point, foot.point);
+        let height = dot(sub(p, closest.point), closest.normal);
+        let point = along(p, -height, closest.normal);
+        let aside = sub(point, closest.point);
         // never 0: a place beyond the boundary is no place of the mold
         let beyond = dot(aside, aside).sqrt().max(f64::MIN_POSITIVE);
-        SurfacePoint { point, normal: foot.normal, beyond }
+        SurfacePoint { point, normal: closest.normal, beyond }
     }
 
     /// Number of closest points computed.
-    pub fn feet(&self) -> usize {
-        self.feet.get()
+    pub fn closest_points(&self) -> usize {
+        self.closest_points.get()
     }
 }

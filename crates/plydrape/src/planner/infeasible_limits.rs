@@ -151,8 +151,8 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
         return None;
     }
     let off = |place: [f64; 3]| {
-        let foot = mold.closest_point(place);
-        if foot.beyond { foot.distance } else { -foot.distance }
+        let closest = mold.closest_point(place);
+        if closest.beyond { closest.distance } else { -closest.distance }
     };
     let worst = largest(target.grippers.iter().enumerate().map(|(n, place)| (off(*place), n)));
     let found = worst.map(|(far, n)| {
@@ -170,9 +170,9 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
 fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     let tolerance = scene.settings.contact.tolerance;
     let tilt = |place: [f64; 3]| {
-        let foot = mold.closest_point(place);
-        let stands = !foot.beyond && foot.distance.abs() <= tolerance;
-        stands.then(|| foot.normal[2].clamp(-1.0, 1.0).acos())
+        let closest = mold.closest_point(place);
+        let stands = !closest.beyond && closest.distance.abs() <= tolerance;
+        stands.then(|| closest.normal[2].clamp(-1.0, 1.0).acos())
     };
     let all = target.grippers.iter().enumerate();
     let found = largest(all.filter_map(|(n, place)| Some((tilt(*place)?, n)))).map(|(tilt, n)| {

@@ -6,8 +6,8 @@ use crate::figure::FigureError;
 use crate::figure::axes::Frame;
 use crate::figure::canvas::{Canvas, Ink, Px};
 use crate::figure::colour::{MOLD, RED, WEAVE};
-use crate::figure::layout::{bounds, ground};
-use crate::figure::panel::Ground;
+use crate::figure::layout::{bounds, mold_picture};
+use crate::figure::panel::MoldPicture;
 use crate::figure::piece::{self, Form, Piece, grown, thread};
 use crate::figure::projection::{Point, View};
 use crate::figure::relief::BACK;
@@ -23,7 +23,7 @@ const MARGIN: f64 = 0.06;
 pub(super) struct Draped {
     pub low: Point,
     pub high: Point,
-    pub ground: Option<Ground>,
+    pub mold_picture: Option<MoldPicture>,
 }
 
 impl Draped {
@@ -35,8 +35,8 @@ impl Draped {
             high[c] += reach;
         }
         let across = (high[0] - low[0]).hypot(high[1] - low[1]);
-        let ground = ground(mold, low, high, across);
-        if let Some([floor, roof]) = ground.as_ref().map(Ground::heights) {
+        let mold_picture = mold_picture(mold, low, high, across);
+        if let Some([floor, roof]) = mold_picture.as_ref().map(MoldPicture::heights) {
             low[2] = low[2].min(floor);
             high[2] = high[2].max(roof);
         }
@@ -44,7 +44,7 @@ impl Draped {
         if high[2] - low[2] < least {
             high[2] = low[2] + least;
         }
-        Draped { low, high, ground }
+        Draped { low, high, mold_picture }
     }
 
     pub fn draw(
@@ -82,9 +82,9 @@ impl Draped {
                 }
             }
         }
-        match &self.ground {
-            Some(Ground::Relief(relief)) => relief.paint_among(canvas, view, pieces)?,
-            Some(Ground::Flat(patch)) => {
+        match &self.mold_picture {
+            Some(MoldPicture::Relief(relief)) => relief.paint_among(canvas, view, pieces)?,
+            Some(MoldPicture::Flat(patch)) => {
                 canvas.polygon(&patch.map(|p| view.at(p)), MOLD)?;
                 piece::paint(canvas, pieces)?;
             }

@@ -37,7 +37,7 @@ impl Flat {
             }
         }
 
-        // The fabric's rim, ticks and labels.
+        // The fabric's boundary, ticks and labels.
         let [u, v] = self.fabric;
         let ring = [[0.0, 0.0], [u, 0.0], [u, v], [0.0, v], [0.0, 0.0]].map(|p| self.at(p));
         canvas.line(&ring, FRAME, 1.0)?;

@@ -15,7 +15,7 @@ pub(super) fn seed_ways(net: &Net) -> Vec<(&'static str, Vec<[usize; 2]>)> {
     let (nodes, seed) = (net.layup.nodes, net.layup.seed);
     let way = |(c, name): (usize, &'static str)| {
         let wanted = (nodes[c] / 6).max(1);
-        // beside the far rim the arrow leads to the seed
+        // beside the far edge the arrow leads to the seed
         let from = seed[c].min((nodes[c] - 1).saturating_sub(wanted));
         let to = (from + wanted).min(nodes[c] - 1);
         let at = |n: usize| if c == 0 { [n, seed[1]] } else { [seed[0], n] };

@@ -14,7 +14,7 @@ use super::bar::bar;
 use super::canvas::{self, Canvas, Px};
 use super::colour::{FRAME, RED};
 use super::layout::{heading, title};
-use super::panel::Ground;
+use super::panel::MoldPicture;
 use super::projection::{Point, View};
 use super::scale::Scale;
 use blocks::Blocks;
@@ -97,9 +97,9 @@ pub(crate) fn patch(net: &Net, mold: &Mold) -> Vec<Vec<Point>> {
     if nodes.is_empty() {
         return Vec::new();
     }
-    match Draped::of(&nodes, mold).ground {
-        Some(Ground::Flat(corners)) => vec![corners.to_vec()],
-        Some(Ground::Relief(relief)) => relief.outlines(),
+    match Draped::of(&nodes, mold).mold_picture {
+        Some(MoldPicture::Flat(corners)) => vec![corners.to_vec()],
+        Some(MoldPicture::Relief(relief)) => relief.outlines(),
         None => Vec::new(),
     }
 }

@@ -12,7 +12,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Limits")]
 pub(in crate::scene) struct LimitsTable {
-    /// Slack of a catenary, all its rests, as a share of its length, 0.0005 unless given.
+    /// Slack of a catenary, all its segments, as a share of its length, 0.0005 unless given.
     pub slack_ratio: Option<Quantity<Ratio>>,
     /// Bridging gap (m), 1 mm unless given.
     pub bridging: Option<Quantity<Length>>,

@@ -210,7 +210,7 @@ pub(super) enum Slopes {
 pub(super) struct ContactTable {
     /// Distance that counts as touching (m), 0.2 mm unless given.
     pub tolerance: Option<Quantity<Length>>,
-    /// Once per step, or with steps cut so that none dips deeper than the tolerance ("cut", the default).
+    /// Once per step, or with steps cut so that none penetrates deeper than the tolerance ("cut", the default).
     pub stepping: Option<SteppingKey>,
     /// Slope of a span where it leaves the mold, "free" unless given.
     pub end: Option<EndKey>,

@@ -72,7 +72,7 @@ pub struct SpanState {
     /// Fabric length (m).
     pub length: f64,
     /// Way between its ends (m), negative where a gripper has passed the end of what is in contact: a fold.
-    pub way: f64,
+    pub path: f64,
     /// Horizontal force (N); none where the model gives none.
     pub force: Option<f64>,
     /// Slopes at its ends.
@@ -82,17 +82,17 @@ pub struct SpanState {
 }
 
 impl SpanState {
-    /// Fabric beyond the way (mm), not negative; `whole` is the length of its catenary (m).
+    /// Fabric beyond the path (mm), not negative; `whole` is the length of its catenary (m).
     #[must_use]
     pub fn slack_mm(&self, whole: f64) -> f64 {
-        1e3 * misfit::slack(self.length - self.way, whole)
+        1e3 * misfit::slack(self.length - self.path, whole)
     }
 
     /// Slack as a share of its fabric.
     #[must_use]
     pub fn slack_ratio(&self, whole: f64) -> f64 {
         if self.length > 0.0 {
-            misfit::slack(self.length - self.way, whole) / self.length
+            misfit::slack(self.length - self.path, whole) / self.length
         } else {
             0.0
         }
@@ -101,14 +101,14 @@ impl SpanState {
     /// Way beyond the fabric (mm), not negative.
     #[must_use]
     pub fn overstretch_mm(&self, whole: f64) -> f64 {
-        1e3 * misfit::slack(self.way - self.length, whole)
+        1e3 * misfit::slack(self.path - self.length, whole)
     }
 
     /// The ruck that its slack makes on the mold, if it has any.
     #[must_use]
     pub fn ruck(&self, ply: &Ply, gravity: f64, catenary: &CatenaryState) -> Option<Ruck> {
         let line = ply.line(catenary.kind);
-        let slack = misfit::slack(self.length - self.way, catenary.length);
+        let slack = misfit::slack(self.length - self.path, catenary.length);
         Ruck::of(slack, line.flexural_rigidity, line.mass * gravity)
     }
 }

@@ -158,11 +158,11 @@ fn height(mold: &Mold, [x, y]: [f64; 2], top: f64) -> f64 {
     }
     let mut z = top;
     for _ in 0..TUNING.front.border_rounds {
-        let foot = mold.closest_point([x, y, z]);
-        let [nx, ny, nz] = foot.normal;
-        let fall = nx * (x - foot.point[0]) + ny * (y - foot.point[1]);
+        let closest = mold.closest_point([x, y, z]);
+        let [nx, ny, nz] = closest.normal;
+        let fall = nx * (x - closest.point[0]) + ny * (y - closest.point[1]);
         // an upright border would lead nowhere
-        z = foot.point[2] - fall / nz.abs().max(TUNING.front.upright_border);
+        z = closest.point[2] - fall / nz.abs().max(TUNING.front.upright_border);
     }
     z
 }

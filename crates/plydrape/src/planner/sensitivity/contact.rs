@@ -9,12 +9,12 @@ use crate::planner::tuning::{self, TUNING};
 
 impl Sensitivity<'_> {
     /// Gradient of the distance from the mold at a point.
-    pub(super) fn distance_gradient(&self, point: Point, foot: &ClosestPoint) -> [f64; 3] {
-        if foot.distance.abs() < TUNING.sensitivity.on_mold * tuning::cell(self.scene) {
-            return foot.normal;
+    pub(super) fn distance_gradient(&self, point: Point, closest: &ClosestPoint) -> [f64; 3] {
+        if closest.distance.abs() < TUNING.sensitivity.on_mold * tuning::cell(self.scene) {
+            return closest.normal;
         }
         // beside an open border it points away from the border
-        sub(point, foot.point).map(|c| c / foot.distance)
+        sub(point, closest.point).map(|c| c / closest.distance)
     }
 
     /// Distance from the mold (m) of a span at a fixed fraction `t` of its run; none without a mold. At a
@@ -22,9 +22,9 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn gap(&self, span: &FreeSpan, t: f64) -> Option<Quantity> {
         let place = self.place(span, t);
-        let foot = self.scene.mold.as_ref()?.closest_point(place.point);
-        let slope = place.along(self.distance_gradient(place.point, &foot));
-        Some(Quantity { value: foot.distance, ..slope })
+        let closest = self.scene.mold.as_ref()?.closest_point(place.point);
+        let slope = place.along(self.distance_gradient(place.point, &closest));
+        Some(Quantity { value: closest.distance, ..slope })
     }
 
     /// Where the ideal drape has a span's fabric at a share of its length (m); none where it is not known.
@@ -88,7 +88,7 @@ impl Sensitivity<'_> {
     }
 }
 
-/// How the mold's slope along a heading changes with the point whose foot it is taken at (1/m).
+/// How the mold's slope along a heading changes with the point whose closest it is taken at (1/m).
 fn slope_gradient(
     mold: &Mold,
     point: Point,

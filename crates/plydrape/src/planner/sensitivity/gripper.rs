@@ -25,10 +25,10 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn clearance(&self, gripper: usize) -> Option<Quantity> {
         let point = self.positions[gripper];
-        let foot = self.scene.mold.as_ref()?.closest_point(point);
+        let closest = self.scene.mold.as_ref()?.closest_point(point);
         let mut gradient = self.zeros();
-        gradient[3 * gripper..][..3].copy_from_slice(&self.distance_gradient(point, &foot));
-        Some(Quantity { value: foot.distance, gradient })
+        gradient[3 * gripper..][..3].copy_from_slice(&self.distance_gradient(point, &closest));
+        Some(Quantity { value: closest.distance, gradient })
     }
 
     /// Distance between two grippers (m).

@@ -188,11 +188,11 @@ fn hollow(scene: &Scene, span: &FreeSpan) -> f64 {
         return 0.0;
     };
     let middle = span.point(0.5);
-    let foot = mold.closest_point(middle);
+    let closest = mold.closest_point(middle);
     let [a, b] = span.ends;
     let chord = sub(b, a);
-    let height = dot(chord, foot.normal);
-    let tangent = [0, 1, 2].map(|n| chord[n] - height * foot.normal[n]);
+    let height = dot(chord, closest.normal);
+    let tangent = [0, 1, 2].map(|n| chord[n] - height * closest.normal[n]);
     let size = dot(tangent, tangent).sqrt();
     if size <= 0.0 {
         return 0.0;
