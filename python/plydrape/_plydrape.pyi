@@ -535,7 +535,7 @@ class Outcome:
     """
     The last step of a drape with its derivatives to where the grippers are in it.
 
-    What the mold has caught by then is held: the derivatives are those of the outcome to the grippers' targets as
+    Fabric in contact by then is held: the derivatives are those of the outcome to the grippers' targets as
     long as a slightly different last step catches nothing more, and exact where the state is smooth.
 
     Example:
@@ -773,7 +773,7 @@ class Result:
     @property
     def contact(self, /) -> NDArray[float64]:
         """
-        Fabric length of each catenary that the mold has caught (m), shape (steps, catenaries).
+        Fabric length of each catenary that is in contact (m), shape (steps, catenaries).
         """
     def contact_lines(self, /, step: SupportsIndex) -> list[NDArray[float64]]:
         """
@@ -1050,7 +1050,7 @@ class Result:
             >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
             >>> result = plydrape.simulate(scene)
             >>> sorted(result.to_dict())
-            ['checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
+            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
         """
     def to_json(self, /) -> str:
         """

@@ -235,7 +235,7 @@ def test_the_surface_joins_the_grippers_and_faces_up(drape: Exported) -> None:
         sides = fabric[quads[:, 1]] - fabric[quads[:, 0]], fabric[quads[:, 3]] - fabric[quads[:, 0]]
         assert (sides[0][:, 0] > 0).all() and (sides[0][:, 1] == 0).all()
         assert (sides[1][:, 1] > 0).all() and (sides[1][:, 0] == 0).all()
-        warp, weft = ("u", "v") if content["warp"] == "u" else ("v", "u")
+        warp, weft = ("u", "v") if content["ply"]["warp"] == "u" else ("v", "u")
         for name, direction in [("warp", warp), ("weft", weft)]:
             fibres = data[name]
             assert np.abs(np.linalg.norm(fibres, axis=1) - 1).max() < 1e-14
