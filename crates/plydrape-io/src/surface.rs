@@ -39,9 +39,19 @@ impl Surface {
     /// is one row of points.
     #[must_use]
     pub fn new(result: &ResultFile, step: &Step, intervals: usize) -> Self {
+        Surface::of(result, step, &result.curves(step), intervals)
+    }
+
+    /// The same from the curves of the step.
+    pub(crate) fn of(
+        result: &ResultFile,
+        step: &Step,
+        curves: &[Vec<Vec<Point>>],
+        intervals: usize,
+    ) -> Self {
         let (grid, n) = (result.scene.ply.grid, intervals.max(1));
         let size = [(grid.nu - 1) * n + 1, (grid.nv - 1) * n + 1];
-        let lines = lines(result, step, n);
+        let lines = lines(result, step, curves, n);
         let mut vertices = vec![[0.0; 3]; size[0] * size[1]];
         let mut put = |i: usize, j: usize, p: Point| vertices[j * size[0] + i] = p;
         for j in 0..grid.nv - 1 {
@@ -121,9 +131,8 @@ fn touching(line: &CatenaryState, curves: &[Vec<Point>]) -> Option<Vec<Point>> {
 
 /// The lines in which the ply touches the mold in a step (m), one for each of its first `count` catenaries that does.
 #[must_use]
-pub fn contact_lines(result: &ResultFile, step: &Step, count: usize) -> Vec<Vec<Point>> {
-    let curves = result.curves(step);
-    let lines = step.catenaries.iter().zip(&curves).take(count);
+pub fn contact_lines(step: &Step, curves: &[Vec<Vec<Point>>], count: usize) -> Vec<Vec<Point>> {
+    let lines = step.catenaries.iter().zip(curves).take(count);
     lines.filter_map(|(line, curves)| touching(line, curves)).collect()
 }
 
@@ -165,8 +174,13 @@ pub(crate) fn stations(line: &[Point], count: usize) -> Vec<Point> {
 
 /// All catenaries of a step, each at `count + 1` stations, in the grid's order; a catenary that is
 /// missing in the result is straight.
-pub(crate) fn lines(result: &ResultFile, step: &Step, count: usize) -> Vec<Vec<Point>> {
-    let (grid, curves) = (result.scene.ply.grid, result.curves(step));
+pub(crate) fn lines(
+    result: &ResultFile,
+    step: &Step,
+    curves: &[Vec<Vec<Point>>],
+    count: usize,
+) -> Vec<Vec<Point>> {
+    let grid = result.scene.ply.grid;
     let at = |id| step.grippers[grid.index(id)].position;
     (0..grid.catenaries())
         .map(|k| {
@@ -249,7 +263,8 @@ mod tests {
     fn the_surface_passes_through_edges_and_diagonals() {
         let result = sample::hanging(3, 2);
         let (grid, n) = (result.scene.ply.grid, 8);
-        let lines = lines(&result, &result.steps[0], n);
+        let step = &result.steps[0];
+        let lines = lines(&result, step, &result.curves(step), n);
         let cell = cell(grid, &lines, [1, 0], n);
         let on = |s: usize, t: usize| cell[t * (n + 1) + s];
         let near = |a: Point, b: Point| {

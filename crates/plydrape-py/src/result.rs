@@ -290,7 +290,8 @@ impl Result {
     ///     >>> len(result.contact_lines(1)), len(result.contact_lines(26))
     ///     (0, 3)
     fn contact_lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
-        let lines = surface::contact_lines(&self.0, self.step(step)?, usize::MAX);
+        let step = self.step(step)?;
+        let lines = surface::contact_lines(step, &self.0.curves(step), usize::MAX);
         Ok(lines.into_iter().map(|line| Array::rows(&[line.len(), 3], line)).collect())
     }
 

@@ -99,6 +99,9 @@ pub(crate) fn gripper_radius(result: &ResultFile) -> f64 {
     GRIPPER * side
 }
 
+/// A step and its curves (m).
+type Shown<'a> = (&'a Step, &'a [Vec<Vec<Point>>]);
+
 impl Stage<'_> {
     /// Draws a step where `view` puts it.
     pub(super) fn draw(
@@ -111,11 +114,12 @@ impl Stage<'_> {
         self.mold(canvas, view)?;
         let mut pieces = Vec::new();
         let detail = Detail::of(self.result, self.panels, self.cell_length() * view.scale());
-        self.ply(&mut pieces, view, step, detail);
+        let curves = self.result.curves(step);
+        self.ply(&mut pieces, view, (step, &curves), detail);
         for gripper in &step.grippers {
             self.gripper(&mut pieces, view, gripper, detail);
         }
-        self.contact(&mut pieces, view, step, detail);
+        self.contact(&mut pieces, view, (step, &curves), detail);
         if let Some(MoldPicture::Relief(relief)) = &self.mold {
             for line in self.outline() {
                 thread(&mut pieces, view, &line, 0.0, TARGET, 1.2);
@@ -194,11 +198,11 @@ impl Stage<'_> {
     }
 
     /// Surface and catenaries.
-    fn ply(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step, detail: Detail) {
+    fn ply(&self, pieces: &mut Vec<Piece>, view: &View, (step, curves): Shown, detail: Detail) {
         let grid = self.result.scene.ply.grid;
         let n = detail.squares;
         let lift = self.lift(detail);
-        let edges = surface::lines(self.result, step, n);
+        let edges = surface::lines(self.result, step, curves, n);
         for k in 0..grid.cells() {
             let id = [k % (grid.nu - 1), k / (grid.nu - 1)];
             let points = surface::cell(grid, &edges, id, n);
@@ -221,7 +225,7 @@ impl Stage<'_> {
             }
         }
 
-        let lines = surface::lines(self.result, step, detail.pieces);
+        let lines = surface::lines(self.result, step, curves, detail.pieces);
         let count = self.drawn(detail);
         // Finer lines leave colour to be seen in small cells.
         let finer = (self.cell_length() * view.scale() / 70.0).clamp(0.4, 1.0);
@@ -267,14 +271,14 @@ impl Stage<'_> {
     }
 
     /// Contact: a stronger line along each segment, and open circles from end to end.
-    fn contact(&self, pieces: &mut Vec<Piece>, view: &View, step: &Step, detail: Detail) {
+    fn contact(&self, pieces: &mut Vec<Piece>, view: &View, (step, curves): Shown, detail: Detail) {
         // Below the grippers, above all of the ply near by.
         let lift = self.lift(detail) + 1.5 * gripper_radius(self.result);
         let cell = self.cell_length();
         let radius = (0.045 * cell * view.scale()).min(MOST_MARK);
         let apart = (MARKS_APART * cell).max(5.0 * radius / view.scale());
         let count = self.drawn(detail);
-        for line in surface::contact_lines(self.result, step, count) {
+        for line in surface::contact_lines(step, curves, count) {
             let [Some(first), Some(last)] = [line.first(), line.last()] else {
                 continue;
             };

@@ -121,21 +121,26 @@ impl Geometry {
         let (grid, n) = (result.scene.ply.grid, detail.intervals);
         let steps: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
         let count = steps.len();
-        let surfaces: Vec<Surface> =
-            steps.par_iter().map(|step| Surface::new(result, step, n)).collect();
+        let across = if detail.diagonals { grid.edges()..grid.catenaries() } else { 0..0 };
+        // ply, diagonals and contact marks of each step
+        let shapes = steps.par_iter().map(|step| {
+            let curves = result.curves(step);
+            let lines = match across.is_empty() {
+                true => Vec::new(),
+                false => lines(result, step, &curves, n).split_off(across.start).concat(),
+            };
+            (Surface::of(result, step, &curves, n), lines, contacts(result, step, &curves))
+        });
+        let shapes: Vec<_> = shapes.collect();
         let points = |p: &mut dyn Iterator<Item = [f64; 3]>| -> Vec<i32> {
             p.flat_map(|p| micrometres(&p)).collect()
         };
-        let surface = points(&mut surfaces.iter().flat_map(|s| s.vertices.iter().copied()));
+        let surface = points(&mut shapes.iter().flat_map(|(s, ..)| s.vertices.iter().copied()));
         let gap: Option<Vec<i32>> = result.scene.mold.as_ref().map(|_| {
-            let all = surfaces.iter().filter_map(|s| s.gap.as_ref()).flatten();
+            let all = shapes.iter().filter_map(|(s, ..)| s.gap.as_ref()).flatten();
             all.map(|gap| (gap * MICRO).round() as i32).collect()
         });
-        let across = if detail.diagonals { grid.edges()..grid.catenaries() } else { 0..0 };
-        let diagonals = points(&mut steps.iter().flat_map(|step| {
-            let lines = if across.is_empty() { Vec::new() } else { lines(result, step, n) };
-            lines.into_iter().skip(across.start).flatten()
-        }));
+        let diagonals = points(&mut shapes.iter().flat_map(|(_, lines, _)| lines.iter().copied()));
         let hands = || steps.iter().flat_map(|step| &step.grippers);
         let grippers = points(&mut hands().map(|gripper| gripper.position));
         let normals: Vec<i32> =
@@ -144,7 +149,7 @@ impl Geometry {
         let shear: Vec<i32> = cells().map(|cell| hundredths(cell.shear_deg)).collect();
         let direction: Vec<i32> =
             steps.iter().flat_map(|step| directions(result, step)).map(hundredths).collect();
-        let marks: Vec<Vec<[f64; 3]>> = steps.iter().map(|step| contacts(result, step)).collect();
+        let marks: Vec<Vec<[f64; 3]>> = shapes.into_iter().map(|(_, _, marks)| marks).collect();
 
         let ranges = Ranges {
             height: range(surface.iter().skip(2).step_by(3).copied(), 1e3),
@@ -196,12 +201,12 @@ fn directions(result: &ResultFile, step: &Step) -> Vec<f64> {
 }
 
 /// Places where the ply touches the mold, evenly along everything that lies.
-fn contacts(result: &ResultFile, step: &Step) -> Vec<[f64; 3]> {
+fn contacts(result: &ResultFile, step: &Step, curves: &[Vec<Vec<[f64; 3]>>]) -> Vec<[f64; 3]> {
     let [a, b] = result.scene.ply.cell;
     let marks = if result.scene.ply.grid.cells() <= SMALL { MARKS } else { 1.0 };
     let apart = a.min(b) / marks;
     let mut out = Vec::new();
-    for line in contact_lines(result, step, usize::MAX) {
+    for line in contact_lines(step, curves, usize::MAX) {
         let (Some(first), Some(last)) = (line.first(), line.last()) else { continue };
         match (plydrape::mold::distance(*first, *last) / apart).round() as usize {
             0 => out.push(line[line.len() / 2]),
