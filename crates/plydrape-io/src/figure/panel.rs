@@ -296,7 +296,7 @@ impl Stage<'_> {
             if radius > 1.0 {
                 pieces.extend(places.into_iter().map(|place| Piece {
                     depth: view.depth(place) + lift,
-                    place: place,
+                    place,
                     points: vec![view.at(place)],
                     ink: RED,
                     form: Form::Ring(radius),
