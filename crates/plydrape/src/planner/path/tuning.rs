@@ -46,7 +46,7 @@ pub struct Front {
     pub beyond: f64,
     /// Formations per step from which steps of equal length are cut, where a move limit asks for them.
     pub finer: usize,
-    /// Ranges of [`super::path::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension. Ratios go up to
+    /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension. Ratios go up to
     /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 3, slopes from 0.02 to 1.
     pub ranges: [[f64; 2]; 7],
 }

@@ -55,7 +55,7 @@ impl Sensitivity<'_> {
         Some(Quantity { value, gradient: self.row(element, 0).to_vec() })
     }
 
-    /// Path between its ends minus its fabric length (m), see [`crate::measure::Misfit`]; negative is slack.
+    /// Path between its ends minus its fabric length (m), see `docs/theory/measures.md`; negative is slack.
     #[must_use]
     pub fn overstretch(&self, span: &FreeSpan) -> Quantity {
         let mut gradient = self.zeros();
