@@ -9,6 +9,7 @@ use super::check::fault;
 use super::document::{Document, shown};
 use super::step::StepColumns;
 use super::{FORMAT, ResultFile, VERSION};
+use crate::shown::excerpt;
 use crate::size::{self, SizeError};
 use crate::{folder, input};
 use serde::Deserialize;
@@ -185,9 +186,9 @@ fn read_from<R: BufRead + Seek>(
                     let (line, column) = (error.line(), error.column());
                     ReadError::Truncated { path, line, column }
                 }
-                _ if ours => changed(error.to_string()),
+                _ if ours => changed(reason(&error)),
                 Category::Data => foreign(format!("it has no `format` \"{FORMAT}\"")),
-                _ => foreign(format!("it is not JSON, {error}")),
+                _ => foreign(format!("it is not JSON, {}", reason(&error))),
             });
         }
     };
@@ -205,7 +206,7 @@ fn read_from<R: BufRead + Seek>(
 
     // What it says, and whether that can be.
     let read: ReadDocument = serde_json::from_reader(file.all().map_err(unreadable)?)
-        .map_err(|error| changed(error.to_string()))?;
+        .map_err(|error| changed(reason(&error)))?;
     let (result, sum) = from_columns(read).map_err(changed)?;
     if let Some(what) = fault(&result) {
         return Err(changed(what));
@@ -214,6 +215,19 @@ fn read_from<R: BufRead + Seek>(
         Some(found) if found == sum => Ok(result),
         _ => Err(changed("its check sum does not match its contents".into())),
     }
+}
+
+/// Longest reason that is shown whole (characters): it may quote a key of the file.
+const REASON: usize = 300;
+
+/// Why a file is not what it should be, with the place.
+fn reason(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    if text.chars().count() <= REASON {
+        return text;
+    }
+    let start = excerpt(&text, REASON);
+    format!("{start} at line {} column {}", error.line(), error.column())
 }
 
 /// The result that a file describes, and the check sum that it names.

@@ -89,6 +89,15 @@ fn other_versions_are_named() {
     assert!(matches!(refused, ReadError::Older { .. }), "{refused}");
 }
 
+/// A key of the file may be as long as it likes; the message is not, and has its place.
+#[test]
+fn a_long_key_is_not_repeated_whole() {
+    let key = "k".repeat(30_000);
+    let text = written().replacen("\"program\"", &format!("\"{key}\":0,\"program\""), 1);
+    let refused = read(&text).unwrap_err().to_string();
+    assert!(refused.len() < 1000 && refused.contains("at line 1 column"), "{refused}");
+}
+
 /// JSON of another program, a list, text, bytes, nothing: none is a result.
 #[test]
 fn what_others_wrote_is_foreign() {
