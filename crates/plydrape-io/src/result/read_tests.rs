@@ -1,5 +1,6 @@
 use super::*;
 use crate::sample;
+use plydrape::measure::Verdict;
 
 fn read(text: &str) -> Result<ResultFile, ReadError> {
     parse(text.as_bytes(), Path::new("result.json"))
@@ -96,6 +97,21 @@ fn a_long_key_is_not_repeated_whole() {
     let text = written().replacen("\"program\"", &format!("\"{key}\":0,\"program\""), 1);
     let refused = read(&text).unwrap_err().to_string();
     assert!(refused.len() < 1000 && refused.contains("at line 1 column"), "{refused}");
+}
+
+/// A plan that is interrupted has limits of its whole motion: those of steps that were not draped name none.
+#[test]
+fn an_interrupted_plan_is_read() {
+    let mut result = sample::draped(3, 2, 3);
+    result.summary.steps_planned = 5;
+    let limit = result.summary.limits[0].clone();
+    let judged = [3, 5].map(|step| Verdict { step: Some(step), ..limit.clone() });
+    result.summary.judge_also(judged);
+    let read = read(&result.text().unwrap()).unwrap();
+    assert_eq!(
+        read.summary.limits[1..].iter().map(|v| v.step).collect::<Vec<_>>(),
+        [Some(3), None]
+    );
 }
 
 /// JSON of another program, a list, text, bytes, nothing: none is a result.

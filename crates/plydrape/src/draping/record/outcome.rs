@@ -59,7 +59,9 @@ impl Summary {
 
     /// Judges the drape by more limits, such as those of the motion that it came from.
     pub fn judge_also(&mut self, verdicts: impl IntoIterator<Item = Verdict>) {
-        for verdict in verdicts {
+        for mut verdict in verdicts {
+            // an interrupted drape ends before the motion does
+            verdict.step = verdict.step.filter(|step| *step <= self.steps);
             self.accepted &= verdict.ok;
             self.limits.push(verdict);
         }
