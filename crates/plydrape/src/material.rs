@@ -12,6 +12,8 @@ pub struct Material {
     pub section: Section,
     /// Picture-frame shear force per length τ(γ); `None` leaves shear forces unknown.
     pub shear_curve: Option<ShearCurve>,
+    /// Tension over strain of the yarns; the sheet needs it, the catenaries do not.
+    pub tension: Option<TensionLaw>,
     /// Shear angle at which the weave locks (rad), with the test that found it.
     pub locking_angle: Option<f64>,
 }
@@ -37,6 +39,51 @@ pub enum Section {
         /// Bending rigidity per width along the weft (N·m).
         weft_rigidity: f64,
     },
+}
+
+/// Tension per width of the fabric T(ε), along warp and weft alike (N/m).
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "kebab-case"))]
+pub enum TensionLaw {
+    /// T = EA′ ε, in compression too.
+    Linear {
+        /// Stiffness per width EA′ (N/m).
+        stiffness: f64,
+    },
+    /// Measured points (ε ascending from 0, T in N/m from 0), joined by straight lines; the first slope holds in
+    /// compression and the last one beyond the last point.
+    Table {
+        /// Strains ε.
+        strain: Vec<f64>,
+        /// Tensions per width (N/m).
+        force: Vec<f64>,
+    },
+}
+
+impl TensionLaw {
+    /// Energy per area (J/m²), tension per width T (N/m) and its slope dT/dε (N/m) at a strain ε.
+    #[must_use]
+    pub fn tension(&self, strain: f64) -> [f64; 3] {
+        match self {
+            TensionLaw::Linear { stiffness } => {
+                [0.5 * stiffness * strain * strain, stiffness * strain, *stiffness]
+            }
+            TensionLaw::Table { strain: at, force } => {
+                let mut energy = 0.0;
+                for n in 1..at.len() {
+                    let slope = (force[n] - force[n - 1]) / (at[n] - at[n - 1]);
+                    if strain <= at[n] || n + 1 == at.len() {
+                        let beyond = strain - at[n - 1];
+                        energy += beyond * (force[n - 1] + 0.5 * slope * beyond);
+                        return [energy, force[n - 1] + slope * beyond, slope];
+                    }
+                    energy += 0.5 * (at[n] - at[n - 1]) * (force[n] + force[n - 1]);
+                }
+                [0.0; 3]
+            }
+        }
+    }
 }
 
 /// Mass per length and flexural rigidity of one catenary.
