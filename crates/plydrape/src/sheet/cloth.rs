@@ -117,8 +117,7 @@ impl<'a> Cloth<'a> {
             let free = |n: &usize| !matches!(system.carrier(*n), Carrier::Held { .. });
             let points = (0..nodes).filter(free).map(|n| (n, fabric.areas[n]));
             let stiffness = sheet.areal_mass * sheet.gravity / (tuning.contact_depth * sheet.pitch);
-            let release = tuning.release * sheet.pitch;
-            Contact::new(mold, stiffness, release, sheet.friction, sheet.tack, points)
+            Contact::new(mold, stiffness, sheet.clear, sheet.friction, sheet.tack, points)
         });
         let mut gripped = vec![false; nodes];
         for (node, _) in held.iter().flatten() {
@@ -193,15 +192,18 @@ impl<'a> Cloth<'a> {
             self.now.clone_from(&self.before);
             return found;
         }
-        for (v, (x, before)) in
-            self.now.v.iter_mut().zip(self.now.x.iter().zip(&self.before.x))
-        {
+        for (v, (x, before)) in self.now.v.iter_mut().zip(self.now.x.iter().zip(&self.before.x)) {
             *v = [0, 1, 2].map(|n| (x[n] - before[n]) / dt);
         }
         if let Some(contact) = &mut self.contact {
             contact.update(&self.before.x, &self.now.x);
         }
         found
+    }
+
+    /// Whether the ply touches the mold, or may in a step that moves its grippers so far (m).
+    pub fn is_near_contact(&self, way: f64) -> bool {
+        self.contact.as_ref().is_some_and(|contact| contact.is_near(&self.now.x, way))
     }
 
     /// Largest movement of a node in the last time step (m).
@@ -238,7 +240,8 @@ impl<'a> Cloth<'a> {
     fn aim(&mut self, targets: &[[f64; 3]]) {
         self.system.moved.fill([0.0; 3]);
         let grippers = self.sheet.grippers.iter().zip(&self.held);
-        for ((pad, target), (gripper, nodes)) in self.now.pads.iter_mut().zip(targets).zip(grippers) {
+        for ((pad, target), (gripper, nodes)) in self.now.pads.iter_mut().zip(targets).zip(grippers)
+        {
             let moved = sub(*target, pad.target);
             pad.target = *target;
             if gripper.mount.is_none() {
@@ -252,7 +255,8 @@ impl<'a> Cloth<'a> {
     /// Gradient and second derivative of the incremental potential.
     fn assemble(&mut self, dt: f64, predicts: bool) {
         let Cloth { system, now, .. } = self;
-        system.begin(predicts, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
+        system
+            .begin(predicts, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
         for (node, mass) in self.masses.iter().enumerate() {
             let rate = mass / (dt * dt);
             let off = sub(now.x[node], self.inertial[node]);
@@ -319,7 +323,9 @@ impl<'a> Cloth<'a> {
     fn hold_pads(&mut self) {
         self.own.clear();
         let weight = self.sheet.areal_mass * self.sheet.gravity * self.sheet.pitch.powi(3);
-        for ((gripper, pad), nodes) in self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held) {
+        for ((gripper, pad), nodes) in
+            self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held)
+        {
             let Some((node, _)) = nodes.first() else { continue };
             let Carrier::Pad { turn, shift, .. } = self.system.carrier(*node) else { continue };
             if let (Some(k), Some(shift)) = (gripper.mount, shift) {
@@ -344,7 +350,9 @@ impl<'a> Cloth<'a> {
 
     /// Takes a share of the linear step; returns the largest movement of a node (m).
     fn take(&mut self, share: f64) -> f64 {
-        for ((pad, nodes), (turn, moved)) in self.now.pads.iter_mut().zip(&self.held).zip(&self.turns) {
+        for ((pad, nodes), (turn, moved)) in
+            self.now.pads.iter_mut().zip(&self.held).zip(&self.turns)
+        {
             let Some((node, _)) = nodes.first() else { continue };
             if let Carrier::Pad { .. } = self.system.carrier(*node) {
                 add(&mut pad.position, share, *moved);
@@ -380,15 +388,19 @@ impl<'a> Cloth<'a> {
     /// Force of the ply on each gripper (N).
     pub fn forces(&mut self) -> Vec<[f64; 3]> {
         let now = &self.now;
-        self.system.begin(false, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
+        self.system
+            .begin(false, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
         self.add_energies();
-        let gripper = |((gripper, pad), nodes): ((&Gripper, &Pad), &Vec<(usize, [f64; 2])>)| {
-            match (gripper.mount, nodes.as_slice()) {
-                (Some(k), [(node, _)]) => {
-                    let off = sub(self.now.x[*node], pad.target);
-                    [0, 1, 2].map(|n| k[n] * off[n])
-                }
-                _ => nodes.iter().fold([0.0; 3], |sum, (node, _)| sub(sum, self.system.gradient[*node])),
+        let gripper = |((gripper, pad), nodes): ((&Gripper, &Pad), &Vec<(usize, [f64; 2])>)| match (
+            gripper.mount,
+            nodes.as_slice(),
+        ) {
+            (Some(k), [(node, _)]) => {
+                let off = sub(self.now.x[*node], pad.target);
+                [0, 1, 2].map(|n| k[n] * off[n])
+            }
+            _ => {
+                nodes.iter().fold([0.0; 3], |sum, (node, _)| sub(sum, self.system.gradient[*node]))
             }
         };
         let pads = self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held);

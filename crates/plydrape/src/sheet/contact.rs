@@ -156,7 +156,9 @@ impl<'a> Contact<'a> {
             let anchor = match point.anchor {
                 Some(anchor) if self.friction == Friction::StickForEver => Some(anchor),
                 Some(_) if depth < -self.release => None,
-                Some(anchor) => Some(self.slipped(anchor, at, bound / (self.stiffness * point.area))),
+                Some(anchor) => {
+                    Some(self.slipped(anchor, at, bound / (self.stiffness * point.area)))
+                }
                 None if depth >= 0.0 => Some(self.crossing(before[point.node], at)),
                 None => None,
             };
@@ -168,7 +170,8 @@ impl<'a> Contact<'a> {
     /// Where a node came to the mold on its way from `before` to `after`.
     fn crossing(&self, before: [f64; 3], after: [f64; 3]) -> Anchor {
         let [from, to] = [before, after].map(|p| self.mold.signed_distance(p));
-        let share = if from > 0.0 && from > to { (from / (from - to)).clamp(0.0, 1.0) } else { 1.0 };
+        let share =
+            if from > 0.0 && from > to { (from / (from - to)).clamp(0.0, 1.0) } else { 1.0 };
         let closest = self.mold.closest_point(between(before, after, share));
         Anchor { point: closest.point, normal: closest.normal }
     }
@@ -200,6 +203,13 @@ impl<'a> Contact<'a> {
 
     fn holds_for_ever(&self, point: &Point) -> bool {
         self.friction == Friction::StickForEver && point.anchor.is_some()
+    }
+
+    /// Whether any node is anchored, or may come as near as `reach` (m).
+    pub fn is_near(&self, x: &[[f64; 3]], reach: f64) -> bool {
+        self.points.iter().any(|point| {
+            point.anchor.is_some() || point.clear - distance(x[point.node], point.seen) < reach
+        })
     }
 
     /// The nodes that touch.

@@ -75,7 +75,8 @@ impl Shear {
 
     /// Energy (J).
     pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
-        let one = |e: &Element| e.area * self.curve.energy(MidLines::of(e.nodes.map(|n| x[n])).angle);
+        let one =
+            |e: &Element| e.area * self.curve.energy(MidLines::of(e.nodes.map(|n| x[n])).angle);
         self.cells.iter().map(one).sum()
     }
 
@@ -103,10 +104,8 @@ impl Shear {
             let tangent = lines.cos / (1.0 + lines.sin);
             let (sign, turning) =
                 if stress >= 0.0 { (1.0, stress * tangent) } else { (-1.0, -stress / tangent) };
-            let turn = [
-                normal.map(|c| c / lines.length[0]),
-                normal.map(|c| sign * c / lines.length[1]),
-            ];
+            let turn =
+                [normal.map(|c| c / lines.length[0]), normal.map(|c| sign * c / lines.length[1])];
             let second = |i: usize, j: usize| {
                 let stretch = scaled(e.area * slope, &outer(by[i], by[j]));
                 plus(&stretch, 0.5 * e.area * turning, &outer(turn[i], turn[j]))
@@ -115,9 +114,8 @@ impl Shear {
             let vu = transposed(&uv);
             let mix = |a: f64, b: f64, c: f64, d: f64| -> Matrix3 {
                 [0, 1, 2].map(|i| {
-                    [0, 1, 2].map(|j| {
-                        0.25 * (a * uu[i][j] + b * uv[i][j] + c * vu[i][j] + d * vv[i][j])
-                    })
+                    [0, 1, 2]
+                        .map(|j| 0.25 * (a * uu[i][j] + b * uv[i][j] + c * vu[i][j] + d * vv[i][j]))
                 })
             };
             let rising = mix(1.0, 1.0, 1.0, 1.0);

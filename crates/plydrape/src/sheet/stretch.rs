@@ -68,7 +68,8 @@ impl Stretch {
 
             let turning = predicted.max(0.0) / length;
             let stretching = slope * s.width / s.length;
-            let mut k: Matrix3 = outer(unit, unit).map(|row| row.map(|n| (stretching - turning) * n));
+            let mut k: Matrix3 =
+                outer(unit, unit).map(|row| row.map(|n| (stretching - turning) * n));
             for n in 0..3 {
                 k[n][n] += turning;
             }
@@ -83,7 +84,11 @@ impl Stretch {
 pub fn direction(a: [f64; 3], b: [f64; 3]) -> ([f64; 3], f64) {
     let d = sub(b, a);
     let length = dot(d, d).sqrt();
-    if length > f64::MIN_POSITIVE { (d.map(|c| c / length), length) } else { ([1.0, 0.0, 0.0], f64::MIN_POSITIVE) }
+    if length > f64::MIN_POSITIVE {
+        (d.map(|c| c / length), length)
+    } else {
+        ([1.0, 0.0, 0.0], f64::MIN_POSITIVE)
+    }
 }
 
 /// Strain of a segment.

@@ -128,8 +128,7 @@ impl System {
         }
         let [a, b] = pair.nodes.map(|node| node as usize);
         if self.predicts {
-            let (along, against) =
-                (times(k, self.moved[b]), transposed_times(k, self.moved[a]));
+            let (along, against) = (times(k, self.moved[b]), transposed_times(k, self.moved[a]));
             add(&mut self.gradient[a], 1.0, along);
             add(&mut self.gradient[b], 1.0, against);
         }
