@@ -115,7 +115,8 @@ impl<'a> Cloth<'a> {
         let system = System::new(&fabric.places, carriers, &blocks, pairs);
         let contact = sheet.mold.as_ref().map(|mold| {
             let free = |n: &usize| !matches!(system.carrier(*n), Carrier::Held { .. });
-            let points = (0..nodes).filter(free).map(|n| (n, fabric.areas[n]));
+            let rubs = |n: usize| !matches!(system.carrier(n), Carrier::Pad { shift: None, .. });
+            let points = (0..nodes).filter(free).map(|n| (n, fabric.areas[n], rubs(n)));
             let stiffness = sheet.areal_mass * sheet.gravity / (tuning.contact_depth * sheet.pitch);
             Contact::new(mold, stiffness, sheet.clear, sheet.friction, sheet.tack, points)
         });
