@@ -137,6 +137,44 @@ impl ShearCurve {
     }
 }
 
+impl ShearCurve {
+    /// Energy per area ∫ τ dγ (J/m²) from no shear to a shear angle γ (rad) of either sign.
+    #[must_use]
+    pub fn energy(&self, angle: f64) -> f64 {
+        let gamma = angle.abs();
+        match self {
+            ShearCurve::Polynomial { coefficients } => {
+                let powers = coefficients.iter().enumerate().rev();
+                gamma * gamma * powers.fold(0.0, |sum, (n, c)| sum * gamma + c / (n as f64 + 2.0))
+            }
+            ShearCurve::Table { angle, force } => {
+                let points = angle.len().min(force.len());
+                let (x, y) = (&angle[..points], &force[..points]);
+                let mut energy = 0.0;
+                for n in 1..points {
+                    let (from, to) = (x[n - 1], x[n].min(gamma));
+                    if to > from {
+                        energy += (to - from) * simpson(x, y, from, to);
+                    }
+                }
+                match x.last() {
+                    Some(last) if gamma > *last && points > 1 => {
+                        energy + (gamma - last) * simpson(x, y, *last, gamma)
+                    }
+                    _ => energy,
+                }
+            }
+        }
+    }
+}
+
+/// Mean of the monotone cubic through the points `(x, y)` between two places without a knot in between: Simpson's rule,
+/// which is exact for a cubic.
+fn simpson(x: &[f64], y: &[f64], from: f64, to: f64) -> f64 {
+    let at = |place: f64| monotone_cubic(x, y, place).0;
+    (at(from) + 4.0 * at(0.5 * (from + to)) + at(to)) / 6.0
+}
+
 /// Value and slope at `at` of the monotone cubic through the points `(x, y)`, x ascending.
 fn monotone_cubic(x: &[f64], y: &[f64], at: f64) -> (f64, f64) {
     let points = x.len().min(y.len());
