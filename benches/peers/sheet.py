@@ -12,7 +12,9 @@ the ply. What holds them together are MuJoCo's tendons:
   second difference of the line, their stiffness that of the bending rigidity.
 
 Pinned nodes are mocap bodies, moved from outside. The mold is a plane or a sphere; nodes touch it
-as small balls, in MuJoCo's soft contact with an elliptic friction cone. The steps are those of the
+as small balls, in MuJoCo's soft contact with an elliptic friction cone. To stick without a cap is
+no large friction coefficient there (a node that slips in MuJoCo's convex cone is lifted by it), but
+a tie along the mold, an equality of two fixed tendons, that holds while the node touches. The steps are those of the
 integrator `discrete`, implicit in position, so that the stiff yarns do not limit the time step.
 
     python benches/peers/sheet.py          # seconds and heights, as JSON
@@ -22,16 +24,14 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 Real = NDArray[np.float64]
-Path = Callable[[float], Real]
-"""Places (n, 3) of the pinned nodes over the time (s)."""
 
 BALL = 1e-3
 """Radius of the ball by which a node touches the mold (m); the mold is set back by as much."""
@@ -70,6 +70,10 @@ class Plane:
         """It as MuJoCo's shape, set back by the balls of the nodes."""
         return f'type="plane" size="9 9 1" pos="0 0 {-BALL}"'
 
+    def height(self, positions: Real) -> tuple[Real, Real]:
+        """Heights (n,) over the mold of places (n, 3), and unit normals (n, 3)."""
+        return positions[:, 2], np.tile([0.0, 0.0, 1.0], (len(positions), 1))
+
 
 @dataclass(frozen=True)
 class Sphere:
@@ -83,6 +87,12 @@ class Sphere:
         x, y, z = self.centre
         return f'type="sphere" size="{self.radius - BALL}" pos="{x} {y} {z}"'
 
+    def height(self, positions: Real) -> tuple[Real, Real]:
+        """Heights (n,) over the mold of places (n, 3), and unit normals (n, 3)."""
+        way = positions - np.array(self.centre)
+        distance = np.linalg.norm(way, axis=1)
+        return distance - self.radius, way / distance[:, None]
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -90,16 +100,20 @@ class Settings:
 
     step: float = 1e-3
     """Time step (s). The transverse stiffness of taut yarns is explicit: beyond 2 ms it rings."""
-    drag: float = 20.0
+    drag: float = 10.0
     """Force of a still air per mass and speed (1/s): near the lowest frequencies of a hung cell."""
-    tolerance: float = 1e-5
+    tolerance: float = 1e-4
     """Relative residual of each step's linear system, and MuJoCo's tolerance with contact."""
     iterations: int = 2000
     """Largest number of its iterations."""
     solref: tuple[float, float] = (4e-3, 1.0)
     """Time constant (s) and damping ratio of contact."""
     impratio: float = 100.0
-    """How much stiffer contact is along the mold than across: so little creeps."""
+    """How much stiffer a friction cone is along the mold than across: so little creeps."""
+    margin: float = 0.7
+    """Share of the longest stable step that taut yarns allow."""
+    clear: float = 5e-5
+    """Height over the mold from which a node that stuck is free again (m)."""
 
 
 def nearest(places: Real, points: Real) -> NDArray[np.int64]:
@@ -122,16 +136,22 @@ class Sheet:
         ply: Ply,
         pinned: NDArray[np.int64],
         mold: Plane | Sphere | None = None,
-        friction: float = 0.0,
+        friction: float | None = None,
         settings: Settings | None = None,
     ) -> None:
-        """The ply lies flat on z = 0, its pins where they are in the fabric."""
-        self.ply, self.pinned = ply, np.asarray(pinned)
+        """The ply lies flat on z = 0, its pins where they are in the fabric.
+
+        Without a ``friction`` coefficient what touches the mold sticks.
+        """
+        self.ply, self.pinned, self.mold = ply, np.asarray(pinned), mold
+        self.sticks = mold is not None and friction is None
         self.settings = settings or Settings()
         self._flat = np.column_stack([ply.places(), np.zeros(len(ply.u) * len(ply.v))])
         self._free = np.setdiff1d(np.arange(len(self._flat)), self.pinned)
         self.model = mujoco.MjModel.from_xml_string(self._xml(mold, friction))
         self.data = mujoco.MjData(self.model)
+        self._rest = self.model.tendon_lengthspring[: self._first_bend, 0].copy()
+        self._lightest = float(self.model.body_mass[self.model.body_mass > 0.0].min())
         self.pins = self._flat[self.pinned]
 
     def positions(self) -> Real:
@@ -153,22 +173,58 @@ class Sheet:
         self.data.mocap_pos[:] = self.pins
         # The pinned part of second differences is no joint: the spring's rest length takes it.
         rest = -(self._pin_weights @ (self.pins - self._flat[self.pinned]))
-        self.model.tendon_lengthspring[self._first_bend :] = rest.reshape(-1, 1)
+        self.model.tendon_lengthspring[self._first_bend : self._first_hold] = rest.reshape(-1, 1)
 
-    def follow(self, path: Path, start: float, end: float) -> None:
-        """Moves the pins from one time to another (s)."""
-        steps = max(1, round((end - start) / self.settings.step))
-        for k in range(1, steps + 1):
-            self.hold(path(start + (end - start) * k / steps))
-            mujoco.mj_step(self.model, self.data)
+    def step(self) -> None:
+        """One time step, no longer than the tension of the yarns allows."""
+        self.model.opt.timestep = min(self.settings.step, self._stable())
+        mujoco.mj_step(self.model, self.data)
+        if self.sticks:
+            self._stick()
+
+    def _stable(self) -> float:
+        """Longest step (s): taut yarns hold a node across with 4 T / l each way, explicitly."""
+        stretch = self.data.ten_length[: self._first_bend] - self._rest
+        taut = float((self.model.tendon_stiffness[: self._first_bend] * stretch / self._rest).max())
+        if self.data.time == 0.0 or taut <= 0.0:
+            return self.settings.step
+        return self.settings.margin * float(np.sqrt(self._lightest / (2.0 * taut)))
+
+    def _stick(self) -> None:
+        """Holds along the mold every free node that touches it, until it is clear again."""
+        assert self.mold is not None
+        active = self.data.eq_active.reshape(-1, 2)
+        found = self.positions()[self._free]
+        height, normal = self.mold.height(found)
+        active[(height > self.settings.clear) & (active[:, 0] == 1)] = 0
+        for k in np.flatnonzero((height <= 0.0) & (active[:, 0] == 0)):
+            # Two tangents, as coefficients of the three joints of a fixed tendon each.
+            first = np.cross([0.0, 1.0, 0.0], normal[k])
+            first /= np.linalg.norm(first)
+            tangents = np.array([first, np.cross(normal[k], first)])
+            at = self.model.tendon_adr[self._first_hold + 2 * k]
+            self.model.wrap_prm[at : at + 6] = tangents.ravel()
+            shift = found[k] - self._flat[self._free[k]]
+            self.model.eq_data[2 * k : 2 * k + 2, 0] = tangents @ shift
+            active[k] = 1
+
+    def follow(self, before: Real, after: Real, seconds: float) -> None:
+        """Moves the pins straight from places (n, 3) to others."""
+        began = self.data.time
+        while (now := (self.data.time - began) / seconds) < 1.0:
+            self.hold(before + (after - before) * now)
+            self.step()
+        self.hold(after)
 
     def settle(self, speed: float = 1e-3, longest: float = 5.0) -> bool:
         """Steps until no node is faster than ``speed`` (m/s) over 20 ms; whether that came."""
-        calm = 0
-        for _ in range(round(longest / self.settings.step)):
-            mujoco.mj_step(self.model, self.data)
-            calm = calm + 1 if np.abs(self.data.qvel).max() < speed else 0
-            if calm * self.settings.step >= 0.02:
+        end = self.data.time + longest
+        restless = self.data.time
+        while self.data.time < end:
+            self.step()
+            if np.abs(self.data.qvel).max() >= speed:
+                restless = self.data.time
+            if self.data.time - restless >= 0.02:
                 return True
         return False
 
@@ -197,15 +253,22 @@ class Sheet:
             bodies.append(f'<body mocap="true" pos="{x} {y} {z}"><site name="s{node}"/></body>')
         if mold:
             bodies.append(f'<geom {mold.geom()} contype="0" conaffinity="1"/>')
+        soft = f'solref="{s.solref[0]} {s.solref[1]}" solimp="0.99 0.999 0.0001"'
+        ties = "".join(
+            f'<tendon tendon1="t{node}{way}" active="false"/>'
+            for node in (self._free if self.sticks else [])
+            for way in "uv"
+        )
         return f"""<mujoco>
 <compiler inertiafromgeom="false"/>
 <option timestep="{s.step}" gravity="0 0 {-self.ply.gravity}" integrator="discrete"
  solver="Newton" jacobian="sparse" cone="elliptic" impratio="{s.impratio}"
  tolerance="{s.tolerance}" iterations="{s.iterations}"/>
-<default><geom condim="3" friction="{friction} 0 0" solimp="0.99 0.999 0.0001"
- solref="{s.solref[0]} {s.solref[1]}"/></default>
+<default><geom condim="{3 if friction else 1}" friction="{friction or 0.0} 0 0" {soft}/>
+<equality {soft}/></default>
 <worldbody>{"".join(bodies)}</worldbody>
-<tendon>{self._springs()}{self._bending(pinned)}</tendon>
+<tendon>{self._springs()}{self._bending(pinned)}{self._holds()}</tendon>
+<equality>{ties}</equality>
 </mujoco>"""
 
     def _springs(self) -> str:
@@ -235,6 +298,16 @@ class Sheet:
                     spring(node + 1, node + nu, stiffness)
         self._first_bend = len(springs)
         return "".join(springs)
+
+    def _holds(self) -> str:
+        """Two tendons for each free node, along the mold: ties while it sticks."""
+        return "".join(
+            f'<fixed name="t{node}{way}">'
+            + "".join(f'<joint joint="{axis}{node}" coef="1"/>' for axis in "xyz")
+            + "</fixed>"
+            for node in (self._free if self.sticks else [])
+            for way in "uv"
+        )
 
     def _bending(self, pinned: list[int]) -> str:
         """Second differences along the lines: ½ D' · width · length · (curvature)² for each."""
@@ -271,40 +344,97 @@ class Sheet:
                     before, after = ply.v[j] - ply.v[j - 1], ply.v[j + 1] - ply.v[j]
                     bend([node - nu, node, node + nu], before, after, ply.rigidity[1] * wide_u[i])
         self._pin_weights = np.array(weights)
+        self._first_hold = self._first_bend + len(tendons)
         return "".join(tendons)
 
 
+def drape(
+    ply: Ply,
+    grippers: Real,
+    places: Real,
+    mold: Plane | Sphere | None = None,
+    friction: float | None = None,
+    seconds: float = 3.0,
+    settings: Settings | None = None,
+) -> Real:
+    """Where the nodes are in every step (steps, nodes, 3), at rest in the first and the last one.
+
+    Each gripper pins the node nearest to its fabric point, ``grippers`` (n, 2), and moves straight
+    from step to step through its ``places`` (steps, n, 3), which takes ``seconds`` in all.
+    """
+    sheet = Sheet(ply, ply.nearest(grippers), mold, friction, settings)
+    sheet.place(sagging(ply, grippers, places[0]))
+    sheet.settle()
+    states = [sheet.positions()]
+    for before, after in pairwise(places):
+        sheet.follow(before, after, seconds / (len(places) - 1))
+        states.append(sheet.positions())
+    if len(places) > 1:
+        sheet.settle(longest=0.2)
+        states[-1] = sheet.positions()
+    return np.array(states)
+
+
+def sagging(ply: Ply, grippers: Real, places: Real) -> Real:
+    """A first shape (nodes, 3): the grippers' places as a map of the fabric, lower between them."""
+    basis = np.column_stack([grippers, np.ones(len(grippers))])
+    affine = np.linalg.lstsq(basis, places, rcond=None)[0]
+    fabric = ply.places()
+    shape = np.column_stack([fabric, np.ones(len(fabric))]) @ affine
+    away = np.linalg.norm(fabric[:, None] - grippers[None], axis=2).min(axis=1)
+    shape[:, 2] -= 0.2 * away
+    nodes = ply.nearest(grippers)
+    shape[nodes] = places
+    return np.asarray(shape)
+
+
 NU, NV, CELL, SPACING, HEIGHT = 4, 2, 0.1, 0.098, 0.075
-"""The paper's grippers: counts, fabric between them, places at the start (m)."""
+"""The paper's grippers: counts, fabric between them, distance and height at the start (m)."""
 
 GRIPPERS = np.array([(i * CELL, j * CELL) for j in range(NV) for i in range(NU)])
 """Fabric points of the grippers (8, 2)."""
 
 START = np.column_stack([GRIPPERS * (SPACING / CELL), np.full(NU * NV, HEIGHT)])
+"""Their places in the first step (8, 3)."""
 
 
-def parallelogram(shear: float) -> Real:
-    """The paper's target: grippers on z = 0, sheared by an angle (rad)."""
-    u, v = GRIPPERS.T
-    return np.column_stack([u + v * np.sin(shear), v * np.cos(shear), np.zeros(len(u))])
+def paper_ply(segments: int, mass: float, shear: float) -> Ply:
+    """The paper's ply with some segments a cell, its mass (kg/m²) and shear slope (N/m per rad).
 
-
-def hanging(spacing: int, mass: float, shear: float, settings: Settings | None = None) -> Sheet:
-    """The paper's ply in its start, at rest; ``spacing``: segments a cell, ``mass``: kg/m².
-
-    D' and EA' are those of the paper's lines over 100 mm for 3.143 kg/m², and in proportion.
+    3.143 kg/m² are the paper's lines over their 100 mm; bending and tension go with the mass.
     """
-    u, v = (np.linspace(0.0, n * CELL, n * spacing + 1) for n in (NU - 1, NV - 1))
-    scale = mass / 3.143
-    ply = Ply(u, v, mass, (9e-5 * scale, 9e-5 * scale), 1e6 * scale, shear)
-    sheet = Sheet(ply, ply.nearest(GRIPPERS), settings=settings)
-    sheet.place(bellied(ply))
-    sheet.settle()
-    return sheet
+    u, v = (np.linspace(0.0, n * CELL, n * segments + 1) for n in (NU - 1, NV - 1))
+    share = mass / 3.143
+    return Ply(u, v, mass, (9e-5 * share, 9e-5 * share), 1e6 * share, shear)
 
 
-def bellied(ply: Ply) -> Real:
-    """A first shape for the start: every cell sags by a tenth."""
-    u, v = ply.places().T
-    sag = 0.1 * CELL * (np.abs(np.sin(np.pi * u / CELL)) + np.abs(np.sin(np.pi * v / CELL)))
-    return np.column_stack([u * SPACING / CELL, v * SPACING / CELL, HEIGHT - sag])
+def straight(steps: int = 30, shear_deg: float = 20.0) -> Real:
+    """The paper's straight paths (steps, 8, 3), onto a parallelogram on z = 0."""
+    u, v = GRIPPERS.T
+    shear = np.radians(shear_deg)
+    end = np.column_stack([u + v * np.sin(shear), v * np.cos(shear), np.zeros(len(u))])
+    return np.asarray(START + (end - START) * np.linspace(0.0, 1.0, steps)[:, None, None])
+
+
+def main() -> None:
+    """Hangs and drapes the paper's ply at the meshes of the tables, and prints what that takes."""
+    report = {}
+    for name, ply, places in [
+        ("hanging, 8.3 mm", paper_ply(12, 0.3143, 2.0), START[None]),
+        ("straight path, 10 mm", paper_ply(10, 3.143, 5.0), straight()),
+    ]:
+        began = time.perf_counter()
+        states = drape(ply, GRIPPERS, places, Plane() if len(places) > 1 else None)
+        height = states[-1, :, 2] * 1e3
+        report[name] = {
+            "nodes": len(height),
+            "seconds": round(time.perf_counter() - began, 1),
+            "height_min_mm": round(float(height.min()), 3),
+            "height_max_mm": round(float(height.max()), 3),
+            "height_rms_mm": round(float(np.sqrt(np.mean(height**2))), 3),
+        }
+    print(json.dumps(report, indent=2))
+
+
+if __name__ == "__main__":
+    main()
