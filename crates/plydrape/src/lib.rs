@@ -63,6 +63,7 @@ pub mod net;
 pub mod planner;
 pub mod ply;
 pub mod scene;
+pub mod sheet;
 
 pub use draping::{Drape, simulate};
 pub use equilibrium::Solver;

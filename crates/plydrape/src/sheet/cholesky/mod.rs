@@ -1,0 +1,206 @@
+//! Sparse Cholesky factorization `P A Pᵀ = L Lᵀ` of a symmetric positive definite matrix of 3×3 blocks.
+//!
+//! 1. [`BlockMatrix`]: the matrix over a fixed pattern, one block row per node;
+//! 2. `dissection`: the order of elimination, by nested dissection along the fabric's own lines;
+//! 3. `supernode`: nodes that are eliminated together, and the fronts that they form;
+//! 4. `analysis`: where everything is stored;
+//! 5. `assembly`: a front is the sum of blocks of the matrix and of the updates of its children;
+//! 6. `front`, `kernel`: dense elimination of the pivots of a front;
+//! 7. `substitution`: solutions, front by front.
+//!
+//! Order and fronts depend on the pattern only and are found once. Multifrontal method: Duff and Reid 1983; Liu 1992,
+//! "The multifrontal method for sparse matrix solution: theory and practice".
+
+mod analysis;
+mod assembly;
+mod block_matrix;
+mod dissection;
+mod front;
+mod graph;
+mod kernel;
+mod substitution;
+mod supernode;
+mod tuning;
+
+#[cfg(test)]
+mod tests;
+
+pub use block_matrix::{Block, BlockMatrix, Slot};
+pub use tuning::Tuning;
+
+use analysis::Front;
+use front::{Elimination, Shape};
+use graph::Graph;
+use kernel::Column;
+use substitution::{Backward, Forward};
+use supernode::{PANEL_NODES, Supernodes};
+
+/// The matrix is not positive definite.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the matrix is not positive definite: a pivot of node {node} is not positive")]
+pub struct NotPositiveDefinite {
+    /// Node at which the elimination ended.
+    pub node: usize,
+}
+
+/// A factorization whose order and storage are found once for a pattern.
+#[derive(Debug, Clone)]
+pub struct Cholesky {
+    /// The node at each place of the order of elimination.
+    order: Vec<u32>,
+    /// Fronts, children before parents.
+    fronts: Vec<Front>,
+    /// Number of blocks of the matrix, to recognize another pattern.
+    blocks: usize,
+    /// Columns of L, front by front.
+    factor: Vec<Column>,
+    /// Two stacks of updates.
+    updates: [Vec<Column>; 2],
+    /// Unknowns in the order of elimination.
+    unknowns: Vec<[f64; 3]>,
+    /// Unknowns of one front: right-hand side, solution.
+    local: [Vec<Column>; 2],
+}
+
+impl Cholesky {
+    /// Finds order and storage for the pattern of a matrix whose nodes have these fabric coordinates (u, v).
+    ///
+    /// # Panics
+    /// If there is not one place for each node.
+    #[must_use]
+    pub fn new(matrix: &BlockMatrix, places: &[[f64; 2]]) -> Self {
+        Self::with_tuning(matrix, places, &Tuning::default())
+    }
+
+    /// As [`Self::new`], with other tuning constants.
+    ///
+    /// # Panics
+    /// If there is not one place for each node.
+    #[must_use]
+    pub fn with_tuning(matrix: &BlockMatrix, places: &[[f64; 2]], tuning: &Tuning) -> Self {
+        let n = matrix.nodes();
+        assert_eq!(places.len(), n, "one place for each node");
+        let graph = Graph::new(n, matrix.pairs());
+        let groups = dissection::dissect(&graph, places, tuning);
+        let supernodes = Supernodes::new(&graph, groups, tuning);
+        let fronts = analysis::fronts(matrix, &supernodes);
+
+        let shapes = || fronts.iter().map(|front| front.shape);
+        let stack = |parity| {
+            let mine = fronts.iter().filter(|front| front.parity == parity);
+            mine.map(|front| front.update + front.shape.update_len()).max().unwrap_or(0)
+        };
+        let panels = [Shape::pivot_panels, Shape::panels].map(|of| shapes().map(of).max());
+        Self {
+            blocks: matrix.blocks().len(),
+            factor: vec![Column::ZERO; shapes().map(Shape::factor_len).sum()],
+            updates: [0, 1].map(|parity| vec![Column::ZERO; stack(parity)]),
+            unknowns: vec![[0.0; 3]; n],
+            local: panels.map(|len| vec![Column::ZERO; len.unwrap_or(0)]),
+            order: supernodes.order,
+            fronts,
+        }
+    }
+
+    /// Size of the factor and of the storage that its computation needs (bytes).
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        let columns = self.factor.len() + self.updates.iter().map(Vec::len).sum::<usize>();
+        columns * size_of::<Column>()
+    }
+
+    /// Factorizes a matrix with the pattern given to [`Self::new`]. It allocates nothing.
+    ///
+    /// # Errors
+    /// If a pivot is not positive; there is no factorization then, and [`Self::solve`] gives no solution.
+    ///
+    /// # Panics
+    /// If the matrix has another pattern.
+    pub fn factorize(&mut self, matrix: &BlockMatrix) -> Result<(), NotPositiveDefinite> {
+        assert_eq!(matrix.nodes(), self.order.len(), "the pattern is another one");
+        assert_eq!(matrix.blocks().len(), self.blocks, "the pattern is another one");
+        let [even, odd] = &mut self.updates;
+        for front in &self.fronts {
+            let (own, children) =
+                if front.parity == 0 { (&mut *even, &*odd) } else { (&mut *odd, &*even) };
+            let shape = front.shape;
+            let factor = &mut self.factor[front.factor..][..shape.factor_len()];
+            let update = &mut own[front.update..][..shape.update_len()];
+            assembly::clear(shape, factor, update);
+            assembly::place(shape, factor, &front.entries, matrix.blocks());
+            for (child, rows) in &front.children {
+                let child = &self.fronts[*child];
+                let child = &children[child.update..][..child.shape.update_len()];
+                assembly::add_child(shape, factor, update, rows, child);
+            }
+            kernel::dispatch(Elimination { shape, factor, update }).map_err(|row| {
+                NotPositiveDefinite { node: self.order[front.first + row / 3] as usize }
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Solves `A x = b` with the last factorization: `x` is b before and the solution after. It allocates nothing.
+    ///
+    /// # Panics
+    /// If there are not three entries for each node.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        assert_eq!(x.len(), 3 * self.order.len(), "three entries for each node");
+        let x = x.as_chunks_mut::<3>().0;
+        for (unknown, &node) in self.unknowns.iter_mut().zip(&self.order) {
+            *unknown = x[node as usize];
+        }
+        let [right, solution] = &mut self.local;
+        for front in &self.fronts {
+            let shape = front.shape;
+            let factor = &self.factor[front.factor..][..shape.factor_len()];
+            let pivots = &mut right[..shape.pivot_panels()];
+            let rows = &mut solution[..shape.update_panels()];
+            let own = &mut self.unknowns[front.first..][..shape.pivots];
+            gather(pivots, own.iter());
+            kernel::dispatch(Forward { shape, factor, pivots, rows });
+            for (k, own) in own.iter_mut().enumerate() {
+                *own = node_of(pivots, k);
+            }
+            for (k, &row) in front.rows.iter().enumerate() {
+                let change = node_of(rows, k);
+                let unknown = &mut self.unknowns[row as usize];
+                for r in 0..3 {
+                    unknown[r] -= change[r];
+                }
+            }
+        }
+        for front in self.fronts.iter().rev() {
+            let shape = front.shape;
+            let factor = &self.factor[front.factor..][..shape.factor_len()];
+            let right = &mut right[..shape.pivot_panels()];
+            let all = &mut solution[..shape.panels()];
+            let (pivots, rows) = all.split_at_mut(shape.pivot_panels());
+            pivots.fill(Column::ZERO);
+            gather(rows, front.rows.iter().map(|&row| &self.unknowns[row as usize]));
+            let own = &mut self.unknowns[front.first..][..shape.pivots];
+            gather(right, own.iter());
+            kernel::dispatch(Backward { shape, factor, right, all });
+            for (k, own) in own.iter_mut().enumerate() {
+                *own = node_of(all, k);
+            }
+        }
+        for (unknown, &node) in self.unknowns.iter().zip(&self.order) {
+            x[node as usize] = *unknown;
+        }
+    }
+}
+
+/// Fills panels with the unknowns of nodes, and with zero after the last one.
+fn gather<'a>(panels: &mut [Column], mut unknowns: impl Iterator<Item = &'a [f64; 3]>) {
+    for panel in panels {
+        for node in panel.0.as_chunks_mut::<3>().0 {
+            *node = unknowns.next().copied().unwrap_or([0.0; 3]);
+        }
+    }
+}
+
+/// The unknowns of one node in panels.
+fn node_of(panels: &[Column], k: usize) -> [f64; 3] {
+    panels[k / PANEL_NODES].0.as_chunks::<3>().0[k % PANEL_NODES]
+}

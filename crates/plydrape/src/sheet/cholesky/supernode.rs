@@ -1,0 +1,161 @@
+//! Supernodes: sets of nodes that are eliminated together, because the columns of the factor below them are alike.
+//!
+//! Each supernode has a dense front, its own nodes (pivots) and the later nodes that they are coupled to once everything
+//! before is eliminated (update rows). What remains on the update rows goes to the front of the parent, which is the
+//! supernode of the first update row. Duff and Reid 1983, "The multifrontal solution of indefinite sparse symmetric
+//! linear equations".
+
+use super::graph::Graph;
+use super::kernel::{COLUMNS, ROWS};
+use super::tuning::Tuning;
+
+/// Nodes in a row panel.
+pub const PANEL_NODES: usize = ROWS / 3;
+
+/// The supernodes in postorder, and the order of the nodes that goes with them.
+#[derive(Debug, Clone)]
+pub struct Supernodes {
+    /// The node at each place of the order of elimination.
+    pub order: Vec<u32>,
+    /// For each supernode where its pivots begin in `order`; one entry more than supernodes.
+    pub starts: Vec<usize>,
+    /// Update rows of each supernode: places in the order of elimination, ascending.
+    pub rows: Vec<Vec<u32>>,
+    /// Supernode of the first update row.
+    pub parents: Vec<Option<usize>>,
+}
+
+impl Supernodes {
+    /// Supernodes from groups of nodes in an order of elimination; those that are cheaper together are merged.
+    pub fn new(graph: &Graph, groups: Vec<Vec<u32>>, tuning: &Tuning) -> Self {
+        let first = Self::analyse(graph, &groups);
+        let merged = first.merge(groups, tuning);
+        // children come directly before their parents, as the stack of updates wants them
+        let second = Self::analyse(graph, &merged);
+        let postorder = second.postorder();
+        let mut slots: Vec<Option<Vec<u32>>> = merged.into_iter().map(Some).collect();
+        let groups: Vec<Vec<u32>> = postorder.iter().filter_map(|&s| slots[s].take()).collect();
+        Self::analyse(graph, &groups)
+    }
+
+    /// Update rows and parents of groups that are eliminated one after the other.
+    fn analyse(graph: &Graph, groups: &[Vec<u32>]) -> Self {
+        let order: Vec<u32> = groups.iter().flatten().copied().collect();
+        let mut place = vec![0; order.len()];
+        for (k, &node) in order.iter().enumerate() {
+            place[node as usize] = k as u32;
+        }
+        let mut starts = vec![0];
+        let mut group_of = Vec::with_capacity(order.len());
+        for (s, group) in groups.iter().enumerate() {
+            starts.push(starts[s] + group.len());
+            group_of.extend(group.iter().map(|_| s));
+        }
+        let mut parents = vec![None; groups.len()];
+        let mut children = vec![Vec::new(); groups.len()];
+        let mut rows: Vec<Vec<u32>> = Vec::with_capacity(groups.len());
+        for s in 0..groups.len() {
+            let end = starts[s + 1] as u32;
+            let own = groups[s].iter().flat_map(|&node| graph.neighbours(node));
+            let own = own.map(|&node| place[node as usize]);
+            let inherited = children[s].iter().flat_map(|&child: &usize| &rows[child]).copied();
+            let mut all: Vec<u32> = own.chain(inherited).filter(|&row| row >= end).collect();
+            all.sort_unstable();
+            all.dedup();
+            if let Some(&row) = all.first() {
+                let parent = group_of[row as usize];
+                parents[s] = Some(parent);
+                children[parent].push(s);
+            }
+            rows.push(all);
+        }
+        Self { order, starts, rows, parents }
+    }
+
+    /// Number of supernodes.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Supernodes, each after all of its descendants.
+    fn postorder(&self) -> Vec<usize> {
+        let n = self.len();
+        let mut order = Vec::with_capacity(n);
+        let mut children = vec![Vec::new(); n];
+        let mut pending: Vec<(usize, bool)> = Vec::new();
+        for s in (0..n).rev() {
+            match self.parents[s] {
+                Some(parent) => children[parent].push(s),
+                None => pending.push((s, false)),
+            }
+        }
+        while let Some((s, expanded)) = pending.pop() {
+            if expanded {
+                order.push(s);
+            } else {
+                pending.push((s, true));
+                pending.extend(children[s].iter().map(|&child| (child, false)));
+            }
+        }
+        order
+    }
+
+    /// The groups after every supernode has taken in those of its children that are cheaper that way.
+    fn merge(&self, mut groups: Vec<Vec<u32>>, tuning: &Tuning) -> Vec<Vec<u32>> {
+        let n = self.len();
+        let mut children = vec![Vec::new(); n];
+        for s in 0..n {
+            loop {
+                let apart = |child: usize, groups: &[Vec<u32>]| {
+                    let [a, b] =
+                        [child, s].map(|k| front_cost(groups[k].len(), self.rows[k].len(), tuning));
+                    a + b
+                };
+                let together = |child: usize, groups: &[Vec<u32>]| {
+                    let pivots = groups[child].len() + groups[s].len();
+                    front_cost(pivots, self.rows[s].len(), tuning)
+                };
+                let gain = children[s]
+                    .iter()
+                    .enumerate()
+                    .map(|(k, &child)| {
+                        (together(child, &groups) as i64 - apart(child, &groups) as i64, k)
+                    })
+                    .min();
+                let Some((cost, k)) = gain else { break };
+                if cost >= 0 {
+                    break;
+                }
+                let child = children[s].remove(k);
+                let mut pivots = std::mem::take(&mut groups[child]);
+                pivots.append(&mut groups[s]);
+                groups[s] = pivots;
+                let grandchildren: Vec<usize> = std::mem::take(&mut children[child]);
+                children[s].extend(grandchildren);
+            }
+            if let Some(parent) = self.parents[s] {
+                children[parent].push(s);
+            }
+        }
+        groups.retain(|group| !group.is_empty());
+        groups
+    }
+}
+
+/// Time to eliminate the pivots of a front and to add what remains to its parent, in the units of [`Tuning`].
+fn front_cost(pivots: usize, rows: usize, tuning: &Tuning) -> usize {
+    let columns = (3 * pivots).next_multiple_of(COLUMNS);
+    let (pivot_panels, panels) = (pivots.div_ceil(PANEL_NODES), rows.div_ceil(PANEL_NODES));
+    // Σ of the lengths of the products up to each tile of a row
+    let row = |columns: usize| {
+        let tiles = columns / COLUMNS;
+        tiles * tuning.tile_cost + COLUMNS * tiles * tiles.saturating_sub(1) / 2
+    };
+    let diagonal: usize = (1..=pivot_panels).map(|i| row((ROWS * i).min(columns))).sum();
+    let update_tiles = panels * (panels + 1) / 2 * (ROWS / COLUMNS);
+    diagonal
+        + panels * row(columns)
+        + update_tiles * (columns + tuning.tile_cost)
+        + rows * (rows + 1) / 2 * tuning.block_cost
+        + tuning.supernode_cost
+}
