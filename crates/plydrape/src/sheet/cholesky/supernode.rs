@@ -26,10 +26,12 @@ pub struct Supernodes {
 }
 
 impl Supernodes {
-    /// Supernodes from groups of nodes in an order of elimination; those that are cheaper together are merged.
-    pub fn new(graph: &Graph, groups: Vec<Vec<u32>>, tuning: &Tuning) -> Self {
-        let first = Self::analyse(graph, &groups);
-        let merged = first.merge(groups, tuning);
+    /// Supernodes of an order of elimination: nodes that are cheaper together than apart are merged.
+    ///
+    /// The order of the result is another one with the same or a little more fill.
+    pub fn new(graph: &Graph, order: &[u32], tuning: &Tuning) -> Self {
+        let single: Vec<Vec<u32>> = order.iter().map(|&node| vec![node]).collect();
+        let merged = Self::analyse(graph, &single).merge(single, tuning);
         // children come directly before their parents, as the stack of updates wants them
         let second = Self::analyse(graph, &merged);
         let postorder = second.postorder();
@@ -157,5 +159,5 @@ fn front_cost(pivots: usize, rows: usize, tuning: &Tuning) -> usize {
         + panels * row(columns)
         + update_tiles * (columns + tuning.tile_cost)
         + rows * (rows + 1) / 2 * tuning.block_cost
-        + tuning.supernode_cost
+        + tuning.front_cost
 }
