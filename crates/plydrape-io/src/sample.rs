@@ -236,6 +236,7 @@ fn frame(grid: Grid) -> ResultFile {
                     source: "made up".into(),
                     section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
                     shear_curve: None,
+                    tension: None,
                     locking_angle: None,
                 },
                 warp: Direction::U,
@@ -251,13 +252,19 @@ fn frame(grid: Grid) -> ResultFile {
                     tolerance: 0.001,
                     stepping: Stepping::Once,
                     end: ContactEnd::Free,
+                    ..ContactSettings::default()
                 },
+                ..Settings::default()
             },
             limits: Limits {
                 slack_ratio: 0.005,
                 bridging: 0.001,
                 overstretch: 0.01,
                 landing_contact: 0.002,
+                height: 5e-4,
+                out_of_plane: 0.05,
+                position: 0.002,
+                gripper_force: None,
                 landing_gripper: 0.002,
                 fibre_angle: 0.05,
                 shear: 0.8,

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use plydrape::draping::spans::shape;
 use plydrape::equilibrium::{self, Status};
 use plydrape::ply::{self, ContactSegment, shear};
-use plydrape::scene::{ContactSettings, Settings, SlopeRule};
+use plydrape::scene::{Settings, SlopeRule};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -109,8 +109,8 @@ impl Solver {
                 return Err(PyValueError::new_err(text));
             }
         }
-        let contact = ContactSettings::default();
-        let settings = Settings { slopes, axial_stiffness, gravity, max_tilt, contact };
+        let settings =
+            Settings { slopes, axial_stiffness, gravity, max_tilt, ..Settings::default() };
         Ok(Solver(Mutex::new(State::new(&ply.0, &settings))))
     }
 

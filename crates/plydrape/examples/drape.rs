@@ -30,6 +30,7 @@ fn main() {
             source: "Krogh et al. 2018, Table 1".into(),
             section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
             shear_curve: None,
+            tension: None,
             locking_angle: None,
         },
         warp: Direction::U,

@@ -12,6 +12,8 @@ pub struct Material {
     pub section: Section,
     /// Picture-frame shear force per length τ(γ); `None` leaves shear forces unknown.
     pub shear_curve: Option<ShearCurve>,
+    /// Tension over strain of the yarns; the sheet needs it, the catenaries do not.
+    pub tension: Option<TensionLaw>,
     /// Shear angle at which the weave locks (rad), with the test that found it.
     pub locking_angle: Option<f64>,
 }
@@ -37,6 +39,51 @@ pub enum Section {
         /// Bending rigidity per width along the weft (N·m).
         weft_rigidity: f64,
     },
+}
+
+/// Tension per width of the fabric T(ε), along warp and weft alike (N/m).
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "kebab-case"))]
+pub enum TensionLaw {
+    /// T = EA′ ε, in compression too.
+    Linear {
+        /// Stiffness per width EA′ (N/m).
+        stiffness: f64,
+    },
+    /// Measured points (ε ascending from 0, T in N/m from 0), joined by straight lines; the first slope holds in
+    /// compression and the last one beyond the last point.
+    Table {
+        /// Strains ε.
+        strain: Vec<f64>,
+        /// Tensions per width (N/m).
+        force: Vec<f64>,
+    },
+}
+
+impl TensionLaw {
+    /// Energy per area (J/m²), tension per width T (N/m) and its slope dT/dε (N/m) at a strain ε.
+    #[must_use]
+    pub fn tension(&self, strain: f64) -> [f64; 3] {
+        match self {
+            TensionLaw::Linear { stiffness } => {
+                [0.5 * stiffness * strain * strain, stiffness * strain, *stiffness]
+            }
+            TensionLaw::Table { strain: at, force } => {
+                let mut energy = 0.0;
+                for n in 1..at.len() {
+                    let slope = (force[n] - force[n - 1]) / (at[n] - at[n - 1]);
+                    if strain <= at[n] || n + 1 == at.len() {
+                        let beyond = strain - at[n - 1];
+                        energy += beyond * (force[n - 1] + 0.5 * slope * beyond);
+                        return [energy, force[n - 1] + slope * beyond, slope];
+                    }
+                    energy += 0.5 * (at[n] - at[n - 1]) * (force[n] + force[n - 1]);
+                }
+                [0.0; 3]
+            }
+        }
+    }
 }
 
 /// Mass per length and flexural rigidity of one catenary.
@@ -88,6 +135,44 @@ impl ShearCurve {
             }
         }
     }
+}
+
+impl ShearCurve {
+    /// Energy per area ∫ τ dγ (J/m²) from no shear to a shear angle γ (rad) of either sign.
+    #[must_use]
+    pub fn energy(&self, angle: f64) -> f64 {
+        let gamma = angle.abs();
+        match self {
+            ShearCurve::Polynomial { coefficients } => {
+                let powers = coefficients.iter().enumerate().rev();
+                gamma * gamma * powers.fold(0.0, |sum, (n, c)| sum * gamma + c / (n as f64 + 2.0))
+            }
+            ShearCurve::Table { angle, force } => {
+                let points = angle.len().min(force.len());
+                let (x, y) = (&angle[..points], &force[..points]);
+                let mut energy = 0.0;
+                for n in 1..points {
+                    let (from, to) = (x[n - 1], x[n].min(gamma));
+                    if to > from {
+                        energy += (to - from) * simpson(x, y, from, to);
+                    }
+                }
+                match x.last() {
+                    Some(last) if gamma > *last && points > 1 => {
+                        energy + (gamma - last) * simpson(x, y, *last, gamma)
+                    }
+                    _ => energy,
+                }
+            }
+        }
+    }
+}
+
+/// Mean of the monotone cubic through the points `(x, y)` between two places without a knot in between: Simpson's rule,
+/// which is exact for a cubic.
+fn simpson(x: &[f64], y: &[f64], from: f64, to: f64) -> f64 {
+    let at = |place: f64| monotone_cubic(x, y, place).0;
+    (at(from) + 4.0 * at(0.5 * (from + to)) + at(to)) / 6.0
 }
 
 /// Value and slope at `at` of the monotone cubic through the points `(x, y)`, x ascending.

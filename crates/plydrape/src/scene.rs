@@ -103,6 +103,12 @@ pub struct Settings {
     pub max_tilt: f64,
     /// How contact is found.
     pub contact: ContactSettings,
+    /// Which model drapes and decides.
+    pub model: Model,
+    /// How the ply is divided and followed as a sheet.
+    pub sheet: SheetSettings,
+    /// How each gripper holds the sheet.
+    pub pad: PadSettings,
 }
 
 /// Of new scenes: moments are passed on at ball joints that tilt by 40° at most, EA = 100 kN, g = 9.81 m/s².
@@ -114,7 +120,70 @@ impl Default for Settings {
             gravity: 9.81,
             max_tilt: 40_f64.to_radians(),
             contact: ContactSettings::default(),
+            model: Model::Sheet,
+            sheet: SheetSettings::default(),
+            pad: PadSettings::default(),
         }
+    }
+}
+
+/// The model of the ply that drapes and decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Model {
+    /// A net of catenaries, as in the paper.
+    Catenaries,
+    /// The whole ply as cloth, [`crate::sheet`].
+    Sheet,
+}
+
+/// How the ply is divided and followed as a sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SheetSettings {
+    /// Largest distance between neighbouring lines of nodes (m); none for a tenth of the shorter side of a cell.
+    pub mesh: Option<f64>,
+    /// Fabric beyond the outermost grippers, on all sides (m).
+    pub overhang: f64,
+    /// Which time the motion takes.
+    pub time: SheetTime,
+    /// Most states that are kept, the first and the last among them.
+    pub keep: usize,
+}
+
+impl Default for SheetSettings {
+    fn default() -> Self {
+        SheetSettings { mesh: None, overhang: 0.0, time: SheetTime::QuasiStatic, keep: 100 }
+    }
+}
+
+/// The time in which a sheet follows the motion of its grippers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum SheetTime {
+    /// Stretched until the ply's kinetic energy is of no matter.
+    QuasiStatic,
+    /// That of the motion.
+    Real,
+}
+
+/// How each gripper holds the sheet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PadSettings {
+    /// Radius of the pad that holds the fabric flat (m); zero holds one point.
+    pub radius: f64,
+    /// Stiffness of the mount along the ply (N/m); none if rigid.
+    pub lateral_stiffness: Option<f64>,
+    /// Stiffness of the mount across the ply (N/m); none if rigid.
+    pub axial_stiffness: Option<f64>,
+}
+
+impl Default for PadSettings {
+    fn default() -> Self {
+        PadSettings { radius: 0.0, lateral_stiffness: None, axial_stiffness: None }
     }
 }
 
@@ -152,12 +221,35 @@ pub struct ContactSettings {
     pub stepping: Stepping,
     /// Slope of a span where it leaves the mold.
     pub end: ContactEnd,
+    /// What holds the sheet along the mold; catenaries always stick.
+    pub friction: Friction,
+    /// Shear stress τ₀ that the sheet's tack bears besides friction (Pa).
+    pub tack: f64,
 }
 
 impl Default for ContactSettings {
     fn default() -> Self {
-        ContactSettings { tolerance: 2e-4, stepping: Stepping::Cut, end: ContactEnd::Free }
+        ContactSettings {
+            tolerance: 2e-4,
+            stepping: Stepping::Cut,
+            end: ContactEnd::Free,
+            friction: Friction::Stick,
+            tack: 0.0,
+        }
     }
+}
+
+/// What holds the sheet along the mold where it touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Friction {
+    /// A point stays where it touched until it is lifted off.
+    Stick,
+    /// A point stays where it touched for ever, and is not lifted off.
+    StickForEver,
+    /// Coulomb's law with this coefficient.
+    Coulomb(f64),
 }
 
 /// When contact is evaluated.
@@ -213,6 +305,14 @@ pub struct Limits {
     pub tilt: f64,
     /// Angular rate of a gripper's ball joint (rad/s).
     pub tilt_rate: f64,
+    /// Height of the sheet over the mold at the end (m).
+    pub height: f64,
+    /// Angle between the sheet's fibres and the mold at the end (rad).
+    pub out_of_plane: f64,
+    /// Distance of the sheet's landed points from their ideal places (m).
+    pub position: f64,
+    /// Force of the sheet on one gripper (N).
+    pub gripper_force: Option<f64>,
     /// Horizontal force of a span (N).
     pub force: Option<f64>,
     /// Vertical load that one gripper holds (N).
@@ -254,6 +354,10 @@ impl Limits {
             tilt: settings.max_tilt,
             // our assumption of a passive joint, from no data sheet
             tilt_rate: 90_f64.to_radians(),
+            height: 5e-4,
+            out_of_plane: 3_f64.to_radians(),
+            position: 2e-3,
+            gripper_force: None,
             force: None,
             // a vacuum cup of 30 mm holds more, and slips sideways at 4 to 10 N
             gripper_load: 10.0,

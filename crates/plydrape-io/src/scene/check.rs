@@ -255,6 +255,8 @@ fn settings(file: &SceneKeys, ply: &Ply, document: &Document) -> Result<Settings
                 Some(EndKey::Tangent) => ContactEnd::Tangent,
                 Some(EndKey::Free) | None => ContactEnd::Free,
             },
+            ..usual.contact
         },
+        ..usual
     })
 }

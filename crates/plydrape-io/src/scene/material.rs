@@ -135,6 +135,7 @@ fn from_table(
         source,
         section: section(table, document, place)?,
         shear_curve,
+        tension: None,
         locking_angle,
     })
 }

@@ -44,6 +44,7 @@ pub fn paper_ply(nu: usize, nv: usize) -> Ply {
             source: "Krogh et al. 2018, Table 1".into(),
             section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
             shear_curve: None,
+            tension: None,
             locking_angle: None,
         },
         warp: Direction::U,
@@ -66,7 +67,9 @@ pub fn settings(slopes: SlopeRule) -> Settings {
             tolerance: 1e-3,
             stepping: Stepping::Once,
             end: ContactEnd::Free,
+            ..ContactSettings::default()
         },
+        ..Settings::default()
     }
 }
 

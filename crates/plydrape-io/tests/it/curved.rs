@@ -76,7 +76,12 @@ fn rolled(
     drape(&strip(
         4,
         mold,
-        ContactSettings { tolerance, stepping, end: ContactEnd::Free },
+        ContactSettings {
+            tolerance,
+            stepping,
+            end: ContactEnd::Free,
+            ..ContactSettings::default()
+        },
         positions,
     ))
 }
@@ -141,7 +146,12 @@ fn a_taut_strip_bridges_a_trough_by_the_height_of_its_chord() {
             vec![[-half, 0.0, z], [half, 0.0, z]]
         };
         let tolerance = 1e-6;
-        let contact = ContactSettings { tolerance, stepping: Stepping::Cut, end: ContactEnd::Free };
+        let contact = ContactSettings {
+            tolerance,
+            stepping: Stepping::Cut,
+            end: ContactEnd::Free,
+            ..ContactSettings::default()
+        };
         let positions = (0..20).map(|n| at(f64::from(n) / 19.0)).collect();
         let mut scene = strip(2, trough, contact, positions);
         // a parabola longer than its chord by a part e sags by √(3e/8) of it
@@ -219,7 +229,12 @@ fn a_drape_on_a_dome_converges_in_steps_and_tolerance() {
     let landed = |steps: usize, tolerance: f64| -> [f64; 2] {
         let mut scene = scene.clone();
         let stepping = Stepping::Cut;
-        scene.settings.contact = ContactSettings { tolerance, stepping, end: ContactEnd::Tangent };
+        scene.settings.contact = ContactSettings {
+            tolerance,
+            stepping,
+            end: ContactEnd::Tangent,
+            ..ContactSettings::default()
+        };
         let at = |t: f64| -> Vec<[f64; 3]> {
             let mix = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]));
             first.iter().zip(last).map(mix).collect()

@@ -137,7 +137,8 @@ fn contact_and_free_lengths_always_add_up() {
     for stepping in [Stepping::Once, Stepping::Cut] {
         for end in [ContactEnd::Free, ContactEnd::Tangent] {
             let mut scene = example("01_flat_sheared_mold");
-            scene.settings.contact = ContactSettings { tolerance: 5e-4, stepping, end };
+            scene.settings.contact =
+                ContactSettings { tolerance: 5e-4, stepping, end, ..ContactSettings::default() };
             check_record(&drape(&scene));
         }
     }
@@ -181,7 +182,12 @@ fn contact_converges_in_steps_and_tolerance() {
     let strip = |steps: usize, tolerance: f64, stepping: Stepping| {
         let mut scene = example("02_hanging_strip");
         scene.mold = example("01_flat_sheared_mold").mold;
-        scene.settings.contact = ContactSettings { tolerance, stepping, end: ContactEnd::Free };
+        scene.settings.contact = ContactSettings {
+            tolerance,
+            stepping,
+            end: ContactEnd::Free,
+            ..ContactSettings::default()
+        };
         let at = |t: f64| vec![[0.0, 0.0, 0.012 - 0.008 * t], [0.098, 0.0, 0.012 - 0.006 * t]];
         scene.motion = Motion {
             times: (0..steps).map(|n| n as f64).collect(),
@@ -202,8 +208,12 @@ fn contact_converges_in_steps_and_tolerance() {
 
     let mut scene = example("02_hanging_strip");
     scene.mold = example("01_flat_sheared_mold").mold;
-    scene.settings.contact =
-        ContactSettings { tolerance: 1e-3, stepping: Stepping::Once, end: ContactEnd::Free };
+    scene.settings.contact = ContactSettings {
+        tolerance: 1e-3,
+        stepping: Stepping::Once,
+        end: ContactEnd::Free,
+        ..ContactSettings::default()
+    };
     let still = vec![[0.0, 0.0, 0.006], [0.098, 0.0, 0.006]];
     scene.motion = Motion { times: (0..60).map(f64::from).collect(), positions: vec![still; 60] };
     let result = drape(&scene);
@@ -284,7 +294,7 @@ proptest! {
         }
         scene.settings.axial_stiffness = ea;
         scene.settings.slopes = rule;
-        scene.settings.contact = ContactSettings { tolerance: 1e-3, stepping, end };
+        scene.settings.contact = ContactSettings { tolerance: 1e-3, stepping, end, ..ContactSettings::default() };
         let normal = [tilt.sin(), 0.0, tilt.cos()];
         scene.mold = has_mold.then_some(plydrape::mold::Mold::Plane(plydrape::mold::Plane { point: [0.0; 3], normal }));
         let place = |step: usize| (0..grid.grippers()).map(|n| {

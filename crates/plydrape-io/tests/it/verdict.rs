@@ -80,8 +80,12 @@ fn a_gripper_that_has_passed_its_contact_makes_a_fold_and_no_stretch() {
     let mut scene = example("02_hanging_strip");
     scene.mold = Some(Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }));
     let tolerance = 1e-4;
-    scene.settings.contact =
-        ContactSettings { tolerance, stepping: Stepping::Cut, end: ContactEnd::Free };
+    scene.settings.contact = ContactSettings {
+        tolerance,
+        stepping: Stepping::Cut,
+        end: ContactEnd::Free,
+        ..ContactSettings::default()
+    };
     let ends = |x: f64, z: f64| vec![[0.0, 0.0, z], [x, 0.0, z]];
     // down in 400 steps, until both grippers are 2 mm above the mold
     const LOW: f64 = 2e-3;

@@ -1,3 +1,32 @@
 //! The whole ply as a sheet of yarn segments and cells, between and beyond the grippers.
+//!
+//! The catenaries are right along the lines between grippers and blind inside the cells, where a woven ply hangs lower
+//! and touches first. The sheet has nodes where the fabric's own lines cross; between neighbours along a line are yarn
+//! segments that stretch (`stretch`), three in a row bend (`bending`), and four around a cell shear (`shear`). Pads
+//! hold their nodes (`gripper`), the mold carries what touches it and friction holds it (`contact`). Implicit
+//! time steps with real mass (`cloth`) follow the motion of the grippers (`drape`).
+//!
+//! What is measured of it is in [`measure`]. Lengths in metres, forces in newtons, angles in radians.
 
+mod bending;
 pub mod cholesky;
+mod cloth;
+mod contact;
+mod drape;
+pub mod fabric;
+mod gripper;
+mod matrix3;
+pub mod measure;
+mod model;
+mod shear;
+mod state;
+mod stretch;
+mod system;
+mod tuning;
+
+pub use drape::{Drape, Status, drape, is_kept};
+pub use fabric::Fabric;
+pub use gripper::{Gripper, Pad};
+pub use model::{Sheet, SheetError};
+pub use state::State;
+pub use tuning::Tuning;

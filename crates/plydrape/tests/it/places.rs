@@ -12,6 +12,7 @@ fn ply() -> Ply {
         source: "made up".into(),
         section: Section::Line { mass: 0.3, flexural_rigidity: 1e-4 },
         shear_curve: None,
+        tension: None,
         locking_angle: None,
     };
     Ply { grid: Grid { nu: 3, nv: 2 }, cell: [0.1, 0.1], material, warp: Direction::U }
@@ -116,7 +117,7 @@ fn settings() -> plydrape::scene::Settings {
         axial_stiffness: 1e5,
         gravity: 9.81,
         max_tilt: 0.7,
-        contact: plydrape::scene::ContactSettings::default(),
+        ..plydrape::scene::Settings::default()
     }
 }
 
@@ -136,6 +137,10 @@ fn limits() -> plydrape::scene::Limits {
         penetration: wide,
         tilt: wide,
         tilt_rate: wide,
+        height: wide,
+        out_of_plane: wide,
+        position: wide,
+        gripper_force: None,
         force: None,
         gripper_load: wide,
         gripper_pull: None,

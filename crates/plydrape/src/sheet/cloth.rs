@@ -1,0 +1,413 @@
+//! The ply in motion: one implicit time step.
+//!
+//! The positions after a time step Δt are the least of the incremental potential
+//! Σ m/(2 Δt²) |x − x̂|² + E(x), x̂ = x + Δt v, by Newton's iteration. Its first step moves the grippers within the linear
+//! system; the tension that turns segments is the one that the linear step before predicts ([`super::stretch`]), so that
+//! full steps are taken.
+
+use super::Sheet;
+use super::bending::Bending;
+use super::contact::Contact;
+use super::gripper::{Gripper, Pad};
+use super::matrix3::{Matrix3, outer, scaled};
+use super::shear::Shear;
+use super::stretch::{Stretch, direction};
+use super::system::{Carrier, System, add};
+use super::tuning::Tuning;
+use crate::mold::vector::{along, cross, dot, norm, sub};
+
+/// What moves: positions, speeds and pads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Positions of the nodes (m).
+    pub x: Vec<[f64; 3]>,
+    /// Their velocities (m/s).
+    pub v: Vec<[f64; 3]>,
+    /// The grippers' pads.
+    pub pads: Vec<Pad>,
+}
+
+/// Why a time step was not solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Failure {
+    /// Newton's iteration did not come to an end.
+    Iterations,
+    /// The first step turns segments too far to be linear.
+    Turn,
+    /// The matrix is not positive definite, or a number is not finite.
+    Singular,
+}
+
+/// The ply in motion.
+#[derive(Debug)]
+pub struct Cloth<'a> {
+    sheet: &'a Sheet,
+    tuning: Tuning,
+    system: System,
+    stretch: Stretch,
+    shear: Shear,
+    bending: Bending,
+    /// Contact with the mold; none where there is none.
+    pub contact: Option<Contact<'a>>,
+    /// Mass of each node (kg).
+    masses: Vec<f64>,
+    /// Nodes of each gripper with their distance from its middle (m).
+    held: Vec<Vec<(usize, [f64; 2])>>,
+    /// Whether a gripper holds a node.
+    gripped: Vec<bool>,
+    /// Positions, speeds and pads.
+    pub now: Motion,
+    before: Motion,
+    inertial: Vec<[f64; 3]>,
+    /// The linear step of each node (m), and the turn (rad) and shift (m) of each pad in it.
+    step: Vec<[f64; 3]>,
+    turns: Vec<([f64; 3], [f64; 3])>,
+    /// Gradient that acts on blocks of unknowns themselves.
+    own: Vec<(u32, [f64; 3])>,
+    /// Solved linear systems.
+    pub solves: usize,
+}
+
+impl<'a> Cloth<'a> {
+    /// Flat, with its grippers at `positions` (m), where the fabric's place (0, 0) of each is.
+    pub fn new(sheet: &'a Sheet, tuning: Tuning, x: Vec<[f64; 3]>, pads: Vec<Pad>) -> Self {
+        let fabric = &sheet.fabric;
+        let nodes = fabric.places.len();
+        let held = sheet.held();
+        let mut carriers = vec![None; nodes];
+        let mut blocks: Vec<[f64; 2]> = Vec::with_capacity(nodes);
+        for (gripper, (g, nodes)) in sheet.grippers.iter().zip(&held).enumerate() {
+            let gripper = gripper as u32;
+            if nodes.len() == 1 {
+                if g.mount.is_none() {
+                    carriers[nodes[0].0] = Some(Carrier::Held { gripper });
+                }
+                continue;
+            }
+            let mut block = || {
+                blocks.push(g.place);
+                blocks.len() as u32 - 1
+            };
+            let turn = block();
+            let shift = g.mount.map(|_| block());
+            for (node, _) in nodes {
+                carriers[*node] = Some(Carrier::Pad { gripper, turn, shift });
+            }
+        }
+        let carriers: Vec<Carrier> = carriers
+            .into_iter()
+            .zip(&fabric.places)
+            .map(|(carrier, place)| {
+                carrier.unwrap_or_else(|| {
+                    blocks.push(*place);
+                    Carrier::Free { block: blocks.len() as u32 - 1 }
+                })
+            })
+            .collect();
+
+        let segments = fabric.segments.iter().map(|s| s.nodes);
+        let bends = fabric.bends.iter().map(|b| [b.nodes[0], b.nodes[2]]);
+        let cells = fabric.cells.iter().flat_map(|c| {
+            let [p, q, r, s] = c.nodes;
+            [[p, q], [q, r], [r, s], [s, p], [p, r], [q, s]]
+        });
+        let pairs = segments.chain(bends).chain(cells);
+        let system = System::new(&fabric.places, carriers, &blocks, pairs);
+        let contact = sheet.mold.as_ref().map(|mold| {
+            let free = |n: &usize| !matches!(system.carrier(*n), Carrier::Held { .. });
+            let points = (0..nodes).filter(free).map(|n| (n, fabric.areas[n]));
+            let stiffness = sheet.areal_mass * sheet.gravity / (tuning.contact_depth * sheet.pitch);
+            Contact::new(mold, stiffness, sheet.clear, sheet.friction, sheet.tack, points)
+        });
+        let mut gripped = vec![false; nodes];
+        for (node, _) in held.iter().flatten() {
+            gripped[*node] = true;
+        }
+        let still = vec![[0.0; 3]; nodes];
+        let now = Motion { x, v: still.clone(), pads };
+        Cloth {
+            stretch: Stretch::new(&fabric.segments, sheet.tension.clone(), &system),
+            shear: Shear::new(&fabric.cells, sheet.shear.clone(), &system),
+            bending: Bending::new(&fabric.bends, sheet.rigidity, &system),
+            contact,
+            masses: fabric.areas.iter().map(|area| area * sheet.areal_mass).collect(),
+            gripped,
+            held,
+            before: now.clone(),
+            now,
+            inertial: still.clone(),
+            step: still,
+            turns: vec![Default::default(); sheet.grippers.len()],
+            own: Vec::new(),
+            system,
+            sheet,
+            tuning,
+            solves: 0,
+        }
+    }
+
+    /// Energy without inertia (J).
+    pub fn energy(&self) -> f64 {
+        let x = &self.now.x;
+        let height = |(m, x): (&f64, &[f64; 3])| m * self.sheet.gravity * x[2];
+        let weight: f64 = self.masses.iter().zip(x).map(height).sum();
+        let mounts = self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held);
+        let mount = |((g, pad), nodes): ((&Gripper, &Pad), &Vec<(usize, [f64; 2])>)| {
+            let at = if nodes.len() == 1 { x[nodes[0].0] } else { pad.position };
+            let off = sub(at, pad.target);
+            g.mount.map_or(0.0, |k| (0..3).map(|n| 0.5 * k[n] * off[n] * off[n]).sum())
+        };
+        weight
+            + self.stretch.energy(x)
+            + self.shear.energy(x)
+            + self.bending.energy(x)
+            + mounts.map(mount).sum::<f64>()
+            + self.contact.as_ref().map_or(0.0, |contact| contact.energy(x))
+    }
+
+    /// Kinetic energy (J).
+    pub fn kinetic_energy(&self) -> f64 {
+        self.masses.iter().zip(&self.now.v).map(|(m, v)| 0.5 * m * dot(*v, *v)).sum()
+    }
+
+    /// Tension of a segment per width (N/m).
+    pub fn tension(&self, segment: usize) -> f64 {
+        self.stretch.tension(segment, &self.now.x)
+    }
+
+    /// One time step of `dt` (s) that moves the grippers to `targets` (m), solved to steps of `tolerance` (m). Returns
+    /// the iterations; on failure nothing has moved.
+    pub fn advance(
+        &mut self,
+        targets: &[[f64; 3]],
+        dt: f64,
+        tolerance: f64,
+    ) -> Result<usize, Failure> {
+        self.before.clone_from(&self.now);
+        for (inertial, (x, v)) in self.inertial.iter_mut().zip(self.now.x.iter().zip(&self.now.v)) {
+            *inertial = [0, 1, 2].map(|n| x[n] + dt * v[n]);
+        }
+        let found = self.iterate(targets, dt, tolerance);
+        if found.is_err() {
+            self.now.clone_from(&self.before);
+            return found;
+        }
+        for (v, (x, before)) in self.now.v.iter_mut().zip(self.now.x.iter().zip(&self.before.x)) {
+            *v = [0, 1, 2].map(|n| (x[n] - before[n]) / dt);
+        }
+        if let Some(contact) = &mut self.contact {
+            contact.update(&self.before.x, &self.now.x);
+        }
+        found
+    }
+
+    /// Whether the ply touches the mold, or may in a step that moves its grippers so far (m).
+    pub fn is_near_contact(&self, way: f64) -> bool {
+        self.contact.as_ref().is_some_and(|contact| contact.is_near(&self.now.x, way))
+    }
+
+    /// Largest movement of a node in the last time step (m).
+    pub fn movement(&self) -> f64 {
+        let moved = self.now.x.iter().zip(&self.before.x).map(|(a, b)| norm(sub(*a, *b)));
+        moved.fold(0.0, f64::max)
+    }
+
+    fn iterate(&mut self, targets: &[[f64; 3]], dt: f64, tolerance: f64) -> Result<usize, Failure> {
+        self.stretch.start(&self.now.x);
+        self.aim(targets);
+        self.assemble(dt, true);
+        for iteration in 0..self.tuning.iterations {
+            let turn = self.solve()?;
+            if iteration == 0 && turn > self.tuning.turn {
+                return Err(Failure::Turn);
+            }
+            let share = (self.tuning.turn / turn).min(1.0);
+            let step = &self.step;
+            self.stretch.predict(&self.now.x, |n| step[n], share);
+            let largest = self.take(share);
+            if !largest.is_finite() {
+                return Err(Failure::Singular);
+            }
+            if share == 1.0 && largest <= tolerance && iteration > 0 {
+                return Ok(iteration + 1);
+            }
+            self.assemble(dt, false);
+        }
+        Err(Failure::Iterations)
+    }
+
+    /// New places of the mounts; rigid ones move their nodes in the first step.
+    fn aim(&mut self, targets: &[[f64; 3]]) {
+        self.system.moved.fill([0.0; 3]);
+        let grippers = self.sheet.grippers.iter().zip(&self.held);
+        for ((pad, target), (gripper, nodes)) in self.now.pads.iter_mut().zip(targets).zip(grippers)
+        {
+            let moved = sub(*target, pad.target);
+            pad.target = *target;
+            if gripper.mount.is_none() {
+                for (node, _) in nodes {
+                    self.system.moved[*node] = moved;
+                }
+            }
+        }
+    }
+
+    /// Gradient and second derivative of the incremental potential.
+    fn assemble(&mut self, dt: f64, predicts: bool) {
+        let Cloth { system, now, .. } = self;
+        system
+            .begin(predicts, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
+        for (node, mass) in self.masses.iter().enumerate() {
+            let rate = mass / (dt * dt);
+            let off = sub(now.x[node], self.inertial[node]);
+            add(&mut system.gradient[node], rate, off);
+            system.stiffen_scalar(node, rate);
+        }
+        self.add_energies();
+    }
+
+    /// Gradient and second derivative of the energy.
+    fn add_energies(&mut self) {
+        let Cloth { system, now, .. } = self;
+        for (gradient, mass) in system.gradient.iter_mut().zip(&self.masses) {
+            gradient[2] += mass * self.sheet.gravity;
+        }
+        self.stretch.add(&now.x, system);
+        self.shear.add(&now.x, system);
+        self.bending.add(&now.x, system);
+        if let Some(contact) = &mut self.contact {
+            contact.add(&now.x, system);
+        }
+        for ((gripper, pad), nodes) in self.sheet.grippers.iter().zip(&now.pads).zip(&self.held) {
+            // a pin on a spring is a free node
+            if let (Some(k), [(node, _)]) = (gripper.mount, nodes.as_slice()) {
+                let off = sub(now.x[*node], pad.target);
+                add(&mut system.gradient[*node], 1.0, [0, 1, 2].map(|n| k[n] * off[n]));
+                system.stiffen(*node, &diagonal(k));
+            }
+        }
+    }
+
+    /// The linear step of all nodes; returns the largest turn of a segment in it (rad).
+    fn solve(&mut self) -> Result<f64, Failure> {
+        self.solves += 1;
+        self.hold_pads();
+        let system = &mut self.system;
+        system.solve(&self.own).map_err(|_| Failure::Singular)?;
+        for (node, step) in self.step.iter_mut().enumerate() {
+            *step = match system.carrier(node) {
+                Carrier::Free { block } => system.step(block),
+                Carrier::Held { .. } => system.moved[node],
+                Carrier::Pad { gripper, turn, shift } => {
+                    let moved = shift.map_or(system.moved[node], |shift| system.step(shift));
+                    let arm = sub(self.now.x[node], self.now.pads[gripper as usize].position);
+                    self.turns[gripper as usize] = (system.step(turn), moved);
+                    sub(moved, cross(arm, system.step(turn)))
+                }
+            };
+        }
+        let mut most = 0.0_f64;
+        for s in &self.sheet.fabric.segments {
+            let [a, b] = s.nodes.map(|node| node as usize);
+            let (unit, _) = direction(self.now.x[a], self.now.x[b]);
+            let aside = cross(unit, sub(self.step[b], self.step[a]));
+            let turn = norm(aside) / s.length;
+            if !(turn <= most) {
+                most = turn;
+            }
+        }
+        if most.is_finite() { Ok(most.max(f64::MIN_POSITIVE)) } else { Err(Failure::Singular) }
+    }
+
+    /// Mounts and tilt limits of pads.
+    fn hold_pads(&mut self) {
+        self.own.clear();
+        let weight = self.sheet.areal_mass * self.sheet.gravity * self.sheet.pitch.powi(3);
+        for ((gripper, pad), nodes) in
+            self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held)
+        {
+            let Some((node, _)) = nodes.first() else { continue };
+            let Carrier::Pad { turn, shift, .. } = self.system.carrier(*node) else { continue };
+            if let (Some(k), Some(shift)) = (gripper.mount, shift) {
+                self.system.stiffen_block(shift as usize, &diagonal(k));
+                let off = sub(pad.position, pad.target);
+                self.own.push((shift, [0, 1, 2].map(|n| k[n] * off[n])));
+            }
+            // nodes on one line leave a turn about it free, which a small stiffness holds
+            let least = self.tuning.turn_stiffness * weight;
+            self.system.stiffen_block(turn as usize, &diagonal([least; 3]));
+            let beyond = pad.tilt() - gripper.max_tilt;
+            if beyond > 0.0 {
+                let axis = cross([0.0, 0.0, 1.0], pad.normal());
+                let size = norm(axis).max(f64::MIN_POSITIVE);
+                let axis = axis.map(|c| c / size);
+                let k = self.tuning.tilt_stiffness * weight;
+                self.own.push((turn, axis.map(|c| k * beyond * c)));
+                self.system.stiffen_block(turn as usize, &scaled(k, &outer(axis, axis)));
+            }
+        }
+    }
+
+    /// Takes a share of the linear step; returns the largest movement of a node (m).
+    fn take(&mut self, share: f64) -> f64 {
+        for ((pad, nodes), (turn, moved)) in
+            self.now.pads.iter_mut().zip(&self.held).zip(&self.turns)
+        {
+            let Some((node, _)) = nodes.first() else { continue };
+            if let Carrier::Pad { .. } = self.system.carrier(*node) {
+                add(&mut pad.position, share, *moved);
+                pad.rotate(turn.map(|c| share * c));
+                for (node, off) in nodes {
+                    self.now.x[*node] = along(pad.position, 1.0, pad.arm(*off));
+                }
+                continue;
+            }
+            if let Carrier::Free { .. } = self.system.carrier(*node) {
+                add(&mut self.now.x[*node], share, self.step[*node]);
+            } else {
+                self.now.x[*node] = pad.target;
+            }
+            pad.position = self.now.x[*node];
+        }
+        let mut largest = 0.0_f64;
+        let nodes = self.now.x.iter_mut().zip(&self.step).zip(&self.gripped);
+        for ((x, step), gripped) in nodes {
+            if !gripped {
+                add(x, share, *step);
+            }
+            let moved = norm(*step);
+            if !(moved <= largest) {
+                largest = moved;
+            }
+        }
+        // in the steps that follow the grippers stand
+        self.system.moved.fill([0.0; 3]);
+        largest
+    }
+
+    /// Force of the ply on each gripper (N).
+    pub fn forces(&mut self) -> Vec<[f64; 3]> {
+        let now = &self.now;
+        self.system
+            .begin(false, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
+        self.add_energies();
+        let gripper = |((gripper, pad), nodes): ((&Gripper, &Pad), &Vec<(usize, [f64; 2])>)| match (
+            gripper.mount,
+            nodes.as_slice(),
+        ) {
+            (Some(k), [(node, _)]) => {
+                let off = sub(self.now.x[*node], pad.target);
+                [0, 1, 2].map(|n| k[n] * off[n])
+            }
+            _ => {
+                nodes.iter().fold([0.0; 3], |sum, (node, _)| sub(sum, self.system.gradient[*node]))
+            }
+        };
+        let pads = self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held);
+        pads.map(gripper).collect()
+    }
+}
+
+fn diagonal(k: [f64; 3]) -> Matrix3 {
+    [[k[0], 0.0, 0.0], [0.0, k[1], 0.0], [0.0, 0.0, k[2]]]
+}

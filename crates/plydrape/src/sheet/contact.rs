@@ -1,0 +1,228 @@
+//! Contact with the mold, and what holds a touching node along it.
+//!
+//! Contact is a penalty, ½ k · area · d² of a negative distance d. Where a node crosses the mold it has its *anchor*, and a
+//! spring along the mold pulls it back there. The force of the spring is at most (τ₀ + μ · pressure) · area, beyond which
+//! the anchor follows; stick is no such bound. A node that is clear of the mold again has no anchor.
+
+use super::matrix3::{Matrix3, outer};
+use super::system::{System, add};
+use crate::mold::Mold;
+use crate::mold::vector::{along, between, distance, dot, norm, sub};
+use crate::scene::Friction;
+
+/// Where a node touched the mold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Anchor {
+    point: [f64; 3],
+    normal: [f64; 3],
+}
+
+/// A node that may touch.
+#[derive(Debug, Clone)]
+struct Point {
+    node: usize,
+    area: f64,
+    /// Where the mold was last looked for (m), and how far it was (m): nearer than that no contact can be.
+    seen: [f64; 3],
+    clear: f64,
+    anchor: Option<Anchor>,
+    /// Largest force of the spring along the mold (N).
+    bound: f64,
+}
+
+/// Contact of all nodes that grippers do not hold.
+#[derive(Debug, Clone)]
+pub struct Contact<'a> {
+    mold: &'a Mold,
+    /// Pressure per depth, and shear stress per way along the mold, k (Pa/m).
+    stiffness: f64,
+    /// Distance (m) at which an anchor is lost.
+    release: f64,
+    friction: Friction,
+    tack: f64,
+    points: Vec<Point>,
+}
+
+impl<'a> Contact<'a> {
+    /// Of nodes with their areas (m²).
+    pub fn new(
+        mold: &'a Mold,
+        stiffness: f64,
+        release: f64,
+        friction: Friction,
+        tack: f64,
+        nodes: impl Iterator<Item = (usize, f64)>,
+    ) -> Self {
+        let point = |(node, area)| Point {
+            node,
+            area,
+            seen: [0.0; 3],
+            clear: f64::NEG_INFINITY,
+            anchor: None,
+            bound: 0.0,
+        };
+        Contact { mold, stiffness, release, friction, tack, points: nodes.map(point).collect() }
+    }
+
+    /// Energy (J) of depth and of springs along the mold.
+    pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
+        let one = |point: &Point| {
+            let at = x[point.node];
+            let k = self.stiffness * point.area;
+            let mut energy = 0.0;
+            if let Some(anchor) = point.anchor {
+                let off = self.offset(anchor, at);
+                let size = norm(off);
+                energy += match self.friction {
+                    Friction::Coulomb(_) if k * size > point.bound => {
+                        point.bound * (size - 0.5 * point.bound / k)
+                    }
+                    _ => 0.5 * k * size * size,
+                };
+            }
+            if !self.is_clear(point, at) {
+                let closest = self.mold.closest_point(at);
+                if closest.distance < 0.0 && !self.holds_for_ever(point) {
+                    energy += 0.5 * k * closest.distance * closest.distance;
+                }
+            }
+            energy
+        };
+        self.points.iter().map(one).sum()
+    }
+
+    /// Adds gradient and second derivative.
+    pub fn add(&mut self, x: &[[f64; 3]], system: &mut System) {
+        for n in 0..self.points.len() {
+            let (node, at) = (self.points[n].node, x[self.points[n].node]);
+            let k = self.stiffness * self.points[n].area;
+            if let Some(anchor) = self.points[n].anchor {
+                self.hold(&self.points[n], anchor, at, k, system);
+            }
+            if self.is_clear(&self.points[n], at) {
+                continue;
+            }
+            let closest = self.mold.closest_point(at);
+            let distance = if closest.beyond { f64::INFINITY } else { closest.distance };
+            let point = &mut self.points[n];
+            (point.seen, point.clear) = (at, if closest.beyond { 0.0 } else { distance });
+            if distance < 0.0 && !self.holds_for_ever(&self.points[n]) {
+                add(&mut system.gradient[node], k * distance, closest.normal);
+                let normal = outer(closest.normal, closest.normal);
+                system.stiffen(node, &normal.map(|row| row.map(|c| k * c)));
+            }
+        }
+    }
+
+    /// Adds the spring along the mold.
+    fn hold(&self, point: &Point, anchor: Anchor, at: [f64; 3], k: f64, system: &mut System) {
+        let off = self.offset(anchor, at);
+        let size = norm(off);
+        let mut spring: Matrix3 = [[0.0; 3]; 3];
+        let slips = matches!(self.friction, Friction::Coulomb(_)) && k * size > point.bound;
+        let stiffness = if slips { point.bound / size } else { k };
+        if stiffness == 0.0 {
+            return;
+        }
+        add(&mut system.gradient[point.node], stiffness, off);
+        for n in 0..3 {
+            spring[n][n] = stiffness;
+        }
+        if self.friction != Friction::StickForEver {
+            subtract(&mut spring, stiffness, anchor.normal);
+        }
+        if slips {
+            subtract(&mut spring, stiffness, off.map(|c| c / size));
+        }
+        system.stiffen(point.node, &spring);
+    }
+
+    /// After a time step from `before` to `x`: nodes that crossed the mold get an anchor, those that are clear lose it,
+    /// and those that slipped take it along.
+    pub fn update(&mut self, before: &[[f64; 3]], x: &[[f64; 3]]) {
+        for n in 0..self.points.len() {
+            let point = &self.points[n];
+            let at = x[point.node];
+            if self.is_clear(point, at) && point.anchor.is_none() {
+                continue;
+            }
+            let closest = self.mold.closest_point(at);
+            let depth = if closest.beyond { f64::NEG_INFINITY } else { -closest.distance };
+            let pressure = self.stiffness * depth.max(0.0);
+            let bound = match self.friction {
+                Friction::Coulomb(mu) => (self.tack + mu * pressure) * point.area,
+                Friction::Stick | Friction::StickForEver => f64::INFINITY,
+            };
+            let anchor = match point.anchor {
+                Some(anchor) if self.friction == Friction::StickForEver => Some(anchor),
+                Some(_) if depth < -self.release => None,
+                Some(anchor) => {
+                    Some(self.slipped(anchor, at, bound / (self.stiffness * point.area)))
+                }
+                None if depth >= 0.0 => Some(self.crossing(before[point.node], at)),
+                None => None,
+            };
+            let point = &mut self.points[n];
+            (point.anchor, point.bound) = (anchor, bound);
+        }
+    }
+
+    /// Where a node came to the mold on its way from `before` to `after`.
+    fn crossing(&self, before: [f64; 3], after: [f64; 3]) -> Anchor {
+        let [from, to] = [before, after].map(|p| self.mold.signed_distance(p));
+        let share =
+            if from > 0.0 && from > to { (from / (from - to)).clamp(0.0, 1.0) } else { 1.0 };
+        let closest = self.mold.closest_point(between(before, after, share));
+        Anchor { point: closest.point, normal: closest.normal }
+    }
+
+    /// An anchor that follows a node so that it is no farther behind than `most` (m).
+    fn slipped(&self, anchor: Anchor, at: [f64; 3], most: f64) -> Anchor {
+        let off = self.offset(anchor, at);
+        let size = norm(off);
+        if size <= most {
+            return anchor;
+        }
+        let closest = self.mold.closest_point(along(anchor.point, 1.0 - most / size, off));
+        Anchor { point: closest.point, normal: closest.normal }
+    }
+
+    /// How far a node is from its anchor, along the mold (m).
+    fn offset(&self, anchor: Anchor, at: [f64; 3]) -> [f64; 3] {
+        let off = sub(at, anchor.point);
+        match self.friction {
+            Friction::StickForEver => off,
+            _ => along(off, -dot(off, anchor.normal), anchor.normal),
+        }
+    }
+
+    /// Whether nothing of the mold can be at a node, by where it was last looked for.
+    fn is_clear(&self, point: &Point, at: [f64; 3]) -> bool {
+        point.clear > 0.0 && distance(at, point.seen) < point.clear
+    }
+
+    fn holds_for_ever(&self, point: &Point) -> bool {
+        self.friction == Friction::StickForEver && point.anchor.is_some()
+    }
+
+    /// Whether any node is anchored, or may come as near as `reach` (m).
+    pub fn is_near(&self, x: &[[f64; 3]], reach: f64) -> bool {
+        self.points.iter().any(|point| {
+            point.anchor.is_some() || point.clear - distance(x[point.node], point.seen) < reach
+        })
+    }
+
+    /// The nodes that touch.
+    pub fn touching(&self) -> impl Iterator<Item = usize> {
+        self.points.iter().filter(|point| point.anchor.is_some()).map(|point| point.node)
+    }
+}
+
+/// m −= s n nᵀ.
+fn subtract(m: &mut Matrix3, s: f64, n: [f64; 3]) {
+    for i in 0..3 {
+        for j in 0..3 {
+            m[i][j] -= s * n[i] * n[j];
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! A whole drape of the sheet: from the flat to the start, along the motion, to rest.
+//!
+//! The motion is stretched in time until the speed of the grippers is of no matter (or taken as it is), and followed in
+//! shares of its steps: a share that is not solved is halved, one that is solved easily is followed by a longer one.
+
+use super::cloth::Cloth;
+use super::gripper::Pad;
+use super::measure::{Extremes, Summary};
+use super::model::{Sheet, SheetError};
+use super::shear::angle;
+use super::state::State;
+use super::tuning::Tuning;
+use crate::mold::vector::{cross, distance, dot, sub, unit};
+use crate::scene::{Scene, SheetTime};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// How a drape of the sheet ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Status {
+    /// Every step was solved, and the ply is at rest.
+    Converged,
+    /// Every step was solved, but the ply still moves.
+    NotAtRest,
+    /// A step could not be solved in the shortest time step: the drape ends before it.
+    NotSolved,
+    /// The caller ended it.
+    Interrupted,
+}
+
+/// A finished drape of the sheet.
+#[derive(Debug, Clone)]
+pub struct Drape {
+    /// The sheet that was draped.
+    pub sheet: Sheet,
+    /// What was measured, and the verdict.
+    pub summary: Summary,
+    /// The step of the motion in which each node came to the mold and stayed; none of one that did not.
+    pub landing_step: Vec<Option<usize>>,
+    /// Shear angle of each cell (rad) in the step in which the last of its nodes came to the mold; none of others.
+    pub landing_shear: Vec<Option<f64>>,
+    /// The last state.
+    pub last: State,
+    /// Time that it took.
+    pub duration: Duration,
+}
+
+/// Drapes the sheet of a scene along its motion. `see` is called with the state of each step and may end the drape, and so
+/// may `stop`, which is asked before each time step.
+///
+/// # Errors
+/// If the scene has no sheet.
+pub fn drape(
+    scene: &Scene,
+    tuning: Tuning,
+    stop: &dyn Fn() -> bool,
+    mut see: impl FnMut(&State) -> ControlFlow<()>,
+) -> Result<Drape, SheetError> {
+    let began = Instant::now();
+    let sheet = Sheet::new(scene)?;
+    let steps = &scene.motion.positions;
+    let grippers = sheet.grippers.len();
+    let Some(start) = steps.first().filter(|_| steps.iter().all(|s| s.len() == grippers)) else {
+        return Err(SheetError::NoMotion { grippers });
+    };
+    let (flat, pads) = flat(&sheet, start);
+    let placed: Vec<[f64; 3]> = pads.iter().map(|pad| pad.position).collect();
+    let cloth = Cloth::new(&sheet, tuning, flat, pads);
+    let mut run = Run {
+        scene,
+        sheet: &sheet,
+        tuning,
+        cloth,
+        stop,
+        share: 1.0,
+        time_steps: 0,
+        smallest_step: 1.0,
+        extremes: Extremes::default(),
+        landing_step: vec![None; sheet.fabric.places.len()],
+        landing_shear: vec![None; sheet.fabric.cells.len()],
+    };
+    let (status, last) = run.run(&placed, &mut see);
+    let counts = [run.time_steps, run.cloth.solves];
+    let smallest = run.smallest_step;
+    let summary = Summary::new(scene, &sheet, &run.extremes, &last, status, counts, smallest);
+    let Run { landing_step, landing_shear, .. } = run;
+    Ok(Drape { sheet, summary, landing_step, landing_shear, last, duration: began.elapsed() })
+}
+
+/// Whether a step of so many is among the `keep` states that are kept, evenly over the steps, the first and the last with
+/// them.
+#[must_use]
+pub fn is_kept(step: usize, steps: usize, keep: usize) -> bool {
+    let keep = keep.max(2);
+    if steps <= keep {
+        return true;
+    }
+    // step k of the kept ones is 1 + round(k (steps − 1) / (keep − 1))
+    let place = |k: usize| 1 + (2 * k * (steps - 1) + keep - 1) / (2 * (keep - 1));
+    let near = (step - 1) * (keep - 1) / (steps - 1);
+    (near.saturating_sub(1)..=near + 1).any(|k| k < keep && place(k) == step)
+}
+
+/// A drape under way.
+struct Run<'a> {
+    scene: &'a Scene,
+    sheet: &'a Sheet,
+    tuning: Tuning,
+    cloth: Cloth<'a>,
+    stop: &'a dyn Fn() -> bool,
+    /// Share of a step of the motion that the next time step tries.
+    share: f64,
+    time_steps: usize,
+    smallest_step: f64,
+    extremes: Extremes,
+    landing_step: Vec<Option<usize>>,
+    landing_shear: Vec<Option<f64>>,
+}
+
+/// Why a motion was not followed to its end.
+enum Ended {
+    NotSolved,
+    Stopped,
+}
+
+impl Run<'_> {
+    /// From the flat, where grippers are at `placed` (m), to the end. Returns the last state.
+    fn run(
+        &mut self,
+        placed: &[[f64; 3]],
+        see: &mut impl FnMut(&State) -> ControlFlow<()>,
+    ) -> (Status, State) {
+        let motion = &self.scene.motion;
+        let contact = self.cloth.contact.take();
+        let hung = self.follow(placed, &motion.positions[0], None);
+        self.cloth.contact = contact;
+        if let Err(ended) = hung {
+            return (ended.status(), self.state(1));
+        }
+        let mut resting = self.rest(&motion.positions[0]);
+        let mut state = self.see(1);
+        for step in 2..=motion.positions.len() {
+            if see(&state).is_break() {
+                return (Status::Interrupted, state);
+            }
+            let [from, to] = [step - 2, step - 1].map(|n| &motion.positions[n]);
+            let takes = motion.times[step - 1] - motion.times[step - 2];
+            if let Err(ended) = self.follow(from, to, Some(takes)) {
+                return (ended.status(), state);
+            }
+            if step == motion.positions.len() {
+                resting = self.rest(to);
+            }
+            state = self.see(step);
+        }
+        match see(&state) {
+            ControlFlow::Break(()) => (Status::Interrupted, state),
+            ControlFlow::Continue(()) if resting => (Status::Converged, state),
+            ControlFlow::Continue(()) if (self.stop)() => (Status::Interrupted, state),
+            ControlFlow::Continue(()) => (Status::NotAtRest, state),
+        }
+    }
+
+    /// Evaluates the state of a step.
+    fn see(&mut self, step: usize) -> State {
+        let state = self.state(step);
+        self.extremes.see(self.sheet, &state, self.scene.settings.contact.tolerance);
+        for (landed, touches) in self.landing_step.iter_mut().zip(&state.contact) {
+            *landed = touches.then(|| landed.unwrap_or(step));
+        }
+        let cells = self.sheet.fabric.cells.iter().zip(&state.shear);
+        for (landed, (cell, shear)) in self.landing_shear.iter_mut().zip(cells) {
+            let touches = cell.nodes.iter().all(|n| state.contact[*n as usize]);
+            *landed = touches.then(|| landed.unwrap_or(*shear));
+        }
+        state
+    }
+
+    /// Moves the grippers from one place to another (m), in a step of the motion that takes so much time (s).
+    fn follow(
+        &mut self,
+        from: &[[f64; 3]],
+        to: &[[f64; 3]],
+        takes: Option<f64>,
+    ) -> Result<(), Ended> {
+        let way = from.iter().zip(to).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
+        let stretched = self.stretched(way);
+        let (duration, longest) = match (self.scene.settings.sheet.time, takes) {
+            (SheetTime::Real, Some(takes)) => {
+                (takes, self.tuning.real_step * (self.sheet.pitch / self.sheet.gravity).sqrt())
+            }
+            _ => (stretched, f64::INFINITY),
+        };
+        let tolerance = self.tuning.step_tolerance * self.sheet.mesh;
+        let mut done = 0.0;
+        while done < 1.0 {
+            if (self.stop)() {
+                return Err(Ended::Stopped);
+            }
+            let mut share = self.share.min(1.0 - done).min(longest / duration);
+            let most = self.tuning.contact_way * self.sheet.pitch;
+            if way * share > most && self.cloth.is_near_contact(way * share) {
+                share = most / way;
+            }
+            let next = if done + share > 1.0 - 1e-9 { 1.0 } else { done + share };
+            let targets: Vec<[f64; 3]> = from
+                .iter()
+                .zip(to)
+                .map(|(a, b)| crate::mold::vector::between(*a, *b, next))
+                .collect();
+            match self.cloth.advance(&targets, share * duration, tolerance) {
+                Ok(iterations) => {
+                    self.time_steps += 1;
+                    self.smallest_step = self.smallest_step.min(share);
+                    done = next;
+                    if iterations <= self.tuning.easy_iterations {
+                        self.share = (2.0 * self.share).min(1.0);
+                    }
+                }
+                Err(_) => {
+                    self.share = 0.5 * share;
+                    if self.share < self.tuning.smallest_step {
+                        return Err(Ended::NotSolved);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Time (s) in which grippers go so far (m) that the ply's kinetic energy is of no matter; where they stand, that of a
+    /// pitch.
+    fn stretched(&self, way: f64) -> f64 {
+        let lift = self.tuning.lift * self.sheet.pitch;
+        let speed = (2.0 * self.sheet.gravity * lift).sqrt();
+        (way / speed).max(lift / speed)
+    }
+
+    /// Holds the grippers until nothing moves any more.
+    fn rest(&mut self, at: &[[f64; 3]]) -> bool {
+        let tolerance = self.tuning.rest_tolerance * self.sheet.mesh;
+        let longest = self.stretched(self.sheet.pitch);
+        let mut dt = 0.01 * longest;
+        for _ in 0..self.tuning.rest_steps {
+            if (self.stop)() {
+                return false;
+            }
+            match self.cloth.advance(at, dt, tolerance) {
+                Ok(_) => {
+                    self.time_steps += 1;
+                    let still =
+                        self.cloth.movement() <= self.tuning.rest_movement * self.sheet.mesh;
+                    if still && dt >= longest {
+                        return true;
+                    }
+                    dt = (2.0 * dt).min(longest);
+                }
+                Err(_) => dt *= 0.25,
+            }
+        }
+        false
+    }
+
+    fn state(&mut self, step: usize) -> State {
+        let fabric = &self.sheet.fabric;
+        let positions = self.cloth.now.x.clone();
+        let height = |mold: &crate::mold::Mold| {
+            positions.iter().map(|x| mold.signed_distance(*x)).collect::<Vec<f64>>()
+        };
+        let heights = self.sheet.mold.as_ref().map(height).unwrap_or_default();
+        // a node under a gripper touches where it is as near as one that is not clear
+        let held = self.sheet.held();
+        let mut contact = vec![false; positions.len()];
+        for (node, _) in held.iter().flatten() {
+            contact[*node] = heights.get(*node).is_some_and(|height| *height <= self.sheet.clear);
+        }
+        for node in self.cloth.contact.iter().flat_map(|contact| contact.touching()) {
+            contact[node] = true;
+        }
+        let shear = fabric.cells.iter().map(|c| angle(c.nodes.map(|n| positions[n as usize])));
+        let shear = shear.collect();
+        let tension = (0..fabric.segments.len()).map(|n| self.cloth.tension(n)).collect();
+        let forces = self.cloth.forces();
+        let time = self.scene.motion.times[step - 1];
+        let pads = self.cloth.now.pads.clone();
+        let (energy, kinetic_energy) = (self.cloth.energy(), self.cloth.kinetic_energy());
+        State {
+            step,
+            time,
+            positions,
+            heights,
+            contact,
+            shear,
+            tension,
+            pads,
+            forces,
+            energy,
+            kinetic_energy,
+        }
+    }
+}
+
+impl Ended {
+    fn status(&self) -> Status {
+        match self {
+            Ended::NotSolved => Status::NotSolved,
+            Ended::Stopped => Status::Interrupted,
+        }
+    }
+}
+
+/// The flat fabric at rest near the places `at` of its grippers (m): positions of its nodes, and its pads.
+fn flat(sheet: &Sheet, at: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<Pad>) {
+    let count = at.len() as f64;
+    let middle = [0, 1, 2].map(|n| at.iter().map(|p| p[n]).sum::<f64>() / count);
+    let origin = [0, 1].map(|n| sheet.grippers.iter().map(|g| g.place[n]).sum::<f64>() / count);
+    // the directions of u and v in space, by least squares
+    let [u, v] = [0, 1].map(|n| {
+        let mut sum = [0.0; 3];
+        for (gripper, p) in sheet.grippers.iter().zip(at) {
+            super::system::add(&mut sum, gripper.place[n] - origin[n], sub(*p, middle));
+        }
+        unit(sum)
+    });
+    let u = u.unwrap_or([1.0, 0.0, 0.0]);
+    let aside = unit(cross([0.0, 0.0, 1.0], u)).unwrap_or([0.0, 1.0, 0.0]);
+    let v = v.filter(|v| dot(*v, u).abs() < 0.999).unwrap_or(aside);
+    // turned alike from both to a right angle
+    let sum = unit([0, 1, 2].map(|n| u[n] + v[n])).unwrap_or(u);
+    let off = unit(sub(u, v)).unwrap_or(aside);
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let u = [0, 1, 2].map(|n| half * (sum[n] + off[n]));
+    let v = [0, 1, 2].map(|n| half * (sum[n] - off[n]));
+
+    let place = |[a, b]: [f64; 2]| {
+        [0, 1, 2].map(|n| middle[n] + (a - origin[0]) * u[n] + (b - origin[1]) * v[n])
+    };
+    let normal = cross(u, v);
+    let turn = [0, 1, 2].map(|n| [u[n], v[n], normal[n]]);
+    let pad = |gripper: &super::Gripper| Pad { turn, ..Pad::new(place(gripper.place)) };
+    let nodes = sheet.fabric.places.iter().map(|uv| place(*uv)).collect();
+    (nodes, sheet.grippers.iter().map(pad).collect())
+}

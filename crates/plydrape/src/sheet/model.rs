@@ -1,0 +1,237 @@
+//! The sheet of a scene: its fabric, laws and grippers, checked.
+
+use super::fabric::{Fabric, lines};
+use super::gripper::Gripper;
+use super::tuning::Tuning;
+use crate::material::{Section, ShearCurve, TensionLaw};
+use crate::mold::Mold;
+use crate::ply::Direction;
+use crate::scene::{Friction, Scene};
+
+/// A ply as a sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// Nodes, segments and cells.
+    pub fabric: Fabric,
+    /// Its grippers.
+    pub grippers: Vec<Gripper>,
+    /// The mold; none for a ply that only hangs.
+    pub mold: Option<Mold>,
+    /// Mass per area (kg/m²).
+    pub areal_mass: f64,
+    /// Flexural rigidity per width D′ along u and v (N·m).
+    pub rigidity: [f64; 2],
+    /// Tension per width of the yarns.
+    pub tension: TensionLaw,
+    /// Shear force per length of the cells.
+    pub shear: ShearCurve,
+    /// Acceleration of gravity g (m/s²).
+    pub gravity: f64,
+    /// What holds it along the mold.
+    pub friction: Friction,
+    /// Shear stress of its tack τ₀ (Pa).
+    pub tack: f64,
+    /// Shortest distance between neighbouring grippers in the fabric (m), the length that tolerances scale with.
+    pub pitch: f64,
+    /// Largest distance of neighbouring lines (m).
+    pub mesh: f64,
+    /// Height over the mold (m) at which a point is clear of it.
+    pub clear: f64,
+}
+
+/// Why a scene has no sheet.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SheetError {
+    /// The material does not say how it shears.
+    #[error(
+        "material {material} has no shear curve; the sheet needs one, which a picture-frame or bias-extension test gives"
+    )]
+    NoShear {
+        /// Its name.
+        material: String,
+    },
+    /// The material does not say how its yarns stretch.
+    #[error(
+        "material {material} has no tension; the sheet needs the tensile stiffness per width, which a strip tensile test gives"
+    )]
+    NoTension {
+        /// Its name.
+        material: String,
+    },
+    /// No line of nodes between two grippers.
+    #[error(
+        "a mesh of {mesh_mm:.3} mm puts no line of nodes between grippers {pitch_mm:.3} mm apart; at most {most_mm:.3} mm does"
+    )]
+    Coarse {
+        /// The mesh (mm).
+        mesh_mm: f64,
+        /// The distance (mm).
+        pitch_mm: f64,
+        /// The largest mesh (mm).
+        most_mm: f64,
+    },
+    /// Two pads are in each other's way.
+    #[error("pads of {radius_mm:.3} mm radius overlap: grippers are {pitch_mm:.3} mm apart")]
+    Overlap {
+        /// Radius of a pad (mm).
+        radius_mm: f64,
+        /// Distance of the grippers (mm).
+        pitch_mm: f64,
+    },
+    /// A pad reaches beyond the fabric.
+    #[error(
+        "pads of {radius_mm:.3} mm radius hang over the boundary: the fabric ends {overhang_mm:.3} mm beyond the outermost grippers"
+    )]
+    Overhang {
+        /// Radius of a pad (mm).
+        radius_mm: f64,
+        /// Fabric beyond the outermost grippers (mm).
+        overhang_mm: f64,
+    },
+    /// A number that is not one, or has the wrong sign.
+    #[error("{what} is {value}; it must be {range}")]
+    Range {
+        /// What it is.
+        what: &'static str,
+        /// Its value (SI).
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// The motion has no steps, or steps with another number of grippers.
+    #[error("the motion has no steps for {grippers} grippers")]
+    NoMotion {
+        /// Grippers of the ply.
+        grippers: usize,
+    },
+}
+
+impl Sheet {
+    /// The sheet of a scene.
+    ///
+    /// # Errors
+    /// If the scene lacks what a sheet needs.
+    pub fn new(scene: &Scene) -> Result<Self, SheetError> {
+        let (ply, settings) = (&scene.ply, &scene.settings);
+        let material = &ply.material;
+        let name = || material.name.clone();
+        let shear =
+            material.shear_curve.clone().ok_or_else(|| SheetError::NoShear { material: name() })?;
+        let tension =
+            material.tension.clone().ok_or_else(|| SheetError::NoTension { material: name() })?;
+
+        let [a, b] = ply.cell;
+        let grid = ply.grid;
+        let pitch = if grid.nv > 1 { a.min(b) } else { a };
+        let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch);
+        let (radius, overhang) = (settings.pad.radius, settings.sheet.overhang);
+        let positive = |what, value: f64| check(value > 0.0, what, value, "positive");
+        let not_negative = |what, value: f64| check(value >= 0.0, what, value, "zero or more");
+        positive("the mesh", mesh)?;
+        not_negative("the pad radius", radius)?;
+        not_negative("the overhang", overhang)?;
+        not_negative("the tack", settings.contact.tack)?;
+        if let Friction::Coulomb(mu) = settings.contact.friction {
+            not_negative("the friction", mu)?;
+        }
+        let mount = [settings.pad.lateral_stiffness, settings.pad.axial_stiffness];
+        for stiffness in mount.into_iter().flatten() {
+            positive("the stiffness of the mounts", stiffness)?;
+        }
+        if mesh > 0.5 * pitch * (1.0 + 1e-9) {
+            let [mesh_mm, pitch_mm, most_mm] = [mesh, pitch, 0.5 * pitch].map(|x| x * 1e3);
+            return Err(SheetError::Coarse { mesh_mm, pitch_mm, most_mm });
+        }
+        if 2.0 * radius >= pitch {
+            return Err(SheetError::Overlap { radius_mm: radius * 1e3, pitch_mm: pitch * 1e3 });
+        }
+        if radius > overhang * (1.0 + 1e-9) {
+            let [radius_mm, overhang_mm] = [radius, overhang].map(|x| x * 1e3);
+            return Err(SheetError::Overhang { radius_mm, overhang_mm });
+        }
+
+        let along = |count: usize, cell: f64| {
+            if count == 1 {
+                return vec![0.0];
+            }
+            let last = (count - 1) as f64 * cell;
+            let mut meet = vec![-overhang, last + overhang];
+            for n in 0..count {
+                let at = n as f64 * cell;
+                meet.extend([at - radius, at, at + radius]);
+            }
+            lines(meet, mesh)
+        };
+        // a single line stands for a strip one cell wide
+        let width = if b > 0.0 { b } else { a };
+        let fabric = Fabric::rectangle([along(grid.nu, a), along(grid.nv, b)], width);
+
+        let (areal_mass, rigidity) = match material.section {
+            // a line is a strip one cell wide
+            Section::Line { mass, flexural_rigidity } => {
+                (mass * 2.0 / (a + width), [flexural_rigidity / width, flexural_rigidity / a])
+            }
+            Section::Areal { mass, warp_rigidity, weft_rigidity } => match ply.warp {
+                Direction::U => (mass, [warp_rigidity, weft_rigidity]),
+                Direction::V => (mass, [weft_rigidity, warp_rigidity]),
+            },
+        };
+        positive("the areal mass", areal_mass)?;
+        positive("the gravity", settings.gravity)?;
+        for rigidity in rigidity {
+            not_negative("the bending rigidity", rigidity)?;
+        }
+        // a mount that is rigid along some axes only is far stiffer there than the ply
+        let stiffest = 1e3 * tension.tension(0.0)[2];
+        let mount = (mount != [None; 2]).then(|| {
+            let [lateral, axial] = mount.map(|k| k.unwrap_or(stiffest));
+            [lateral, lateral, axial]
+        });
+        let gripper = |n: usize| {
+            let [i, j] = grid.id(n);
+            let place = [i as f64 * a, j as f64 * b];
+            Gripper { place, radius, mount, max_tilt: settings.max_tilt }
+        };
+        let sheet = Sheet {
+            fabric,
+            grippers: (0..grid.grippers()).map(gripper).collect(),
+            mold: scene.mold.clone(),
+            areal_mass,
+            rigidity,
+            tension,
+            shear,
+            gravity: settings.gravity,
+            friction: settings.contact.friction,
+            tack: settings.contact.tack,
+            pitch,
+            mesh,
+            clear: Tuning::default().release * pitch,
+        };
+        Ok(sheet)
+    }
+
+    /// The nodes that each gripper holds, with their distance from its middle in the fabric (m); its own point first.
+    #[must_use]
+    pub fn held(&self) -> Vec<Vec<(usize, [f64; 2])>> {
+        let one = |gripper: &Gripper| {
+            let reach = gripper.radius * (1.0 + 1e-9);
+            let off = |place: &[f64; 2]| [place[0] - gripper.place[0], place[1] - gripper.place[1]];
+            let near = self.fabric.places.iter().map(off).enumerate();
+            let own = self.fabric.node_at(gripper.place);
+            let mut held: Vec<_> =
+                near.filter(|(n, off)| Some(*n) == own || off[0].hypot(off[1]) <= reach).collect();
+            held.sort_by_key(|(n, _)| (Some(*n) != own, *n));
+            held
+        };
+        self.grippers.iter().map(one).collect()
+    }
+}
+
+fn check(
+    holds: bool,
+    what: &'static str,
+    value: f64,
+    range: &'static str,
+) -> Result<(), SheetError> {
+    if holds && value.is_finite() { Ok(()) } else { Err(SheetError::Range { what, value, range }) }
+}

@@ -1,0 +1,98 @@
+//! Stretch of the yarns: ∫ T(ε) dε · l₀ · width of each segment, ε = l/l₀ − 1.
+//!
+//! In the second derivative the tension that turns a segment, T/l (I − n nᵀ), is the one that the linear step before
+//! predicts, and not that of the segment's present length: a step of an all but inextensible line is wrong in length by
+//! the square of its turn, and the false tension of that error would freeze the iteration. Compression turns nothing
+//! (the matrix stays positive definite).
+
+use super::fabric::Segment;
+use super::matrix3::{Matrix3, outer};
+use super::system::{Pair, System, add};
+use crate::material::TensionLaw;
+use crate::mold::vector::{dot, sub};
+
+/// The stretch of all segments.
+#[derive(Debug)]
+pub struct Stretch {
+    segments: Vec<Segment>,
+    pairs: Vec<Pair>,
+    law: TensionLaw,
+    /// Tension of each segment as the last linear step predicts it (N).
+    predicted: Vec<f64>,
+}
+
+impl Stretch {
+    /// Of segments whose pairs of nodes stand in `system`.
+    pub fn new(segments: &[Segment], law: TensionLaw, system: &System) -> Self {
+        let pairs = segments.iter().map(|s| system.pair(s.nodes)).collect();
+        Stretch { segments: segments.to_vec(), pairs, law, predicted: vec![0.0; segments.len()] }
+    }
+
+    /// Energy (J).
+    pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
+        self.segments.iter().map(|s| self.law.tension(strain(s, x))[0] * s.length * s.width).sum()
+    }
+
+    /// Tension of a segment per width (N/m).
+    pub fn tension(&self, n: usize, x: &[[f64; 3]]) -> f64 {
+        self.law.tension(strain(&self.segments[n], x))[1]
+    }
+
+    /// Starts the prediction of tensions with those of the segments' lengths.
+    pub fn start(&mut self, x: &[[f64; 3]]) {
+        for (s, predicted) in self.segments.iter().zip(&mut self.predicted) {
+            *predicted = self.law.tension(strain(s, x))[1] * s.width;
+        }
+    }
+
+    /// Predicts tensions after `share` of a linear step from `x`.
+    pub fn predict(&mut self, x: &[[f64; 3]], step: impl Fn(usize) -> [f64; 3], share: f64) {
+        for (s, predicted) in self.segments.iter().zip(&mut self.predicted) {
+            let [a, b] = s.nodes.map(|node| node as usize);
+            let (unit, length) = direction(x[a], x[b]);
+            let [_, tension, slope] = self.law.tension(length / s.length - 1.0);
+            let longer = dot(unit, sub(step(b), step(a))) / s.length;
+            let next = (tension + slope * longer) * s.width;
+            *predicted += share * (next - *predicted);
+        }
+    }
+
+    /// Adds gradient and second derivative.
+    pub fn add(&self, x: &[[f64; 3]], system: &mut System) {
+        for ((s, pair), predicted) in self.segments.iter().zip(&self.pairs).zip(&self.predicted) {
+            let [a, b] = s.nodes.map(|node| node as usize);
+            let (unit, length) = direction(x[a], x[b]);
+            let [_, tension, slope] = self.law.tension(length / s.length - 1.0);
+            add(&mut system.gradient[b], tension * s.width, unit);
+            add(&mut system.gradient[a], -tension * s.width, unit);
+
+            let turning = predicted.max(0.0) / length;
+            let stretching = slope * s.width / s.length;
+            let mut k: Matrix3 =
+                outer(unit, unit).map(|row| row.map(|n| (stretching - turning) * n));
+            for n in 0..3 {
+                k[n][n] += turning;
+            }
+            system.stiffen(a, &k);
+            system.stiffen(b, &k);
+            system.couple(*pair, &k.map(|row| row.map(|n| -n)));
+        }
+    }
+}
+
+/// Unit vector from one point to another and their distance (m); any unit vector of two that are one.
+pub fn direction(a: [f64; 3], b: [f64; 3]) -> ([f64; 3], f64) {
+    let d = sub(b, a);
+    let length = dot(d, d).sqrt();
+    if length > f64::MIN_POSITIVE {
+        (d.map(|c| c / length), length)
+    } else {
+        ([1.0, 0.0, 0.0], f64::MIN_POSITIVE)
+    }
+}
+
+/// Strain of a segment.
+pub fn strain(s: &Segment, x: &[[f64; 3]]) -> f64 {
+    let [a, b] = s.nodes.map(|node| x[node as usize]);
+    direction(a, b).1 / s.length - 1.0
+}

@@ -1,0 +1,64 @@
+//! Every tolerance and constant of the sheet's solver, dimensionless or scaled by the problem.
+
+/// Tolerances and constants of the sheet's solver.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tuning {
+    /// Depth (of the pitch of the grippers) that the ply's own weight sinks into the contact's penalty: small enough that
+    /// the pressure of taut yarns on a mold, some hundred times the weight, stays below 0.02 mm of 100 mm.
+    pub contact_depth: f64,
+    /// Height (of the pitch) at which a point that stuck is free again; 0.05 mm of 100 mm, as in the reference figures.
+    pub release: f64,
+    /// Kinetic energy that a quasi-static motion may have, as a height (of the pitch) by which it would lift the ply:
+    /// 0.05 mm of 100 mm.
+    pub lift: f64,
+    /// Largest step of Newton's iteration at which a time step is solved (of the mesh).
+    pub step_tolerance: f64,
+    /// The same where the drape ends.
+    pub rest_tolerance: f64,
+    /// Largest turn of a segment in one step of the iteration (rad): a linear step of an inextensible line is wrong by the
+    /// square of it.
+    pub turn: f64,
+    /// Most iterations of a time step before it is halved.
+    pub iterations: usize,
+    /// A time step that took no more than these is followed by one twice as long.
+    pub easy_iterations: usize,
+    /// Largest way (of the pitch) that grippers go in a time step in which the ply touches the mold: a node that touches
+    /// is held where its straight way crosses the mold.
+    pub contact_way: f64,
+    /// Longest time step of a motion in its own time, as a share of √(pitch/g), the time of a swing: implicit steps damp
+    /// what is faster.
+    pub real_step: f64,
+    /// Smallest share of a motion's step before the drape is given up as not converged.
+    pub smallest_step: f64,
+    /// Most time steps of the relaxation at the end.
+    pub rest_steps: usize,
+    /// Largest movement in a time step (of the mesh) at which the ply is at rest.
+    pub rest_movement: f64,
+    /// Stiffness that holds a pad within its tilt limit, as a multiple of the weight of a pitch by a pitch times the pitch,
+    /// per radian.
+    pub tilt_stiffness: f64,
+    /// Stiffness against the turn of any pad, in the same unit, so small that it acts only where nothing else does.
+    pub turn_stiffness: f64,
+}
+
+impl Default for Tuning {
+    fn default() -> Self {
+        Tuning {
+            contact_depth: 1e-7,
+            release: 5e-4,
+            lift: 5e-4,
+            step_tolerance: 1e-3,
+            rest_tolerance: 1e-5,
+            turn: 0.3,
+            iterations: 20,
+            easy_iterations: 6,
+            contact_way: 0.01,
+            real_step: 0.02,
+            smallest_step: 1e-4,
+            rest_steps: 200,
+            rest_movement: 1e-4,
+            tilt_stiffness: 1e3,
+            turn_stiffness: 1e-6,
+        }
+    }
+}
