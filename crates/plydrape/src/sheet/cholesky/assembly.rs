@@ -75,9 +75,9 @@ impl WithSimd for Addition<'_> {
                 (rows[first] as usize / PANEL_NODES, rows[first] as usize % PANEL_NODES);
             end += 1;
             while end < rows.len()
-                && end % PANEL_NODES != 0
+                && !end.is_multiple_of(PANEL_NODES)
                 && rows[end] == rows[end - 1] + 1
-                && rows[end] as usize % PANEL_NODES != 0
+                && !(rows[end] as usize).is_multiple_of(PANEL_NODES)
             {
                 end += 1;
             }

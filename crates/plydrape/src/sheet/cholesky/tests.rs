@@ -307,7 +307,7 @@ fn elimination_without_vector_instructions_agrees() {
         let (panel, c) = (k / shape.columns(), k % shape.columns());
         for (r, entry) in column.0.iter_mut().enumerate() {
             let row = 12 * panel + r;
-            if c < 21 && (row < 21 || row >= 24) {
+            if c < 21 && !(21..24).contains(&row) {
                 *entry = if row == c { 30.0 } else { random.next() };
             }
         }
