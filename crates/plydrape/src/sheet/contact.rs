@@ -22,6 +22,8 @@ struct Anchor {
 struct Point {
     node: usize,
     area: f64,
+    /// Whether friction holds it; a gripper on a rigid mount is stronger.
+    rubs: bool,
     /// Where the mold was last looked for (m), and how far it was (m): nearer than that no contact can be.
     seen: [f64; 3],
     clear: f64,
@@ -44,18 +46,19 @@ pub struct Contact<'a> {
 }
 
 impl<'a> Contact<'a> {
-    /// Of nodes with their areas (m²).
+    /// Of nodes with their areas (m²), and whether friction holds each of them.
     pub fn new(
         mold: &'a Mold,
         stiffness: f64,
         release: f64,
         friction: Friction,
         tack: f64,
-        nodes: impl Iterator<Item = (usize, f64)>,
+        nodes: impl Iterator<Item = (usize, f64, bool)>,
     ) -> Self {
-        let point = |(node, area)| Point {
+        let point = |(node, area, rubs)| Point {
             node,
             area,
+            rubs,
             seen: [0.0; 3],
             clear: f64::NEG_INFINITY,
             anchor: None,
@@ -159,7 +162,7 @@ impl<'a> Contact<'a> {
                 Some(anchor) => {
                     Some(self.slipped(anchor, at, bound / (self.stiffness * point.area)))
                 }
-                None if depth >= 0.0 => Some(self.crossing(before[point.node], at)),
+                None if depth >= 0.0 && point.rubs => Some(self.crossing(before[point.node], at)),
                 None => None,
             };
             let point = &mut self.points[n];
