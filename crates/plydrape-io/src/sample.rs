@@ -286,6 +286,7 @@ fn frame(grid: Grid) -> ResultFile {
             },
         },
         plan: None,
+        sheet_states: None,
         steps: Vec::new(),
         summary: Summary {
             accepted: true,
@@ -310,6 +311,7 @@ fn frame(grid: Grid) -> ResultFile {
                 place: None,
             }],
             equilibria: 30,
+            sheet: None,
         },
     }
 }
