@@ -17,6 +17,8 @@ RADIUS = 0.5
 DURATION = "duration = 3.3"
 SCENE = f"""
 title = "A ply on a ball"
+[model]
+kind = "catenaries"
 [ply]
 grippers = [4, 3]
 cell = ["100 mm", "80 mm"]

@@ -70,6 +70,7 @@ def scene(problem: Problem) -> str:
             "[motion]",
             'kind = "hold"',
             "[model]",
+            'kind = "catenaries"',
             f'slopes = "{problem.rule}"',
             f"axial_stiffness = {number(problem.axial_stiffness)}",
             f"gravity = {number(problem.gravity)}",

@@ -26,13 +26,15 @@ title = "A ply that hangs"
 [ply]
 grippers = [{nu}, {nv}]
 cell = ["100 mm", "100 mm"]
-material = "krogh2018"
+# krogh2018 without its shear slope: shells of 100 N/m per rad can be solved
+material = {{ mass = "0.3143 kg/m", flexural_rigidity = "9.0e-6 N m^2" }}
 [grippers]
 spacing = ["98 mm", "98 mm"]
 height = "75 mm"
 [motion]
 kind = "hold"
 [model]
+kind = "catenaries"
 gravity = 9.8
 # A tenth of the usual EA strains less than 1e-4 and takes CalculiX half the time.
 axial_stiffness = 1e4
@@ -188,7 +190,7 @@ def test_the_section_has_the_ply_s_numbers(ply: Drape) -> None:
     assert moduli[:2] * h**3 / 12 == pytest.approx(RIGIDITY, rel=1e-8)
     assert moduli[:2] * h == pytest.approx(1e4 / 0.1, rel=1e-8)
     assert density * h == pytest.approx(AREAL_MASS, rel=1e-8)
-    assert "ASSUMED" in ply.deck.text, "the paper's material has no shear curve"
+    assert "ASSUMED" in ply.deck.text, "the material has no shear curve"
 
 
 @pytest.mark.parametrize("name", ["ply", "dome"])

@@ -26,7 +26,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let scene = plydrape_io::scene::read(&results.scene)?;
 
     let folder = Folder::claim(&results.folder("results"), "simulate")?;
-    folder.refuse_inputs(&NAMES[..5], &scene.files)?;
+    folder.refuse_inputs(&NAMES[..6], &scene.files)?;
 
     let steps = scene.motion.positions.len();
     let bar = bar(steps, "draping {bar:40} step {pos} of {len}, {eta} left", quiet);

@@ -58,7 +58,7 @@ fn array([nu, nv]: [usize; 2], dome: bool) -> Scene {
     };
     // the rim of the largest dome is 0.2 m below its top
     let text = format!(
-        "[ply]\ngrippers = [{nu}, {nv}]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\n{mold}\n\
+        "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [{nu}, {nv}]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\n{mold}\n\
          [grippers]\nspacing = [0.098, 0.098]\nheight = 0.06\norigin = \"centred\"\n[target]\nseed = \"middle\"\n"
     );
     scene::parse(&text, Path::new(""), "array").unwrap_or_else(|error| panic!("{error}")).scene

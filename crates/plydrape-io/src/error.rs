@@ -4,6 +4,7 @@ use super::figure::FigureError;
 use super::inp::InpError;
 use super::json::JsonError;
 use super::ros2::Ros2Error;
+use super::sheet::SheetError;
 use plydrape::motion::MotionError;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -83,6 +84,9 @@ pub enum OutputError {
     /// The figure could not be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
+    /// The states of a sheet cannot be kept.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
     /// The result cannot be an input deck.
     #[error(transparent)]
     Inp(#[from] InpError),

@@ -88,6 +88,12 @@ impl Folder {
         Ok(Folder { dir: dir.into(), by, made, stage: Some(stage), _lock: lock })
     }
 
+    /// A hidden folder on the same disk for files of this run that are no results yet; it is gone when the claim ends.
+    #[must_use]
+    pub fn stage(&self) -> &Path {
+        self.stage.as_ref().map_or(&self.dir, TempDir::path)
+    }
+
     /// Refuses to replace a file that the run itself has read: `names` are those that it will write.
     ///
     /// # Errors

@@ -5,7 +5,8 @@
 //! 1. [`scene`]: a file becomes a checked scene, with [`mesh`] and [`formula`] for its mold;
 //! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
 //! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`]: everything else is made from a result;
-//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan; [`table`] prints for people;
+//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`sheet`] keeps the states of a sheet beside its result;
+//!    [`table`] prints for people;
 //! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
 //!    the memory.
 
@@ -28,6 +29,7 @@ pub mod plan;
 pub mod result;
 pub mod ros2;
 pub mod scene;
+pub mod sheet;
 pub mod shown;
 pub mod size;
 pub mod surface;
@@ -60,12 +62,13 @@ pub fn write_all(result: &ResultFile, dir: &Path) -> Result<Vec<PathBuf>, Output
 }
 
 /// The names of the files of [`write_all`], and of those that a plan has beside them.
-pub const NAMES: [&str; 7] = [
+pub const NAMES: [&str; 8] = [
     "result.json",
     "steps.csv",
     "trajectory.csv",
     "figure.svg",
     "report.html",
+    sheet::NAME,
     "motion.csv",
     "plan.json",
 ];

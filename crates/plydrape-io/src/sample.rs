@@ -224,6 +224,7 @@ fn summarize(result: &mut ResultFile) {
 
 fn frame(grid: Grid) -> ResultFile {
     ResultFile {
+        sheet_file: None,
         program: "test".into(),
         scene: SceneEcho {
             title: "Flat sheared mold".into(),

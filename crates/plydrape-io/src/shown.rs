@@ -51,6 +51,13 @@ pub fn blanked(text: &str) -> String {
     text.replace("\r\n", " \n").chars().map(plain).collect()
 }
 
+/// A length (m) in millimetres, with three digits after the point at most.
+#[must_use]
+pub fn millimetres(length: f64) -> String {
+    let text = format!("{:.3}", 1e3 * length);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 /// The first line of a text, at most so many characters of it, with an ellipsis where more follows.
 #[must_use]
 pub fn excerpt(text: &str, characters: usize) -> String {

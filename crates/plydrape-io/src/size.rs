@@ -28,6 +28,10 @@ const UNITS: [(&str, f64); 8] = [
 const CATENARY: f64 = 5e3;
 /// Memory that a gripper of a step takes (bytes).
 const GRIPPER: f64 = 1e3;
+/// Memory that a node of a sheet takes while it is draped (bytes), most of it in the factors of the stiffness matrix.
+const NODE: f64 = 4e4;
+/// Memory that a node of a state of a sheet takes (bytes).
+const STATE: f64 = 60.0;
 /// Memory that a plan takes, as a multiple of that of a drape with its steps.
 const PLAN: f64 = 2.0;
 /// Memory that a triangle of a mold takes while a mesh is built (bytes).
@@ -138,6 +142,16 @@ fn of_steps(what: &str, factor: f64, ply: &Ply, steps: usize) -> Result<(), Size
     let step = GRIPPER * grippers as f64 + CATENARY * catenaries as f64;
     check(factor * step * steps as f64, || {
         format!("{what} of {steps} steps with {grippers} grippers and {catenaries} catenaries")
+    })
+}
+
+/// Refuses a sheet of so many nodes whose drape keeps so many states.
+///
+/// # Errors
+/// As [`check`].
+pub fn sheet(nodes: f64, states: usize) -> Result<(), SizeError> {
+    check((NODE + STATE * states as f64) * nodes, || {
+        format!("a sheet of {nodes:.0} nodes that keeps {states} states")
     })
 }
 

@@ -269,6 +269,7 @@ def test_a_converted_mold_drapes_as_the_exact_one(tmp_path: Path, ending: str) -
             grippers={"spacing": [0.098, 0.098], "height": 0.05, "origin": "centred"},
             target={"seed": "middle"},
             motion={"kind": "straight", "steps": 8},
+            model={"kind": "catenaries"},
         )
         drapes.append(plydrape.simulate(scene))
     assert drapes[0].summary["first_contact_step"] == drapes[1].summary["first_contact_step"]

@@ -221,6 +221,7 @@ def test_an_outcome_changes_with_its_targets_as_it_says() -> None:
         ply={"grippers": [4, 2], "cell": [0.1, 0.09], "material": "krogh2018"},
         grippers={"spacing": ["98 mm", "88 mm"], "height": "75 mm"},
         target={"positions": places(3)[4:].reshape(2, 4, 3)},
+        model={"kind": "catenaries"},
     )
     middle = plydrape.outcome(scene)
     assert (middle.shear > 0).any()

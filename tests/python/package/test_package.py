@@ -110,6 +110,7 @@ def test_keyword_arguments_are_a_scene_file() -> None:
         mold={"kind": "plane"},
         grippers={"spacing": ("98 mm", "98 mm"), "height": np.float64(0.075)},
         target={"origin": [0, 0], "direction": "20 deg", "shear": np.deg2rad(20.0)},
+        model={"kind": "catenaries"},
     )
     assert scene.text is not None
     written = plydrape.Scene.parse(scene.text)

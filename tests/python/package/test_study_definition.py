@@ -221,7 +221,7 @@ def test_scenes_come_as_files_tables_and_scenes() -> None:
         "grippers": {"spacing": ["98 mm"] * 2, "height": "75 mm", "max_tilt": "40 deg"},
         "target": {"shear": "20 deg"},
         "motion": {"kind": "straight", "steps": 30, "duration": "29 s"},
-        "model": {"slopes": "min-force", "gravity": 9.8},
+        "model": {"kind": "catenaries", "slopes": "min-force", "gravity": 9.8},
         "contact": {"tolerance": "1 mm", "stepping": "once", "end": "free"},
     }
     made = [study(3, scene=given) for given in (str(PAPER), scene, tables)]

@@ -2,12 +2,13 @@
 
 mod mold;
 mod rules;
+mod sheet;
 mod warnings;
 mod way;
 
 use crate::failure::Done;
 use crate::numbers::{degrees, millimetres, short};
-use plydrape::material::{Material, Section, ShearCurve};
+use plydrape::material::{Material, Section, ShearCurve, TensionLaw};
 use plydrape::ply::Direction;
 use plydrape_io::scene::SceneFile;
 use plydrape_io::shown;
@@ -70,6 +71,7 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
     lines.extend(mold::mold(scene));
     lines.extend(way::way(scene));
     lines.extend(rules::rules(scene));
+    lines.extend(sheet::sheet(scene));
     lines.extend(rules::plan(scene));
     lines
 }
@@ -88,6 +90,9 @@ fn material(material: &Material) -> String {
     };
     let shear = match &material.shear_curve {
         Some(ShearCurve::Table { angle, .. }) => format!("shear curve of {} points", angle.len()),
+        Some(ShearCurve::Polynomial { coefficients }) if coefficients.len() == 1 => {
+            format!("shear slope {} N/m per rad", short(coefficients[0]))
+        }
         Some(ShearCurve::Polynomial { .. }) => "shear curve as a polynomial".into(),
         None => "no shear curve: shear forces stay unknown".into(),
     };
@@ -95,5 +100,10 @@ fn material(material: &Material) -> String {
         Some(angle) => format!(", locks at {} deg", degrees(angle)),
         None => String::new(),
     };
-    format!("{}: {section}; {shear}{locking}", material.name)
+    let tension = match &material.tension {
+        Some(TensionLaw::Linear { stiffness }) => format!(", EA' {} N/m", short(*stiffness)),
+        Some(TensionLaw::Table { strain, .. }) => format!(", tension of {} points", strain.len()),
+        None => String::new(),
+    };
+    format!("{}: {section}; {shear}{tension}{locking}", material.name)
 }

@@ -2,12 +2,16 @@
 
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};
-use plydrape::scene::{ContactEnd, Limits, PlanMethod, Scene, SlopeRule, Stepping};
+use plydrape::scene::{ContactEnd, Limits, Model, PlanMethod, Scene, SlopeRule, Stepping};
 
 /// Rules of the model, contact and limits.
 pub(super) fn rules(scene: &Scene) -> [Line; 7] {
     let settings = &scene.settings;
     let limits = &scene.limits;
+    let model = match settings.model {
+        Model::Sheet => "sheet",
+        Model::Catenaries => "catenaries",
+    };
     let slopes = match settings.slopes {
         SlopeRule::MinForce => "min-force",
         SlopeRule::MomentBalance => "moment-balance",
@@ -26,7 +30,7 @@ pub(super) fn rules(scene: &Scene) -> [Line; 7] {
         (
             "model",
             format!(
-                "{slopes} slopes, EA {} N, g {} m/s², gripper tilt up to {} deg",
+                "{model}; {slopes} slopes, EA {} N, g {} m/s², gripper tilt up to {} deg",
                 short(settings.axial_stiffness),
                 short(settings.gravity),
                 degrees(settings.max_tilt)

@@ -5,6 +5,9 @@ use std::process::Output;
 
 /// Grippers over a flat mold, all numbers in a unit of length to come.
 const SCENE: &str = "\
+[model]
+kind = \"catenaries\"
+
 [ply]
 grippers = [4, 2]
 cell = [\"100 LL\", \"100 LL\"]
@@ -150,7 +153,7 @@ fn a_motion_through_the_mold_is_warned_of_with_its_step() {
     }
     std::fs::write(folder.path().join("way.csv"), rows).unwrap();
     let scene = folder.path().join("scene.toml");
-    let ply = "[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"plane\"\n";
+    let ply = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"plane\"\n";
     std::fs::write(&scene, format!("{ply}[motion]\nkind = \"file\"\nfile = \"way.csv\"\n"))
         .unwrap();
     let output = command().arg("check").arg("--quiet").arg(&scene).output().unwrap();
@@ -181,7 +184,7 @@ fn a_duration_that_a_plan_would_ignore_is_refused_by_it() {
     for part in [
         "duration \"20 s\" of [motion]",
         "write duration = \"20 s\" in [limits]",
-        "scene.toml:19:12",
+        "scene.toml:22:12",
     ] {
         assert!(message.contains(part), "{part}\n{message}");
     }

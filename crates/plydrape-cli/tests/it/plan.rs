@@ -7,6 +7,9 @@ use std::process::{Command, Output, Stdio};
 
 /// Four grippers over a flat mold, and a short search.
 const SCENE: &str = "\
+[model]
+kind = \"catenaries\"
+
 [ply]
 grippers = [2, 2]
 cell = [\"100 mm\", \"100 mm\"]

@@ -21,6 +21,7 @@
 //! shape depends on EI/m alone, forces on the width.
 
 use crate::result::SceneEcho;
+use crate::shown::millimetres;
 use plydrape::material::Section;
 use plydrape::ply::Direction;
 
@@ -143,11 +144,6 @@ pub(super) fn axes(warp: Direction) -> [[f64; 2]; 2] {
         Direction::U => [[1.0, 0.0], [0.0, 1.0]],
         Direction::V => [[0.0, 1.0], [-1.0, 0.0]],
     }
-}
-
-fn millimetres(length: f64) -> String {
-    let text = format!("{:.3}", 1e3 * length);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 #[cfg(test)]

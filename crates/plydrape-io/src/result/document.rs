@@ -1,6 +1,7 @@
 //! What stands in a result file: one JSON object, whose lists are columns, so that no name is repeated.
 //!
-//! Its keys are `format`, `version`, `program`, `scene`, `plan`, `summary`, `catenaries`, `steps`, `checksum`, in this order.
+//! Its keys are `format`, `version`, `program`, `scene`, `plan`, `summary`, `sheet_file`, `catenaries`, `steps`, `checksum`, in
+//! this order.
 //! `catenaries` names each catenary once; steps refer to it by its number, from 0. What a step holds is described in
 //! `docs/guide/result_file.md`. The check sum (CRC-32) is that of all bytes before its own value.
 //!
@@ -12,6 +13,7 @@ use super::{FORMAT, ResultFile, SceneEcho, VERSION};
 use crate::finite;
 use crate::folder::Content;
 use crate::json::JsonError;
+use crate::sheet::SheetSeal;
 use plydrape::draping::record::{PlanRecord, Step, Summary};
 use plydrape::ply::{Grid, GripperId, Kind};
 use serde::ser::SerializeSeq;
@@ -30,6 +32,7 @@ pub(super) struct Document<'a, S, C> {
     pub scene: Cow<'a, SceneEcho>,
     pub plan: Cow<'a, Option<PlanRecord>>,
     pub summary: Cow<'a, Summary>,
+    pub sheet_file: Cow<'a, Option<SheetSeal>>,
     pub catenaries: Catenaries,
     pub steps: S,
     pub checksum: C,
@@ -121,6 +124,7 @@ impl ResultFile {
             scene: Cow::Borrowed(&self.scene),
             plan: Cow::Borrowed(&self.plan),
             summary: Cow::Borrowed(&self.summary),
+            sheet_file: Cow::Borrowed(&self.sheet_file),
             catenaries: Catenaries::named(&self.steps),
             steps: Steps(&self.steps),
             checksum,

@@ -10,6 +10,8 @@ mod mold;
 pub mod read;
 mod step;
 
+use crate::read::ReadError;
+use crate::sheet::{SheetSeal, SheetStates};
 use plydrape::draping::record::{PlanRecord, Step, Summary};
 use plydrape::draping::{Drape, curves};
 use plydrape::mold::Mold;
@@ -18,12 +20,13 @@ use plydrape::planner::Planned;
 use plydrape::ply::Ply;
 use plydrape::scene::{Limits, Scene, Settings, Target};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 6;
+pub const VERSION: u32 = 7;
 
 /// A whole result.
 #[derive(Debug, Clone)]
@@ -38,6 +41,8 @@ pub struct ResultFile {
     pub summary: Summary,
     /// One entry a step, the start being step 1.
     pub steps: Vec<Step>,
+    /// The file with the states of the sheet beside this one, if a sheet was draped.
+    pub sheet_file: Option<SheetSeal>,
 }
 
 /// The scene, as it was understood.
@@ -95,6 +100,7 @@ impl ResultFile {
             plan: None,
             summary: drape.summary,
             steps: drape.steps,
+            sheet_file: None,
         }
     }
 
@@ -110,6 +116,14 @@ impl ResultFile {
     pub fn curves(&self, step: &Step) -> Vec<Vec<Vec<[f64; 3]>>> {
         let SceneEcho { ply, settings, mold, .. } = &self.scene;
         curves(ply, settings, mold.as_ref(), step)
+    }
+
+    /// The states of the sheet, from the file beside this one in its `folder`; none where no sheet was draped.
+    ///
+    /// # Errors
+    /// [`ReadError`] if the file is missing, or is not the one that was written with this result.
+    pub fn sheet_states(&self, folder: &Path) -> Result<Option<SheetStates>, ReadError> {
+        self.sheet_file.as_ref().map(|seal| SheetStates::open(folder, seal)).transpose()
     }
 
     /// The motion of a planned drape at any time, and the orientations along it; none of a simulated one.

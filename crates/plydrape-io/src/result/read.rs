@@ -248,6 +248,7 @@ fn from_columns(read: ReadDocument) -> Result<(ResultFile, String), String> {
         scene: read.scene.into_owned(),
         plan: read.plan.into_owned(),
         summary: read.summary.into_owned(),
+        sheet_file: read.sheet_file.into_owned(),
         steps: read.steps.into_iter().zip(1..).map(step).collect::<Result<_, _>>()?,
     };
     Ok((result, read.checksum))

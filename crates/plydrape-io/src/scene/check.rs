@@ -1,29 +1,24 @@
 //! From the keys of a file to a scene that makes sense.
 
 use super::error::{Document, SceneError};
-use super::file::{EndKey, GrippersTable, MotionKind, PlyTable, SceneKeys, Slopes, SteppingKey};
-use super::limits::{acute, limits};
+use super::file::{GrippersTable, MotionKind, PlyTable, SceneKeys};
+use super::limits::limits;
 use super::located::{Count, Located, Whole};
 use super::motion::{motion, unplanned};
 use super::plan::plan;
+use super::settings::settings;
 use super::trajectory::trajectory;
-use super::{SceneFile, material, mold, named, start, target};
+use super::{SceneFile, material, mold, named, sheet, start, target};
 use crate::shown;
 use crate::size::{self, SizeError};
 use plydrape::mold::Mold;
 use plydrape::ply::{Direction, Grid, Ply};
-use plydrape::scene::{
-    ContactEnd, ContactSettings, Motion, Scene, Settings, SlopeRule, Stepping, Target,
-};
+use plydrape::scene::{Motion, Scene, Target};
 use std::ops::Range;
 use std::path::Path;
 
 /// Most grippers along u or v.
 const MOST_GRIPPERS: i128 = 1000;
-/// Smallest and largest finite axial stiffness (N).
-const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
-/// Smallest and largest gravity (m/s²).
-const GRAVITY: [f64; 2] = [1e-3, 1e3];
 
 /// Checks a scene file, on a mold of its own or on one that a program has `made`; other files it names are relative to `base`.
 pub(super) fn scene(
@@ -40,10 +35,7 @@ pub(super) fn scene(
         }
         None => (made, None),
     };
-    let mut settings = settings(file, &ply, document)?;
-    if let Some(Some(tilt)) = file.grippers.as_ref().map(|g| &g.value.max_tilt) {
-        settings.max_tilt = acute(tilt, document)?;
-    }
+    let settings = settings(file, &ply, document)?;
     let target = match &file.target {
         Some(table) => Some(target::target(table, &ply, mold.as_ref(), document, base)?),
         None => None,
@@ -58,6 +50,7 @@ pub(super) fn scene(
     let motion = places.motion(file, target.as_ref())?;
     places.fits(&file.ply.grippers.span, motion.positions.len())?;
     let limits = limits(&file.limits, &ply, &settings, document)?;
+    sheet::fits(file, &ply, &settings, motion.positions.len(), document)?;
     let plan = plan(&file.plan, ply.grid, document)?;
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(&file.ply.grippers.span, |steps| &steps.span);
@@ -166,7 +159,7 @@ impl Surroundings<'_> {
                     grippers.span.clone(),
                     format!("the start is given twice: by `{key}` and by the motion's file"),
                     format!(
-                        "remove `{key}`; beside a motion file [grippers] may hold `max_tilt` only"
+                        "remove `{key}`; beside a motion file [grippers] may hold `max_tilt`, `pad_radius` and `stiffness` only"
                     ),
                 ));
             }
@@ -208,55 +201,4 @@ fn placing_key(keys: &GrippersTable) -> Option<&'static str> {
     .into_iter()
     .find_map(|(key, present)| present.then_some(key))
     .or(start::other_key(keys))
-}
-
-fn settings(file: &SceneKeys, ply: &Ply, document: &Document) -> Result<Settings, SceneError> {
-    let (model, usual) = (&file.model, Settings::default());
-    let axial_stiffness = match &model.axial_stiffness {
-        Some(stiffness) if stiffness.si_or_infinite(document)? == f64::INFINITY => f64::INFINITY,
-        Some(stiffness) => stiffness.within(document, AXIAL_STIFFNESS)?,
-        None => usual.axial_stiffness,
-    };
-    let gravity = match &model.gravity {
-        Some(gravity) => gravity.within(document, GRAVITY)?,
-        None => usual.gravity,
-    };
-    let contact = &file.contact;
-    let tolerance = match &contact.tolerance {
-        Some(tolerance) => {
-            let value = tolerance.size(document)?;
-            let cell = ply.cell[0].min(ply.cell[1]);
-            if value > 0.1 * cell {
-                return Err(document.error(
-                    tolerance.span.clone(),
-                    format!("{} is more than a tenth of a cell", document.quoted(&tolerance.span)),
-                    format!("the contact tolerance is a small distance, e.g. \"0.2 mm\"; a cell is {:.2} mm here", cell * 1e3),
-                ));
-            }
-            value
-        }
-        None => usual.contact.tolerance,
-    };
-    Ok(Settings {
-        slopes: match model.slopes {
-            Some(Slopes::MinForce) => SlopeRule::MinForce,
-            Some(Slopes::MomentBalance) | None => SlopeRule::MomentBalance,
-        },
-        axial_stiffness,
-        gravity,
-        max_tilt: usual.max_tilt,
-        contact: ContactSettings {
-            tolerance,
-            stepping: match contact.stepping {
-                Some(SteppingKey::Once) => Stepping::Once,
-                Some(SteppingKey::Cut) | None => Stepping::Cut,
-            },
-            end: match contact.end {
-                Some(EndKey::Tangent) => ContactEnd::Tangent,
-                Some(EndKey::Free) | None => ContactEnd::Free,
-            },
-            ..usual.contact
-        },
-        ..usual
-    })
 }

@@ -1,12 +1,13 @@
-//! Keys that may be written in more than one way: a material, a table of positions, a place.
+//! Keys that may be written in more than one way: a material, a measured curve, friction, a table of positions, a place.
 
 use super::file::MaterialTable;
 use super::located::{Fixed, Located};
-use super::quantity::{Length, Quantity};
+use super::quantity::{Coefficient, Length, Measure, Quantity, Unchecked};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
+use serde::de::{Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Unexpected, Visitor};
+use serde_json::Value;
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
@@ -47,6 +48,111 @@ impl JsonSchema for MaterialChoice {
         json_schema!({ "anyOf": [
             { "type": "string", "description": "a shipped name or a .toml file", "examples": ["krogh2018"] },
             table
+        ]})
+    }
+}
+
+/// A curve of force: its slope alone, or a table that says more.
+#[derive(Debug)]
+pub(super) enum Curve<M, T> {
+    Slope(Unchecked<M>),
+    Table(T),
+}
+
+impl<'de, M: Measure, T: Deserialize<'de>> Deserialize<'de> for Curve<M, T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Choice<M, T>(PhantomData<(M, T)>);
+        impl<'de, M: Measure, T: Deserialize<'de>> Visitor<'de> for Choice<M, T> {
+            type Value = Curve<M, T>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "{}, e.g. \"{}\", or a table", M::NAME, M::EXAMPLE)
+            }
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Self::Value, E> {
+                Unchecked::deserialize(value.into_deserializer()).map(Curve::Slope)
+            }
+            fn visit_u64<E: Error>(self, value: u64) -> Result<Self::Value, E> {
+                Unchecked::deserialize(value.into_deserializer()).map(Curve::Slope)
+            }
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Self::Value, E> {
+                Unchecked::deserialize(value.into_deserializer()).map(Curve::Slope)
+            }
+            fn visit_str<E: Error>(self, value: &str) -> Result<Self::Value, E> {
+                Unchecked::deserialize(value.into_deserializer()).map(Curve::Slope)
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(Curve::Table)
+            }
+        }
+        deserializer.deserialize_any(Choice(PhantomData))
+    }
+}
+
+impl<M: Measure, T: JsonSchema> JsonSchema for Curve<M, T> {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        format!("{} or {}", M::NAME, T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let table = generator.subschema_for::<T>();
+        let mut schema = Unchecked::<M>::json_schema(generator);
+        if let Some(Value::Array(choices)) = schema.get_mut("anyOf") {
+            choices.push(table.into());
+        }
+        schema
+    }
+}
+
+/// What holds the sheet along the mold.
+#[derive(Debug)]
+pub(super) enum FrictionChoice {
+    Stick,
+    StickForEver,
+    Coefficient(Unchecked<Coefficient>),
+}
+
+impl<'de> Deserialize<'de> for FrictionChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Choice;
+        impl Visitor<'_> for Choice {
+            type Value = FrictionChoice;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"stick\", \"stick-for-ever\" or a coefficient of friction, e.g. 0.3")
+            }
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Self::Value, E> {
+                self.visit_f64(value as f64)
+            }
+            fn visit_u64<E: Error>(self, value: u64) -> Result<Self::Value, E> {
+                self.visit_f64(value as f64)
+            }
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Self::Value, E> {
+                Unchecked::deserialize(value.into_deserializer()).map(FrictionChoice::Coefficient)
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
+                match word {
+                    "stick" => Ok(FrictionChoice::Stick),
+                    "stick-for-ever" => Ok(FrictionChoice::StickForEver),
+                    _ if word.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) => {
+                        Unchecked::deserialize(word.into_deserializer())
+                            .map(FrictionChoice::Coefficient)
+                    }
+                    _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
+                }
+            }
+        }
+        deserializer.deserialize_any(Choice)
+    }
+}
+
+impl JsonSchema for FrictionChoice {
+    fn schema_name() -> Cow<'static, str> {
+        "Friction".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [
+            { "type": "string", "description": "\"stick\", \"stick-for-ever\", or a coefficient", "examples": ["stick", "stick-for-ever"] },
+            { "type": "number", "minimum": 0, "description": "a coefficient of friction" }
         ]})
     }
 }

@@ -3,13 +3,13 @@
 use super::check::line;
 use super::choice::MaterialChoice;
 use super::error::{Document, SceneError, excerpt};
-use super::file::{MaterialTable, ShearCurveTable};
+use super::file::MaterialTable;
 use super::located::Located;
 use super::quantity::{Measure, Quantity};
-use super::read;
 use super::units::Dimension;
+use super::{curve, read};
 use crate::shown;
-use plydrape::material::{Material, Section, ShearCurve};
+use plydrape::material::{Material, Section};
 use std::ops::Range;
 use std::path::Path;
 
@@ -110,10 +110,9 @@ fn from_table(
     place: &Range<usize>,
     name: &str,
 ) -> Result<Material, SceneError> {
-    let shear_curve = match &table.shear_curve {
-        Some(curve) => Some(shear_curve(curve, document)?),
-        None => None,
-    };
+    let shear_curve =
+        table.shear_curve.as_ref().map(|curve| curve::shear(curve, document)).transpose()?;
+    let tension = table.tension.as_ref().map(|law| curve::tension(law, document)).transpose()?;
     let text_of =
         |text: &Option<Located<String>>| text.as_ref().map(|text| line(text, document)).transpose();
     let mut source = text_of(&table.source)?.unwrap_or_else(|| "stated in the scene".into());
@@ -138,7 +137,7 @@ fn from_table(
         source,
         section: section(table, document, place)?,
         shear_curve,
-        tension: None,
+        tension,
         locking_angle,
     })
 }
@@ -206,105 +205,4 @@ fn bounded_rigidity<M: Measure>(
         return Ok(value);
     }
     rigidity.within(document, [f64::MIN_POSITIVE, RIGIDITY])
-}
-
-/// A measured table, or a polynomial.
-fn shear_curve(
-    curve: &Located<ShearCurveTable>,
-    document: &Document,
-) -> Result<ShearCurve, SceneError> {
-    let table = &curve.value;
-    match (&table.angle, &table.force, &table.polynomial) {
-        (Some(angle), Some(force), None) => {
-            if angle.value.len() != force.value.len() || angle.value.len() < 2 {
-                return Err(document.error(
-                    force.span.clone(),
-                    format!(
-                        "the shear curve has {} angles and {} forces",
-                        angle.value.len(),
-                        force.value.len()
-                    ),
-                    "give as many forces as angles, two or more",
-                ));
-            }
-            Ok(ShearCurve::Table {
-                angle: ascending_angles(&angle.value, document)?,
-                force: rising_forces(&force.value, document)?,
-            })
-        }
-        (None, None, Some(polynomial)) => {
-            let mut coefficients = Vec::with_capacity(polynomial.value.len());
-            for coefficient in &polynomial.value {
-                coefficients.push(coefficient.si(document)?);
-            }
-            let curve = ShearCurve::Polynomial { coefficients };
-            let force = |degree: i32| curve.force(f64::from(degree).to_radians()).0;
-            match (1..=60).find(|degree| force(*degree) < 0.0 || !force(*degree).is_finite()) {
-                None => Ok(curve),
-                Some(degree) => Err(document.error(
-                    polynomial.span.clone(),
-                    format!("the shear force is negative or infinite at {degree} deg"),
-                    "give coefficients of γ, γ², … in N/m, γ in rad, with a force of zero or more up to 60 deg",
-                )),
-            }
-        }
-        _ => Err(document.error(
-            curve.span.clone(),
-            "the shear curve is neither a table nor a polynomial",
-            "give `angle` and `force`, or `polynomial`, and not both",
-        )),
-    }
-}
-
-fn ascending_angles<M: Measure>(
-    angles: &[Quantity<M>],
-    document: &Document,
-) -> Result<Vec<f64>, SceneError> {
-    let mut values: Vec<f64> = Vec::with_capacity(angles.len());
-    for angle in angles {
-        let value = angle.not_negative(document)?;
-        let fault = match values.last() {
-            None if value > 0.0 => "the shear curve does not start at an angle of 0",
-            Some(last) if value <= *last => "the angles of the shear curve do not ascend",
-            _ if value >= std::f64::consts::FRAC_PI_2 => {
-                "the shear curve reaches a right angle or more"
-            }
-            _ => {
-                values.push(value);
-                continue;
-            }
-        };
-        return Err(document.error(
-            angle.span.clone(),
-            fault,
-            "give angles ascending from 0 to below 90 deg, as in [0, \"10 deg\", \"20 deg\"]",
-        ));
-    }
-    Ok(values)
-}
-
-fn rising_forces<M: Measure>(
-    forces: &[Quantity<M>],
-    document: &Document,
-) -> Result<Vec<f64>, SceneError> {
-    let mut values: Vec<f64> = Vec::with_capacity(forces.len());
-    for force in forces {
-        let value = force.not_negative(document)?;
-        if value > RIGIDITY {
-            return Err(document.error(
-                force.span.clone(),
-                format!("{} is too large for a ply", document.quoted(&force.span)),
-                "a shear force per length up to 1e6 N/m is wanted",
-            ));
-        }
-        if values.last().is_some_and(|last| value < *last) {
-            return Err(document.error(
-                force.span.clone(),
-                "the force of the shear curve falls here",
-                "give forces that never fall: where a test shows less force, the cloth slipped or wrinkled, and the curve ends before",
-            ));
-        }
-        values.push(value);
-    }
-    Ok(values)
 }

@@ -5,8 +5,8 @@
 //!
 //! 1. `read`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
-//! 3. `check` with `material`, `mold`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`, `plan`: numbers
-//!    become a [`Scene`], with what else the file says a [`SceneFile`].
+//! 3. `check` with `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`,
+//!    `sheet`, `plan`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
 //! `argument` lends the reader of stage 2 to values on the command line.
 
@@ -14,6 +14,7 @@ mod argument;
 mod check;
 mod choice;
 mod csv;
+mod curve;
 mod diagnostic;
 mod error;
 mod file;
@@ -31,6 +32,8 @@ mod quantity;
 mod read;
 mod rectangle;
 mod schema;
+mod settings;
+mod sheet;
 mod start;
 mod target;
 mod trajectory;

@@ -56,6 +56,8 @@ measures! {
     Acceleration: [ACCELERATION], "an acceleration", "m/s^2", "9.81 m/s^2";
     /// Share of a whole, without a unit.
     Ratio: [NONE], "a ratio", "", "0.05 %";
+    /// Coefficient of friction, without a unit.
+    Coefficient: [NONE], "a coefficient of friction", "", "0.3";
     /// Mass per length (kg/m) or per area (kg/m²).
     Mass: [LINE_MASS, AREAL_MASS], "a mass per length or per area", "kg/m or kg/m^2", "314 g/m^2";
     /// Flexural rigidity EI of a line of ply (N·m²).
@@ -64,6 +66,14 @@ measures! {
     BendingRigidity: [MOMENT], "a bending rigidity per width", "N m", "2e-4 N m";
     /// Shear force per length (N/m).
     ForcePerLength: [FORCE_PER_LENGTH], "a force per length", "N/m", "50 N/m";
+    /// Tensile stiffness per width EA′ (N/m).
+    TensileStiffness: [FORCE_PER_LENGTH], "a tensile stiffness per width", "N/m", "1e6 N/m";
+    /// Slope of the shear force per length over the shear angle (N/m per rad).
+    ShearSlope: [FORCE_PER_LENGTH, SHEAR_SLOPE], "a shear force per length and radian", "N/m", "5 N/m";
+    /// Stiffness of a gripper's mount (N/m).
+    Stiffness: [FORCE_PER_LENGTH], "a stiffness", "N/m", "2 N/mm";
+    /// Shear stress (Pa).
+    Pressure: [PRESSURE], "a pressure", "Pa", "90 Pa";
 }
 
 /// A number in SI units, or a text with a unit, not yet held against its dimension.
@@ -213,6 +223,12 @@ impl Quantity<Length> {
             return Ok(value);
         }
         Err(self.out_of_scale(document, value))
+    }
+
+    /// A size that may be zero, up to 10 km (m).
+    pub fn size_or_zero(&self, document: &Document) -> Result<f64, SceneError> {
+        let value = self.not_negative(document)?;
+        if value == 0.0 { Ok(value) } else { self.size(document) }
     }
 
     /// A coordinate of at most 10 km to either side (m).

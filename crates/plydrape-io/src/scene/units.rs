@@ -29,6 +29,7 @@ impl Dimension {
     pub const FLEXURAL_RIGIDITY: Self = Dimension([3, 1, -2, 0]);
     pub const MOMENT: Self = Dimension([2, 1, -2, 0]);
     pub const FORCE_PER_LENGTH: Self = Dimension([0, 1, -2, 0]);
+    pub const SHEAR_SLOPE: Self = Dimension([0, 1, -2, -1]);
 
     /// Multiplies by another dimension's power.
     fn times(self, other: Dimension, power: i32) -> Self {
@@ -41,7 +42,7 @@ impl Dimension {
 }
 
 /// The dimensions with a name of their own.
-const NAMES: [(Dimension, &str); 19] = [
+const NAMES: [(Dimension, &str); 20] = [
     (Dimension::NONE, "a number without a unit"),
     (Dimension::LENGTH, "a length"),
     (Dimension::MASS, "a mass"),
@@ -59,6 +60,7 @@ const NAMES: [(Dimension, &str); 19] = [
     (Dimension::FLEXURAL_RIGIDITY, "a flexural rigidity"),
     (Dimension::MOMENT, "a moment"),
     (Dimension::FORCE_PER_LENGTH, "a force per length"),
+    (Dimension::SHEAR_SLOPE, "a force per length and angle"),
     (Dimension([2, 0, 0, 0]), "an area"),
     (Dimension([-3, 1, 0, 0]), "a density"),
 ];

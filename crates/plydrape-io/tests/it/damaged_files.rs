@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-const SCENE: &str = "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n\
+const SCENE: &str = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n\
      [mold]\nkind = \"plane\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"20 mm\"\n\
      [target]\norigin = [0, 0]\nshear = \"20 deg\"\n[motion]\nkind = \"straight\"\nsteps = 3\n";
 
@@ -256,7 +256,7 @@ fn a_formula_of_400_kilobytes_is_refused() {
 fn a_million_steps_are_refused_with_their_estimate() {
     let steps = |count: usize| parse(&SCENE.replace("steps = 3", &format!("steps = {count}")));
     let refused = steps(1_000_000).unwrap_err();
-    assert_eq!(refused.line_column().map(|(line, _)| line), Some(15));
+    assert_eq!(refused.line_column().map(|(line, _)| line), Some(17));
     assert!(
         refused.message.contains("1000000 steps") && refused.help.contains("PLYDRAPE_MEMORY"),
         "{refused}"

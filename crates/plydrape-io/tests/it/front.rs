@@ -127,7 +127,7 @@ fn a_trajectory_goes_from_start_to_target_in_its_steps() {
 fn a_scaled_scene_has_the_scaled_trajectory() {
     let planned = |s: f64| {
         let text = format!(
-            "[ply]\ngrippers = [4, 4]\ncell = [{c}, {c}]\nmaterial = \"krogh2018\"\n\
+            "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [4, 4]\ncell = [{c}, {c}]\nmaterial = \"krogh2018\"\n\
              [mold]\nkind = \"sphere\"\nradius = {r}\nposition = [0, 0, -{r}]\n\
              [grippers]\nspacing = [{d}, {d}]\nheight = {h}\norigin = \"centred\"\n\
              [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 30\n",

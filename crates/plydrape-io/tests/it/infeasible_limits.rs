@@ -16,7 +16,7 @@ fn found(base: &Path, text: &str) -> Vec<Verdict> {
 /// The infeasible limits of 4 × 2 grippers over a flat mold, sheared by 20° at the target.
 fn flat(more: &str) -> Vec<Verdict> {
     let text = format!(
-        "[ply]\n{PLY}[mold]\nkind = \"plane\"\n[grippers]\n{START}[target]\nshear = \"20 deg\"\n{more}\n"
+        "[model]\nkind = \"catenaries\"\n[ply]\n{PLY}[mold]\nkind = \"plane\"\n[grippers]\n{START}[target]\nshear = \"20 deg\"\n{more}\n"
     );
     found(Path::new(""), &text)
 }
@@ -25,7 +25,7 @@ fn flat(more: &str) -> Vec<Verdict> {
 fn with_targets(targets: [[f64; 3]; 4], more: &str) -> Vec<Verdict> {
     let [a, b, c, d] = targets;
     let text = format!(
-        "[ply]\n{}[mold]\nkind = \"plane\"\n[grippers]\n{START}[target]\npositions = [[{a:?}, {b:?}], [{c:?}, {d:?}]]\n{more}\n",
+        "[model]\nkind = \"catenaries\"\n[ply]\n{}[mold]\nkind = \"plane\"\n[grippers]\n{START}[target]\npositions = [[{a:?}, {b:?}], [{c:?}, {d:?}]]\n{more}\n",
         PLY.replace("[4, 2]", "[2, 2]")
     );
     found(Path::new(""), &text)
@@ -131,7 +131,7 @@ fn moves_too_short_for_the_way_are_named() {
 #[test]
 fn a_mold_steeper_than_the_joints_is_named() {
     let text = format!(
-        "[ply]\n{PLY}[mold]\nkind = \"plane\"\ntilt = \"45 deg\"\n[grippers]\n{START}parallel_to_mold = true\n[target]\n"
+        "[model]\nkind = \"catenaries\"\n[ply]\n{PLY}[mold]\nkind = \"plane\"\ntilt = \"45 deg\"\n[grippers]\n{START}parallel_to_mold = true\n[target]\n"
     );
     let at = only(&found(Path::new(""), &text), "tilt", 45.0, 40.0, None);
     assert!(at.starts_with("mold at the target of gripper ["), "{at}");
@@ -152,7 +152,7 @@ fn a_hole_under_the_ply_is_named_though_every_gripper_has_a_place() {
         mesh += &format!("f {} {} {} {}\n", first, first + 1, first + 8, first + 7);
     }
     std::fs::write(folder.path().join("mold.obj"), mesh).unwrap();
-    let text = "[ply]\ngrippers = [2, 2]\ncell = [0.2, 0.2]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"mesh\"\nfile = \"mold.obj\"\nunit = \"mm\"\n[target]\n";
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [0.2, 0.2]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"mesh\"\nfile = \"mold.obj\"\nunit = \"mm\"\n[target]\n";
     let found = found(folder.path(), text);
     let at = only(&found, "missing_nodes", 25.0, 0.0, None);
     assert!(at.contains("beyond the boundary of the mold, at ("), "{at}");

@@ -8,7 +8,7 @@ use std::path::Path;
 
 fn read(mold: &str, target: &str, grippers: &str) -> Result<Scene, SceneError> {
     let text = format!(
-        "[ply]\ngrippers = [4, 4]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n\
+        "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [4, 4]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n\
          [mold]\n{mold}\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.8\n{grippers}\n{target}\n"
     );
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/broken");
@@ -71,7 +71,7 @@ fn rows_of_a_height_grid_come_in_any_order() {
     std::fs::write(folder.path().join("reversed.csv"), lines.join("\n")).unwrap();
     let text = |file: &str| {
         format!(
-            "[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
+            "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
              [mold]\nkind = \"height-grid\"\nfile = \"{file}\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 1\n"
         )
     };

@@ -453,7 +453,7 @@ fn a_scene_follows_the_dense_table() {
 
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("motion.csv"), &table).unwrap();
-    let text = "[ply]\ngrippers = [4, 4]\ncell = [0.12, 0.12]\nmaterial = \"krogh2018\"\n\
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [4, 4]\ncell = [0.12, 0.12]\nmaterial = \"krogh2018\"\n\
         [motion]\nkind = \"file\"\nfile = \"motion.csv\"\n";
     let scene = scene::parse(text, folder.path(), "scene").unwrap_or_else(|e| panic!("{e}")).scene;
     assert_eq!(scene.motion, motion.sampled(100.0).unwrap());

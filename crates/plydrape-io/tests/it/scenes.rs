@@ -1,6 +1,9 @@
 //! Scenes that pass: the template, the examples, and the same positions written in other ways.
 
-use plydrape::scene::Scene;
+use plydrape::material::{ShearCurve, TensionLaw};
+use plydrape::scene::{
+    Friction, Limits, Model, PadSettings, Scene, Settings, SheetSettings, SheetTime,
+};
 use plydrape_io::scene::{self, SceneError, SceneFile};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -68,7 +71,7 @@ fn the_first_example_is_the_papers() {
 fn positions_are_the_same_however_they_are_written() {
     let with = |grippers: &str| {
         let text = format!(
-            "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.1]\nmaterial = \"krogh2018\"\n[grippers]\n{grippers}\n"
+            "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.1]\nmaterial = \"krogh2018\"\n[grippers]\n{grippers}\n"
         );
         parse(&text).unwrap_or_else(|e| panic!("{e}")).scene.motion.positions
     };
@@ -87,7 +90,7 @@ fn positions_are_the_same_however_they_are_written() {
 /// Times count from the first row; columns that are not asked for are ignored.
 #[test]
 fn a_motion_file_defines_start_and_steps() {
-    let text = "[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[motion]\nkind = \"file\"\nfile = \"tests/it/trajectory.csv\"\n";
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[motion]\nkind = \"file\"\nfile = \"tests/it/trajectory.csv\"\n";
     let motion = parse(text).unwrap_or_else(|e| panic!("{e}")).scene.motion;
     assert_eq!(motion.times, [0.0, 0.5, 2.0]);
     assert_eq!(motion.positions[0], [[0.0, 0.0, 0.05], [0.098, 0.0, 0.05]]);
@@ -97,7 +100,7 @@ fn a_motion_file_defines_start_and_steps() {
 /// A chord equal to its fabric is taut, not too long: 98 mm written two ways differ in the last bit.
 #[test]
 fn a_taut_start_is_allowed() {
-    let text = "[ply]\ngrippers = [4, 1]\ncell = [0.098, 0.1]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = 0\n";
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [4, 1]\ncell = [0.098, 0.1]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = 0\n";
     assert!(parse(text).is_ok());
 }
 
@@ -116,7 +119,7 @@ fn an_inextensible_ply_is_written_as_infinity() {
 fn a_plan_and_its_limits_are_read_in_si() {
     let keys = "[plan]\nmethod = \"stepwise\"\nsteps = 40\nmove_limit = \"5 mm\"\nseed = 9223372036854775808\nrate = \"1 kHz\"\n";
     let limits = "gripper_distance = \"60 mm\"\nworkspace = [[\"-500 mm\", 1], [-1, 1], [0, 2]]\nspeed = \"6 m/min\"\n";
-    let text = "[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.12]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n";
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", 0.12]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n";
     let scene = parse(&format!("{text}{keys}[limits]\n{limits}")).unwrap_or_else(|e| panic!("{e}"));
     let plan = scene.plan;
     assert_eq!(
@@ -137,7 +140,7 @@ fn a_plan_and_its_limits_are_read_in_si() {
 /// What a scene says nothing of follows from its ply and its contact, or from the sources that the keys name.
 #[test]
 fn every_limit_of_the_ply_and_the_joints_is_read_in_si_or_has_its_default() {
-    let text = "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = MATERIAL\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n[contact]\ntolerance = \"1 mm\"\n";
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\nmaterial = MATERIAL\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n[contact]\ntolerance = \"1 mm\"\n";
     let bare = "{ mass = 0.3, bending_rigidity_warp = 0, bending_rigidity_weft = 0 }";
     let locking =
         bare.replace(" }", ", locking_angle = \"40 deg\", locking_test = \"picture frame\" }");
@@ -177,6 +180,87 @@ fn every_limit_of_the_ply_and_the_joints_is_read_in_si_or_has_its_default() {
         (limits.gripper_load, limits.gripper_pull, limits.duration),
         (0.5, Some(4.0), Some(120.0))
     );
+}
+
+/// Every key of the sheet in a unit of its own.
+#[test]
+fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
+    let scene = |ply: &str, grippers: &str, tables: &str| {
+        let text = format!(
+            "[ply]\ngrippers = [3, 2]\ncell = [0.1, 0.1]\n{ply}\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n{grippers}\n{tables}\n"
+        );
+        parse(&text).unwrap_or_else(|e| panic!("{e}")).scene
+    };
+    let paper = "material = \"krogh2018\"";
+    let usual = scene(paper, "", "");
+    assert_eq!(usual.settings, Settings::default());
+    assert_eq!(usual.limits, Limits::of(&usual.ply, &usual.settings));
+    assert_eq!(usual.ply.material.tension, Some(TensionLaw::Linear { stiffness: 1e6 }));
+    assert_eq!(usual.ply.material.shear_curve.as_ref().map(|c| c.force(0.2)), Some((1.0, 5.0)));
+
+    let given = scene(
+        &format!("{paper}\noverhang = \"30 mm\""),
+        "pad_radius = \"1.5 cm\"\nstiffness = { lateral = \"2 N/mm\" }",
+        "[model]\nkind = \"sheet\"\n[sheet]\nmesh = \"12.5 mm\"\ntime = \"real\"\nkeep = 40\n\
+         [contact]\nfriction = 0.3\ntack = \"0.09 kPa\"\n\
+         [limits]\nheight = \"1 mm\"\nout_of_plane = \"2 deg\"\nposition = \"3 mm\"\ngripper_force = \"8 N\"",
+    );
+    let (settings, limits) = (given.settings, given.limits);
+    let sheet =
+        SheetSettings { mesh: Some(0.0125), overhang: 0.03, time: SheetTime::Real, keep: 40 };
+    assert_eq!((settings.model, settings.sheet), (Model::Sheet, sheet));
+    let pad = PadSettings { radius: 0.015, lateral_stiffness: Some(2e3), axial_stiffness: None };
+    assert_eq!(settings.pad, pad);
+    assert_eq!((settings.contact.friction, settings.contact.tack), (Friction::Coulomb(0.3), 90.0));
+    assert_eq!((limits.height, limits.position, limits.gripper_force), (1e-3, 3e-3, Some(8.0)));
+    assert_eq!(limits.out_of_plane, 2f64.to_radians());
+
+    for (word, friction) in [
+        ("\"stick\"", Friction::Stick),
+        ("\"stick-for-ever\"", Friction::StickForEver),
+        ("\"30 %\"", Friction::Coulomb(0.3)),
+        ("0", Friction::Coulomb(0.0)),
+    ] {
+        let found = scene(paper, "", &format!("[contact]\nfriction = {word}"));
+        assert_eq!(found.settings.contact.friction, friction, "{word}");
+    }
+}
+
+/// A material with the curves of its tests; catenaries need neither them nor an overhang.
+#[test]
+fn tension_and_shear_are_a_slope_or_a_table() {
+    let material = |curves: &str, more: &str| {
+        let text = format!(
+            "[ply]\ngrippers = [2, 2]\ncell = [0.1, 0.1]\n[ply.material]\nmass = 3.1\nbending_rigidity_warp = 9e-5\nbending_rigidity_weft = 9e-5\n{curves}\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n{more}"
+        );
+        parse(&text).map(|scene| scene.scene.ply.material)
+    };
+    let tables = "tension = { strain = [0, \"0.2 %\", 0.01], force = [0, \"1 N/mm\", 9e3] }\n\
+         shear_curve = { angle = [0, \"20 deg\"], force = [0, \"10 N/m\"] }";
+    let found = material(tables, "").unwrap_or_else(|e| panic!("{e}"));
+    let law = TensionLaw::Table { strain: vec![0.0, 0.002, 0.01], force: vec![0.0, 1e3, 9e3] };
+    assert_eq!(found.tension, Some(law));
+    let slopes = "tension = \"1 kN/mm\"\nshear_curve = \"5 N/m/rad\"";
+    let found = material(slopes, "").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(found.tension, Some(TensionLaw::Linear { stiffness: 1e6 }));
+    assert_eq!(found.shear_curve, Some(ShearCurve::Polynomial { coefficients: vec![5.0] }));
+
+    assert!(material("", "").is_err());
+    assert!(material("", "[model]\nkind = \"catenaries\"\n").is_ok());
+}
+
+/// The last scene that fits, and the first that does not: pads that touch the boundary, a line in the middle of a cell.
+#[test]
+fn pads_and_mesh_of_a_sheet_may_just_fit() {
+    let fits = |overhang: &str, radius: &str, mesh: &str| {
+        let text = format!(
+            "[ply]\ngrippers = [3, 2]\ncell = [\"100 mm\", \"120 mm\"]\nmaterial = \"krogh2018\"\noverhang = \"{overhang} mm\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\npad_radius = \"{radius} mm\"\n[sheet]\nmesh = \"{mesh} mm\"\n"
+        );
+        parse(&text).is_ok()
+    };
+    assert!(fits("0", "0", "50") && !fits("0", "0", "50.1"));
+    assert!(fits("15", "15", "35") && !fits("14.9", "15", "35") && !fits("15", "15", "35.1"));
+    assert!(fits("60", "49", "1") && !fits("60", "50", "1"));
 }
 
 /// Where only the key of the motion is written that a plan ignores; a motion of a file or held has none.

@@ -240,7 +240,7 @@ fn a_scaled_scene_has_the_same_verdict() {
              [mold]\nkind = \"sphere\"\nradius = {r}\nposition = [0, 0, -{r}]\n\
              [grippers]\nspacing = [{d}, {d}]\nheight = {h}\norigin = \"centred\"\n\
              [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 30\n\
-             [model]\naxial_stiffness = {ea}\n[contact]\ntolerance = {t}\n\
+             [model]\nkind = \"catenaries\"\naxial_stiffness = {ea}\n[contact]\ntolerance = {t}\n\
              [limits]\nlanding_contact = {lc}\nlanding_gripper = {lg}\nbridging = {b}\ngripper_load = {load}\n",
             c = 0.1 * s,
             ei = 9e-6 * s.powi(3),

@@ -216,6 +216,10 @@ measures! {
     off_mold: OffMold,
     move_limit: MoveLimit,
     steps: Steps,
+    height: Height,
+    out_of_plane: OutOfPlane,
+    position: Position,
+    gripper_force: GripperForce,
 }
 
 impl Name {

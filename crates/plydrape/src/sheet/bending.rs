@@ -44,7 +44,8 @@ impl Bending {
 
     /// Energy (J).
     pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
-        let one = |e: &Element| 0.5 * e.stiffness * e.curvature(x).iter().map(|c| c * c).sum::<f64>();
+        let one =
+            |e: &Element| 0.5 * e.stiffness * e.curvature(x).iter().map(|c| c * c).sum::<f64>();
         self.bends.iter().map(one).sum()
     }
 

@@ -27,6 +27,9 @@ pub struct Motion {
     pub pads: Vec<Pad>,
 }
 
+/// A gripper, its pad, and the nodes that it holds with their distance from its middle (m).
+type Held<'a> = ((&'a Gripper, &'a Pad), &'a Vec<(usize, [f64; 2])>);
+
 /// Why a time step was not solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Failure {
@@ -61,6 +64,8 @@ pub struct Cloth<'a> {
     inertial: Vec<[f64; 3]>,
     /// The linear step of each node (m), and the turn (rad) and shift (m) of each pad in it.
     step: Vec<[f64; 3]>,
+    /// Whether the second derivative is whole, or reduced to its positive parts.
+    whole: bool,
     turns: Vec<([f64; 3], [f64; 3])>,
     /// Gradient that acts on blocks of unknowns themselves.
     own: Vec<(u32, [f64; 3])>,
@@ -115,10 +120,10 @@ impl<'a> Cloth<'a> {
         let system = System::new(&fabric.places, carriers, &blocks, pairs);
         let contact = sheet.mold.as_ref().map(|mold| {
             let free = |n: &usize| !matches!(system.carrier(*n), Carrier::Held { .. });
-            let points = (0..nodes).filter(free).map(|n| (n, fabric.areas[n]));
+            let rubs = |n: usize| !matches!(system.carrier(n), Carrier::Pad { shift: None, .. });
+            let points = (0..nodes).filter(free).map(|n| (n, fabric.areas[n], rubs(n)));
             let stiffness = sheet.areal_mass * sheet.gravity / (tuning.contact_depth * sheet.pitch);
-            let release = tuning.release * sheet.pitch;
-            Contact::new(mold, stiffness, release, sheet.friction, sheet.tack, points)
+            Contact::new(mold, stiffness, sheet.clear, sheet.friction, sheet.tack, points)
         });
         let mut gripped = vec![false; nodes];
         for (node, _) in held.iter().flatten() {
@@ -138,6 +143,7 @@ impl<'a> Cloth<'a> {
             now,
             inertial: still.clone(),
             step: still,
+            whole: true,
             turns: vec![Default::default(); sheet.grippers.len()],
             own: Vec::new(),
             system,
@@ -153,7 +159,7 @@ impl<'a> Cloth<'a> {
         let height = |(m, x): (&f64, &[f64; 3])| m * self.sheet.gravity * x[2];
         let weight: f64 = self.masses.iter().zip(x).map(height).sum();
         let mounts = self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held);
-        let mount = |((g, pad), nodes): ((&Gripper, &Pad), &Vec<(usize, [f64; 2])>)| {
+        let mount = |((g, pad), nodes): Held| {
             let at = if nodes.len() == 1 { x[nodes[0].0] } else { pad.position };
             let off = sub(at, pad.target);
             g.mount.map_or(0.0, |k| (0..3).map(|n| 0.5 * k[n] * off[n] * off[n]).sum())
@@ -193,15 +199,18 @@ impl<'a> Cloth<'a> {
             self.now.clone_from(&self.before);
             return found;
         }
-        for (v, (x, before)) in
-            self.now.v.iter_mut().zip(self.now.x.iter().zip(&self.before.x))
-        {
+        for (v, (x, before)) in self.now.v.iter_mut().zip(self.now.x.iter().zip(&self.before.x)) {
             *v = [0, 1, 2].map(|n| (x[n] - before[n]) / dt);
         }
         if let Some(contact) = &mut self.contact {
             contact.update(&self.before.x, &self.now.x);
         }
         found
+    }
+
+    /// Whether the ply touches the mold, or may in a step that moves its grippers so far (m).
+    pub fn is_near_contact(&self, way: f64) -> bool {
+        self.contact.as_ref().is_some_and(|contact| contact.is_near(&self.now.x, way))
     }
 
     /// Largest movement of a node in the last time step (m).
@@ -213,9 +222,16 @@ impl<'a> Cloth<'a> {
     fn iterate(&mut self, targets: &[[f64; 3]], dt: f64, tolerance: f64) -> Result<usize, Failure> {
         self.stretch.start(&self.now.x);
         self.aim(targets);
+        self.whole = true;
         self.assemble(dt, true);
         for iteration in 0..self.tuning.iterations {
-            let turn = self.solve()?;
+            let mut turn = self.solve();
+            if turn.is_err() && self.whole {
+                self.whole = false;
+                self.assemble(dt, iteration == 0);
+                turn = self.solve();
+            }
+            let turn = turn?;
             if iteration == 0 && turn > self.tuning.turn {
                 return Err(Failure::Turn);
             }
@@ -238,7 +254,8 @@ impl<'a> Cloth<'a> {
     fn aim(&mut self, targets: &[[f64; 3]]) {
         self.system.moved.fill([0.0; 3]);
         let grippers = self.sheet.grippers.iter().zip(&self.held);
-        for ((pad, target), (gripper, nodes)) in self.now.pads.iter_mut().zip(targets).zip(grippers) {
+        for ((pad, target), (gripper, nodes)) in self.now.pads.iter_mut().zip(targets).zip(grippers)
+        {
             let moved = sub(*target, pad.target);
             pad.target = *target;
             if gripper.mount.is_none() {
@@ -252,7 +269,8 @@ impl<'a> Cloth<'a> {
     /// Gradient and second derivative of the incremental potential.
     fn assemble(&mut self, dt: f64, predicts: bool) {
         let Cloth { system, now, .. } = self;
-        system.begin(predicts, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
+        system
+            .begin(predicts, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
         for (node, mass) in self.masses.iter().enumerate() {
             let rate = mass / (dt * dt);
             let off = sub(now.x[node], self.inertial[node]);
@@ -268,8 +286,8 @@ impl<'a> Cloth<'a> {
         for (gradient, mass) in system.gradient.iter_mut().zip(&self.masses) {
             gradient[2] += mass * self.sheet.gravity;
         }
-        self.stretch.add(&now.x, system);
-        self.shear.add(&now.x, system);
+        self.stretch.add(&now.x, self.whole, system);
+        self.shear.add(&now.x, self.whole, system);
         self.bending.add(&now.x, system);
         if let Some(contact) = &mut self.contact {
             contact.add(&now.x, system);
@@ -289,7 +307,7 @@ impl<'a> Cloth<'a> {
         self.solves += 1;
         self.hold_pads();
         let system = &mut self.system;
-        system.solve(&self.own).map_err(|_| Failure::Singular)?;
+        system.solve(&self.own, self.whole).map_err(|_| Failure::Singular)?;
         for (node, step) in self.step.iter_mut().enumerate() {
             *step = match system.carrier(node) {
                 Carrier::Free { block } => system.step(block),
@@ -308,7 +326,8 @@ impl<'a> Cloth<'a> {
             let (unit, _) = direction(self.now.x[a], self.now.x[b]);
             let aside = cross(unit, sub(self.step[b], self.step[a]));
             let turn = norm(aside) / s.length;
-            if !(turn <= most) {
+            // NaN is the largest of all
+            if turn > most || turn.is_nan() {
                 most = turn;
             }
         }
@@ -319,7 +338,9 @@ impl<'a> Cloth<'a> {
     fn hold_pads(&mut self) {
         self.own.clear();
         let weight = self.sheet.areal_mass * self.sheet.gravity * self.sheet.pitch.powi(3);
-        for ((gripper, pad), nodes) in self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held) {
+        for ((gripper, pad), nodes) in
+            self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held)
+        {
             let Some((node, _)) = nodes.first() else { continue };
             let Carrier::Pad { turn, shift, .. } = self.system.carrier(*node) else { continue };
             if let (Some(k), Some(shift)) = (gripper.mount, shift) {
@@ -344,7 +365,9 @@ impl<'a> Cloth<'a> {
 
     /// Takes a share of the linear step; returns the largest movement of a node (m).
     fn take(&mut self, share: f64) -> f64 {
-        for ((pad, nodes), (turn, moved)) in self.now.pads.iter_mut().zip(&self.held).zip(&self.turns) {
+        for ((pad, nodes), (turn, moved)) in
+            self.now.pads.iter_mut().zip(&self.held).zip(&self.turns)
+        {
             let Some((node, _)) = nodes.first() else { continue };
             if let Carrier::Pad { .. } = self.system.carrier(*node) {
                 add(&mut pad.position, share, *moved);
@@ -368,7 +391,7 @@ impl<'a> Cloth<'a> {
                 add(x, share, *step);
             }
             let moved = norm(*step);
-            if !(moved <= largest) {
+            if moved > largest || moved.is_nan() {
                 largest = moved;
             }
         }
@@ -380,15 +403,16 @@ impl<'a> Cloth<'a> {
     /// Force of the ply on each gripper (N).
     pub fn forces(&mut self) -> Vec<[f64; 3]> {
         let now = &self.now;
-        self.system.begin(false, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
+        self.system
+            .begin(false, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
         self.add_energies();
-        let gripper = |((gripper, pad), nodes): ((&Gripper, &Pad), &Vec<(usize, [f64; 2])>)| {
-            match (gripper.mount, nodes.as_slice()) {
-                (Some(k), [(node, _)]) => {
-                    let off = sub(self.now.x[*node], pad.target);
-                    [0, 1, 2].map(|n| k[n] * off[n])
-                }
-                _ => nodes.iter().fold([0.0; 3], |sum, (node, _)| sub(sum, self.system.gradient[*node])),
+        let gripper = |((gripper, pad), nodes): Held| match (gripper.mount, nodes.as_slice()) {
+            (Some(k), [(node, _)]) => {
+                let off = sub(self.now.x[*node], pad.target);
+                [0, 1, 2].map(|n| k[n] * off[n])
+            }
+            _ => {
+                nodes.iter().fold([0.0; 3], |sum, (node, _)| sub(sum, self.system.gradient[*node]))
             }
         };
         let pads = self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held);

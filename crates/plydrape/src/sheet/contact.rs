@@ -22,6 +22,8 @@ struct Anchor {
 struct Point {
     node: usize,
     area: f64,
+    /// Whether friction holds it; a gripper on a rigid mount is stronger.
+    rubs: bool,
     /// Where the mold was last looked for (m), and how far it was (m): nearer than that no contact can be.
     seen: [f64; 3],
     clear: f64,
@@ -44,18 +46,19 @@ pub struct Contact<'a> {
 }
 
 impl<'a> Contact<'a> {
-    /// Of nodes with their areas (m²).
+    /// Of nodes with their areas (m²), and whether friction holds each of them.
     pub fn new(
         mold: &'a Mold,
         stiffness: f64,
         release: f64,
         friction: Friction,
         tack: f64,
-        nodes: impl Iterator<Item = (usize, f64)>,
+        nodes: impl Iterator<Item = (usize, f64, bool)>,
     ) -> Self {
-        let point = |(node, area)| Point {
+        let point = |(node, area, rubs)| Point {
             node,
             area,
+            rubs,
             seen: [0.0; 3],
             clear: f64::NEG_INFINITY,
             anchor: None,
@@ -156,8 +159,10 @@ impl<'a> Contact<'a> {
             let anchor = match point.anchor {
                 Some(anchor) if self.friction == Friction::StickForEver => Some(anchor),
                 Some(_) if depth < -self.release => None,
-                Some(anchor) => Some(self.slipped(anchor, at, bound / (self.stiffness * point.area))),
-                None if depth >= 0.0 => Some(self.crossing(before[point.node], at)),
+                Some(anchor) => {
+                    Some(self.slipped(anchor, at, bound / (self.stiffness * point.area)))
+                }
+                None if depth >= 0.0 && point.rubs => Some(self.crossing(before[point.node], at)),
                 None => None,
             };
             let point = &mut self.points[n];
@@ -168,7 +173,8 @@ impl<'a> Contact<'a> {
     /// Where a node came to the mold on its way from `before` to `after`.
     fn crossing(&self, before: [f64; 3], after: [f64; 3]) -> Anchor {
         let [from, to] = [before, after].map(|p| self.mold.signed_distance(p));
-        let share = if from > 0.0 && from > to { (from / (from - to)).clamp(0.0, 1.0) } else { 1.0 };
+        let share =
+            if from > 0.0 && from > to { (from / (from - to)).clamp(0.0, 1.0) } else { 1.0 };
         let closest = self.mold.closest_point(between(before, after, share));
         Anchor { point: closest.point, normal: closest.normal }
     }
@@ -200,6 +206,13 @@ impl<'a> Contact<'a> {
 
     fn holds_for_ever(&self, point: &Point) -> bool {
         self.friction == Friction::StickForEver && point.anchor.is_some()
+    }
+
+    /// Whether any node is anchored, or may come as near as `reach` (m).
+    pub fn is_near(&self, x: &[[f64; 3]], reach: f64) -> bool {
+        self.points.iter().any(|point| {
+            point.anchor.is_some() || point.clear - distance(x[point.node], point.seen) < reach
+        })
     }
 
     /// The nodes that touch.

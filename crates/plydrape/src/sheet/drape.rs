@@ -5,6 +5,7 @@
 
 use super::cloth::Cloth;
 use super::gripper::Pad;
+use super::measure::{Extremes, Summary};
 use super::model::{Sheet, SheetError};
 use super::shear::angle;
 use super::state::State;
@@ -12,6 +13,7 @@ use super::tuning::Tuning;
 use crate::mold::vector::{cross, distance, dot, sub, unit};
 use crate::scene::{Scene, SheetTime};
 use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
 
 /// How a drape of the sheet ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,31 +33,32 @@ pub enum Status {
 /// A finished drape of the sheet.
 #[derive(Debug, Clone)]
 pub struct Drape {
-    /// How it ended.
-    pub status: Status,
+    /// The sheet that was draped.
+    pub sheet: Sheet,
+    /// What was measured, and the verdict.
+    pub summary: Summary,
     /// The step of the motion in which each node came to the mold and stayed; none of one that did not.
     pub landing_step: Vec<Option<usize>>,
-    /// The first step with contact, and the node that touched.
-    pub first_contact: Option<(usize, usize)>,
+    /// Shear angle of each cell (rad) in the step in which the last of its nodes came to the mold; none of others.
+    pub landing_shear: Vec<Option<f64>>,
     /// The last state.
     pub last: State,
-    /// Time steps, and linear systems that were solved.
-    pub time_steps: usize,
-    /// Linear systems that were solved.
-    pub solves: usize,
-    /// Shortest time step as a share of a step of the motion.
-    pub smallest_step: f64,
+    /// Time that it took.
+    pub duration: Duration,
 }
 
-/// Drapes the sheet of a scene along its motion; `see` is called with the state of each step and may end the drape.
+/// Drapes the sheet of a scene along its motion. `see` is called with the state of each step and may end the drape, and so
+/// may `stop`, which is asked before each time step.
 ///
 /// # Errors
 /// If the scene has no sheet.
 pub fn drape(
     scene: &Scene,
     tuning: Tuning,
+    stop: &dyn Fn() -> bool,
     mut see: impl FnMut(&State) -> ControlFlow<()>,
 ) -> Result<Drape, SheetError> {
+    let began = Instant::now();
     let sheet = Sheet::new(scene)?;
     let steps = &scene.motion.positions;
     let grippers = sheet.grippers.len();
@@ -70,16 +73,34 @@ pub fn drape(
         sheet: &sheet,
         tuning,
         cloth,
-        share: tuning.largest_share,
+        stop,
+        share: 1.0,
         time_steps: 0,
         smallest_step: 1.0,
+        extremes: Extremes::default(),
         landing_step: vec![None; sheet.fabric.places.len()],
-        first_contact: None,
+        landing_shear: vec![None; sheet.fabric.cells.len()],
     };
     let (status, last) = run.run(&placed, &mut see);
-    let Run { time_steps, smallest_step, landing_step, first_contact, cloth, .. } = run;
-    let solves = cloth.solves;
-    Ok(Drape { status, landing_step, first_contact, last, time_steps, solves, smallest_step })
+    let counts = [run.time_steps, run.cloth.solves];
+    let smallest = run.smallest_step;
+    let summary = Summary::new(scene, &sheet, &run.extremes, &last, status, counts, smallest);
+    let Run { landing_step, landing_shear, .. } = run;
+    Ok(Drape { sheet, summary, landing_step, landing_shear, last, duration: began.elapsed() })
+}
+
+/// Whether a step of so many is among the `keep` states that are kept, evenly over the steps, the first and the last with
+/// them.
+#[must_use]
+pub fn is_kept(step: usize, steps: usize, keep: usize) -> bool {
+    let keep = keep.max(2);
+    if steps <= keep {
+        return true;
+    }
+    // step k of the kept ones is 1 + round(k (steps − 1) / (keep − 1))
+    let place = |k: usize| 1 + (2 * k * (steps - 1) + keep - 1) / (2 * (keep - 1));
+    let near = (step - 1) * (keep - 1) / (steps - 1);
+    (near.saturating_sub(1)..=near + 1).any(|k| k < keep && place(k) == step)
 }
 
 /// A drape under way.
@@ -88,12 +109,20 @@ struct Run<'a> {
     sheet: &'a Sheet,
     tuning: Tuning,
     cloth: Cloth<'a>,
+    stop: &'a dyn Fn() -> bool,
     /// Share of a step of the motion that the next time step tries.
     share: f64,
     time_steps: usize,
     smallest_step: f64,
+    extremes: Extremes,
     landing_step: Vec<Option<usize>>,
-    first_contact: Option<(usize, usize)>,
+    landing_shear: Vec<Option<f64>>,
+}
+
+/// Why a motion was not followed to its end.
+enum Ended {
+    NotSolved,
+    Stopped,
 }
 
 impl Run<'_> {
@@ -107,47 +136,74 @@ impl Run<'_> {
         let contact = self.cloth.contact.take();
         let hung = self.follow(placed, &motion.positions[0], None);
         self.cloth.contact = contact;
-        if !hung {
-            return (Status::NotSolved, self.state(1));
+        if let Err(ended) = hung {
+            return (ended.status(), self.state(1));
         }
         let mut resting = self.rest(&motion.positions[0]);
-        self.land(1);
-        let mut state = self.state(1);
+        let mut state = self.see(1);
         for step in 2..=motion.positions.len() {
             if see(&state).is_break() {
                 return (Status::Interrupted, state);
             }
-            let ends = [step - 2, step - 1];
-            let [from, to] = ends.map(|n| &motion.positions[n]);
+            let [from, to] = [step - 2, step - 1].map(|n| &motion.positions[n]);
             let takes = motion.times[step - 1] - motion.times[step - 2];
-            if !self.follow(from, to, Some((step, takes))) {
-                return (Status::NotSolved, state);
+            if let Err(ended) = self.follow(from, to, Some(takes)) {
+                return (ended.status(), state);
             }
             if step == motion.positions.len() {
                 resting = self.rest(to);
-                self.land(step);
             }
-            state = self.state(step);
+            state = self.see(step);
         }
         match see(&state) {
             ControlFlow::Break(()) => (Status::Interrupted, state),
             ControlFlow::Continue(()) if resting => (Status::Converged, state),
+            ControlFlow::Continue(()) if (self.stop)() => (Status::Interrupted, state),
             ControlFlow::Continue(()) => (Status::NotAtRest, state),
         }
     }
 
+    /// Evaluates the state of a step.
+    fn see(&mut self, step: usize) -> State {
+        let state = self.state(step);
+        self.extremes.see(self.sheet, &state, self.scene.settings.contact.tolerance);
+        for (landed, touches) in self.landing_step.iter_mut().zip(&state.contact) {
+            *landed = touches.then(|| landed.unwrap_or(step));
+        }
+        let cells = self.sheet.fabric.cells.iter().zip(&state.shear);
+        for (landed, (cell, shear)) in self.landing_shear.iter_mut().zip(cells) {
+            let touches = cell.nodes.iter().all(|n| state.contact[*n as usize]);
+            *landed = touches.then(|| landed.unwrap_or(*shear));
+        }
+        state
+    }
+
     /// Moves the grippers from one place to another (m), in a step of the motion that takes so much time (s).
-    fn follow(&mut self, from: &[[f64; 3]], to: &[[f64; 3]], step: Option<(usize, f64)>) -> bool {
+    fn follow(
+        &mut self,
+        from: &[[f64; 3]],
+        to: &[[f64; 3]],
+        takes: Option<f64>,
+    ) -> Result<(), Ended> {
         let way = from.iter().zip(to).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
         let stretched = self.stretched(way);
-        let duration = match (self.scene.settings.sheet.time, step) {
-            (SheetTime::Real, Some((_, takes))) => takes,
-            _ => stretched,
+        let (duration, longest) = match (self.scene.settings.sheet.time, takes) {
+            (SheetTime::Real, Some(takes)) => {
+                (takes, self.tuning.real_step * (self.sheet.pitch / self.sheet.gravity).sqrt())
+            }
+            _ => (stretched, f64::INFINITY),
         };
         let tolerance = self.tuning.step_tolerance * self.sheet.mesh;
         let mut done = 0.0;
         while done < 1.0 {
-            let share = self.share.min(1.0 - done);
+            if (self.stop)() {
+                return Err(Ended::Stopped);
+            }
+            let mut share = self.share.min(1.0 - done).min(longest / duration);
+            let most = self.tuning.contact_way * self.sheet.pitch;
+            if way * share > most && self.cloth.is_near_contact(way * share) {
+                share = most / way;
+            }
             let next = if done + share > 1.0 - 1e-9 { 1.0 } else { done + share };
             let targets: Vec<[f64; 3]> = from
                 .iter()
@@ -159,22 +215,19 @@ impl Run<'_> {
                     self.time_steps += 1;
                     self.smallest_step = self.smallest_step.min(share);
                     done = next;
-                    if let Some((step, _)) = step {
-                        self.land(step);
-                    }
                     if iterations <= self.tuning.easy_iterations {
-                        self.share = (2.0 * self.share).min(self.tuning.largest_share);
+                        self.share = (2.0 * self.share).min(1.0);
                     }
                 }
                 Err(_) => {
                     self.share = 0.5 * share;
                     if self.share < self.tuning.smallest_step {
-                        return false;
+                        return Err(Ended::NotSolved);
                     }
                 }
             }
         }
-        true
+        Ok(())
     }
 
     /// Time (s) in which grippers go so far (m) that the ply's kinetic energy is of no matter; where they stand, that of a
@@ -191,10 +244,14 @@ impl Run<'_> {
         let longest = self.stretched(self.sheet.pitch);
         let mut dt = 0.01 * longest;
         for _ in 0..self.tuning.rest_steps {
+            if (self.stop)() {
+                return false;
+            }
             match self.cloth.advance(at, dt, tolerance) {
                 Ok(_) => {
                     self.time_steps += 1;
-                    let still = self.cloth.movement() <= self.tuning.rest_movement * self.sheet.mesh;
+                    let still =
+                        self.cloth.movement() <= self.tuning.rest_movement * self.sheet.mesh;
                     if still && dt >= longest {
                         return true;
                     }
@@ -206,25 +263,6 @@ impl Run<'_> {
         false
     }
 
-    /// Notes which nodes touch in a step.
-    fn land(&mut self, step: usize) {
-        let Some(contact) = &self.cloth.contact else { return };
-        let mut touching = vec![false; self.landing_step.len()];
-        for node in contact.touching() {
-            touching[node] = true;
-        }
-        for (node, (landed, touches)) in self.landing_step.iter_mut().zip(&touching).enumerate() {
-            match (*landed, touches) {
-                (None, true) => *landed = Some(step),
-                (Some(_), false) => *landed = None,
-                _ => continue,
-            }
-            if self.first_contact.is_none() {
-                self.first_contact = Some((step, node));
-            }
-        }
-    }
-
     fn state(&mut self, step: usize) -> State {
         let fabric = &self.sheet.fabric;
         let positions = self.cloth.now.x.clone();
@@ -232,7 +270,12 @@ impl Run<'_> {
             positions.iter().map(|x| mold.signed_distance(*x)).collect::<Vec<f64>>()
         };
         let heights = self.sheet.mold.as_ref().map(height).unwrap_or_default();
+        // a node under a gripper touches where it is as near as one that is not clear
+        let held = self.sheet.held();
         let mut contact = vec![false; positions.len()];
+        for (node, _) in held.iter().flatten() {
+            contact[*node] = heights.get(*node).is_some_and(|height| *height <= self.sheet.clear);
+        }
         for node in self.cloth.contact.iter().flat_map(|contact| contact.touching()) {
             contact[node] = true;
         }
@@ -242,7 +285,29 @@ impl Run<'_> {
         let forces = self.cloth.forces();
         let time = self.scene.motion.times[step - 1];
         let pads = self.cloth.now.pads.clone();
-        State { step, time, positions, heights, contact, shear, tension, pads, forces }
+        let (energy, kinetic_energy) = (self.cloth.energy(), self.cloth.kinetic_energy());
+        State {
+            step,
+            time,
+            positions,
+            heights,
+            contact,
+            shear,
+            tension,
+            pads,
+            forces,
+            energy,
+            kinetic_energy,
+        }
+    }
+}
+
+impl Ended {
+    fn status(&self) -> Status {
+        match self {
+            Ended::NotSolved => Status::NotSolved,
+            Ended::Stopped => Status::Interrupted,
+        }
     }
 }
 

@@ -83,7 +83,12 @@ impl Fabric {
                 let at = |n: usize| if direction == 0 { node(n, line) } else { node(line, n) };
                 for n in 1..along.len() {
                     let length = along[n] - along[n - 1];
-                    segments.push(Segment { nodes: [at(n - 1), at(n)], direction, length, width: *width });
+                    segments.push(Segment {
+                        nodes: [at(n - 1), at(n)],
+                        direction,
+                        length,
+                        width: *width,
+                    });
                 }
                 for n in 1..along.len().saturating_sub(1) {
                     let spacing = [along[n] - along[n - 1], along[n + 1] - along[n]];
@@ -102,6 +107,22 @@ impl Fabric {
             }
         }
         Fabric { places, areas, segments, cells, bends, lines }
+    }
+
+    /// The nodes of each line in order, lines along u first.
+    #[must_use]
+    pub fn chains(&self) -> Vec<Vec<usize>> {
+        let mut chains: Vec<Vec<usize>> = Vec::new();
+        let mut before = None;
+        for segment in &self.segments {
+            let [from, to] = segment.nodes.map(|n| n as usize);
+            match chains.last_mut() {
+                Some(chain) if before == Some((segment.direction, from)) => chain.push(to),
+                _ => chains.push(vec![from, to]),
+            }
+            before = Some((segment.direction, to));
+        }
+        chains
     }
 
     /// The node at a fabric point (m) on two lines; none elsewhere.
@@ -175,7 +196,9 @@ mod tests {
         for at in meet {
             assert!(found.iter().any(|line| (line - at).abs() < 1e-12), "{at}");
         }
-        assert!(found.windows(2).all(|pair| pair[1] - pair[0] <= 0.01 + 1e-12 && pair[1] > pair[0]));
+        assert!(
+            found.windows(2).all(|pair| pair[1] - pair[0] <= 0.01 + 1e-12 && pair[1] > pair[0])
+        );
         assert_eq!(lines(vec![0.0, 0.3], 0.01).len(), 31);
     }
 }

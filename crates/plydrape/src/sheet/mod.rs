@@ -16,6 +16,7 @@ mod drape;
 pub mod fabric;
 mod gripper;
 mod matrix3;
+pub mod measure;
 mod model;
 mod shear;
 mod state;
@@ -23,7 +24,7 @@ mod stretch;
 mod system;
 mod tuning;
 
-pub use drape::{Drape, Status, drape};
+pub use drape::{Drape, Status, drape, is_kept};
 pub use fabric::Fabric;
 pub use gripper::{Gripper, Pad};
 pub use model::{Sheet, SheetError};

@@ -2,6 +2,7 @@
 
 use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
+use super::tuning::Tuning;
 use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
 use crate::ply::Direction;
@@ -34,25 +35,33 @@ pub struct Sheet {
     pub pitch: f64,
     /// Largest distance of neighbouring lines (m).
     pub mesh: f64,
+    /// Height over the mold (m) at which a point is clear of it.
+    pub clear: f64,
 }
 
 /// Why a scene has no sheet.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SheetError {
     /// The material does not say how it shears.
-    #[error("material {material} has no shear curve; the sheet needs one, which a picture-frame or bias-extension test gives")]
+    #[error(
+        "material {material} has no shear curve; the sheet needs one, which a picture-frame or bias-extension test gives"
+    )]
     NoShear {
         /// Its name.
         material: String,
     },
     /// The material does not say how its yarns stretch.
-    #[error("material {material} has no tension; the sheet needs the tensile stiffness per width, which a strip tensile test gives")]
+    #[error(
+        "material {material} has no tension; the sheet needs the tensile stiffness per width, which a strip tensile test gives"
+    )]
     NoTension {
         /// Its name.
         material: String,
     },
     /// No line of nodes between two grippers.
-    #[error("a mesh of {mesh_mm:.3} mm puts no line of nodes between grippers {pitch_mm:.3} mm apart; at most {most_mm:.3} mm does")]
+    #[error(
+        "a mesh of {mesh_mm:.3} mm puts no line of nodes between grippers {pitch_mm:.3} mm apart; at most {most_mm:.3} mm does"
+    )]
     Coarse {
         /// The mesh (mm).
         mesh_mm: f64,
@@ -70,7 +79,9 @@ pub enum SheetError {
         pitch_mm: f64,
     },
     /// A pad reaches beyond the fabric.
-    #[error("pads of {radius_mm:.3} mm radius hang over the boundary: the fabric ends {overhang_mm:.3} mm beyond the outermost grippers")]
+    #[error(
+        "pads of {radius_mm:.3} mm radius hang over the boundary: the fabric ends {overhang_mm:.3} mm beyond the outermost grippers"
+    )]
     Overhang {
         /// Radius of a pad (mm).
         radius_mm: f64,
@@ -104,8 +115,10 @@ impl Sheet {
         let (ply, settings) = (&scene.ply, &scene.settings);
         let material = &ply.material;
         let name = || material.name.clone();
-        let shear = material.shear_curve.clone().ok_or_else(|| SheetError::NoShear { material: name() })?;
-        let tension = material.tension.clone().ok_or_else(|| SheetError::NoTension { material: name() })?;
+        let shear =
+            material.shear_curve.clone().ok_or_else(|| SheetError::NoShear { material: name() })?;
+        let tension =
+            material.tension.clone().ok_or_else(|| SheetError::NoTension { material: name() })?;
 
         let [a, b] = ply.cell;
         let grid = ply.grid;
@@ -192,6 +205,7 @@ impl Sheet {
             tack: settings.contact.tack,
             pitch,
             mesh,
+            clear: Tuning::default().release * pitch,
         };
         Ok(sheet)
     }
@@ -204,9 +218,8 @@ impl Sheet {
             let off = |place: &[f64; 2]| [place[0] - gripper.place[0], place[1] - gripper.place[1]];
             let near = self.fabric.places.iter().map(off).enumerate();
             let own = self.fabric.node_at(gripper.place);
-            let mut held: Vec<_> = near
-                .filter(|(n, off)| Some(*n) == own || off[0].hypot(off[1]) <= reach)
-                .collect();
+            let mut held: Vec<_> =
+                near.filter(|(n, off)| Some(*n) == own || off[0].hypot(off[1]) <= reach).collect();
             held.sort_by_key(|(n, _)| (Some(*n) != own, *n));
             held
         };
@@ -214,6 +227,11 @@ impl Sheet {
     }
 }
 
-fn check(holds: bool, what: &'static str, value: f64, range: &'static str) -> Result<(), SheetError> {
+fn check(
+    holds: bool,
+    what: &'static str,
+    value: f64,
+    range: &'static str,
+) -> Result<(), SheetError> {
     if holds && value.is_finite() { Ok(()) } else { Err(SheetError::Range { what, value, range }) }
 }

@@ -23,4 +23,8 @@ pub struct State {
     pub pads: Vec<Pad>,
     /// Force of the ply on each gripper (N).
     pub forces: Vec<[f64; 3]>,
+    /// Energy of the ply without its motion (J): weight, stretch, shear, bending, contact and mounts.
+    pub energy: f64,
+    /// Kinetic energy (J), in the time that the drape took.
+    pub kinetic_energy: f64,
 }

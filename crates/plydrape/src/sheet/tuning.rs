@@ -22,8 +22,12 @@ pub struct Tuning {
     pub iterations: usize,
     /// A time step that took no more than these is followed by one twice as long.
     pub easy_iterations: usize,
-    /// Largest share of a motion's step in one time step.
-    pub largest_share: f64,
+    /// Largest way (of the pitch) that grippers go in a time step in which the ply touches the mold: a node that touches
+    /// is held where its straight way crosses the mold.
+    pub contact_way: f64,
+    /// Longest time step of a motion in its own time, as a share of √(pitch/g), the time of a swing: implicit steps damp
+    /// what is faster.
+    pub real_step: f64,
     /// Smallest share of a motion's step before the drape is given up as not converged.
     pub smallest_step: f64,
     /// Most time steps of the relaxation at the end.
@@ -40,7 +44,7 @@ pub struct Tuning {
 impl Default for Tuning {
     fn default() -> Self {
         Tuning {
-            contact_depth: 1e-6,
+            contact_depth: 1e-7,
             release: 5e-4,
             lift: 5e-4,
             step_tolerance: 1e-3,
@@ -48,7 +52,8 @@ impl Default for Tuning {
             turn: 0.3,
             iterations: 20,
             easy_iterations: 6,
-            largest_share: 1.0,
+            contact_way: 0.01,
+            real_step: 0.02,
             smallest_step: 1e-4,
             rest_steps: 200,
             rest_movement: 1e-4,

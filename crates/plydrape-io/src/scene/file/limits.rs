@@ -36,6 +36,14 @@ pub(in crate::scene) struct LimitsTable {
     pub tilt: Option<Quantity<Angle>>,
     /// Angular rate of a gripper's ball joint (rad/s), 90 deg/s unless given: assumed of a passive joint.
     pub tilt_rate: Option<Quantity<AngularRate>>,
+    /// Height of the sheet over the mold at the end (m), 0.5 mm unless given.
+    pub height: Option<Quantity<Length>>,
+    /// Angle between the sheet's fibres and the mold at the end (rad), 3 deg unless given.
+    pub out_of_plane: Option<Quantity<Angle>>,
+    /// Distance of the sheet's landed points from their ideal places (m), 2 mm unless given.
+    pub position: Option<Quantity<Length>>,
+    /// Force of the sheet on one gripper (N); none unless given.
+    pub gripper_force: Option<Quantity<Force>>,
     /// Horizontal force of a span (N); none unless given.
     pub force: Option<Quantity<Force>>,
     /// Vertical load that one gripper holds (N), 10 N unless given: a vacuum cup of 30 mm holds more.

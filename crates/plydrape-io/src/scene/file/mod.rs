@@ -6,18 +6,20 @@
 mod limits;
 mod mold;
 mod plan;
+mod sheet;
 mod target;
 
 pub(super) use limits::LimitsTable;
 pub(super) use mold::{MoldKind, MoldTable, SideKey};
 pub(super) use plan::{MethodKey, PlanTable};
+pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 
-use super::choice::{Centred, MaterialChoice, Place, Positions};
+use super::choice::{Centred, Curve, FrictionChoice, MaterialChoice, Place, Positions};
 use super::located::{Count, Fixed, Located};
 use super::quantity::{
     Acceleration, Angle, BendingRigidity, FlexuralRigidity, Force, ForcePerLength, Length, Mass,
-    Quantity, Ratio, Time,
+    Pressure, Quantity, Ratio, ShearSlope, TensileStiffness, Time,
 };
 use plydrape::ply::Direction;
 use schemars::JsonSchema;
@@ -44,6 +46,9 @@ pub(super) struct SceneKeys {
     /// Rules of the model.
     #[serde(default)]
     pub model: ModelTable,
+    /// How the ply is divided and followed as a sheet.
+    #[serde(default)]
+    pub sheet: SheetTable,
     /// How contact between ply and mold is found.
     #[serde(default)]
     pub contact: ContactTable,
@@ -68,6 +73,9 @@ pub(super) struct PlyTable {
     pub material: Located<MaterialChoice>,
     /// The grid direction along which the warp runs, "u" unless given.
     pub warp: Option<Warp>,
+    /// Fabric beyond the outermost grippers, on all sides (m), 0 unless given. Catenaries end at the grippers: the
+    /// sheet alone has it.
+    pub overhang: Option<Quantity<Length>>,
 }
 
 /// Grid direction of the warp.
@@ -106,8 +114,10 @@ pub(super) struct MaterialTable {
     pub bending_rigidity_warp: Option<Quantity<BendingRigidity>>,
     /// Bending rigidity per width along the weft (N·m); goes with a mass per area.
     pub bending_rigidity_weft: Option<Quantity<BendingRigidity>>,
-    /// Picture-frame shear force per length over the shear angle.
-    pub shear_curve: Option<Located<ShearCurveTable>>,
+    /// Tension per width over the strain of the yarns: a stiffness (N/m) or a table. The sheet needs it.
+    pub tension: Option<Located<Curve<TensileStiffness, TensionTable>>>,
+    /// Picture-frame shear force per length over the shear angle: a slope (N/m per rad) or a table. The sheet needs it.
+    pub shear_curve: Option<Located<Curve<ShearSlope, ShearCurveTable>>>,
     /// Shear angle at which the weave locks (rad).
     pub locking_angle: Option<Quantity<Angle>>,
     /// The test that found the locking angle.
@@ -149,6 +159,10 @@ pub(super) struct GrippersTable {
     pub positions: Option<Located<Positions>>,
     /// Limit of the ball joints: largest gripper tilt (rad), 40 deg unless given.
     pub max_tilt: Option<Quantity<Angle>>,
+    /// Radius of the pads that hold the sheet flat (m); 0 unless given, which holds one point.
+    pub pad_radius: Option<Quantity<Length>>,
+    /// How far the mounts of the pads yield; rigid unless given.
+    pub stiffness: Option<MountTable>,
 }
 
 /// How the grippers move. `plydrape plan` finds a motion of its own and takes only the start from here: the
@@ -180,17 +194,30 @@ pub(super) enum MotionKind {
     File,
 }
 
-/// Rules of the model.
+/// Which model drapes and decides, and its rules.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Model")]
 pub(super) struct ModelTable {
+    /// The whole ply as a sheet of cloth, or a net of catenaries; "sheet" unless given.
+    pub kind: Option<ModelKey>,
     /// How shared slopes are found, "moment-balance" unless given.
     pub slopes: Option<Slopes>,
     /// Axial stiffness EA of a line of ply (N), 100 kN unless given; inf for an inextensible ply.
     pub axial_stiffness: Option<Quantity<Force>>,
     /// Acceleration of gravity (m/s²), 9.81 unless given.
     pub gravity: Option<Quantity<Acceleration>>,
+}
+
+/// The model of the ply.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "Kind of model")]
+pub(super) enum ModelKey {
+    /// The whole ply, between and beyond the grippers.
+    Sheet,
+    /// Lines of ply between the grippers, as in Krogh et al. 2018.
+    Catenaries,
 }
 
 /// How shared slopes are found.
@@ -214,6 +241,11 @@ pub(super) struct ContactTable {
     pub stepping: Option<SteppingKey>,
     /// Slope of a span where it leaves the mold, "free" unless given.
     pub end: Option<EndKey>,
+    /// What holds the sheet along the mold: "stick" (the default) until it is lifted off, "stick-for-ever", or a
+    /// coefficient of friction. Catenaries always stick.
+    pub friction: Option<Located<FrictionChoice>>,
+    /// Shear stress that the sheet's tack bears besides friction (Pa), 0 unless given.
+    pub tack: Option<Quantity<Pressure>>,
 }
 
 /// When contact is evaluated.

@@ -1,0 +1,76 @@
+//! How the ply is draped as a sheet, as text.
+
+use super::Line;
+use crate::numbers::{degrees, millimetres, short};
+use plydrape::scene::{Friction, Limits, Model, Scene, Settings, SheetTime};
+
+/// Mesh, pads, friction and limits of the sheet; nothing where catenaries drape.
+pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
+    let (settings, limits) = (&scene.settings, &scene.limits);
+    if settings.model != Model::Sheet {
+        return Vec::new();
+    }
+    vec![
+        ("sheet", mesh(scene)),
+        ("", pads(settings)),
+        ("", friction(settings)),
+        ("", accepted(limits)),
+    ]
+}
+
+fn mesh(scene: &Scene) -> String {
+    let sheet = &scene.settings.sheet;
+    let lines = match sheet.mesh {
+        Some(mesh) => format!("lines of nodes up to {} mm apart", millimetres(mesh)),
+        None => "lines of nodes up to a tenth of a cell apart".into(),
+    };
+    let time = match sheet.time {
+        SheetTime::QuasiStatic => "quasi-static",
+        SheetTime::Real => "in real time",
+    };
+    format!(
+        "{lines}, {} mm beyond the grippers; {time}; up to {} states kept",
+        millimetres(sheet.overhang),
+        sheet.keep
+    )
+}
+
+fn pads(settings: &Settings) -> String {
+    let pad = &settings.pad;
+    let radius = match pad.radius {
+        0.0 => "grippers hold a point".into(),
+        radius => format!("pads of radius {} mm", millimetres(radius)),
+    };
+    let mount = |stiffness: Option<f64>| {
+        stiffness.map_or("rigid".into(), |stiffness| format!("{} N/m", short(stiffness)))
+    };
+    format!(
+        "{radius}; mounts {} along the ply, {} across",
+        mount(pad.lateral_stiffness),
+        mount(pad.axial_stiffness)
+    )
+}
+
+fn friction(settings: &Settings) -> String {
+    let contact = &settings.contact;
+    match contact.friction {
+        Friction::Stick => "sticks to the mold until it is lifted off".into(),
+        Friction::StickForEver => "sticks to the mold for ever".into(),
+        Friction::Coulomb(coefficient) => {
+            format!("friction {}, tack {} Pa", short(coefficient), short(contact.tack))
+        }
+    }
+}
+
+fn accepted(limits: &Limits) -> String {
+    let force = match limits.gripper_force {
+        Some(force) => format!("{} N", short(force)),
+        None => "any".into(),
+    };
+    format!(
+        "height {} mm, out of plane {} deg, position {} mm, force at each gripper {force}",
+        millimetres(limits.height),
+        degrees(limits.out_of_plane),
+        millimetres(limits.position)
+    )
+}

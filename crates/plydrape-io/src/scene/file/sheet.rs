@@ -1,0 +1,52 @@
+//! The keys of the table `[sheet]`, and of what only the sheet knows of grippers and material.
+
+use crate::scene::located::{Count, Located};
+use crate::scene::quantity::{ForcePerLength, Length, Quantity, Ratio, Stiffness};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// How the ply is divided and followed as a sheet.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Sheet")]
+pub(in crate::scene) struct SheetTable {
+    /// Largest distance between neighbouring lines of nodes (m), a tenth of the shorter side of a cell unless given.
+    pub mesh: Option<Quantity<Length>>,
+    /// Which time the motion takes, "quasi-static" unless given.
+    pub time: Option<TimeKey>,
+    /// Most states that are kept, the first and the last among them, 100 unless given.
+    pub keep: Option<Located<Count>>,
+}
+
+/// The time in which a sheet follows the motion of its grippers.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[schemars(rename = "Time of the sheet")]
+pub(in crate::scene) enum TimeKey {
+    /// Stretched until the ply's kinetic energy is of no matter.
+    QuasiStatic,
+    /// That of the motion.
+    Real,
+}
+
+/// How far the mount of a pad yields; a stiffness that is left out is rigid.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Mount")]
+pub(in crate::scene) struct MountTable {
+    /// Stiffness along the ply (N/m).
+    pub lateral: Option<Quantity<Stiffness>>,
+    /// Stiffness across the ply (N/m).
+    pub axial: Option<Quantity<Stiffness>>,
+}
+
+/// Measured points of a tensile test, the same along warp and weft.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Tension")]
+pub(in crate::scene) struct TensionTable {
+    /// Strains, ascending from 0.
+    pub strain: Located<Vec<Quantity<Ratio>>>,
+    /// Tension per width at each strain, from 0 and never falling (N/m).
+    pub force: Located<Vec<Quantity<ForcePerLength>>>,
+}

@@ -1,0 +1,166 @@
+//! Rules of the model, of contact, of the sheet and of the pads.
+
+use super::choice::FrictionChoice;
+use super::error::{Document, SceneError};
+use super::file::{
+    EndKey, GrippersTable, ModelKey, SceneKeys, SheetTable, Slopes, SteppingKey, TimeKey,
+};
+use super::limits::acute;
+use super::located::{Located, Whole};
+use super::quantity::{Quantity, Stiffness};
+use plydrape::ply::Ply;
+use plydrape::scene::{
+    ContactEnd, ContactSettings, Friction, Model, PadSettings, Settings, SheetSettings, SheetTime,
+    SlopeRule, Stepping,
+};
+
+/// Smallest and largest finite axial stiffness (N).
+const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
+/// Smallest and largest gravity (m/s²).
+const GRAVITY: [f64; 2] = [1e-3, 1e3];
+/// Smallest and largest stiffness of a gripper's mount (N/m).
+const MOUNTS: [f64; 2] = [1e-3, 1e9];
+/// Fewest and most states that a sheet keeps.
+const KEPT: [usize; 2] = [2, 100_000];
+
+/// Checks `[model]`, `[contact]`, `[sheet]`, and what `[ply]` and `[grippers]` say of sheet and pads.
+pub(super) fn settings(
+    file: &SceneKeys,
+    ply: &Ply,
+    document: &Document,
+) -> Result<Settings, SceneError> {
+    let (model, usual) = (&file.model, Settings::default());
+    let axial_stiffness = match &model.axial_stiffness {
+        Some(stiffness) if stiffness.si_or_infinite(document)? == f64::INFINITY => f64::INFINITY,
+        Some(stiffness) => stiffness.within(document, AXIAL_STIFFNESS)?,
+        None => usual.axial_stiffness,
+    };
+    let gravity = match &model.gravity {
+        Some(gravity) => gravity.within(document, GRAVITY)?,
+        None => usual.gravity,
+    };
+    let grippers = file.grippers.as_ref().map(|table| &table.value);
+    let overhang = match &file.ply.overhang {
+        Some(overhang) => overhang.size_or_zero(document)?,
+        None => usual.sheet.overhang,
+    };
+    Ok(Settings {
+        slopes: match model.slopes {
+            Some(Slopes::MinForce) => SlopeRule::MinForce,
+            Some(Slopes::MomentBalance) | None => SlopeRule::MomentBalance,
+        },
+        axial_stiffness,
+        gravity,
+        max_tilt: match grippers.and_then(|table| table.max_tilt.as_ref()) {
+            Some(tilt) => acute(tilt, document)?,
+            None => usual.max_tilt,
+        },
+        contact: contact(file, ply, document)?,
+        model: match model.kind {
+            Some(ModelKey::Sheet) => Model::Sheet,
+            Some(ModelKey::Catenaries) => Model::Catenaries,
+            None => usual.model,
+        },
+        sheet: sheet(&file.sheet, overhang, document)?,
+        pad: match grippers {
+            Some(table) => pad(table, document)?,
+            None => usual.pad,
+        },
+    })
+}
+
+fn contact(
+    file: &SceneKeys,
+    ply: &Ply,
+    document: &Document,
+) -> Result<ContactSettings, SceneError> {
+    let (contact, usual) = (&file.contact, ContactSettings::default());
+    let tolerance = match &contact.tolerance {
+        Some(tolerance) => {
+            let value = tolerance.size(document)?;
+            let cell = ply.cell[0].min(ply.cell[1]);
+            if value > 0.1 * cell {
+                return Err(document.error(
+                    tolerance.span.clone(),
+                    format!("{} is more than a tenth of a cell", document.quoted(&tolerance.span)),
+                    format!("the contact tolerance is a small distance, e.g. \"0.2 mm\"; a cell is {:.2} mm here", cell * 1e3),
+                ));
+            }
+            value
+        }
+        None => usual.tolerance,
+    };
+    Ok(ContactSettings {
+        tolerance,
+        stepping: match contact.stepping {
+            Some(SteppingKey::Once) => Stepping::Once,
+            Some(SteppingKey::Cut) | None => Stepping::Cut,
+        },
+        end: match contact.end {
+            Some(EndKey::Tangent) => ContactEnd::Tangent,
+            Some(EndKey::Free) | None => ContactEnd::Free,
+        },
+        friction: match &contact.friction {
+            Some(Located { value: FrictionChoice::Stick, .. }) => Friction::Stick,
+            Some(Located { value: FrictionChoice::StickForEver, .. }) => Friction::StickForEver,
+            Some(Located { value: FrictionChoice::Coefficient(coefficient), span }) => {
+                let coefficient = Located { value: coefficient.clone(), span: span.clone() };
+                Friction::Coulomb(coefficient.not_negative(document)?)
+            }
+            None => usual.friction,
+        },
+        tack: match &contact.tack {
+            Some(tack) => tack.not_negative(document)?,
+            None => usual.tack,
+        },
+    })
+}
+
+fn sheet(
+    table: &SheetTable,
+    overhang: f64,
+    document: &Document,
+) -> Result<SheetSettings, SceneError> {
+    let usual = SheetSettings::default();
+    Ok(SheetSettings {
+        mesh: table.mesh.as_ref().map(|mesh| mesh.size(document)).transpose()?,
+        overhang,
+        time: match table.time {
+            Some(TimeKey::Real) => SheetTime::Real,
+            Some(TimeKey::QuasiStatic) => SheetTime::QuasiStatic,
+            None => usual.time,
+        },
+        keep: match &table.keep {
+            None => usual.keep,
+            Some(keep) => {
+                let [least, most] = KEPT;
+                let Whole(count) = keep.value;
+                match usize::try_from(count) {
+                    Ok(count) if (least..=most).contains(&count) => count,
+                    _ => {
+                        return Err(document.error(
+                            keep.span.clone(),
+                            format!("{count} states cannot be kept"),
+                            format!("{least} to {most} states are possible, the first and the last among them"),
+                        ));
+                    }
+                }
+            }
+        },
+    })
+}
+
+fn pad(table: &GrippersTable, document: &Document) -> Result<PadSettings, SceneError> {
+    let usual = PadSettings::default();
+    let mount = |key: Option<&Quantity<Stiffness>>| {
+        key.map(|key| key.within_for(document, MOUNTS, "a gripper's mount")).transpose()
+    };
+    Ok(PadSettings {
+        radius: match &table.pad_radius {
+            Some(radius) => radius.size_or_zero(document)?,
+            None => usual.radius,
+        },
+        lateral_stiffness: mount(table.stiffness.as_ref().and_then(|keys| keys.lateral.as_ref()))?,
+        axial_stiffness: mount(table.stiffness.as_ref().and_then(|keys| keys.axial.as_ref()))?,
+    })
+}

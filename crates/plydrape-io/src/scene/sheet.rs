@@ -1,0 +1,201 @@
+//! What a scene must have to be draped as a sheet.
+
+use super::error::{Document, SceneError};
+use super::file::SceneKeys;
+use crate::shown::millimetres;
+use crate::size;
+use plydrape::material::{Material, Section};
+use plydrape::ply::Ply;
+use plydrape::scene::{Model, Settings};
+use std::ops::Range;
+
+/// Lines of nodes across the shorter side of a cell, unless the scene gives their distance.
+const LINES: f64 = 10.0;
+
+/// Refuses a scene whose model is the sheet if material, pads, mesh or memory do not allow that.
+pub(super) fn fits(
+    file: &SceneKeys,
+    ply: &Ply,
+    settings: &Settings,
+    steps: usize,
+    document: &Document,
+) -> Result<(), SceneError> {
+    if settings.model != Model::Sheet {
+        return Ok(());
+    }
+    stiffness(&file.ply.material.span, &ply.material, document)?;
+    let around = Around { file, ply, settings, document };
+    around.pads()?;
+    let mesh = around.mesh()?;
+    let states = settings.sheet.keep.min(steps);
+    size::sheet(around.nodes(mesh), states).map_err(|fault| {
+        let span = around.mesh_span().unwrap_or_else(|| file.ply.grippers.span.clone());
+        document.error(
+            span,
+            fault.to_string(),
+            format!("{}; a coarser `mesh` has fewer nodes", fault.remedy()),
+        )
+    })
+}
+
+/// Refuses a material that does not say how it resists tension, shear and bending; `span` is where the scene names it.
+fn stiffness(
+    span: &Range<usize>,
+    material: &Material,
+    document: &Document,
+) -> Result<(), SceneError> {
+    let rigid = match material.section {
+        Section::Line { flexural_rigidity, .. } => flexural_rigidity > 0.0,
+        Section::Areal { warp_rigidity, weft_rigidity, .. } => {
+            warp_rigidity > 0.0 && weft_rigidity > 0.0
+        }
+    };
+    let bending = match material.section {
+        Section::Line { .. } => "`flexural_rigidity`",
+        Section::Areal { .. } => "`bending_rigidity_warp` and `_weft`",
+    };
+    let tests = [
+        (material.tension.is_some(), "tension", "`tension`", "a tensile test"),
+        (
+            material.shear_curve.is_some(),
+            "shear",
+            "`shear_curve`",
+            "a picture-frame or a bias-extension test",
+        ),
+        (rigid, "bending", bending, "a cantilever test (ASTM D1388)"),
+    ];
+    let missing: Vec<_> = tests.iter().filter(|(known, ..)| !known).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let kinds: Vec<&str> = missing.iter().map(|(_, kind, ..)| *kind).collect();
+    let remedies: Vec<String> =
+        missing.iter().map(|(.., key, test)| format!("{key} from {test}")).collect();
+    Err(document.error(
+        span.clone(),
+        format!("the material {} has no stiffness in {}, which the sheet needs", material.name, listed(&kinds)),
+        format!(
+            "give the material its {}; or write kind = \"catenaries\" in [model], which need none of that",
+            remedies.join(", and its ")
+        ),
+    ))
+}
+
+/// `a`, `a and b`, `a, b and c`.
+fn listed(words: &[&str]) -> String {
+    match words {
+        [words @ .., last] if !words.is_empty() => format!("{} and {last}", words.join(", ")),
+        _ => words.join(""),
+    }
+}
+
+/// What the pads and the mesh of a sheet are held against.
+struct Around<'a> {
+    file: &'a SceneKeys,
+    ply: &'a Ply,
+    settings: &'a Settings,
+    document: &'a Document,
+}
+
+impl Around<'_> {
+    /// Refuses pads that overlap or hang over the boundary.
+    fn pads(&self) -> Result<(), SceneError> {
+        let radius = self.settings.pad.radius;
+        let Some(span) = self.pad_span().filter(|_| radius > 0.0) else { return Ok(()) };
+        let (pitch, overhang) = (self.pitch(), self.settings.sheet.overhang);
+        if 2.0 * radius >= pitch {
+            return Err(self.document.error(
+                span,
+                format!(
+                    "the pads overlap: they are {} mm wide and {} mm apart",
+                    millimetres(2.0 * radius),
+                    millimetres(pitch)
+                ),
+                format!(
+                    "a radius below {} mm leaves fabric between them",
+                    millimetres(0.5 * pitch)
+                ),
+            ));
+        }
+        if radius > overhang * (1.0 + ROUNDING) {
+            return Err(self.document.error(
+                span,
+                format!(
+                    "the outermost pads hang over the boundary: their radius is {} mm, and there are {} mm of fabric beyond the grippers",
+                    millimetres(radius),
+                    millimetres(overhang)
+                ),
+                format!("give overhang = \"{} mm\" or more in [ply], or smaller pads", millimetres(radius)),
+            ));
+        }
+        Ok(())
+    }
+
+    /// The largest distance between lines of nodes (m); refuses one that leaves no line between two pads.
+    fn mesh(&self) -> Result<f64, SceneError> {
+        let mesh = self.settings.sheet.mesh.unwrap_or(self.pitch() / LINES);
+        let radius = self.settings.pad.radius;
+        let most = 0.5 * self.pitch() - radius;
+        if mesh <= most * (1.0 + ROUNDING) {
+            return Ok(mesh);
+        }
+        let between = format!("{} mm of fabric between neighbouring pads", millimetres(2.0 * most));
+        let Some(span) = self.mesh_span() else {
+            let span = self.pad_span().unwrap_or_else(|| self.file.ply.grippers.span.clone());
+            return Err(self.document.error(
+                span,
+                format!(
+                    "there are {between}, less than two lines of nodes {} mm apart need",
+                    millimetres(mesh)
+                ),
+                format!(
+                    "give mesh = \"{} mm\" or less in [sheet], or smaller pads",
+                    millimetres(most)
+                ),
+            ));
+        };
+        Err(self.document.error(
+            span,
+            format!(
+                "lines of nodes {} mm apart meet neither pads nor boundary: there are {between}",
+                millimetres(mesh)
+            ),
+            format!("{} mm or less puts a line between them", millimetres(most)),
+        ))
+    }
+
+    /// How many nodes a mesh has: its lines meet boundary, pads and grippers; one row of grippers is on a single line.
+    fn nodes(&self, mesh: f64) -> f64 {
+        let radius = self.settings.pad.radius;
+        let lines = |length: f64| {
+            if length > 0.0 { (length / mesh * (1.0 - ROUNDING)).ceil() } else { 0.0 }
+        };
+        let along = |count: usize, side: f64| {
+            if count == 1 {
+                return 1.0;
+            }
+            let between = lines(side - 2.0 * radius) + 2.0 * lines(radius);
+            let beyond = lines(self.settings.sheet.overhang - radius) + lines(radius);
+            (count as f64 - 1.0) * between + 2.0 * beyond + 1.0
+        };
+        let (grid, [a, b]) = (self.ply.grid, self.ply.cell);
+        along(grid.nu, a) * along(grid.nv, b)
+    }
+
+    /// Smallest fabric length between neighbouring grippers (m).
+    fn pitch(&self) -> f64 {
+        let [a, b] = self.ply.cell;
+        if self.ply.grid.nv > 1 { a.min(b) } else { a }
+    }
+
+    fn mesh_span(&self) -> Option<Range<usize>> {
+        Some(self.file.sheet.mesh.as_ref()?.span.clone())
+    }
+
+    fn pad_span(&self) -> Option<Range<usize>> {
+        Some(self.file.grippers.as_ref()?.value.pad_radius.as_ref()?.span.clone())
+    }
+}
+
+/// Rounding of lengths that come from decimal numbers, as a share of them.
+const ROUNDING: f64 = 1e-9;

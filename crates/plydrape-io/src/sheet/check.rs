@@ -1,0 +1,100 @@
+//! What the numbers of a sheet must be, when they are written and when they are read.
+
+use super::array::{ARRAYS, Array, OF_MESH, Sizes, Values};
+use super::{SheetError, SheetMesh, SheetState};
+
+/// Largest number in size: its square and its cube are far from overflow.
+const LARGEST: f64 = 1e30;
+/// Room for the length of a quaternion.
+const UNIT: f64 = 1e-3;
+/// Largest whole number, as NumPy's int32.
+const MOST: u32 = i32::MAX as u32;
+
+/// The sizes of a sheet whose arrays belong together.
+pub(super) fn sizes(mesh: &SheetMesh) -> Sizes {
+    Sizes {
+        states: 0,
+        nodes: mesh.places.len(),
+        segments: mesh.segments.len(),
+        cells: mesh.cells.len(),
+        grippers: mesh.grippers,
+    }
+}
+
+/// Refuses a mesh whose arrays have other lengths than they must, or name nodes that it has not.
+pub(super) fn mesh(
+    mesh: &SheetMesh,
+    landing_step: &[u32],
+    sizes: &Sizes,
+) -> Result<(), SheetError> {
+    for (array, values) in ARRAYS[..OF_MESH].iter().zip(mesh.values(landing_step)) {
+        sound(array, values, sizes)?;
+        if let ("segments" | "cells", Values::Index(nodes)) = (array.name, values) {
+            refuse(array, nodes, "there is no such node", |node| {
+                usize::try_from(*node).is_ok_and(|node| node < sizes.nodes)
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a state whose arrays have other lengths than they must, or that comes before the one `after` which it stands.
+pub(super) fn state(
+    state: &SheetState,
+    sizes: &Sizes,
+    after: Option<(u32, f64)>,
+) -> Result<(), SheetError> {
+    for (array, values) in ARRAYS[OF_MESH..].iter().zip(state.values()) {
+        sound(array, values, sizes)?;
+    }
+    for (n, q) in state.pad_rotation.iter().enumerate() {
+        let length = q.iter().map(|q| q * q).sum::<f64>().sqrt();
+        if (length - 1.0).abs() > UNIT {
+            let rule = "it is the length of a quaternion, which must be 1";
+            return Err(SheetError::Value { array: "pad_rotation", index: n, value: length, rule });
+        }
+    }
+    let (step, time) = after.unwrap_or((1, f64::NEG_INFINITY));
+    let rule = "states come in the order of steps and times, from step 1 on";
+    if state.step < step {
+        let value = f64::from(state.step);
+        return Err(SheetError::Value { array: "step", index: 0, value, rule });
+    }
+    if state.time < time {
+        return Err(SheetError::Value { array: "time", index: 0, value: state.time, rule });
+    }
+    Ok(())
+}
+
+fn sound(array: &Array, values: Values, sizes: &Sizes) -> Result<(), SheetError> {
+    let (found, expected) = (values.len(), array.count(sizes));
+    if found != expected {
+        return Err(SheetError::Length { array: array.name, expected, found });
+    }
+    match values {
+        Values::Real(values) => {
+            // a node has no height where there is no mold
+            let may_lack = array.name == "height";
+            refuse(array, values, "a finite number is wanted", |value| {
+                value.abs() <= LARGEST || (may_lack && value.is_nan())
+            })
+        }
+        Values::Index(values) => refuse(array, values, "it is too large", |value| *value <= MOST),
+        Values::Flag(_) => Ok(()),
+    }
+}
+
+fn refuse<T: Copy + Into<f64>>(
+    array: &Array,
+    values: &[T],
+    rule: &'static str,
+    fits: impl Fn(&T) -> bool,
+) -> Result<(), SheetError> {
+    match values.iter().position(|value| !fits(value)) {
+        None => Ok(()),
+        Some(index) => {
+            let value = values[index].into();
+            Err(SheetError::Value { array: array.name, index, value, rule })
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Extremes over the steps: strain, shear, force at a gripper, tilt, depth in the mold, folds in the air, first contact.
+
+use super::super::fabric::Fabric;
+use super::super::model::Sheet;
+use super::super::state::State;
+use super::super::stretch::strain;
+use super::{Most, Place, middle};
+use crate::mold::Mold;
+use crate::mold::vector::{cross, dot, norm, sub, unit};
+
+/// Extremes over the steps that were seen.
+#[derive(Debug, Clone, Default)]
+pub struct Extremes {
+    pub(super) strain: Most,
+    pub(super) shear: Most,
+    pub(super) force: Most,
+    pub(super) lateral: Most,
+    pub(super) tilt: Most,
+    pub(super) depth: Most,
+    pub(super) fold: Most,
+    pub(super) first_contact: Option<Place>,
+}
+
+impl Extremes {
+    /// Evaluates the state of a step; `touching` is the height that counts as contact (m).
+    pub fn see(&mut self, sheet: &Sheet, state: &State, touching: f64) {
+        let (fabric, x, step) = (&sheet.fabric, &state.positions, state.step);
+        let of = |nodes: [u32; 2]| {
+            let [a, b] = nodes.map(|n| n as usize);
+            (middle([fabric.places[a], fabric.places[b]]), middle([x[a], x[b]]))
+        };
+        for segment in &fabric.segments {
+            let (uv, at) = of(segment.nodes);
+            self.strain.meet(strain(segment, x), uv, at, step);
+        }
+        for (cell, shear) in fabric.cells.iter().zip(&state.shear) {
+            let uv = middle(cell.nodes.map(|n| fabric.places[n as usize]));
+            let at = middle(cell.nodes.map(|n| x[n as usize]));
+            self.shear.meet(shear.abs(), uv, at, step);
+        }
+        for bend in &fabric.bends {
+            let [a, b, c] = bend.nodes.map(|n| n as usize);
+            if state.contact[b] {
+                continue;
+            }
+            let [first, second] = [sub(x[b], x[a]), sub(x[c], x[b])];
+            let turn = norm(cross(first, second)).atan2(dot(first, second));
+            self.fold.meet(turn, fabric.places[b], x[b], step);
+        }
+        for ((gripper, pad), force) in sheet.grippers.iter().zip(&state.pads).zip(&state.forces) {
+            let at = pad.position;
+            self.force.meet(norm(*force), gripper.place, at, step);
+            self.lateral.meet(force[0].hypot(force[1]), gripper.place, at, step);
+            let node = fabric.node_at(gripper.place).filter(|_| gripper.radius == 0.0);
+            let tilt = node.map_or(Some(pad.tilt()), |node| tilt(fabric, x, node));
+            self.tilt.meet(tilt.unwrap_or(0.0), gripper.place, at, step);
+        }
+        for (node, height) in state.heights.iter().enumerate() {
+            self.depth.meet((-height).max(0.0), fabric.places[node], x[node], step);
+        }
+        if let Some(mold) = &sheet.mold {
+            self.between(fabric, mold, state, sheet.mesh);
+        }
+        if self.first_contact.is_none() {
+            let held = sheet.held();
+            let mut free = vec![true; x.len()];
+            held.iter().flatten().for_each(|(node, _)| free[*node] = false);
+            let heights = state.heights.iter().enumerate().filter(|(node, _)| free[*node]);
+            let lowest = heights.min_by(|a, b| a.1.total_cmp(b.1));
+            self.first_contact =
+                lowest.filter(|(_, height)| **height <= touching).map(|(node, height)| Place {
+                    value: *height,
+                    uv: fabric.places[node],
+                    at: x[node],
+                    step,
+                });
+        }
+    }
+
+    /// Depth of the middles of cells: what they are deeper than a chord of the mold's own curvature.
+    fn between(&mut self, fabric: &Fabric, mold: &Mold, state: &State, mesh: f64) {
+        if matches!(mold, Mold::Plane(_)) {
+            return;
+        }
+        for cell in &fabric.cells {
+            let nodes = cell.nodes.map(|n| n as usize);
+            if nodes.iter().all(|n| state.heights[*n] > mesh) {
+                continue;
+            }
+            let at = middle(nodes.map(|n| state.positions[n]));
+            let closest = mold.closest_point(at);
+            if closest.beyond || closest.distance >= 0.0 {
+                continue;
+            }
+            let normals = nodes.map(|n| mold.normal(state.positions[n]));
+            // a chord of length l over an arc that turns by φ lies l φ / 8 under its middle
+            let sagitta = |a: usize, b: usize| {
+                let length = norm(sub(state.positions[nodes[a]], state.positions[nodes[b]]));
+                length * norm(sub(normals[a], normals[b])) / 8.0
+            };
+            let depth = -closest.distance - sagitta(0, 2).max(sagitta(1, 3));
+            let uv = middle(nodes.map(|n| fabric.places[n]));
+            self.depth.meet(depth.max(0.0), uv, at, state.step);
+        }
+    }
+}
+
+/// Tilt of the ply at a node (rad), by the normals of the cells around it; none without cells.
+#[must_use]
+pub fn tilt(fabric: &Fabric, x: &[[f64; 3]], node: usize) -> Option<f64> {
+    let mut sum = [0.0; 3];
+    for cell in fabric.cells.iter().filter(|cell| cell.nodes.contains(&(node as u32))) {
+        let [a, b, c, d] = cell.nodes.map(|n| x[n as usize]);
+        let normal = cross(sub(c, a), sub(d, b));
+        for n in 0..3 {
+            sum[n] += normal[n];
+        }
+    }
+    unit(sum).map(|normal| normal[2].clamp(-1.0, 1.0).acos())
+}

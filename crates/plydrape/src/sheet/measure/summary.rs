@@ -1,0 +1,184 @@
+//! How a drape of the sheet came out.
+
+use super::super::drape::Status;
+use super::super::model::Sheet;
+use super::super::state::State;
+use super::direction::directions;
+use super::extremes::Extremes;
+use super::height::{Raised, raised};
+use super::limits::limits;
+use super::position::positions;
+use super::{Most, Place};
+use crate::measure::Verdict;
+use crate::scene::Scene;
+
+/// Height (m) whose share of the area is reported; half a millimetre, the limit unless a scene sets another.
+const HEIGHT_OF_SHARE: f64 = 5e-4;
+
+/// The outcome of a drape of the sheet. Values that need a mold or an ideal drape are none without it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Summary {
+    /// Every limit holds, and every step was solved.
+    pub accepted: bool,
+    /// How the drape ended.
+    pub status: Status,
+    /// Whether every step was solved and the ply is at rest.
+    pub converged: bool,
+    /// Nodes.
+    pub nodes: usize,
+    /// Steps done.
+    pub steps: usize,
+    /// Largest height over the mold at the end (mm).
+    pub height_max_mm: Option<f64>,
+    /// Root mean square of the height over the area (mm).
+    pub height_rms_mm: Option<f64>,
+    /// Share of the area that is higher than half a millimetre.
+    pub height_share_above_half_mm: Option<f64>,
+    /// Largest height of a ridge, where excess length is caught (mm).
+    pub ridge_max_mm: Option<f64>,
+    /// Largest height of a bridge, where the fabric is taut over a hollow (mm).
+    pub bridge_max_mm: Option<f64>,
+    /// Largest angle of a fibre out of the mold's plane (°).
+    pub out_of_plane_deg: Option<f64>,
+    /// Largest angle of a fibre along the mold against the ideal drape (°).
+    pub fibre_angle_deg: Option<f64>,
+    /// Largest distance of a landed point from its ideal place (mm).
+    pub position_max_mm: Option<f64>,
+    /// Root mean square of it over the landed area (mm).
+    pub position_rms_mm: Option<f64>,
+    /// Largest strain of a yarn in any step.
+    pub strain_max: f64,
+    /// Largest shear angle in any step (°).
+    pub shear_max_deg: f64,
+    /// Largest force of the ply on a gripper in any step (N).
+    pub gripper_force_max_n: f64,
+    /// Its largest horizontal part (N).
+    pub gripper_pull_max_n: f64,
+    /// Largest tilt of a pad, or of the ply at a gripper without one, in any step (°).
+    pub tilt_max_deg: f64,
+    /// Sharpest turn between neighbouring segments in the air in any step (°).
+    pub fold_max_deg: f64,
+    /// Largest depth of ply and grippers in the mold in any step (mm).
+    pub penetration_mm: Option<f64>,
+    /// First step in which the ply touches the mold.
+    pub first_contact_step: Option<usize>,
+    /// Fabric coordinates of what touches first (mm).
+    pub first_contact_uv_mm: Option<[f64; 2]>,
+    /// Energy at the end (J): weight, stretch, shear, bending, contact and mounts.
+    pub energy_j: f64,
+    /// Kinetic energy at the end (J).
+    pub kinetic_energy_j: f64,
+    /// Time steps.
+    pub time_steps: usize,
+    /// Linear systems that were solved.
+    pub solves: usize,
+    /// Shortest time step as a share of a step of the motion.
+    pub smallest_step: f64,
+    /// Every limit, judged.
+    pub limits: Vec<Verdict>,
+}
+
+/// What is measured at the end.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Ends {
+    pub height: Most,
+    pub out_of_plane: Most,
+    pub fibre_angle: Most,
+    pub position: Most,
+}
+
+impl Summary {
+    /// Of a drape that ended with a state.
+    pub(in super::super) fn new(
+        scene: &Scene,
+        sheet: &Sheet,
+        extremes: &Extremes,
+        last: &State,
+        status: Status,
+        [time_steps, solves]: [usize; 2],
+        smallest_step: f64,
+    ) -> Self {
+        let mut ends = Ends::default();
+        let (mut rms, mut share, mut ridge, mut bridge, mut position_rms) =
+            (None, None, None, None, None);
+        let fabric = &sheet.fabric;
+        if let Some(mold) = &sheet.mold {
+            let touching = scene.settings.contact.tolerance;
+            let x = &last.positions;
+            let (mut squares, mut above, mut area) = (0.0, 0.0, 0.0);
+            for (node, height) in last.heights.iter().enumerate() {
+                // what lies off the mold has no height
+                if mold.closest_point(x[node]).beyond {
+                    continue;
+                }
+                ends.height.meet(height.max(0.0), fabric.places[node], x[node], last.step);
+                squares += fabric.areas[node] * height * height;
+                area += fabric.areas[node];
+                if *height > HEIGHT_OF_SHARE {
+                    above += fabric.areas[node];
+                }
+            }
+            if area > 0.0 {
+                (rms, share) = (Some((squares / area).sqrt()), Some(above / area));
+                let kinds = raised(fabric, mold, x, sheet.clear);
+                let highest = |kind: Raised| {
+                    let of = kinds.iter().zip(&last.heights).filter(|(k, _)| **k == Some(kind));
+                    Some(of.map(|(_, height)| *height).fold(0.0, f64::max))
+                };
+                (ridge, bridge) = (highest(Raised::Ridge), highest(Raised::Bridge));
+            }
+            let ideal = scene.target.as_ref().and_then(|target| target.drape.as_deref());
+            [ends.out_of_plane, ends.fibre_angle] = directions(fabric, mold, ideal, x, last.step);
+            if let Some(ideal) = ideal {
+                let landed = |node: usize| last.heights[node] <= touching;
+                (ends.position, position_rms) =
+                    positions(fabric, mold, ideal, x, landed, last.step);
+            }
+        }
+
+        let converged = status == Status::Converged;
+        let limits = limits(scene, extremes, &ends);
+        let value = |most: Most, unit: f64| most.0.map(|place| place.value / unit);
+        let degrees = |most: Most| most.0.map(|place| place.value.to_degrees());
+        let mm = |value: Option<f64>| value.map(|value| value * 1e3);
+        Summary {
+            accepted: converged && limits.iter().all(|verdict| verdict.ok),
+            status,
+            converged,
+            nodes: fabric.places.len(),
+            steps: last.step,
+            height_max_mm: value(ends.height, 1e-3),
+            height_rms_mm: mm(rms),
+            height_share_above_half_mm: share,
+            ridge_max_mm: mm(ridge),
+            bridge_max_mm: mm(bridge),
+            out_of_plane_deg: degrees(ends.out_of_plane),
+            fibre_angle_deg: degrees(ends.fibre_angle),
+            position_max_mm: value(ends.position, 1e-3),
+            position_rms_mm: mm(position_rms),
+            strain_max: value(extremes.strain, 1.0).unwrap_or(0.0),
+            shear_max_deg: degrees(extremes.shear).unwrap_or(0.0),
+            gripper_force_max_n: value(extremes.force, 1.0).unwrap_or(0.0),
+            gripper_pull_max_n: value(extremes.lateral, 1.0).unwrap_or(0.0),
+            tilt_max_deg: degrees(extremes.tilt).unwrap_or(0.0),
+            fold_max_deg: degrees(extremes.fold).unwrap_or(0.0),
+            penetration_mm: value(extremes.depth, 1e-3),
+            first_contact_step: extremes.first_contact.map(|place| place.step),
+            first_contact_uv_mm: extremes.first_contact.map(|place| place.uv.map(|c| c * 1e3)),
+            energy_j: last.energy,
+            kinetic_energy_j: last.kinetic_energy,
+            time_steps,
+            solves,
+            smallest_step,
+            limits,
+        }
+    }
+}
+
+/// Where a value is, as a label.
+pub(super) fn label(place: &Place) -> String {
+    let [u, v] = place.uv.map(|c| c * 1e3);
+    format!("fabric point ({u:.1}, {v:.1}) mm")
+}
