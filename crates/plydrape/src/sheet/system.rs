@@ -80,7 +80,7 @@ impl System {
         }
         coupled.retain(|[i, j]| i != j);
         let matrix = BlockMatrix::new(block_places.len(), coupled);
-        let cholesky = Cholesky::new(&matrix, block_places);
+        let cholesky = Cholesky::new(&matrix);
         let nodes = places.len();
         System {
             carriers,
