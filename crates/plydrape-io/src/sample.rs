@@ -224,7 +224,6 @@ fn summarize(result: &mut ResultFile) {
 
 fn frame(grid: Grid) -> ResultFile {
     ResultFile {
-        sheet_file: None,
         program: "test".into(),
         scene: SceneEcho {
             title: "Flat sheared mold".into(),
@@ -287,6 +286,7 @@ fn frame(grid: Grid) -> ResultFile {
             },
         },
         plan: None,
+        sheet_states: None,
         steps: Vec::new(),
         summary: Summary {
             accepted: true,
@@ -311,6 +311,7 @@ fn frame(grid: Grid) -> ResultFile {
                 place: None,
             }],
             equilibria: 30,
+            sheet: None,
         },
     }
 }
