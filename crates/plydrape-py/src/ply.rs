@@ -119,7 +119,7 @@ impl Ply {
     }
 }
 
-/// What a ply is made of: mass, flexural rigidity, shear curve and locking angle.
+/// What a ply is made of: mass, flexural rigidity, tension, shear curve and locking angle.
 ///
 /// Example:
 ///     >>> material = plydrape.Material.shipped("krogh2018")
@@ -229,6 +229,17 @@ impl Material {
     fn shear_force(&self, angles: List<'_>) -> Option<Array<f64>> {
         let curve = self.0.shear_curve.as_ref()?;
         let forces: Vec<f64> = angles.0.as_array().iter().map(|a| curve.force(*a).0).collect();
+        Some(Array::new(&[forces.len()], forces))
+    }
+
+    /// Tension per width (N/m) at strains, shape (n,); None if the material does not say it.
+    ///
+    /// Example:
+    ///     >>> plydrape.Material.shipped("krogh2018").tension(np.array([0, 0.001]))
+    ///     array([   0., 1000.])
+    fn tension(&self, strains: List<'_>) -> Option<Array<f64>> {
+        let law = self.0.tension.as_ref()?;
+        let forces: Vec<f64> = strains.0.as_array().iter().map(|e| law.tension(*e)[1]).collect();
         Some(Array::new(&[forces.len()], forces))
     }
 

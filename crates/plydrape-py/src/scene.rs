@@ -22,12 +22,13 @@ use toml::map::Map;
 /// units, a str carries its unit. Arrays may stand for lists. `mold` may also be a `Mold`.
 ///
 /// Args:
-///     ply: What hangs between the grippers: `grippers`, `cell`, `material`, `warp`.
+///     ply: What hangs between the grippers: `grippers`, `cell`, `material`, `warp`, `overhang`.
 ///     mold: What the ply is laid on.
 ///     grippers: Where the grippers start.
 ///     target: Where the ply shall end.
 ///     motion: How the grippers move.
-///     model: Rules of the model.
+///     model: Which model drapes and decides, and its rules.
+///     sheet: How the ply is divided and followed as a sheet.
 ///     contact: How contact is found.
 ///     limits: What an accepted drape keeps to.
 ///     plan: How a motion is planned.
@@ -59,8 +60,9 @@ impl Scene {
         *, ply: "dict[str, typing.Any]", mold: "dict[str, typing.Any] | Mold | None" = None,
         grippers: "dict[str, typing.Any] | None" = None, target: "dict[str, typing.Any] | None" = None,
         motion: "dict[str, typing.Any] | None" = None, model: "dict[str, typing.Any] | None" = None,
-        contact: "dict[str, typing.Any] | None" = None, limits: "dict[str, typing.Any] | None" = None,
-        plan: "dict[str, typing.Any] | None" = None, title = None, base = PathBuf::new()
+        sheet: "dict[str, typing.Any] | None" = None, contact: "dict[str, typing.Any] | None" = None,
+        limits: "dict[str, typing.Any] | None" = None, plan: "dict[str, typing.Any] | None" = None,
+        title = None, base = PathBuf::new()
     ))]
     #[expect(clippy::too_many_arguments, reason = "the tables of a scene file")]
     fn new(
@@ -71,6 +73,7 @@ impl Scene {
         target: Table<'_, '_>,
         motion: Table<'_, '_>,
         model: Table<'_, '_>,
+        sheet: Table<'_, '_>,
         contact: Table<'_, '_>,
         limits: Table<'_, '_>,
         plan: Table<'_, '_>,
@@ -100,6 +103,7 @@ impl Scene {
             ("target", target),
             ("motion", motion),
             ("model", model),
+            ("sheet", sheet),
             ("contact", contact),
             ("limits", limits),
             ("plan", plan),

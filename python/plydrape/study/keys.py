@@ -18,7 +18,18 @@ Value = float | int | str | bool
 Tables = Mapping[str, Any]
 
 # The tables that a scene file may have.
-SCENE = ("ply", "mold", "grippers", "target", "motion", "model", "contact", "limits", "plan")
+SCENE = (
+    "ply",
+    "mold",
+    "grippers",
+    "target",
+    "motion",
+    "model",
+    "sheet",
+    "contact",
+    "limits",
+    "plan",
+)
 # The numbers of a scene that are whole.
 WHOLE = {
     "ply.grippers.0",
@@ -27,6 +38,7 @@ WHOLE = {
     "plan.steps",
     "plan.evaluations",
     "plan.seed",
+    "sheet.keep",
 }
 # What has no effect on a command, and why.
 IDLE = {

@@ -4,9 +4,9 @@ use super::{ResultFile, SceneEcho};
 use crate::json::JsonError;
 use crate::shown;
 use plydrape::draping::record::CatenaryState;
-use plydrape::material::Section;
+use plydrape::material::{Section, TensionLaw};
 use plydrape::ply::{FARTHEST, Grid, GripperId, is_near};
-use plydrape::scene::Settings;
+use plydrape::scene::{Friction, Settings};
 
 /// What is impossible in a result, in words: a file whose check sum was made anew may hold anything, and everything made of
 /// it relies on this.
@@ -49,7 +49,20 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
             mass > 0.0 && warp_rigidity >= 0.0 && weft_rigidity >= 0.0
         }
     };
-    let Settings { axial_stiffness, gravity, max_tilt, .. } = scene.settings;
+    if let Some(TensionLaw::Table { strain, force }) = &scene.ply.material.tension
+        && (strain.len() != force.len() || strain.len() < 2 || !strain.is_sorted_by(|a, b| a < b))
+    {
+        return Some("the tension of its material is no table of force over strain".into());
+    }
+    let Settings { axial_stiffness, gravity, max_tilt, sheet, pad, contact, .. } = scene.settings;
+    let friction = match contact.friction {
+        Friction::Coulomb(coefficient) => coefficient,
+        Friction::Stick | Friction::StickForEver => 0.0,
+    };
+    let lengths = [sheet.mesh.unwrap_or(0.0), sheet.overhang, pad.radius];
+    if lengths.iter().chain(&[friction, contact.tack]).any(|value| *value < 0.0) {
+        return Some("mesh, overhang, pads, friction and tack must not be negative".into());
+    }
     if !(sound && axial_stiffness > 0.0 && gravity > 0.0) {
         return Some("mass, stiffness and gravity must be above zero".into());
     }

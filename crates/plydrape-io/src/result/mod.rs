@@ -26,7 +26,7 @@ use std::time::Duration;
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 6;
+pub const VERSION: u32 = 7;
 
 /// A whole result.
 #[derive(Debug, Clone)]

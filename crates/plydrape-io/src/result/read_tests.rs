@@ -1,6 +1,9 @@
 use super::*;
 use crate::sample;
+use crate::sheet::SheetSeal;
+use plydrape::material::TensionLaw;
 use plydrape::measure::Verdict;
+use plydrape::scene::Friction;
 
 fn read(text: &str) -> Result<ResultFile, ReadError> {
     parse(text.as_bytes(), Path::new("result.json"))
@@ -26,6 +29,38 @@ fn a_cut_text_is_truncated_wherever_it_was_cut() {
         let end = (end..).find(|n| text.is_char_boundary(*n)).unwrap();
         let refused = read(&text[..end]).unwrap_err();
         assert!(matches!(refused, ReadError::Truncated { .. }), "{share}: {refused}");
+    }
+}
+
+/// A result says which states belong to it, and looks for them in its folder; one without a sheet names none.
+#[test]
+fn a_result_names_the_states_of_its_sheet() {
+    let mut result = sample::draped(3, 2, 3);
+    assert!(read(&ResultFile::text(&result).unwrap()).unwrap().sheet_states.is_none());
+    let checksum = "crc32:0123abcd".to_string();
+    let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
+    result.sheet_states = Some(SheetKept::read(seal.clone(), "no/such/folder".into()));
+    let states = read(&ResultFile::text(&result).unwrap()).unwrap().sheet_states.unwrap();
+    assert_eq!(states.seal(), &seal);
+    assert!(matches!(states.open(), Err(ReadError::Unreadable { .. })));
+}
+
+/// A forged check sum does not help a material whose tension is no table, nor settings that no scene has.
+#[test]
+fn settings_of_the_sheet_must_be_those_of_a_scene() {
+    let spoilt: [fn(&mut ResultFile); 3] = [
+        |r| {
+            let (strain, force) = (vec![0.0, 0.1], vec![0.0]);
+            r.scene.ply.material.tension = Some(TensionLaw::Table { strain, force });
+        },
+        |r| r.scene.settings.sheet.mesh = Some(-0.01),
+        |r| r.scene.settings.contact.friction = Friction::Coulomb(-0.3),
+    ];
+    for spoil in spoilt {
+        let mut result = sample::draped(3, 2, 3);
+        spoil(&mut result);
+        let refused = read(&ResultFile::text(&result).unwrap()).unwrap_err();
+        assert!(matches!(refused, ReadError::Changed { .. }), "{refused}");
     }
 }
 

@@ -25,7 +25,6 @@ pub(super) fn fits(
     }
     stiffness(&file.ply.material.span, &ply.material, document)?;
     let around = Around { file, ply, settings, document };
-    around.width()?;
     around.pads()?;
     let mesh = around.mesh()?;
     let states = settings.sheet.keep.min(steps);
@@ -99,21 +98,6 @@ struct Around<'a> {
 }
 
 impl Around<'_> {
-    /// Refuses a row of grippers without fabric to its sides.
-    fn width(&self) -> Result<(), SceneError> {
-        if self.ply.grid.nv > 1 || self.settings.sheet.overhang > 0.0 {
-            return Ok(());
-        }
-        Err(self.document.error(
-            self.file.ply.grippers.span.clone(),
-            "a sheet with one row of grippers and no overhang has no width",
-            format!(
-                "add overhang = \"{} mm\" or the like to [ply], or write kind = \"catenaries\" in [model]",
-                millimetres(0.5 * self.ply.cell[1])
-            ),
-        ))
-    }
-
     /// Refuses pads that overlap or hang over the boundary.
     fn pads(&self) -> Result<(), SceneError> {
         let radius = self.settings.pad.radius;
@@ -133,7 +117,7 @@ impl Around<'_> {
                 ),
             ));
         }
-        if radius > overhang {
+        if radius > overhang * (1.0 + ROUNDING) {
             return Err(self.document.error(
                 span,
                 format!(
@@ -180,13 +164,16 @@ impl Around<'_> {
         ))
     }
 
-    /// How many nodes a mesh has: its lines meet boundary, pads and grippers.
+    /// How many nodes a mesh has: its lines meet boundary, pads and grippers; one row of grippers is on a single line.
     fn nodes(&self, mesh: f64) -> f64 {
         let radius = self.settings.pad.radius;
         let lines = |length: f64| {
             if length > 0.0 { (length / mesh * (1.0 - ROUNDING)).ceil() } else { 0.0 }
         };
         let along = |count: usize, side: f64| {
+            if count == 1 {
+                return 1.0;
+            }
             let between = lines(side - 2.0 * radius) + 2.0 * lines(radius);
             let beyond = lines(self.settings.sheet.overhang - radius) + lines(radius);
             (count as f64 - 1.0) * between + 2.0 * beyond + 1.0

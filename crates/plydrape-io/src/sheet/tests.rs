@@ -3,6 +3,7 @@ use crate::folder::{Content, Folder};
 use crate::read::ReadError;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 /// A sheet of so many nodes in a row along u and along v, flat, held by four grippers.
 fn mesh(nu: usize, nv: usize) -> SheetMesh<'static> {
@@ -79,6 +80,39 @@ fn states_that_are_read_are_those_that_were_written() {
         assert_eq!(shown(&found), shown(&state(&mesh, n as u32 + 1)));
     }
     assert!(states.state(5).unwrap().is_none());
+}
+
+/// NumPy of the Python tests, where it is installed: names, types, shapes and numbers.
+#[test]
+fn numpy_reads_every_array() {
+    const CHECK: &str = r#"
+import sys
+import numpy as np
+found = np.load(sys.argv[1])
+shapes = dict(
+    places=(12, 2), areas=(12,), segments=(17, 2), cells=(6, 4), landing_step=(12,), step=(5,), time=(5,),
+    positions=(5, 12, 3), height=(5, 12), contact=(5, 12), shear=(5, 6), tension=(5, 17), grippers=(5, 4, 3),
+    pad_forces=(5, 4, 3), pad_rotation=(5, 4, 4),
+)
+assert {name: found[name].shape for name in found.files} == shapes
+whole = {"segments", "cells", "landing_step", "step"}
+for name in found.files:
+    kind = np.int32 if name in whole else np.bool_ if name == "contact" else np.float64
+    assert found[name].dtype == kind, name
+t, (u, v) = found["step"][:, None], found["places"].T
+assert (t[:, 0] == [1, 2, 3, 4, 5]).all() and np.allclose(found["time"], 0.1 * t[:, 0])
+assert np.allclose(found["positions"][..., 2], np.sin(u * t) + v)
+assert np.array_equal(np.isnan(found["height"]), np.tile(np.arange(12) % 3 == 0, (5, 1)))
+assert np.array_equal(found["tension"], np.arange(17) - t)
+"#;
+    let Some(python) = std::env::var_os("PLYDRAPE_PYTHON") else {
+        eprintln!("SKIPPED: PLYDRAPE_PYTHON names no Python with NumPy");
+        return;
+    };
+    let dir = tempfile::tempdir().unwrap();
+    let file = finished(dir.path(), &mesh(4, 3), 5);
+    let run = Command::new(python).arg("-c").arg(CHECK).arg(file.path()).output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
 }
 
 /// Also the archive's dates and the order of its arrays are always the same.
