@@ -89,7 +89,9 @@ pub fn drape_sheet(
 ) -> std::result::Result<(), SheetDrapeError> {
     let steps = scene.motion.positions.len();
     let stop = || watch.flow().is_break();
-    let told = |done| drop(watch.tell(done, steps, "draping the sheet"));
+    let told = |done| {
+        let _ = watch.tell(done, steps, "draping the sheet");
+    };
     result.drape_sheet(scene, &std::env::temp_dir(), &stop, told).map(drop)
 }
 
