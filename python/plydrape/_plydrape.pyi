@@ -1458,7 +1458,7 @@ def materials() -> list[str]:
 
     Example:
         >>> plydrape.materials()
-        ['krogh2018']
+        ['krogh2018', 'cao2008_plain']
     """
 
 def measures() -> list[Measure]:

@@ -23,6 +23,7 @@ TOGETHER = {
     "test_net.py": "net",
     "test_notebook.py": "notebook",
     "test_ros2.py": "ROS 2",
+    "test_sheet_peer.py": "MuJoCo",
     "test_vtk.py": "VTK",
 }
 

@@ -52,6 +52,9 @@ pub enum Failure {
     /// The results could not be written.
     #[error(transparent)]
     Results(#[from] plydrape_io::OutputError),
+    /// The sheet of the scene cannot be draped.
+    #[error(transparent)]
+    Sheet(#[from] plydrape_io::sheet::SheetDrapeError),
     /// A result file was refused.
     #[error(transparent)]
     Read(#[from] plydrape_io::result::read::ReadError),
@@ -139,6 +142,9 @@ impl Diagnostic for Failure {
                     )
                 }
             })),
+            Failure::Sheet(fault) => {
+                fault.remedy().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+            }
             Failure::Plan(_) | Failure::Results(_) => None,
         }
     }

@@ -12,6 +12,7 @@ mod plan;
 mod report;
 mod results;
 mod schema;
+mod sheet;
 mod simulate;
 mod span;
 mod study;

@@ -1,31 +1,49 @@
 //! How a drape came out: what `--json` prints of it, and the exit code.
 
 use plydrape::draping::record::Summary;
+use plydrape::sheet;
 use plydrape_io::ResultFile;
 use serde::Serialize;
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// What `--json` prints of a drape: the summary of the result file, and how long an equilibrium took.
+/// What `--json` prints of a drape: the summary of the result file, how long an equilibrium took, and the summary of the
+/// sheet with the time that it took.
 #[derive(Serialize)]
 pub struct Printed<'a> {
     #[serde(flatten)]
-    summary: &'a Summary,
+    summary: Summary,
     mean_equilibrium_us: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sheet: Option<PrintedSheet<'a>>,
+}
+
+/// What it prints of the sheet.
+#[derive(Serialize)]
+struct PrintedSheet<'a> {
+    #[serde(flatten)]
+    summary: &'a sheet::measure::Summary,
+    time_s: f64,
 }
 
 impl<'a> Printed<'a> {
-    /// Of a finished drape, whose equilibria took `solving`.
-    pub fn of(result: &'a ResultFile, solving: Duration) -> Self {
-        let summary = &result.summary;
+    /// Of a finished drape, whose equilibria took `solving` and whose sheet, if any, took `sheet`.
+    pub fn of(result: &'a ResultFile, solving: Duration, sheet: Option<Duration>) -> Self {
+        let summary = Summary { sheet: None, ..result.summary.clone() };
         let mean_equilibrium_us = solving.as_secs_f64() * 1e6 / summary.equilibria.max(1) as f64;
-        Printed { summary, mean_equilibrium_us }
+        let sheet = result.summary.sheet.as_ref().zip(sheet);
+        let sheet =
+            sheet.map(|(summary, took)| PrintedSheet { summary, time_s: took.as_secs_f64() });
+        Printed { summary, mean_equilibrium_us, sheet }
     }
 }
 
 /// The exit code of a drape, `interrupted` or not.
 pub fn exit_code(result: &ResultFile, interrupted: bool) -> ExitCode {
-    let unsolved = result.steps.iter().any(|step| !step.solver.found());
+    let unsolved = match &result.summary.sheet {
+        Some(sheet) => !sheet.converged,
+        None => result.steps.iter().any(|step| !step.solver.found()),
+    };
     match (interrupted, unsolved, result.summary.accepted) {
         (true, _, _) => ExitCode::from(130),
         (_, true, _) => ExitCode::from(3),

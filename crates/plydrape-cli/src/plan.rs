@@ -4,11 +4,12 @@ use crate::failure::{Done, Failure};
 use crate::numbers::short;
 use crate::outcome::{self, exit_code};
 use crate::results::Results;
+use crate::sheet::drape_sheet;
 use crate::watch::{Interrupt, bar};
 use clap::{ValueEnum, value_parser};
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Checkpoint, Planned, Progress};
-use plydrape::scene::PlanMethod;
+use plydrape::scene::{PlanMethod, Scene};
 use plydrape_io::scene::{SceneError, SceneFile};
 use plydrape_io::{Folder, NAMES, ResultFile, input, plan, table};
 use serde::Serialize;
@@ -110,6 +111,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         // the pool cannot be set a second time, and has not been set before
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
+    let sheet = crate::sheet::check(&scene)?;
     let folder = Folder::claim(&results.folder("plan"), "plan")?;
     folder.refuse_inputs(&NAMES, &scene.files)?;
     let verbose = !quiet && !results.json;
@@ -136,17 +138,19 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     bar.finish_and_clear();
     let planned = planned?;
 
-    let result = ResultFile::planned(&scene, scene.input.clone(), &planned);
+    let mut result = ResultFile::planned(&scene, scene.input.clone(), &planned);
+    let followed = Scene { motion: planned.motion.steps(), ..scene.scene.clone() };
+    let took = drape_sheet(&mut result, &followed, sheet, folder.stage(), &interrupt, quiet)?;
     let files = plan::write_into(folder, &result, &planned.checkpoint, &scene.files)?;
     let printed = Printed {
         method: planned.record.method,
         plan_time_s,
         evaluations: planned.record.evaluations,
         motion: Motion::of(&planned),
-        drape: outcome::Printed::of(&result, planned.drape.solving),
+        drape: outcome::Printed::of(&result, planned.drape.solving, took),
     };
     results.print(quiet, &printed, &text(&planned, &result, &printed), &files)?;
-    Ok(exit_code(&result, planned.interrupted))
+    Ok(exit_code(&result, planned.interrupted || result.summary.interrupted()))
 }
 
 /// The scene, with what the options say instead of it.
@@ -235,7 +239,7 @@ fn text(planned: &Planned, result: &ResultFile, printed: &Printed) -> String {
     );
     let mut text = format!("{found}\n\n{}\n{}", table::steps_table(result), table::verdict(result));
     if result.summary.accepted
-        && let Some(closest) = table::closest(&result.summary.limits)
+        && let Some(closest) = table::closest(result.deciding_limits())
     {
         text += &format!("closest to its limit: {}\n", table::verdict_text(closest));
     }

@@ -3,19 +3,43 @@
 use crate::failure::Done;
 use crate::outcome::{Printed, exit_code};
 use crate::results::Results;
+use crate::sheet::drape_sheet;
 use crate::watch::{Interrupt, bar};
+use clap::ValueEnum;
 use plydrape_io::{Folder, NAMES, ResultFile, table, write_into};
 
 /// Drape the ply along the trajectories of a scene; table of steps, verdict, files.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Writes result.json, steps.csv, trajectory.csv, figure.svg and report.html to the scene's name with \
-`.results`; the last one is a page for any browser. A file in the folder that plydrape did not write, \
-or that was edited since, is never overwritten. \
+Writes result.json, steps.csv, trajectory.csv, figure.svg and report.html, and sheet.npz where the model \
+is the sheet, to the scene's name with `.results`; report.html is a page for any browser. A file in the \
+folder that plydrape did not write, or that was edited since, is never overwritten. \
 Ctrl-C ends after the step under way and writes the steps done.")]
 pub struct Arguments {
     #[command(flatten)]
     results: Results,
+
+    /// The model that decides, instead of the scene's; the catenaries are always draped.
+    #[arg(long)]
+    model: Option<Model>,
+}
+
+/// The model of the ply that decides.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Model {
+    /// The whole ply as cloth, between and beyond the grippers.
+    Sheet,
+    /// Lines of ply between the grippers, as in Krogh et al. 2018.
+    Catenaries,
+}
+
+impl From<Model> for plydrape::scene::Model {
+    fn from(model: Model) -> Self {
+        match model {
+            Model::Sheet => plydrape::scene::Model::Sheet,
+            Model::Catenaries => plydrape::scene::Model::Catenaries,
+        }
+    }
 }
 
 /// Simulates, writes the files and judges.
@@ -23,7 +47,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let results = &arguments.results;
     // first of all, so that even a long read ends in files of what was done
     let interrupt = Interrupt::listen();
-    let scene = plydrape_io::scene::read(&results.scene)?;
+    let scene = plydrape_io::scene::read_for(&results.scene, arguments.model.map(Into::into))?;
+    let sheet = crate::sheet::check(&scene)?;
 
     let folder = Folder::claim(&results.folder("results"), "simulate")?;
     folder.refuse_inputs(&NAMES[..6], &scene.files)?;
@@ -37,10 +62,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     bar.finish_and_clear();
 
     let solving = drape.solving;
-    let result = ResultFile::new(&scene, scene.input.clone(), drape);
+    let mut result = ResultFile::new(&scene, scene.input.clone(), drape);
+    let took = drape_sheet(&mut result, &scene, sheet, folder.stage(), &interrupt, quiet)?;
     let files = write_into(folder, &result, &[], &scene.files)?;
     let (title, steps) = (&result.scene.title, table::steps_table(&result));
     let text = format!("{title}\n\n{steps}\n{}", table::verdict(&result));
-    results.print(quiet, &Printed::of(&result, solving), &text, &files)?;
+    results.print(quiet, &Printed::of(&result, solving, took), &text, &files)?;
     Ok(exit_code(&result, result.summary.interrupted()))
 }

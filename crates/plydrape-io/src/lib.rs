@@ -99,6 +99,7 @@ pub fn write_into(
     files.extend(motion.as_ref().map(|motion| ("motion.csv", motion as &dyn Content)));
     files.push(("figure.svg", &figure));
     files.push(("report.html", &page));
+    files.extend(result.sheet_states.as_ref().map(|states| (sheet::NAME, states as &dyn Content)));
     files.extend(more);
     folder.write(&files, read)
 }

@@ -76,7 +76,8 @@ impl SizeError {
 }
 
 /// A size with two digits and its unit.
-fn shown(bytes: f64) -> String {
+#[must_use]
+pub fn shown(bytes: f64) -> String {
     let (unit, size) =
         UNITS[..4].iter().rev().find(|(_, size)| bytes >= *size).unwrap_or(&UNITS[0]);
     let value = bytes / size;
@@ -150,9 +151,15 @@ fn of_steps(what: &str, factor: f64, ply: &Ply, steps: usize) -> Result<(), Size
 /// # Errors
 /// As [`check`].
 pub fn sheet(nodes: f64, states: usize) -> Result<(), SizeError> {
-    check((NODE + STATE * states as f64) * nodes, || {
+    check(of_sheet(nodes, states), || {
         format!("a sheet of {nodes:.0} nodes that keeps {states} states")
     })
+}
+
+/// Memory that the drape of a sheet of so many nodes takes, which keeps so many states (bytes).
+#[must_use]
+pub fn of_sheet(nodes: f64, states: usize) -> f64 {
+    (NODE + STATE * states as f64) * nodes
 }
 
 /// Refuses a mesh of so many triangles.

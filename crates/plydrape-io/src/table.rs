@@ -1,8 +1,10 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
+mod sheet;
+
 use crate::result::ResultFile;
 use crate::shown;
-use plydrape::draping::record::{Step, Verdict};
+use plydrape::draping::record::{Step, Summary, Verdict};
 use plydrape::equilibrium::Status;
 use plydrape::measure::Name;
 use std::collections::BTreeSet;
@@ -113,46 +115,70 @@ fn failed_solves(result: &ResultFile) -> String {
     }
 }
 
-/// The table of limits and one line: accepted, or not and why.
+/// The table of limits and one line: accepted, or not and why. Where the sheet was draped too, its limits are in a table of their
+/// own behind, and its line says that it decides.
 #[must_use]
 pub fn verdict(result: &ResultFile) -> String {
     let summary = &result.summary;
-    let mut text = String::new();
-    if !summary.limits.is_empty() {
-        let titles = ["limit", "worst", "allowed", "unit", "", "step", "at"];
-        let mut rows = vec![titles.map(str::to_owned).to_vec()];
-        rows.extend(summary.limits.iter().map(|v| {
-            vec![
-                v.name.title(),
-                significant(v.value),
-                significant(v.limit),
-                v.unit.to_string(),
-                if v.ok { "pass" } else { "FAIL" }.into(),
-                v.step.map_or_else(|| "–".into(), |step| step.to_string()),
-                v.at.clone(),
-            ]
-        }));
-        text = aligned(&rows, &[0, 3, 4, 6]);
+    match &summary.sheet {
+        None => {
+            let (accepted, worst) = (summary.accepted, limiting(&summary.limits));
+            catenaries(summary) + &line(if accepted { "accepted" } else { "not accepted" }, worst)
+        }
+        Some(sheet) => {
+            let text = match summary.catenaries_accepted() {
+                true => "accepted by the catenaries",
+                false => "not accepted by the catenaries",
+            };
+            catenaries(summary)
+                + &line(text, limiting(&summary.limits))
+                + "\n"
+                + &sheet::verdict(summary, sheet)
+        }
     }
+}
+
+/// Every limit in a row.
+fn limits(limits: &[Verdict]) -> String {
+    if limits.is_empty() {
+        return String::new();
+    }
+    let titles = ["limit", "worst", "allowed", "unit", "", "step", "at"];
+    let mut rows = vec![titles.map(str::to_owned).to_vec()];
+    rows.extend(limits.iter().map(|v| {
+        vec![
+            v.name.title(),
+            significant(v.value),
+            significant(v.limit),
+            v.unit.to_string(),
+            if v.ok { "pass" } else { "FAIL" }.into(),
+            v.step.map_or_else(|| "–".into(), |step| step.to_string()),
+            v.at.clone(),
+        ]
+    }));
+    aligned(&rows, &[0, 3, 4, 6])
+}
+
+/// The limits of the catenaries, and where their drape ended early.
+fn catenaries(summary: &Summary) -> String {
+    let mut text = limits(&summary.limits);
     if let Some(reason) = &summary.stopped {
         let _ = writeln!(text, "stopped: {reason}");
     }
-    if summary.interrupted() {
+    if summary.catenaries_interrupted() {
         let (done, planned) = (summary.steps, summary.steps_planned);
         let _ = writeln!(text, "interrupted after step {done} of {planned}");
     }
-    match limiting(&summary.limits) {
-        None if summary.accepted => text.push_str("accepted\n"),
-        None => text.push_str("not accepted\n"),
-        Some(worst) => {
-            text.push_str(&shown::excerpt(
-                &format!("not accepted: {}", verdict_text(worst)),
-                WIDTH,
-            ));
-            text.push('\n');
-        }
-    }
     text
+}
+
+/// The line of a verdict, with the limit that is exceeded furthest.
+fn line(verdict: &str, worst: Option<&Verdict>) -> String {
+    let text = match worst {
+        None => verdict.to_owned(),
+        Some(worst) => format!("{verdict}: {}", verdict_text(worst)),
+    };
+    shown::excerpt(&text, WIDTH) + "\n"
 }
 
 /// Of the limits that do not hold, the one exceeded furthest.

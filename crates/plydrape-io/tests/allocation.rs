@@ -1,7 +1,8 @@
-//! Once its buffers have grown, the solver asks for no memory.
+//! Once their buffers have grown, the solvers ask for no memory.
 
 use plydrape::equilibrium::Solver;
 use plydrape::scene::SlopeRule;
+use plydrape::sheet::cholesky::{BlockMatrix, Cholesky};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use std::path::Path;
@@ -34,4 +35,23 @@ fn a_second_solve_allocates_nothing() {
         assert!(iterations > 10, "{rule:?}: {iterations}");
         assert_eq!((change.allocations, change.reallocations), (0, 0), "{rule:?}");
     }
+}
+
+/// The sheet's factorization has its storage from the analysis of the pattern.
+#[test]
+fn a_factorization_and_its_solution_allocate_nothing() {
+    let nodes = 300;
+    let chain = (0..nodes as u32 - 20).flat_map(|i| [[i, i + 1], [i, i + 20]]);
+    let mut matrix = BlockMatrix::new(nodes, chain);
+    for i in 0..nodes {
+        matrix.add_scalar(matrix.slot(i, i), 1.0);
+    }
+    let mut cholesky = Cholesky::new(&matrix);
+    let mut x = vec![1.0; 3 * nodes];
+    let region = Region::new(ALLOCATOR);
+    cholesky.factorize(&matrix).expect("the identity is positive definite");
+    cholesky.solve(&mut x);
+    let change = region.change();
+    assert!(x.iter().all(|&x| x == 1.0));
+    assert_eq!((change.allocations, change.reallocations), (0, 0));
 }

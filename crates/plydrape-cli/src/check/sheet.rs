@@ -3,6 +3,8 @@
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};
 use plydrape::scene::{Friction, Limits, Model, Scene, Settings, SheetTime};
+use plydrape_io::sheet::SheetSize;
+use plydrape_io::size;
 
 /// Mesh, pads, friction and limits of the sheet; nothing where catenaries drape.
 pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
@@ -12,6 +14,7 @@ pub(super) fn sheet(scene: &Scene) -> Vec<Line> {
     }
     vec![
         ("sheet", mesh(scene)),
+        ("", size(scene)),
         ("", pads(settings)),
         ("", friction(settings)),
         ("", accepted(limits)),
@@ -33,6 +36,18 @@ fn mesh(scene: &Scene) -> String {
         millimetres(sheet.overhang),
         sheet.keep
     )
+}
+
+/// How large it is; the scene was refused where it cannot be draped.
+fn size(scene: &Scene) -> String {
+    match SheetSize::of(scene) {
+        Ok(SheetSize { nodes, mesh, memory }) => format!(
+            "{nodes} nodes, at most {} mm apart; about {} of memory",
+            millimetres(mesh),
+            size::shown(memory)
+        ),
+        Err(fault) => fault.to_string(),
+    }
 }
 
 fn pads(settings: &Settings) -> String {

@@ -63,8 +63,8 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     if lengths.iter().chain(&[friction, contact.tack]).any(|value| *value < 0.0) {
         return Some("mesh, overhang, pads, friction and tack must not be negative".into());
     }
-    if !(sound && axial_stiffness > 0.0 && gravity > 0.0) {
-        return Some("mass, stiffness and gravity must be above zero".into());
+    if !(sound && axial_stiffness > 0.0 && gravity > 0.0 && contact.tolerance > 0.0) {
+        return Some("mass, stiffness, gravity and contact tolerance must be above zero".into());
     }
     if !(max_tilt > 0.0 && max_tilt < std::f64::consts::FRAC_PI_2) {
         return Some(format!("there is no largest tilt of {max_tilt} rad"));
@@ -156,10 +156,33 @@ fn of_summary(result: &ResultFile) -> Option<String> {
     {
         return Some(format!("its summary names step {step} of {steps}"));
     }
+    if let Some(what) = of_sheet(result) {
+        return Some(what);
+    }
     let known = |[i, j]: GripperId| i < grid.nu && j < grid.nv;
     let unknown =
         summary.first_contact.iter().find(|line| !(known(line.from) && known(line.to)))?;
     Some(format!("its summary names a catenary from {:?} to {:?}", unknown.from, unknown.to))
+}
+
+/// What is impossible in the outcome of the sheet.
+fn of_sheet(result: &ResultFile) -> Option<String> {
+    let (sheet, planned) = match (&result.summary.sheet, &result.sheet_states) {
+        (None, None) => return None,
+        (Some(sheet), Some(_)) => (sheet, result.summary.steps_planned),
+        (Some(_), None) => return Some("its sheet has no states".into()),
+        (None, Some(_)) => return Some("the states of its sheet have no outcome".into()),
+    };
+    if !(1..=planned).contains(&sheet.steps) {
+        return Some(format!("its sheet has {} of {planned} steps", sheet.steps));
+    }
+    if sheet.nodes == 0 {
+        return Some("its sheet has no node".into());
+    }
+    let judged = sheet.limits.iter().map(|verdict| verdict.step);
+    let mut named = judged.chain([sheet.first_contact_step]).flatten();
+    let step = named.find(|step| !(1..=sheet.steps).contains(step))?;
+    Some(format!("its sheet names step {step} of {}", sheet.steps))
 }
 
 /// What is wrong with a place (m) out of all range.

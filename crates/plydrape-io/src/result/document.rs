@@ -1,7 +1,7 @@
 //! What stands in a result file: one JSON object, whose lists are columns, so that no name is repeated.
 //!
-//! Its keys are `format`, `version`, `program`, `scene`, `plan`, `summary`, `sheet_file`, `catenaries`, `steps`, `checksum`, in
-//! this order.
+//! Its keys are `format`, `version`, `program`, `scene`, `plan`, `summary`, `sheet_states` if the sheet was draped,
+//! `catenaries`, `steps`, `checksum`, in this order.
 //! `catenaries` names each catenary once; steps refer to it by its number, from 0. What a step holds is described in
 //! `docs/guide/result_file.md`. The check sum (CRC-32) is that of all bytes before its own value.
 //!
@@ -32,7 +32,9 @@ pub(super) struct Document<'a, S, C> {
     pub scene: Cow<'a, SceneEcho>,
     pub plan: Cow<'a, Option<PlanRecord>>,
     pub summary: Cow<'a, Summary>,
-    pub sheet_file: Cow<'a, Option<SheetSeal>>,
+    /// The file with the states of the sheet, if it was draped.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sheet_states: Option<Cow<'a, SheetSeal>>,
     pub catenaries: Catenaries,
     pub steps: S,
     pub checksum: C,
@@ -124,7 +126,7 @@ impl ResultFile {
             scene: Cow::Borrowed(&self.scene),
             plan: Cow::Borrowed(&self.plan),
             summary: Cow::Borrowed(&self.summary),
-            sheet_file: Cow::Borrowed(&self.sheet_file),
+            sheet_states: self.sheet_states.as_ref().map(|states| Cow::Borrowed(states.seal())),
             catenaries: Catenaries::named(&self.steps),
             steps: Steps(&self.steps),
             checksum,

@@ -10,18 +10,18 @@ mod mold;
 pub mod read;
 mod step;
 
-use crate::read::ReadError;
-use crate::sheet::{SheetSeal, SheetStates};
-use plydrape::draping::record::{PlanRecord, Step, Summary};
+use crate::sheet::{self, SheetDrapeError, SheetKept};
+use plydrape::draping::record::{PlanRecord, Step, Summary, Verdict};
 use plydrape::draping::{Drape, curves};
 use plydrape::mold::Mold;
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
 use plydrape::planner::Planned;
 use plydrape::ply::Ply;
-use plydrape::scene::{Limits, Scene, Settings, Target};
+use plydrape::scene::{Limits, Model, Scene, Settings, Target};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
@@ -39,10 +39,10 @@ pub struct ResultFile {
     pub plan: Option<PlanRecord>,
     /// The outcome.
     pub summary: Summary,
+    /// The states of the sheet, if it was draped.
+    pub sheet_states: Option<SheetKept>,
     /// One entry a step, the start being step 1.
     pub steps: Vec<Step>,
-    /// The file with the states of the sheet beside this one, if a sheet was draped.
-    pub sheet_file: Option<SheetSeal>,
 }
 
 /// The scene, as it was understood.
@@ -99,9 +99,31 @@ impl ResultFile {
             scene: SceneEcho::new(scene, input),
             plan: None,
             summary: drape.summary,
+            sheet_states: None,
             steps: drape.steps,
-            sheet_file: None,
         }
+    }
+
+    /// Drapes the sheet of the scene too, if its model says so, and lets it decide; not after an interrupted drape by the
+    /// catenaries. `scene` is that of the result, with the motion that was draped; arguments as [`sheet::drape`]. Returns the
+    /// time that the drape of the sheet took.
+    ///
+    /// # Errors
+    /// As [`sheet::drape`].
+    pub fn drape_sheet(
+        &mut self,
+        scene: &Scene,
+        dir: &Path,
+        stop: &dyn Fn() -> bool,
+        progress: impl FnMut(usize),
+    ) -> Result<Option<Duration>, SheetDrapeError> {
+        if scene.settings.model != Model::Sheet || self.summary.catenaries_interrupted() {
+            return Ok(None);
+        }
+        let draped = sheet::drape(scene, dir, stop, progress)?;
+        self.summary.decide_by(draped.summary);
+        self.sheet_states = Some(draped.states);
+        Ok(Some(draped.duration))
     }
 
     /// The result of a plan of a scene.
@@ -111,19 +133,17 @@ impl ResultFile {
         ResultFile { plan, ..ResultFile::new(scene, input, planned.drape.clone()) }
     }
 
+    /// The limits of the model that decides.
+    #[must_use]
+    pub fn deciding_limits(&self) -> &[Verdict] {
+        self.summary.sheet.as_ref().map_or(&self.summary.limits, |sheet| &sheet.limits)
+    }
+
     /// The curves of a step (m): for each catenary, one for each of its spans, see [`plydrape::draping::curves`].
     #[must_use]
     pub fn curves(&self, step: &Step) -> Vec<Vec<Vec<[f64; 3]>>> {
         let SceneEcho { ply, settings, mold, .. } = &self.scene;
         curves(ply, settings, mold.as_ref(), step)
-    }
-
-    /// The states of the sheet, from the file beside this one in its `folder`; none where no sheet was draped.
-    ///
-    /// # Errors
-    /// [`ReadError`] if the file is missing, or is not the one that was written with this result.
-    pub fn sheet_states(&self, folder: &Path) -> Result<Option<SheetStates>, ReadError> {
-        self.sheet_file.as_ref().map(|seal| SheetStates::open(folder, seal)).transpose()
     }
 
     /// The motion of a planned drape at any time, and the orientations along it; none of a simulated one.

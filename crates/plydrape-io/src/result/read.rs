@@ -9,6 +9,7 @@ use super::check::fault;
 use super::document::{Document, shown};
 use super::step::StepColumns;
 use super::{FORMAT, ResultFile, VERSION};
+use crate::sheet::SheetKept;
 use crate::shown::excerpt;
 use crate::size::{self, SizeError};
 use crate::{folder, input};
@@ -207,7 +208,8 @@ fn read_from<R: BufRead + Seek>(
     // What it says, and whether that can be.
     let read: ReadDocument = serde_json::from_reader(file.all().map_err(unreadable)?)
         .map_err(|error| changed(reason(&error)))?;
-    let (result, sum) = from_columns(read).map_err(changed)?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    let (result, sum) = from_columns(read, folder).map_err(changed)?;
     if let Some(what) = fault(&result) {
         return Err(changed(what));
     }
@@ -230,8 +232,8 @@ fn reason(error: &serde_json::Error) -> String {
     format!("{start} at line {} column {}", error.line(), error.column())
 }
 
-/// The result that a file describes, and the check sum that it names.
-fn from_columns(read: ReadDocument) -> Result<(ResultFile, String), String> {
+/// The result that a file in a folder describes, and the check sum that it names.
+fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, String), String> {
     let grid = read.scene.ply.grid;
     if let Some(what) = super::check::of_ply(&read.scene) {
         return Err(what);
@@ -248,7 +250,7 @@ fn from_columns(read: ReadDocument) -> Result<(ResultFile, String), String> {
         scene: read.scene.into_owned(),
         plan: read.plan.into_owned(),
         summary: read.summary.into_owned(),
-        sheet_file: read.sheet_file.into_owned(),
+        sheet_states: read.sheet_states.map(|seal| SheetKept::read(seal.into_owned(), folder)),
         steps: read.steps.into_iter().zip(1..).map(step).collect::<Result<_, _>>()?,
     };
     Ok((result, read.checksum))

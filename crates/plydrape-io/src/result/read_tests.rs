@@ -32,17 +32,18 @@ fn a_cut_text_is_truncated_wherever_it_was_cut() {
     }
 }
 
-/// A result says which states belong to it, and finds them beside itself; one without a sheet has none.
+/// A result says which states belong to it, and looks for them in its folder; one without a sheet names none.
 #[test]
 fn a_result_names_the_states_of_its_sheet() {
     let mut result = sample::draped(3, 2, 3);
-    let dir = Path::new("no/such/folder");
-    assert!(result.sheet_states(dir).unwrap().is_none());
+    assert!(read(&ResultFile::text(&result).unwrap()).unwrap().sheet_states.is_none());
     let checksum = "crc32:0123abcd".to_string();
-    result.sheet_file = Some(SheetSeal { file: "sheet.npz".into(), length: 17, checksum });
-    let read = read(&ResultFile::text(&result).unwrap()).unwrap();
-    assert_eq!(read.sheet_file, result.sheet_file);
-    assert!(matches!(read.sheet_states(dir), Err(ReadError::Unreadable { .. })));
+    let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
+    result.summary.sheet = Some(sample::sheet_summary());
+    result.sheet_states = Some(SheetKept::read(seal.clone(), "no/such/folder".into()));
+    let states = read(&ResultFile::text(&result).unwrap()).unwrap().sheet_states.unwrap();
+    assert_eq!(states.seal(), &seal);
+    assert!(matches!(states.open(), Err(ReadError::Unreadable { .. })));
 }
 
 /// A forged check sum does not help a material whose tension is no table, nor settings that no scene has.

@@ -47,7 +47,7 @@ pub use schema::schema;
 
 use plydrape::mold::{MeshReport, Mold};
 use plydrape::ply::Ply;
-use plydrape::scene::Scene;
+use plydrape::scene::{Model, Scene};
 use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -60,8 +60,18 @@ pub const TEMPLATE: &str = include_str!("template.toml");
 /// # Errors
 /// The first fault found, with its place and a remedy.
 pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
+    read_for(path, None)
+}
+
+/// As [`read`], for another model than the scene's, if one is given.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_for(path: &Path, model: Option<Model>) -> Result<SceneFile, SceneError> {
     let (document, base) = open(path)?;
-    let mut scene = scene(&document, base)?;
+    let mut file = keys(&document)?;
+    file.model.kind = model.map(file::ModelKey::from).or(file.model.kind);
+    let mut scene = check::scene(&file, None, &document, base)?;
     scene.files.push(path.into());
     Ok(scene)
 }

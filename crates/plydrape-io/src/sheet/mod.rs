@@ -8,13 +8,17 @@
 
 mod array;
 mod check;
+mod drape;
 mod error;
+mod kept;
 mod read;
 mod seal;
 mod spool;
 
 pub use array::{ARRAYS, Array, Extent, Scalar};
+pub use drape::{SheetDrape, SheetDrapeError, SheetSize, drape};
 pub use error::SheetError;
+pub use kept::SheetKept;
 pub use read::SheetStates;
 pub use seal::SheetSeal;
 pub use spool::{SheetFile, SheetSpool};

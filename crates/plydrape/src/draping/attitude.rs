@@ -86,7 +86,7 @@ pub fn normal([x, y, z, w]: [f64; 4]) -> Point {
 }
 
 /// Unit quaternion (x, y, z, w) of the rotation whose columns are the given axes.
-fn quaternion([x, y, z]: [Point; 3]) -> [f64; 4] {
+pub fn quaternion([x, y, z]: [Point; 3]) -> [f64; 4] {
     let trace = x[0] + y[1] + z[2];
     let q = if trace > 0.0 {
         [y[2] - z[1], z[0] - x[2], x[1] - y[0], 1.0 + trace]

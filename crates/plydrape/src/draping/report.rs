@@ -174,6 +174,7 @@ impl<'a> Report<'a> {
             contact_share: last.and_then(|measures| measures.value(Name::ContactShare)),
             limits,
             equilibria: self.steps.iter().map(|step| step.solver.equilibria).sum(),
+            sheet: None,
         }
     }
 }

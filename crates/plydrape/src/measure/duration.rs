@@ -1,6 +1,6 @@
 //! Duration: how long the motion has taken.
 
-use super::{Description, Found, Measure, Scope, Site, State, Unit, Worth};
+use super::{Description, Found, Measure, Scope, Site, State, Subject, Unit, Worth};
 use crate::scene::Scene;
 
 /// Duration; see the head of this file.
@@ -11,6 +11,7 @@ impl Measure for Duration {
         Description {
             scope: Scope::Time,
             worth: Worth::Kept,
+            subject: Subject::Motion,
             ..Description::new("duration", "duration_s", "duration", Unit::SECOND)
         }
     }

@@ -1,6 +1,6 @@
 //! Gripper distance: the smallest distance of any two grippers.
 
-use super::{Description, Found, Measure, Sense, State, Unit, Worth};
+use super::{Description, Found, Measure, Sense, State, Subject, Unit, Worth};
 use crate::draping::reach::closest;
 use crate::scene::Scene;
 
@@ -12,6 +12,7 @@ impl Measure for GripperDistance {
         Description {
             sense: Sense::AtLeast,
             worth: Worth::Kept,
+            subject: Subject::Motion,
             ..Description::new(
                 "gripper_distance",
                 "gripper_distance_mm",

@@ -1,6 +1,6 @@
 //! Jerk: the largest of a gripper in a planned motion.
 
-use super::{Description, Measure, Scope, Unit, Worth};
+use super::{Description, Measure, Scope, Subject, Unit, Worth};
 use crate::scene::Scene;
 
 /// Jerk; see the head of this file.
@@ -11,6 +11,7 @@ impl Measure for Jerk {
         Description {
             scope: Scope::Whole,
             worth: Worth::Kept,
+            subject: Subject::Motion,
             ..Description::new("jerk", "jerk", "jerk", Unit::plain("m/s³"))
         }
     }

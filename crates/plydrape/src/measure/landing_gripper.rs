@@ -1,6 +1,6 @@
 //! Landing of grippers: how far a gripper ends from where the ideal drape puts it.
 
-use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Scope, Site, State, Subject, Unit};
 use crate::mold::distance;
 use crate::scene::Scene;
 
@@ -11,6 +11,7 @@ impl Measure for LandingGripper {
     fn description(&self) -> Description {
         Description {
             scope: Scope::End,
+            subject: Subject::Motion,
             ..Description::new(
                 "landing_gripper",
                 "landing_gripper_mm",

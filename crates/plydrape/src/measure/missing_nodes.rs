@@ -1,6 +1,6 @@
 //! Missing nodes: parts of the ideal drape without a place on the mold; none may be missing.
 
-use super::{Description, Measure, Scope, Unit};
+use super::{Description, Measure, Scope, Subject, Unit};
 
 /// Missing nodes; see the head of this file.
 pub struct MissingNodes;
@@ -9,6 +9,7 @@ impl Measure for MissingNodes {
     fn description(&self) -> Description {
         Description {
             scope: Scope::Whole,
+            subject: Subject::Motion,
             ..Description::new("missing_nodes", "missing_nodes", "missing nodes", Unit::COUNT)
         }
     }

@@ -63,6 +63,15 @@ pub enum Scope {
     Whole,
 }
 
+/// What a measure is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Subject {
+    /// The ply, as a model of it says.
+    Ply,
+    /// The motion of the grippers and its target, whichever model drapes.
+    Motion,
+}
+
 /// What it is worth to stay below a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Worth {
@@ -89,13 +98,16 @@ pub struct Description {
     pub scope: Scope,
     /// What it is worth to stay below its limit.
     pub worth: Worth,
+    /// Whether the model of the ply matters to it.
+    pub subject: Subject,
 }
 
 impl Description {
     /// Of a measure that is bounded from above in every step, and of which less is better.
     const fn new(name: &'static str, key: &'static str, label: &'static str, unit: Unit) -> Self {
         let (sense, scope, worth) = (Sense::AtMost, Scope::EveryStep, Worth::Less);
-        Description { name, key, label, unit, sense, scope, worth }
+        let subject = Subject::Ply;
+        Description { name, key, label, unit, sense, scope, worth, subject }
     }
 }
 
@@ -137,6 +149,11 @@ pub trait Measure: Sync {
     /// [`Description::worth`].
     fn worth(&self) -> Worth {
         self.description().worth
+    }
+
+    /// [`Description::subject`].
+    fn subject(&self) -> Subject {
+        self.description().subject
     }
 
     /// Its limit in a scene, in its own unit; none where the scene sets none or it has no meaning there.

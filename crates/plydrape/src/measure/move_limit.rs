@@ -1,6 +1,6 @@
 //! Move limit: the straight way of a gripper against the reach of all steps together.
 
-use super::{Description, Measure, Scope, Unit};
+use super::{Description, Measure, Scope, Subject, Unit};
 
 /// Move limit; see the head of this file.
 pub struct MoveLimit;
@@ -9,6 +9,7 @@ impl Measure for MoveLimit {
     fn description(&self) -> Description {
         Description {
             scope: Scope::Whole,
+            subject: Subject::Motion,
             ..Description::new("move_limit", "move_limit", "move limit", Unit::MILLIMETRE)
         }
     }

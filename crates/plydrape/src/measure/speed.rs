@@ -1,6 +1,6 @@
 //! Speed: the largest of a gripper in a planned motion.
 
-use super::{Description, Measure, Scope, Unit, Worth};
+use super::{Description, Measure, Scope, Subject, Unit, Worth};
 use crate::scene::Scene;
 
 /// Speed; see the head of this file.
@@ -11,6 +11,7 @@ impl Measure for Speed {
         Description {
             scope: Scope::Whole,
             worth: Worth::Kept,
+            subject: Subject::Motion,
             ..Description::new("speed", "speed", "speed", Unit::plain("m/s"))
         }
     }

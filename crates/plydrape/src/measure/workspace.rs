@@ -1,6 +1,6 @@
 //! Workspace: how far the gripper farthest outside its box is from the box.
 
-use super::{Description, Found, Measure, State, Unit, Worth};
+use super::{Description, Found, Measure, State, Subject, Unit, Worth};
 use crate::draping::reach::outside;
 use crate::scene::Scene;
 
@@ -11,6 +11,7 @@ impl Measure for Workspace {
     fn description(&self) -> Description {
         Description {
             worth: Worth::Kept,
+            subject: Subject::Motion,
             ..Description::new("workspace", "workspace_mm", "outside workspace", Unit::MILLIMETRE)
         }
     }

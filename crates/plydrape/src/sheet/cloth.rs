@@ -27,6 +27,9 @@ pub struct Motion {
     pub pads: Vec<Pad>,
 }
 
+/// A gripper, its pad, and the nodes that it holds with their distance from its middle (m).
+type Held<'a> = ((&'a Gripper, &'a Pad), &'a Vec<(usize, [f64; 2])>);
+
 /// Why a time step was not solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Failure {
@@ -61,6 +64,8 @@ pub struct Cloth<'a> {
     inertial: Vec<[f64; 3]>,
     /// The linear step of each node (m), and the turn (rad) and shift (m) of each pad in it.
     step: Vec<[f64; 3]>,
+    /// Whether the second derivative is whole, or reduced to its positive parts.
+    whole: bool,
     turns: Vec<([f64; 3], [f64; 3])>,
     /// Gradient that acts on blocks of unknowns themselves.
     own: Vec<(u32, [f64; 3])>,
@@ -115,7 +120,8 @@ impl<'a> Cloth<'a> {
         let system = System::new(&fabric.places, carriers, &blocks, pairs);
         let contact = sheet.mold.as_ref().map(|mold| {
             let free = |n: &usize| !matches!(system.carrier(*n), Carrier::Held { .. });
-            let points = (0..nodes).filter(free).map(|n| (n, fabric.areas[n]));
+            let rubs = |n: usize| !matches!(system.carrier(n), Carrier::Pad { shift: None, .. });
+            let points = (0..nodes).filter(free).map(|n| (n, fabric.areas[n], rubs(n)));
             let stiffness = sheet.areal_mass * sheet.gravity / (tuning.contact_depth * sheet.pitch);
             Contact::new(mold, stiffness, sheet.clear, sheet.friction, sheet.tack, points)
         });
@@ -137,6 +143,7 @@ impl<'a> Cloth<'a> {
             now,
             inertial: still.clone(),
             step: still,
+            whole: true,
             turns: vec![Default::default(); sheet.grippers.len()],
             own: Vec::new(),
             system,
@@ -152,7 +159,7 @@ impl<'a> Cloth<'a> {
         let height = |(m, x): (&f64, &[f64; 3])| m * self.sheet.gravity * x[2];
         let weight: f64 = self.masses.iter().zip(x).map(height).sum();
         let mounts = self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held);
-        let mount = |((g, pad), nodes): ((&Gripper, &Pad), &Vec<(usize, [f64; 2])>)| {
+        let mount = |((g, pad), nodes): Held| {
             let at = if nodes.len() == 1 { x[nodes[0].0] } else { pad.position };
             let off = sub(at, pad.target);
             g.mount.map_or(0.0, |k| (0..3).map(|n| 0.5 * k[n] * off[n] * off[n]).sum())
@@ -196,7 +203,7 @@ impl<'a> Cloth<'a> {
             *v = [0, 1, 2].map(|n| (x[n] - before[n]) / dt);
         }
         if let Some(contact) = &mut self.contact {
-            contact.update(&self.before.x, &self.now.x);
+            contact.update(&self.now.x);
         }
         found
     }
@@ -215,9 +222,16 @@ impl<'a> Cloth<'a> {
     fn iterate(&mut self, targets: &[[f64; 3]], dt: f64, tolerance: f64) -> Result<usize, Failure> {
         self.stretch.start(&self.now.x);
         self.aim(targets);
+        self.whole = true;
         self.assemble(dt, true);
         for iteration in 0..self.tuning.iterations {
-            let turn = self.solve()?;
+            let mut turn = self.solve();
+            if turn.is_err() && self.whole {
+                self.whole = false;
+                self.assemble(dt, iteration == 0);
+                turn = self.solve();
+            }
+            let turn = turn?;
             if iteration == 0 && turn > self.tuning.turn {
                 return Err(Failure::Turn);
             }
@@ -272,8 +286,8 @@ impl<'a> Cloth<'a> {
         for (gradient, mass) in system.gradient.iter_mut().zip(&self.masses) {
             gradient[2] += mass * self.sheet.gravity;
         }
-        self.stretch.add(&now.x, system);
-        self.shear.add(&now.x, system);
+        self.stretch.add(&now.x, self.whole, system);
+        self.shear.add(&now.x, self.whole, system);
         self.bending.add(&now.x, system);
         if let Some(contact) = &mut self.contact {
             contact.add(&now.x, system);
@@ -293,7 +307,7 @@ impl<'a> Cloth<'a> {
         self.solves += 1;
         self.hold_pads();
         let system = &mut self.system;
-        system.solve(&self.own).map_err(|_| Failure::Singular)?;
+        system.solve(&self.own, self.whole).map_err(|_| Failure::Singular)?;
         for (node, step) in self.step.iter_mut().enumerate() {
             *step = match system.carrier(node) {
                 Carrier::Free { block } => system.step(block),
@@ -312,7 +326,8 @@ impl<'a> Cloth<'a> {
             let (unit, _) = direction(self.now.x[a], self.now.x[b]);
             let aside = cross(unit, sub(self.step[b], self.step[a]));
             let turn = norm(aside) / s.length;
-            if !(turn <= most) {
+            // NaN is the largest of all
+            if turn > most || turn.is_nan() {
                 most = turn;
             }
         }
@@ -376,7 +391,7 @@ impl<'a> Cloth<'a> {
                 add(x, share, *step);
             }
             let moved = norm(*step);
-            if !(moved <= largest) {
+            if moved > largest || moved.is_nan() {
                 largest = moved;
             }
         }
@@ -385,16 +400,34 @@ impl<'a> Cloth<'a> {
         largest
     }
 
+    /// Gradient of the energy at each node (N).
+    #[cfg(test)]
+    pub fn gradient(&mut self) -> Vec<[f64; 3]> {
+        self.evaluate();
+        self.system.gradient.clone()
+    }
+
+    /// The whole second derivative times a direction at each free node.
+    #[cfg(test)]
+    pub fn second_derivative_times(&mut self, direction: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        self.stretch.start(&self.now.x);
+        self.whole = true;
+        self.evaluate();
+        self.system.multiply(direction)
+    }
+
+    /// Gradient and second derivative of the energy alone.
+    fn evaluate(&mut self) {
+        let now = &self.now;
+        let arm = |node: usize, gripper: u32| sub(now.x[node], now.pads[gripper as usize].position);
+        self.system.begin(false, arm);
+        self.add_energies();
+    }
+
     /// Force of the ply on each gripper (N).
     pub fn forces(&mut self) -> Vec<[f64; 3]> {
-        let now = &self.now;
-        self.system
-            .begin(false, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
-        self.add_energies();
-        let gripper = |((gripper, pad), nodes): ((&Gripper, &Pad), &Vec<(usize, [f64; 2])>)| match (
-            gripper.mount,
-            nodes.as_slice(),
-        ) {
+        self.evaluate();
+        let gripper = |((gripper, pad), nodes): Held| match (gripper.mount, nodes.as_slice()) {
             (Some(k), [(node, _)]) => {
                 let off = sub(self.now.x[*node], pad.target);
                 [0, 1, 2].map(|n| k[n] * off[n])

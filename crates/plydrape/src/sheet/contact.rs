@@ -1,13 +1,13 @@
 //! Contact with the mold, and what holds a touching node along it.
 //!
-//! Contact is a penalty, ½ k · area · d² of a negative distance d. Where a node crosses the mold it has its *anchor*, and a
+//! Contact is a penalty, ½ k · area · d² of a negative distance d. A node that touches has its *anchor* there, and a
 //! spring along the mold pulls it back there. The force of the spring is at most (τ₀ + μ · pressure) · area, beyond which
 //! the anchor follows; stick is no such bound. A node that is clear of the mold again has no anchor.
 
 use super::matrix3::{Matrix3, outer};
 use super::system::{System, add};
 use crate::mold::Mold;
-use crate::mold::vector::{along, between, distance, dot, norm, sub};
+use crate::mold::vector::{along, distance, dot, norm, sub};
 use crate::scene::Friction;
 
 /// Where a node touched the mold.
@@ -22,6 +22,8 @@ struct Anchor {
 struct Point {
     node: usize,
     area: f64,
+    /// Whether friction holds it; a gripper on a rigid mount is stronger.
+    rubs: bool,
     /// Where the mold was last looked for (m), and how far it was (m): nearer than that no contact can be.
     seen: [f64; 3],
     clear: f64,
@@ -44,18 +46,19 @@ pub struct Contact<'a> {
 }
 
 impl<'a> Contact<'a> {
-    /// Of nodes with their areas (m²).
+    /// Of nodes with their areas (m²), and whether friction holds each of them.
     pub fn new(
         mold: &'a Mold,
         stiffness: f64,
         release: f64,
         friction: Friction,
         tack: f64,
-        nodes: impl Iterator<Item = (usize, f64)>,
+        nodes: impl Iterator<Item = (usize, f64, bool)>,
     ) -> Self {
-        let point = |(node, area)| Point {
+        let point = |(node, area, rubs)| Point {
             node,
             area,
+            rubs,
             seen: [0.0; 3],
             clear: f64::NEG_INFINITY,
             anchor: None,
@@ -137,9 +140,9 @@ impl<'a> Contact<'a> {
         system.stiffen(point.node, &spring);
     }
 
-    /// After a time step from `before` to `x`: nodes that crossed the mold get an anchor, those that are clear lose it,
-    /// and those that slipped take it along.
-    pub fn update(&mut self, before: &[[f64; 3]], x: &[[f64; 3]]) {
+    /// After a time step: nodes that touch the mold get an anchor where they are, so that it stores no energy, those that
+    /// are clear lose it, and those that slipped take it along.
+    pub fn update(&mut self, x: &[[f64; 3]]) {
         for n in 0..self.points.len() {
             let point = &self.points[n];
             let at = x[point.node];
@@ -159,21 +162,14 @@ impl<'a> Contact<'a> {
                 Some(anchor) => {
                     Some(self.slipped(anchor, at, bound / (self.stiffness * point.area)))
                 }
-                None if depth >= 0.0 => Some(self.crossing(before[point.node], at)),
+                None if depth >= 0.0 && point.rubs => {
+                    Some(Anchor { point: closest.point, normal: closest.normal })
+                }
                 None => None,
             };
             let point = &mut self.points[n];
             (point.anchor, point.bound) = (anchor, bound);
         }
-    }
-
-    /// Where a node came to the mold on its way from `before` to `after`.
-    fn crossing(&self, before: [f64; 3], after: [f64; 3]) -> Anchor {
-        let [from, to] = [before, after].map(|p| self.mold.signed_distance(p));
-        let share =
-            if from > 0.0 && from > to { (from / (from - to)).clamp(0.0, 1.0) } else { 1.0 };
-        let closest = self.mold.closest_point(between(before, after, share));
-        Anchor { point: closest.point, normal: closest.normal }
     }
 
     /// An anchor that follows a node so that it is no farther behind than `most` (m).

@@ -1,6 +1,7 @@
 //! A gripper of the sheet: the fabric point that it holds, its pad, its mount, and where it is.
 
 use super::matrix3::{IDENTITY, Matrix3, orthonormal, product, rotation, times};
+use crate::draping::attitude::quaternion;
 
 /// A gripper.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +46,12 @@ impl Pad {
     /// Its unit normal.
     pub fn normal(&self) -> [f64; 3] {
         times(&self.turn, [0.0, 0.0, 1.0])
+    }
+
+    /// Its turn as a unit quaternion (x, y, z, w).
+    #[must_use]
+    pub fn quaternion(&self) -> [f64; 4] {
+        quaternion([0, 1, 2].map(|axis| self.turn.map(|row| row[axis])))
     }
 
     /// Angle between its normal and the vertical (rad).

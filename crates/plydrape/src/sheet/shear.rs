@@ -1,9 +1,9 @@
 //! Shear of the cells: area · ∫ τ dγ, sin γ = ê_u · ê_v with e_u and e_v the cell's two mid-lines.
 //!
 //! With θ = 90° − γ the angle between the mid-lines and n their common normal, a turn of them out of the cell's plane by
-//! (α, β) changes γ by −[(α² + β²) cos θ − 2 α β] / (2 sin θ): the part of it that the stress τ makes positive,
-//! τ tan(θ/2) for a turn alike or −τ cot(θ/2) for an opposite one, stands in the second derivative, and the rest is
-//! dropped, because the matrix must be positive definite.
+//! (α, β) changes γ by −[(α² + β²) cos θ − 2 α β] / (2 sin θ): by the stress τ the second derivative has the parts
+//! τ tan(θ/2) for a turn alike and −τ cot(θ/2) for an opposite one. Where the whole matrix is not positive definite with
+//! all of it, only the positive parts are kept.
 
 use super::fabric::Cell;
 use super::matrix3::{Matrix3, outer, plus, scaled, transposed};
@@ -80,8 +80,8 @@ impl Shear {
         self.cells.iter().map(one).sum()
     }
 
-    /// Adds gradient and second derivative.
-    pub fn add(&self, x: &[[f64; 3]], system: &mut System) {
+    /// Adds gradient and second derivative, all of it or its positive parts.
+    pub fn add(&self, x: &[[f64; 3]], whole: bool, system: &mut System) {
         for e in &self.cells {
             let lines = MidLines::of(e.nodes.map(|n| x[n]));
             let (size, slope) = self.curve.force(lines.angle);
@@ -100,15 +100,24 @@ impl Shear {
             }
 
             let normal = cross(u, v).map(|c| c / lines.cos);
+            let turn = [0, 1].map(|n| normal.map(|c| c / lines.length[n]));
             // tan(θ/2) = cos γ / (1 + sin γ)
             let tangent = lines.cos / (1.0 + lines.sin);
-            let (sign, turning) =
-                if stress >= 0.0 { (1.0, stress * tangent) } else { (-1.0, -stress / tangent) };
-            let turn =
-                [normal.map(|c| c / lines.length[0]), normal.map(|c| sign * c / lines.length[1])];
+            let [mut alike, mut opposite] = [stress * tangent, -stress / tangent];
+            if !whole {
+                [alike, opposite] = [alike.max(0.0), opposite.max(0.0)];
+            }
+            let [own, mixed] = [alike + opposite, alike - opposite].map(|sum| 0.5 * e.area * sum);
             let second = |i: usize, j: usize| {
-                let stretch = scaled(e.area * slope, &outer(by[i], by[j]));
-                plus(&stretch, 0.5 * e.area * turning, &outer(turn[i], turn[j]))
+                let mut k = scaled(e.area * slope, &outer(by[i], by[j]));
+                k = plus(&k, if i == j { own } else { mixed }, &outer(turn[i], turn[j]));
+                if whole && i == j {
+                    // along a mid-line and across it: a longer one turns less
+                    let both = outer(by[i], lines.unit[i].map(|c| c / lines.length[i]));
+                    let stress = -e.area * stress;
+                    k = plus(&plus(&k, stress, &both), stress, &transposed(&both));
+                }
+                k
             };
             let (uu, uv, vv) = (second(0, 0), second(0, 1), second(1, 1));
             let vu = transposed(&uv);

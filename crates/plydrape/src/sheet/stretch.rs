@@ -2,8 +2,8 @@
 //!
 //! In the second derivative the tension that turns a segment, T/l (I − n nᵀ), is the one that the linear step before
 //! predicts, and not that of the segment's present length: a step of an all but inextensible line is wrong in length by
-//! the square of its turn, and the false tension of that error would freeze the iteration. Compression turns nothing
-//! (the matrix stays positive definite).
+//! the square of its turn, and the false tension of that error would freeze the iteration. Compression turns nothing where
+//! the whole matrix would not be positive definite with it.
 
 use super::fabric::Segment;
 use super::matrix3::{Matrix3, outer};
@@ -57,8 +57,8 @@ impl Stretch {
         }
     }
 
-    /// Adds gradient and second derivative.
-    pub fn add(&self, x: &[[f64; 3]], system: &mut System) {
+    /// Adds gradient and second derivative, all of it or its positive parts.
+    pub fn add(&self, x: &[[f64; 3]], whole: bool, system: &mut System) {
         for ((s, pair), predicted) in self.segments.iter().zip(&self.pairs).zip(&self.predicted) {
             let [a, b] = s.nodes.map(|node| node as usize);
             let (unit, length) = direction(x[a], x[b]);
@@ -66,7 +66,7 @@ impl Stretch {
             add(&mut system.gradient[b], tension * s.width, unit);
             add(&mut system.gradient[a], -tension * s.width, unit);
 
-            let turning = predicted.max(0.0) / length;
+            let turning = if whole { *predicted } else { predicted.max(0.0) } / length;
             let stretching = slope * s.width / s.length;
             let mut k: Matrix3 =
                 outer(unit, unit).map(|row| row.map(|n| (stretching - turning) * n));

@@ -4,8 +4,10 @@
 //! the pad's turn δθ by δx = δθ × a, a its arm, and the pad's shift where its mount is not rigid.
 
 use super::cholesky::{BlockMatrix, Cholesky, NotPositiveDefinite, Slot};
-use super::matrix3::{Matrix3, outer, plus, product, skew, times, transposed, transposed_times};
-use crate::mold::vector::{cross, dot};
+use super::matrix3::{
+    Matrix3, outer, plus, product, scaled, skew, times, transposed, transposed_times,
+};
+use crate::mold::vector::{along, cross, dot};
 
 /// What carries a node.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +51,8 @@ pub struct System {
     /// How far grippers move each node in the step that is predicted (m); nothing in all others.
     pub moved: Vec<[f64; 3]>,
     predicts: bool,
+    /// What the movement of held nodes adds to the gradient of each node (N).
+    pulled: Vec<[f64; 3]>,
     arms: Vec<[f64; 3]>,
     step: Vec<f64>,
 }
@@ -76,7 +80,7 @@ impl System {
         }
         coupled.retain(|[i, j]| i != j);
         let matrix = BlockMatrix::new(block_places.len(), coupled);
-        let cholesky = Cholesky::new(&matrix, block_places);
+        let cholesky = Cholesky::new(&matrix);
         let nodes = places.len();
         System {
             carriers,
@@ -84,6 +88,7 @@ impl System {
             gradient: vec![[0.0; 3]; nodes],
             moved: vec![[0.0; 3]; nodes],
             predicts: false,
+            pulled: vec![[0.0; 3]; nodes],
             arms: vec![[0.0; 3]; nodes],
             step: vec![0.0; 3 * block_places.len()],
             matrix,
@@ -111,6 +116,7 @@ impl System {
     pub fn begin(&mut self, predicts: bool, arm: impl Fn(usize, u32) -> [f64; 3]) {
         self.matrix.clear();
         self.gradient.fill([0.0; 3]);
+        self.pulled.fill([0.0; 3]);
         self.predicts = predicts;
         for (node, carrier) in self.carriers.iter().enumerate() {
             if let Carrier::Pad { gripper, .. } = carrier {
@@ -128,9 +134,9 @@ impl System {
         }
         let [a, b] = pair.nodes.map(|node| node as usize);
         if self.predicts {
-            let (along, against) = (times(k, self.moved[b]), transposed_times(k, self.moved[a]));
-            add(&mut self.gradient[a], 1.0, along);
-            add(&mut self.gradient[b], 1.0, against);
+            let (forth, back) = (times(k, self.moved[b]), transposed_times(k, self.moved[a]));
+            add(&mut self.pulled[a], 1.0, forth);
+            add(&mut self.pulled[b], 1.0, back);
         }
         for (side, i) in blocks(self.carriers[a]).into_iter().enumerate() {
             for (other, j) in blocks(self.carriers[b]).into_iter().enumerate() {
@@ -169,8 +175,8 @@ impl System {
             return;
         }
         if self.predicts {
-            let along = times(k, self.moved[node]);
-            add(&mut self.gradient[node], 1.0, along);
+            let forth = times(k, self.moved[node]);
+            add(&mut self.pulled[node], 1.0, forth);
         }
         if let Carrier::Pad { turn, shift, .. } = carrier {
             let arm = skew(self.arms[node]);
@@ -195,15 +201,20 @@ impl System {
         self.matrix.add_diagonal(block, k);
     }
 
-    /// Solves for Newton's step: `own` adds what acts on blocks themselves to the gradient of all unknowns. The part of a
-    /// pad's turn that its forces hold back by their arms is added here.
+    /// Solves for Newton's step. `own` is what acts on blocks of unknowns themselves. How the forces on a pad act on its
+    /// turn by their arms is added here, all of it (`whole`) or its positive parts.
     ///
     /// # Errors
     /// If the matrix is not positive definite.
-    pub fn solve(&mut self, own: &[(u32, [f64; 3])]) -> Result<(), NotPositiveDefinite> {
+    pub fn solve(
+        &mut self,
+        own: &[(u32, [f64; 3])],
+        whole: bool,
+    ) -> Result<(), NotPositiveDefinite> {
         self.step.fill(0.0);
         for (node, carrier) in self.carriers.iter().enumerate() {
-            let g = self.gradient[node];
+            let force = self.gradient[node];
+            let g = along(force, 1.0, self.pulled[node]);
             match *carrier {
                 Carrier::Free { block } => add_at(&mut self.step, block, g),
                 Carrier::Held { .. } => {}
@@ -213,15 +224,7 @@ impl System {
                     if let Some(shift) = shift {
                         add_at(&mut self.step, shift, g);
                     }
-                    // a force that pulls outwards turns its arm back: t (|a|² I − a aᵀ), t |a|² = −g·a
-                    let (reach, square) = (-dot(g, arm), dot(arm, arm));
-                    if reach > 0.0 && square > 0.0 {
-                        let mut k = outer(arm, arm).map(|row| row.map(|x| -x * reach / square));
-                        for n in 0..3 {
-                            k[n][n] += reach;
-                        }
-                        self.matrix.add_diagonal(turn as usize, &k);
-                    }
+                    self.matrix.add_diagonal(turn as usize, &lever(force, arm, whole));
                 }
             }
         }
@@ -234,6 +237,24 @@ impl System {
         self.cholesky.factorize(&self.matrix)?;
         self.cholesky.solve(&mut self.step);
         Ok(())
+    }
+
+    /// The matrix times a direction at each free node.
+    #[cfg(test)]
+    pub fn multiply(&self, direction: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let block = |node: usize| match self.carriers[node] {
+            Carrier::Free { block } => Some(3 * block as usize),
+            _ => None,
+        };
+        let (mut x, mut y) = (vec![0.0; self.step.len()], vec![0.0; self.step.len()]);
+        for (node, d) in direction.iter().enumerate() {
+            if let Some(at) = block(node) {
+                x[at..at + 3].copy_from_slice(d);
+            }
+        }
+        self.matrix.multiply(&x, &mut y);
+        let of = |node| block(node).map_or([0.0; 3], |at| [y[at], y[at + 1], y[at + 2]]);
+        (0..direction.len()).map(of).collect()
     }
 
     /// Newton's step of a block of unknowns.
@@ -254,6 +275,22 @@ fn blocks(carrier: Carrier) -> [Option<u32>; 2] {
         Carrier::Held { .. } => [None, None],
         Carrier::Pad { turn, shift, .. } => [Some(turn), shift],
     }
+}
+
+/// Second derivative of the work of a force −g on an arm a over the turn of the arm: ½ (g aᵀ + a gᵀ) − (g·a) I. Its
+/// positive part is that of a force that pulls along the arm.
+fn lever(g: [f64; 3], arm: [f64; 3], whole: bool) -> Matrix3 {
+    let (reach, square) = (-dot(g, arm), dot(arm, arm));
+    let pulls = reach > 0.0 && square > 0.0;
+    let mut k = match whole {
+        true => plus(&scaled(0.5, &outer(g, arm)), 0.5, &outer(arm, g)),
+        false if pulls => scaled(-reach / square, &outer(arm, arm)),
+        false => return [[0.0; 3]; 3],
+    };
+    for n in 0..3 {
+        k[n][n] += reach;
+    }
+    k
 }
 
 /// a += s b.

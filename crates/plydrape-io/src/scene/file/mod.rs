@@ -22,6 +22,7 @@ use super::quantity::{
     Pressure, Quantity, Ratio, ShearSlope, TensileStiffness, Time,
 };
 use plydrape::ply::Direction;
+use plydrape::scene::Model;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -218,6 +219,15 @@ pub(super) enum ModelKey {
     Sheet,
     /// Lines of ply between the grippers, as in Krogh et al. 2018.
     Catenaries,
+}
+
+impl From<Model> for ModelKey {
+    fn from(model: Model) -> Self {
+        match model {
+            Model::Sheet => ModelKey::Sheet,
+            Model::Catenaries => ModelKey::Catenaries,
+        }
+    }
 }
 
 /// How shared slopes are found.

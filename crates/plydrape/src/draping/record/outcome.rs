@@ -1,7 +1,8 @@
 //! How a drape came out: worst values of every step, limits, the verdict.
 
-use crate::measure::{Numbers, Verdict};
+use crate::measure::{Numbers, Subject, Verdict};
 use crate::ply::{GripperId, Kind};
+use crate::sheet;
 
 /// A catenary by its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,12 +17,13 @@ pub struct CatenaryId {
     pub to: GripperId,
 }
 
-/// The outcome of a drape: what `plydrape simulate --json` prints, but for its timing.
+/// The outcome of a drape: what `plydrape simulate --json` prints, but for its timing. All but `accepted` and `sheet` is that
+/// of the catenaries.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Summary {
-    /// Every limit holds.
+    /// Every limit holds, by the model that decides.
     pub accepted: bool,
     /// Steps done.
     pub steps: usize,
@@ -48,13 +50,42 @@ pub struct Summary {
     pub limits: Vec<Verdict>,
     /// Equilibria solved.
     pub equilibria: usize,
+    /// The outcome of the same drape by the sheet, which then decides; none where the catenaries decide.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub sheet: Option<sheet::measure::Summary>,
 }
 
 impl Summary {
     /// Whether somebody broke it off before its last step.
     #[must_use]
     pub fn interrupted(&self) -> bool {
+        let sheet = self.sheet.as_ref().map(|sheet| sheet.status);
+        self.catenaries_interrupted() || sheet == Some(sheet::Status::Interrupted)
+    }
+
+    /// Whether somebody broke the drape by the catenaries off.
+    #[must_use]
+    pub fn catenaries_interrupted(&self) -> bool {
         self.steps < self.steps_planned && self.stopped.is_none()
+    }
+
+    /// Whether every limit of the catenaries holds, through all steps.
+    #[must_use]
+    pub fn catenaries_accepted(&self) -> bool {
+        self.steps == self.steps_planned && self.limits.iter().all(|verdict| verdict.ok)
+    }
+
+    /// Whether every limit of the motion alone holds, whichever model drapes.
+    #[must_use]
+    pub fn motion_accepted(&self) -> bool {
+        let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
+        self.limits.iter().filter(of_motion).all(|verdict| verdict.ok)
+    }
+
+    /// Lets the sheet decide: the drape is accepted if all limits of the sheet and of the motion hold.
+    pub fn decide_by(&mut self, sheet: sheet::measure::Summary) {
+        self.accepted = sheet.accepted && self.motion_accepted();
+        self.sheet = Some(sheet);
     }
 
     /// Judges the drape by more limits, such as those of the motion that it came from.

@@ -24,6 +24,7 @@ impl Column {
 #[inline(always)]
 pub fn dispatch<Operation: WithSimd>(operation: Operation) -> Operation::Output {
     #[cfg(target_arch = "x86_64")]
+    // not AVX-512: a register of eight numbers does not divide a panel into groups of three
     match pulp::x86::V3::try_new() {
         Some(simd) => Simd::vectorize(simd, operation),
         None => Simd::vectorize(pulp::Scalar::new(), operation),

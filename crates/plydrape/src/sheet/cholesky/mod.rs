@@ -1,7 +1,7 @@
 //! Sparse Cholesky factorization `P A Pᵀ = L Lᵀ` of a symmetric positive definite matrix of 3×3 blocks.
 //!
 //! 1. [`BlockMatrix`]: the matrix over a fixed pattern, one block row per node;
-//! 2. `dissection`: the order of elimination, by nested dissection along the fabric's own lines;
+//! 2. `graph`: which nodes are coupled, and an order of elimination by approximate minimum degree;
 //! 3. `supernode`: nodes that are eliminated together, and the fronts that they form;
 //! 4. `analysis`: where everything is stored;
 //! 5. `assembly`: a front is the sum of blocks of the matrix and of the updates of its children;
@@ -14,7 +14,6 @@
 mod analysis;
 mod assembly;
 mod block_matrix;
-mod dissection;
 mod front;
 mod graph;
 mod kernel;
@@ -29,6 +28,7 @@ pub use block_matrix::{Block, BlockMatrix, Slot};
 pub use tuning::Tuning;
 
 use analysis::Front;
+use assembly::Addition;
 use front::{Elimination, Shape};
 use graph::Graph;
 use kernel::Column;
@@ -63,26 +63,18 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
-    /// Finds order and storage for the pattern of a matrix whose nodes have these fabric coordinates (u, v).
-    ///
-    /// # Panics
-    /// If there is not one place for each node.
+    /// Finds order and storage for the pattern of a matrix; its numbers do not matter.
     #[must_use]
-    pub fn new(matrix: &BlockMatrix, places: &[[f64; 2]]) -> Self {
-        Self::with_tuning(matrix, places, &Tuning::default())
+    pub fn new(matrix: &BlockMatrix) -> Self {
+        Self::with_tuning(matrix, &Tuning::default())
     }
 
     /// As [`Self::new`], with other tuning constants.
-    ///
-    /// # Panics
-    /// If there is not one place for each node.
     #[must_use]
-    pub fn with_tuning(matrix: &BlockMatrix, places: &[[f64; 2]], tuning: &Tuning) -> Self {
+    pub fn with_tuning(matrix: &BlockMatrix, tuning: &Tuning) -> Self {
         let n = matrix.nodes();
-        assert_eq!(places.len(), n, "one place for each node");
         let graph = Graph::new(n, matrix.pairs());
-        let groups = dissection::dissect(&graph, places, tuning);
-        let supernodes = Supernodes::new(&graph, groups, tuning);
+        let supernodes = Supernodes::new(&graph, &graph.minimum_degree_order(), tuning);
         let fronts = analysis::fronts(matrix, &supernodes);
 
         let shapes = || fronts.iter().map(|front| front.shape);
@@ -131,7 +123,7 @@ impl Cholesky {
             for (child, rows) in &front.children {
                 let child = &self.fronts[*child];
                 let child = &children[child.update..][..child.shape.update_len()];
-                assembly::add_child(shape, factor, update, rows, child);
+                kernel::dispatch(Addition { shape, factor, update, rows, child });
             }
             kernel::dispatch(Elimination { shape, factor, update }).map_err(|row| {
                 NotPositiveDefinite { node: self.order[front.first + row / 3] as usize }

@@ -26,13 +26,14 @@ pub struct Supernodes {
 }
 
 impl Supernodes {
-    /// Supernodes from groups of nodes in an order of elimination; those that are cheaper together are merged.
-    pub fn new(graph: &Graph, groups: Vec<Vec<u32>>, tuning: &Tuning) -> Self {
-        let first = Self::analyse(graph, &groups);
-        let merged = first.merge(groups, tuning);
-        // children come directly before their parents, as the stack of updates wants them
-        let second = Self::analyse(graph, &merged);
-        let postorder = second.postorder();
+    /// Supernodes of an order of elimination: nodes that are cheaper together than apart are merged.
+    ///
+    /// The order of the result is another one with the same or a little more fill.
+    pub fn new(graph: &Graph, order: &[u32], tuning: &Tuning) -> Self {
+        let single: Vec<Vec<u32>> = order.iter().map(|&node| vec![node]).collect();
+        let merged = Self::analyse(graph, &single).merge(single, tuning);
+        // the stack of updates wants a supernode directly after its descendants
+        let postorder = Self::analyse(graph, &merged).postorder();
         let mut slots: Vec<Option<Vec<u32>>> = merged.into_iter().map(Some).collect();
         let groups: Vec<Vec<u32>> = postorder.iter().filter_map(|&s| slots[s].take()).collect();
         Self::analyse(graph, &groups)
@@ -103,34 +104,21 @@ impl Supernodes {
     /// The groups after every supernode has taken in those of its children that are cheaper that way.
     fn merge(&self, mut groups: Vec<Vec<u32>>, tuning: &Tuning) -> Vec<Vec<u32>> {
         let n = self.len();
-        let mut children = vec![Vec::new(); n];
+        let mut children: Vec<Vec<usize>> = vec![Vec::new(); n];
         for s in 0..n {
             loop {
-                let apart = |child: usize, groups: &[Vec<u32>]| {
-                    let [a, b] =
-                        [child, s].map(|k| front_cost(groups[k].len(), self.rows[k].len(), tuning));
-                    a + b
-                };
-                let together = |child: usize, groups: &[Vec<u32>]| {
-                    let pivots = groups[child].len() + groups[s].len();
-                    front_cost(pivots, self.rows[s].len(), tuning)
-                };
-                let gain = children[s]
-                    .iter()
-                    .enumerate()
-                    .map(|(k, &child)| {
-                        (together(child, &groups) as i64 - apart(child, &groups) as i64, k)
-                    })
-                    .min();
-                let Some((cost, k)) = gain else { break };
-                if cost >= 0 {
-                    break;
-                }
+                let cost = |pivots, k: usize| front_cost(pivots, self.rows[k].len(), tuning) as i64;
+                let own = groups[s].len();
+                let change = children[s].iter().enumerate().map(|(k, &child)| {
+                    let other = groups[child].len();
+                    (cost(own + other, s) - cost(own, s) - cost(other, child), k)
+                });
+                let Some((_, k)) = change.min().filter(|&(change, _)| change < 0) else { break };
                 let child = children[s].remove(k);
                 let mut pivots = std::mem::take(&mut groups[child]);
                 pivots.append(&mut groups[s]);
                 groups[s] = pivots;
-                let grandchildren: Vec<usize> = std::mem::take(&mut children[child]);
+                let grandchildren = std::mem::take(&mut children[child]);
                 children[s].extend(grandchildren);
             }
             if let Some(parent) = self.parents[s] {
@@ -157,5 +145,5 @@ fn front_cost(pivots: usize, rows: usize, tuning: &Tuning) -> usize {
         + panels * row(columns)
         + update_tiles * (columns + tuning.tile_cost)
         + rows * (rows + 1) / 2 * tuning.block_cost
-        + tuning.supernode_cost
+        + tuning.front_cost
 }

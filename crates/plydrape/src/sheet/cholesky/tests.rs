@@ -1,100 +1,325 @@
-use super::*;
+//! The factorization against dense references and residuals.
 
-/// A grid of nodes, 8 neighbours and two along each line.
-pub fn grid(columns: usize, rows: usize) -> (Vec<[u32; 2]>, Vec<[f64; 2]>) {
+use super::*;
+use front::Shape;
+use proptest::prelude::*;
+
+/// Numbers between −1 and 1, the same in every run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        // Knuth's MMIX
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as f64 / f64::from(1u32 << 30) - 1.0
+    }
+
+    fn block(&mut self) -> Block {
+        std::array::from_fn(|_| std::array::from_fn(|_| self.next()))
+    }
+
+    fn vector(&mut self, len: usize) -> Vec<f64> {
+        (0..len).map(|_| self.next()).collect()
+    }
+}
+
+/// The couplings of a woven ply of `across × along` nodes: eight neighbours, and two along each line for the bending.
+fn woven(across: usize, along: usize) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
-    let node = |i: usize, j: usize| (j * columns + i) as u32;
-    for j in 0..rows {
-        for i in 0..columns {
-            for (di, dj) in [(1, 0), (0, 1), (1, 1), (-1i64, 1), (2, 0), (0, 2)] {
-                let (k, l) = (i as i64 + di, j as i64 + dj);
-                if (0..columns as i64).contains(&k) && (l as usize) < rows {
-                    pairs.push([node(i, j), node(k as usize, l as usize)]);
+    for j in 0..along {
+        for i in 0..across {
+            for (di, dj) in [(1, 0), (0, 1), (1, 1), (-1, 1), (2, 0), (0, 2)] {
+                if let Some(k) = i.checked_add_signed(di).filter(|&k| k < across)
+                    && j + dj < along
+                {
+                    pairs.push([(j * across + i) as u32, ((j + dj) * across + k) as u32]);
                 }
             }
         }
     }
-    let places = (0..rows).flat_map(|j| (0..columns).map(move |i| [i as f64, j as f64])).collect();
-    (pairs, places)
+    pairs
 }
 
-/// A matrix with diagonally dominant random blocks.
-pub fn dominant(nodes: usize, pairs: &[[u32; 2]], seed: u64) -> BlockMatrix {
-    let mut state = seed;
-    let mut random = || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (state >> 33) as f64 / f64::from(1u32 << 31) * 2.0 - 1.0
-    };
+/// Sums of `Bᵀ B` over the pairs and a small diagonal: positive definite, and far from diagonal dominance.
+fn positive_definite(nodes: usize, pairs: &[[u32; 2]], random: &mut Random) -> BlockMatrix {
     let mut matrix = BlockMatrix::new(nodes, pairs.iter().copied());
+    let product = |a: &Block, b: &Block| -> Block {
+        std::array::from_fn(|r| std::array::from_fn(|c| (0..3).map(|k| a[k][r] * b[k][c]).sum()))
+    };
     for i in 0..nodes {
-        matrix.add_scalar(matrix.slot(i, i), 0.01);
+        matrix.add_scalar(matrix.slot(i, i), 0.1);
     }
-    for [i, j] in matrix.pairs().to_vec() {
-        let (i, j) = (i as usize, j as usize);
-        let block: Block = std::array::from_fn(|_| std::array::from_fn(|_| random()));
-        matrix.add(matrix.slot(i, j), &block);
-        for r in 0..3 {
-            let [mut a, mut b] = [[[0.0; 3]; 3]; 2];
-            a[r][r] = block[r].iter().map(|x| x.abs()).sum();
-            b[r][r] = block.iter().map(|x| x[r].abs()).sum();
-            matrix.add_diagonal(i, &a);
-            matrix.add_diagonal(j, &b);
+    for pair in pairs {
+        let [i, j] = pair.map(|node| node as usize);
+        let (a, b) = (random.block(), random.block());
+        matrix.add_diagonal(i, &product(&a, &a));
+        matrix.add_diagonal(j, &product(&b, &b));
+        if i != j {
+            matrix.add(matrix.slot(i, j), &product(&a, &b));
+        } else {
+            let (ab, ba) = (product(&a, &b), product(&b, &a));
+            matrix.add_diagonal(i, &ab);
+            matrix.add_diagonal(i, &ba);
         }
     }
     matrix
 }
 
-/// The largest residual of a solution of A x = b, b random, over the largest entry of b.
-fn residual(matrix: &BlockMatrix, cholesky: &mut Cholesky) -> f64 {
-    let b: Vec<f64> =
-        (0..3 * matrix.nodes()).map(|k| ((k * 37 + 11) % 101) as f64 / 50.0 - 1.0).collect();
-    let mut x = b.clone();
-    cholesky.solve(&mut x);
-    let mut y = vec![0.0; b.len()];
-    matrix.multiply(&x, &mut y);
-    y.iter().zip(&b).map(|(y, b)| (y - b).abs()).fold(0.0, f64::max)
+/// The matrix column by column.
+fn dense(matrix: &BlockMatrix) -> Vec<Vec<f64>> {
+    let n = 3 * matrix.nodes();
+    let columns = (0..n).map(|c| {
+        let mut unit = vec![0.0; n];
+        unit[c] = 1.0;
+        let mut column = vec![0.0; n];
+        matrix.multiply(&unit, &mut column);
+        column
+    });
+    columns.collect()
 }
 
-#[test]
-fn solutions_on_grids_leave_no_residual() {
-    for (columns, rows) in [(1, 1), (2, 1), (3, 3), (7, 5), (31, 11), (12, 40)] {
-        let (pairs, places) = grid(columns, rows);
-        let matrix = dominant(places.len(), &pairs, 7);
-        let mut cholesky = Cholesky::new(&matrix, &places);
-        cholesky.factorize(&matrix).unwrap();
-        let residual = residual(&matrix, &mut cholesky);
-        assert!(residual < 1e-10, "{columns} {rows}: {residual}");
+/// Solution by the textbook's dense factorization, or nothing if a pivot is not positive.
+fn dense_solution(matrix: &BlockMatrix, b: &[f64]) -> Option<Vec<f64>> {
+    let mut a = dense(matrix);
+    let n = b.len();
+    for j in 0..n {
+        for k in 0..j {
+            for i in j..n {
+                a[j][i] -= a[k][i] * a[k][j];
+            }
+        }
+        if a[j][j] <= 0.0 {
+            return None;
+        }
+        let pivot = a[j][j].sqrt();
+        a[j][j..].iter_mut().for_each(|x| *x /= pivot);
+    }
+    let mut x = b.to_vec();
+    for j in 0..n {
+        x[j] /= a[j][j];
+        for i in j + 1..n {
+            x[i] -= a[j][i] * x[j];
+        }
+    }
+    for j in (0..n).rev() {
+        for i in j + 1..n {
+            x[j] -= a[j][i] * x[i];
+        }
+        x[j] /= a[j][j];
+    }
+    Some(x)
+}
+
+/// Largest residual of `A x = b` over ‖A‖∞ ‖x‖∞ + ‖b‖∞, the backward error.
+fn backward_error(matrix: &BlockMatrix, x: &[f64], b: &[f64]) -> f64 {
+    let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    let mut product = vec![0.0; x.len()];
+    matrix.multiply(x, &mut product);
+    let residual: Vec<f64> = product.iter().zip(b).map(|(p, b)| p - b).collect();
+    // rows have at most some hundreds of entries of order one
+    let size = matrix.blocks().iter().flatten().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    largest(&residual) / (size * largest(x) + largest(b))
+}
+
+/// Asserts that a matrix is solved with a residual of rounding errors only.
+fn assert_solved(matrix: &BlockMatrix, random: &mut Random) {
+    let mut cholesky = Cholesky::new(matrix);
+    cholesky.factorize(matrix).expect("the matrix is positive definite");
+    let b = random.vector(3 * matrix.nodes());
+    let mut x = b.clone();
+    cholesky.solve(&mut x);
+    let error = backward_error(matrix, &x, &b);
+    assert!(error < 1e-13, "{} nodes: {error:e}", matrix.nodes());
+}
+
+/// Random pairs, repeated ones and nodes coupled to themselves among them.
+fn graphs() -> impl Strategy<Value = (usize, Vec<[u32; 2]>)> {
+    (1..40usize).prop_flat_map(|nodes| {
+        let node = 0..nodes as u32;
+        let pair = (node.clone(), node).prop_map(|(i, j)| [i, j]);
+        (Just(nodes), prop::collection::vec(pair, 0..4 * nodes))
+    })
+}
+
+proptest! {
+    /// On any graph, with repeated pairs and nodes without couplings, the solution is the dense one. Condition numbers
+    /// here are below 1e4.
+    #[test]
+    fn solutions_agree_with_dense_factorization((nodes, pairs) in graphs(), seed: u64) {
+        let mut random = Random(seed);
+        let matrix = positive_definite(nodes, &pairs, &mut random);
+        let b = random.vector(3 * nodes);
+        let expected = dense_solution(&matrix, &b).expect("positive definite");
+        let mut x = b.clone();
+        let mut cholesky = Cholesky::new(&matrix);
+        prop_assert_eq!(cholesky.factorize(&matrix), Ok(()));
+        cholesky.solve(&mut x);
+        prop_assert!(backward_error(&matrix, &x, &b) < 1e-13);
+        let largest = expected.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        for (x, expected) in x.iter().zip(&expected) {
+            prop_assert!((x - expected).abs() <= 1e-9 * largest, "{} {}", x, expected);
+        }
+    }
+
+    /// A matrix is refused exactly where the dense factorization meets a pivot that is not positive.
+    #[test]
+    fn indefinite_matrices_are_refused((nodes, pairs) in graphs(), seed: u64, shift in 0.0..4.0f64) {
+        let mut random = Random(seed);
+        let mut matrix = positive_definite(nodes, &pairs, &mut random);
+        matrix.add_scalar(matrix.slot(nodes / 2, nodes / 2), -shift);
+        let b = vec![1.0; 3 * nodes];
+        let result = Cholesky::new(&matrix).factorize(&matrix);
+        prop_assert_eq!(result.is_ok(), dense_solution(&matrix, &b).is_some());
+    }
+
+    /// Merging more or fewer supernodes changes a solution by rounding only.
+    #[test]
+    fn tuning_does_not_change_solutions(
+        (nodes, pairs) in graphs(), seed: u64,
+        front_cost in 0..5000usize, tile_cost in 0..50usize, block_cost in 0..50usize,
+    ) {
+        let mut random = Random(seed);
+        let matrix = positive_definite(nodes, &pairs, &mut random);
+        let b = random.vector(3 * nodes);
+        let mut x = b.clone();
+        let tuning = Tuning { front_cost, tile_cost, block_cost };
+        let mut cholesky = Cholesky::with_tuning(&matrix, &tuning);
+        prop_assert_eq!(cholesky.factorize(&matrix), Ok(()));
+        cholesky.solve(&mut x);
+        prop_assert!(backward_error(&matrix, &x, &b) < 1e-13);
     }
 }
 
 #[test]
-#[ignore]
-fn timing() {
-    for (columns, rows) in [(19, 7), (31, 11), (31, 31), (31, 61), (56, 46)] {
-        let (pairs, places) = grid(columns, rows);
-        let matrix = dominant(places.len(), &pairs, 7);
-        let start = std::time::Instant::now();
-        let mut cholesky = Cholesky::new(&matrix, &places);
-        let analysis = start.elapsed();
-        let mut x = vec![1.0; 3 * places.len()];
-        let [mut f, mut s] = [f64::INFINITY; 2];
-        for _ in 0..30 {
-            let start = std::time::Instant::now();
-            cholesky.factorize(&matrix).unwrap();
-            f = f.min(start.elapsed().as_secs_f64());
-            let start = std::time::Instant::now();
-            cholesky.solve(&mut x);
-            s = s.min(start.elapsed().as_secs_f64());
+fn woven_grids_are_solved() {
+    let mut random = Random(1);
+    for (across, along) in [(1, 1), (2, 1), (1, 9), (3, 3), (7, 5), (31, 11), (12, 40), (31, 31)] {
+        let matrix = positive_definite(across * along, &woven(across, along), &mut random);
+        assert_solved(&matrix, &mut random);
+    }
+}
+
+/// The nodes of a pad move together: each is coupled to all others of the pad.
+#[test]
+fn pads_with_tens_of_couplings_are_solved() {
+    let mut random = Random(2);
+    let (across, along) = (24, 13);
+    let mut pairs = woven(across, along);
+    for corner in [0, 10, 5 * across + 3, 6 * across + 17] {
+        let pad: Vec<u32> =
+            (0..6).flat_map(|j| (0..6).map(move |i| (corner + j * across + i) as u32)).collect();
+        for (k, &i) in pad.iter().enumerate() {
+            pairs.extend(pad[..k].iter().map(|&j| [i, j]));
         }
-        println!(
-            "{} unknowns: analysis {:.2} ms, factorize {:.3} ms, solve {:.3} ms, {} kB, {} fronts, residual {:.1e}",
-            3 * places.len(),
-            analysis.as_secs_f64() * 1e3,
-            f * 1e3,
-            s * 1e3,
-            cholesky.memory() / 1000,
-            cholesky.fronts.len(),
-            residual(&matrix, &mut cholesky)
-        );
+    }
+    let matrix = positive_definite(across * along, &pairs, &mut random);
+    assert_solved(&matrix, &mut random);
+}
+
+#[test]
+fn nodes_without_couplings_are_solved_by_their_own_blocks() {
+    let mut matrix = BlockMatrix::new(9, [[2, 3]]);
+    for i in 0..9 {
+        matrix.add_scalar(matrix.slot(i, i), 2.0 + i as f64);
+    }
+    let mut x = vec![1.0; 27];
+    let mut cholesky = Cholesky::new(&matrix);
+    cholesky.factorize(&matrix).unwrap();
+    cholesky.solve(&mut x);
+    for (k, x) in x.iter().enumerate() {
+        assert!((x * (2.0 + (k / 3) as f64) - 1.0).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn an_empty_matrix_has_an_empty_solution() {
+    let matrix = BlockMatrix::new(0, []);
+    let mut cholesky = Cholesky::new(&matrix);
+    cholesky.factorize(&matrix).unwrap();
+    cholesky.solve(&mut []);
+}
+
+/// Both directions of a slot add to the same entries, and `multiply` is the product with the dense symmetric matrix.
+#[test]
+fn blocks_are_added_with_their_transposes() {
+    let mut matrix = BlockMatrix::new(3, [[0, 2], [2, 0], [1, 0], [1, 1]]);
+    assert_eq!(matrix.pairs(), [[1, 0], [2, 0]]);
+    assert_eq!(matrix.find(1, 2), None);
+    let block = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
+    matrix.add(matrix.slot(0, 2), &block);
+    matrix.add(matrix.slot(1, 0), &block);
+    matrix.add_scalar(matrix.slot(0, 1), 0.5);
+    let a = dense(&matrix);
+    for r in 0..3 {
+        for c in 0..3 {
+            let identity = if r == c { 0.5 } else { 0.0 };
+            assert_eq!([a[6 + c][r], a[r][6 + c]], [block[r][c]; 2]);
+            assert_eq!([a[c][3 + r], a[3 + r][c]], [block[r][c] + identity; 2]);
+        }
+    }
+}
+
+/// A refused matrix, or another one, leaves no trace in what comes after.
+#[test]
+fn the_same_matrix_gives_the_same_bytes() {
+    let mut random = Random(3);
+    let pairs = woven(17, 12);
+    let matrix = positive_definite(17 * 12, &pairs, &mut random);
+    let other = positive_definite(17 * 12, &pairs, &mut random);
+    let mut refused = other.clone();
+    refused.add_scalar(refused.slot(100, 100), -1e3);
+    let b = random.vector(3 * 17 * 12);
+    let solution = |cholesky: &mut Cholesky| {
+        cholesky.factorize(&matrix).unwrap();
+        let mut x = b.clone();
+        cholesky.solve(&mut x);
+        x.into_iter().map(f64::to_bits).collect::<Vec<_>>()
+    };
+    let mut cholesky = Cholesky::new(&matrix);
+    let first = solution(&mut cholesky);
+    cholesky.factorize(&other).unwrap();
+    assert_eq!(cholesky.factorize(&refused), Err(NotPositiveDefinite { node: 100 }));
+    assert_eq!(first, solution(&mut cholesky));
+    assert_eq!(first, solution(&mut Cholesky::new(&other)));
+}
+
+/// A number that is not finite is refused and does not come back as a solution.
+#[test]
+fn a_matrix_with_nan_is_refused() {
+    for value in [f64::NAN, f64::INFINITY] {
+        let mut matrix = positive_definite(25, &woven(5, 5), &mut Random(4));
+        matrix.add_scalar(matrix.slot(7, 8), value);
+        assert!(Cholesky::new(&matrix).factorize(&matrix).is_err());
+    }
+}
+
+/// Machines without vector instructions compute the same up to the rounding of fused multiply-adds.
+#[test]
+fn elimination_without_vector_instructions_agrees() {
+    use pulp::Simd;
+    let mut random = Random(5);
+    let shape = Shape { pivots: 7, rows: 9 };
+    let mut factor = vec![Column::ZERO; shape.factor_len()];
+    let mut update = vec![Column::ZERO; shape.update_len()];
+    assembly::clear(shape, &mut factor, &mut update);
+    for (k, column) in factor.iter_mut().enumerate() {
+        let (panel, c) = (k / shape.columns(), k % shape.columns());
+        for (r, entry) in column.0.iter_mut().enumerate() {
+            let row = 12 * panel + r;
+            if c < 21 && !(21..24).contains(&row) {
+                *entry = if row == c { 30.0 } else { random.next() };
+            }
+        }
+    }
+    let (mut plain_factor, mut plain_update) = (factor.clone(), update.clone());
+    let plain = Elimination { shape, factor: &mut plain_factor, update: &mut plain_update };
+    Simd::vectorize(pulp::Scalar::new(), plain).unwrap();
+    kernel::dispatch(Elimination { shape, factor: &mut factor, update: &mut update }).unwrap();
+    let pairs = factor.iter().chain(&update).zip(plain_factor.iter().chain(&plain_update));
+    for (a, b) in pairs {
+        for r in 0..12 {
+            assert!((a.0[r] - b.0[r]).abs() < 1e-14);
+        }
     }
 }

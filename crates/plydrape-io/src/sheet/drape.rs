@@ -1,0 +1,150 @@
+//! A drape of the sheet whose kept states go into their file as they come.
+
+use super::kept::SheetKept;
+use super::{SheetError, SheetMesh, SheetSpool, SheetState};
+use crate::size::{self, SizeError};
+use plydrape::scene::Scene;
+use plydrape::sheet::measure::Summary;
+use plydrape::sheet::{self, Drape, Sheet, State, Tuning, is_kept};
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Duration;
+
+/// Why the sheet of a scene was not draped.
+#[derive(Debug, thiserror::Error)]
+pub enum SheetDrapeError {
+    /// The scene has no sheet.
+    #[error(transparent)]
+    Sheet(#[from] sheet::SheetError),
+    /// It would take too much memory.
+    #[error(transparent)]
+    Size(#[from] SizeError),
+    /// Its states could not be kept.
+    #[error(transparent)]
+    States(#[from] SheetError),
+}
+
+impl SheetDrapeError {
+    /// What would help, where the message does not say it.
+    #[must_use]
+    pub fn remedy(&self) -> Option<&'static str> {
+        match self {
+            SheetDrapeError::Sheet(_) => Some(
+                "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]",
+            ),
+            SheetDrapeError::Size(fault) => Some(fault.remedy()),
+            SheetDrapeError::States(_) => None,
+        }
+    }
+}
+
+/// A finished drape of the sheet.
+#[derive(Debug)]
+pub struct SheetDrape {
+    /// What was measured, and the verdict.
+    pub summary: Summary,
+    /// The states that were kept.
+    pub states: SheetKept,
+    /// Time that it took; no part of the result, which is the same on every machine.
+    pub duration: Duration,
+}
+
+/// How large the sheet of a scene is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SheetSize {
+    /// Nodes.
+    pub nodes: usize,
+    /// Largest distance between neighbouring lines of nodes (m).
+    pub mesh: f64,
+    /// Memory that its drape takes (bytes), estimated.
+    pub memory: f64,
+}
+
+impl SheetSize {
+    /// That of the sheet of a scene.
+    ///
+    /// # Errors
+    /// [`SheetDrapeError`] if the scene has no sheet, or one that is too large.
+    pub fn of(scene: &Scene) -> Result<Self, SheetDrapeError> {
+        let sheet = Sheet::new(scene)?;
+        let (nodes, states) = (sheet.fabric.places.len(), kept(scene));
+        size::sheet(nodes as f64, states)?;
+        Ok(SheetSize { nodes, mesh: sheet.mesh, memory: size::of_sheet(nodes as f64, states) })
+    }
+}
+
+/// Most states that the drape of a scene keeps.
+fn kept(scene: &Scene) -> usize {
+    scene.settings.sheet.keep.min(scene.motion.positions.len())
+}
+
+/// Drapes the sheet of a scene along its motion. Its states are kept in a hidden folder within `dir`; `progress` is called
+/// with each step that is done, and `stop` is asked often whether to end there, with the states so far.
+///
+/// # Errors
+/// [`SheetDrapeError`] if the scene has no sheet, one that is too large, or the disk refuses.
+pub fn drape(
+    scene: &Scene,
+    dir: &Path,
+    stop: &dyn Fn() -> bool,
+    mut progress: impl FnMut(usize),
+) -> Result<SheetDrape, SheetDrapeError> {
+    SheetSize::of(scene)?;
+    let mut spool = SheetSpool::new(dir, mesh(&Sheet::new(scene)?))?;
+    let (steps, keep) = (scene.motion.positions.len(), scene.settings.sheet.keep);
+    let (mut last, mut fault) = (0, None);
+    let draped = sheet::drape(scene, Tuning::default(), stop, |seen| {
+        progress(seen.step);
+        if is_kept(seen.step, steps, keep) {
+            if let Err(refused) = spool.push(&state(seen)) {
+                fault = Some(refused);
+                return ControlFlow::Break(());
+            }
+            last = seen.step;
+        }
+        ControlFlow::Continue(())
+    })?;
+    if let Some(fault) = fault {
+        return Err(fault.into());
+    }
+    let Drape { summary, landing_step, last: end, duration, .. } = draped;
+    if end.step != last {
+        // where the drape ended early, its end is kept too
+        spool.push(&state(&end))?;
+    }
+    let landed: Vec<u32> = landing_step.iter().map(|step| step.map_or(0, |n| n as u32)).collect();
+    let states = SheetKept::made(spool.finish(&landed)?);
+    Ok(SheetDrape { summary, states, duration })
+}
+
+/// What is the same in all states of a sheet.
+fn mesh(sheet: &Sheet) -> SheetMesh<'static> {
+    let fabric = &sheet.fabric;
+    SheetMesh {
+        places: fabric.places.clone().into(),
+        areas: fabric.areas.clone().into(),
+        segments: fabric.segments.iter().map(|segment| segment.nodes).collect(),
+        cells: fabric.cells.iter().map(|cell| cell.nodes).collect(),
+        grippers: sheet.grippers.len(),
+    }
+}
+
+/// A state as it is kept.
+fn state(state: &State) -> SheetState<'_> {
+    let unknown = || vec![f64::NAN; state.positions.len()].into();
+    SheetState {
+        step: state.step as u32,
+        time: state.time,
+        positions: (&state.positions).into(),
+        height: match state.heights.is_empty() {
+            true => unknown(),
+            false => (&state.heights).into(),
+        },
+        contact: (&state.contact).into(),
+        shear: (&state.shear).into(),
+        tension: (&state.tension).into(),
+        grippers: state.pads.iter().map(|pad| pad.position).collect(),
+        pad_forces: (&state.forces).into(),
+        pad_rotation: state.pads.iter().map(|pad| pad.quaternion()).collect(),
+    }
+}
