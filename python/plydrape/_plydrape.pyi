@@ -1058,7 +1058,7 @@ class Result:
             >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
             >>> result = plydrape.simulate(scene)
             >>> sorted(result.to_dict())
-            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'sheet_file', 'steps', 'summary', 'version']
+            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
         """
     def to_json(self, /) -> str:
         """

@@ -88,7 +88,8 @@ fn the_option_chooses_the_model_that_decides() {
     let shown = text(&alone.stdout);
     assert_eq!(alone.status.code(), Some(1), "{shown}");
     assert!(shown.contains("\nnot accepted: ") && !shown.contains("sheet"), "{shown}");
-    assert_eq!(files(&out), FILES.iter().filter(|name| **name != "sheet.npz").collect::<Vec<_>>());
+    let rest: Vec<&str> = FILES.into_iter().filter(|name| *name != "sheet.npz").collect();
+    assert_eq!(files(&out), rest);
     let without = result(&out);
     assert_eq!(without["steps"], with["steps"]);
     assert!(without["summary"].get("sheet").is_none() && without.get("sheet_states").is_none());
