@@ -1075,7 +1075,7 @@ class Result:
             >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
             >>> result = plydrape.simulate(scene)
             >>> sorted(result.to_dict())
-            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
+            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'sheet_file', 'steps', 'summary', 'version']
         """
     def to_json(self, /) -> str:
         """
@@ -1587,7 +1587,7 @@ def materials() -> list[str]:
 
     Example:
         >>> plydrape.materials()
-        ['krogh2018']
+        ['krogh2018', 'cao2008_plain']
     """
 
 def measures() -> list[Measure]:
