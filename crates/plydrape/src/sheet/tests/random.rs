@@ -118,8 +118,12 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
     let (mut solved, mut refused) = (0, 0);
     for seed in 0..200 {
         let scene = scene(seed);
-        let drape = match drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()))
-        {
+        let left = std::cell::Cell::new(40);
+        let stop = || {
+            left.set(left.get() - 1);
+            left.get() < 0
+        };
+        let drape = match drape(&scene, tuning, &stop, |_| ControlFlow::Continue(())) {
             Ok(drape) => drape,
             Err(SheetError::Overlap { .. } | SheetError::Overhang { .. }) => {
                 assert!(scene.settings.pad.radius > 0.0);
