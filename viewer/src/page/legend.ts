@@ -93,6 +93,7 @@ function draw(field: Field): HTMLElement[] {
   const range = make("p", { class: "visually-hidden" });
   range.textContent = `from ${full(field.low)} to ${full(field.high)} ${field.unit}`;
   const parts = [title, scale, range];
+  if (field.key === "landing") parts.push(make("p", { class: "quiet" }, "grey: in the air"));
   if (limit !== null && (limit < field.low || limit > field.high)) {
     parts.push(make("p", { class: "legend-note" }, `limit ${short(limit)}`));
   }

@@ -1,25 +1,35 @@
 /**
  * How the ply is painted, by both models: colours looked up in a map, fabric lines, and a mild shade.
  *
- * The geometry gives `share`, the place of each vertex in the colour map; below zero there is no value, and the ply is
- * grey. `thread` counts fabric lines: one is drawn at every whole number.
+ * The geometry gives `share`, the place of each vertex in the colour map, or `corners`, those of all four corners of
+ * its cell; below zero there is no value, and the ply is grey. `thread` counts fabric lines: one is drawn at every
+ * whole number.
  */
 
-import { DataTexture, DoubleSide, NearestFilter, ShaderMaterial } from "three";
+import { Color, DataTexture, DoubleSide, NearestFilter, ShaderMaterial } from "three";
 import { colourAt, mapOf } from "../data/colour_map";
 import type { Field } from "../data/page_data";
 import { PROJECT, SHADE } from "./shade";
 
 const VERTEX = /* glsl */ `
-  attribute float share;
+  #ifdef CORNERS
+    attribute vec4 corners;
+    flat varying vec4 vCorners;
+  #else
+    attribute float share;
+    varying float vShare;
+  #endif
   attribute vec2 thread;
-  varying float vShare;
   varying vec2 vThread;
   varying float vShade;
   ${PROJECT}
   ${SHADE}
   void main() {
-    vShare = share;
+    #ifdef CORNERS
+      vCorners = corners;
+    #else
+      vShare = share;
+    #endif
     vThread = thread;
     vShade = shade(normalMatrix * normal);
     gl_Position = project(position);
@@ -29,12 +39,27 @@ const VERTEX = /* glsl */ `
 const FRAGMENT = /* glsl */ `
   uniform sampler2D map;
   uniform bool threads;
-  varying float vShare;
+  uniform vec3 unknown;
   varying vec2 vThread;
   varying float vShade;
+  #ifdef CORNERS
+    flat varying vec4 vCorners;
+    // Between the corners that have a value; none where the nearest corner has none.
+    float share() {
+      vec2 a = vThread;
+      vec4 weight = vec4((1.0 - a.x) * (1.0 - a.y), a.x * (1.0 - a.y), a.x * a.y, (1.0 - a.x) * a.y);
+      float nearest = a.x < 0.5 ? (a.y < 0.5 ? vCorners.x : vCorners.w) : (a.y < 0.5 ? vCorners.y : vCorners.z);
+      weight *= step(-0.5, vCorners);
+      return nearest < -0.5 ? -1.0 : dot(weight, vCorners) / max(dot(weight, vec4(1.0)), 1e-6);
+    }
+  #else
+    varying float vShare;
+    float share() { return vShare; }
+  #endif
   void main() {
-    vec3 colour = texture2D(map, vec2(clamp(vShare, 0.0, 0.9999), 0.5)).rgb * vShade;
-    if (vShare < -1e-3) colour = vec3(0.62, 0.64, 0.67) * vShade;
+    float here = share();
+    vec3 colour = here < -0.5 ? unknown : texture2D(map, vec2(clamp(here, 0.0, 0.9999), 0.5)).rgb;
+    colour *= vShade;
     // Threads of the fabric, where they are far enough apart to be seen.
     if (threads) {
       vec2 width = fwidth(vThread);
@@ -50,13 +75,22 @@ const FRAGMENT = /* glsl */ `
 /** Colours in the map: so many that none need be mixed, which is dear in software. */
 const TEXELS = 512;
 
-/** The material of a ply that is pushed back by `push` (m). */
-export function clothMaterial(push: number): ShaderMaterial {
+/** The grey of a ply without a value. */
+const UNKNOWN = new Color(0.68, 0.7, 0.73);
+
+/** The material of a ply that is pushed back by `push` (m), with values at vertices or at the corners of cells. */
+export function clothMaterial(push: number, on: "vertices" | "corners" = "vertices"): ShaderMaterial {
   return new ShaderMaterial({
+    defines: on === "corners" ? { CORNERS: "" } : {},
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     side: DoubleSide,
-    uniforms: { map: { value: null }, push: { value: push }, threads: { value: true } },
+    uniforms: {
+      map: { value: null },
+      push: { value: push },
+      threads: { value: true },
+      unknown: { value: UNKNOWN },
+    },
   });
 }
 

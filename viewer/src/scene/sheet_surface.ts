@@ -1,8 +1,8 @@
 /**
  * The sheet: its cells, coloured by the chosen field.
  *
- * Each cell has its own four vertices, so that a field given on cells has sharp borders, and a cell with an unknown
- * value at a corner is grey. All buffers are written in place.
+ * Each cell has its own four vertices, each of which knows the values at all four corners, so that a field given on
+ * cells has sharp borders and one given on nodes can be unknown at some of them. All buffers are written in place.
  */
 
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type ShaderMaterial } from "three";
@@ -31,7 +31,7 @@ export class SheetSurface {
       new BufferAttribute(new Float32Array(size * total), size).setUsage(DynamicDrawUsage);
     this.position = dynamic(3);
     this.normal = dynamic(3);
-    this.share = dynamic(1);
+    this.share = dynamic(4);
     const geometry = new BufferGeometry();
     const index: number[] = [];
     const threads: number[] = [];
@@ -42,9 +42,9 @@ export class SheetSurface {
     geometry.setIndex(new BufferAttribute(Uint32Array.from(index), 1));
     geometry.setAttribute("position", this.position);
     geometry.setAttribute("normal", this.normal);
-    geometry.setAttribute("share", this.share);
+    geometry.setAttribute("corners", this.share);
     geometry.setAttribute("thread", new BufferAttribute(Float32Array.from(threads), 2));
-    this.mesh = new Mesh(geometry, clothMaterial(push));
+    this.mesh = new Mesh(geometry, clothMaterial(push, "corners"));
     this.mesh.frustumCulled = false;
   }
 
@@ -72,8 +72,7 @@ export class SheetSurface {
     };
     for (let k = 0; k < this.corners.length; k += 4) {
       const four = [0, 1, 2, 3].map((n) => at(field.on === "cell" ? k >> 2 : this.corners[k + n]!));
-      const known = four.every((one) => one >= 0);
-      for (let n = 0; n < 4; n++) share[k + n] = known ? four[n]! : -1;
+      for (let n = 0; n < 4; n++) share.set(four, 4 * (k + n));
     }
     this.share.needsUpdate = true;
   }
