@@ -261,7 +261,7 @@ class Jacobian:
 @final
 class Material:
     """
-    What a ply is made of: mass, flexural rigidity, shear curve and locking angle.
+    What a ply is made of: mass, flexural rigidity, tension, shear curve and locking angle.
 
     Example:
         >>> material = plydrape.Material.shipped("krogh2018")
@@ -326,6 +326,14 @@ class Material:
     def source(self, /) -> str:
         """
         Where its numbers come from.
+        """
+    def tension(self, /, strains: ArrayLike) -> NDArray[float64] | None:
+        """
+        Tension per width (N/m) at strains, shape (n,); None if the material does not say it.
+
+        Example:
+            >>> plydrape.Material.shipped("krogh2018").tension(np.array([0, 0.001]))
+            array([   0., 1000.])
         """
     @staticmethod
     def text(name: str) -> str:
@@ -1050,7 +1058,7 @@ class Result:
             >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
             >>> result = plydrape.simulate(scene)
             >>> sorted(result.to_dict())
-            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
+            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'sheet_file', 'steps', 'summary', 'version']
         """
     def to_json(self, /) -> str:
         """
@@ -1088,12 +1096,13 @@ class Scene:
     units, a str carries its unit. Arrays may stand for lists. `mold` may also be a `Mold`.
 
     Args:
-        ply: What hangs between the grippers: `grippers`, `cell`, `material`, `warp`.
+        ply: What hangs between the grippers: `grippers`, `cell`, `material`, `warp`, `overhang`.
         mold: What the ply is laid on.
         grippers: Where the grippers start.
         target: Where the ply shall end.
         motion: How the grippers move.
-        model: Rules of the model.
+        model: Which model drapes and decides, and its rules.
+        sheet: How the ply is divided and followed as a sheet.
         contact: How contact is found.
         limits: What an accepted drape keeps to.
         plan: How a motion is planned.
@@ -1123,6 +1132,7 @@ class Scene:
         target: dict[str, typing.Any] | None = None,
         motion: dict[str, typing.Any] | None = None,
         model: dict[str, typing.Any] | None = None,
+        sheet: dict[str, typing.Any] | None = None,
         contact: dict[str, typing.Any] | None = None,
         limits: dict[str, typing.Any] | None = None,
         plan: dict[str, typing.Any] | None = None,
@@ -1448,7 +1458,7 @@ def materials() -> list[str]:
 
     Example:
         >>> plydrape.materials()
-        ['krogh2018']
+        ['krogh2018', 'cao2008_plain']
     """
 
 def measures() -> list[Measure]:

@@ -1,7 +1,7 @@
 """The sheet beside MuJoCo, which knows nothing of ours: benches/peers/sheet.py.
 
 The first tests show that the peer is the sheet of `docs/theory`: its springs hold the energies of
-the terms, and it hangs as two other programs of ours, in Python, hung. The last ones compare.
+the terms, and it hangs as another program of ours did. The last ones compare.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ HANGING = {
     2.0: [-19.30, -18.21, -19.30, -8.91, -9.09, -8.91, -8.70, -8.68],
 }
 """Heights (mm) of the points for two shear slopes (N/m per rad), of 0.3143 kg/m² and lines every
-100/12 mm: an implicit solver and a relaxation in Python."""
+100/12 mm, found by a trial in Python. MuJoCo on these lines is within 0.1 %."""
 
 
 class Drape(NamedTuple):

@@ -10,6 +10,7 @@ use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
 use plydrape::ply::{Catenary, Direction, Grid, Kind, Ply};
 use plydrape::scene::{ContactEnd, ContactSettings, Limits, Settings, SlopeRule, Stepping, Target};
+use plydrape::sheet;
 
 const CELL: f64 = 0.1;
 const SPACING: f64 = 0.098;
@@ -333,4 +334,39 @@ pub(super) fn tilted(nu: usize, nv: usize) -> ResultFile {
         normal: [-0.25 / norm, -0.1 / norm, 1.0 / norm],
     }));
     result
+}
+
+/// The outcome of a sheet of one step.
+pub(super) fn sheet_summary() -> sheet::measure::Summary {
+    sheet::measure::Summary {
+        accepted: true,
+        status: sheet::Status::Converged,
+        converged: true,
+        nodes: 9,
+        steps: 1,
+        height_max_mm: Some(0.2),
+        height_rms_mm: Some(0.1),
+        height_share_above_half_mm: Some(0.0),
+        ridge_max_mm: Some(0.2),
+        bridge_max_mm: Some(0.0),
+        out_of_plane_deg: Some(1.0),
+        fibre_angle_deg: None,
+        position_max_mm: None,
+        position_rms_mm: None,
+        strain_max: 1e-4,
+        shear_max_deg: 20.0,
+        gripper_force_max_n: 0.5,
+        gripper_pull_max_n: 0.4,
+        tilt_max_deg: 10.0,
+        fold_max_deg: 5.0,
+        penetration_mm: Some(0.01),
+        first_contact_step: Some(1),
+        first_contact_uv_mm: Some([50.0, 50.0]),
+        energy_j: 0.1,
+        kinetic_energy_j: 0.0,
+        time_steps: 10,
+        solves: 30,
+        smallest_step: 0.5,
+        limits: Vec::new(),
+    }
 }

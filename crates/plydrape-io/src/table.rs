@@ -115,18 +115,25 @@ fn failed_solves(result: &ResultFile) -> String {
     }
 }
 
-/// The table of limits and one line: accepted, or not and why. Where the sheet was draped too, that is in a table of its own
-/// behind, and the line says that it decides.
+/// The table of limits and one line: accepted, or not and why. Where the sheet was draped too, its limits are in a table of their
+/// own behind, and its line says that it decides.
 #[must_use]
 pub fn verdict(result: &ResultFile) -> String {
     let summary = &result.summary;
     match &summary.sheet {
-        None => catenaries(summary) + &line("", summary.accepted, limiting(&summary.limits)),
+        None => {
+            let (accepted, worst) = (summary.accepted, limiting(&summary.limits));
+            catenaries(summary) + &line(if accepted { "accepted" } else { "not accepted" }, worst)
+        }
         Some(sheet) => {
-            let accepted = summary.catenaries_accepted();
-            let catenaries = catenaries(summary)
-                + &line("by the catenaries alone: ", accepted, limiting(&summary.limits));
-            catenaries + "\n" + &sheet::verdict(summary, sheet)
+            let text = match summary.catenaries_accepted() {
+                true => "accepted by the catenaries",
+                false => "not accepted by the catenaries",
+            };
+            catenaries(summary)
+                + &line(text, limiting(&summary.limits))
+                + "\n"
+                + &sheet::verdict(summary, sheet)
         }
     }
 }
@@ -166,11 +173,10 @@ fn catenaries(summary: &Summary) -> String {
 }
 
 /// The line of a verdict, with the limit that is exceeded furthest.
-fn line(by: &str, accepted: bool, worst: Option<&Verdict>) -> String {
+fn line(verdict: &str, worst: Option<&Verdict>) -> String {
     let text = match worst {
-        _ if accepted => format!("{by}accepted"),
-        None => format!("{by}not accepted"),
-        Some(worst) => format!("{by}not accepted: {}", verdict_text(worst)),
+        None => verdict.to_owned(),
+        Some(worst) => format!("{verdict}: {}", verdict_text(worst)),
     };
     shown::excerpt(&text, WIDTH) + "\n"
 }

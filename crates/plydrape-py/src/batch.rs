@@ -1,6 +1,8 @@
 //! Many at once, on all cores: `plydrape.batch`.
 
 use crate::arrays::{Array, Block, steps};
+use crate::drape::for_model;
+use crate::error;
 use crate::result::Result;
 use crate::scene::Scene;
 use crate::solver::{Solver, shear_angles};
@@ -31,11 +33,15 @@ fn pool(threads: Option<usize>) -> PyResult<ThreadPool> {
 ///
 /// Args:
 ///     scenes: The scenes.
+///     model: The model that decides, instead of that of each scene: "sheet" or "catenaries".
 ///     threads: How many at once; one a core unless given. The results do not depend on it.
 ///     progress: Called with (drapes done, drapes, what is done), some 50 times a second.
 ///
 /// Returns:
 ///     One result a scene, in their order.
+///
+/// Raises:
+///     SceneError, OutputError, ValueError: As `simulate`.
 ///
 /// Example:
 ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
@@ -43,27 +49,33 @@ fn pool(threads: Option<usize>) -> PyResult<ThreadPool> {
 ///     [True, True]
 #[pyfunction]
 #[pyo3(name = "simulate_all", signature = (
-    scenes: "typing.Iterable[Scene]", *, threads = None,
+    scenes: "typing.Iterable[Scene]", *,
+    model: "typing.Literal['sheet', 'catenaries'] | None" = None, threads = None,
     progress: "typing.Callable[[int, int, str], object] | None" = None
 ))]
 pub fn simulate_all(
     py: Python<'_>,
     scenes: &Bound<'_, PyAny>,
+    model: Option<&str>,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<Result>> {
     let scenes = (scenes.try_iter()?)
-        .map(|scene| Ok(Arc::clone(&scene?.cast::<Scene>()?.get().0)))
+        .map(|scene| for_model(&scene?.cast::<Scene>()?.get().0, model))
         .collect::<PyResult<Vec<_>>>()?;
     let pool = pool(threads)?;
-    run(py, progress, move |watch| {
+    let results = run(py, progress, move |watch| {
         let drape = |scene: &Arc<SceneFile>| {
             let drape = draping::simulate(scene, |_| watch.flow());
+            let mut result = ResultFile::new(scene, scene.input.clone(), drape);
+            let stop = || watch.flow().is_break();
+            result.drape_sheet(scene, &std::env::temp_dir(), &stop, |_| {})?;
             let _ = watch.count(1, scenes.len(), "draping");
-            Result(Arc::new(ResultFile::new(scene, scene.input.clone(), drape)))
+            Ok(Result(Arc::new(result)))
         };
-        pool.install(|| scenes.par_iter().map(drape).collect())
-    })
+        pool.install(|| scenes.par_iter().map(drape).collect::<std::result::Result<Vec<_>, _>>())
+    })?;
+    results.map_err(|fault| error::sheet(&fault))
 }
 
 /// What is kept of one equilibrium of many.

@@ -4,12 +4,14 @@ use crate::arrays::{Array, List, Named, list};
 use crate::error;
 use crate::result::Result;
 use crate::scene::{Scene, blocks};
-use crate::work::run;
+use crate::work::{Watch, run};
 use plydrape::draping;
 use plydrape::planner::{self, Checkpoint, Planned};
-use plydrape::scene::PlanMethod;
+use plydrape::scene::{Model, PlanMethod};
 use plydrape_io::ResultFile;
 use plydrape_io::plan as plan_file;
+use plydrape_io::scene::SceneFile;
+use plydrape_io::sheet::{SheetDrapeError, SheetSize};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -21,34 +23,81 @@ use std::sync::Arc;
 ///
 /// Args:
 ///     scene: The scene.
+///     model: The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
 ///     progress: Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
 ///
 /// Returns:
 ///     The result; a drape that breaks limits is a result all the same.
 ///
+/// Raises:
+///     SceneError: If the scene has no sheet, because its material lacks a stiffness for instance.
+///     OutputError: If the states of the sheet cannot be kept in the folder for temporary files.
+///     ValueError: If there is no such model.
+///
 /// Example:
 ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
 ///     >>> plydrape.simulate(scene).accepted
 ///     True
+///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+///     >>> plydrape.simulate(scene, model="sheet").sheet
+///     <plydrape.Sheet of 341 nodes, 30 states, not accepted>
 #[pyfunction]
 #[pyo3(signature = (
-    scene, *, progress: "typing.Callable[[int, int, str], object] | None" = None
+    scene, *, model: "typing.Literal['sheet', 'catenaries'] | None" = None,
+    progress: "typing.Callable[[int, int, str], object] | None" = None
 ))]
 pub fn simulate(
     py: Python<'_>,
     scene: &Bound<'_, Scene>,
+    model: Option<&str>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Result> {
-    let scene = Arc::clone(&scene.get().0);
+    let scene = for_model(&scene.get().0, model)?;
     let steps = scene.motion.positions.len();
     let result = run(py, progress, move |watch| {
         let drape = draping::simulate(&scene, |done| watch.tell(done, steps, "draping"));
-        ResultFile::new(&scene, scene.input.clone(), drape)
+        let mut result = ResultFile::new(&scene, scene.input.clone(), drape);
+        drape_sheet(&mut result, &scene, watch)?;
+        Ok(result)
     })?;
-    Ok(Result(Arc::new(result)))
+    result.map(|result| Result(Arc::new(result))).map_err(|fault| error::sheet(&fault))
+}
+
+/// The scene with the model that a call asks for, whose sheet, if it has one, can be draped.
+pub fn for_model(scene: &Arc<SceneFile>, model: Option<&str>) -> PyResult<Arc<SceneFile>> {
+    let mut scene = Arc::clone(scene);
+    match model {
+        None => {}
+        Some("sheet") => Arc::make_mut(&mut scene).settings.model = Model::Sheet,
+        Some("catenaries") => Arc::make_mut(&mut scene).settings.model = Model::Catenaries,
+        Some(other) => {
+            let text = format!("model is {other:?}; \"sheet\" or \"catenaries\" is wanted");
+            return Err(PyValueError::new_err(text));
+        }
+    }
+    if scene.settings.model == Model::Sheet {
+        SheetSize::of(&scene).map_err(|fault| error::sheet(&fault))?;
+    }
+    Ok(scene)
+}
+
+/// Drapes the sheet of a scene too, if its model says so, with its states in the folder for temporary files.
+pub fn drape_sheet(
+    result: &mut ResultFile,
+    scene: &plydrape::scene::Scene,
+    watch: &Watch,
+) -> std::result::Result<(), SheetDrapeError> {
+    let steps = scene.motion.positions.len();
+    let stop = || watch.flow().is_break();
+    let told = |done| {
+        let _ = watch.tell(done, steps, "draping the sheet");
+    };
+    result.drape_sheet(scene, &std::env::temp_dir(), &stop, told).map(drop)
 }
 
 /// Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
+///
+/// Where the scene's model is the sheet, the plan is draped by it too, and its verdict counts.
 ///
 /// Other threads of Python run on meanwhile. Ctrl-C raises KeyboardInterrupt at once; to stop early and keep the
 /// best so far, give the search fewer `evaluations` in the scene's `plan`.
@@ -65,7 +114,7 @@ pub fn simulate(
 ///
 /// Raises:
 ///     PlanError: If the scene has no mold or target, or `checkpoint` is not of its ply.
-///     SceneError: If its motion has a `duration`, which a plan would ignore.
+///     SceneError: If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
 ///     ValueError: If there is no such method, or `checkpoint` is no plan.json.
 ///
 /// Example:
@@ -106,14 +155,18 @@ pub fn plan(
     if let Some(refusal) = &scene.plan_refusal {
         return Err(error::scene(refusal));
     }
+    let scene = for_model(&Arc::new(scene), None)?;
     let planned = run(py, progress, move |watch| {
         let planned = planner::plan(&scene, checkpoint.as_ref(), &mut |progress| {
             watch.tell(progress.evaluations, progress.most, progress.stage)
         })?;
-        let result = Arc::new(ResultFile::planned(&scene, scene.input.clone(), &planned));
-        Ok(Plan { planned: Arc::new(planned), result })
+        let mut result = ResultFile::planned(&scene, scene.input.clone(), &planned);
+        let followed =
+            plydrape::scene::Scene { motion: planned.motion.steps(), ..scene.scene.clone() };
+        let draped = drape_sheet(&mut result, &followed, watch);
+        Ok(draped.map(|()| Plan { planned: Arc::new(planned), result: Arc::new(result) }))
     })?;
-    planned.map_err(|fault| error::plan(&fault))
+    planned.map_err(|fault| error::plan(&fault))?.map_err(|fault| error::sheet(&fault))
 }
 
 /// A planned motion, and the drape along it.
@@ -152,7 +205,7 @@ impl Plan {
         self.planned.record.evaluations
     }
 
-    /// Whether every limit is kept.
+    /// Whether every limit is kept, by the model that decides.
     #[getter]
     fn accepted(&self) -> bool {
         self.result.summary.accepted
@@ -213,7 +266,7 @@ impl Plan {
         plan_file::text(&self.planned.checkpoint).map_err(|fault| error::output(&fault.into()))
     }
 
-    /// Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json into a
+    /// Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html, plan.json, and of a sheet sheet.npz, into a
     /// folder, all or none, and returns their paths.
     ///
     /// Raises:

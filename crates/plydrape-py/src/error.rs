@@ -4,6 +4,7 @@ use plydrape::planner::PlanError;
 use plydrape_io::OutputError;
 use plydrape_io::result::read::ReadError;
 use plydrape_io::scene::SceneError;
+use plydrape_io::sheet::SheetDrapeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::fmt::Display;
@@ -39,6 +40,20 @@ pub fn scene(error: &SceneError) -> PyErr {
             Err(error) => error,
         }
     })
+}
+
+/// A scene whose sheet was not draped.
+pub fn sheet(fault: &SheetDrapeError) -> PyErr {
+    match fault {
+        SheetDrapeError::States(_) => plain("OutputError", fault),
+        SheetDrapeError::Sheet(_) | SheetDrapeError::Size(_) => scene(&SceneError {
+            file: "scene".into(),
+            text: "".into(),
+            span: None,
+            message: fault.to_string(),
+            help: fault.remedy().unwrap_or_default().into(),
+        }),
+    }
 }
 
 /// A scene without a plan.

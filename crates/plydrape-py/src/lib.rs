@@ -17,6 +17,7 @@ mod outcome;
 mod ply;
 mod result;
 mod scene;
+mod sheet;
 mod solver;
 mod span;
 mod surface;
@@ -50,6 +51,8 @@ mod _plydrape {
     use crate::result::Result;
     #[pymodule_export]
     use crate::scene::{Scene, materials};
+    #[pymodule_export]
+    use crate::sheet::Sheet;
     #[pymodule_export]
     use crate::solver::Solver;
     #[pymodule_export]

@@ -5,6 +5,7 @@ use crate::error;
 use crate::json::Json;
 use crate::mold::{Mold, triangles};
 use crate::net::Net;
+use crate::sheet::Sheet;
 use crate::surface::Surface;
 use plydrape::draping::record::{CatenaryState, Step};
 use plydrape::equilibrium::Status;
@@ -145,16 +146,36 @@ impl Result {
         self.0.scene.target.as_ref().and_then(|target| target.drape.clone()).map(Net)
     }
 
-    /// Whether every limit holds.
+    /// Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries.
     #[getter]
     fn accepted(&self) -> bool {
         self.0.summary.accepted
     }
 
-    /// Whether every equilibrium was found.
+    /// Whether every equilibrium was found, by the model that decides.
     #[getter]
     fn converged(&self) -> bool {
-        self.0.steps.iter().all(|step| step.solver.status == Status::Converged)
+        match &self.0.summary.sheet {
+            Some(sheet) => sheet.converged,
+            None => self.0.steps.iter().all(|step| step.solver.status == Status::Converged),
+        }
+    }
+
+    /// The whole ply as a sheet over its steps; None where the catenaries decide. Everything else here is of the
+    /// catenaries.
+    ///
+    /// Raises:
+    ///     ResultError: If sheet.npz is not beside the result that was read, or was changed.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> plydrape.simulate(scene).sheet is None
+    ///     True
+    ///     >>> plydrape.simulate(scene, model="sheet").sheet.converged
+    ///     True
+    #[getter]
+    fn sheet(&self, py: Python<'_>) -> PyResult<Option<Sheet>> {
+        py.detach(|| Sheet::of(&self.0))
     }
 
     /// The outcome: the `summary` of result.json.
@@ -163,7 +184,7 @@ impl Result {
         Json::of(&self.0.summary)
     }
 
-    /// Every limit, judged: dicts with name, value, limit, unit, ok, step, where and place.
+    /// Every limit of the catenaries, judged: dicts with name, value, limit, unit, ok, step, where and place.
     #[getter]
     fn limits(&self) -> PyResult<Vec<Json>> {
         self.0.summary.limits.iter().map(Json::of).collect()
@@ -175,7 +196,7 @@ impl Result {
     ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
     ///     >>> result = plydrape.simulate(scene)
     ///     >>> sorted(result.to_dict())
-    ///     ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
+    ///     ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'sheet_file', 'steps', 'summary', 'version']
     fn to_dict(&self) -> PyResult<Json> {
         Json::of(&*self.0)
     }
@@ -327,8 +348,8 @@ impl Result {
         py.detach(|| mold_patch(&self.0, most)).map(triangles)
     }
 
-    /// Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, and of a plan motion.csv, into a
-    /// folder, all or none, and returns their paths.
+    /// Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, of a plan motion.csv, and of a sheet
+    /// sheet.npz, into a folder, all or none, and returns their paths.
     ///
     /// Raises:
     ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.

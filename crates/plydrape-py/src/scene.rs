@@ -293,7 +293,7 @@ pub fn text_of(keys: &Map<String, Value>) -> PyResult<String> {
 ///
 /// Example:
 ///     >>> plydrape.materials()
-///     ['krogh2018']
+///     ['krogh2018', 'cao2008_plain']
 #[pyfunction]
 pub fn materials() -> Vec<&'static str> {
     scene::shipped_materials().collect()

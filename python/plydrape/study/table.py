@@ -22,9 +22,14 @@ INTEGERS = {
     "all_shear_step",
     "equilibria",
     "evaluations",
+    "sheet.nodes",
+    "sheet.steps",
+    "sheet.first_contact_step",
+    "sheet.time_steps",
+    "sheet.solves",
 }
-BOOLEANS = {"accepted", "converged"}
-TEXTS = {"version", "stopped", "error", "error_kind"}
+BOOLEANS = {"accepted", "converged", "sheet.accepted", "sheet.converged"}
+TEXTS = {"version", "stopped", "error", "error_kind", "sheet.status"}
 # What closes a row; everything else stands in the order in which it was measured.
 LAST = ("seed", "version", "error", "error_kind")
 

@@ -8,6 +8,7 @@ mod export;
 mod net;
 mod output_streams;
 mod plan;
+mod sheet;
 mod simulate;
 mod span;
 mod study;

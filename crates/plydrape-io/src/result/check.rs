@@ -63,8 +63,8 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     if lengths.iter().chain(&[friction, contact.tack]).any(|value| *value < 0.0) {
         return Some("mesh, overhang, pads, friction and tack must not be negative".into());
     }
-    if !(sound && axial_stiffness > 0.0 && gravity > 0.0) {
-        return Some("mass, stiffness and gravity must be above zero".into());
+    if !(sound && axial_stiffness > 0.0 && gravity > 0.0 && contact.tolerance > 0.0) {
+        return Some("mass, stiffness, gravity and contact tolerance must be above zero".into());
     }
     if !(max_tilt > 0.0 && max_tilt < std::f64::consts::FRAC_PI_2) {
         return Some(format!("there is no largest tilt of {max_tilt} rad"));

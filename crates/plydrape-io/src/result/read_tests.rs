@@ -39,6 +39,7 @@ fn a_result_names_the_states_of_its_sheet() {
     assert!(read(&ResultFile::text(&result).unwrap()).unwrap().sheet_states.is_none());
     let checksum = "crc32:0123abcd".to_string();
     let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
+    result.summary.sheet = Some(sample::sheet_summary());
     result.sheet_states = Some(SheetKept::read(seal.clone(), "no/such/folder".into()));
     let states = read(&ResultFile::text(&result).unwrap()).unwrap().sheet_states.unwrap();
     assert_eq!(states.seal(), &seal);

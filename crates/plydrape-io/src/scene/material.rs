@@ -14,7 +14,10 @@ use std::ops::Range;
 use std::path::Path;
 
 /// The materials that come with the program: name and file.
-const SHIPPED: [(&str, &str); 1] = [("krogh2018", include_str!("../../materials/krogh2018.toml"))];
+const SHIPPED: [(&str, &str); 2] = [
+    ("krogh2018", include_str!("../../materials/krogh2018.toml")),
+    ("cao2008_plain", include_str!("../../materials/cao2008_plain.toml")),
+];
 
 /// Smallest and largest mass per length (kg/m) or area (kg/m²).
 const MASSES: [f64; 2] = [1e-6, 1e3];

@@ -1,19 +1,27 @@
 //! The outcome of the sheet as plain text.
 
-use super::{WIDTH, limiting, limits, line, significant};
+use super::{WIDTH, limiting, limits, significant, verdict_text};
 use crate::shown;
 use plydrape::draping::record::{Summary, Verdict};
 use plydrape::measure::Subject;
 use plydrape::sheet::{self, Status};
 
-/// The table of the sheet's limits, what else it says of the ply, and one line: the verdict that counts.
+/// The table of the sheet's limits, what else it says of the ply, and the verdict that counts.
 pub(super) fn verdict(summary: &Summary, sheet: &sheet::measure::Summary) -> String {
-    let mut text = format!("the sheet, {} nodes\n{}", sheet.nodes, limits(&sheet.limits));
+    let mut text = format!("the whole ply as a sheet of {} nodes:\n", sheet.nodes);
+    text += &limits(&sheet.limits);
     for said in [heights(sheet), landing(sheet), ended(summary, sheet)].into_iter().flatten() {
         text += &shown::excerpt(&said, WIDTH);
         text.push('\n');
     }
-    text + &line("by the sheet, which decides: ", summary.accepted, worst(summary, sheet))
+    if summary.accepted {
+        return text + "accepted by the sheet, which decides\n";
+    }
+    text += "not accepted by the sheet, which decides\n";
+    match worst(summary, sheet) {
+        Some(worst) => text + &shown::excerpt(&format!("  {}", verdict_text(worst)), WIDTH) + "\n",
+        None => text,
+    }
 }
 
 /// Of the limits that count and do not hold, the one exceeded furthest.
@@ -29,7 +37,7 @@ fn worst<'a>(summary: &'a Summary, sheet: &'a sheet::measure::Summary) -> Option
 fn heights(sheet: &sheet::measure::Summary) -> Option<String> {
     let (max, share) = (sheet.height_max_mm?, sheet.height_share_above_half_mm?);
     Some(format!(
-        "at the end up to {} mm above the mold: ridges of {} mm, bridges of {} mm; {} % above 0.5 mm",
+        "at the end {} mm high at most: ridges {} mm, bridges {} mm; {} % above 0.5 mm",
         significant(max),
         significant(sheet.ridge_max_mm?),
         significant(sheet.bridge_max_mm?),

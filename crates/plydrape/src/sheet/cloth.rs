@@ -203,7 +203,7 @@ impl<'a> Cloth<'a> {
             *v = [0, 1, 2].map(|n| (x[n] - before[n]) / dt);
         }
         if let Some(contact) = &mut self.contact {
-            contact.update(&self.before.x, &self.now.x);
+            contact.update(&self.now.x);
         }
         found
     }
@@ -400,12 +400,33 @@ impl<'a> Cloth<'a> {
         largest
     }
 
+    /// Gradient of the energy at each node (N).
+    #[cfg(test)]
+    pub fn gradient(&mut self) -> Vec<[f64; 3]> {
+        self.evaluate();
+        self.system.gradient.clone()
+    }
+
+    /// The whole second derivative times a direction at each free node.
+    #[cfg(test)]
+    pub fn second_derivative_times(&mut self, direction: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        self.stretch.start(&self.now.x);
+        self.whole = true;
+        self.evaluate();
+        self.system.multiply(direction)
+    }
+
+    /// Gradient and second derivative of the energy alone.
+    fn evaluate(&mut self) {
+        let now = &self.now;
+        let arm = |node: usize, gripper: u32| sub(now.x[node], now.pads[gripper as usize].position);
+        self.system.begin(false, arm);
+        self.add_energies();
+    }
+
     /// Force of the ply on each gripper (N).
     pub fn forces(&mut self) -> Vec<[f64; 3]> {
-        let now = &self.now;
-        self.system
-            .begin(false, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
-        self.add_energies();
+        self.evaluate();
         let gripper = |((gripper, pad), nodes): Held| match (gripper.mount, nodes.as_slice()) {
             (Some(k), [(node, _)]) => {
                 let off = sub(self.now.x[*node], pad.target);

@@ -1,13 +1,13 @@
 //! Contact with the mold, and what holds a touching node along it.
 //!
-//! Contact is a penalty, ½ k · area · d² of a negative distance d. Where a node crosses the mold it has its *anchor*, and a
+//! Contact is a penalty, ½ k · area · d² of a negative distance d. A node that touches has its *anchor* there, and a
 //! spring along the mold pulls it back there. The force of the spring is at most (τ₀ + μ · pressure) · area, beyond which
 //! the anchor follows; stick is no such bound. A node that is clear of the mold again has no anchor.
 
 use super::matrix3::{Matrix3, outer};
 use super::system::{System, add};
 use crate::mold::Mold;
-use crate::mold::vector::{along, between, distance, dot, norm, sub};
+use crate::mold::vector::{along, distance, dot, norm, sub};
 use crate::scene::Friction;
 
 /// Where a node touched the mold.
@@ -140,9 +140,9 @@ impl<'a> Contact<'a> {
         system.stiffen(point.node, &spring);
     }
 
-    /// After a time step from `before` to `x`: nodes that crossed the mold get an anchor, those that are clear lose it,
-    /// and those that slipped take it along.
-    pub fn update(&mut self, before: &[[f64; 3]], x: &[[f64; 3]]) {
+    /// After a time step: nodes that touch the mold get an anchor where they are, so that it stores no energy, those that
+    /// are clear lose it, and those that slipped take it along.
+    pub fn update(&mut self, x: &[[f64; 3]]) {
         for n in 0..self.points.len() {
             let point = &self.points[n];
             let at = x[point.node];
@@ -162,21 +162,14 @@ impl<'a> Contact<'a> {
                 Some(anchor) => {
                     Some(self.slipped(anchor, at, bound / (self.stiffness * point.area)))
                 }
-                None if depth >= 0.0 && point.rubs => Some(self.crossing(before[point.node], at)),
+                None if depth >= 0.0 && point.rubs => {
+                    Some(Anchor { point: closest.point, normal: closest.normal })
+                }
                 None => None,
             };
             let point = &mut self.points[n];
             (point.anchor, point.bound) = (anchor, bound);
         }
-    }
-
-    /// Where a node came to the mold on its way from `before` to `after`.
-    fn crossing(&self, before: [f64; 3], after: [f64; 3]) -> Anchor {
-        let [from, to] = [before, after].map(|p| self.mold.signed_distance(p));
-        let share =
-            if from > 0.0 && from > to { (from / (from - to)).clamp(0.0, 1.0) } else { 1.0 };
-        let closest = self.mold.closest_point(between(before, after, share));
-        Anchor { point: closest.point, normal: closest.normal }
     }
 
     /// An anchor that follows a node so that it is no farther behind than `most` (m).

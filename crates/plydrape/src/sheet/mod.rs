@@ -30,3 +30,6 @@ pub use gripper::{Gripper, Pad};
 pub use model::{Sheet, SheetError};
 pub use state::State;
 pub use tuning::Tuning;
+
+#[cfg(test)]
+mod tests;

@@ -239,6 +239,24 @@ impl System {
         Ok(())
     }
 
+    /// The matrix times a direction at each free node.
+    #[cfg(test)]
+    pub fn multiply(&self, direction: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let block = |node: usize| match self.carriers[node] {
+            Carrier::Free { block } => Some(3 * block as usize),
+            _ => None,
+        };
+        let (mut x, mut y) = (vec![0.0; self.step.len()], vec![0.0; self.step.len()]);
+        for (node, d) in direction.iter().enumerate() {
+            if let Some(at) = block(node) {
+                x[at..at + 3].copy_from_slice(d);
+            }
+        }
+        self.matrix.multiply(&x, &mut y);
+        let of = |node| block(node).map_or([0.0; 3], |at| [y[at], y[at + 1], y[at + 2]]);
+        (0..direction.len()).map(of).collect()
+    }
+
     /// Newton's step of a block of unknowns.
     pub fn step(&self, block: u32) -> [f64; 3] {
         [0, 1, 2].map(|n| self.step[3 * block as usize + n])

@@ -22,8 +22,8 @@ pub struct Tuning {
     pub iterations: usize,
     /// A time step that took no more than these is followed by one twice as long.
     pub easy_iterations: usize,
-    /// Largest way (of the pitch) that grippers go in a time step in which the ply touches the mold: a node that touches
-    /// is held where its straight way crosses the mold.
+    /// Largest way (of the pitch) that grippers go in a time step in which the ply touches the mold: a node is
+    /// held where it is at the end of the step in which it touches.
     pub contact_way: f64,
     /// Longest time step of a motion in its own time, as a share of √(pitch/g), the time of a swing: implicit steps damp
     /// what is faster.

@@ -1,0 +1,141 @@
+//! Sheets and strips that hang, against printed figures, the elastica and closed forms.
+
+use super::*;
+
+/// 4 × 2 pins 98 mm apart hold cells of 100 mm: heights of the cells' middles, of the middles of the outer edges along u,
+/// and of the edges along v (mm), by an independent cloth simulator (issue of 2026; shear 0.2 and 2 N/m per rad).
+#[test]
+fn a_net_of_pins_hangs_as_an_independent_simulator_has_it() {
+    let figures = [
+        (0.2, [-23.77, -21.24, -8.57, -8.92, -6.18, -8.68]),
+        (2.0, [-19.30, -18.21, -8.91, -9.09, -8.70, -8.68]),
+    ];
+    let held: Vec<[f64; 2]> =
+        (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
+    for (shear, figures) in figures {
+        let mut sheet = sheet([even(0.3, 36), even(0.1, 12)], &held);
+        sheet.areal_mass = 0.3143;
+        sheet.rigidity = [9e-6; 2];
+        sheet.tension = TensionLaw::Linear { stiffness: 1e5 };
+        sheet.shear = linear(shear);
+        let mut cloth = flat(&sheet, 0.0);
+        let to: Vec<[f64; 3]> = held.iter().map(|[u, v]| [0.98 * u, 0.98 * v, 0.0]).collect();
+        bring(&mut cloth, &to, 20, 0.1);
+        let at = |u: f64, v: f64| sheet.fabric.node_at([u, v]).map(|n| cloth.now.x[n][2] * 1e3);
+        let found = [
+            at(0.05, 0.05),
+            at(0.15, 0.05),
+            at(0.05, 0.0),
+            at(0.15, 0.0),
+            at(0.0, 0.05),
+            at(0.1, 0.05),
+        ];
+        for (found, figure) in found.into_iter().zip(figures) {
+            let found = found.expect("a node");
+            assert!((found / figure - 1.0_f64).abs() < 0.005, "{shear}: {found} {figure}");
+        }
+    }
+}
+
+/// A strip with slack hangs as the heavy inextensible elastica. Sag and force for EI = 9e-6 N m², w = 0.3143 · 9.8 N/m,
+/// 100 mm on 98 mm between pins are those of SciPy's `solve_bvp` (8.6795 mm, 0.42296 N).
+#[test]
+fn a_strip_hangs_as_the_elastica() {
+    let mut sheet = sheet([even(0.1, 40), vec![0.0]], &[[0.0, 0.0], [0.1, 0.0]]);
+    sheet.mesh = 0.0025;
+    let mut cloth = flat(&sheet, 0.0);
+    bring(&mut cloth, &[[0.001, 0.0, 0.0], [0.099, 0.0, 0.0]], 20, 0.1);
+    let sag = -cloth.now.x[20][2] * 1e3;
+    let force = cloth.forces()[0][0];
+    // the error of the mesh falls with its square, and is 2e-3 at 40 segments
+    assert!((sag / 8.6795 - 1.0).abs() < 2e-3, "{sag}");
+    assert!((force / 0.42296 - 1.0).abs() < 4e-3, "{force}");
+}
+
+/// Tip (m) of a heavy inextensible cantilever that leaves its clamp level: θ'' = (w/EI) (L − s) cos θ, θ(0) = 0,
+/// θ'(L) = 0, by Runge–Kutta steps and bisection of θ'(0).
+fn cantilever(length: f64, load_per_rigidity: f64) -> [f64; 2] {
+    let shoot = |start: f64| {
+        let steps = 2000;
+        let h = length / steps as f64;
+        let rate = |s: f64, [angle, bend, ..]: [f64; 4]| {
+            [bend, load_per_rigidity * (length - s) * angle.cos(), angle.cos(), angle.sin()]
+        };
+        let mut y = [0.0, start, 0.0, 0.0];
+        for k in 0..steps {
+            let s = h * k as f64;
+            let moved = |k: [f64; 4], t: f64| [0, 1, 2, 3].map(|n| y[n] + t * k[n]);
+            let a = rate(s, y);
+            let b = rate(s + 0.5 * h, moved(a, 0.5 * h));
+            let c = rate(s + 0.5 * h, moved(b, 0.5 * h));
+            let d = rate(s + h, moved(c, h));
+            y = [0, 1, 2, 3].map(|n| y[n] + h / 6.0 * (a[n] + 2.0 * b[n] + 2.0 * c[n] + d[n]));
+        }
+        y
+    };
+    let (mut low, mut high) = (-load_per_rigidity * length * length, 0.0);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if shoot(middle)[1] > 0.0 { high = middle } else { low = middle }
+    }
+    let [.., x, z] = shoot(high);
+    [x, z]
+}
+
+/// A strip that is clamped level at one end hangs as the heavy cantilever, through large deflections.
+#[test]
+fn a_cantilever_is_the_elastica() {
+    let (length, spacings) = (0.03, 48);
+    let h = length / spacings as f64;
+    // two held nodes are a clamp whose end is in the middle between them
+    let lines = (0..=spacings + 1).map(|n| h * n as f64).collect();
+    let mut sheet = sheet([lines, vec![0.0]], &[[0.0, 0.0], [h, 0.0]]);
+    sheet.mesh = h;
+    let mut cloth = flat(&sheet, 0.0);
+    let held: Vec<[f64; 3]> = cloth.now.pads.iter().map(|pad| pad.position).collect();
+    rest(&mut cloth, &held);
+    let tip = cloth.now.x[spacings + 1];
+    let free = length + 0.5 * h;
+    let [x, z] = cantilever(free, 3.143 * G / 9e-5);
+    let off = [tip[0] - 0.5 * h - x, tip[2] - z];
+    assert!(off.iter().all(|c| c.abs() < 5e-3 * free), "{tip:?} {x} {z}");
+    // it hangs by more than a third of its length, where a linear beam would be wrong by more than this
+    assert!(z < -0.3 * free);
+}
+
+/// A cell whose frame is sheared stores area · ∫ τ dγ, and its frame is loaded as virtual work has it.
+#[test]
+fn a_picture_frame_gives_the_shear_law_back() {
+    let side = 0.1;
+    // the frame holds every node of the boundary
+    let along = even(side, 4);
+    let on_frame = |c: f64| c == 0.0 || c == side;
+    let places = along.iter().flat_map(|v| along.iter().map(move |u| [*u, *v]));
+    let held: Vec<[f64; 2]> = places.filter(|uv| uv.iter().any(|c| on_frame(*c))).collect();
+    let mut sheet = sheet([along.clone(), along.clone()], &held);
+    // all but without weight, so that the cell stays flat
+    sheet.gravity = 1e-9;
+    let coefficients = vec![5.0, -2.0, 30.0];
+    sheet.shear = ShearCurve::Polynomial { coefficients };
+    for degrees in [5.0_f64, 20.0, -20.0, 40.0] {
+        let gamma = degrees.to_radians();
+        let corner = |[u, v]: [f64; 2]| [u + v * gamma.sin(), v * gamma.cos(), 0.0];
+        let mut cloth = flat(&sheet, 0.0);
+        let to: Vec<[f64; 3]> = held.iter().map(|uv| corner(*uv)).collect();
+        bring(&mut cloth, &to, 40, 1.0);
+        // yarns give way by τ/EA′, some 1e-5
+        let (tau, _) = sheet.shear.force(gamma);
+        let g = gamma.abs();
+        let stored = side * side * (2.5 * g * g - 2.0 / 3.0 * g.powi(3) + 7.5 * g.powi(4));
+        assert!((cloth.energy() / stored - 1.0).abs() < 1e-4, "{degrees}: {}", cloth.energy());
+        // the forces on the frame do work on the way that the shear moves them
+        let work: f64 = cloth
+            .forces()
+            .iter()
+            .zip(&held)
+            .map(|(force, [_, v])| -v * (force[0] * gamma.cos() - force[1] * gamma.sin()))
+            .sum();
+        let torque = side * side * tau * gamma.signum();
+        assert!((work / torque - 1.0).abs() < 1e-4, "{degrees}: {work} {torque}");
+    }
+}

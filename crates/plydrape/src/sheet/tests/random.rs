@@ -1,0 +1,1 @@
+//! Random sheets: whatever is asked of it, a sheet answers with numbers and an honest status.
