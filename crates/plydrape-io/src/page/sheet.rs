@@ -8,12 +8,10 @@ use super::geometry::{hundredths, micrometres};
 use super::{Field, Limit, limit};
 use crate::OutputError;
 use crate::result::ResultFile;
-use crate::sheet::{SheetMesh, SheetState, SheetStates};
-use plydrape::mold::distance;
+use crate::sheet::{SheetSides, SheetState, SheetStates, normal};
 use plydrape::sheet::Status;
 use plydrape::sheet::measure::Summary;
 use serde::Serialize;
-use std::collections::HashMap;
 
 /// Nodes of all steps that the page holds at most.
 const MOST_NODES: usize = 400_000;
@@ -52,7 +50,7 @@ pub(super) struct Sheet<'a> {
     forces: Block,
 }
 
-/// The file of the states, and which of them the page shows, each with its step.
+/// The file of the states, and which of them the page shows, each behind its step.
 pub(super) struct Shown {
     file: SheetStates,
     states: Vec<(usize, usize)>,
@@ -66,13 +64,7 @@ impl Shown {
     pub fn of(result: &ResultFile) -> Result<Option<Self>, OutputError> {
         let Some(kept) = &result.sheet_states else { return Ok(None) };
         let mut file = kept.open()?;
-        let mut states: Vec<(usize, usize)> = Vec::new();
-        for n in 0..file.states() {
-            let Some(state) = file.state(n)? else { continue };
-            let step = state.step as usize;
-            states.pop_if(|(_, before)| *before == step);
-            states.push((n, step));
-        }
+        let states = file.steps()?;
         let most = (MOST_NODES / file.mesh().places.len().max(1)).max(2);
         let every = states.len().div_ceil(most).max(1);
         // the last one is always shown
@@ -83,8 +75,8 @@ impl Shown {
 
     /// Whether a step has a state, or the sheet ended before it.
     pub fn has(&self, step: usize) -> bool {
-        let last = self.states.last().map_or(0, |(_, step)| *step);
-        step > last || self.states.iter().any(|(_, shown)| *shown == step)
+        let last = self.states.last().map_or(0, |(step, _)| *step);
+        step > last || self.states.iter().any(|(shown, _)| *shown == step)
     }
 }
 
@@ -103,7 +95,7 @@ struct Packed {
 }
 
 impl Packed {
-    fn push(&mut self, state: &SheetState, around: &Around) {
+    fn push(&mut self, state: &SheetState, sides: &SheetSides) {
         self.positions.extend(state.positions.iter().flat_map(micrometres));
         self.height.extend(state.height.iter().map(|h| match h.is_finite() {
             true => (h * 1e6).round() as i32,
@@ -111,7 +103,7 @@ impl Packed {
         }));
         self.contact.extend(state.contact.iter().map(|touches| i32::from(*touches)));
         self.shear.extend(state.shear.iter().map(|shear| hundredths(shear.to_degrees())));
-        for (strain, tension) in around.strains(state) {
+        for (strain, tension) in sides.strains(state) {
             self.strain.push((strain * 1e6).round() as i32);
             self.tension.push((tension * 1e3).round() as i32);
         }
@@ -120,49 +112,6 @@ impl Packed {
         self.normals.extend(normals.map(|c| (c * 1e4).round() as i32));
         self.forces.extend(state.pad_forces.iter().flatten().map(|f| (f * 1e6).round() as i32));
     }
-}
-
-/// The segments on the sides of each cell, with their lengths in the fabric (m).
-struct Around {
-    sides: Vec<Vec<usize>>,
-    segments: Vec<([usize; 2], f64)>,
-}
-
-impl Around {
-    fn of(mesh: &SheetMesh) -> Self {
-        let segments: Vec<_> = mesh.segments.iter().map(|ends| ends.map(|n| n as usize)).collect();
-        let number: HashMap<[usize; 2], usize> =
-            segments.iter().map(|[a, b]| [*a.min(b), *a.max(b)]).zip(0..).collect();
-        let sides = mesh.cells.iter().map(|cell| {
-            let pairs = (0..4).map(|k| [cell[k] as usize, cell[(k + 1) % 4] as usize]);
-            pairs.filter_map(|[a, b]| number.get(&[a.min(b), a.max(b)]).copied()).collect()
-        });
-        let place = |n: usize| [mesh.places[n][0], mesh.places[n][1], 0.0];
-        let length = |[a, b]: [usize; 2]| distance(place(a), place(b));
-        Around {
-            sides: sides.collect(),
-            segments: segments.iter().map(|ends| (*ends, length(*ends))).collect(),
-        }
-    }
-
-    /// Strain of the yarn on the sides of each cell that is strained most, and its tension (N/m).
-    fn strains(&self, state: &SheetState) -> Vec<(f64, f64)> {
-        let strain = |([a, b], length): &([usize; 2], f64)| {
-            distance(state.positions[*a], state.positions[*b]) / length - 1.0
-        };
-        let all: Vec<f64> = self.segments.iter().map(strain).collect();
-        let most = |sides: &Vec<usize>| {
-            let found =
-                sides.iter().copied().max_by(|m, n| all[*m].abs().total_cmp(&all[*n].abs()));
-            found.map_or((0.0, 0.0), |n| (all[n], state.tension[n]))
-        };
-        self.sides.iter().map(most).collect()
-    }
-}
-
-/// The third axis of a rotation, given as a quaternion x, y, z, w.
-fn normal(&[x, y, z, w]: &[f64; 4]) -> [f64; 3] {
-    [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)]
 }
 
 /// The sheet of a result over the steps of the page.
@@ -175,11 +124,11 @@ pub(super) fn sheet<'a>(
     Shown { mut file, states }: Shown,
     steps: &[usize],
 ) -> Result<Sheet<'a>, OutputError> {
-    let around = Around::of(file.mesh());
+    let sides = SheetSides::new(file.mesh());
     let mut packed = Packed::default();
-    for (n, _) in &states {
+    for (_, n) in &states {
         if let Some(state) = file.state(*n)? {
-            packed.push(&state, &around);
+            packed.push(&state, &sides);
         }
     }
     let count = states.len();
@@ -191,7 +140,7 @@ pub(super) fn sheet<'a>(
         accepted: summary.accepted,
         ended: ended(summary, result.summary.steps_planned),
         nodes: summary.nodes,
-        states: steps.iter().map(|step| states.iter().position(|(_, with)| with == step)).collect(),
+        states: steps.iter().map(|step| states.iter().position(|(with, _)| with == step)).collect(),
         limits: summary.limits.iter().map(|verdict| limit(verdict, None)).collect(),
         fields: fields(result, &packed, file.landing_step(), known),
         cells: mesh.cells.as_flattened().to_vec(),
