@@ -29,7 +29,7 @@ Width = Literal["single", "double"] | float
 """Width of a figure: "single" is 89 mm, "double" 183 mm; a number is a width in mm."""
 
 Map = Literal["height", "landing", "shear", "tension"]
-"""What a map of the sheet tells: height over the mold, order of landing, shear, tension of yarns."""
+"""What a map of the sheet tells: height over the mold, order of landing, shear, tension."""
 
 Surface = Literal["gap", "height", "shear"]
 """What the colour of the ply tells: gap to the mold, height z, shear angle of its cells."""

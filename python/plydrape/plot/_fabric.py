@@ -169,7 +169,7 @@ def _shear(axis: Axes, sheet: _Sheet) -> tuple[ScalarMappable, str]:
 
 
 def _tension(axis: Axes, sheet: _Sheet) -> tuple[ScalarMappable, str]:
-    """The yarns in the colour of their tension, by orders of size; what is pressed in another hue."""
+    """The yarns in the colour of their tension, by orders of size; pressed ones in another hue."""
     most = max(float(np.abs(sheet.tension).max()), 10.0)
     norm = SymLogNorm(1.0, vmin=-most, vmax=most)
     width = float(np.clip(180.0 / np.sqrt(len(sheet.segments)), 0.8, 4.0))

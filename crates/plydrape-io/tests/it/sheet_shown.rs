@@ -52,7 +52,10 @@ fn vtk_files_hold_the_states_that_were_kept() {
     assert_eq!(array(sheet, "shear_deg"), shear);
     // EA' = 1e6 N/m, no crimp: tension is strain times that
     for (strain, tension) in array(sheet, "strain").iter().zip(array(sheet, "tension_N_per_m")) {
-        assert!((1e6 * strain - tension).abs() < 1e-3 * (1.0 + tension.abs()), "{strain} {tension}");
+        assert!(
+            (1e6 * strain - tension).abs() < 1e-3 * (1.0 + tension.abs()),
+            "{strain} {tension}"
+        );
     }
     assert_eq!(array(pads, "Points"), last.grippers.as_flattened());
     assert_eq!(array(pads, "force_N"), last.pad_forces.as_flattened());
