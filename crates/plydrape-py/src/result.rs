@@ -452,7 +452,7 @@ impl Result {
                 .map(|step| self.step(step).map(|step| step.step))
                 .collect::<PyResult<_>>()?,
         };
-        py.detach(|| figure::svg(&self.0, &steps)).map_err(|fault| error::output(&fault.into()))
+        py.detach(|| figure::svg(&self.0, &steps)).map_err(|fault| error::output(&fault))
     }
 
     /// A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs `plydrape[plot]`.
