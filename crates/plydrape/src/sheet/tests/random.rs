@@ -148,7 +148,7 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
         }
     }
     // what grippers fling apart cannot be solved; the others are
-    assert!(solved > 50 && refused > 10, "{solved} solved, {refused} refused");
+    assert!(solved > 30 && refused > 10, "{solved} solved, {refused} refused");
 }
 
 /// The same scene gives the same bytes, whatever else ran before or beside it.
