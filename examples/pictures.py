@@ -4,10 +4,14 @@
     examples/pictures.py RESULTS           makes them from what scripts/examples left in RESULTS
     examples/pictures.py --check RESULTS   compares the numbers of the drapes that they show
     examples/pictures.py --list            names the molds that have them, those that a plan solves
+    examples/pictures.py --compared        names those that both models are compared on
 
 A picture is `figure.svg` as Chromium draws it, with a small palette. Beside the pictures,
 numbers.json has the outcome of both drapes. A check compares these numbers and no bytes of
 pictures, which depend on fonts and browsers. Making pictures needs Chromium and Pillow.
+
+Where both models are compared, straight_both.png and planned_both.png show the catenaries on the
+left and the sheet on the right, at first contact and at the end.
 """
 
 from __future__ import annotations
@@ -18,6 +22,10 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 EXAMPLES = Path(__file__).resolve().parent
 SOLVED = (
@@ -29,18 +37,43 @@ SOLVED = (
     "10_shallow",
 )
 
-# relative difference of numbers that rounding explains
+COMPARED = ("01_flat_sheared_mold", "04_dome", "06_saddle")
+
+# relative difference of numbers that rounding explains, and the same of folds of a sheet, which
+# may go another way after it
 ROUNDING = 1e-6
+FOLDING = 0.005
+
+# what is kept of a sheet
+SHEET = (
+    "accepted",
+    "height_max_mm",
+    "height_share_above_half_mm",
+    "ridge_max_mm",
+    "bridge_max_mm",
+    "shear_max_deg",
+    "first_contact_step",
+)
 
 
 def folders(results: Path, name: str) -> dict[str, Path]:
     """The folder of results behind each picture of an example."""
-    return {"straight": results / name, "planned": results / f"{name}.plan"}
+    found = {"straight": results / name, "planned": results / f"{name}.plan"}
+    if name in COMPARED:
+        sheets = {f"{motion} sheet": Path(f"{folder}.sheet") for motion, folder in found.items()}
+        found.update(sheets)
+    return found
 
 
 def numbers(folder: Path) -> dict[str, object]:
     """The outcome of a drape, six digits of each number."""
     summary = json.loads((folder / "result.json").read_text())["summary"]
+    if summary.get("sheet") is not None:
+        return {
+            key: float(f"{value:.4g}") if isinstance(value, float) else value
+            for key, value in summary["sheet"].items()
+            if key in SHEET
+        }
     out: dict[str, object] = {
         key: summary[key] for key in ("accepted", "steps", "first_contact_step", "first_shear_step")
     }
@@ -51,10 +84,10 @@ def numbers(folder: Path) -> dict[str, object]:
     return out
 
 
-def differ(old: object, new: object) -> bool:
+def differ(old: object, new: object, rounding: float = ROUNDING) -> bool:
     """Whether two values differ by more than rounding."""
     if isinstance(old, float) and isinstance(new, float):
-        return abs(old - new) > max(ROUNDING, 10 * ROUNDING * max(abs(old), abs(new)))
+        return abs(old - new) > max(rounding, 10 * rounding * max(abs(old), abs(new)))
     return old != new
 
 
@@ -67,7 +100,8 @@ def check(results: Path) -> int:
             found = numbers(folder)
             before = kept[picture]
             for key in sorted({*found, *before}):
-                if differ(before.get(key), found.get(key)):
+                rounding = FOLDING if picture.endswith("sheet") else ROUNDING
+                if differ(before.get(key), found.get(key), rounding):
                     was, now = before.get(key), found.get(key)
                     print(f"{name}, {picture}: {key} was {was}, is {now}", file=sys.stderr)
                     old = 1
@@ -78,8 +112,8 @@ def check(results: Path) -> int:
     return old
 
 
-def draw(figure: Path, picture: Path) -> None:
-    """Draws an SVG file as a PNG file."""
+def raster(figure: Path) -> Image.Image:
+    """Draws an SVG file."""
     from PIL import Image
 
     sizes = re.search(r'width="(\d+)" height="(\d+)"', figure.read_text()[:200])
@@ -101,24 +135,56 @@ def draw(figure: Path, picture: Path) -> None:
         command = ["chromium", *options, f"--user-data-dir={place}/profile"]
         command += [f"--window-size={sizes[1]},{sizes[2]}", f"--screenshot={raw}"]
         subprocess.run([*command, figure.resolve().as_uri()], check=True, capture_output=True)
-        image = Image.open(raw).convert("RGB")
-        # by coverage: the scale of colours keeps its steps
-        palette = image.quantize(
-            160,
-            method=Image.Quantize.MAXCOVERAGE,
-            kmeans=2,
-            dither=Image.Dither.NONE,
-        )
-        palette.save(picture, optimize=True)
+        return Image.open(raw).convert("RGB")
+
+
+def save(image: Image.Image, picture: Path) -> None:
+    """Writes a PNG file with a small palette."""
+    from PIL import Image
+
+    # by coverage: the scale of colours keeps its steps
+    palette = image.quantize(
+        160,
+        method=Image.Quantize.MAXCOVERAGE,
+        kmeans=2,
+        dither=Image.Dither.NONE,
+    )
+    palette.save(picture, optimize=True)
+
+
+def draw(figure: Path, picture: Path) -> None:
+    """Draws an SVG file as a PNG file."""
+    save(raster(figure), picture)
+
+
+def compare(figures: list[Path], picture: Path) -> None:
+    """Draws the last two of three panels of two figures side by side, with the models' names."""
+    from PIL import Image, ImageDraw, ImageFont
+
+    images = [raster(figure) for figure in figures]
+    width, height = images[0].size
+    # a head line of 46 points, three panels and a legend of 42
+    top = 46 + (height - 88) // 3 - 6
+    both = Image.new("RGB", (2 * width, height - top + 40), "white")
+    pen = ImageDraw.Draw(both)
+    for n, (image, name) in enumerate(zip(images, ("catenaries", "sheet"), strict=True)):
+        both.paste(image.crop((0, top, width, height)), (n * width, 40))
+        pen.text((n * width + 28, 8), name, fill="#2D323A", font=ImageFont.load_default(24))
+    save(both.resize((both.width * 3 // 4, both.height * 3 // 4), Image.Resampling.LANCZOS), picture)
 
 
 def make(results: Path) -> None:
     """Makes all pictures and the numbers beside them."""
     for name in SOLVED:
         kept = {}
-        for picture, folder in folders(results, name).items():
-            draw(folder / "figure.svg", EXAMPLES / name / f"{picture}.png")
+        of = folders(results, name)
+        for picture, folder in of.items():
             kept[picture] = numbers(folder)
+        for motion in ("straight", "planned"):
+            draw(of[motion] / "figure.svg", EXAMPLES / name / f"{motion}.png")
+            if name in COMPARED:
+                figures = [of[motion] / "figure.svg", of[f"{motion} sheet"] / "figure.svg"]
+                compare(figures, EXAMPLES / name / f"{motion}_both.png")
         (EXAMPLES / name / "numbers.json").write_text(json.dumps(kept, indent=1) + "\n")
         print(f"examples/{name}: straight.png, planned.png, numbers.json")
     draw(results / "hemisphere_net" / "shear.svg", EXAMPLES.parent / "docs/hemisphere_shear.png")
@@ -129,6 +195,8 @@ def main(arguments: list[str]) -> int:
     match arguments:
         case ["--list"]:
             print("\n".join(SOLVED))
+        case ["--compared"]:
+            print("\n".join(COMPARED))
         case ["--check", results]:
             return check(Path(results))
         case [results] if not results.startswith("-"):
