@@ -1075,7 +1075,7 @@ class Result:
             >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
             >>> result = plydrape.simulate(scene)
             >>> sorted(result.to_dict())
-            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'sheet_file', 'steps', 'summary', 'version']
+            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
         """
     def to_json(self, /) -> str:
         """
@@ -1587,7 +1587,7 @@ def materials() -> list[str]:
 
     Example:
         >>> plydrape.materials()
-        ['krogh2018', 'cao2008_plain']
+        ['krogh2018', 'cao2008_plain', 'petrak2025_polyester_twill', 'petrak2025_polyester_plain', 'petrak2025_cotton_twill']
     """
 
 def measures() -> list[Measure]:

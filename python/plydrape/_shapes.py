@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from plydrape import Result
+    from plydrape import Result, Sheet
 
 GRIPPER = 0.12
 """Radius of a gripper as a share of the shorter side of a cell; it is drawn, not modelled."""
@@ -91,3 +91,26 @@ def middle(line: NDArray[np.float64]) -> NDArray[np.float64]:
     """The point halfway along a polyline (N, 3)."""
     along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))]
     return np.array([np.interp(along[-1] / 2.0, along, line[:, c]) for c in range(3)])
+
+
+def quarters(points: NDArray[np.float64], cells: NDArray[np.int64]) -> NDArray[np.float64]:
+    """For each corner of cells (C, 4) of points (P, N) the part nearest to it, (C, 4, 4, N)."""
+    corners = points[cells]
+    middle = np.broadcast_to(corners.mean(axis=1, keepdims=True), corners.shape)
+    after = (corners + np.roll(corners, -1, axis=1)) / 2.0
+    return np.stack([corners, after, middle, np.roll(after, 1, axis=1)], axis=2)
+
+
+def state(sheet: Sheet, step: int) -> int:
+    """The number of the last state of a step, from 1; -1 is the last step kept, -2 that before."""
+    steps = np.asarray(sheet.steps)
+    kept = np.unique(steps)
+    if step < 0 and -step <= len(kept):
+        step = int(kept[step])
+    found = np.flatnonzero(steps == step)
+    if len(found) == 0:
+        raise ValueError(
+            f"the sheet has no state of step {step}; "
+            f"{len(kept)} of the steps {kept[0]} to {kept[-1]} were kept"
+        )
+    return int(found[-1])

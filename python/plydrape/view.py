@@ -23,13 +23,22 @@ if TYPE_CHECKING:
 
     from plydrape import Result
 
-__all__ = ["scene3d"]
+__all__ = ["scene3d", "sheet3d"]
 
 RED, BLACK, MOLD, TARGET, DARK = "#d61921", "#14161a", "#d6dce4", "#586270", "#2d323a"
+FORCE = "#1a5fb4"
 TOUCHING = 0.1
 """Gap up to which the ply counts as touching in a picture (mm): the low end of its colours."""
 SIDES = 10
 """Sides of a tube."""
+CLEAR = 10.0
+"""Height from which on all of a sheet has one colour (mm): the high end of its colours."""
+AIR = "#b4b9c1"
+SHEET_NAMES = {
+    "height": "height over the mold (mm)",
+    "landing": "lands in step",
+    "shear": "shear (deg)",
+}
 NAMES = {"gap": "gap to the mold (mm)", "height": "height z (mm)", "shear": "shear (deg)"}
 
 
@@ -118,6 +127,147 @@ def scene3d(
     return shown
 
 
+def sheet3d(
+    result: Result,
+    step: int = -1,
+    *,
+    colour: Literal["height", "landing", "shear"] | None = None,
+    limits: tuple[float, float] | None = None,
+    mold: bool = True,
+    forces: bool = True,
+    plotter: pyvista.Plotter | None = None,
+) -> pyvista.Plotter:
+    """The sheet of a step with its mold, its pads and the forces on them, in m.
+
+    Each is an actor of the plotter by its name: "mold", "target", "sheet", "grippers", "forces".
+    The sheet holds "height_mm", "contact" and "landing_step" at its nodes, nan where there is none,
+    and "shear_deg" in its cells; with the colour of the landing its quarters of cells hold
+    "landing_step". The longest arrow is 0.7 of the shorter side of a cell between grippers; the
+    title says how large its force is.
+
+    Args:
+        result: The result, of a drape with the sheet.
+        step: The step, from 1; -1 is the last that was kept, -2 the one before.
+        colour: What the sheet's colour tells; if None the height over the mold, without a mold the
+            shear. The height has a logarithmic scale from 0.1 to 10 mm, the same for all results.
+        limits: Ends of the colours in the unit of the bar; if None those of this step.
+        mold: Whether to show the mold.
+        forces: Whether to show the forces of the sheet on the pads.
+        plotter: Where to add them; if None a new plotter that looks at them from the front left.
+
+    Returns:
+        The plotter: `.show()` opens it, `.screenshot("step.png")` writes it.
+
+    Raises:
+        ImportError: PyVista is not installed.
+        ValueError: The result has no sheet, none of that step, or a colour that it cannot have.
+
+    Example:
+        >>> import pyvista
+        >>> pyvista.OFF_SCREEN = True
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene, model="sheet")
+        >>> plotter = plydrape.view.sheet3d(result)
+        >>> plotter.actors["sheet"].mapper.dataset.n_points
+        341
+        >>> plotter.close()
+
+    """
+    pv = load("pyvista", extra="plot", name="PyVista")
+    sheet = result.sheet
+    if sheet is None:
+        raise ValueError('the result has no sheet; drape its scene with model="sheet"')
+    state = _shapes.state(sheet, step)
+    chosen = int(sheet.steps[state])
+    kind = colour or ("shear" if result.mold is None else "height")
+    if kind not in SHEET_NAMES:
+        raise ValueError(
+            f'the sheet can have the colour of its "height", "landing" or "shear", not "{kind}"'
+        )
+    if kind != "shear" and result.mold is None:
+        raise ValueError(f'without a mold there is no {kind}; choose colour="shear"')
+
+    new = plotter is None
+    out: Any = pv.Plotter() if plotter is None else plotter
+    radius = _shapes.radius(result)
+    if mold:
+        _mold(pv, out, result, 0.05 * radius)
+    cells = np.asarray(sheet.cells, np.int64)
+    points = np.asarray(sheet.positions)[state]
+    mesh = _quads(pv, points, cells)
+    mesh.point_data["height_mm"] = np.asarray(sheet.heights)[state] * 1e3
+    mesh.point_data["contact"] = np.asarray(sheet.contact)[state]
+    landing = np.asarray(sheet.landing_step, float)
+    landing[landing == 0.0] = np.nan
+    mesh.point_data["landing_step"] = landing
+    mesh.cell_data["shear_deg"] = np.rad2deg(np.asarray(sheet.shear)[state])
+    parts = None
+    if kind == "landing":
+        # the part of a cell that is nearest to a node has its step, as long as that is not to come
+        parts = _quads(pv, _shapes.quarters(points, cells).reshape(-1, 3))
+        parts.cell_data["landing_step"] = np.where(landing <= chosen, landing, np.nan)[
+            cells
+        ].ravel()
+    _sheet(out, mesh, parts, kind, limits)
+
+    pads = np.asarray(sheet.grippers)[state]
+    angle = np.linspace(0.0, 2.0 * np.pi, 28, endpoint=False)
+    arm = 0.6 * radius * np.stack([np.cos(angle), np.sin(angle), np.zeros(28)], axis=-1)
+    discs = pads[:, None] + _shapes.turned(np.asarray(sheet.pad_quaternions)[state], arm)
+    out.add_mesh(_prisms(pv, discs, 0.2 * radius), color=BLACK, name="grippers")
+    force = np.asarray(sheet.pad_forces)[state]
+    most = float(np.linalg.norm(force, axis=1).max())
+    title = f"{result.title}: step {chosen} of {len(result.times)}"
+    if forces and most > 0.0:
+        arrows = pv.PolyData(pads)
+        arrows["force_N"] = force
+        shape = pv.Arrow(tip_length=0.22, tip_radius=0.07, shaft_radius=0.025)
+        scaled = arrows.glyph(
+            orient="force_N", scale="force_N", factor=0.7 * min(result.cell) / most, geom=shape
+        )
+        out.add_mesh(scaled, color=FORCE, name="forces")
+        title += f", forces up to {most:.3g} N"
+    if new:
+        _look(out, title)
+    shown: pyvista.Plotter = out
+    return shown
+
+
+def _sheet(out: Any, mesh: Any, parts: Any, kind: str, limits: tuple[float, float] | None) -> None:
+    """The sheet's cells and a bar of their colours; the order of landing is that of `parts`."""
+    name = {"height": "height_mm", "landing": "landing_step", "shear": "shear_deg"}[kind]
+    if kind == "height":
+        low, high = TOUCHING, CLEAR
+    elif kind == "shear":
+        high = max(float(np.abs(mesh[name]).max()), 1e-3)
+        low = -high
+    else:
+        landed = mesh[name][np.isfinite(mesh[name])]
+        low, high = (landed.min(), landed.max()) if len(landed) > 0 else (0.0, 1.0)
+        high = max(high, low + 1.0)
+    low, high = limits or (float(low), float(high))
+    labels = {"height": 3, "shear": 5, "landing": int(np.clip(high - low + 1.0, 2, 4))}[kind]
+    digits = "%.0f" if kind == "landing" else "%.3g"
+    bar: dict[str, Any] = {"title": SHEET_NAMES[kind] + "\n", "color": DARK, "fmt": digits}
+    bar |= {"title_font_size": 20, "label_font_size": 18, "n_labels": labels}
+    bar |= {"width": 0.4, "height": 0.08, "position_x": 0.55, "position_y": 0.03}
+    out.add_mesh(
+        mesh if parts is None else parts,
+        scalars=name,
+        cmap="PuOr_r" if kind == "shear" else "viridis",
+        clim=(low, high),
+        log_scale=kind == "height",
+        nan_color=AIR,
+        lighting=kind == "shear",
+        show_edges=parts is None,
+        edge_color="#ffffff",
+        edge_opacity=0.25,
+        show_scalar_bar=True,
+        scalar_bar_args=bar,
+        name="sheet",
+    )
+
+
 def _mold(pv: Any, out: Any, result: Result, radius: float) -> None:
     """The mold under and around the ply, and where the ply should end on it."""
     surface = result.mold_surface()
@@ -191,6 +341,12 @@ def _apart(line: NDArray[np.float64]) -> NDArray[np.float64]:
 def _triangles(pv: Any, points: NDArray[np.float64], triangles: NDArray[np.int64]) -> Any:
     faces = np.column_stack([np.full(len(triangles), 3), triangles])
     return pv.PolyData(np.asarray(points, float), faces.ravel())
+
+
+def _quads(pv: Any, points: NDArray[np.float64], cells: NDArray[np.int64] | None = None) -> Any:
+    """Cells (C, 4) of points; if None each four points are one."""
+    corners = np.arange(len(points)).reshape(-1, 4) if cells is None else cells
+    return pv.PolyData(points, np.insert(corners, 0, 4, axis=1).ravel())
 
 
 def _prisms(pv: Any, rims: NDArray[np.float64], thick: float) -> Any:

@@ -7,6 +7,7 @@ import { BrokenData, readPageData, type PageData } from "./data/page_data";
 import { Charts } from "./page/charts";
 import { byId } from "./page/dom";
 import { handle, type FullHandle, type Handle } from "./page/handle";
+import { linkHover } from "./page/hover";
 import { linkKeyboard } from "./page/keyboard";
 import { linkLegend } from "./page/legend";
 import { showLimits, showVerdict } from "./page/limits";
@@ -30,13 +31,16 @@ async function open(): Promise<void> {
   byId("title").textContent = data.title;
   showVerdict(data);
   const motion = await Motion.unpack(data);
+  const model = data.sheet === null ? "catenaries" : "sheet";
   const state = new State(
     {
       index: data.steps.length - 1,
-      colour: modes(data)[0]?.[0] ?? "height",
+      model,
+      colour: modes(data, model)[0]?.[0] ?? "height",
       stepRange: false,
       diagonals: true,
       mold: true,
+      forces: true,
       playing: false,
       dark: systemIsDark(),
       pointer: null,
@@ -54,6 +58,7 @@ async function open(): Promise<void> {
   showLimits(state, data);
   const charts = new Charts(state, data);
   showFacts(data);
+  if (scene !== null) linkHover(state, motion, scene);
   linkKeyboard(state, player, data, scene?.eye ?? null);
   linkPrint(state, charts, scene);
   window.plydrape = handle(ready, state, player, motion, scene);

@@ -3,6 +3,7 @@
 use super::figure::FigureError;
 use super::inp::InpError;
 use super::json::JsonError;
+use super::read::ReadError;
 use super::ros2::Ros2Error;
 use super::sheet::SheetError;
 use plydrape::motion::MotionError;
@@ -87,6 +88,9 @@ pub enum OutputError {
     /// The states of a sheet cannot be kept.
     #[error(transparent)]
     Sheet(#[from] SheetError),
+    /// The states of a sheet cannot be read.
+    #[error(transparent)]
+    States(#[from] ReadError),
     /// The result cannot be an input deck.
     #[error(transparent)]
     Inp(#[from] InpError),

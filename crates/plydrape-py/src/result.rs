@@ -196,7 +196,7 @@ impl Result {
     ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
     ///     >>> result = plydrape.simulate(scene)
     ///     >>> sorted(result.to_dict())
-    ///     ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'sheet_file', 'steps', 'summary', 'version']
+    ///     ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
     fn to_dict(&self) -> PyResult<Json> {
         Json::of(&*self.0)
     }
@@ -452,7 +452,7 @@ impl Result {
                 .map(|step| self.step(step).map(|step| step.step))
                 .collect::<PyResult<_>>()?,
         };
-        py.detach(|| figure::svg(&self.0, &steps)).map_err(|fault| error::output(&fault.into()))
+        py.detach(|| figure::svg(&self.0, &steps)).map_err(|fault| error::output(&fault))
     }
 
     /// A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs `plydrape[plot]`.

@@ -3,6 +3,7 @@
     steps      chosen steps in 3D, after the figure of Krogh et al. 2018
     measures   slack, overstretch, shear, force and the others over the steps, each with its limit
     shear_map  the shear angle of every cell of the ideal drape
+    sheet      the sheet on the flat fabric: height over the mold, order of landing, shear, tension
 
 Each function makes a new `matplotlib.figure.Figure` and touches nothing else: no figure of
 `pyplot`, no setting. A notebook shows it as the last value of a cell; `figure.savefig("steps.pdf")`
@@ -22,19 +23,22 @@ if TYPE_CHECKING:
 
     from plydrape import Net, Result
 
-__all__ = ["measures", "plot", "shear_map", "steps"]
+__all__ = ["measures", "plot", "shear_map", "sheet", "steps"]
 
 Width = Literal["single", "double"] | float
 """Width of a figure: "single" is 89 mm, "double" 183 mm; a number is a width in mm."""
+
+Map = Literal["height", "landing", "shear", "tension"]
+"""What a map of the sheet tells: height over the mold, order of landing, shear, tension."""
 
 Surface = Literal["gap", "height", "shear"]
 """What the colour of the ply tells: gap to the mold, height z, shear angle of its cells."""
 
 
 def plot(
-    result: Result, kind: Literal["steps", "measures", "shear"] = "steps", **options: Any
+    result: Result, kind: Literal["steps", "measures", "shear", "sheet"] = "steps", **options: Any
 ) -> Figure:
-    """The figure of this kind; `options` are those of `steps`, `measures` or `shear_map`.
+    """The figure of this kind; `options` are those of `steps`, `measures`, `shear_map` or `sheet`.
 
     Raises:
         ValueError: There is no such kind.
@@ -53,7 +57,9 @@ def plot(
         return measures(result, **options)
     if kind == "shear":
         return shear_map(result, **options)
-    raise ValueError(f'there is no plot "{kind}"; choose "steps", "measures" or "shear"')
+    if kind == "sheet":
+        return sheet(result, **options)
+    raise ValueError(f'there is no plot "{kind}"; choose "steps", "measures", "shear" or "sheet"')
 
 
 def steps(
@@ -185,6 +191,47 @@ def shear_map(
     from plydrape.plot import _shear
 
     return _shear.figure(net, view, signed, most, width, title)
+
+
+def sheet(
+    result: Result,
+    show: Map | Sequence[Map] = ("height", "landing"),
+    step: int = -1,
+    *,
+    width: Width = "double",
+    title: str | None = None,
+) -> Figure:
+    """Maps of the draped sheet on the flat fabric.
+
+    The height over the mold has one scale for all results, by orders of size from 0.1 to 10 mm: a
+    red line is the limit, a ring the highest node. The order of landing is that of the whole drape:
+    the step in which a node came to the mold and stayed; what is in the air at the end is grey.
+    Black discs are the grippers.
+
+    Args:
+        result: The result, of a drape with the sheet.
+        show: One map or several, up to four.
+        step: The step whose height, shear and tension are shown, from 1; -1 is the last that was
+            kept, -2 the one before.
+        width: "single" (89 mm), "double" (183 mm) or a width in mm.
+        title: A line above the panels; none by default.
+
+    Raises:
+        ImportError: Matplotlib is not installed.
+        ValueError: The result has no sheet, none of that step, or no mold for the height.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene, model="sheet")
+        >>> figure = plydrape.plot.sheet(result)
+        >>> [axes.get_title(loc="left") for axes in figure.axes[:2]]
+        ['a  height over the mold, step 30', 'b  order of landing']
+
+    """
+    _need()
+    from plydrape.plot import _fabric
+
+    return _fabric.figure(result, show, step, width, title)
 
 
 def _need() -> None:

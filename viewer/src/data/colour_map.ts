@@ -21,9 +21,12 @@ function hex(text: string): Rgb[] {
   return text.split(" ").map((c) => [0, 2, 4].map((k) => parseInt(c.slice(k, k + 2), 16)) as Rgb);
 }
 
+/** Colour modes that tell lengths, or the order of landing. */
+const LENGTHS = ["height", "gap", "over_mold", "landing"];
+
 /** The map that a colour mode is shown with. */
 export function mapOf(field: Field): Rgb[] {
-  return field.key === "height" || field.key === "gap" ? VIRIDIS : CIVIDIS;
+  return LENGTHS.includes(field.key) ? VIRIDIS : CIVIDIS;
 }
 
 /** The colour at a share of the range, 0 to 1; beyond it the end's colour. */
@@ -35,8 +38,12 @@ export function colourAt(map: Rgb[], share: number): Rgb {
   return [0, 1, 2].map((c) => Math.round(a[c]! + (place - low) * (b[c]! - a[c]!))) as Rgb;
 }
 
-/** Where a value stands in the range of its colour mode, 0 to 1. */
+/** Where a value stands in the range of its colour mode, 0 to 1; on a scale of orders its amount counts. */
 export function shareOf(field: Field, value: number): number {
+  if (field.scale === "orders") {
+    const share = Math.log(Math.max(Math.abs(value), 1e-300) / field.low) / Math.log(field.high / field.low);
+    return Math.min(Math.max(share, 0), 1);
+  }
   const span = field.high - field.low;
   return span > 0 ? (value - field.low) / span : 0.5;
 }

@@ -3,10 +3,11 @@
  */
 
 import { unpack, type Frames } from "./block";
+import { MICRO } from "./micro";
 import { BrokenData, type Field, type PageData, type Place } from "./page_data";
+import { SheetStates } from "./sheet_states";
 
-/** Micrometres in a metre; positions are packed in micrometres. */
-export const MICRO = 1e-6;
+export { MICRO };
 
 export class Motion {
   /** The smallest distance of neighbouring grippers in the first step (m): the scale for what is drawn. */
@@ -23,6 +24,7 @@ export class Motion {
     readonly direction: Frames,
     private readonly contactPoints: Frames,
     private readonly contactStarts: number[],
+    readonly sheet: SheetStates | null,
   ) {
     this.spacing = this.leastSpacing();
   }
@@ -45,6 +47,7 @@ export class Motion {
       await unpack(g.direction, "direction"),
       await unpack(g.contacts.points, "contacts"),
       starts,
+      data.sheet === null ? null : await SheetStates.unpack(data.sheet, data.steps),
     );
   }
 
@@ -76,13 +79,14 @@ export class Motion {
         return this.shear.at(index)[item]! / 100;
       case "direction":
         return this.direction.at(index)[item]! / 100;
+      default:
+        return 0;
     }
   }
 
   /** A colour mode with the range of its values in one step alone. */
   within(field: Field, index: number): Field {
-    const frames = { height: this.surface, gap: this.gap, shear: this.shear, direction: this.direction };
-    const { count } = frames[field.key] ?? { count: 0 };
+    const { count } = field.on === "cell" ? this.shear : this.surface;
     let [low, high] = [Infinity, -Infinity];
     for (let item = 0; item < count; item++) {
       const value = this.value(field, index, item);
@@ -92,16 +96,17 @@ export class Motion {
     return low <= high ? { ...field, low, high } : field;
   }
 
-  /** The box around the ply and its grippers over all steps (m). */
+  /** The box around the ply, by both models, and its grippers over all steps (m). */
   bounds(): { low: Place; high: Place } {
     const low: Place = [Infinity, Infinity, Infinity];
     const high: Place = [-Infinity, -Infinity, -Infinity];
-    const { values } = this.surface;
-    for (let k = 0; k < values.length; k++) {
-      const c = k % 3;
-      const x = values[k]! * MICRO;
-      if (x < low[c]!) low[c] = x;
-      if (x > high[c]!) high[c] = x;
+    for (const values of [this.surface.values, this.sheet?.positions.values ?? new Int32Array(0)]) {
+      for (let k = 0; k < values.length; k++) {
+        const c = k % 3;
+        const x = values[k]! * MICRO;
+        if (x < low[c]!) low[c] = x;
+        if (x > high[c]!) high[c] = x;
+      }
     }
     return { low, high };
   }

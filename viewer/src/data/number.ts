@@ -56,3 +56,13 @@ export function ticks(low: number, high: number, count: number): number[] {
   }
   return found;
 }
+
+/** Round numbers inside a range on a scale of orders: 1, 2 and 5 times the powers of ten, or these alone if there are many. */
+export function ticksOfOrders(low: number, high: number, count: number): number[] {
+  const found: number[] = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); power++) {
+    for (const times of [1, 2, 5]) found.push(Number((times * 10 ** power).toPrecision(6)));
+  }
+  const inside = found.filter((tick) => tick >= 0.999 * low && tick <= 1.001 * high);
+  return inside.length <= count ? inside : inside.filter((tick) => Number.isInteger(Math.log10(tick)));
+}

@@ -6,7 +6,9 @@
  */
 
 export type Place = [number, number, number];
-export type FieldKey = "height" | "gap" | "shear" | "direction";
+export type FieldKey = "height" | "gap" | "shear" | "direction" | "over_mold" | "strain" | "landing";
+/** The two models of the ply. */
+export type Model = "sheet" | "catenaries";
 
 /** Integers [steps][count][components], packed; see `block.ts`. */
 export interface Block {
@@ -25,6 +27,8 @@ export interface Limit {
   /** The limit is the least allowed, not the most. */
   least: boolean;
   ok: boolean;
+  /** One of the motion, which counts with every model. */
+  motion: boolean;
   step: number | null;
   where: string;
   place: Place | null;
@@ -50,6 +54,8 @@ export interface Field {
   label: string;
   unit: string;
   on: "vertex" | "cell";
+  /** On a scale of orders equal ratios are equally far apart; what lies beyond its ends has their colours. */
+  scale: "even" | "orders";
   low: number;
   high: number;
   limit: number | null;
@@ -65,6 +71,36 @@ export interface Geometry {
   direction: Block;
   contacts: { counts: number[]; points: Block };
   mold: { vertices: number[]; triangles: number[] } | null;
+}
+
+/** The ply as a sheet. Micrometres, hundredths of a degree, millionths of strain, mN/m and micronewtons. */
+export interface SheetData {
+  /** All of its own limits hold, and it is at rest. */
+  accepted: boolean;
+  /** Why its end does not count. */
+  ended: string | null;
+  nodes: number;
+  /** For each step of the page the state that is shown in it. */
+  states: (number | null)[];
+  limits: Limit[];
+  fields: Field[];
+  /** Corners of the cells, four each. */
+  cells: number[];
+  /** Step in which each node landed for good, 0 for never. */
+  landing: number[];
+  /** Fabric coordinates of the nodes; one step. */
+  places: Block;
+  positions: Block;
+  height: Block | null;
+  contact: Block;
+  /** Of cells; strain and tension are those of the yarn beside the cell that is strained most. */
+  shear: Block;
+  strain: Block;
+  tension: Block;
+  grippers: Block;
+  normals: Block;
+  /** Of the sheet on the pads. */
+  forces: Block;
 }
 
 export interface PageData {
@@ -87,6 +123,8 @@ export interface PageData {
   measures: Measure[];
   fields: Field[];
   geometry: Geometry;
+  /** The sheet, which decides, if it was draped. */
+  sheet: SheetData | null;
   left_out: string[];
 }
 
@@ -116,6 +154,7 @@ export function readPageData(text: string): PageData {
   }
   checkLengths(data);
   checkGeometry(data);
+  if (data.sheet !== null) checkSheet(data, data.sheet);
   return data;
 }
 
@@ -161,4 +200,41 @@ function checkGeometry(data: PageData): void {
       );
     }
   }
+}
+
+function checkSheet(data: PageData, sheet: SheetData): void {
+  const nodes = sheet.landing.length;
+  const cells = sheet.cells.length / 4;
+  const count = sheet.positions.steps;
+  const expected: [Block | null, number][] = [
+    [sheet.positions, nodes],
+    [sheet.height, nodes],
+    [sheet.contact, nodes],
+    [sheet.shear, cells],
+    [sheet.strain, cells],
+    [sheet.tension, cells],
+    [sheet.forces, sheet.grippers.count],
+    [sheet.normals, sheet.grippers.count],
+  ];
+  const fit = expected.every(
+    ([block, of]) => block === null || (block.count === of && block.steps === count),
+  );
+  const known = sheet.states.every((state) => state === null || state < count);
+  const corners = sheet.cells.every((node) => node < nodes);
+  const pads = sheet.grippers.count === data.geometry.grippers.count;
+  if (
+    !fit ||
+    !known ||
+    !corners ||
+    !pads ||
+    sheet.places.count !== nodes ||
+    sheet.states.length !== data.steps.length
+  ) {
+    throw new BrokenData("the states of its sheet do not fit each other");
+  }
+}
+
+/** What colours can tell of a model. */
+export function fieldsOf(data: PageData, model: Model): Field[] {
+  return model === "sheet" && data.sheet !== null ? data.sheet.fields : data.fields;
 }

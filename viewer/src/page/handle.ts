@@ -3,11 +3,12 @@
  */
 
 import { MICRO, type Motion } from "../data/motion";
-import type { FieldKey, Measure, Place } from "../data/page_data";
+import { fieldsOf, type FieldKey, type Measure, type Model, type Place } from "../data/page_data";
 import type { Scene3d } from "../scene/scene3d";
 import { fieldOf, legendOf, type LegendFacts } from "./legend";
 import type { Player } from "./player";
 import type { State } from "./state";
+import { chooseModel } from "./toolbar";
 
 export interface Handle {
   /** Resolves when everything is drawn; rejects if the data is broken. */
@@ -25,6 +26,10 @@ export interface FullHandle extends Handle {
   readonly playing: boolean;
   /** Milliseconds between the frames while playing. */
   readonly frames: number[];
+  /** The model that is shown; can be set. */
+  model: Model;
+  /** A node of the sheet in view (m), or null without a sheet. */
+  node(number: number): Place | null;
   /** Colour mode; can be set. */
   colour: FieldKey;
   readonly colours: FieldKey[];
@@ -63,13 +68,25 @@ export function handle(
       return state.now.playing;
     },
     frames: player.frames,
+    get model() {
+      return state.now.model;
+    },
+    set model(model) {
+      chooseModel(state, data, model);
+    },
+    node: (number) => {
+      const shown = motion.sheet?.stateOf(state.now.index) ?? null;
+      return shown === null ? null : motion.sheet!.node(shown, number);
+    },
     get colour() {
       return state.now.colour;
     },
     set colour(colour) {
       state.set({ colour });
     },
-    colours: data.fields.map((field) => field.key),
+    get colours() {
+      return fieldsOf(data, state.now.model).map((field) => field.key);
+    },
     legend: () => legendOf(fieldOf(motion, state.now)!),
     measures: data.measures,
     vertex: (index) => scene?.vertex(index) ?? stored(motion, state.now.index, index),

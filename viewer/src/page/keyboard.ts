@@ -5,19 +5,20 @@ import type { Eye, StandardView } from "../scene/camera";
 import { byId, make } from "./dom";
 import type { Player } from "./player";
 import type { State } from "./state";
-import { modes } from "./toolbar";
+import { chooseModel, modes } from "./toolbar";
 
 const HELP: [string, string][] = [
   ["← →", "step back, step on"],
   ["Home, End", "first step, last step"],
   ["Space", "play, pause"],
-  ["1 – 4", "colour by height, gap, shear, fibre direction"],
+  ["1 – 4", "the colours in their order"],
+  ["C", "sheet or catenaries"],
   ["T F S I", "view from top, front, side, iso"],
   ["0", "fit into the picture"],
   ["+ −", "nearer, farther"],
   ["Shift + arrows", "turn the view"],
   ["R", "colours over the range of this step, or of all steps"],
-  ["D, M", "diagonals, mold on or off"],
+  ["D, M, P", "diagonals, mold, forces on the pads on or off"],
   ["L", "light or dark"],
   ["Escape", "take the marker away"],
   ["?", "this list"],
@@ -38,8 +39,8 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
   });
 
   const find = (key: string): (() => void) | undefined => {
-    const { index, stepRange, diagonals, mold } = state.now;
-    const mode = modes(data)[Number(key) - 1];
+    const { index, stepRange, diagonals, mold, forces, model } = state.now;
+    const mode = modes(data, model)[Number(key) - 1];
     if (mode !== undefined) return () => state.set({ colour: mode[0] });
     const view = VIEWS[key.toLowerCase()];
     if (view !== undefined) return () => eye?.look(view);
@@ -56,6 +57,10 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
       r: () => state.set({ stepRange: !stepRange }),
       d: () => state.set({ diagonals: !diagonals }),
       m: () => state.set({ mold: !mold }),
+      p: () => state.set({ forces: !forces }),
+      c: () => {
+        if (data.sheet !== null) chooseModel(state, data, model === "sheet" ? "catenaries" : "sheet");
+      },
       l: () => byId("theme").click(),
       Escape: () => state.set({ pointer: null }),
       "?": () => byId<HTMLDialogElement>("help").showModal(),

@@ -1,9 +1,9 @@
 /** The colour bar over the picture: title, unit, round ticks, and the limit where there is one. */
 
 import { gradient, mapOf, shareOf } from "../data/colour_map";
-import { bracketed, full, short, ticks } from "../data/number";
+import { bracketed, full, short, ticks, ticksOfOrders, withUnit } from "../data/number";
 import type { Motion } from "../data/motion";
-import type { Field } from "../data/page_data";
+import { fieldsOf, type Field } from "../data/page_data";
 import { byId, make } from "./dom";
 import type { Choice, State } from "./state";
 
@@ -20,13 +20,17 @@ export interface LegendFacts {
 
 export function legendOf(field: Field): LegendFacts {
   const { key, label, unit, low, high, limit } = field;
-  return { key, title: label, unit, low, high, ticks: ticks(low, high, 6), limit };
+  const round = field.scale === "orders" ? ticksOfOrders(low, high, 7) : ticks(low, high, 6);
+  // steps are whole numbers
+  const marks = key === "landing" ? round.filter(Number.isInteger) : round;
+  return { key, title: label, unit, low, high, ticks: marks, limit };
 }
 
 /** The colour mode in force, with the range in force. */
 export function fieldOf(motion: Motion, now: Choice): Field | undefined {
-  const field = motion.data.fields.find(({ key }) => key === now.colour);
-  return field !== undefined && now.stepRange ? motion.within(field, now.index) : field;
+  const field = fieldsOf(motion.data, now.model).find(({ key }) => key === now.colour);
+  if (field === undefined || !now.stepRange) return field;
+  return (now.model === "sheet" ? motion.sheet : motion)?.within(field, now.index) ?? field;
 }
 
 export function linkLegend(state: State, motion: Motion): void {
@@ -35,14 +39,33 @@ export function linkLegend(state: State, motion: Motion): void {
   const check = byId<HTMLInputElement>("step-range");
   check.addEventListener("change", () => state.set({ stepRange: check.checked }));
   state.listen((now, before) => {
+    showForceScale(motion, now);
     const ranged = now.stepRange !== before.stepRange || (now.stepRange && now.index !== before.index);
-    if (now !== before && now.colour === before.colour && !ranged) return;
+    const same = now.colour === before.colour && now.model === before.model;
+    if (now !== before && same && !ranged) return;
     const field = fieldOf(motion, now);
     // A strip of ply has no cells, so nothing is coloured.
-    host.hidden = field === undefined || motion.data.grid.includes(1);
+    host.hidden = field === undefined || (now.model === "catenaries" && motion.data.grid.includes(1));
     check.checked = now.stepRange;
+    // the ends of a scale of orders are those of every result, so that pictures can be compared
+    check.parentElement!.hidden = field?.scale === "orders";
     if (field !== undefined) bar.replaceChildren(...draw(field));
   });
+}
+
+/** What the longest arrow stands for. */
+function showForceScale(motion: Motion, now: Choice): void {
+  const note = byId("force-scale");
+  const state = motion.sheet?.stateOf(now.index) ?? null;
+  const shown = now.model === "sheet" && now.forces && state !== null;
+  note.hidden = !shown;
+  if (shown) note.textContent = `longest arrow ${withUnit(short(motion.sheet!.mostForce(state)), "N")}`;
+}
+
+/** The ends of a scale of orders stand for everything beyond them too. */
+function beyond(field: Field, value: number): string {
+  if (field.scale !== "orders") return "";
+  return value <= field.low ? "≤\u202f" : value >= field.high ? "≥\u202f" : "";
 }
 
 function draw(field: Field): HTMLElement[] {
@@ -52,7 +75,7 @@ function draw(field: Field): HTMLElement[] {
   const scale = make("div", { class: "scale" }, bar);
   const at = (value: number) => `${100 * shareOf(field, value)}%`;
   for (const value of facts.ticks) {
-    const tick = make("span", { class: "tick" }, short(value));
+    const tick = make("span", { class: "tick" }, beyond(field, value) + short(value));
     tick.style.bottom = at(value);
     scale.append(tick);
   }
@@ -70,6 +93,7 @@ function draw(field: Field): HTMLElement[] {
   const range = make("p", { class: "visually-hidden" });
   range.textContent = `from ${full(field.low)} to ${full(field.high)} ${field.unit}`;
   const parts = [title, scale, range];
+  if (field.key === "landing") parts.push(make("p", { class: "quiet" }, "grey: in the air"));
   if (limit !== null && (limit < field.low || limit > field.high)) {
     parts.push(make("p", { class: "legend-note" }, `limit ${short(limit)}`));
   }

@@ -1,23 +1,33 @@
 /** The verdict and the table of limits; a row shows its step and its place on the ply. */
 
 import { full, short, withUnit } from "../data/number";
-import type { Limit, PageData } from "../data/page_data";
+import type { Limit, Model, PageData } from "../data/page_data";
 import { byId, make } from "./dom";
 import type { State } from "./state";
+import { chooseModel } from "./toolbar";
 
 /** One line: accepted or not. */
 function verdict(data: PageData): string {
-  const failed = data.limits.filter((limit) => !limit.ok).length;
-  const count = data.limits.length;
-  let text: string;
-  if (data.accepted) text = count === 0 ? "Accepted: no limit is set" : `Accepted: ${all(count)} kept`;
-  else if (failed === 0) text = "Not accepted";
-  else text = `Not accepted: ${failed} of ${count} ${count === 1 ? "limit" : "limits"} exceeded`;
-  return text;
+  const limits = deciding(data);
+  const failed = limits.filter((limit) => !limit.ok).length;
+  const count = limits.length;
+  const by = data.sheet === null ? "" : " by the sheet";
+  if (data.accepted) return `Accepted${by}: ${count === 0 ? "no limit is set" : `${all(count)} kept`}`;
+  if (failed === 0) return `Not accepted${by}`;
+  return `Not accepted${by}: ${failed} of ${count} ${count === 1 ? "limit" : "limits"} exceeded`;
+}
+
+/** The limits that count: with a sheet its own and those of the motion. */
+function deciding(data: PageData): Limit[] {
+  return data.sheet === null
+    ? data.limits
+    : [...data.sheet.limits, ...data.limits.filter((limit) => limit.motion)];
 }
 
 /** Why there are fewer steps than planned, if there are. */
 function shortened(data: PageData): string {
+  const ended = data.sheet?.ended ?? null;
+  if (ended !== null) return `. ${ended.charAt(0).toUpperCase()}${ended.slice(1)}`;
   if (data.stopped !== null) return `. Stopped: ${data.stopped}`;
   return data.interrupted ? ". Interrupted: fewer steps than planned" : "";
 }
@@ -43,10 +53,27 @@ function sign(ok: boolean): HTMLElement {
 
 export function showLimits(state: State, data: PageData): void {
   const section = byId("limits");
-  if (data.limits.length === 0) {
-    section.append(make("p", { class: "quiet" }, "The scene sets no limits."));
+  if (data.sheet === null) {
+    if (data.limits.length === 0) section.append(make("p", { class: "quiet" }, "The scene sets no limits."));
+    else section.append(table(state, data, "catenaries", data.limits));
     return;
   }
+  const own = data.limits.filter((limit) => !limit.motion);
+  const failed = own.filter((limit) => !limit.ok).length;
+  const word = failed === 0 ? `${all(own.length)} kept` : `${failed} of ${own.length} exceeded`;
+  section.append(
+    make("h3", {}, "Of the sheet, which decides"),
+    table(state, data, "sheet", deciding(data)),
+    make(
+      "details",
+      {},
+      make("summary", {}, `Of the catenaries, which do not decide: ${word}`),
+      table(state, data, "catenaries", own),
+    ),
+  );
+}
+
+function table(state: State, data: PageData, model: Model, limits: Limit[]): HTMLElement {
   const heads: [string, string][] = [
     ["Limit", ""],
     ["", ""],
@@ -56,7 +83,7 @@ export function showLimits(state: State, data: PageData): void {
     ["At", ""],
   ];
   const body = make("tbody");
-  for (const limit of data.limits) body.append(row(state, data, limit));
+  for (const limit of limits) body.append(row(state, data, model, limit));
   const head = make("tr");
   for (const [text, kind] of heads) {
     head.append(
@@ -65,10 +92,10 @@ export function showLimits(state: State, data: PageData): void {
         : make("th", { scope: "col", class: kind }, text),
     );
   }
-  section.append(make("table", { class: "limits" }, make("thead", {}, head), body));
+  return make("table", { class: "limits" }, make("thead", {}, head), body);
 }
 
-function row(state: State, data: PageData, limit: Limit): HTMLTableRowElement {
+function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTableRowElement {
   const value = withUnit(short(limit.value), limit.unit);
   const bound = `${limit.least ? "≥" : "≤"}\u202f${withUnit(short(limit.limit), limit.unit)}`;
   const index = nearest(data.steps, limit.step);
@@ -94,9 +121,11 @@ function row(state: State, data: PageData, limit: Limit): HTMLTableRowElement {
     const name = limit.name.charAt(0).toUpperCase() + limit.name.slice(1);
     const allowed = `at ${limit.least ? "least" : "most"} ${withUnit(short(limit.limit), limit.unit)} allowed`;
     const label = `${name}: ${value}\n${limit.ok ? "pass" : "exceeded"}, ${allowed}\n${limit.where}`;
+    if (!limit.motion) chooseModel(state, data, model);
     state.goto(index);
     if (limit.place !== null) state.set({ pointer: { index, place: limit.place, label } });
-    for (const other of tr.parentElement?.children ?? []) other.removeAttribute("aria-current");
+    for (const other of document.querySelectorAll("table.limits [aria-current]"))
+      other.removeAttribute("aria-current");
     tr.setAttribute("aria-current", "true");
   });
   state.listen((now) => {

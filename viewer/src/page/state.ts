@@ -3,7 +3,7 @@
  * Every part of the page listens here, so that none needs to know another.
  */
 
-import type { FieldKey, Place } from "../data/page_data";
+import type { FieldKey, Model, Place } from "../data/page_data";
 
 /** A place on the ply that the view points at, in one step only. */
 export interface Pointer {
@@ -15,11 +15,15 @@ export interface Pointer {
 export interface Choice {
   /** Index of the step, from 0. */
   index: number;
+  /** The model of the ply that is shown. */
+  model: Model;
   colour: FieldKey;
   /** Colours span the values of the step in view, not those of all steps. */
   stepRange: boolean;
   diagonals: boolean;
   mold: boolean;
+  /** Forces of the sheet on the pads. */
+  forces: boolean;
   playing: boolean;
   dark: boolean;
   pointer: Pointer | null;

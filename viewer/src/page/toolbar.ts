@@ -1,15 +1,22 @@
 /** The bar over the picture: colour modes, standard views, what is shown. */
 
-import type { FieldKey, PageData } from "../data/page_data";
+import { fieldsOf, type FieldKey, type Model, type PageData } from "../data/page_data";
 import type { Eye, StandardView } from "../scene/camera";
 import { byId, make } from "./dom";
 import type { State } from "./state";
 
 const MODES: [FieldKey, string][] = [
+  ["over_mold", "Height over mold"],
   ["height", "Height"],
   ["gap", "Gap"],
   ["shear", "Shear"],
+  ["strain", "Strain"],
   ["direction", "Fibre direction"],
+  ["landing", "Landing"],
+];
+const MODELS: [Model, string][] = [
+  ["sheet", "Sheet"],
+  ["catenaries", "Catenaries"],
 ];
 const VIEWS: [StandardView, string, string][] = [
   ["iso", "Iso", "I"],
@@ -18,21 +25,40 @@ const VIEWS: [StandardView, string, string][] = [
   ["side", "Side", "S"],
 ];
 
-/** The colour modes that exist here, in the order of their keys. */
-export function modes(data: PageData): [FieldKey, string][] {
-  return MODES.filter(([key]) => data.fields.some((field) => field.key === key));
+/** The colour modes of a model, in the order of their keys. */
+export function modes(data: PageData, model: Model): [FieldKey, string][] {
+  const fields = fieldsOf(data, model);
+  return MODES.filter(([key]) => fields.some((field) => field.key === key));
+}
+
+/** Shows a model, in the same colour mode if it has it. */
+export function chooseModel(state: State, data: PageData, model: Model): void {
+  const known = modes(data, model);
+  const colour = known.find(([key]) => key === state.now.colour)?.[0] ?? known[0]?.[0] ?? state.now.colour;
+  state.set({ model, colour });
 }
 
 export function linkToolbar(state: State, data: PageData, eye: Eye | null): void {
+  const models = byId("models");
+  models.hidden = data.sheet === null;
+  for (const [key, name] of MODELS) {
+    const input = make("input", { type: "radio", name: "model", value: key });
+    models.append(make("label", { title: `${name} (C changes)` }, input, make("span", {}, name)));
+    input.addEventListener("change", () => chooseModel(state, data, key));
+    state.listen(({ model }) => (input.checked = model === key));
+  }
+
   const colours = byId("colours");
-  colours.hidden = data.grid.includes(1);
-  modes(data).forEach(([key, name], k) => {
-    const input = make("input", { type: "radio", name: "colour", value: key });
-    colours.append(
-      make("label", { title: `Colour by ${name.toLowerCase()} (${k + 1})` }, input, make("span", {}, name)),
-    );
-    input.addEventListener("change", () => state.set({ colour: key }));
-    state.listen(({ colour }) => (input.checked = colour === key));
+  state.listen((now, before) => {
+    if (now !== before && now.model === before.model) return;
+    colours.hidden = now.model === "catenaries" && data.grid.includes(1);
+    colours.replaceChildren(...modes(data, now.model).map(([key, name], k) => colour(state, key, name, k)));
+    byId("show-diagonals").parentElement!.hidden =
+      now.model === "sheet" || data.geometry.diagonals.count === 0;
+    byId("show-forces").parentElement!.hidden = now.model !== "sheet";
+  });
+  state.listen(({ colour }) => {
+    for (const input of colours.querySelectorAll("input")) input.checked = input.value === colour;
   });
 
   const views = byId("views");
@@ -51,11 +77,22 @@ export function linkToolbar(state: State, data: PageData, eye: Eye | null): void
 
   linkCheck(state, "diagonals");
   linkCheck(state, "mold");
-  byId("show-diagonals").parentElement!.hidden = data.geometry.diagonals.count === 0;
+  linkCheck(state, "forces");
   byId("show-mold").parentElement!.hidden = data.geometry.mold === null;
 }
 
-function linkCheck(state: State, key: "diagonals" | "mold"): void {
+function colour(state: State, key: FieldKey, name: string, k: number): HTMLElement {
+  const input = make("input", { type: "radio", name: "colour", value: key });
+  input.addEventListener("change", () => state.set({ colour: key }));
+  return make(
+    "label",
+    { title: `Colour by ${name.toLowerCase()} (${k + 1})` },
+    input,
+    make("span", {}, name),
+  );
+}
+
+function linkCheck(state: State, key: "diagonals" | "mold" | "forces"): void {
   const input = byId<HTMLInputElement>(`show-${key}`);
   input.addEventListener("change", () => state.set({ [key]: input.checked }));
   state.listen((now) => (input.checked = now[key]));

@@ -67,7 +67,7 @@ export class Grippers {
   private readonly quads: number;
 
   constructor(
-    private readonly motion: Motion,
+    motion: Motion,
     private readonly radius: number,
     push: number,
   ) {
@@ -117,9 +117,8 @@ export class Grippers {
     this.mesh.geometry.setDrawRange(0, this.radius * zoom * 2 * HALF < 1 ? this.quads : Infinity);
   }
 
-  moveTo(step: number): void {
-    const positions = this.motion.grippers.at(step);
-    const normals = this.motion.normals.at(step);
+  /** Moves them to packed positions and normals. */
+  moveTo(positions: Int32Array, normals: Int32Array): void {
     const [centre, axis] = [this.centre.array, this.axis.array];
     const size = centre.length / positions.length;
     for (let k = 0; k < centre.length; k += 3) {

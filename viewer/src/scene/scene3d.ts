@@ -5,7 +5,7 @@
 
 import { Box3, Color, Scene, Vector3, WebGLRenderer } from "three";
 import type { Motion } from "../data/motion";
-import type { Field, Place } from "../data/page_data";
+import { fieldsOf, type Field, type Place } from "../data/page_data";
 import { themeColour } from "../page/dom";
 import type { Choice, State } from "../page/state";
 import { AxesBox } from "./axes_box";
@@ -16,6 +16,7 @@ import { Grippers } from "./grippers";
 import { pixelRatio, resolution } from "./lines";
 import { Mold } from "./mold";
 import { Overlay } from "./overlay";
+import { SheetPicture } from "./sheet_picture";
 import { PlySurface } from "./surface";
 
 /** More pixels of the device in one CSS pixel are not drawn. */
@@ -33,6 +34,7 @@ export class Scene3d {
   private readonly grippers: Grippers;
   private readonly contacts: Contacts;
   private readonly mold: Mold | null;
+  readonly sheet: SheetPicture | null;
   private readonly box: AxesBox;
   private readonly overlay: Overlay;
   private waiting = false;
@@ -65,6 +67,8 @@ export class Scene3d {
     this.grippers = new Grippers(motion, Math.min(0.1 * motion.spacing, 0.03 * size), -0.004 * size);
     this.contacts = new Contacts(motion, -0.003 * size);
     this.mold = mold === null ? null : new Mold(mold, 0.02 * size);
+    const { sheet } = motion;
+    this.sheet = sheet === null ? null : new SheetPicture(sheet, size, motion.spacing);
     this.box = new AxesBox(bounds, 0.03 * size);
     this.catenaries.order = 3;
     this.contacts.points.renderOrder = 4;
@@ -77,6 +81,7 @@ export class Scene3d {
       this.grippers.mesh,
     );
     if (this.mold !== null) this.scene.add(this.mold.group);
+    if (this.sheet !== null) this.scene.add(this.sheet.group);
 
     const overlay = host.querySelector<HTMLCanvasElement>("#labels")!;
     this.eye = new Eye(canvas, bounds, () => this.draw());
@@ -88,36 +93,56 @@ export class Scene3d {
     state.listen((now, before) => this.follow(now, before));
   }
 
-  private field(key: string): Field {
-    return this.motion.data.fields.find((field) => field.key === key) ?? this.motion.data.fields[0]!;
+  /** The colour mode in force, with the range in force. */
+  private field(now: Choice): Field {
+    const fields = fieldsOf(this.motion.data, now.model);
+    const field = fields.find(({ key }) => key === now.colour) ?? fields[0]!;
+    if (!now.stepRange) return field;
+    return (now.model === "sheet" ? this.motion.sheet : this.motion)?.within(field, now.index) ?? field;
   }
 
   private follow(now: Choice, before: Choice): void {
     const first = now === before;
-    const stepped = first || now.index !== before.index;
-    const field = this.field(now.colour);
-    if (first || now.dark !== before.dark) this.ink();
-    if (first || now.colour !== before.colour) this.surface.useMap(field);
-    if (stepped) {
-      this.surface.moveTo(now.index);
-      this.catenaries.moveTo(now.index);
-      this.grippers.moveTo(now.index);
-      this.contacts.moveTo(now.index);
+    const changed = (...keys: (keyof Choice)[]) => first || keys.some((key) => now[key] !== before[key]);
+    const sheet = now.model === "sheet" ? this.sheet : null;
+    if (changed("dark")) this.ink();
+    if (changed("model")) this.showModel(sheet !== null);
+    if (changed("colour", "model")) (sheet ?? this.surface).useMap(this.field(now));
+    if (changed("index", "model")) this.moveTo(now.index, sheet);
+    if (changed("index", "model", "stepRange", "colour")) {
+      (sheet ?? this.surface).colour(this.field(now), now.index);
     }
-    const ranged = now.stepRange !== before.stepRange;
-    if (stepped || ranged || now.colour !== before.colour) {
-      this.surface.colour(now.stepRange ? this.motion.within(field, now.index) : field, now.index);
-    }
+    sheet?.showForces(now.forces);
     this.catenaries.showDiagonals(now.diagonals);
     if (this.mold !== null) this.mold.group.visible = now.mold;
     if (now.pointer !== null && now.pointer !== before.pointer) this.eye.lookAt(now.pointer.place);
     this.draw();
   }
 
+  /** Shows the sheet, or the catenaries. */
+  private showModel(sheet: boolean): void {
+    if (this.sheet !== null) this.sheet.group.visible = sheet;
+    for (const part of [this.surface.mesh, this.catenaries.group, this.contacts.points])
+      part.visible = !sheet;
+  }
+
+  /** Moves what is shown to a step. */
+  private moveTo(index: number, sheet: SheetPicture | null): void {
+    if (sheet === null) {
+      this.surface.moveTo(index);
+      this.catenaries.moveTo(index);
+      this.contacts.moveTo(index);
+    } else sheet.moveTo(index);
+    this.grippers.moveTo(
+      ...(sheet?.pads() ?? [this.motion.grippers.at(index), this.motion.normals.at(index)]),
+    );
+  }
+
   /** Takes the colours of the theme in force. */
   ink(): void {
     this.catenaries.ink(themeColour("red"));
     this.contacts.ink(themeColour("red"));
+    this.sheet?.ink(themeColour("accent"));
     this.grippers.ink(themeColour("disc"), themeColour("disc-rim"));
     this.mold?.ink(themeColour("mold"), themeColour("mold-line"));
     this.box.ink(themeColour("box-line"));
@@ -138,8 +163,9 @@ export class Scene3d {
     resolution.set(this.width * ratio, this.height * ratio);
   }
 
-  /** A vertex of the ply as it is drawn now (m). */
+  /** A vertex of the ply between the catenaries as it is drawn now (m); null where it is not. */
   vertex(at: number): Place | null {
+    if (this.state.now.model === "sheet") return null;
     return this.surface.vertex(at) ?? this.catenaries.vertex(at);
   }
 
@@ -158,6 +184,7 @@ export class Scene3d {
     const { zoom } = this.eye.camera;
     const apart = zoom * this.motion.spacing;
     this.surface.showThreads(apart / this.motion.data.divisions);
+    this.sheet?.suit(zoom);
     this.catenaries.suit(apart);
     this.contacts.suit(apart);
     this.grippers.showWalls(zoom);

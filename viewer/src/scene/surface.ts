@@ -6,59 +6,11 @@
  * place. The value goes to the shader as a share of its range and is looked up in the colour map there.
  */
 
-import {
-  BufferAttribute,
-  BufferGeometry,
-  DataTexture,
-  DoubleSide,
-  DynamicDrawUsage,
-  NearestFilter,
-  Mesh,
-  ShaderMaterial,
-} from "three";
-import { colourAt, mapOf, shareOf } from "../data/colour_map";
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type ShaderMaterial } from "three";
+import { shareOf } from "../data/colour_map";
 import { MICRO, type Motion } from "../data/motion";
 import type { Field } from "../data/page_data";
-import { PROJECT, SHADE } from "./shade";
-
-const VERTEX = /* glsl */ `
-  attribute float share;
-  attribute vec2 thread;
-  varying float vShare;
-  varying vec2 vThread;
-  varying float vShade;
-  ${PROJECT}
-  ${SHADE}
-  void main() {
-    vShare = share;
-    vThread = thread;
-    vShade = shade(normalMatrix * normal);
-    gl_Position = project(position);
-  }
-`;
-
-const FRAGMENT = /* glsl */ `
-  uniform sampler2D map;
-  uniform bool threads;
-  varying float vShare;
-  varying vec2 vThread;
-  varying float vShade;
-  void main() {
-    vec3 colour = texture2D(map, vec2(clamp(vShare, 0.0, 0.9999), 0.5)).rgb * vShade;
-    // Threads of the fabric, where they are far enough apart to be seen.
-    if (threads) {
-      vec2 width = fwidth(vThread);
-      vec2 away = abs(fract(vThread - 0.5) - 0.5) / width;
-      float line = 1.0 - min(min(away.x, away.y), 1.0);
-      float room = clamp(0.36 - 1.1 * max(width.x, width.y), 0.0, 0.26);
-      colour = mix(colour, vec3(1.0), line * room);
-    }
-    gl_FragColor = vec4(colour, 1.0);
-  }
-`;
-
-/** Colours in the map: so many that none need be mixed, which is dear in software. */
-const TEXELS = 512;
+import { clothMaterial, useMap } from "./cloth";
 
 export class PlySurface {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
@@ -103,13 +55,7 @@ export class PlySurface {
     geometry.setAttribute("normal", this.normal);
     geometry.setAttribute("share", this.share);
     geometry.setAttribute("thread", new BufferAttribute(threads, 2));
-    const material = new ShaderMaterial({
-      vertexShader: VERTEX,
-      fragmentShader: FRAGMENT,
-      side: DoubleSide,
-      uniforms: { map: { value: null }, push: { value: push }, threads: { value: true } },
-    });
-    this.mesh = new Mesh(geometry, material);
+    this.mesh = new Mesh(geometry, clothMaterial(push));
     this.mesh.frustumCulled = false;
   }
 
@@ -172,15 +118,7 @@ export class PlySurface {
 
   /** Loads the colour map of a field. */
   useMap(field: Field): void {
-    const map = mapOf(field);
-    const texels = new Uint8Array(4 * TEXELS);
-    for (let k = 0; k < TEXELS; k++) texels.set([...colourAt(map, k / (TEXELS - 1)), 255], 4 * k);
-    const texture = new DataTexture(texels, TEXELS, 1);
-    texture.magFilter = texture.minFilter = NearestFilter;
-    texture.needsUpdate = true;
-    const uniform = this.mesh.material.uniforms.map!;
-    (uniform.value as DataTexture | null)?.dispose();
-    uniform.value = texture;
+    useMap(this.mesh.material, field);
   }
 
   /** Draws the threads where two of them are so many CSS pixels apart that they can be told apart. */

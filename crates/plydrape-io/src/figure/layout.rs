@@ -1,4 +1,4 @@
-//! The sheet: title, panels one above the other, colour bar, legend.
+//! The page: title, panels one above the other, colour bar, legend.
 
 use super::axes::{self, Frame, ROOM, plain};
 use super::bar::bar;
@@ -8,8 +8,10 @@ use super::panel::{MOST_MARK, MoldPicture, Stage, colour_value, curved, gripper_
 use super::projection::{Point, View};
 use super::relief::Relief;
 use super::scale::Scale;
+use super::sheet::SheetPicture;
 use super::{FigureError, points};
 use crate::result::ResultFile;
+use crate::sheet::SheetState;
 use plydrape::draping::record::Step;
 use plydrape::measure::Name;
 use plydrape::mold::Mold;
@@ -30,9 +32,13 @@ const DEEP: f64 = 0.35;
 /// Gap up to which the ply counts as touching in a picture (m): the low end of its colours.
 const TOUCHING: f64 = 1e-4;
 
-/// Draws the whole sheet.
-pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, FigureError> {
-    let stage = stage(result, steps);
+/// Draws the whole page.
+pub(super) fn page(
+    result: &ResultFile,
+    steps: &[&Step],
+    sheet: Option<SheetPicture>,
+) -> Result<String, FigureError> {
+    let stage = stage(result, steps, sheet);
     let Frame { low, high, stretch } = stage.frame;
 
     // One scale for all panels: as large as width and height allow.
@@ -55,14 +61,18 @@ pub(super) fn sheet(result: &ResultFile, steps: &[&Step]) -> Result<String, Figu
     let free = PANELS - ROOM[0] - ROOM[2] - wide * scale;
     for (k, step) in steps.iter().enumerate() {
         let top = HEAD + panel * k as f64;
-        canvas.text(&caption(result, step, stretch), [28.0, top + 12.0], heading(14.0))?;
+        canvas.text(&caption(&stage, step), [28.0, top + 12.0], heading(14.0))?;
         let corner = [ROOM[0] + free / 2.0, top + TITLE + ROOM[1]];
         let origin = [corner[0] - scale * from[0], corner[1] - scale * from[1]];
         stage.draw(&mut canvas, &unit.placed(scale, origin), step)?;
     }
     // Lines alone carry no colour of height.
-    if result.scene.ply.grid.cells() > 0 {
-        let name = if curved(result).is_some() { "gap (mm)" } else { "z (mm)" };
+    if result.scene.ply.grid.cells() > 0 || stage.sheet.is_some() {
+        let name = match stage.is_over_mold() {
+            true => "height (mm)",
+            false if curved(result).is_some() => "gap (mm)",
+            false => "z (mm)",
+        };
         let between = [HEAD + 40.0, size[1] - LEGEND - 24.0];
         bar(&mut canvas, name, stage.scale.times(1e3), PANELS + 24.0, between)?;
     }
@@ -84,9 +94,14 @@ pub(super) fn title(title: &str) -> String {
 }
 
 /// `Step 26 — first contact`.
-fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
+fn caption(stage: &Stage, step: &Step) -> String {
+    let (result, stretch) = (stage.result, stage.frame.stretch);
     let number = step.step;
-    let what = if result.summary.first_contact_step == Some(number) {
+    let contact = match (&stage.sheet, &result.summary.sheet) {
+        (Some(_), Some(sheet)) => sheet.first_contact_step,
+        _ => result.summary.first_contact_step,
+    };
+    let what = if contact == Some(number) {
         " — first contact"
     } else if result.steps.len() > 1 && result.steps.first().is_some_and(|s| s.step == number) {
         " — start"
@@ -99,6 +114,10 @@ fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
         1.0 => String::new(),
         more => format!("  (z exaggerated {} ×)", axes::label(more)),
     };
+    if let Some(highest) = stage.sheet.as_ref().and_then(|sheet| sheet.highest(number)) {
+        let over = axes::label((highest * 1e4).round() / 10.0);
+        return format!("Step {number}{what}{note}  (up to {over} mm over the mold)");
+    }
     let gap = match (curved(result), step.measures.get(Name::Gap)) {
         (Some(_), Some(gap)) => format!("  (gap to the mold up to {:.1} mm)", gap.value),
         _ => String::new(),
@@ -107,10 +126,18 @@ fn caption(result: &ResultFile, step: &Step, stretch: f64) -> String {
 }
 
 /// Box, colour scale and mold patch that hold all shown steps.
-fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
-    let shown: Vec<Point> = steps.iter().flat_map(|s| points(result, s)).collect();
+fn stage<'a>(result: &'a ResultFile, steps: &[&Step], sheet: Option<SheetPicture>) -> Stage<'a> {
+    let shown: Vec<Point> = match &sheet {
+        Some(sheet) => {
+            let places =
+                |state: &SheetState| [state.positions.to_vec(), state.grippers.to_vec()].concat();
+            sheet.states.iter().flat_map(places).collect()
+        }
+        None => steps.iter().flat_map(|s| points(result, s)).collect(),
+    };
     let [bottom, top] = bounds(&shown);
-    let scale = match curved(result) {
+    let of_sheet = sheet.as_ref().and_then(SheetPicture::scale);
+    let scale = of_sheet.unwrap_or_else(|| match curved(result) {
         None if top[2] - bottom[2] < 1e-5 => Scale::Even([bottom[2] - 5e-4, top[2] + 5e-4]),
         None => Scale::Even([bottom[2], top[2]]),
         Some(_) => {
@@ -118,7 +145,7 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
                 shown.iter().map(|p| colour_value(result, *p)).fold(10.0 * TOUCHING, f64::max);
             Scale::Orders([TOUCHING, most])
         }
-    };
+    });
     let finite = |p: &&Point| p.iter().all(|c| c.is_finite() && c.abs() < 1e6);
     let target = result.scene.target_grippers().into_iter().flatten().filter(finite);
     let all: Vec<Point> = shown.iter().chain(target).copied().collect();
@@ -149,7 +176,7 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step]) -> Stage<'a> {
         None => exaggeration(high[2] - low[2], across, top[2] - bottom[2]),
         Some(_) => 1.0,
     };
-    Stage { result, frame: Frame { low, high, stretch }, panels: steps.len(), scale, mold }
+    Stage { result, frame: Frame { low, high, stretch }, panels: steps.len(), scale, mold, sheet }
 }
 
 /// Lowest and highest coordinates of some points.
@@ -196,9 +223,11 @@ pub(super) fn mold_picture(
 fn legend(canvas: &mut Canvas, stage: &Stage, steps: &[&Step], y: f64) -> Result<(), FigureError> {
     let word = |canvas: &mut Canvas, text: &str, x: f64| canvas.text(text, [x, y], plain(12.5, -1));
     let mut x = 28.0;
-    canvas.line(&[[x, y], [x + 26.0, y]], RED, 1.7)?;
-    word(canvas, "catenary", x + 34.0)?;
-    x += 118.0;
+    if stage.sheet.is_none() {
+        canvas.line(&[[x, y], [x + 26.0, y]], RED, 1.7)?;
+        word(canvas, "catenary", x + 34.0)?;
+        x += 118.0;
+    }
     let disc: Vec<Px> = (0..24)
         .map(|k| (f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos())
         .map(|(s, c)| [x + 9.0 + 9.0 * c, y + 5.0 * s])
@@ -207,7 +236,7 @@ fn legend(canvas: &mut Canvas, stage: &Stage, steps: &[&Step], y: f64) -> Result
     word(canvas, "gripper", x + 26.0)?;
     x += 100.0;
     let touched = |s: &&Step| s.catenaries.iter().any(|c| c.contact.is_some());
-    if steps.iter().any(touched) {
+    if stage.sheet.is_none() && steps.iter().any(touched) {
         canvas.circle([x + 5.0, y], MOST_MARK, RED, 1.4)?;
         word(canvas, "contact with the mold", x + 17.0)?;
         x += 176.0;

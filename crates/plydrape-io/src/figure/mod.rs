@@ -4,7 +4,8 @@
 //! inside each cell is coloured by z, grippers are black discs tilted with the ply, contact is marked by
 //! red circles. Horizontal lengths have equal scale, z too unless its label says by how much it is
 //! exaggerated. A curved mold is drawn as a shaded surface, never exaggerated, and the ply over it is
-//! coloured by its gap to the mold. Same result, same bytes.
+//! coloured by its gap to the mold. Where the sheet was draped, the figure shows the sheet instead. Same
+//! result, same bytes.
 
 mod axes;
 mod bar;
@@ -17,13 +18,17 @@ mod projection;
 mod relief;
 mod scale;
 pub mod shear_map;
+mod sheet;
 mod shorten;
 
 pub(super) use colour::viridis_rgb;
 pub(super) use panel::{colour_value, gripper_radius};
 
+use crate::OutputError;
 use crate::result::ResultFile;
 use plydrape::draping::record::Step;
+use plydrape::sheet::is_kept;
+use sheet::SheetPicture;
 
 /// The most steps that one figure shows.
 pub const MOST_PANELS: usize = 3;
@@ -76,9 +81,18 @@ pub enum FigureError {
     Drawing(String),
 }
 
-/// The steps that tell most: the first, the first with contact, the last; each once.
+/// The steps that tell most: the first, the first with contact, the last; each once. Of a sheet, those that were kept.
 #[must_use]
 pub fn default_steps(result: &ResultFile) -> Vec<usize> {
+    if let Some(sheet) = &result.summary.sheet {
+        let (planned, keep) = (result.summary.steps_planned, result.scene.settings.sheet.keep);
+        let kept = |step: &usize| is_kept(*step, planned, keep) || *step == sheet.steps;
+        let contact = sheet.first_contact_step.and_then(|step| (step..=sheet.steps).find(kept));
+        let mut steps: Vec<usize> =
+            [Some(1), contact, Some(sheet.steps)].into_iter().flatten().collect();
+        steps.dedup();
+        return steps;
+    }
     let first = result.steps.first().map(|s| s.step);
     let last = result.steps.last().map(|s| s.step);
     let mut steps: Vec<usize> =
@@ -90,8 +104,17 @@ pub fn default_steps(result: &ResultFile) -> Vec<usize> {
 /// The figure of up to three steps, given by their numbers (from 1), as an SVG 900 points wide.
 ///
 /// # Errors
-/// [`FigureError`] if a step is missing or its coordinates are not finite.
-pub fn svg(result: &ResultFile, steps: &[usize]) -> Result<String, FigureError> {
+/// [`OutputError`] if a step is missing, its coordinates are not finite, or the states of the sheet cannot be read.
+pub fn svg(result: &ResultFile, steps: &[usize]) -> Result<String, OutputError> {
+    Ok(drawn(result, steps, SheetPicture::read(result, steps)?)?)
+}
+
+/// The figure, of the sheet where there is one in all these steps.
+fn drawn(
+    result: &ResultFile,
+    steps: &[usize],
+    sheet: Option<SheetPicture>,
+) -> Result<String, FigureError> {
     if steps.len() > MOST_PANELS {
         return Err(FigureError::TooManySteps { asked: steps.len() });
     }
@@ -116,7 +139,7 @@ pub fn svg(result: &ResultFile, steps: &[usize]) -> Result<String, FigureError> 
     }
     match shown.is_empty() {
         true => Err(FigureError::NoStep),
-        false => layout::sheet(result, &shown),
+        false => layout::page(result, &shown, sheet),
     }
 }
 
@@ -182,6 +205,7 @@ mod tests {
     #[test]
     fn steps_that_cannot_be_drawn_are_refused() {
         let mut result = sample::draped(4, 2, 5);
+        let svg = |result: &ResultFile, steps: &[usize]| drawn(result, steps, None);
         assert_eq!(svg(&result, &[]), Err(FigureError::NoStep));
         assert_eq!(
             svg(&result, &[1, 9]),

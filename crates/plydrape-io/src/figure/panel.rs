@@ -9,9 +9,10 @@ use super::piece::{self, Form, Piece, grown, thread};
 use super::projection::{Point, View, turned};
 use super::relief::Relief;
 use super::scale::Scale;
+use super::sheet::SheetPicture;
 use crate::result::ResultFile;
 use crate::surface;
-use plydrape::draping::record::{Gripper, Step};
+use plydrape::draping::record::Step;
 use plydrape::mold::Mold;
 
 /// Radius of a gripper as a share of the shorter side of a cell.
@@ -62,6 +63,8 @@ pub(super) struct Stage<'a> {
     pub scale: Scale,
     /// The patch of mold that is shown.
     pub mold: Option<MoldPicture>,
+    /// The sheet, which is shown instead of the catenaries.
+    pub sheet: Option<SheetPicture>,
 }
 
 /// What is shown of a mold.
@@ -114,12 +117,18 @@ impl Stage<'_> {
         self.mold(canvas, view)?;
         let mut pieces = Vec::new();
         let detail = Detail::of(self.result, self.panels, self.cell_length() * view.scale());
-        let curves = self.result.curves(step);
-        self.ply(&mut pieces, view, (step, &curves), detail);
-        for gripper in &step.grippers {
-            self.gripper(&mut pieces, view, gripper, detail);
+        let sheet = self.sheet.as_ref();
+        if let Some(shown) = sheet.and_then(|sheet| Some((sheet, sheet.state(step.step)?))) {
+            self.sheet(&mut pieces, view, shown);
+        } else {
+            let curves = self.result.curves(step);
+            self.ply(&mut pieces, view, (step, &curves), detail);
+            for gripper in &step.grippers {
+                let held = (gripper.position, gripper.quaternion);
+                self.disc(&mut pieces, view, held, self.lift(detail));
+            }
+            self.contact(&mut pieces, view, (step, &curves), detail);
         }
-        self.contact(&mut pieces, view, (step, &curves), detail);
         if let Some(MoldPicture::Relief(relief)) = &self.mold {
             for line in self.outline() {
                 thread(&mut pieces, view, &line, 0.0, TARGET, 1.2);
@@ -129,6 +138,11 @@ impl Stage<'_> {
             piece::paint(canvas, pieces)?;
         }
         self.frame.front(canvas, view)
+    }
+
+    /// Whether colours tell heights over the mold.
+    pub(super) fn is_over_mold(&self) -> bool {
+        self.sheet.as_ref().is_some_and(|sheet| sheet.scale().is_some())
     }
 
     /// The outline of where the ply should end, side by side, each on the mold.
@@ -248,21 +262,27 @@ impl Stage<'_> {
         }
     }
 
-    /// A disc tilted with the ply, with a thin light edge.
-    fn gripper(&self, pieces: &mut Vec<Piece>, view: &View, gripper: &Gripper, detail: Detail) {
+    /// A gripper at a place and turned by a quaternion: a disc with a thin light edge, brought nearer by `lift` (m).
+    pub(super) fn disc(
+        &self,
+        pieces: &mut Vec<Piece>,
+        view: &View,
+        (place, turn): (Point, [f64; 4]),
+        lift: f64,
+    ) {
         let radius = gripper_radius(self.result);
-        let corners = detail.corners;
+        let corners =
+            Detail::of(self.result, self.panels, self.cell_length() * view.scale()).corners;
         let edge_width = (0.1 * radius * view.scale()).min(0.9);
         let edge = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / corners as f64;
-            let arm = turned(gripper.quaternion, [radius * angle.cos(), radius * angle.sin(), 0.0]);
-            view.at([0, 1, 2].map(|c| gripper.position[c] + arm[c]))
+            let arm = turned(turn, [radius * angle.cos(), radius * angle.sin(), 0.0]);
+            view.at([0, 1, 2].map(|c| place[c] + arm[c]))
         };
         let points: Vec<Px> = (0..corners).map(edge).collect();
-        let depth = view.depth(gripper.position) + self.lift(detail) + 2.0 * radius;
+        let depth = view.depth(place) + lift + 2.0 * radius;
         let mut edge = points.clone();
         edge.push(points[0]);
-        let place = gripper.position;
         let piece = |points, ink, form| Piece { depth, place, points, ink, form };
         pieces.push(piece(points, BLACK, Form::Area));
         if edge_width > 0.2 {

@@ -102,11 +102,11 @@ pub(super) struct Ranges {
     pub direction: [f64; 2],
 }
 
-fn micrometres(p: &[f64; 3]) -> [i32; 3] {
+pub(super) fn micrometres(p: &[f64; 3]) -> [i32; 3] {
     p.map(|c| (c * MICRO).round() as i32)
 }
 
-fn hundredths(degrees: f64) -> i32 {
+pub(super) fn hundredths(degrees: f64) -> i32 {
     (degrees * 1e2).round() as i32
 }
 

@@ -7,14 +7,16 @@
 mod block;
 mod facts;
 mod geometry;
+mod sheet;
 
 use super::OutputError;
 use crate::result::ResultFile;
 use facts::{Fact, facts};
 use geometry::{Detail, Geometry, Ranges};
 use plydrape::draping::record::{Step, Worst};
-use plydrape::measure::{Name, Sense};
+use plydrape::measure::{Name, Sense, Subject, Verdict};
 use serde::Serialize;
+use sheet::{Sheet, Shown, sheet};
 
 /// The page without a result.
 const PAGE: &str = include_str!("report.html");
@@ -43,6 +45,8 @@ struct Page<'a> {
     measures: Vec<Course<'a>>,
     fields: Vec<Field>,
     geometry: Geometry,
+    /// The ply as a sheet, which decides, if it was draped.
+    sheet: Option<Sheet<'a>>,
     left_out: Vec<String>,
 }
 
@@ -55,6 +59,8 @@ struct Limit<'a> {
     unit: &'a str,
     least: bool,
     ok: bool,
+    /// It is one of the motion, which counts with every model.
+    motion: bool,
     step: Option<usize>,
     #[serde(rename = "where")]
     at: &'a str,
@@ -83,17 +89,45 @@ struct Field {
     label: &'static str,
     unit: &'static str,
     on: &'static str,
+    /// `even`, or `orders` where equal ratios are equally far apart; what lies beyond the ends has their colours.
+    scale: &'static str,
     low: f64,
     high: f64,
     limit: Option<f64>,
 }
 
+impl Field {
+    /// Equal differences are equally far apart.
+    fn even(
+        key: &'static str,
+        label: &'static str,
+        unit: &'static str,
+        on: &'static str,
+        [low, high]: [f64; 2],
+        limit: Option<f64>,
+    ) -> Self {
+        Field { key, label, unit, on, scale: "even", low, high, limit }
+    }
+
+    /// Equal ratios are equally far apart; both ends are positive.
+    fn orders(
+        key: &'static str,
+        label: &'static str,
+        unit: &'static str,
+        on: &'static str,
+        ends: [f64; 2],
+        limit: Option<f64>,
+    ) -> Self {
+        Field { scale: "orders", ..Field::even(key, label, unit, on, ends, limit) }
+    }
+}
+
 /// The page of a result. Same result, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if a number is not finite.
+/// [`OutputError`] if a number is not finite, or the states of the sheet cannot be read.
 pub fn html(result: &ResultFile) -> Result<String, OutputError> {
-    let data = super::json::of(&page(result))?.replace('<', "\\u003c");
+    let data = super::json::of(&page(result)?)?.replace('<', "\\u003c");
     let title = result.scene.title.replace('&', "&amp;").replace('<', "&lt;");
     let whole =
         PAGE.split_once(TITLE).and_then(|(head, rest)| Some((head, rest.split_once(DATA)?)));
@@ -101,12 +135,22 @@ pub fn html(result: &ResultFile) -> Result<String, OutputError> {
     Ok([head, &title, body, data.trim_end(), tail].concat())
 }
 
-fn page(result: &ResultFile) -> Page<'_> {
+fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
     let (scene, summary) = (&result.scene, &result.summary);
-    let detail = Detail::of(result);
+    let mut detail = Detail::of(result);
+    let kept = Shown::of(result)?;
+    if let Some(kept) = &kept {
+        // both models in the same steps
+        detail.steps.retain(|k| kept.has(result.steps[*k].step));
+    }
     let shown: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
+    let steps: Vec<usize> = shown.iter().map(|step| step.step).collect();
     let (geometry, ranges) = Geometry::of(result, &detail);
-    Page {
+    let sheet = match (kept, &summary.sheet) {
+        (Some(kept), Some(outcome)) => Some(sheet(result, outcome, kept, &steps)?),
+        _ => None,
+    };
+    Ok(Page {
         format: "plydrape-page",
         version: 1,
         program: &result.program,
@@ -116,7 +160,7 @@ fn page(result: &ResultFile) -> Page<'_> {
         accepted: summary.accepted,
         interrupted: summary.interrupted(),
         stopped: summary.stopped.as_deref(),
-        steps: shown.iter().map(|step| step.step).collect(),
+        steps,
         times: shown.iter().map(|step| step.time).collect(),
         grid: [scene.ply.grid.nu, scene.ply.grid.nv],
         divisions: detail.intervals,
@@ -124,25 +168,35 @@ fn page(result: &ResultFile) -> Page<'_> {
         measures: courses(result, &shown),
         fields: fields(result, &ranges),
         geometry,
+        sheet,
         left_out: detail.left_out(result.steps.len()),
-    }
+    })
 }
 
 /// Every limit of a result, with the measure that it is about.
 fn limits(result: &ResultFile) -> Vec<Limit<'_>> {
-    let limits = result.summary.limits.iter().map(|verdict| Limit {
+    let limits = result.summary.limits.iter().map(|verdict| {
+        let course = has_course(result, verdict.name).then(|| verdict.name.measure().key());
+        limit(verdict, course)
+    });
+    limits.collect()
+}
+
+/// A judged limit, with the key of its measure over the steps.
+fn limit<'a>(verdict: &'a Verdict, measure: Option<&'static str>) -> Limit<'a> {
+    Limit {
         name: verdict.name.title(),
         value: verdict.value,
         limit: verdict.limit,
         unit: &verdict.unit,
         least: verdict.is_least(),
         ok: verdict.ok,
+        motion: verdict.name.measure().subject() == Subject::Motion,
         step: verdict.step,
         at: &verdict.at,
         place: verdict.place,
-        measure: has_course(result, verdict.name).then(|| verdict.name.measure().key()),
-    });
-    limits.collect()
+        measure,
+    }
 }
 
 /// Whether a measure has a value in some step.
@@ -173,23 +227,14 @@ fn courses<'a>(result: &'a ResultFile, shown: &[&'a Step]) -> Vec<Course<'a>> {
 
 /// What colours can tell of this result.
 fn fields(result: &ResultFile, ranges: &Ranges) -> Vec<Field> {
-    let field = |key, label, unit, on, [low, high]: [f64; 2], limit| Field {
-        key,
-        label,
-        unit,
-        on,
-        low,
-        high,
-        limit,
-    };
-    let mut out = vec![field("height", "height", "mm", "vertex", ranges.height, None)];
+    let mut out = vec![Field::even("height", "height", "mm", "vertex", ranges.height, None)];
     if let Some(range) = ranges.gap {
-        out.push(field("gap", "gap to the mold", "mm", "vertex", range, None));
+        out.push(Field::even("gap", "gap to the mold", "mm", "vertex", range, None));
     }
     if result.scene.ply.grid.cells() > 0 {
         let limit = Some(result.scene.limits.shear.to_degrees());
-        out.push(field("shear", "shear angle", "°", "cell", ranges.shear, limit));
-        out.push(field("direction", "warp direction", "°", "cell", ranges.direction, None));
+        out.push(Field::even("shear", "shear angle", "°", "cell", ranges.shear, limit));
+        out.push(Field::even("direction", "warp direction", "°", "cell", ranges.direction, None));
     }
     out
 }
@@ -217,7 +262,7 @@ mod tests {
     #[test]
     fn limits_know_their_measures() {
         let result = sample::draped(4, 2, 3);
-        let page = page(&result);
+        let page = page(&result).unwrap();
         let tilt = page.limits.iter().find(|limit| limit.name == "tilt").unwrap();
         assert_eq!(tilt.measure, Some("tilt_deg"));
         for course in &page.measures {

@@ -13,6 +13,7 @@ mod error;
 mod kept;
 mod read;
 mod seal;
+mod shown;
 mod spool;
 
 pub use array::{ARRAYS, Array, Extent, Scalar};
@@ -21,6 +22,8 @@ pub use error::SheetError;
 pub use kept::SheetKept;
 pub use read::SheetStates;
 pub use seal::SheetSeal;
+pub use shown::SheetSides;
+pub(crate) use shown::normal;
 pub use spool::{SheetFile, SheetSpool};
 
 use std::borrow::Cow;

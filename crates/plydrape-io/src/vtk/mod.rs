@@ -5,6 +5,8 @@
 //! | `ply.pvd`, `ply_0001.vtp` … | the ply's surface in quads (`ply`); none of a strip |
 //! | `catenaries.pvd`, `catenaries_0001.vtp` … | every catenary in its pieces (`catenaries`) |
 //! | `grippers.pvd`, `grippers_0001.vtp` … | a point for each gripper (`grippers`) |
+//! | `sheet.pvd`, `sheet_0001.vtp` … | the cells of the sheet in each step that was kept (`sheet`); none without a sheet |
+//! | `pads.pvd`, `pads_0001.vtp` … | the pads of the sheet and the forces on them |
 //! | `mold.vtp` | the mold under the drape (`mold`), if there is one |
 //! | `drape.pvd` | all of them as parts of one series |
 //!
@@ -18,15 +20,17 @@ mod grippers;
 mod mold;
 mod ply;
 pub(super) mod polydata;
+mod sheet;
 
 use super::OutputError;
 use crate::result::ResultFile;
+use crate::sheet::SheetSides;
 use collection::{Collection, Part};
 
 /// All files: names and contents. Same result, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if a number is not finite.
+/// [`OutputError`] if a number is not finite, or the states of the sheet cannot be read.
 pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError> {
     result.check_finite()?;
     let mut files = Vec::new();
@@ -57,7 +61,29 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
         }
     }
     files.extend(mold.map(|data| ("mold.vtp".to_owned(), data.bytes())));
-    for (name, collection) in series.into_iter().chain([("drape", all)]) {
+
+    // the sheet in the steps that were kept
+    let mut of_sheet = ["sheet", "pads"].map(|name| (name, Collection::default()));
+    if let Some(kept) = &result.sheet_states {
+        let mut states = kept.open()?;
+        let sides = SheetSides::new(states.mesh());
+        for (step, n) in states.steps()? {
+            let Some(state) = states.state(n)? else { continue };
+            let data = [
+                sheet::sheet(states.mesh(), states.landing_step(), &sides, &state),
+                sheet::pads(&state),
+            ];
+            for (k, (data, (name, collection))) in data.into_iter().zip(&mut of_sheet).enumerate() {
+                let file = format!("{name}_{step:0digits$}.vtp");
+                let (time, part) = (state.time, series.len() + 1 + k);
+                let own = Part { time, part, name, file: file.clone() };
+                collection.parts.push(Part { part: 0, ..own.clone() });
+                all.parts.push(own);
+                files.push((file, data.at(time).bytes()));
+            }
+        }
+    }
+    for (name, collection) in series.into_iter().chain(of_sheet).chain([("drape", all)]) {
         if !collection.parts.is_empty() {
             files.push((format!("{name}.pvd"), collection.text().into_bytes()));
         }

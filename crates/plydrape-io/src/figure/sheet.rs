@@ -1,0 +1,113 @@
+//! The sheet in a panel: its cells, coloured by their height over the mold, fabric lines, and its pads.
+//!
+//! The scale is the same in all figures, by orders of size from a tenth of a millimetre to ten, so that pictures can be
+//! compared.
+
+use super::colour::{FRAME, WEAVE, viridis};
+use super::panel::Stage;
+use super::piece::{Form, Piece, grown, thread};
+use super::projection::{Point, View};
+use super::scale::Scale;
+use crate::read::ReadError;
+use crate::result::ResultFile;
+use crate::sheet::SheetState;
+
+/// Heights at the ends of the colours (m).
+const HEIGHTS: [f64; 2] = [1e-4, 1e-2];
+/// Squares of all panels up to which each cell is drawn in four, and cells up to which fabric lines are drawn.
+const SQUARES: usize = 8000;
+const LINES: usize = 3500;
+
+/// The sheet in the steps of a figure.
+pub(super) struct SheetPicture {
+    /// Corners of the cells.
+    pub cells: Vec<[usize; 4]>,
+    /// The states that are shown, one a panel.
+    pub states: Vec<SheetState<'static>>,
+}
+
+impl SheetPicture {
+    /// Reads the states of some steps; none of a result without a sheet, or one that has no state in one of them.
+    pub fn read(result: &ResultFile, steps: &[usize]) -> Result<Option<Self>, ReadError> {
+        let Some(kept) = &result.sheet_states else { return Ok(None) };
+        let mut file = kept.open()?;
+        let known = file.steps()?;
+        let mut states = Vec::new();
+        for step in steps {
+            let number = known.iter().find(|(kept, _)| kept == step).map(|(_, n)| *n);
+            let Some(number) = number else { return Ok(None) };
+            states.extend(file.state(number)?);
+        }
+        let cells = file.mesh().cells.iter().map(|cell| cell.map(|n| n as usize)).collect();
+        Ok(Some(SheetPicture { cells, states }))
+    }
+
+    /// The state of a step.
+    pub fn state(&self, step: usize) -> Option<&SheetState<'static>> {
+        self.states.iter().find(|state| state.step as usize == step)
+    }
+
+    /// What its colours stand for (m); none without a mold.
+    pub fn scale(&self) -> Option<Scale> {
+        let known = self.states.iter().flat_map(|state| state.height.iter()).any(|h| h.is_finite());
+        known.then_some(Scale::Orders(HEIGHTS))
+    }
+
+    /// The largest height in a step (m).
+    pub fn highest(&self, step: usize) -> Option<f64> {
+        let heights = self.state(step)?.height.iter().copied().filter(|h| h.is_finite());
+        heights.reduce(f64::max)
+    }
+}
+
+impl Stage<'_> {
+    /// The cells of a state, its fabric lines and its pads.
+    pub(super) fn sheet(
+        &self,
+        pieces: &mut Vec<Piece>,
+        view: &View,
+        (picture, state): (&SheetPicture, &SheetState),
+    ) {
+        let drawn = picture.cells.len() * self.panels;
+        let parts = if 4 * drawn <= SQUARES { 2 } else { 1 };
+        let mut lift = 0.0;
+        for cell in &picture.cells {
+            let at = |[a, b]: [f64; 2]| {
+                let weights = [(1.0 - a) * (1.0 - b), a * (1.0 - b), a * b, (1.0 - a) * b];
+                let sum = |of: &dyn Fn(usize) -> f64| {
+                    (0..4).map(|k| weights[k] * of(cell[k])).sum::<f64>()
+                };
+                ([0, 1, 2].map(|c| sum(&|n| state.positions[n][c])), sum(&|n| state.height[n]))
+            };
+            let share = |k: usize| k as f64 / parts as f64;
+            for [k, m] in (0..parts * parts).map(|n| [n % parts, n / parts]) {
+                let corners = [[k, m], [k + 1, m], [k + 1, m + 1], [k, m + 1]];
+                let corners = corners.map(|corner| at(corner.map(share)).0);
+                let (place, height) = at([k, m].map(|n| share(n) + 0.5 / parts as f64));
+                let value = if self.is_over_mold() { height } else { place[2] };
+                let ink = match value.is_finite() {
+                    true => viridis(self.scale.share(value.max(0.0))),
+                    false => FRAME,
+                };
+                let depth = corners.iter().map(|p| view.depth(*p)).sum::<f64>() / 4.0;
+                let points = grown(&corners.map(|p| view.at(p)));
+                pieces.push(Piece { depth, place, points, ink, form: Form::Area });
+            }
+            let sides = [0, 1, 2, 3].map(|k| [cell[k], cell[(k + 1) % 4]]);
+            lift = length(sides[0].map(|n| state.positions[n])).max(lift);
+            if drawn <= LINES {
+                for side in [sides[0], sides[3]] {
+                    let line = side.map(|n| state.positions[n]);
+                    thread(pieces, view, &line, 0.5 * length(line), WEAVE, 0.6);
+                }
+            }
+        }
+        for (place, turn) in state.grippers.iter().zip(state.pad_rotation.iter()) {
+            self.disc(pieces, view, (*place, *turn), lift);
+        }
+    }
+}
+
+fn length([a, b]: [Point; 2]) -> f64 {
+    plydrape::mold::distance(a, b)
+}

@@ -1,0 +1,142 @@
+/**
+ * The states of the sheet as they are drawn: everything that the page is given of it, unpacked.
+ */
+
+import { unpack, type Frames } from "./block";
+import { MICRO } from "./micro";
+import type { Field, Place, SheetData } from "./page_data";
+
+/** What stands for a height that is not known. */
+const UNKNOWN = -(2 ** 31);
+
+export class SheetStates {
+  /** Cells around each node. */
+  private readonly around: number[][];
+
+  private constructor(
+    readonly data: SheetData,
+    private readonly steps: number[],
+    readonly places: Int32Array,
+    readonly positions: Frames,
+    private readonly height: Frames | null,
+    private readonly contact: Frames,
+    private readonly shear: Frames,
+    private readonly strain: Frames,
+    private readonly tension: Frames,
+    readonly grippers: Frames,
+    readonly normals: Frames,
+    readonly forces: Frames,
+  ) {
+    this.around = data.landing.map(() => []);
+    data.cells.forEach((node, k) => this.around[node]!.push(k >> 2));
+  }
+
+  /** `steps` are the numbers of the page's steps. */
+  static async unpack(data: SheetData, steps: number[]): Promise<SheetStates> {
+    return new SheetStates(
+      data,
+      steps,
+      (await unpack(data.places, "places of the nodes")).values,
+      await unpack(data.positions, "nodes"),
+      data.height === null ? null : await unpack(data.height, "heights"),
+      await unpack(data.contact, "contact of the nodes"),
+      await unpack(data.shear, "shear of the cells"),
+      await unpack(data.strain, "strain"),
+      await unpack(data.tension, "tension"),
+      await unpack(data.grippers, "pads"),
+      await unpack(data.normals, "normals of the pads"),
+      await unpack(data.forces, "forces"),
+    );
+  }
+
+  /** The state that is shown in a step of the page, by their indices; null for none. */
+  stateOf(index: number): number | null {
+    return this.data.states[index] ?? null;
+  }
+
+  /** The value of a colour mode at a node or cell in a step of the page, in the mode's unit; null where there is none. */
+  value(field: Field, index: number, item: number): number | null {
+    const state = this.stateOf(index);
+    if (state === null) return null;
+    switch (field.key) {
+      case "over_mold":
+        return this.overMold(state, item);
+      case "height":
+        return this.positions.at(state)[3 * item + 2]! / 1000;
+      case "shear":
+        return this.shear.at(state)[item]! / 100;
+      case "strain":
+        return this.strain.at(state)[item]! / 1e4;
+      case "landing": {
+        const step = this.data.landing[item]!;
+        return step > 0 && step <= this.steps[index]! ? step : null;
+      }
+      default:
+        return null;
+    }
+  }
+
+  /** A colour mode with the range of its values in one step alone; a scale of orders keeps its ends. */
+  within(field: Field, index: number): Field {
+    if (field.scale === "orders") return field;
+    const count = field.on === "cell" ? this.shear.count : this.positions.count;
+    let [low, high] = [Infinity, -Infinity];
+    for (let item = 0; item < count; item++) {
+      const value = this.value(field, index, item);
+      if (value === null) continue;
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+    }
+    return low <= high ? { ...field, low, high } : field;
+  }
+
+  /** Height of a node over the mold (mm). */
+  overMold(state: number, node: number): number | null {
+    const height = this.height?.at(state)[node] ?? UNKNOWN;
+    return height === UNKNOWN ? null : height / 1000;
+  }
+
+  touches(state: number, node: number): boolean {
+    return this.contact.at(state)[node] !== 0;
+  }
+
+  /** The cell around a node that is sheared most, as its shear angle (°). */
+  shearAt(state: number, node: number): number | null {
+    return this.most(this.shear.at(state), node, 100)?.[0] ?? null;
+  }
+
+  /** Strain (%) and tension (N/m) beside a node, where the strain is largest. */
+  yarnAt(state: number, node: number): [strain: number, tension: number] | null {
+    const most = this.most(this.strain.at(state), node, 1e4);
+    return most && [most[0], this.tension.at(state)[most[1]]! / 1000];
+  }
+
+  /** Force of the sheet on a pad (N). */
+  force(state: number, gripper: number): Place {
+    const forces = this.forces.at(state);
+    return [0, 1, 2].map((c) => forces[3 * gripper + c]! * 1e-6) as Place;
+  }
+
+  /** Largest force on a pad in a state (N). */
+  mostForce(state: number): number {
+    let most = 0;
+    for (let k = 0; k < this.forces.count; k++) most = Math.max(most, Math.hypot(...this.force(state, k)));
+    return most;
+  }
+
+  /** Where a node is (m). */
+  node(state: number, node: number): Place {
+    const points = this.positions.at(state);
+    return [0, 1, 2].map((c) => points[3 * node + c]! * MICRO) as Place;
+  }
+
+  /** The largest amount in the cells around a node, and its cell. */
+  private most(values: Int32Array, node: number, unit: number): [number, number] | null {
+    let found: [number, number] | null = null;
+    for (const cell of this.around[node]!) {
+      const value = values[cell]! / unit;
+      if (found === null || Math.abs(value) > Math.abs(found[0])) found = [value, cell];
+    }
+    return found;
+  }
+}

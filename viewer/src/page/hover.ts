@@ -1,0 +1,90 @@
+/** What lies under the mouse on the sheet: a node with its values, or a gripper with its force. */
+
+import type { Motion } from "../data/motion";
+import { short, withUnit } from "../data/number";
+import type { SheetStates } from "../data/sheet_states";
+import type { Scene3d } from "../scene/scene3d";
+import type { Found } from "../scene/sheet_picture";
+import { byId, make } from "./dom";
+import type { State } from "./state";
+
+/** Distance of the plate from the mouse (CSS pixels). */
+const AWAY = 16;
+
+export function linkHover(state: State, motion: Motion, scene: Scene3d): void {
+  const { sheet } = motion;
+  if (sheet === null || scene.sheet === null) return;
+  const picture = scene.sheet;
+  const view = byId("view");
+  const plate = byId("hover");
+  let mouse: [number, number] | null = null;
+  let waiting = false;
+
+  const show = () => {
+    waiting = false;
+    const { index, model, playing } = state.now;
+    const at = sheet.stateOf(index);
+    const found =
+      mouse === null || model !== "sheet" || playing || at === null ? null : picture.under(scene.eye, mouse);
+    plate.hidden = found === null;
+    if (found === null || mouse === null || at === null) return;
+    const lines = found.kind === "node" ? ofNode(sheet, at, found) : ofGripper(motion, at, found);
+    plate.replaceChildren(...lines.map((line, k) => make(k === 0 ? "b" : "span", {}, line)));
+    const [x, y] = mouse;
+    const left = x + AWAY + plate.offsetWidth > view.clientWidth ? x - AWAY - plate.offsetWidth : x + AWAY;
+    const top = Math.min(Math.max(y - plate.offsetHeight / 2, 4), view.clientHeight - plate.offsetHeight - 4);
+    plate.style.translate = `${left}px ${top}px`;
+  };
+  const later = () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(show);
+  };
+  view.addEventListener("pointermove", (event) => {
+    const box = view.getBoundingClientRect();
+    mouse = event.buttons === 0 ? [event.clientX - box.left, event.clientY - box.top] : null;
+    later();
+  });
+  view.addEventListener("pointerleave", () => {
+    mouse = null;
+    later();
+  });
+  state.listen(later);
+
+  const note = byId("no-state");
+  state.listen(({ index, model }) => {
+    note.hidden = model !== "sheet" || sheet.stateOf(index) !== null;
+    note.textContent = "There is no state of the sheet in this step.";
+  });
+}
+
+function ofNode(sheet: SheetStates, state: number, { number }: Found): string[] {
+  const [u, v] = [0, 1].map((c) => short(sheet.places[2 * number + c]! / 1000));
+  const height = sheet.overMold(state, number);
+  const shear = sheet.shearAt(state, number);
+  const yarn = sheet.yarnAt(state, number);
+  const lines = [`u ${u!}, v ${v!} mm`];
+  if (height !== null) lines.push(`${withUnit(short(round(height)), "mm")} over the mold`);
+  if (sheet.touches(state, number)) lines.push("touches the mold");
+  if (sheet.data.landing[number]! > 0) lines.push(`lands in step ${String(sheet.data.landing[number])}`);
+  if (shear !== null) lines.push(`shear ${withUnit(short(shear), "°")}`);
+  if (yarn !== null)
+    lines.push(`strain ${withUnit(short(yarn[0]), "%")}, tension ${withUnit(short(yarn[1]), "N/m")}`);
+  return lines;
+}
+
+function ofGripper(motion: Motion, state: number, { number }: Found): string[] {
+  const [nu] = motion.data.grid;
+  const force = motion.sheet!.force(state, number);
+  const level = Math.hypot(force[0], force[1]);
+  return [
+    `gripper [${String(number % nu)}, ${String(Math.floor(number / nu))}]`,
+    `force ${withUnit(short(Math.hypot(...force)), "N")}`,
+    `${withUnit(short(level), "N")} level, ${withUnit(short(force[2]), "N")} upwards`,
+  ];
+}
+
+/** Whole micrometres, and no zero with a sign. */
+function round(value: number): number {
+  return Math.round(value * 1000) / 1000 + 0;
+}
