@@ -245,6 +245,7 @@ async function sheetShows(report, page) {
     if (Number(step) !== data.steps.at(-1)) continue;
     // from above the node that is highest over the mold, and the gripper with the largest force
     await page.keyboard.press("t");
+    await frames(page, 2);
     const node = heights.indexOf(Math.max(...heights));
     const number = (text) => parseFloat(text.replaceAll("−", "-"));
     const found = await hoverOver(page, nodes[node]);

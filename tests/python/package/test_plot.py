@@ -425,7 +425,7 @@ def test_the_extra_is_named_where_it_is_missing(
 
 
 def test_maps_of_the_sheet_hold_its_nodes_cells_and_yarns(sheet: plydrape.Result) -> None:
-    """Colours of cells, steps of landing and yarns on the fabric are those of the result's arrays."""
+    """Colours of cells, steps of landing and yarns are those of the result's arrays."""
     held = sheet.sheet
     assert held is not None
     figure = plot.sheet(sheet, ["height", "landing", "shear", "tension"])
