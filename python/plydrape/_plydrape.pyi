@@ -34,6 +34,7 @@ __all__ = [
     "Ply",
     "Result",
     "Scene",
+    "Sheet",
     "Solver",
     "Span",
     "Surface",
@@ -616,7 +617,7 @@ class Plan:
     @property
     def accepted(self, /) -> bool:
         """
-        Whether every limit is kept.
+        Whether every limit is kept, by the model that decides.
         """
     @property
     def checkpoint(self, /) -> str:
@@ -673,7 +674,7 @@ class Plan:
         """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
-        Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json into a
+        Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html, plan.json, and of a sheet sheet.npz, into a
         folder, all or none, and returns their paths.
 
         Raises:
@@ -771,7 +772,7 @@ class Result:
     @property
     def accepted(self, /) -> bool:
         """
-        Whether every limit holds.
+        Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries.
         """
     @property
     def cell(self, /) -> tuple[float, float]:
@@ -797,7 +798,7 @@ class Result:
     @property
     def converged(self, /) -> bool:
         """
-        Whether every equilibrium was found.
+        Whether every equilibrium was found, by the model that decides.
         """
     def export(
         self, /, to: typing.Literal["vtk", "inp", "ros2", "csv", "svg"], folder: str | PathLike[str]
@@ -845,7 +846,7 @@ class Result:
     @property
     def limits(self, /) -> list[dict[str, Any]]:
         """
-        Every limit, judged: dicts with name, value, limit, unit, ok, step, where and place.
+        Every limit of the catenaries, judged: dicts with name, value, limit, unit, ok, step, where and place.
         """
     def lines(self, /, step: SupportsIndex) -> list[NDArray[float64]]:
         """
@@ -992,6 +993,22 @@ class Result:
         """
         Shear angle of each cell (°), shape (steps, cells along v, cells along u); 0 where no diagonal shears.
         """
+    @property
+    def sheet(self, /) -> Sheet | None:
+        """
+        The whole ply as a sheet over its steps; None where the catenaries decide. Everything else here is of the
+        catenaries.
+
+        Raises:
+            ResultError: If sheet.npz is not beside the result that was read, or was changed.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> plydrape.simulate(scene).sheet is None
+            True
+            >>> plydrape.simulate(scene, model="sheet").sheet.converged
+            True
+        """
     def show(self, /, *, height: SupportsIndex = 640) -> plydrape.notebook.Page:
         """
         The page of the result inside a notebook.
@@ -1058,7 +1075,7 @@ class Result:
             >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
             >>> result = plydrape.simulate(scene)
             >>> sorted(result.to_dict())
-            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'sheet_file', 'steps', 'summary', 'version']
+            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
         """
     def to_json(self, /) -> str:
         """
@@ -1072,8 +1089,8 @@ class Result:
         """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
-        Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, and of a plan motion.csv, into a
-        folder, all or none, and returns their paths.
+        Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, of a plan motion.csv, and of a sheet
+        sheet.npz, into a folder, all or none, and returns their paths.
 
         Raises:
             OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
@@ -1239,6 +1256,118 @@ class Scene:
             >>> higher = scene.with_motion(scene.times, scene.positions + [0, 0, 0.01])
             >>> float((higher.positions - scene.positions).max().round(9))
             0.01
+        """
+
+@final
+class Sheet:
+    """
+    The whole ply as a sheet: its states over the steps that were kept, what was measured, and the verdict.
+
+    Nodes stand where lines of the fabric cross; segments join two neighbours along a line, cells are between four nodes.
+    Arrays are in m, N, rad, s unless the name says otherwise. Each access reads the states of sheet.npz once, one at a time.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene, model="sheet")
+        >>> sheet = result.sheet
+        >>> sheet.positions.shape, sheet.summary["first_contact_step"]
+        ((30, 341, 3), 22)
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def accepted(self, /) -> bool:
+        """
+        Whether every limit of the sheet holds and every state was found.
+        """
+    @property
+    def areas(self, /) -> NDArray[float64]:
+        """
+        Fabric area that belongs to each node (m²), shape (nodes,).
+        """
+    @property
+    def cells(self, /) -> NDArray[uint32]:
+        """
+        Nodes at the corners of each cell, in order around it, shape (cells, 4).
+        """
+    @property
+    def contact(self, /) -> NDArray[bool_]:
+        """
+        Whether each node is in contact with the mold, shape (states, nodes).
+        """
+    @property
+    def converged(self, /) -> bool:
+        """
+        Whether every step was solved and the ply is at rest at the end.
+        """
+    @property
+    def grippers(self, /) -> NDArray[float64]:
+        """
+        Positions of the grippers' pads (m), shape (states, grippers, 3).
+        """
+    @property
+    def heights(self, /) -> NDArray[float64]:
+        """
+        Height of the nodes over the mold (m), shape (states, nodes); nan where there is no mold.
+        """
+    @property
+    def landing_step(self, /) -> NDArray[int64]:
+        """
+        Step in which each node came to the mold and stayed, shape (nodes,); 0 of one that did not.
+        """
+    @property
+    def limits(self, /) -> list[dict[str, Any]]:
+        """
+        Every limit of the sheet, judged: dicts as in `Result.limits`.
+        """
+    @property
+    def pad_forces(self, /) -> NDArray[float64]:
+        """
+        Force of the ply on each pad (N), shape (states, grippers, 3).
+        """
+    @property
+    def pad_quaternions(self, /) -> NDArray[float64]:
+        """
+        Orientations of the pads as quaternions x, y, z, w, shape (states, grippers, 4): z along the pad's normal, x along u.
+        """
+    @property
+    def places(self, /) -> NDArray[float64]:
+        """
+        Fabric coordinates u, v of the nodes (m), shape (nodes, 2).
+        """
+    @property
+    def positions(self, /) -> NDArray[float64]:
+        """
+        Positions of the nodes (m), shape (states, nodes, 3).
+        """
+    @property
+    def segments(self, /) -> NDArray[uint32]:
+        """
+        Nodes at both ends of each yarn segment, shape (segments, 2), those along u first.
+        """
+    @property
+    def shear(self, /) -> NDArray[float64]:
+        """
+        Shear angle of the cells (rad), shape (states, cells).
+        """
+    @property
+    def steps(self, /) -> NDArray[int64]:
+        """
+        The steps that were kept, shape (states,): they count from 1, the start.
+        """
+    @property
+    def summary(self, /) -> dict[str, Any]:
+        """
+        The outcome: `sheet` in the `summary` of result.json.
+        """
+    @property
+    def tension(self, /) -> NDArray[float64]:
+        """
+        Tension of the segments per width (N/m), shape (states, segments).
+        """
+    @property
+    def times(self, /) -> NDArray[float64]:
+        """
+        Time of each state (s), shape (states,).
         """
 
 @final
@@ -1458,7 +1587,7 @@ def materials() -> list[str]:
 
     Example:
         >>> plydrape.materials()
-        ['krogh2018', 'cao2008_plain']
+        ['krogh2018', 'cao2008_plain', 'petrak2025_polyester_twill', 'petrak2025_polyester_plain', 'petrak2025_cotton_twill']
     """
 
 def measures() -> list[Measure]:
@@ -1502,6 +1631,8 @@ def plan(
     """
     Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
 
+    Where the scene's model is the sheet, the plan is draped by it too, and its verdict counts.
+
     Other threads of Python run on meanwhile. Ctrl-C raises KeyboardInterrupt at once; to stop early and keep the
     best so far, give the search fewer `evaluations` in the scene's `plan`.
 
@@ -1517,7 +1648,7 @@ def plan(
 
     Raises:
         PlanError: If the scene has no mold or target, or `checkpoint` is not of its ply.
-        SceneError: If its motion has a `duration`, which a plan would ignore.
+        SceneError: If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
         ValueError: If there is no such method, or `checkpoint` is no plan.json.
 
     Example:
@@ -1528,7 +1659,10 @@ def plan(
     """
 
 def simulate(
-    scene: Scene, *, progress: typing.Callable[[int, int, str], object] | None = None
+    scene: Scene,
+    *,
+    model: typing.Literal["sheet", "catenaries"] | None = None,
+    progress: typing.Callable[[int, int, str], object] | None = None,
 ) -> Result:
     """
     Drapes the ply of a scene along its motion, as `plydrape simulate` does.
@@ -1537,20 +1671,30 @@ def simulate(
 
     Args:
         scene: The scene.
+        model: The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
         progress: Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
 
     Returns:
         The result; a drape that breaks limits is a result all the same.
 
+    Raises:
+        SceneError: If the scene has no sheet, because its material lacks a stiffness for instance.
+        OutputError: If the states of the sheet cannot be kept in the folder for temporary files.
+        ValueError: If there is no such model.
+
     Example:
         >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
         >>> plydrape.simulate(scene).accepted
         True
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plydrape.simulate(scene, model="sheet").sheet
+        <plydrape.Sheet of 341 nodes, 30 states, not accepted>
     """
 
 def simulate_all(
     scenes: typing.Iterable[Scene],
     *,
+    model: typing.Literal["sheet", "catenaries"] | None = None,
     threads: SupportsIndex | None = None,
     progress: typing.Callable[[int, int, str], object] | None = None,
 ) -> list[Result]:
@@ -1559,11 +1703,15 @@ def simulate_all(
 
     Args:
         scenes: The scenes.
+        model: The model that decides, instead of that of each scene: "sheet" or "catenaries".
         threads: How many at once; one a core unless given. The results do not depend on it.
         progress: Called with (drapes done, drapes, what is done), some 50 times a second.
 
     Returns:
         One result a scene, in their order.
+
+    Raises:
+        SceneError, OutputError, ValueError: As `simulate`.
 
     Example:
         >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")

@@ -336,6 +336,35 @@ mod tests {
         assert_eq!(infeasible_limits(&[]), "");
     }
 
+    /// Each model has its own line; the sheet's limits and those of the motion decide, whatever the catenaries say.
+    #[test]
+    fn the_verdict_of_the_sheet_says_that_it_decides() {
+        let mut result = sample::draped(4, 2, 30);
+        let mut sheet = sample::sheet_summary();
+        sheet.limits = vec![limit(Name::Height, 0.2, 0.5, true)];
+        result.summary.limits = vec![limit(Name::SlackRatio, 1.0, 0.05, false)];
+        result.summary.decide_by(sheet.clone());
+        let text = verdict(&result);
+        assert!(text.contains("\nnot accepted by the catenaries: slack ratio 1 mm"), "{text}");
+        assert!(text.ends_with("\naccepted by the sheet, which decides\n"), "{text}");
+
+        let workspace = limit(Name::Workspace, 3.0, 0.0, false);
+        result.summary.limits.push(workspace);
+        result.summary.decide_by(sheet.clone());
+        let text = verdict(&result);
+        let worst = "\nnot accepted by the sheet, which decides\n  workspace 3 mm against 0 mm";
+        assert!(text.contains(worst), "{text}");
+
+        sheet.accepted = false;
+        sheet.limits[0] = Verdict { at: "far ".repeat(50), ok: false, ..sheet.limits[0].clone() };
+        sheet.status = plydrape::sheet::Status::NotAtRest;
+        result.summary.decide_by(sheet);
+        let text = verdict(&result);
+        assert!(text.contains("which decides\n  height 0.2 mm against 0.5 mm"), "{text}");
+        assert!(text.contains("\nthe ply is not at rest at the end\n"), "{text}");
+        assert!(widest(&text) <= 100, "{text}");
+    }
+
     /// Digits that matter, none that do not.
     #[test]
     fn numbers_are_short() {

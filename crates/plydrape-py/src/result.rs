@@ -196,7 +196,7 @@ impl Result {
     ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
     ///     >>> result = plydrape.simulate(scene)
     ///     >>> sorted(result.to_dict())
-    ///     ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'sheet_file', 'steps', 'summary', 'version']
+    ///     ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
     fn to_dict(&self) -> PyResult<Json> {
         Json::of(&*self.0)
     }

@@ -293,7 +293,7 @@ pub fn text_of(keys: &Map<String, Value>) -> PyResult<String> {
 ///
 /// Example:
 ///     >>> plydrape.materials()
-///     ['krogh2018', 'cao2008_plain']
+///     ['krogh2018', 'cao2008_plain', 'petrak2025_polyester_twill', 'petrak2025_polyester_plain', 'petrak2025_cotton_twill']
 #[pyfunction]
 pub fn materials() -> Vec<&'static str> {
     scene::shipped_materials().collect()

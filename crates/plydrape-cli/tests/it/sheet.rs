@@ -88,7 +88,7 @@ fn the_option_chooses_the_model_that_decides() {
     let shown = text(&alone.stdout);
     assert_eq!(alone.status.code(), Some(1), "{shown}");
     assert!(shown.contains("\nnot accepted: ") && !shown.contains("sheet"), "{shown}");
-    assert_eq!(files(&out), FILES.iter().filter(|name| **name != "sheet.npz").collect::<Vec<_>>());
+    assert!(!files(&out).contains(&"sheet.npz".to_owned()) && files(&out).len() == FILES.len() - 1);
     let without = result(&out);
     assert_eq!(without["steps"], with["steps"]);
     assert!(without["summary"].get("sheet").is_none() && without.get("sheet_states").is_none());
@@ -135,7 +135,7 @@ fn a_result_with_a_sheet_is_reported_and_exported() {
 #[test]
 fn the_sheet_does_not_excuse_the_motion() {
     let home = tempfile::tempdir().unwrap();
-    let workspace = "friction = 0.3\n[limits]\nworkspace = { z = [\"0 mm\", \"50 mm\"] }";
+    let workspace = "friction = 0.3\n[limits]\nworkspace = [[-1, 1], [-1, 1], [-0.01, 0.05]]";
     let output = run("simulate", &scene(home.path(), workspace), &home.path().join("out"), &[]);
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{shown}{}", text(&output.stderr));
@@ -156,7 +156,7 @@ fn a_material_without_stiffness_is_refused_at_once() {
     assert_eq!(output.status.code(), Some(2));
     let message = one_line(&output.stderr);
     assert!(message.contains("no stiffness in tension and shear"), "{message}");
-    assert!(message.contains("bare.toml:8:12"), "{message}");
+    assert!(message.contains("bare.toml:9:12"), "{message}");
     assert!(!out.exists());
 }
 
@@ -165,7 +165,7 @@ fn check_says_how_large_the_sheet_is() {
     let home = tempfile::tempdir().unwrap();
     let output = command().arg("check").arg(scene(home.path(), "")).output().unwrap();
     let shown = one_line(&output.stdout);
-    assert!(shown.contains("65 nodes, at most 25 mm apart; about 2.9 MB of memory"), "{shown}");
+    assert!(shown.contains("65 nodes, at most 25 mm apart; about 2.7 MB of memory"), "{shown}");
 }
 
 /// The search is by catenaries; its best motion is draped by the sheet, which refuses it.

@@ -46,6 +46,32 @@ fn a_result_names_the_states_of_its_sheet() {
     assert!(matches!(states.open(), Err(ReadError::Unreadable { .. })));
 }
 
+/// An outcome belongs to states and to steps that the result has, even where the check sum was made anew.
+#[test]
+fn the_outcome_of_a_sheet_fits_its_result() {
+    let checksum = "crc32:0123abcd".to_string();
+    let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
+    let refused = |spoil: fn(&mut ResultFile)| {
+        let mut result = sample::draped(3, 2, 3);
+        result.summary.sheet = Some(sample::sheet_summary());
+        result.sheet_states = Some(SheetKept::read(seal.clone(), "folder".into()));
+        spoil(&mut result);
+        read(&ResultFile::text(&result).unwrap()).is_err()
+    };
+    assert!(!refused(|_| {}));
+    let spoilt: [fn(&mut ResultFile); 6] = [
+        |r| r.summary.sheet = None,
+        |r| r.sheet_states = None,
+        |r| r.summary.sheet.as_mut().unwrap().steps = 4,
+        |r| r.summary.sheet.as_mut().unwrap().steps = 0,
+        |r| r.summary.sheet.as_mut().unwrap().nodes = 0,
+        |r| r.summary.sheet.as_mut().unwrap().first_contact_step = Some(2),
+    ];
+    for (n, spoil) in spoilt.into_iter().enumerate() {
+        assert!(refused(spoil), "{n}");
+    }
+}
+
 /// A forged check sum does not help a material whose tension is no table, nor settings that no scene has.
 #[test]
 fn settings_of_the_sheet_must_be_those_of_a_scene() {

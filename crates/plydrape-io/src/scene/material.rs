@@ -14,9 +14,12 @@ use std::ops::Range;
 use std::path::Path;
 
 /// The materials that come with the program: name and file.
-const SHIPPED: [(&str, &str); 2] = [
+const SHIPPED: [(&str, &str); 5] = [
     ("krogh2018", include_str!("../../materials/krogh2018.toml")),
     ("cao2008_plain", include_str!("../../materials/cao2008_plain.toml")),
+    ("petrak2025_polyester_twill", include_str!("../../materials/petrak2025_polyester_twill.toml")),
+    ("petrak2025_polyester_plain", include_str!("../../materials/petrak2025_polyester_plain.toml")),
+    ("petrak2025_cotton_twill", include_str!("../../materials/petrak2025_cotton_twill.toml")),
 ];
 
 /// Smallest and largest mass per length (kg/m) or area (kg/m²).

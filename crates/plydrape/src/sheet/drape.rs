@@ -195,10 +195,16 @@ impl Run<'_> {
         };
         let tolerance = self.tuning.step_tolerance * self.sheet.mesh;
         let mut done = 0.0;
+        // a motion in its own time needs so many steps at least
+        let mut tries = self.tuning.tries + (2.0 * duration / longest) as usize;
         while done < 1.0 {
             if (self.stop)() {
                 return Err(Ended::Stopped);
             }
+            if tries == 0 {
+                return Err(Ended::NotSolved);
+            }
+            tries -= 1;
             let mut share = self.share.min(1.0 - done).min(longest / duration);
             let most = self.tuning.contact_way * self.sheet.pitch;
             if way * share > most && self.cloth.is_near_contact(way * share) {

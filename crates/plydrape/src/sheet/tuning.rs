@@ -30,6 +30,8 @@ pub struct Tuning {
     pub real_step: f64,
     /// Smallest share of a motion's step before the drape is given up as not converged.
     pub smallest_step: f64,
+    /// Most time steps that are tried in a step of the motion.
+    pub tries: usize,
     /// Most time steps of the relaxation at the end.
     pub rest_steps: usize,
     /// Largest movement in a time step (of the mesh) at which the ply is at rest.
@@ -55,7 +57,8 @@ impl Default for Tuning {
             contact_way: 0.01,
             real_step: 0.02,
             smallest_step: 1e-4,
-            rest_steps: 200,
+            tries: 400,
+            rest_steps: 100,
             rest_movement: 1e-4,
             tilt_stiffness: 1e3,
             turn_stiffness: 1e-6,

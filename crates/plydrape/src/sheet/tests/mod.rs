@@ -3,6 +3,7 @@
 mod derivatives;
 mod hanging;
 mod on_mold;
+mod random;
 
 use super::cloth::Cloth;
 use super::gripper::{Gripper, Pad};

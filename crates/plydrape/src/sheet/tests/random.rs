@@ -1,1 +1,182 @@
 //! Random sheets: whatever is asked of it, a sheet answers with numbers and an honest status.
+
+use super::*;
+use crate::material::{Material, Section};
+use crate::mold::{Cylinder, Face, Pose, Sphere};
+use crate::ply::{Direction, Grid, Ply};
+use crate::scene::{Limits, Model, Motion, PadSettings, Plan, Scene, Settings, SheetTime};
+use crate::sheet::{SheetError, Status, drape};
+use std::ops::ControlFlow;
+
+/// Numbers between 0 and 1 from a seed.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((self.0 >> 33) as f64) / (1_u64 << 31) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        ((self.next() * count as f64) as usize).min(count - 1)
+    }
+
+    fn one<T: Clone>(&mut self, of: &[T]) -> T {
+        of[self.below(of.len())].clone()
+    }
+}
+
+/// A seed of a scene that is not refused.
+const WHOLE: u64 = 186;
+
+/// A scene of a few grippers that is as wild as a user can make it.
+fn scene(seed: u64) -> Scene {
+    let mut r = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
+    let grid = Grid { nu: 2 + r.below(2), nv: 1 + r.below(3) };
+    let cell = [r.between(0.05, 0.15), r.between(0.05, 0.15)];
+    let slope = r.one(&[0.0, 0.1, 5.0, 1e4]);
+    let table = TensionLaw::Table { strain: vec![0.0, 0.002, 0.01], force: vec![0.0, 5.0, 2e3] };
+    let material = Material {
+        name: "random".into(),
+        source: "made up".into(),
+        section: Section::Areal {
+            mass: r.one(&[0.05, 0.5, 3.0]),
+            warp_rigidity: r.one(&[0.0, 1e-5, 1e-2]),
+            weft_rigidity: r.one(&[1e-6, 1e-4]),
+        },
+        shear_curve: Some(linear(slope)),
+        tension: Some(r.one(&[TensionLaw::Linear { stiffness: 1e6 }, table])),
+        locking_angle: None,
+    };
+    let ply = Ply { grid, cell, material, warp: Direction::U };
+    let side = cell[0].min(cell[1]);
+    let mut settings = Settings { model: Model::Sheet, ..Settings::default() };
+    settings.sheet.mesh = Some(side / r.between(2.0, 3.0));
+    settings.sheet.overhang = r.one(&[0.0, 0.02]);
+    settings.sheet.time = r.one(&[SheetTime::QuasiStatic, SheetTime::QuasiStatic, SheetTime::Real]);
+    settings.max_tilt = r.one(&[0.05, 0.7]);
+    settings.pad = PadSettings {
+        radius: r.one(&[0.0, 0.0, 0.01, 0.04]),
+        lateral_stiffness: r.one(&[None, Some(2e3)]),
+        axial_stiffness: r.one(&[None, Some(5e3), Some(1.0)]),
+    };
+    let mu = r.between(0.0, 1.5);
+    settings.contact.friction =
+        r.one(&[Friction::Stick, Friction::StickForEver, Friction::Coulomb(mu)]);
+    settings.contact.tack = r.one(&[0.0, 90.0]);
+    let pose = Pose::new([0.1, 0.05, -0.3], [0.0; 3]);
+    let mold = r.one(&[
+        None,
+        Some(plane(0.0)),
+        Some(plane(0.4)),
+        Some(Mold::Sphere(Sphere { pose, radius: 0.3, face: Face::Outside })),
+        Some(Mold::Cylinder(Cylinder { pose, radius: 0.3, face: Face::Outside })),
+    ]);
+
+    let nearer = r.between(0.9, 1.01);
+    let wild = r.one(&[0.0, 0.02, 0.1, 0.5]);
+    let mut at: Vec<[f64; 3]> = (0..grid.grippers())
+        .map(|n| {
+            let [i, j] = grid.id(n);
+            [nearer * cell[0] * i as f64, nearer * cell[1] * j as f64, 0.08]
+        })
+        .collect();
+    let mut positions = vec![at.clone()];
+    for _ in 0..2 {
+        for p in &mut at {
+            for c in p.iter_mut() {
+                *c += wild * r.between(-1.0, 1.0);
+            }
+            p[2] -= 0.03;
+        }
+        positions.push(at.clone());
+    }
+    let times = (0..positions.len()).map(|k| 0.1 * k as f64).collect();
+    let limits = Limits::of(&ply, &settings);
+    Scene {
+        title: format!("random {seed}"),
+        ply,
+        mold,
+        motion: Motion { times, positions },
+        target: None,
+        settings,
+        limits,
+        plan: Plan::default(),
+    }
+}
+
+/// Folds, flung grippers, no shear and stiff shear, springs, pads that overlap, any friction: every drape ends with finite
+/// numbers and a status, the same twice, and one that is not solved is not accepted.
+#[test]
+fn random_sheets_answer_with_numbers_and_an_honest_status() {
+    // what is hard is given up early: its status is looked at here, and not how far it comes
+    let tuning = Tuning { iterations: 12, ..Tuning::default() };
+    let (mut solved, mut refused) = (0, 0);
+    for seed in 0..200 {
+        let scene = scene(seed);
+        let left = std::cell::Cell::new(100);
+        let stop = || {
+            left.set(left.get() - 1);
+            left.get() < 0
+        };
+        let drape = match drape(&scene, tuning, &stop, |_| ControlFlow::Continue(())) {
+            Ok(drape) => drape,
+            Err(SheetError::Overlap { .. } | SheetError::Overhang { .. }) => {
+                assert!(scene.settings.pad.radius > 0.0);
+                refused += 1;
+                continue;
+            }
+            Err(error) => panic!("{seed}: {error}"),
+        };
+        let last = &drape.last;
+        let numbers = last.positions.iter().chain(&last.forces).flatten().copied();
+        let numbers =
+            numbers.chain(last.heights.iter().copied()).chain(last.tension.iter().copied());
+        let numbers = numbers.chain([last.energy, last.kinetic_energy, drape.summary.strain_max]);
+        assert!(numbers.clone().all(f64::is_finite), "{seed}: {:?}", drape.summary.status);
+        let summary = &drape.summary;
+        let converged = summary.status == Status::Converged;
+        assert_eq!(summary.converged, converged);
+        assert!(converged || !summary.accepted, "{seed}");
+        if converged {
+            solved += 1;
+            assert_eq!(summary.steps, scene.motion.positions.len());
+        }
+    }
+    // what grippers fling apart cannot be solved; the others are
+    assert!(solved > 15 && refused > 10, "{solved} solved, {refused} refused");
+}
+
+/// The same scene gives the same bytes, whatever else ran before or beside it.
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    let run = || {
+        let scene = scene(WHOLE);
+        drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(())).expect("a sheet")
+    };
+    let first = run();
+    let beside: Vec<_> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..3).map(|_| scope.spawn(run)).collect();
+        threads.into_iter().map(|thread| thread.join().expect("no panic")).collect()
+    });
+    for other in beside {
+        assert_eq!(other.last, first.last);
+        assert_eq!(other.summary, first.summary);
+    }
+}
+
+/// A drape that is told to stop says so, and is not accepted.
+#[test]
+fn a_stopped_drape_is_interrupted() {
+    let scene = scene(WHOLE);
+    let stopped = drape(&scene, Tuning::default(), &|| true, |_| ControlFlow::Continue(()));
+    assert_eq!(stopped.expect("a sheet").summary.status, Status::Interrupted);
+    let broken = drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Break(()));
+    let broken = broken.expect("a sheet");
+    assert_eq!(broken.summary.status, Status::Interrupted);
+    assert!(!broken.summary.accepted);
+}

@@ -1,0 +1,186 @@
+"""The sheet of a result: its arrays, its file, and who drapes it.
+
+The mesh is coarse: nothing here is about the cloth.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import plydrape
+import plydrape.study
+import pytest
+from plydrape.study import Study
+from studies import PAPER, rows
+
+COARSE = PAPER.read_text().replace("[contact]", '[sheet]\nmesh = "25 mm"\n\n[contact]')
+
+
+@pytest.fixture(scope="module")
+def scene() -> plydrape.Scene:
+    """The paper's example; its own model are the catenaries."""
+    return plydrape.Scene.parse(COARSE)
+
+
+@pytest.fixture(scope="module")
+def result(scene: plydrape.Scene) -> plydrape.Result:
+    """It draped by the sheet."""
+    return plydrape.simulate(scene, model="sheet")
+
+
+def sheet_of(result: plydrape.Result) -> plydrape.Sheet:
+    """Its sheet, which it has."""
+    assert result.sheet is not None
+    return result.sheet
+
+
+def test_the_arrays_have_their_documented_shapes(result: plydrape.Result) -> None:
+    """Lines every 25 mm: 13 by 5 nodes, 12 by 4 cells, 12 · 5 + 13 · 4 segments."""
+    sheet = sheet_of(result)
+    states, nodes, cells, segments, grippers = 30, 65, 48, 112, 8
+    shapes = {
+        "steps": (states,),
+        "times": (states,),
+        "positions": (states, nodes, 3),
+        "places": (nodes, 2),
+        "areas": (nodes,),
+        "segments": (segments, 2),
+        "cells": (cells, 4),
+        "landing_step": (nodes,),
+        "heights": (states, nodes),
+        "contact": (states, nodes),
+        "shear": (states, cells),
+        "tension": (states, segments),
+        "grippers": (states, grippers, 3),
+        "pad_forces": (states, grippers, 3),
+        "pad_quaternions": (states, grippers, 4),
+    }
+    assert {name: getattr(sheet, name).shape for name in shapes} == shapes
+    assert sheet.contact.dtype == bool and sheet.positions.dtype == float
+    assert sheet.steps.tolist() == list(range(1, 31))
+
+
+def test_the_arrays_are_those_of_one_sheet(result: plydrape.Result) -> None:
+    """The mold is z = 0; grippers go where the motion has them; what lies has landed."""
+    sheet = sheet_of(result)
+    assert np.array_equal(sheet.heights, sheet.positions[:, :, 2])
+    assert np.allclose(sheet.grippers, result.positions, atol=1e-12)
+    assert sheet.areas.sum() == pytest.approx(0.3 * 0.1, rel=1e-12)
+    along = sheet.positions[0][sheet.segments]
+    lengths = np.linalg.norm(along[:, 1] - along[:, 0], axis=1)
+    assert np.allclose(lengths, 0.025, rtol=1e-3)
+    assert np.array_equal(sheet.landing_step > 0, sheet.contact[-1])
+    assert 1e3 * sheet.heights[-1].max() == pytest.approx(sheet.summary["height_max_mm"], rel=1e-9)
+    shear = np.degrees(np.abs(sheet.shear).max())
+    assert shear == pytest.approx(sheet.summary["shear_max_deg"], rel=1e-9)
+    # vertical forces of the ply on its grippers are its weight, in the air
+    weight = 3.143 * 0.03 * 9.8
+    assert sheet.pad_forces[0, :, 2].sum() == pytest.approx(-weight, rel=1e-3)
+
+
+def test_the_sheet_decides(scene: plydrape.Scene, result: plydrape.Result) -> None:
+    """Its verdict is that of the result; the catenaries come out as they do alone."""
+    alone = plydrape.simulate(scene)
+    assert alone.sheet is None and "sheet" not in alone.summary
+    assert np.array_equal(alone.positions, result.positions)
+    assert alone.limits == result.limits
+    slippery = plydrape.Scene.parse(COARSE + "friction = 0.3\n")
+    flat = plydrape.simulate(slippery, model="sheet")
+    assert flat.accepted and flat.converged and sheet_of(flat).accepted
+    assert not result.accepted and not sheet_of(result).accepted
+    assert not plydrape.simulate(slippery, model="catenaries").accepted
+    assert sheet_of(flat).limits == flat.summary["sheet"]["limits"]
+
+
+def test_a_folder_gives_the_same_sheet(result: plydrape.Result, tmp_path: Path) -> None:
+    """By `Result.read` and by `numpy.load`; a file that was changed is refused."""
+    written = result.write(tmp_path / "out")
+    assert "sheet.npz" in {path.name for path in written}
+    again = plydrape.Result.read(tmp_path / "out" / "result.json")
+    sheet, read = sheet_of(result), sheet_of(again)
+    for name in ("positions", "places", "heights", "contact", "shear", "tension", "pad_forces"):
+        assert np.array_equal(getattr(sheet, name), getattr(read, name)), name
+    assert read.summary == sheet.summary
+    with np.load(tmp_path / "out" / "sheet.npz") as arrays:
+        assert np.array_equal(arrays["positions"], sheet.positions)
+        assert np.array_equal(arrays["height"], sheet.heights)
+    # once more from there
+    again.write(tmp_path / "copy")
+    bytes_of = [(tmp_path / name / "sheet.npz").read_bytes() for name in ("out", "copy")]
+    assert bytes_of[0] == bytes_of[1]
+
+    file = tmp_path / "out" / "sheet.npz"
+    file.write_bytes(bytes_of[0][:-1])
+    with pytest.raises(plydrape.ResultError, match=r"sheet\.npz"):
+        _ = again.sheet
+    with pytest.raises(plydrape.OutputError):
+        again.write(tmp_path / "third")
+    assert not (tmp_path / "third").exists()
+
+
+def test_a_batch_drapes_sheets(scene: plydrape.Scene, result: plydrape.Result) -> None:
+    """On all cores as alone, to the last bit."""
+    for other in plydrape.batch.simulate([scene, scene], model="sheet"):
+        assert np.array_equal(sheet_of(other).positions, sheet_of(result).positions)
+    assert plydrape.batch.simulate([scene])[0].sheet is None
+
+
+def test_a_study_has_columns_of_the_sheet() -> None:
+    """Less friction, a lower ply; the share of accepted drapes is by the sheet."""
+    made = Study.of(
+        {
+            "scene": str(PAPER),
+            "sampling": "grid",
+            "vary": {
+                "model.kind": {"values": ["sheet"]},
+                "sheet.mesh": {"values": ["25 mm"]},
+                "contact.friction": {"values": [0.3, 30]},
+            },
+        }
+    )
+    outcome = plydrape.study.run(made, workers=1, progress=False)
+    slippery, sticky = rows(outcome.table())
+    assert slippery["error"] is None and sticky["error"] is None
+    assert slippery["accepted"] and not sticky["accepted"]
+    assert slippery["sheet.height_max_mm"] < 0.5 < sticky["sheet.height_max_mm"]
+    assert sticky["value_sheet.height"] == sticky["sheet.height_max_mm"]
+    assert not sticky["ok_sheet.height"] and sticky["limit_sheet.height"] == 0.5
+    assert sticky["sheet.nodes"] == 65 and sticky["sheet.status"] == "converged"
+    # by the catenaries neither is
+    assert not slippery["ok_slack_ratio"]
+    assert outcome.accepted_share == 0.5
+    units = {f.name: (f.metadata or {}).get(b"unit") for f in outcome.table().schema}
+    assert units["sheet.height_max_mm"] == b"mm" and units["value_sheet.height"] == b"mm"
+
+
+def test_a_scene_without_a_sheet_is_refused_before_anything_runs() -> None:
+    """The paper's own numbers alone say nothing of tension and shear."""
+    bare = '{ mass = "0.3143 kg/m", flexural_rigidity = "9e-6 N m^2" }'
+    scene = plydrape.Scene.parse(COARSE.replace('"krogh2018"', bare))
+    with pytest.raises(plydrape.SceneError, match="shear curve"):
+        plydrape.simulate(scene, model="sheet")
+    with pytest.raises(plydrape.SceneError, match="shear curve"):
+        plydrape.batch.simulate([scene], model="sheet")
+    with pytest.raises(ValueError, match='"sheet" or "catenaries"'):
+        plydrape.simulate(scene, model="cloth")  # type: ignore[arg-type]
+
+
+def test_an_interrupt_ends_the_drape_of_a_sheet_at_once() -> None:
+    """A sheet of 3 600 nodes takes long; Ctrl-C after half a second is heard within 0.2 s."""
+    fine = plydrape.Scene.parse(COARSE.replace('"25 mm"', '"3 mm"'))
+    sent: list[float] = []
+
+    def interrupt() -> None:
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.5, interrupt)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        plydrape.simulate(fine, model="sheet")
+    assert time.perf_counter() - sent[0] < 0.2
