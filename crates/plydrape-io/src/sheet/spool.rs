@@ -4,7 +4,7 @@ use super::array::{ARRAYS, OF_MESH, Sizes};
 use super::{NAME, SheetError, SheetMesh, SheetSeal, SheetState, check};
 use crate::folder::Content;
 use std::fs::{self, File};
-use std::io::{self, BufReader, BufWriter, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use zip::write::{SimpleFileOptions, ZipWriter};
@@ -75,7 +75,7 @@ impl SheetSpool {
             file.into_inner().map_err(io::IntoInnerError::into_error)?;
         }
         let path = dir.path().join(NAME);
-        let mut archive = ZipWriter::new(UntilFault::new(BufWriter::new(File::create_new(&path)?)));
+        let mut archive = ZipWriter::new(BufWriter::new(File::create_new(&path)?));
         let values = mesh.values(landing_step).map(Some).into_iter();
         for (array, values) in ARRAYS.iter().zip(values.chain(std::iter::repeat(None))) {
             let header = array.header(&sizes);
@@ -95,48 +95,6 @@ impl SheetSpool {
         archive.finish().map_err(io::Error::from)?.flush()?;
         let seal = SheetSeal::of(File::open(&path)?)?;
         Ok(SheetFile { path, seal, _dir: dir })
-    }
-}
-
-/// Passes on what is written until the disk refuses; what comes after that goes nowhere. An archive that is dropped writes its
-/// end, and would print a second fault if that failed too.
-struct UntilFault<W> {
-    to: W,
-    failed: bool,
-}
-
-impl<W> UntilFault<W> {
-    fn new(to: W) -> Self {
-        UntilFault { to, failed: false }
-    }
-
-    fn unless_failed<T>(
-        &mut self,
-        after: T,
-        act: impl FnOnce(&mut W) -> io::Result<T>,
-    ) -> io::Result<T> {
-        if self.failed {
-            return Ok(after);
-        }
-        let done = act(&mut self.to);
-        self.failed = done.as_ref().is_err_and(|fault| fault.kind() != io::ErrorKind::Interrupted);
-        done
-    }
-}
-
-impl<W: Write> Write for UntilFault<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.unless_failed(bytes.len(), |to| to.write(bytes))
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.unless_failed((), W::flush)
-    }
-}
-
-impl<W: Seek> Seek for UntilFault<W> {
-    fn seek(&mut self, place: SeekFrom) -> io::Result<u64> {
-        self.unless_failed(0, |to| to.seek(place))
     }
 }
 
