@@ -170,7 +170,8 @@ def compare(figures: list[Path], picture: Path) -> None:
     for n, (image, name) in enumerate(zip(images, ("catenaries", "sheet"), strict=True)):
         both.paste(image.crop((0, top, width, height)), (n * width, 40))
         pen.text((n * width + 28, 8), name, fill="#2D323A", font=ImageFont.load_default(24))
-    save(both.resize((both.width * 3 // 4, both.height * 3 // 4), Image.Resampling.LANCZOS), picture)
+    size = (both.width * 3 // 4, both.height * 3 // 4)
+    save(both.resize(size, Image.Resampling.LANCZOS), picture)
 
 
 def make(results: Path) -> None:

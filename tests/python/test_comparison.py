@@ -8,7 +8,9 @@ import re
 import pytest
 from program import ROOT
 
-ROW = re.compile(r"^\| \[[^]]*\]\(\.\./\.\./examples/(?P<name>\w+)/scene\.toml\) \| (?P<rest>.*) \|$")
+ROW = re.compile(
+    r"^\| \[[^]]*\]\(\.\./\.\./examples/(?P<name>\w+)/scene\.toml\) \| (?P<rest>.*) \|$"
+)
 CHAPTER = (ROOT / "docs" / "guide" / "sheet.md").read_text(encoding="utf-8")
 ROWS = [row for row in map(ROW.match, CHAPTER.splitlines()) if row]
 
