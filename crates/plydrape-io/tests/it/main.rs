@@ -20,6 +20,7 @@ mod plans;
 mod reach;
 mod results;
 mod scenes;
+mod sheet_fronts;
 mod sheet_shown;
 mod solve_status;
 mod stepwise;
