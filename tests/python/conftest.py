@@ -60,6 +60,17 @@ def flat() -> Result:
 
 
 @pytest.fixture(scope="session")
+def sheet() -> Result:
+    """A sheet over the dome with few nodes, three of its six states kept."""
+    import plydrape
+
+    path = EXAMPLES / "04_dome" / "scene.toml"
+    text = path.read_text().replace("steps = 30", "steps = 6")
+    text = text.replace('kind = "catenaries"', 'kind = "sheet"\n[sheet]\nmesh = "50 mm"\nkeep = 3')
+    return plydrape.simulate(plydrape.Scene.parse(text, base=path.parent))
+
+
+@pytest.fixture(scope="session")
 def dome() -> Result:
     """A dome, draped straight."""
     return drape("04_dome")

@@ -25,14 +25,31 @@ for number in json.loads(sys.argv[2]):
     lines = [line.tolist() for line in result.lines(number)]
     positions = result.positions[number - 1].tolist()
     steps[number] = {"positions": positions, "lines": lines, "edges": edges}
-print(json.dumps({"limits": result.summary["limits"], "steps": steps}))
+sheet = None
+if result.sheet is not None:
+    kept = result.sheet.steps.tolist()
+    last = len(kept) - 1
+    sheet = {
+        "limits": result.sheet.limits,
+        "landing": result.sheet.landing_step.tolist(),
+        "states": {
+            kept[k]: {
+                "nodes": result.sheet.positions[k].tolist(),
+                "heights": result.sheet.heights[k].tolist(),
+                "forces": result.sheet.pad_forces[k].tolist(),
+                "grippers": result.sheet.grippers[k].tolist(),
+            }
+            for k in {0, last // 2, last}
+        },
+    }
+print(json.dumps({"limits": result.summary["limits"], "steps": steps, "sheet": sheet}))
 `;
 const results = new Map();
 
 /**
  * What the Python package reads from the result that a page was made from: its limits, and of some steps the
- * positions of the grippers, the curves of all catenaries and the ends of the edges, which come first; or null (a
- * made-up page has none).
+ * positions of the grippers, the curves of all catenaries and the ends of the edges, which come first; of a sheet its
+ * limits and three states; or null (a made-up page has none).
  */
 export function readResult({ folder }, steps) {
   const file = join(folder, "result.json");

@@ -142,9 +142,7 @@ impl Diagnostic for Failure {
                     )
                 }
             })),
-            Failure::Sheet(fault) => {
-                fault.remedy().map(|help| Box::new(help) as Box<dyn fmt::Display>)
-            }
+            Failure::Sheet(fault) => Some(Box::new(fault.remedy())),
             Failure::Plan(_) | Failure::Results(_) => None,
         }
     }

@@ -45,13 +45,13 @@ pub fn scene(error: &SceneError) -> PyErr {
 /// A scene whose sheet was not draped.
 pub fn sheet(fault: &SheetDrapeError) -> PyErr {
     match fault {
-        SheetDrapeError::States(_) => plain("OutputError", fault),
+        SheetDrapeError::States(_) => plain("OutputError", &format!("{fault}; {}", fault.remedy())),
         SheetDrapeError::Sheet(_) | SheetDrapeError::Size(_) => scene(&SceneError {
             file: "scene".into(),
             text: "".into(),
             span: None,
             message: fault.to_string(),
-            help: fault.remedy().unwrap_or_default().into(),
+            help: fault.remedy().into(),
         }),
     }
 }

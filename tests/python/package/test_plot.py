@@ -422,3 +422,35 @@ def test_the_extra_is_named_where_it_is_missing(
     for kind in ("steps", "measures", "shear"):
         with pytest.raises(ImportError, match=r'Matplotlib is missing.*"plydrape\[plot\]"'):
             flat.plot(kind)
+
+
+def test_maps_of_the_sheet_hold_its_nodes_cells_and_yarns(sheet: plydrape.Result) -> None:
+    """Colours of cells, steps of landing and yarns are those of the result's arrays."""
+    held = sheet.sheet
+    assert held is not None
+    figure = plot.sheet(sheet, ["height", "landing", "shear", "tension"])
+    assert len(drawn(figure)) > 10_000
+    shear, tension = named(figure, "shear", 2), named(figure, "tension", 3)
+    assert np.asarray(shear.get_array()) == pytest.approx(np.rad2deg(held.shear[-1]))
+    assert np.asarray(tension.get_array()) == pytest.approx(held.tension[-1])
+    assert np.array(tension.get_segments()) == pytest.approx(held.places[held.segments] * 1e3)
+    landed = held.landing_step[held.cells].ravel()
+    assert (named(figure, "landing", 1).get_array() == landed[landed > 0]).all()
+    assert len(named(figure, "never", 1).get_paths()) == (landed == 0).sum()
+    # the highest node is ringed, on the scale that all results share
+    highest = int(held.heights[-1].argmax())
+    x, y = named(figure, "largest").get_data()
+    assert (x[0], y[0]) == pytest.approx(tuple(held.places[highest] * 1e3))
+    assert named(figure, "height").get_clim() == (0.1, 10.0)
+
+
+def test_a_map_of_no_sheet_or_no_state_is_refused(
+    sheet: plydrape.Result, flat: plydrape.Result
+) -> None:
+    """The message says what to do."""
+    with pytest.raises(ValueError, match='model="sheet"'):
+        plot.sheet(flat)
+    with pytest.raises(ValueError, match="no state of step 2; 3 of the steps 1 to 6 were kept"):
+        plot.sheet(sheet, step=2)
+    with pytest.raises(ValueError, match='maps "height"'):
+        plot.sheet(sheet, cast(Any, "slack"))

@@ -154,3 +154,26 @@ except ImportError as fault:
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
     line = 'PyVista is missing; install it with: pip install "plydrape[plot]"'
     assert done.stdout.strip() == line
+
+
+def test_the_sheet_has_its_nodes_and_the_forces_on_its_pads(sheet: plydrape.Result) -> None:
+    """Points, heights and shear of the last state; an arrow for each pad."""
+    held = sheet.sheet
+    assert held is not None
+    plotter = view.sheet3d(sheet)
+    cells = mesh(plotter, "sheet")
+    assert cells.points == pytest.approx(held.positions[-1], abs=1e-7)
+    assert (cells.faces.reshape(-1, 5)[:, 1:] == held.cells).all()
+    assert cells["height_mm"] == pytest.approx(held.heights[-1] * 1e3)
+    assert cells["shear_deg"] == pytest.approx(np.rad2deg(held.shear[-1]))
+    assert {"mold", "grippers", "forces"} <= set(plotter.actors)
+    # a quarter of a cell has the step of its node, as long as that is not to come
+    parts = mesh(view.sheet3d(sheet, 1, colour="landing"), "sheet")
+    assert parts.n_cells == 4 * len(held.cells)
+    assert np.isnan(parts["landing_step"]).all()
+
+
+def test_a_result_without_a_sheet_is_refused(flat: plydrape.Result) -> None:
+    """The message says what to do."""
+    with pytest.raises(ValueError, match='model="sheet"'):
+        view.sheet3d(flat)

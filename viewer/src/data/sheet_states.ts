@@ -54,6 +54,12 @@ export class SheetStates {
     return this.data.states[index] ?? null;
   }
 
+  /** The first step of the page in which a node touches, as an index. */
+  get firstContact(): number | null {
+    const index = this.data.states.findIndex((state) => state !== null && this.contact.at(state).includes(1));
+    return index < 0 ? null : index;
+  }
+
   /** The value of a colour mode at a node or cell in a step of the page, in the mode's unit; null where there is none. */
   value(field: Field, index: number, item: number): number | null {
     const state = this.stateOf(index);

@@ -2,6 +2,7 @@
  * `window.plydrape`: the page for scripts and tests. Steps are numbered as in the result.
  */
 
+import { Vector3 } from "three";
 import { MICRO, type Motion } from "../data/motion";
 import { fieldsOf, type FieldKey, type Measure, type Model, type Place } from "../data/page_data";
 import type { Scene3d } from "../scene/scene3d";
@@ -30,6 +31,8 @@ export interface FullHandle extends Handle {
   model: Model;
   /** A node of the sheet in view (m), or null without a sheet. */
   node(number: number): Place | null;
+  /** Where a place is on the picture (CSS pixels from its top left), or null without a picture. */
+  onScreen(place: Place): [number, number] | null;
   /** Colour mode; can be set. */
   colour: FieldKey;
   readonly colours: FieldKey[];
@@ -78,6 +81,7 @@ export function handle(
       const shown = motion.sheet?.stateOf(state.now.index) ?? null;
       return shown === null ? null : motion.sheet!.node(shown, number);
     },
+    onScreen: (place) => scene?.eye.project(new Vector3(...place)) ?? null,
     get colour() {
       return state.now.colour;
     },

@@ -18,7 +18,7 @@ function verdict(data: PageData): string {
 }
 
 /** The limits that count: with a sheet its own and those of the motion. */
-function deciding(data: PageData): Limit[] {
+export function deciding(data: PageData): Limit[] {
   return data.sheet === null
     ? data.limits
     : [...data.sheet.limits, ...data.limits.filter((limit) => limit.motion)];

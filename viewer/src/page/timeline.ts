@@ -3,7 +3,7 @@
 import type { Motion } from "../data/motion";
 import { full, short } from "../data/number";
 import { byId, make } from "./dom";
-import { nearest } from "./limits";
+import { deciding, nearest } from "./limits";
 import type { Player } from "./player";
 import type { State } from "./state";
 
@@ -64,11 +64,12 @@ function addMarks(state: State, motion: Motion): void {
     button.addEventListener("click", () => state.goto(index));
     host.append(button);
   };
-  if (motion.firstContact !== null && motion.firstContact > 0) {
-    mark(motion.firstContact, "mark-contact", `First contact: step ${data.steps[motion.firstContact]!}`);
+  const contact = motion.sheet === null ? motion.firstContact : motion.sheet.firstContact;
+  if (contact !== null && contact > 0) {
+    mark(contact, "mark-contact", `First contact: step ${data.steps[contact]!}`);
   }
   const failed = new Map<number, string[]>();
-  for (const limit of data.limits) {
+  for (const limit of deciding(data)) {
     const index = nearest(data.steps, limit.step);
     if (!limit.ok && index >= 0) failed.set(index, [...(failed.get(index) ?? []), limit.name]);
   }

@@ -14,7 +14,7 @@ use crate::sheet::SheetState;
 
 /// Heights at the ends of the colours (m).
 const HEIGHTS: [f64; 2] = [1e-4, 1e-2];
-/// Squares of all panels up to which each cell is drawn in four, and cells up to which fabric lines are drawn.
+/// Squares of all panels, about, and cells up to which fabric lines are drawn.
 const SQUARES: usize = 8000;
 const LINES: usize = 3500;
 
@@ -69,7 +69,7 @@ impl Stage<'_> {
         (picture, state): (&SheetPicture, &SheetState),
     ) {
         let drawn = picture.cells.len() * self.panels;
-        let parts = if 4 * drawn <= SQUARES { 2 } else { 1 };
+        let parts = (SQUARES / drawn.max(1)).isqrt().clamp(1, 4);
         let mut lift = 0.0;
         for cell in &picture.cells {
             let at = |[a, b]: [f64; 2]| {

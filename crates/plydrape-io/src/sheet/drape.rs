@@ -25,15 +25,20 @@ pub enum SheetDrapeError {
 }
 
 impl SheetDrapeError {
-    /// What would help, where the message does not say it.
+    /// What would help.
     #[must_use]
-    pub fn remedy(&self) -> Option<&'static str> {
+    pub fn remedy(&self) -> &'static str {
         match self {
-            SheetDrapeError::Sheet(_) => Some(
-                "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]",
-            ),
-            SheetDrapeError::Size(fault) => Some(fault.remedy()),
-            SheetDrapeError::States(_) => None,
+            SheetDrapeError::Sheet(_) => {
+                "change the scene, or drape it by catenaries: kind = \"catenaries\" in [model]"
+            }
+            SheetDrapeError::Size(fault) => fault.remedy(),
+            SheetDrapeError::States(SheetError::Io(_)) => {
+                "make room on the disk, or choose a folder on another one with -o"
+            }
+            SheetDrapeError::States(_) => {
+                "this is a fault of plydrape, please report it with the scene"
+            }
         }
     }
 }

@@ -11,6 +11,7 @@ mod check;
 mod drape;
 mod error;
 mod kept;
+mod latch;
 mod read;
 mod seal;
 mod shown;

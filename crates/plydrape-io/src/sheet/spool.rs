@@ -1,6 +1,7 @@
 //! Writing: states come one at a time, each array into a file of its own; at the end they become one file.
 
 use super::array::{ARRAYS, OF_MESH, Sizes};
+use super::latch::Latch;
 use super::{NAME, SheetError, SheetMesh, SheetSeal, SheetState, check};
 use crate::folder::Content;
 use std::fs::{self, File};
@@ -75,7 +76,7 @@ impl SheetSpool {
             file.into_inner().map_err(io::IntoInnerError::into_error)?;
         }
         let path = dir.path().join(NAME);
-        let mut archive = ZipWriter::new(BufWriter::new(File::create_new(&path)?));
+        let mut archive = ZipWriter::new(Latch::new(BufWriter::new(File::create_new(&path)?)));
         let values = mesh.values(landing_step).map(Some).into_iter();
         for (array, values) in ARRAYS.iter().zip(values.chain(std::iter::repeat(None))) {
             let header = array.header(&sizes);
@@ -92,7 +93,7 @@ impl SheetSpool {
                 }
             }
         }
-        archive.finish().map_err(io::Error::from)?.flush()?;
+        archive.finish().map_err(io::Error::from)?.done()?;
         let seal = SheetSeal::of(File::open(&path)?)?;
         Ok(SheetFile { path, seal, _dir: dir })
     }

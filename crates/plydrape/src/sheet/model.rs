@@ -98,6 +98,14 @@ pub enum SheetError {
         /// What it may be.
         range: &'static str,
     },
+    /// A tension table that is none.
+    #[error(
+        "the tension table of material {material} needs as many strains as forces, at least two, ascending from zero"
+    )]
+    TensionTable {
+        /// Its name.
+        material: String,
+    },
     /// The motion has no steps, or steps with another number of grippers.
     #[error("the motion has no steps for {grippers} grippers")]
     NoMotion {
@@ -119,6 +127,18 @@ impl Sheet {
             material.shear_curve.clone().ok_or_else(|| SheetError::NoShear { material: name() })?;
         let tension =
             material.tension.clone().ok_or_else(|| SheetError::NoTension { material: name() })?;
+
+        if let TensionLaw::Table { strain, force } = &tension {
+            let ascends = |x: &[f64], strictly: bool| {
+                x.first() == Some(&0.0)
+                    && x.iter().all(|x| x.is_finite())
+                    && x.windows(2).all(|pair| pair[1] > pair[0] || !strictly && pair[1] == pair[0])
+            };
+            let table = ascends(strain, true) && ascends(force, false);
+            if !table || strain.len() != force.len() || strain.len() < 2 {
+                return Err(SheetError::TensionTable { material: name() });
+            }
+        }
 
         let [a, b] = ply.cell;
         let grid = ply.grid;
