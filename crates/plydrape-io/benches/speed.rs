@@ -1,5 +1,5 @@
 //! How long a user waits: one span, one equilibrium cold and warm, large arrays, the whole example, one factorization of
-//! a sheet.
+//! a sheet and whole drapes of it.
 //!
 //! `benches/run` prints these beside a SciPy solver of the same problem; `benches/README.md` is its
 //! table.
@@ -8,8 +8,11 @@ use divan::{Bencher, black_box};
 use plydrape::catenary::{EndCondition, Profile, Span};
 use plydrape::draping::simulate;
 use plydrape::equilibrium::Solver;
-use plydrape::scene::{Scene, SlopeRule};
+use plydrape::mold::{Face, Mold, Pose, Sphere, vector};
+use plydrape::ply::Grid;
+use plydrape::scene::{Motion, Scene, SlopeRule};
 use plydrape::sheet::cholesky::{BlockMatrix, Cholesky};
+use plydrape::sheet::{self, Tuning};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -186,4 +189,80 @@ fn sheet_factorization(bencher: Bencher, (across, along): (u32, u32)) {
         x.fill(1.0);
         cholesky.solve(&mut x);
     });
+}
+
+/// A scene with lines of its sheet every so many millimetres.
+fn meshed(mut scene: Scene, mesh_mm: f64) -> Scene {
+    scene.settings.sheet.mesh = Some(mesh_mm * 1e-3);
+    scene
+}
+
+/// Straight paths onto a sphere as wide for `grid` grippers as the dome of the examples is for its 4 × 4.
+fn wide_dome(grid: [usize; 2]) -> Scene {
+    let mut scene = shipped("04_dome");
+    let scale = (grid[0].max(grid[1]) - 1) as f64 / 3.0;
+    let radius = 0.6 * scale;
+    let pose = Pose::new([0.0, 0.0, -radius], [0.0; 3]);
+    let mold = Mold::Sphere(Sphere { pose, radius, face: Face::Outside });
+    scene.ply.grid = Grid { nu: grid[0], nv: grid[1] };
+    let [u, v] = [0, 1].map(|n| 0.05 * (grid[n] - 1) as f64);
+    let place = |n: usize| {
+        let [i, j] = scene.ply.grid.id(n);
+        [0.1 * i as f64 - u, 0.1 * j as f64 - v]
+    };
+    // to the places on the sphere straight above which the fabric would lie: along its great circles
+    let start = |n: usize| [0.98 * place(n)[0], 0.98 * place(n)[1], 0.05];
+    let end = |n: usize| {
+        let [x, y] = place(n);
+        let arc = x.hypot(y);
+        let share = if arc > 0.0 { radius * (arc / radius).sin() / arc } else { 1.0 };
+        [share * x, share * y, radius * ((arc / radius).cos() - 1.0)]
+    };
+    let grippers = 0..scene.ply.grid.grippers();
+    let step = |k: usize| {
+        let between = |n| vector::between(start(n), end(n), k as f64 / 29.0);
+        grippers.clone().map(between).collect()
+    };
+    scene.motion = Motion {
+        times: (0..30).map(|k| k as f64).collect(),
+        positions: (0..30).map(step).collect(),
+    };
+    scene.mold = Some(mold);
+    scene.target = None;
+    scene
+}
+
+/// A whole drape of a sheet to rest; panics where it does not come there, because its time would say nothing.
+fn sheet_to_rest(bencher: Bencher, scene: &Scene) {
+    bencher.bench_local(|| {
+        let drape =
+            sheet::drape(scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()));
+        let drape = drape.expect("the scene has a sheet");
+        assert!(drape.summary.converged, "{:?}", drape.summary.status);
+        drape
+    });
+}
+
+/// The paper's example, 341 nodes.
+#[divan::bench(sample_count = 5, sample_size = 1)]
+fn sheet_example_10_mm(bencher: Bencher) {
+    sheet_to_rest(bencher, &meshed(example(), 10.0));
+}
+
+/// The dome, straight paths: 256 nodes and 961.
+#[divan::bench(args = [20.0, 10.0], sample_count = 5, sample_size = 1)]
+fn sheet_dome(bencher: Bencher, mesh_mm: f64) {
+    sheet_to_rest(bencher, &meshed(shipped("04_dome"), mesh_mm));
+}
+
+/// Straight paths onto spheres that grow with the array: 256, 676 and 1 296 nodes of square arrays, lines every 20 mm.
+#[divan::bench(args = [4, 6, 8], sample_count = 3, sample_size = 1)]
+fn sheet_wide_dome(bencher: Bencher, side: usize) {
+    sheet_to_rest(bencher, &meshed(wide_dome([side; 2]), 20.0));
+}
+
+/// The same with 12 × 10 grippers: 2 576 nodes.
+#[divan::bench(sample_count = 3, sample_size = 1)]
+fn sheet_wide_dome_12x10(bencher: Bencher) {
+    sheet_to_rest(bencher, &meshed(wide_dome([12, 10]), 20.0));
 }

@@ -21,6 +21,7 @@ mod reach;
 mod results;
 mod scenes;
 mod sheet_examples;
+mod sheet_fronts;
 mod sheet_shown;
 mod solve_status;
 mod stepwise;

@@ -34,7 +34,7 @@ pub use vector::distance;
 use section::{Until, trace};
 use std::sync::Arc;
 use tuning::TUNING;
-use vector::{along, dot, norm};
+use vector::{along, dot, norm, sub};
 
 /// A mold.
 #[derive(Debug, Clone, PartialEq)]
@@ -175,6 +175,19 @@ impl Mold {
             Mold::Torus(torus) => torus.closest_point(p),
             Mold::Graph(graph) => graph.closest_point(p),
             Mold::Mesh(mesh) => mesh.closest_point(p),
+        }
+    }
+
+    /// Gradient of the signed distance at `p` (m), whose closest point is `closest`: the unit vector along which the
+    /// distance grows. On a smooth mold it is the normal; the normal of triangles is blended between their corners and
+    /// differs from it.
+    #[must_use]
+    pub fn distance_gradient(&self, p: [f64; 3], closest: &ClosestPoint) -> [f64; 3] {
+        match self {
+            Mold::Mesh(_) if closest.distance.abs() > TUNING.direction * norm(p) => {
+                sub(p, closest.point).map(|c| c / closest.distance)
+            }
+            _ => closest.normal,
         }
     }
 

@@ -26,6 +26,8 @@ pub(super) struct Tuning {
     pub aside_of_domain: f64,
     /// Relative step below which a coordinate has converged to rounding.
     pub rounding: f64,
+    /// Distance from a mesh, relative to the coordinates, below which its direction is lost in rounding.
+    pub direction: f64,
 
     /// Turn of tangent or normal that a step along a section curve aims at (rad): the error of an arc is then some 1e-11
     /// of its length.
@@ -109,6 +111,7 @@ pub(super) const TUNING: Tuning = Tuning {
     positive: 1e-3,
     aside_of_domain: 1e-12,
     rounding: 1e-15,
+    direction: 1e-12,
     turn: 0.01,
     largest_turn: 0.012,
     kink_step: 1e-6,

@@ -27,6 +27,15 @@ pub struct Motion {
     pub pads: Vec<Pad>,
 }
 
+impl Motion {
+    /// Takes over all of another motion of the same ply, in the memory that this one has.
+    fn copy_from(&mut self, other: &Motion) {
+        self.x.copy_from_slice(&other.x);
+        self.v.copy_from_slice(&other.v);
+        self.pads.clone_from_slice(&other.pads);
+    }
+}
+
 /// A gripper, its pad, and the nodes that it holds with their distance from its middle (m).
 type Held<'a> = ((&'a Gripper, &'a Pad), &'a Vec<(usize, [f64; 2])>);
 
@@ -190,13 +199,13 @@ impl<'a> Cloth<'a> {
         dt: f64,
         tolerance: f64,
     ) -> Result<usize, Failure> {
-        self.before.clone_from(&self.now);
+        self.before.copy_from(&self.now);
         for (inertial, (x, v)) in self.inertial.iter_mut().zip(self.now.x.iter().zip(&self.now.v)) {
             *inertial = [0, 1, 2].map(|n| x[n] + dt * v[n]);
         }
         let found = self.iterate(targets, dt, tolerance);
         if found.is_err() {
-            self.now.clone_from(&self.before);
+            self.now.copy_from(&self.before);
             return found;
         }
         for (v, (x, before)) in self.now.v.iter_mut().zip(self.now.x.iter().zip(&self.before.x)) {

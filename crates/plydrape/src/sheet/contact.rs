@@ -110,8 +110,10 @@ impl<'a> Contact<'a> {
             let point = &mut self.points[n];
             (point.seen, point.clear) = (at, if closest.beyond { 0.0 } else { distance });
             if distance < 0.0 && !self.holds_for_ever(&self.points[n]) {
-                add(&mut system.gradient[node], k * distance, closest.normal);
-                let normal = outer(closest.normal, closest.normal);
+                // the blended normal of a mesh would leave a node outside that it should bring to the surface
+                let normal = self.mold.distance_gradient(at, &closest);
+                add(&mut system.gradient[node], k * distance, normal);
+                let normal = outer(normal, normal);
                 system.stiffen(node, &normal.map(|row| row.map(|c| k * c)));
             }
         }

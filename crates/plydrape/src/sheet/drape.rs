@@ -10,7 +10,7 @@ use super::model::{Sheet, SheetError};
 use super::shear::angle;
 use super::state::State;
 use super::tuning::Tuning;
-use crate::mold::vector::{cross, distance, dot, sub, unit};
+use crate::mold::vector::{between, cross, distance, dot, sub, unit};
 use crate::scene::{Scene, SheetTime};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -74,6 +74,7 @@ pub fn drape(
         tuning,
         cloth,
         stop,
+        targets: placed.clone(),
         share: 1.0,
         time_steps: 0,
         smallest_step: 1.0,
@@ -110,6 +111,8 @@ struct Run<'a> {
     tuning: Tuning,
     cloth: Cloth<'a>,
     stop: &'a dyn Fn() -> bool,
+    /// Where grippers go in the next time step (m).
+    targets: Vec<[f64; 3]>,
     /// Share of a step of the motion that the next time step tries.
     share: f64,
     time_steps: usize,
@@ -211,12 +214,10 @@ impl Run<'_> {
                 share = most / way;
             }
             let next = if done + share > 1.0 - 1e-9 { 1.0 } else { done + share };
-            let targets: Vec<[f64; 3]> = from
-                .iter()
-                .zip(to)
-                .map(|(a, b)| crate::mold::vector::between(*a, *b, next))
-                .collect();
-            match self.cloth.advance(&targets, share * duration, tolerance) {
+            for (target, (a, b)) in self.targets.iter_mut().zip(from.iter().zip(to)) {
+                *target = between(*a, *b, next);
+            }
+            match self.cloth.advance(&self.targets, share * duration, tolerance) {
                 Ok(iterations) => {
                     self.time_steps += 1;
                     self.smallest_step = self.smallest_step.min(share);

@@ -1,0 +1,56 @@
+//! How the sheet judges fronts on the dome and straight paths: figures of two independent cloth simulators.
+
+use crate::common::example;
+use plydrape::planner::path::{MoldHeights, Strategy, trajectory};
+use plydrape::scene::{Friction, Motion, Scene};
+use plydrape::sheet::{Tuning, drape};
+use std::ops::ControlFlow;
+
+/// The dome of the examples with lines every 20 mm, rolled on from its middle by a front of curvature `a` (1/m).
+fn front(a: f64, slope: f64) -> Scene {
+    let mut scene = example("04_dome");
+    scene.settings.sheet.mesh = Some(0.02);
+    let curvature = a * scene.ply.cell[0];
+    let strategy =
+        Strategy { start: [0.5; 2], ratio: 1.0, angle: 0.0, curvature, slope, pretension: 0.0 };
+    let heights = MoldHeights::new(&scene).expect("the dome is a height");
+    let positions = trajectory(&scene, &heights, strategy).expect("the front rolls over the dome");
+    scene.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
+    scene
+}
+
+/// Largest height at the end of a drape under stick, which comes to rest (mm).
+fn height(mut scene: Scene) -> f64 {
+    scene.settings.contact.friction = Friction::Stick;
+    let draped = drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()));
+    let summary = draped.expect("the scene has a sheet").summary;
+    assert!(summary.converged, "{:?}", summary.status);
+    summary.height_max_mm.expect("the scene has a mold")
+}
+
+/// Under stick a steep front leaves 0.11 mm on the dome and a shallow one ridges of 2.1 to 2.3 mm, of which the
+/// catenaries see nothing; at this mesh the ranges are wide.
+#[test]
+fn a_steep_front_lays_the_dome_flat_and_a_shallow_one_leaves_ridges() {
+    let steep = height(front(30.0, 0.6));
+    let shallow = height(front(12.0, 0.25));
+    assert!(steep < 0.5, "{steep} mm");
+    assert!((1.5..3.5).contains(&shallow), "{shallow} mm");
+}
+
+/// On straight paths the paper's ply touches in step 22 of 30, in the middle of an outer cell, where the catenaries
+/// touch in step 26.
+#[test]
+fn the_paper_s_straight_path_touches_first_in_the_middle_of_an_outer_cell() {
+    let mut scene = example("01_flat_sheared_mold");
+    scene.settings.sheet.mesh = Some(0.01);
+    // contact is all that is asked
+    scene.motion.positions.truncate(23);
+    scene.motion.times.truncate(23);
+    let draped = drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()));
+    let summary = draped.expect("the scene has a sheet").summary;
+    assert_eq!(summary.first_contact_step, Some(22));
+    let [u, v] = summary.first_contact_uv_mm.expect("it touches");
+    let outer = f64::min(u, 300.0 - u);
+    assert!((outer - 50.0).abs() < 11.0 && (v - 50.0).abs() < 11.0, "{u} {v}");
+}
