@@ -232,4 +232,4 @@ def test_the_sheet_lands_as_mujocos(peer: Any, landing: Drape) -> None:
     off: where the ply folds then depends on everything, in MuJoCo too.
     """
     found = ours(scene_of(peer.paper_ply(6, 3.143, 5.0))).at(landing.places)
-    assert np.abs(found[21:26] - landing.positions[2:]).max() < 5e-4
+    assert np.abs(found[21:26] - landing.positions[2:]).max() < 8e-4

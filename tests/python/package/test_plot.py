@@ -364,7 +364,7 @@ def test_bad_wishes_are_refused(flat: plydrape.Result) -> None:
         ("measures", {"against": "speed"}, '"step" or "time"'),
         ("shear", {"view": "side"}, '"fabric", "plan" and "both"'),
         ("shear", {"most": -1.0}, "cannot end"),
-        ("movie", {}, '"steps", "measures" or "shear"'),
+        ("movie", {}, '"steps", "measures", "shear" or "sheet"'),
     ]
     for kind, options, message in wishes:
         with pytest.raises(ValueError, match=message):

@@ -15,6 +15,7 @@ use super::stretch::{Stretch, direction};
 use super::system::{Carrier, System, add};
 use super::tuning::Tuning;
 use crate::mold::vector::{along, cross, dot, norm, sub};
+use crate::scene::Friction;
 
 /// What moves: positions, speeds and pads.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,7 +132,13 @@ impl<'a> Cloth<'a> {
             let free = |n: &usize| !matches!(system.carrier(*n), Carrier::Held { .. });
             let rubs = |n: usize| !matches!(system.carrier(n), Carrier::Pad { shift: None, .. });
             let points = (0..nodes).filter(free).map(|n| (n, fabric.areas[n], rubs(n)));
-            let stiffness = sheet.areal_mass * sheet.gravity / (tuning.contact_depth * sheet.pitch);
+            // that under which the weight moves a point by a share of the pitch
+            let stiffness = |share: f64| sheet.areal_mass * sheet.gravity / (share * sheet.pitch);
+            let along = match sheet.friction {
+                Friction::Coulomb(_) => tuning.slip,
+                Friction::Stick | Friction::StickForEver => tuning.contact_depth,
+            };
+            let stiffness = [tuning.contact_depth, along].map(stiffness);
             Contact::new(mold, stiffness, sheet.clear, sheet.friction, sheet.tack, points)
         });
         let mut gripped = vec![false; nodes];
@@ -244,14 +251,16 @@ impl<'a> Cloth<'a> {
             if iteration == 0 && turn > self.tuning.turn {
                 return Err(Failure::Turn);
             }
-            let share = (self.tuning.turn / turn).min(1.0);
+            // contact and friction that switch to and fro settle in shorter steps
+            let most = if iteration < self.tuning.full_iterations { 1.0 } else { 0.5 };
+            let share = (self.tuning.turn / turn).min(most);
             let step = &self.step;
             self.stretch.predict(&self.now.x, |n| step[n], share);
             let largest = self.take(share);
             if !largest.is_finite() {
                 return Err(Failure::Singular);
             }
-            if share == 1.0 && largest <= tolerance && iteration > 0 {
+            if share == most && largest <= tolerance && iteration > 0 {
                 return Ok(iteration + 1);
             }
             self.assemble(dt, false);

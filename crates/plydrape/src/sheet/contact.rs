@@ -36,8 +36,10 @@ struct Point {
 #[derive(Debug, Clone)]
 pub struct Contact<'a> {
     mold: &'a Mold,
-    /// Pressure per depth, and shear stress per way along the mold, k (Pa/m).
+    /// Pressure per depth k (Pa/m).
     stiffness: f64,
+    /// Shear stress per way along the mold (Pa/m).
+    shear_stiffness: f64,
     /// Distance (m) at which an anchor is lost.
     release: f64,
     friction: Friction,
@@ -49,7 +51,7 @@ impl<'a> Contact<'a> {
     /// Of nodes with their areas (m²), and whether friction holds each of them.
     pub fn new(
         mold: &'a Mold,
-        stiffness: f64,
+        [stiffness, shear_stiffness]: [f64; 2],
         release: f64,
         friction: Friction,
         tack: f64,
@@ -64,7 +66,15 @@ impl<'a> Contact<'a> {
             anchor: None,
             bound: 0.0,
         };
-        Contact { mold, stiffness, release, friction, tack, points: nodes.map(point).collect() }
+        Contact {
+            mold,
+            stiffness,
+            shear_stiffness,
+            release,
+            friction,
+            tack,
+            points: nodes.map(point).collect(),
+        }
     }
 
     /// Energy (J) of depth and of springs along the mold.
@@ -74,6 +84,7 @@ impl<'a> Contact<'a> {
             let k = self.stiffness * point.area;
             let mut energy = 0.0;
             if let Some(anchor) = point.anchor {
+                let k = self.shear_stiffness * point.area;
                 let off = self.offset(anchor, at);
                 let size = norm(off);
                 energy += match self.friction {
@@ -100,7 +111,7 @@ impl<'a> Contact<'a> {
             let (node, at) = (self.points[n].node, x[self.points[n].node]);
             let k = self.stiffness * self.points[n].area;
             if let Some(anchor) = self.points[n].anchor {
-                self.hold(&self.points[n], anchor, at, k, system);
+                self.hold(&self.points[n], anchor, at, system);
             }
             if self.is_clear(&self.points[n], at) {
                 continue;
@@ -120,7 +131,8 @@ impl<'a> Contact<'a> {
     }
 
     /// Adds the spring along the mold.
-    fn hold(&self, point: &Point, anchor: Anchor, at: [f64; 3], k: f64, system: &mut System) {
+    fn hold(&self, point: &Point, anchor: Anchor, at: [f64; 3], system: &mut System) {
+        let k = self.shear_stiffness * point.area;
         let off = self.offset(anchor, at);
         let size = norm(off);
         let mut spring: Matrix3 = [[0.0; 3]; 3];
@@ -162,7 +174,7 @@ impl<'a> Contact<'a> {
                 Some(anchor) if self.friction == Friction::StickForEver => Some(anchor),
                 Some(_) if depth < -self.release => None,
                 Some(anchor) => {
-                    Some(self.slipped(anchor, at, bound / (self.stiffness * point.area)))
+                    Some(self.slipped(anchor, at, bound / (self.shear_stiffness * point.area)))
                 }
                 None if depth >= 0.0 && point.rubs => {
                     Some(Anchor { point: closest.point, normal: closest.normal })

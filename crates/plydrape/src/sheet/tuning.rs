@@ -6,6 +6,10 @@ pub struct Tuning {
     /// Depth (of the pitch of the grippers) that the ply's own weight sinks into the contact's penalty: small enough that
     /// the pressure of taut yarns on a mold, some hundred times the weight, stays below 0.02 mm of 100 mm.
     pub contact_depth: f64,
+    /// Way (of the pitch) along the mold in which Coulomb's friction under the ply's own weight builds up: as long as a step
+    /// tolerance, because Newton's iteration cannot see shorter ways; 0.01 mm of 100 mm. Stick has no such bound and is as
+    /// stiff as contact.
+    pub slip: f64,
     /// Height (of the pitch) at which a point that stuck is free again; 0.05 mm of 100 mm, as in the reference figures.
     pub release: f64,
     /// Kinetic energy that a quasi-static motion may have, as a height (of the pitch) by which it would lift the ply:
@@ -20,6 +24,8 @@ pub struct Tuning {
     pub turn: f64,
     /// Most iterations of a time step before it is halved.
     pub iterations: usize,
+    /// Iterations of full steps; half of each step is taken in those that follow, which ends cycles of contact.
+    pub full_iterations: usize,
     /// A time step that took no more than these is followed by one twice as long.
     pub easy_iterations: usize,
     /// Largest way (of the pitch) that grippers go in a time step in which the ply touches the mold: a node is
@@ -47,12 +53,14 @@ impl Default for Tuning {
     fn default() -> Self {
         Tuning {
             contact_depth: 1e-7,
+            slip: 1e-4,
             release: 5e-4,
             lift: 5e-4,
             step_tolerance: 1e-3,
-            rest_tolerance: 1e-5,
+            rest_tolerance: 1e-4,
             turn: 0.3,
             iterations: 20,
+            full_iterations: 8,
             easy_iterations: 6,
             contact_way: 0.01,
             real_step: 0.02,
