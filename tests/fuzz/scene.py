@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 from random import Random
 from typing import Any
+from urllib.parse import unquote
 
 import tomllib
 
@@ -110,7 +111,7 @@ def resolved(node: Any) -> Any:
     """What a reference stands for; of several possible forms the first that is a table."""
     while True:
         if "$ref" in node:
-            node = schema()["$defs"][node["$ref"].rsplit("/", 1)[-1]]
+            node = schema()["$defs"][unquote(node["$ref"].rsplit("/", 1)[-1])]
         elif forms := node.get("anyOf") or node.get("oneOf"):
             node = next((f for f in map(resolved, forms) if "properties" in f), {"type": "null"})
         else:
@@ -120,7 +121,7 @@ def resolved(node: Any) -> Any:
 def sample(rng: Random, node: Any, depth: int = 0) -> Any:
     """A value that the schema allows, with sizes of everyday."""
     if "$ref" in node:
-        return sample(rng, schema()["$defs"][node["$ref"].rsplit("/", 1)[-1]], depth)
+        return sample(rng, schema()["$defs"][unquote(node["$ref"].rsplit("/", 1)[-1])], depth)
     if "const" in node:
         return node["const"]
     if "enum" in node:

@@ -210,7 +210,7 @@ def scene_of(ply: Any) -> plydrape.Scene:
 
 def ours(scene: plydrape.Scene) -> Drape:
     """The same by plydrape."""
-    sheet: Any = plydrape.simulate(scene, model="sheet").sheet  # type: ignore[attr-defined, call-arg]
+    sheet: Any = plydrape.simulate(scene, model="sheet").sheet
     return Drape(sheet.places, sheet.positions)
 
 

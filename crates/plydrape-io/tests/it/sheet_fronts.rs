@@ -19,9 +19,9 @@ fn front(a: f64, slope: f64) -> Scene {
     scene
 }
 
-/// Largest height at the end of a drape under stick, which comes to rest (mm).
-fn height(mut scene: Scene) -> f64 {
-    scene.settings.contact.friction = Friction::Stick;
+/// Largest height at the end of a drape, which comes to rest (mm).
+fn height(mut scene: Scene, friction: Friction) -> f64 {
+    scene.settings.contact.friction = friction;
     let draped = drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(()));
     let summary = draped.expect("the scene has a sheet").summary;
     assert!(summary.converged, "{:?}", summary.status);
@@ -32,10 +32,29 @@ fn height(mut scene: Scene) -> f64 {
 /// catenaries see nothing; at this mesh the ranges are wide.
 #[test]
 fn a_steep_front_lays_the_dome_flat_and_a_shallow_one_leaves_ridges() {
-    let steep = height(front(30.0, 0.6));
-    let shallow = height(front(12.0, 0.25));
+    let steep = height(front(30.0, 0.6), Friction::Stick);
+    let shallow = height(front(12.0, 0.25), Friction::Stick);
     assert!(steep < 0.5, "{steep} mm");
     assert!((1.5..3.5).contains(&shallow), "{shallow} mm");
+}
+
+/// With friction as low as 0.3 every path ends flat, whatever its order. On a dome of radius R the nodes of a chord of
+/// 20 mm are h²/8R = 0.08 mm high.
+#[test]
+fn with_little_friction_every_path_ends_flat() {
+    let friction = Friction::Coulomb(0.3);
+    for (a, slope) in [(30.0, 0.6), (12.0, 0.25)] {
+        let found = height(front(a, slope), friction);
+        assert!(found < 0.12, "{a} {slope}: {found} mm");
+    }
+    let mut straight = example("04_dome");
+    straight.settings.sheet.mesh = Some(0.02);
+    let found = height(straight, friction);
+    assert!(found < 0.15, "{found} mm");
+    let mut flat = example("01_flat_sheared_mold");
+    flat.settings.sheet.mesh = Some(0.02);
+    let found = height(flat, friction);
+    assert!(found < 0.01, "{found} mm");
 }
 
 /// On straight paths the paper's ply touches in step 22 of 30, in the middle of an outer cell, where the catenaries
