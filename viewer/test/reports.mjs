@@ -4,11 +4,15 @@ import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 
-/** Folders with a page under PLYDRAPE_REPORTS, in order of their names. */
+/**
+ * Folders with a page under PLYDRAPE_REPORTS, in order of their names. Those of the examples with the sheet (NAME.sheet) are
+ * left out: the folder `sheet` has such a page, and theirs differ from it by numbers only.
+ */
 export function findReports() {
   const root = process.env.PLYDRAPE_REPORTS;
   if (root === undefined || !existsSync(root)) return [];
   return readdirSync(root)
+    .filter((name) => !name.endsWith(".sheet"))
     .sort()
     .map((name) => ({ name, folder: resolve(root, name), file: resolve(root, name, "report.html") }))
     .filter(({ file }) => existsSync(file));

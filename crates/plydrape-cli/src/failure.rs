@@ -143,6 +143,9 @@ impl Diagnostic for Failure {
                 }
             })),
             Failure::Sheet(fault) => Some(Box::new(fault.remedy())),
+            Failure::Results(plydrape_io::OutputError::States(fault)) => {
+                Some(Box::new(fault.states_remedy()))
+            }
             Failure::Plan(_) | Failure::Results(_) => None,
         }
     }

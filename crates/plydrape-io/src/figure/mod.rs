@@ -90,6 +90,8 @@ pub fn default_steps(result: &ResultFile) -> Vec<usize> {
         let contact = sheet.first_contact_step.and_then(|step| (step..=sheet.steps).find(kept));
         let mut steps: Vec<usize> =
             [Some(1), contact, Some(sheet.steps)].into_iter().flatten().collect();
+        // the catenaries may have ended before
+        steps.retain(|step| *step <= result.steps.len());
         steps.dedup();
         return steps;
     }

@@ -93,6 +93,17 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    /// What would help where the states of a result's sheet are the file.
+    #[must_use]
+    pub fn states_remedy(&self) -> &'static str {
+        match self {
+            ReadError::Unreadable { .. } => {
+                "put `sheet.npz` beside its result.json, or run the scene again"
+            }
+            _ => self.remedy(),
+        }
+    }
+
     /// What would help.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
