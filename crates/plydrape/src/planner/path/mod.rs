@@ -6,6 +6,7 @@ mod search;
 mod strategy;
 mod tabulation;
 mod trajectory;
+mod transport;
 pub mod tuning;
 
 pub use formation::{Formation, MoldHeights};
@@ -13,3 +14,4 @@ pub use refine::correction;
 pub(super) use search::search;
 pub use strategy::Strategy;
 pub use trajectory::trajectory;
+pub use transport::transport;

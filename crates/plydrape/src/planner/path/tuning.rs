@@ -2,17 +2,55 @@
 //!
 //! Lengths are in terms of a cell, the shorter side of a cell of the ply.
 
-use std::f64::consts::{FRAC_PI_2, LN_10};
+use std::f64::consts::{FRAC_PI_2, LN_10, PI};
 
 /// Constants of each stage of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tuning {
+    /// The way from the start to the first formation of a front.
+    pub transport: Transport,
     /// Fronts and the trajectories that they give.
     pub front: Front,
     /// The search for the best front.
     pub search: Search,
     /// Corrections of single grippers by gradients.
     pub refinement: Refinement,
+}
+
+/// Constants of the way from the start to the first formation of a front.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transport {
+    /// Distance that the ply keeps from the mold and from the table while it is carried (cells).
+    pub margin: f64,
+    /// Points of a cell along each side at which this distance is measured, the farther end not counted: at the
+    /// grippers and half-way between them.
+    pub divisions: usize,
+    /// Length of the way between two places at which it is measured (cells).
+    pub sampling: f64,
+    /// Most places at which it is measured on a way.
+    pub most_samples: usize,
+    /// Rounds in which the height of the carried array is raised until it is kept where corners are rounded, too.
+    pub rounds: usize,
+    /// Share of the margin that may be missing after these rounds.
+    pub tolerance: f64,
+    /// Height over the lowest place that is clear of the mold from which on the array is formed (cells).
+    pub forming_height: f64,
+    /// Height above the first formation at which the array has its shape (cells).
+    pub formed_height: f64,
+    /// Share of the steps in which the array is carried, for a way that is long beside that of forming; of a shorter
+    /// way in proportion.
+    pub carrying: f64,
+    /// Share of the steps in which it is formed.
+    pub forming: f64,
+    /// Share of the steps in which it comes down to the first formation. The front takes the other steps, because
+    /// contacts are made there.
+    pub descent: f64,
+    /// Largest turn in a step (rad): 6°. A cubic spline whose control points are turned by θ a step draws the array in
+    /// by θ²/6. This is compensated where knots are evenly spaced; where they are not, up to about a tenth of it is left:
+    /// 0.02 % of an edge.
+    pub turn: f64,
+    /// Share of the steps up to which that largest turn makes the way longer.
+    pub most_turning: f64,
 }
 
 /// Constants of fronts and their trajectories.
@@ -38,10 +76,6 @@ pub struct Front {
     pub table_error: f64,
     /// Margin of the table around the drape where the formula has no borders, as a share of its size.
     pub table_margin: f64,
-    /// Height of the approach above the first formation (cells).
-    pub approach_height: f64,
-    /// Shares of the steps for approach and descent; the front takes the others, because contacts are made there.
-    pub shares: [f64; 2],
     /// How far the front runs beyond the last gripper, as a share of its path.
     pub beyond: f64,
     /// Formations per step from which steps of equal length are cut, where a move limit asks for them.
@@ -95,6 +129,21 @@ pub struct Refinement {
 
 /// The constants in use.
 pub const TUNING: Tuning = Tuning {
+    transport: Transport {
+        margin: 0.1,
+        divisions: 2,
+        sampling: 0.5,
+        most_samples: 2000,
+        rounds: 8,
+        tolerance: 1e-3,
+        forming_height: 1.0,
+        formed_height: 0.1,
+        carrying: 0.12,
+        forming: 0.17,
+        descent: 0.09,
+        turn: PI / 30.0,
+        most_turning: 0.4,
+    },
     front: Front {
         tip: 1e-3,
         divisions: 4,
@@ -106,8 +155,6 @@ pub const TUNING: Tuning = Tuning {
         table_nodes: 161,
         table_error: 1e-6,
         table_margin: 0.5,
-        approach_height: 0.1,
-        shares: [0.17, 0.09],
         beyond: 0.02,
         finer: 4,
         ranges: [
