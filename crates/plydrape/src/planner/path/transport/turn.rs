@@ -11,7 +11,7 @@ pub type Rotation = [[f64; 3]; 3];
 /// Rounds of Newton's method for the best rotation; from the right heading it takes five to ten.
 const ROUNDS: usize = 50;
 /// Share of the array's moments of inertia that keeps a line of grippers, which may turn about itself, from doing so.
-const LINE: f64 = 1e-9;
+const LINE: f64 = 1e-6;
 
 /// The rotations from one array to another: the heading changes the shorter way, the normal on a great circle.
 #[derive(Debug, Clone, Copy)]
