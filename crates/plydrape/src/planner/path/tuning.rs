@@ -25,7 +25,8 @@ pub struct Transport {
     /// Points of a cell along each side at which this distance is measured, the farther end not counted: at the
     /// grippers and half-way between them.
     pub divisions: usize,
-    /// Length of the way between two places at which it is measured (cells).
+    /// Length of the way between two places at which it is measured (cells); several in a step, because corners of the
+    /// way are rounded within two steps.
     pub sampling: f64,
     /// Most places at which it is measured on a way.
     pub most_samples: usize,
@@ -144,7 +145,7 @@ pub const TUNING: Tuning = Tuning {
     transport: Transport {
         margin: 0.1,
         divisions: 2,
-        sampling: 0.5,
+        sampling: 0.2,
         most_samples: 2000,
         rounds: 8,
         tolerance: 1e-3,
