@@ -131,7 +131,14 @@ impl<'a> Carriage<'a> {
             let parts = (length.ceil() as usize).clamp(1, (transport.most_samples / legs).max(1));
             for part in 1..=parts {
                 let (centre, turned) = spline(controls, k, part as f64 / parts as f64);
-                shortfall = shortfall.max(self.clearance.shortfall(centre, &self.turn.at(turned)));
+                let rotation = self.turn.at(turned);
+                // a table is on the first half of the way: the mold may be lower
+                let short = if turned < 0.5 {
+                    self.clearance.shortfall(centre, &rotation)
+                } else {
+                    self.clearance.shortfall_over_mold(centre, &rotation)
+                };
+                shortfall = shortfall.max(short);
             }
         }
         shortfall
