@@ -22,7 +22,7 @@ from pathlib import Path
 
 from families import FAMILIES
 from ideal import Plydrape, RefusedError
-from molds import Draw
+from molds import Draw, Mold
 from pickup import pick_up
 from plies import SIZES, array, material, scaled, target
 from units import length, table
@@ -43,10 +43,10 @@ class Task:
 
 @dataclass(frozen=True)
 class Scene:
-    """A scene, the file of its mesh, and its row of the table."""
+    """A scene as a file, its mold, and its row of the table."""
 
     text: str
-    mesh: bytes
+    mold: Mold
     row: dict[str, str]
 
 
@@ -113,7 +113,7 @@ def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydra
         "shear (deg)": f"{drape.shear_deg:.2f}",
         "tilt (deg)": f"{drape.tilt_deg:.2f}",
     }
-    return Scene(text(), mold.mesh, row)
+    return Scene(text(), mold, row)
 
 
 def write(task: Task, count: int, folder: Path, program: Plydrape) -> Counter[str]:
@@ -124,8 +124,8 @@ def write(task: Task, count: int, folder: Path, program: Plydrape) -> Counter[st
         made = scene(task, index, program, refused)
         path = folder / f"{index:03d}.toml"
         path.write_text(made.text, encoding="utf-8")
-        if made.mesh:
-            path.with_suffix(".stl").write_bytes(made.mesh)
+        if made.mold.mesh:
+            path.with_suffix(".stl").write_bytes(made.mold.mesh)
         rows.append(made.row)
     with (folder / "scenes.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(rows[0]))

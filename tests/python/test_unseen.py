@@ -1,0 +1,168 @@
+"""The random scenes of benches/unseen, and how their plans are counted."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import sys
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from families import FAMILIES
+from ideal import MAX_SHEAR_DEG, MAX_TILT_DEG, Plydrape
+from molds import Height
+from plies import SIZES
+from program import binary, run
+from run import Run, row_of
+from run import run as timed
+from scenes import Scene, Task, scene, write
+from summary import tables
+
+TASK = Task(seed=901, sizes=list(SIZES), scale=1.0)
+COUNT = 20
+
+
+@pytest.fixture(scope="module")
+def scenes() -> list[Scene]:
+    """Twenty scenes of a seed, one of which was too steep and drawn again."""
+    program = Plydrape(binary())
+    return [scene(TASK, index, program, Counter()) for index in range(COUNT)]
+
+
+@pytest.fixture(scope="module")
+def nets(scenes: list[Scene], tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """Folders of their ideal drapes."""
+    home = tmp_path_factory.mktemp("unseen")
+    folders = []
+    for made in scenes:
+        path = home / f"{made.row['scene']}.toml"
+        path.write_text(made.text, encoding="utf-8")
+        path.with_suffix(".stl").write_bytes(made.mold.mesh)
+        assert run("check", str(path)).returncode == 0
+        done = run("net", str(path), "-o", str(path.with_suffix("")), "--json")
+        assert done.returncode == 0
+        (path.with_suffix("") / "printed.json").write_text(done.stdout)
+        folders.append(path.with_suffix(""))
+    return folders
+
+
+def nodes(folder: Path) -> list[dict[str, float]]:
+    """The nodes of an ideal drape."""
+    with (folder / "nodes.csv").open(newline="") as file:
+        return [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
+
+
+def slope(height: Height, x: float, y: float) -> float:
+    """Slope of a mold (degrees), by differences over 4 mm, within the mold."""
+    step = 0.002
+
+    def along(dx: float, dy: float) -> float:
+        return (height(x + dx, y + dy) - height(x - dx, y - dy)) / (2.0 * step)
+
+    return math.degrees(math.atan(math.hypot(along(step, 0.0), along(0.0, step))))
+
+
+def test_a_seed_gives_the_same_bytes(tmp_path: Path) -> None:
+    """And a scene does not depend on how many are written."""
+    program = Plydrape(binary())
+    write(TASK, 14, tmp_path / "a", program)
+    write(TASK, 15, tmp_path / "b", program)
+    files = [path for path in sorted((tmp_path / "a").iterdir()) if path.name != "scenes.csv"]
+    assert len(files) == 15  # fourteen scenes and the mesh of one
+    for path in files:
+        assert path.read_bytes() == (tmp_path / "b" / path.name).read_bytes()
+
+
+def test_every_family_has_its_turn(scenes: list[Scene]) -> None:
+    """Each of the fourteen once before any has its second turn."""
+    names = [made.row["family"] for made in scenes]
+    assert sorted(names[: len(FAMILIES)]) == sorted(FAMILIES)
+    assert len(set(names[len(FAMILIES) :])) == COUNT - len(FAMILIES)
+
+
+def test_the_ideal_drape_lies_on_the_mold_that_was_drawn(
+    scenes: list[Scene], nets: list[Path]
+) -> None:
+    """Numbers are written with six digits, and a mesh is off by a chord's height."""
+    for made, folder in zip(scenes, nets, strict=True):
+        off = 1e-4 if made.mold.mesh else 2e-5
+        for node in nodes(folder):
+            assert abs(made.mold.height(node["x"], node["y"]) - node["z"]) < off, made.text
+
+
+def test_ideal_drapes_keep_to_what_tilt_and_shear_allow(
+    scenes: list[Scene], nets: list[Path]
+) -> None:
+    """The slope is the mold's; the generator takes the net's chords, which differ by a degree."""
+    for made, folder in zip(scenes, nets, strict=True):
+        printed = json.loads((folder / "printed.json").read_text())
+        assert printed["max_shear_deg"] <= MAX_SHEAR_DEG
+        cells = [float(side) / 1e3 for side in made.row["cell (mm)"].split(" × ")]
+        grippers = [
+            node
+            for node in nodes(folder)
+            if all(
+                math.isclose(share, round(share), abs_tol=1e-9)
+                for share in (node["u"] / cells[0], node["v"] / cells[1])
+            )
+        ]
+        count = [int(number) for number in made.row["grippers"].split(" × ")]
+        assert len(grippers) == count[0] * count[1]
+        steepest = max(slope(made.mold.height, node["x"], node["y"]) for node in grippers)
+        assert steepest < MAX_TILT_DEG + 1.0
+        assert steepest == pytest.approx(float(made.row["tilt (deg)"]), abs=1.0)
+
+
+SCENE = {"scene": "000", "family": "dome", "size": "small", "grippers": "3 × 2", "start": "above"}
+
+
+def plan(accepted: bool, height: float) -> str:
+    """What the planner prints, as far as it is read."""
+    limit = {"name": "height", "value": height, "limit": 0.5, "unit": "mm", "where": "somewhere"}
+    sheet = {"height_max_mm": height, "limits": [{**limit, "ok": height <= 0.5}]}
+    return json.dumps({"accepted": accepted, "evaluations": 7, "limits": [], "sheet": sheet})
+
+
+@pytest.mark.parametrize(
+    ("code", "out", "result"),
+    [
+        (0, plan(True, 0.2), "accepted"),
+        (1, plan(False, 0.9), "not accepted"),
+        (0, plan(False, 0.9), "not accepted"),
+        (0, plan(True, math.nan), "failed"),
+        (3, plan(True, 0.2), "failed"),
+        (-6, "", "failed"),
+        (0, "", "failed"),
+    ],
+)
+def test_a_plan_is_accepted_not_accepted_or_failed(code: int, out: str, result: str) -> None:
+    """Any exit code but 0 and 1, a NaN, and silence are failures."""
+    row = row_of(SCENE, Run(code, False, 1.5, 20.0, out, ""))
+    assert row["result"] == result
+    if result == "not accepted":
+        assert row["limit"] == "height" and row["value"] == "0.900"
+
+
+def test_time_and_memory_are_those_of_the_program() -> None:
+    """It sleeps for 0.2 s and holds 100 MB; one that takes too long is told to end."""
+    script = "import time; x = bytearray(b'a' * 100_000_000); time.sleep(0.2); print('out')"
+    done = timed([sys.executable, "-c", script], 60.0)
+    assert done.exit == 0 and not done.late and done.out == "out\n"
+    assert 0.2 <= done.seconds < 30.0
+    assert 100.0 < done.memory_mb < 400.0
+    late = timed([sys.executable, "-c", "import time; time.sleep(100)"], 0.2)
+    assert late.late and late.seconds < 50.0
+    assert row_of(SCENE, late)["result"] == "out of time"
+
+
+def test_tables_count_every_scene() -> None:
+    """Accepted ones in shares, others in a list, failed ones apart."""
+    ends = [(0, plan(True, 0.2)), (1, plan(False, 0.9)), (-11, "")]
+    rows = [row_of(SCENE, Run(code, False, 2.0, 20.0, out, "")) for code, out in ends]
+    text = tables(rows)
+    assert "1/3 scenes accepted" in text
+    assert "| dome | 1/3 | 2.0 | 2.0 | 7 | 20 |" in text
+    assert "What stopped the others: height 1\n" in text
+    assert "| 000 | dome | 3 × 2 | -11 | no JSON |" in text
