@@ -10,6 +10,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from molds import Height
 from plies import Array
 
 MAX_SHEAR_DEG = 30.0
@@ -18,8 +19,8 @@ MAX_SHEAR_DEG = 30.0
 MAX_TILT_DEG = 30.0
 """Largest tilt of a gripper at its target (degrees); its joint tilts by 40."""
 
-Node = tuple[int, int]
-Place = tuple[float, float, float]
+STEP = 0.01
+"""Step of the differences that give a slope, of the shorter side of a cell."""
 
 
 class RefusedError(Exception):
@@ -33,7 +34,7 @@ class Drape:
     shear_deg: float
     """Largest shear of a cell."""
     tilt_deg: float
-    """Largest angle of the ply to the plane at a gripper."""
+    """Largest angle of the mold to the plane at a gripper."""
     middle: tuple[float, float]
     """Mean place x, y of the grippers (m)."""
     bottom: float
@@ -62,13 +63,13 @@ class Plydrape:
         """Refuses what `check` refuses. It may warn of straight ways, which no plan follows."""
         self.run("check", str(scene))
 
-    def drape(self, scene: Path, ply: Array) -> Drape:
+    def drape(self, scene: Path, ply: Array, height: Height) -> Drape:
         """The ideal drape; refused if there is none, or if it shears or tilts too much."""
         folder = scene.with_suffix(".net")
         done = self.run("net", str(scene), "-o", str(folder), "--json")
         if done.returncode == 1:
             raise RefusedError("no ideal drape")
-        drape = read(folder / "nodes.csv", json.loads(done.stdout), ply)
+        drape = read(folder / "nodes.csv", json.loads(done.stdout), ply, height)
         if drape.shear_deg > MAX_SHEAR_DEG:
             raise RefusedError("shear")
         if drape.tilt_deg > MAX_TILT_DEG:
@@ -76,38 +77,29 @@ class Plydrape:
         return drape
 
 
-def read(table: Path, printed: dict[str, float], ply: Array) -> Drape:
+def read(table: Path, printed: dict[str, float], ply: Array, height: Height) -> Drape:
     """The ideal drape from its nodes; every gripper holds one of them."""
-    nodes: dict[Node, Place] = {}
-    grippers: list[Node] = []
+    heights, grippers = [], []
     with table.open(newline="") as file:
         for row in csv.DictReader(file):
-            node = (int(row["i"]), int(row["j"]))
-            nodes[node] = (float(row["x"]), float(row["y"]), float(row["z"]))
+            heights.append(float(row["z"]))
             cells = (float(row["u"]) / ply.cell[0], float(row["v"]) / ply.cell[1])
             if all(abs(share - round(share)) < 1e-6 for share in cells):
-                grippers.append(node)
+                grippers.append((float(row["x"]), float(row["y"])))
     assert len(grippers) == ply.grippers[0] * ply.grippers[1]
-    x, y, _ = (sum(axis) / len(grippers) for axis in zip(*map(nodes.get, grippers), strict=True))
-    heights = [place[2] for place in nodes.values()]
+    x, y = (sum(axis) / len(grippers) for axis in zip(*grippers, strict=True))
+    step = STEP * min(ply.cell)
     return Drape(
         shear_deg=printed["max_shear_deg"],
-        tilt_deg=max(tilt(nodes, node) for node in grippers),
+        tilt_deg=max(slope(height, place, step) for place in grippers),
         middle=(x, y),
         bottom=min(heights),
         top=max(heights),
     )
 
 
-def tilt(nodes: dict[Node, Place], node: Node) -> float:
-    """Angle of the net to the plane at a node (degrees), from the neighbours that it has."""
-    i, j = node
-    here = nodes[node]
-
-    def along(di: int, dj: int) -> Place:
-        a, b = nodes.get((i - di, j - dj), here), nodes.get((i + di, j + dj), here)
-        return b[0] - a[0], b[1] - a[1], b[2] - a[2]
-
-    (a, b, c), (p, q, r) = along(1, 0), along(0, 1)
-    normal = (b * r - c * q, c * p - a * r, a * q - b * p)
-    return math.degrees(math.atan2(math.hypot(normal[0], normal[1]), normal[2]))
+def slope(height: Height, place: tuple[float, float], step: float) -> float:
+    """Angle of a mold to the plane over a place (degrees), by central differences."""
+    x, y = place
+    along = height(x + step, y) - height(x - step, y), height(x, y + step) - height(x, y - step)
+    return math.degrees(math.atan2(math.hypot(*along), 2.0 * step))

@@ -91,7 +91,7 @@ def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydra
         path = Path(folder) / f"{name}.toml"
         path.with_suffix(".stl").write_bytes(mold.mesh)
         path.write_text(text(), encoding="utf-8")
-        drape = program.drape(path, ply)
+        drape = program.drape(path, ply, mold.height)
         where, tables["grippers"] = pick_up(rng, ply, mold, drape, heading)
         kind = "krogh2018"
         if task.scale == 1.0:

@@ -9,10 +9,10 @@ import sys
 from collections import Counter
 from pathlib import Path
 
+import numpy as np
 import pytest
 from families import FAMILIES
 from ideal import MAX_SHEAR_DEG, MAX_TILT_DEG, Plydrape
-from molds import Height
 from plies import SIZES
 from program import binary, run
 from run import Run, row_of
@@ -54,14 +54,15 @@ def nodes(folder: Path) -> list[dict[str, float]]:
         return [{name: float(text) for name, text in row.items()} for row in csv.DictReader(file)]
 
 
-def slope(height: Height, x: float, y: float) -> float:
-    """Slope of a mold (degrees), by differences over 4 mm, within the mold."""
-    step = 0.002
-
-    def along(dx: float, dy: float) -> float:
-        return (height(x + dx, y + dy) - height(x - dx, y - dy)) / (2.0 * step)
-
-    return math.degrees(math.atan(math.hypot(along(step, 0.0), along(0.0, step))))
+def tilt(net: dict[tuple[int, int], list[float]], node: tuple[int, int]) -> float:
+    """Angle of a net to the plane at a node (degrees), from the neighbours that it has."""
+    (i, j), here = node, net[node]
+    along = [
+        [b - a for a, b in zip(net.get(before, here), net.get(after, here), strict=True)]
+        for before, after in [((i - 1, j), (i + 1, j)), ((i, j - 1), (i, j + 1))]
+    ]
+    normal = np.cross(np.array(along[0]), np.array(along[1]))
+    return math.degrees(math.atan2(math.hypot(normal[0], normal[1]), normal[2]))
 
 
 def test_a_seed_gives_the_same_bytes(tmp_path: Path) -> None:
@@ -95,24 +96,23 @@ def test_the_ideal_drape_lies_on_the_mold_that_was_drawn(
 def test_ideal_drapes_keep_to_what_tilt_and_shear_allow(
     scenes: list[Scene], nets: list[Path]
 ) -> None:
-    """The slope is the mold's; the generator takes the net's chords, which differ by a degree."""
+    """Tilts again from the net: along the 10 mm of a corner's bar a mold turns by up to 4 degrees."""
     for made, folder in zip(scenes, nets, strict=True):
         printed = json.loads((folder / "printed.json").read_text())
         assert printed["max_shear_deg"] <= MAX_SHEAR_DEG
-        cells = [float(side) / 1e3 for side in made.row["cell (mm)"].split(" × ")]
-        grippers = [
-            node
+        assert float(made.row["tilt (deg)"]) <= MAX_TILT_DEG
+        net = {
+            (int(node["i"]), int(node["j"])): [node["x"], node["y"], node["z"]]
             for node in nodes(folder)
-            if all(
-                math.isclose(share, round(share), abs_tol=1e-9)
-                for share in (node["u"] / cells[0], node["v"] / cells[1])
-            )
-        ]
+        }
         count = [int(number) for number in made.row["grippers"].split(" × ")]
-        assert len(grippers) == count[0] * count[1]
-        steepest = max(slope(made.mold.height, node["x"], node["y"]) for node in grippers)
-        assert steepest < MAX_TILT_DEG + 1.0
-        assert steepest == pytest.approx(float(made.row["tilt (deg)"]), abs=1.0)
+        divisions = [(n - 1) // (c - 1) for n, c in zip(printed["nodes"], count, strict=True)]
+        steepest = max(
+            tilt(net, (i * divisions[0], j * divisions[1]))
+            for i in range(count[0])
+            for j in range(count[1])
+        )
+        assert steepest == pytest.approx(float(made.row["tilt (deg)"]), abs=2.0)
 
 
 SCENE = {"scene": "000", "family": "dome", "size": "small", "grippers": "3 × 2", "start": "above"}
