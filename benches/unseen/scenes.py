@@ -92,14 +92,14 @@ def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydra
         path.with_suffix(".stl").write_bytes(mold.mesh)
         path.write_text(text(), encoding="utf-8")
         drape = program.drape(path, ply, mold.height)
-        where, tables["grippers"] = pick_up(rng, ply, mold, drape, heading)
-        kind = "krogh2018"
+        start, kind = pick_up(rng, ply, mold, drape, heading), "krogh2018"
         if task.scale == 1.0:
             kind = material(rng, drape.shear_deg)
             tables["ply"]["material"] = f'"{kind}"'
         else:
             del tables["ply"]["material"]
             tables.update(scaled(task.scale))
+        tables["grippers"] = start.taut(kind).keys(ply)
         path.write_text(text(), encoding="utf-8")
         program.check(path)
     row = {
@@ -109,7 +109,7 @@ def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydra
         "grippers": f"{ply.grippers[0]} × {ply.grippers[1]}",
         "cell (mm)": " × ".join(f"{1e3 * side:.6g}" for side in ply.cell),
         "material": kind,
-        "start": where,
+        "start": start.name,
         "shear (deg)": f"{drape.shear_deg:.2f}",
         "tilt (deg)": f"{drape.tilt_deg:.2f}",
     }
