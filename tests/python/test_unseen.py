@@ -131,7 +131,7 @@ def test_the_ply_hangs_clear_of_the_mold_within_the_tilt_of_its_grippers(
 
 
 def test_a_loose_pick_up_is_drawn_taut_to_the_angle_it_may_hang_at(tmp_path: Path) -> None:
-    """Catenaries of the least spacing hang 3 degrees too steeply, and then at 35 within 1 degree."""
+    """Catenaries of the least spacing hang 3 degrees too steeply; then they hang at 35 degrees."""
     ply = Array((3, 3), (0.1, 0.1), 1.0)
     loose = PickUp("above", (0.05, 0.05), 0.5)
     tilts = []
