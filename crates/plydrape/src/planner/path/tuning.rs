@@ -86,6 +86,13 @@ pub struct Front {
     pub beyond: f64,
     /// Formations per step from which steps of equal length are cut, where a move limit asks for them.
     pub finer: usize,
+    /// Steepest slope that is tried first: steeper ones make the ply fold at the front.
+    pub steepest: f64,
+    /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
+    /// and tilts those at its boundary more.
+    pub tilt_share: f64,
+    /// Rounds in which that slope is found.
+    pub slope_rounds: usize,
     /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension. Ratios go up to
     /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 3, slopes from 0.02 to 1.
     pub ranges: [[f64; 2]; 7],
@@ -96,8 +103,9 @@ pub struct Front {
 pub struct Search {
     /// Score below which a plan keeps every limit with so wide a margin that the search ends. A score of 1 just keeps them.
     pub good: f64,
-    /// Score of a ranking below which a plan is decided on. Above 1, because a coarse mesh has an error of its own.
-    pub promising: f64,
+    /// Score of a ranking below which a plan is decided on: first, and once the error of the coarse mesh is known. Above 1,
+    /// because of that error.
+    pub promising: [f64; 2],
     /// Ratio of a measure to its limit by the grippers alone beyond which a candidate is not draped: above 1, because the
     /// ply tilts a gripper less or more than the lines to its neighbours.
     pub excess: f64,
@@ -172,6 +180,9 @@ pub const TUNING: Tuning = Tuning {
         table_margin: 0.5,
         beyond: 0.02,
         finer: 4,
+        steepest: 0.6,
+        tilt_share: 0.95,
+        slope_rounds: 6,
         ranges: [
             [0.0, 1.0],
             [0.0, 1.0],
@@ -179,18 +190,18 @@ pub const TUNING: Tuning = Tuning {
             [-FRAC_PI_2, FRAC_PI_2],
             [-1.6 - LN_10, 3.4 - LN_10],
             [-4.0, 0.0],
-            [0.0, 4e-4],
+            [0.0, 1.2e-3],
         ],
     },
     search: Search {
         good: 0.8,
-        promising: 1.4,
+        promising: [1.4, 1.1],
         excess: 1.1,
         not_draped: 1e2,
         batch: 4,
         decisions: 2,
         kept: 16,
-        step: 0.08,
+        step: 0.1,
         generation: 8,
         patience: 2,
         gain: 0.95,
