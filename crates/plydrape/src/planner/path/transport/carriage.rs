@@ -124,11 +124,13 @@ impl<'a> Carriage<'a> {
     fn shortfall(&self, controls: &[Control]) -> f64 {
         let transport = TUNING.transport;
         let legs = controls.len().saturating_sub(1);
+        // a corner is rounded within legs beside it, however short these are
+        let leg = |pair: &[Control]| farthest(&self.array_at(pair[0]), &self.array_at(pair[1]));
+        let longest = controls.windows(2).map(leg).fold(0.0, f64::max);
+        let parts = (longest / (transport.sampling * self.cell)).ceil() as usize;
+        let parts = parts.clamp(1, (transport.most_samples / legs.max(1)).max(1));
         let mut shortfall = f64::NEG_INFINITY;
         for k in 0..legs {
-            let [from, to] = [controls[k], controls[k + 1]].map(|c| self.array_at(c));
-            let length = farthest(&from, &to) / (transport.sampling * self.cell);
-            let parts = (length.ceil() as usize).clamp(1, (transport.most_samples / legs).max(1));
             for part in 1..=parts {
                 let (centre, turned) = spline(controls, k, part as f64 / parts as f64);
                 let rotation = self.turn.at(turned);
