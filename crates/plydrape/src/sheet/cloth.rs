@@ -139,7 +139,8 @@ impl<'a> Cloth<'a> {
                 Friction::Stick | Friction::StickForEver => tuning.contact_depth,
             };
             let stiffness = [tuning.contact_depth, along].map(stiffness);
-            Contact::new(mold, stiffness, sheet.clear, sheet.friction, sheet.tack, points)
+            let clear = tuning.release * sheet.pitch;
+            Contact::new(mold, stiffness, clear, sheet.friction, sheet.tack, points)
         });
         let mut gripped = vec![false; nodes];
         for (node, _) in held.iter().flatten() {

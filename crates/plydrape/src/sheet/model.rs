@@ -2,7 +2,6 @@
 
 use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
-use super::tuning::Tuning;
 use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
 use crate::ply::Direction;
@@ -35,8 +34,6 @@ pub struct Sheet {
     pub pitch: f64,
     /// Largest distance of neighbouring lines (m).
     pub mesh: f64,
-    /// Height over the mold (m) at which a point is clear of it.
-    pub clear: f64,
 }
 
 /// Why a scene has no sheet.
@@ -225,7 +222,6 @@ impl Sheet {
             tack: settings.contact.tack,
             pitch,
             mesh,
-            clear: Tuning::default().release * pitch,
         };
         Ok(sheet)
     }
