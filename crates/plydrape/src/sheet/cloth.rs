@@ -66,8 +66,8 @@ pub struct Cloth<'a> {
     masses: Vec<f64>,
     /// Nodes of each gripper with their distance from its middle (m).
     held: Vec<Vec<(usize, [f64; 2])>>,
-    /// Whether a gripper holds a node.
-    gripped: Vec<bool>,
+    /// Whether a gripper holds each node.
+    pub gripped: Vec<bool>,
     /// Positions, speeds and pads.
     pub now: Motion,
     before: Motion,

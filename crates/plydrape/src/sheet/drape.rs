@@ -173,7 +173,8 @@ impl Run<'_> {
     /// Evaluates the state of a step.
     fn see(&mut self, step: usize) -> State {
         let state = self.state(step);
-        self.extremes.see(self.sheet, &state, self.scene.settings.contact.tolerance);
+        let touching = self.scene.settings.contact.tolerance;
+        self.extremes.see(self.sheet, &self.cloth.gripped, &state, touching);
         for (landed, touches) in self.landing_step.iter_mut().zip(&state.contact) {
             *landed = touches.then(|| landed.unwrap_or(step));
         }
@@ -282,12 +283,10 @@ impl Run<'_> {
         };
         let heights = self.sheet.mold.as_ref().map(height).unwrap_or_default();
         // a node under a gripper touches where it is as near as one that is not clear
-        let held = self.sheet.held();
         let clear = self.tuning.release * self.sheet.pitch;
-        let mut contact = vec![false; positions.len()];
-        for (node, _) in held.iter().flatten() {
-            contact[*node] = heights.get(*node).is_some_and(|height| *height <= clear);
-        }
+        let near = |node: usize| heights.get(node).is_some_and(|height| *height <= clear);
+        let gripped = self.cloth.gripped.iter().enumerate();
+        let mut contact: Vec<bool> = gripped.map(|(node, held)| *held && near(node)).collect();
         for node in self.cloth.contact.iter().flat_map(|contact| contact.touching()) {
             contact[node] = true;
         }
