@@ -7,6 +7,7 @@ use crate::size;
 use plydrape::material::{Material, Section};
 use plydrape::ply::Ply;
 use plydrape::scene::{Model, Settings};
+use plydrape::sheet::coarsest_mesh;
 use std::ops::Range;
 
 /// Lines of nodes across the shorter side of a cell, unless the scene gives their distance.
@@ -134,8 +135,7 @@ impl Around<'_> {
     /// The largest distance between lines of nodes (m); refuses one that leaves no line between two pads.
     fn mesh(&self) -> Result<f64, SceneError> {
         let mesh = self.settings.sheet.mesh.unwrap_or(self.pitch() / LINES);
-        let radius = self.settings.pad.radius;
-        let most = 0.5 * self.pitch() - radius;
+        let most = coarsest_mesh(self.pitch(), self.settings.pad.radius);
         if mesh <= most * (1.0 + ROUNDING) {
             return Ok(mesh);
         }
