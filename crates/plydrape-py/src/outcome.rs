@@ -83,7 +83,7 @@ impl Outcome {
         let mut values = Vec::with_capacity(quantities.len() * width);
         for quantity in quantities {
             match quantity {
-                Some(quantity) => values.extend_from_slice(&quantity.gradient),
+                Some(quantity) => values.extend(quantity.gradient.dense(width)),
                 None => values.resize(values.len() + width, f64::NAN),
             }
         }

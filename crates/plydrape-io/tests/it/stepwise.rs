@@ -148,7 +148,7 @@ fn solve(ply: &Ply, shift: f64, direction: &[f64]) -> Solved {
 /// Every quantity that a plan may limit, by name.
 fn quantities(ply: &Ply, solved: &mut Solved) -> Vec<(String, Quantity)> {
     let Solved { solver, shape, positions } = solved;
-    let look = Sensitivity::new(&ply.scene, solver, shape, positions, &ply.contacts);
+    let look = Sensitivity::whole(&ply.scene, solver, shape, positions, &ply.contacts);
     let mut out = Vec::new();
     let grid = ply.scene.ply.grid;
     for span in &look.shape.spans {
@@ -243,7 +243,7 @@ proptest! {
         for (n, (name, quantity)) in found.iter().enumerate() {
             // a segment close to taut bends within micrometres: the error of second order follows
             let difference = (4.0 * near[n] - far[n]) / 3.0;
-            let along: f64 = quantity.gradient.iter().zip(&direction).map(|(g, d)| g * d).sum();
+            let along: f64 = quantity.gradient.dot(&direction);
             // differences carry the solver's 1e-8 of the slopes over h
             let scale = difference.abs() + quantity.value.abs() + 1.0;
             prop_assert!((along - difference).abs() < 2e-4 * scale, "{name}: {along} for {difference}");

@@ -77,8 +77,6 @@ pub struct Search {
 pub struct Refinement {
     /// B-splines of each gripper's correction: as smooth as the path, and few enough for dense matrices.
     pub splines: usize,
-    /// Unknowns beyond which the program would cost more than the drapes.
-    pub unknowns: usize,
     /// Fabric ahead of a contact end whose position error is reduced, as a share of the span.
     pub ahead: f64,
     /// Height below which a span is about to come into contact (cells).
@@ -132,7 +130,6 @@ pub const TUNING: Tuning = Tuning {
     },
     refinement: Refinement {
         splines: 5,
-        unknowns: 800,
         ahead: 0.1,
         near: 0.05,
         stretch_share: 0.5,

@@ -11,7 +11,8 @@ use crate::draping::spans::{Point, Shape};
 use crate::draping::{Draping, lying_segments, misfit};
 use crate::mold::SurfaceCurve;
 use crate::mold::vector::{along, norm, sub, unit};
-use crate::planner::program::{MM, Program};
+use crate::planner::program::Program;
+use crate::planner::row::Row;
 use crate::scene::Scene;
 
 /// A free segment of an edge in contact, or a whole edge that lies, with the grippers that hold it.
@@ -33,10 +34,10 @@ impl FreeSegment {
         self.length > TUNING.slack.short * self.whole
     }
 
-    /// Stretch (m) after moves (mm) of all grippers.
+    /// Stretch (m) after moves (m) of all grippers.
     fn stretch_after(&self, moves: &[f64]) -> f64 {
         let stretch = |(gripper, way): &(usize, [f64; 3])| {
-            (0..3).map(|n| way[n] * moves[3 * gripper + n] / MM).sum::<f64>()
+            (0..3).map(|n| way[n] * moves[3 * gripper + n]).sum::<f64>()
         };
         self.stretch + self.grippers.iter().map(stretch).sum::<f64>()
     }
@@ -127,34 +128,34 @@ pub fn removal(
     let mut active: Vec<bool> = segments.iter().map(slack).collect();
     let mut moves = Vec::new();
     for _ in 0..TUNING.slack.rounds {
-        let mut program = Program::new(count);
+        let mut program = Program::new(scene, count);
+        let scale = program.scale;
         for (gripper, target) in targets.iter().enumerate() {
             let way = sub(*target, draping.positions[gripper]);
             for n in 0..3 {
-                program.near(1.0, 3 * gripper + n, MM * way[n]);
+                program.near(1.0, 3 * gripper + n, scale * way[n]);
             }
-            let radius = MM * TUNING.slack.share * limits.landing_gripper;
-            program.cone(vec![(gripper, 1.0)], way.map(|c| -MM * c), radius + MM * norm(way));
+            let radius = scale * TUNING.slack.share * limits.landing_gripper;
+            program.cone(vec![(gripper, 1.0)], way.map(|c| -scale * c), radius + scale * norm(way));
         }
         for (segment, active) in segments.iter().zip(&active) {
-            let mut gradient = vec![0.0; 3 * count];
+            let mut gradient = Row::default();
             for (gripper, way) in &segment.grippers {
-                for n in 0..3 {
-                    gradient[3 * gripper + n] += way[n];
-                }
+                gradient.add_from(3 * gripper, 1.0, *way);
             }
             if *active {
                 program.square(
                     TUNING.slack.weight,
-                    MM * (segment.stretch - segment.target),
+                    scale * (segment.stretch - segment.target),
                     &gradient,
                 );
             }
             let most = (TUNING.slack.stretch_share * limits.overstretch * segment.whole)
                 .max(segment.stretch);
-            program.at_most(&gradient, 1.0, MM * (most - segment.stretch));
+            program.at_most(&gradient, 1.0, scale * (most - segment.stretch));
         }
         moves = program.solve()?;
+        moves.iter_mut().for_each(|x| *x /= scale);
         let mut changed = false;
         for (segment, active) in segments.iter().zip(&mut active) {
             let slack = segment.counts() && segment.stretch_after(&moves) < 0.0;
@@ -167,7 +168,7 @@ pub fn removal(
     }
     let place = |gripper: usize| {
         let way = [0, 1, 2].map(|n| moves[3 * gripper + n]);
-        mold.closest_point(along(draping.positions[gripper], 1.0 / MM, way)).point
+        mold.closest_point(along(draping.positions[gripper], 1.0, way)).point
     };
     Some((0..count).map(place).collect())
 }
