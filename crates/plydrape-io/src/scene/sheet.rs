@@ -13,30 +13,33 @@ use std::ops::Range;
 /// Lines of nodes across the shorter side of a cell, unless the scene gives their distance.
 const LINES: f64 = 10.0;
 
-/// Refuses a scene whose model is the sheet if material, pads, mesh or memory do not allow that.
+/// Refuses a scene whose model is the sheet if material, pads, mesh or memory do not allow that. Returns the sheet's nodes; none
+/// where the model is another.
 pub(super) fn fits(
     file: &SceneKeys,
     ply: &Ply,
     settings: &Settings,
     steps: usize,
     document: &Document,
-) -> Result<(), SceneError> {
+) -> Result<Option<f64>, SceneError> {
     if settings.model != Model::Sheet {
-        return Ok(());
+        return Ok(None);
     }
     stiffness(&file.ply.material.span, &ply.material, document)?;
     let around = Around { file, ply, settings, document };
     around.pads()?;
     let mesh = around.mesh()?;
     let states = settings.sheet.keep.min(steps);
-    size::sheet(around.nodes(mesh), states).map_err(|fault| {
+    let nodes = around.nodes(mesh);
+    size::sheet(nodes, states).map_err(|fault| {
         let span = around.mesh_span().unwrap_or_else(|| file.ply.grippers.span.clone());
         document.error(
             span,
             fault.to_string(),
             format!("{}; a coarser `mesh` has fewer nodes", fault.remedy()),
         )
-    })
+    })?;
+    Ok(Some(nodes))
 }
 
 /// Refuses a material that does not say how it resists tension, shear and bending; `span` is where the scene names it.

@@ -2,12 +2,14 @@
 //! judged by draping along them.
 
 use crate::common::{Point, distance, example};
+use crate::scaled::scaled;
 use plydrape::draping::simulate;
 use plydrape::draping::spans::{Shape, shape};
 use plydrape::equilibrium::{Side, Solver, Status};
 use plydrape::measure::Name;
 use plydrape::mold::{Face, Mold, Plane, Pose, Sphere, SurfaceCurve};
 use plydrape::planner::sensitivity::{Quantity, Sensitivity};
+use plydrape::planner::stepwise::tuning::TUNING;
 use plydrape::planner::stepwise::{Outcome, Stepwise, stepwise};
 use plydrape::ply::{ContactSegment, Grid};
 use plydrape::scene::{ContactEnd, Motion, Scene, SlopeRule, Stepping};
@@ -367,6 +369,38 @@ fn moves_keep_to_their_limit_and_nothing_rises_after_the_landing() {
     let last = plan.positions.last().expect("steps");
     for (place, target) in last.iter().zip(targets) {
         assert!(distance(*place, *target) <= scene.limits.landing_gripper);
+    }
+}
+
+/// No length but those of the scene: a scene of another size has the plan of that size, within a ten-thousandth of a cell.
+/// That is room for rounding where the slack of a segment is just so large that it counts, and a move removes it.
+#[test]
+fn a_scaled_scene_has_the_scaled_plan() {
+    for name in ["01_flat_sheared_mold", "04_dome", "05_cylinder"] {
+        let scene = cut(name);
+        let own = plan(&scene);
+        for s in [0.1, 10.0] {
+            let other = plan(&scaled(&scene, s));
+            assert_eq!(other.outcome, own.outcome, "{name} × {s}");
+            let more = own.positions.len().abs_diff(other.positions.len());
+            assert!(more <= TUNING.slack.moves, "{name} × {s}: {more} steps");
+            let pairs = own.positions.iter().flatten().zip(other.positions.iter().flatten());
+            let apart = pairs.map(|(a, b)| distance(*a, b.map(|x| x / s))).fold(0.0, f64::max);
+            assert!(apart < 1e-4 * scene.ply.cell[0], "{name} × {s}: {apart}");
+        }
+        let mut scene = scene;
+        scene.target.as_mut().expect("a target").drape = None;
+        let own = plan(&scene);
+        for s in [0.125, 8.0] {
+            let other = plan(&scaled(&scene, s));
+            let pairs = own.positions.iter().flatten().zip(other.positions.iter().flatten());
+            let apart = pairs.map(|(a, b)| distance(*a, b.map(|x| x / s))).fold(0.0, f64::max);
+            eprintln!(
+                "{name} {s} without drape: {} {} {apart:.2e}",
+                own.positions.len(),
+                other.positions.len()
+            );
+        }
     }
 }
 

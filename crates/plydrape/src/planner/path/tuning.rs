@@ -75,7 +75,7 @@ pub struct Search {
 /// Constants of the refinement by gradients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Refinement {
-    /// B-splines of each gripper's correction: as smooth as the path, and few enough for dense matrices.
+    /// B-splines of each gripper's correction: as smooth as the path.
     pub splines: usize,
     /// Fabric ahead of a contact end whose position error is reduced, as a share of the span.
     pub ahead: f64,

@@ -1,13 +1,13 @@
-//! The quantities of a solved ply that a plan weighs, each with its exact gradient to all gripper positions.
+//! The quantities of a solved ply that a plan weighs, each with its gradient to all gripper positions.
 //!
 //! The equilibrium is differentiated by the implicit function theorem, eq. (11) of `docs/theory/equilibrium.md`: one
-//! tangent for each gripper coordinate gives how every span's force, end slopes, run, rise and length
-//! follow. All else is the chain rule. Contact segments stay fixed. Gradients are exact wherever the state is
-//! differentiable: not where a diagonal just begins to shear, a slope just reaches its limit, or a point
-//! just comes into contact.
+//! tangent for each group of distant grippers and each axis gives how every span's force, end slopes, run, rise and length
+//! follow. All else is the chain rule. Contact segments stay fixed. Gradients are exact, but for what is left out of them
+//! as negligible, wherever the state is differentiable: not where a diagonal just begins to shear, a slope just reaches its
+//! limit, or a point just comes into contact.
 //!
-//! `span` has the quantities of one span, `contact` those of a span and the mold, `gripper` those of
-//! grippers and cells, `outcome` those of the end of a drape.
+//! `coloring` has the groups, `state` the derivatives of the state as sparse rows, `span` the quantities of one span,
+//! `contact` those of a span and the mold, `gripper` those of grippers and cells, `outcome` those of the end of a drape.
 
 mod coloring;
 mod contact;
@@ -15,6 +15,8 @@ mod gripper;
 mod outcome;
 mod span;
 mod state;
+#[cfg(test)]
+mod tests;
 
 pub use outcome::{Outcome, outcome};
 pub use span::Place;

@@ -13,7 +13,7 @@ mod slack;
 mod stage;
 mod step;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 pub mod tuning;
 
 pub use outcome::{Outcome, PositionError, Stepwise};

@@ -10,7 +10,7 @@ use crate::ply::{Direction, Grid, Ply};
 use crate::scene::{Limits, Model, Motion, Plan, Scene, Settings, Target};
 
 /// The paper's ply with `count` × `count` grippers, 2 % slack, above a flat dome.
-fn scene(count: usize) -> Scene {
+pub fn scene(count: usize) -> Scene {
     let grid = Grid { nu: count, nv: count };
     let material = Material {
         name: "krogh2018".into(),
