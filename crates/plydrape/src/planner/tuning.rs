@@ -21,6 +21,9 @@ pub struct Tuning {
 /// Constants of the evaluation of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evaluation {
+    /// Largest distance between neighbouring lines of the sheet that ranks candidates (of the pitch of the grippers). A
+    /// fifth: cell middles hang and land as in a finer one, and a drape takes a tenth of the time.
+    pub mesh: f64,
     /// Weight of the mean of all ratios of measures to limits beside the largest. 0.1, so that it decides only among
     /// plans that are about equally good at their worst.
     pub mean_weight: f64,
@@ -66,6 +69,7 @@ pub const TUNING: Tuning = Tuning {
     program_iterations: 60,
     program_unit: 0.01,
     evaluation: Evaluation {
+        mesh: 0.2,
         mean_weight: 0.1,
         largest_ratio: 10.0,
         counted_share: 0.9,

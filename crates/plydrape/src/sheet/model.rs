@@ -4,7 +4,7 @@ use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
 use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
-use crate::ply::Direction;
+use crate::ply::{Direction, Ply};
 use crate::scene::{Friction, Scene};
 
 /// A ply as a sheet.
@@ -139,7 +139,7 @@ impl Sheet {
 
         let [a, b] = ply.cell;
         let grid = ply.grid;
-        let pitch = if grid.nv > 1 { a.min(b) } else { a };
+        let pitch = pitch(ply);
         let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch);
         let (radius, overhang) = (settings.pad.radius, settings.sheet.overhang);
         let positive = |what, value: f64| check(value > 0.0, what, value, "positive");
@@ -249,6 +249,13 @@ impl Sheet {
 #[must_use]
 pub fn coarsest_mesh(pitch: f64, radius: f64) -> f64 {
     0.5 * pitch - radius
+}
+
+/// Shortest distance between neighbouring grippers in the fabric (m).
+#[must_use]
+pub fn pitch(ply: &Ply) -> f64 {
+    let [a, b] = ply.cell;
+    if ply.grid.nv > 1 { a.min(b) } else { a }
 }
 
 fn check(

@@ -1,9 +1,11 @@
 //! Whole trajectories, evaluated by complete drapes, section 17 of `docs/theory`.
 
 mod formation;
+mod geometry;
 mod refine;
 mod search;
 mod strategy;
+mod taut;
 mod tabulation;
 mod trajectory;
 pub mod tuning;

@@ -73,35 +73,45 @@ impl Strategy {
         numbers.iter().all(|n| n.is_finite()) && ratio > 0.0 && curvature > 0.0 && slope > 0.0
     }
 
-    /// The first candidates: a ring that spreads from the middle, lines along the mold's two principal
-    /// directions there, and a descent of all grippers at once.
+    /// The first candidates: rings that spread from the middle of a cell near the middle of the ply, steep and less
+    /// steep; ellipses and lines along the mold's two principal directions there; and a descent of all grippers at once.
     #[must_use]
     pub fn families(scene: &Scene) -> Vec<Strategy> {
-        let ring = Strategy {
-            start: [0.5; 2],
-            ratio: 1.0,
-            angle: 0.0,
-            curvature: 0.4,
-            slope: 0.4,
-            pretension: 1e-4,
-        };
+        let grid = scene.ply.grid;
+        let start = [grid.nu, grid.nv].map(middle_of_cell);
         let [first, second] =
             principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
-        let line = |angle| Strategy { ratio: 100.0, angle, ..ring };
-        let sharp = Strategy { curvature: 2.0, slope: 0.25, pretension: 0.0, ..ring };
+        let ring = |slope| Strategy {
+            start,
+            ratio: 1.0,
+            angle: 0.0,
+            curvature: 3.0,
+            slope,
+            pretension: 0.0,
+        };
+        let ellipse = |angle| Strategy { ratio: 2.5, angle, ..ring(0.5) };
+        let line = |angle, slope| Strategy { ratio: 100.0, angle, ..ring(slope) };
         vec![
-            ring,
-            Strategy { curvature: 1.2, ..sharp },
-            line(second),
-            line(first),
-            Strategy { curvature: 0.03, slope: 0.03, ..ring },
-            Strategy { curvature: 0.05, slope: 0.05, ..line(second) },
-            Strategy { ratio: 1.3, angle: second, ..sharp },
-            Strategy { ratio: 1.3, angle: first, ..sharp },
-            Strategy { ratio: 2.0, angle: second, ..sharp },
-            Strategy { ratio: 2.0, angle: first, ..sharp },
+            ring(0.5),
+            ring(0.35),
+            ring(0.6),
+            ring(0.25),
+            ellipse(second),
+            ellipse(first),
+            line(second, 0.5),
+            line(first, 0.5),
+            line(second, 0.3),
+            line(first, 0.3),
+            Strategy { curvature: 0.3, ..ring(0.3) },
+            Strategy { curvature: 0.05, ..ring(0.05) },
         ]
     }
+}
+
+/// The middle of the cell that is nearest the middle of so many grippers, as a share of the fabric.
+fn middle_of_cell(grippers: usize) -> f64 {
+    let cells = grippers.saturating_sub(1).max(1);
+    ((cells / 2) as f64 + if cells % 2 == 1 { 0.5 } else { -0.5 }) / cells as f64
 }
 
 /// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape.

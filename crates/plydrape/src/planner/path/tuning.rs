@@ -30,8 +30,13 @@ pub struct Front {
     pub upright_border: f64,
     /// Rounds in which the height of the tangent plane at the border is found.
     pub border_rounds: usize,
-    /// Height over which a gripper gives up its pretension as it lands (cells): where the ply beside it comes into contact.
-    pub landing_height: f64,
+    /// Parts of a line between two grippers, between whose ends the front's crossing is found.
+    pub line_parts: usize,
+    /// Rounds over all lines at most in which they are made taut.
+    pub tightenings: usize,
+    /// Difference of a line and its chord, as a share of its length, at which it is taut; small beside the slack that
+    /// lets a cell sag visibly, some 1e-5.
+    pub taut: f64,
     /// Nodes of the table of a mold that is a formula along each axis.
     pub table_nodes: usize,
     /// Error up to which this table is used (cells).
@@ -56,8 +61,19 @@ pub struct Front {
 pub struct Search {
     /// Score below which a plan keeps every limit with so wide a margin that the search ends. A score of 1 just keeps them.
     pub good: f64,
-    /// Score below which a plan is evaluated with twice the steps, too. Above 1, because a refinement may improve it.
+    /// Score of a ranking below which a plan is decided on. Above 1, because a coarse mesh has an error of its own.
     pub promising: f64,
+    /// Ratio of a measure to its limit by the grippers alone beyond which a candidate is not draped: above 1, because the
+    /// ply tilts a gripper less or more than the lines to its neighbours.
+    pub excess: f64,
+    /// Score of such a candidate, as a multiple of the ratio: worse than that of one that is draped.
+    pub not_draped: f64,
+    /// First candidates that are draped before the best of them is decided on: whole pairs, for two cores.
+    pub batch: usize,
+    /// Candidates that are decided on at once.
+    pub decisions: usize,
+    /// Candidates that are kept to be decided on.
+    pub kept: usize,
     /// First step of the evolution, in shares of each range: it explores around the best member of a family.
     pub step: f64,
     /// Candidates of a generation: whole pairs, for two cores.
@@ -66,10 +82,6 @@ pub struct Search {
     pub patience: usize,
     /// Ratio of scores that is a gain.
     pub gain: f64,
-    /// Rounds of refinement.
-    pub refinements: usize,
-    /// Shares of a correction that are tried, because the correction is linear and the drape is not.
-    pub parts: [f64; 2],
 }
 
 /// Constants of the refinement by gradients.
@@ -100,7 +112,9 @@ pub const TUNING: Tuning = Tuning {
         height_margin: 0.25,
         upright_border: 0.3,
         border_rounds: 4,
-        landing_height: 0.02,
+        line_parts: 16,
+        tightenings: 500,
+        taut: 1e-6,
         table_nodes: 161,
         table_error: 1e-6,
         table_margin: 0.5,
@@ -119,14 +133,17 @@ pub const TUNING: Tuning = Tuning {
         ],
     },
     search: Search {
-        good: 0.6,
-        promising: 1.3,
+        good: 0.8,
+        promising: 1.4,
+        excess: 1.1,
+        not_draped: 1e2,
+        batch: 4,
+        decisions: 2,
+        kept: 16,
         step: 0.08,
         generation: 8,
-        patience: 3,
-        gain: 0.98,
-        refinements: 3,
-        parts: [1.0, 0.4],
+        patience: 2,
+        gain: 0.95,
     },
     refinement: Refinement {
         splines: 5,
