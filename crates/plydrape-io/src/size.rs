@@ -138,22 +138,35 @@ pub fn drape(ply: &Ply, count: usize) -> Result<(), SizeError> {
     check(of_steps(ply, count), || steps("the result", ply, count))
 }
 
-/// Refuses a plan that would be too large: the drapes that are tried, the program of a step, and at the end the sheet, of
-/// so many nodes and kept states, where that is the model.
+/// The sheets of a plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlanSheets {
+    /// Nodes of the sheet that decides.
+    pub nodes: f64,
+    /// Nodes of a sheet that ranks candidates; there is one on each core.
+    pub coarse_nodes: f64,
+    /// States that the one that decides keeps.
+    pub keep: usize,
+}
+
+/// Refuses a plan that would be too large: the drapes that are tried, the program of a step, and the sheets where that is
+/// the model.
 ///
 /// # Errors
 /// As [`check`].
-pub fn plan(ply: &Ply, plan: &Plan, sheet: Option<(f64, usize)>) -> Result<(), SizeError> {
-    let program = match plan.method {
-        PlanMethod::Path => 0.0,
-        PlanMethod::Stepwise => PROGRAM * ply.grid.grippers() as f64,
+pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), SizeError> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from) as f64;
+    let (program, cores) = match plan.method {
+        PlanMethod::Path => (0.0, cores),
+        PlanMethod::Stepwise => (PROGRAM * ply.grid.grippers() as f64, 0.0),
     };
-    let states = |keep: usize| keep.min(plan.steps);
-    let of_sheet = sheet.map_or(0.0, |(nodes, keep)| of_sheet(nodes, states(keep)));
-    check(PLAN * of_steps(ply, plan.steps) + program + of_sheet, || {
+    let of_sheets = sheets.map_or(0.0, |PlanSheets { nodes, coarse_nodes, keep }| {
+        of_sheet(nodes, keep.min(plan.steps)) + cores * of_sheet(coarse_nodes, 0)
+    });
+    check(PLAN * of_steps(ply, plan.steps) + program + of_sheets, || {
         let steps = steps("a plan", ply, plan.steps);
-        match sheet {
-            Some((nodes, _)) => format!("{steps}, and a sheet of {nodes:.0} nodes,"),
+        match sheets {
+            Some(PlanSheets { nodes, .. }) => format!("{steps}, and a sheet of {nodes:.0} nodes,"),
             None => steps,
         }
     })

@@ -52,12 +52,11 @@ pub(super) fn scene(
     let motion = places.motion(file, target.as_ref())?;
     places.fits(&file.ply.grippers.span, motion.positions.len())?;
     let limits = limits(&file.limits, &ply, &settings, document)?;
-    let nodes = sheet::fits(file, &ply, &settings, motion.positions.len(), document)?;
+    let sheets = sheet::fits(file, &ply, &settings, motion.positions.len(), document)?;
     let plan = plan(&file.plan, ply.grid, document)?;
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(&file.ply.grippers.span, |steps| &steps.span);
-    let fits = places
-        .allowed(steps, size::plan(&ply, &plan, nodes.map(|nodes| (nodes, settings.sheet.keep))));
+    let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
     let title = title(file.title.as_ref(), document, base)?;
     Ok(SceneFile {
         scene: Scene { title, ply, mold, motion, target, settings, limits, plan },

@@ -3,17 +3,18 @@
 use super::error::{Document, SceneError};
 use super::file::SceneKeys;
 use crate::shown::millimetres;
-use crate::size;
+use crate::size::{self, PlanSheets};
 use plydrape::material::{Material, Section};
+use plydrape::planner::tuning::TUNING;
 use plydrape::ply::Ply;
 use plydrape::scene::{Model, Settings};
-use plydrape::sheet::coarsest_mesh;
+use plydrape::sheet::{coarsest_mesh, pitch};
 use std::ops::Range;
 
 /// Lines of nodes across the shorter side of a cell, unless the scene gives their distance.
 const LINES: f64 = 10.0;
 
-/// Refuses a scene whose model is the sheet if material, pads, mesh or memory do not allow that. Returns the sheet's nodes; none
+/// Refuses a scene whose model is the sheet if material, pads, mesh or memory do not allow that. Returns the sheets of a plan; none
 /// where the model is another.
 pub(super) fn fits(
     file: &SceneKeys,
@@ -21,7 +22,7 @@ pub(super) fn fits(
     settings: &Settings,
     steps: usize,
     document: &Document,
-) -> Result<Option<f64>, SceneError> {
+) -> Result<Option<PlanSheets>, SceneError> {
     if settings.model != Model::Sheet {
         return Ok(None);
     }
@@ -39,7 +40,8 @@ pub(super) fn fits(
             format!("{}; a coarser `mesh` has fewer nodes", fault.remedy()),
         )
     })?;
-    Ok(Some(nodes))
+    let coarse = mesh.max(TUNING.evaluation.mesh * pitch(ply));
+    Ok(Some(PlanSheets { nodes, coarse_nodes: around.nodes(coarse), keep: settings.sheet.keep }))
 }
 
 /// Refuses a material that does not say how it resists tension, shear and bending; `span` is where the scene names it.
@@ -106,7 +108,7 @@ impl Around<'_> {
     fn pads(&self) -> Result<(), SceneError> {
         let radius = self.settings.pad.radius;
         let Some(span) = self.pad_span().filter(|_| radius > 0.0) else { return Ok(()) };
-        let (pitch, overhang) = (self.pitch(), self.settings.sheet.overhang);
+        let (pitch, overhang) = (pitch(self.ply), self.settings.sheet.overhang);
         if 2.0 * radius >= pitch {
             return Err(self.document.error(
                 span,
@@ -137,8 +139,8 @@ impl Around<'_> {
 
     /// The largest distance between lines of nodes (m); refuses one that leaves no line between two pads.
     fn mesh(&self) -> Result<f64, SceneError> {
-        let mesh = self.settings.sheet.mesh.unwrap_or(self.pitch() / LINES);
-        let most = coarsest_mesh(self.pitch(), self.settings.pad.radius);
+        let mesh = self.settings.sheet.mesh.unwrap_or(pitch(self.ply) / LINES);
+        let most = coarsest_mesh(pitch(self.ply), self.settings.pad.radius);
         if mesh <= most * (1.0 + ROUNDING) {
             return Ok(mesh);
         }
@@ -183,12 +185,6 @@ impl Around<'_> {
         };
         let (grid, [a, b]) = (self.ply.grid, self.ply.cell);
         along(grid.nu, a) * along(grid.nv, b)
-    }
-
-    /// Smallest fabric length between neighbouring grippers (m).
-    fn pitch(&self) -> f64 {
-        let [a, b] = self.ply.cell;
-        if self.ply.grid.nv > 1 { a.min(b) } else { a }
     }
 
     fn mesh_span(&self) -> Option<Range<usize>> {

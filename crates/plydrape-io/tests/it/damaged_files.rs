@@ -6,6 +6,7 @@ use plydrape::scene::Plan;
 use plydrape_io::export::{self, Format};
 use plydrape_io::mesh::{self, MeshFileError};
 use plydrape_io::scene::{self, SceneError};
+use plydrape_io::size::PlanSheets;
 use plydrape_io::{ResultFile, formula, input, page, read, size};
 use serde_json::Value;
 use std::ops::ControlFlow;
@@ -287,11 +288,11 @@ fn a_plan_of_more_steps_than_fit_the_memory_is_refused_with_its_estimate() {
 #[test]
 fn a_plan_is_refused_for_its_sheet_too() {
     let scene = parse(SCENE).unwrap();
-    let (nodes, states) = (9e4, 40);
-    assert!(size::sheet(nodes, states).is_ok());
+    let sheets = PlanSheets { nodes: 9e4, coarse_nodes: 1e3, keep: 40 };
+    assert!(size::sheet(sheets.nodes, sheets.keep).is_ok());
     let plan = Plan { steps: 10_000, ..scene.plan };
     assert!(size::plan(&scene.ply, &plan, None).is_ok());
-    let refused = size::plan(&scene.ply, &plan, Some((nodes, states))).unwrap_err().to_string();
+    let refused = size::plan(&scene.ply, &plan, Some(sheets)).unwrap_err().to_string();
     assert!(
         refused.contains("with 4 grippers") && refused.contains("a sheet of 90000 nodes"),
         "{refused}"

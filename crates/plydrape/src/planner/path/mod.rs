@@ -5,8 +5,8 @@ mod geometry;
 mod refine;
 mod search;
 mod strategy;
-mod taut;
 mod tabulation;
+mod taut;
 mod trajectory;
 pub mod tuning;
 
