@@ -43,13 +43,14 @@ impl FreeSegment {
     }
 }
 
-/// Direction out of a line at one of its ends.
-fn outward(line: &SurfaceCurve, end: usize) -> Option<[f64; 3]> {
+/// Direction out of a line at one of its ends; none where its points there are nearer than `least` (m), which is rounding.
+fn outward(line: &SurfaceCurve, end: usize, least: f64) -> Option<[f64; 3]> {
     let (points, last) = (&line.points, line.points.len() - 1);
-    match end {
-        0 => unit(sub(points[0], *points.get(1)?)),
-        _ => unit(sub(points[last], points[last.checked_sub(1)?])),
-    }
+    let way = match end {
+        0 => sub(points[0], *points.get(1)?),
+        _ => sub(points[last], points[last.checked_sub(1)?]),
+    };
+    unit(way).filter(|_| norm(way) > least)
 }
 
 fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSegment> {
@@ -69,6 +70,7 @@ fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSeg
                 Some(0) => &[0],
                 Some(_) => &[1],
             };
+            let least = TUNING.slack.shortest * ply.flat_length(c.kind);
             out.push(FreeSegment {
                 stretch: segment.misfit.path - segment.misfit.length,
                 target: TUNING.slack.target_stretch * ply.flat_length(c.kind),
@@ -79,7 +81,7 @@ fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSeg
                     .filter_map(|&end| {
                         // behind the contact, the path grows back over it
                         let sense = if segment.misfit.path < 0.0 { -1.0 } else { 1.0 };
-                        Some((ids[end], outward(&segment.line, end)?.map(|c| sense * c)))
+                        Some((ids[end], outward(&segment.line, end, least)?.map(|c| sense * c)))
                     })
                     .collect(),
             });
