@@ -97,7 +97,7 @@ pub fn search(
 impl Search<'_, '_> {
     /// The first candidates: families, or what an earlier search found.
     fn first(&mut self, checkpoint: Option<&Checkpoint>) {
-        let Shared { scene, tabulated, heights, state } = self.shared;
+        let Shared { scene, state, .. } = self.shared;
         state.begin("first candidates");
         match checkpoint.and_then(|checkpoint| checkpoint.path(scene)) {
             Some((strategy, Some(positions))) => {
@@ -111,15 +111,12 @@ impl Search<'_, '_> {
                 self.decide(f64::INFINITY, 1);
             }
             None => {
-                let mut families = Strategy::families(scene);
+                let mut families = Strategy::families(scene, |shape| self.shared.steepest(shape));
                 // what grippers alone cannot do comes last
-                let excess = |strategy: &Strategy| {
-                    let positions = trajectory(tabulated, heights, *strategy);
-                    positions.map_or(f64::INFINITY, |positions| geometry::excess(scene, &positions))
-                };
+                let excess = |strategy: &Strategy| self.shared.excess(*strategy).max(1.0);
                 let excess: Vec<f64> = families.par_iter().map(excess).collect();
                 let mut order: Vec<usize> = (0..families.len()).collect();
-                order.sort_by(|a, b| excess[*a].max(1.0).total_cmp(&excess[*b].max(1.0)));
+                order.sort_by(|a, b| excess[*a].total_cmp(&excess[*b]));
                 families = order.into_iter().map(|n| families[n]).collect();
                 for batch in families.chunks(TUNING.search.batch) {
                     if self.is_done() {
@@ -241,6 +238,28 @@ impl Shared<'_, '_> {
             return None;
         }
         Some(self.along(strategy, trajectory(&self.tabulated, &self.heights, strategy)?))
+    }
+
+    /// [`geometry::excess`] of a strategy.
+    fn excess(&self, strategy: Strategy) -> f64 {
+        let positions = trajectory(&self.tabulated, &self.heights, strategy);
+        positions.map_or(f64::INFINITY, |positions| geometry::excess(self.scene, &positions))
+    }
+
+    /// The steepest slope of a front of this shape at which no gripper tilts too far, by bisection.
+    fn steepest(&self, shape: Strategy) -> f64 {
+        let keeps =
+            |slope: f64| self.excess(Strategy { slope, ..shape }) <= TUNING.front.tilt_share;
+        if keeps(shape.slope) {
+            return shape.slope;
+        }
+        let (mut low, mut high) = (0.0, shape.slope);
+        for _ in 0..TUNING.front.slope_rounds {
+            let middle = 0.5 * (low + high);
+            *(if keeps(middle) { &mut low } else { &mut high }) = middle;
+        }
+        // a mold as steep as the limit leaves nothing
+        low.max(TUNING.front.ranges[5][0].exp())
     }
 
     /// The candidate with these positions (m).

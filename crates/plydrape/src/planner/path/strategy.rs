@@ -3,6 +3,7 @@
 use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
+use rayon::prelude::*;
 
 /// Parameters of a front: where it starts, its shape, and how steep and how taut the ply is ahead of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,38 +74,53 @@ impl Strategy {
         numbers.iter().all(|n| n.is_finite()) && ratio > 0.0 && curvature > 0.0 && slope > 0.0
     }
 
-    /// The first candidates: rings that spread from the middle of a cell near the middle of the ply, steep and less
-    /// steep; ellipses and lines along the mold's two principal directions there; and a descent of all grippers at once.
+    /// The first candidates, those that most molds take first. `steepest` is the steepest slope that the tilt of the
+    /// grippers leaves to a front of this shape.
     #[must_use]
-    pub fn families(scene: &Scene) -> Vec<Strategy> {
+    pub fn families(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
         let grid = scene.ply.grid;
         let start = [grid.nu, grid.nv].map(middle_of_cell);
         let [first, second] =
             principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
-        let ring = |slope| Strategy {
-            start,
-            ratio: 1.0,
-            angle: 0.0,
-            curvature: 3.0,
-            slope,
-            pretension: 0.0,
+        let shape = |ratio, angle| Strategy { ratio, angle, ..Strategy::ring(start) };
+        let shapes = [
+            shape(1.0, 0.0),
+            shape(2.5, second),
+            shape(2.5, first),
+            shape(100.0, second),
+            shape(100.0, first),
+        ];
+        let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
+        let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
+        let [ring, second_ellipse, first_ellipse, second_line, first_line] = shapes[..] else {
+            return shapes;
         };
-        let ellipse = |angle| Strategy { ratio: 2.5, angle, ..ring(0.5) };
-        let line = |angle, slope| Strategy { ratio: 100.0, angle, ..ring(slope) };
+        let flatter = |share: f64, of: Strategy| Strategy { slope: share * of.slope, ..of };
+        let loose = |of: Strategy| Strategy { curvature: 3.0, pretension: 0.0, ..of };
         vec![
-            ring(0.5),
-            ring(0.35),
-            ring(0.6),
-            ring(0.25),
-            ellipse(second),
-            ellipse(first),
-            line(second, 0.5),
-            line(first, 0.5),
-            line(second, 0.3),
-            line(first, 0.3),
-            Strategy { curvature: 0.3, ..ring(0.3) },
-            Strategy { curvature: 0.05, ..ring(0.05) },
+            ring,
+            flatter(0.8, ring),
+            loose(ring),
+            second_ellipse,
+            first_ellipse,
+            Strategy { pretension: 1e-3, ..ring },
+            second_line,
+            first_line,
+            loose(second_ellipse),
+            loose(first_ellipse),
+            flatter(0.6, ring),
+            flatter(0.6, loose(ring)),
+            Strategy { start: [0.5; 2], ..ring },
+            loose(second_line),
+            loose(first_line),
+            Strategy { curvature: 0.05, ..flatter(0.1, ring) },
         ]
+    }
+
+    /// A ring that spreads from a start, as steep as no tilt forbids.
+    fn ring(start: [f64; 2]) -> Self {
+        let slope = TUNING.front.steepest;
+        Strategy { start, ratio: 1.0, angle: 0.0, curvature: 5.0, slope, pretension: 6e-4 }
     }
 }
 

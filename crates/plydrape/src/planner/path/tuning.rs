@@ -51,6 +51,13 @@ pub struct Front {
     pub beyond: f64,
     /// Formations per step from which steps of equal length are cut, where a move limit asks for them.
     pub finer: usize,
+    /// Steepest slope that is tried first: steeper ones make the ply fold at the front.
+    pub steepest: f64,
+    /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
+    /// and tilts those at its boundary more.
+    pub tilt_share: f64,
+    /// Rounds in which that slope is found.
+    pub slope_rounds: usize,
     /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension. Ratios go up to
     /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 3, slopes from 0.02 to 1.
     pub ranges: [[f64; 2]; 7],
@@ -122,6 +129,9 @@ pub const TUNING: Tuning = Tuning {
         shares: [0.17, 0.09],
         beyond: 0.02,
         finer: 4,
+        steepest: 0.6,
+        tilt_share: 0.95,
+        slope_rounds: 6,
         ranges: [
             [0.0, 1.0],
             [0.0, 1.0],
@@ -129,7 +139,7 @@ pub const TUNING: Tuning = Tuning {
             [-FRAC_PI_2, FRAC_PI_2],
             [-1.6 - LN_10, 3.4 - LN_10],
             [-4.0, 0.0],
-            [0.0, 4e-4],
+            [0.0, 1.2e-3],
         ],
     },
     search: Search {
@@ -140,7 +150,7 @@ pub const TUNING: Tuning = Tuning {
         batch: 4,
         decisions: 2,
         kept: 16,
-        step: 0.08,
+        step: 0.1,
         generation: 8,
         patience: 2,
         gain: 0.95,
