@@ -98,8 +98,7 @@ impl Row {
     /// Leaves out numbers smaller than a share of the largest.
     pub fn trim(&mut self, share: f64) {
         let least = share * self.largest();
-        // NaN stays
-        self.entries.retain(|(_, x)| !(x.abs() < least || *x == 0.0));
+        self.entries.retain(|(_, x)| x.is_nan() || x.abs() >= least && *x != 0.0);
         self.entries.shrink_to_fit();
     }
 

@@ -80,7 +80,7 @@ impl Gathering {
         // before it grows, what is known to be negligible goes
         if self.entries.len() == self.entries.capacity() && self.entries.len() > 8 {
             let least = negligible * self.largest();
-            self.entries.retain(|(_, x)| !(x.abs() < least));
+            self.entries.retain(|(_, x)| x.abs() >= least || x.is_nan());
         }
         self.entries.push((place, x));
         if is_far {
