@@ -4,7 +4,7 @@
 //! decide (`decision`).
 
 use crate::draping::{self, Judged};
-use crate::measure::{Verdict, Worth};
+use crate::measure::{Name, Verdict, Worth};
 use crate::planner::search_state::SearchState;
 use crate::planner::tuning::{Evaluation, TUNING};
 use crate::scene::{Model, Motion, Scene, SheetTime, Stepping};
@@ -86,18 +86,56 @@ pub fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
 
 /// What a limit adds to the score. A limit that only has to be kept counts from a share of it on; of the errors of the
 /// ply, less is always better.
-fn weight(verdict: &Verdict) -> f64 {
-    let (ratio, counted) = (verdict.ratio(), TUNING.evaluation.counted_share);
+fn weight(verdict: &Verdict, bias: f64) -> f64 {
+    let (ratio, counted) = (bias * verdict.ratio(), TUNING.evaluation.counted_share);
     match verdict.name.measure().worth() {
         Worth::Kept if ratio <= 1.0 => ((ratio - counted) / (1.0 - counted)).max(0.0),
         _ => ratio,
     }
 }
 
+/// By how much measures of a coarse sheet differ from those of a fine one: a factor for each that was compared.
+#[derive(Debug, Clone, Default)]
+pub struct Bias(Vec<(Name, f64)>);
+
+impl Bias {
+    /// Learns from two drapes along one plan.
+    pub fn learn(&mut self, coarse: &Judged, fine: &Judged) {
+        for a in &coarse.limits {
+            let Some(b) = fine.limits.iter().find(|b| b.name == a.name) else { continue };
+            // a measure far from its limit says nothing of others near theirs
+            if a.ratio().max(b.ratio()) < TUNING.evaluation.compared_share {
+                continue;
+            }
+            let [low, high] = TUNING.evaluation.bias;
+            let factor = (b.ratio() / a.ratio().max(f64::MIN_POSITIVE)).clamp(low, high);
+            match self.0.iter_mut().find(|(name, _)| *name == a.name) {
+                Some((_, before)) => *before = (*before * factor).sqrt(),
+                None => self.0.push((a.name, factor)),
+            }
+        }
+    }
+
+    /// Whether nothing was learnt.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    fn of(&self, name: Name) -> f64 {
+        self.0.iter().find(|(other, _)| *other == name).map_or(1.0, |(_, factor)| *factor)
+    }
+}
+
 /// The worst ratio, and a little of the mean; smaller is better, and above 1 plus the weight of the mean nothing is accepted.
 #[must_use]
 pub fn score(drape: &Judged) -> f64 {
-    let ratios: Vec<f64> = drape.limits.iter().map(weight).collect();
+    score_with(drape, &Bias::default())
+}
+
+/// The same of a coarse sheet, with what is known of its error.
+#[must_use]
+pub fn score_with(drape: &Judged, bias: &Bias) -> f64 {
+    let ratios: Vec<f64> = drape.limits.iter().map(|v| weight(v, bias.of(v.name))).collect();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
     let Evaluation { mean_weight, largest_ratio, missing_weight, .. } = TUNING.evaluation;
     let mean =
@@ -112,7 +150,7 @@ pub fn score(drape: &Judged) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::{Name, Worst};
+    use crate::measure::Worst;
 
     /// A search prefers a plan that misses a limit to one with a step that is no solution, and any whole one to one broken off.
     #[test]

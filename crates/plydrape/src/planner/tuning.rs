@@ -31,6 +31,10 @@ pub struct Evaluation {
     pub largest_ratio: f64,
     /// Share of a limit that only has to be kept, up to which a measure does not count.
     pub counted_share: f64,
+    /// Ratio to its limit below which a measure of a coarse sheet is not compared with that of a fine one.
+    pub compared_share: f64,
+    /// Least and largest factor between both that is believed.
+    pub bias: [f64; 2],
     /// Equilibria a step on the average from which on a drape is broken off; good drapes take two or three.
     pub most_equilibria: usize,
     /// Score of a drape that was broken off, per share of the steps that are missing: worse than that of any other.
@@ -73,6 +77,8 @@ pub const TUNING: Tuning = Tuning {
         mean_weight: 0.1,
         largest_ratio: 10.0,
         counted_share: 0.9,
+        compared_share: 0.3,
+        bias: [0.5, 2.0],
         most_equilibria: 12,
         missing_weight: 1e3,
         tilt_rate_margin: 1.5,

@@ -11,11 +11,12 @@ use super::strategy::Strategy;
 use super::tabulation::tabulated;
 use super::trajectory::trajectory;
 use super::tuning::TUNING;
+use crate::draping::Judged;
 use crate::draping::spans::Point;
 use crate::motion::MotionError;
 use crate::planner::checkpoint::Checkpoint;
 use crate::planner::decision::Decision;
-use crate::planner::evaluation;
+use crate::planner::evaluation::{self, Bias};
 use crate::planner::infeasible_limits::infeasible_limits;
 use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
@@ -23,13 +24,15 @@ use cmaes::{CMAESOptions, DVector};
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::cmp::Ordering;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A strategy and the score of the drape that it leads to.
 #[derive(Debug, Clone)]
 struct Candidate {
     strategy: Strategy,
     positions: Vec<Vec<Point>>,
+    /// Its drape; none of one that was not draped.
+    drape: Option<Judged>,
     score: f64,
 }
 
@@ -40,6 +43,8 @@ struct Shared<'a, 'b> {
     tabulated: Cow<'a, Scene>,
     heights: MoldHeights,
     state: &'a SearchState<'b>,
+    /// How far the ranking was wrong where it was decided; it changes between generations only.
+    bias: Mutex<Bias>,
 }
 
 /// A search under way.
@@ -47,10 +52,6 @@ struct Search<'a, 'b> {
     shared: &'a Shared<'a, 'b>,
     /// The best candidates on which was not decided.
     candidates: Vec<Candidate>,
-    /// The best of all in its ranking, on which may have been decided.
-    top: Option<(f64, Strategy)>,
-    /// Best score in the ranking on which was decided.
-    decided: f64,
     best: Option<Decision>,
     /// The first that could not become a motion.
     fault: Option<MotionError>,
@@ -69,12 +70,11 @@ pub fn search(
     state: &SearchState,
 ) -> Result<Option<Decision>, MotionError> {
     let Some(heights) = MoldHeights::new(scene) else { return Ok(None) };
-    let shared = Shared { scene, tabulated: tabulated(scene), heights, state };
+    let bias = Mutex::default();
+    let shared = Shared { scene, tabulated: tabulated(scene), heights, state, bias };
     let mut search = Search {
         shared: &shared,
         candidates: Vec::new(),
-        top: None,
-        decided: f64::INFINITY,
         best: None,
         fault: None,
         left: scene.plan.evaluations.max(1),
@@ -86,7 +86,7 @@ pub fn search(
     // at least one is decided on, even if the search was stopped
     if search.best.is_none() {
         state.finish();
-        search.decide(f64::INFINITY, 1);
+        search.decide_all(f64::INFINITY, 1);
     }
     match (search.best, search.fault) {
         (None, Some(fault)) => Err(fault),
@@ -104,11 +104,11 @@ impl Search<'_, '_> {
                 self.left = self.left.saturating_sub(1);
                 self.candidates.push(self.shared.along(strategy, positions));
                 self.rank();
-                self.decide(f64::INFINITY, 1);
+                self.decide_all(f64::INFINITY, 1);
             }
             Some((strategy, None)) => {
                 self.drape(&[strategy]);
-                self.decide(f64::INFINITY, 1);
+                self.decide_all(f64::INFINITY, 1);
             }
             None => {
                 let mut families = Strategy::families(scene, |shape| self.shared.steepest(shape));
@@ -124,7 +124,7 @@ impl Search<'_, '_> {
                     }
                     let batch = &batch[..batch.len().min(self.left)];
                     self.drape(batch);
-                    self.decide(TUNING.search.promising, TUNING.search.decisions);
+                    self.decide(TUNING.search.decisions);
                 }
             }
         }
@@ -132,7 +132,10 @@ impl Search<'_, '_> {
 
     /// Evolution about the best; a search that continues an earlier one takes other samples.
     fn evolve(&mut self, checkpoint: Option<&Checkpoint>) {
-        let Some((_, start)) = self.top else { return };
+        let ranked = self.candidates.first().map(|first| (first.score, first.strategy));
+        let decided = self.best.as_ref().and_then(|best| Some((best.score, best.strategy?)));
+        let start = ranked.into_iter().chain(decided).reduce(|a, b| if b.0 < a.0 { b } else { a });
+        let Some((_, start)) = start else { return };
         let shared = self.shared;
         shared.state.begin("evolution");
         let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations as u64);
@@ -141,7 +144,7 @@ impl Search<'_, '_> {
             let strategy = Strategy::of_unit(unit.as_slice());
             let Some(candidate) = shared.of(strategy) else { return f64::MAX };
             let score = candidate.score;
-            found.lock().unwrap_or_else(PoisonError::into_inner).push(candidate);
+            lock(&found).push(candidate);
             score
         };
         let options = CMAESOptions::new(start.to_unit().to_vec(), TUNING.search.step)
@@ -156,11 +159,9 @@ impl Search<'_, '_> {
             self.left -= TUNING.search.generation;
             let ended = evolution.next_parallel().is_some();
             let before = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
-            let generation =
-                std::mem::take(&mut *found.lock().unwrap_or_else(PoisonError::into_inner));
-            self.candidates.extend(generation);
+            self.candidates.append(&mut lock(&found));
             self.rank();
-            self.decide(TUNING.search.promising, 1);
+            self.decide(1);
             // an accepted plan is not improved for long
             let after = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
             let accepted = self.best.as_ref().is_some_and(|best| best.drape.accepted);
@@ -194,16 +195,16 @@ impl Search<'_, '_> {
             key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)
         });
         self.candidates.truncate(TUNING.search.kept);
-        if let Some(first) = self.candidates.first()
-            && self.top.is_none_or(|(score, _)| first.score < score)
-        {
-            self.top = Some((first.score, first.strategy));
-        }
     }
 
-    /// Decides on the best candidates, at most so many, that are better than those before and than `promising`.
-    fn decide(&mut self, promising: f64, most: usize) {
-        let promising = promising.min(TUNING.search.gain * self.decided);
+    /// Decides on the best candidates that are promising, at most so many.
+    fn decide(&mut self, most: usize) {
+        let known = !lock(&self.shared.bias).is_empty();
+        self.decide_all(TUNING.search.promising[usize::from(known)], most);
+    }
+
+    /// Decides on the best candidates with a score below `promising`, at most so many.
+    fn decide_all(&mut self, promising: f64, most: usize) {
         let count = self.candidates.iter().take_while(|c| c.score < promising).count().min(most);
         if count == 0 || self.shared.state.is_stopped() {
             return;
@@ -211,15 +212,17 @@ impl Search<'_, '_> {
         let Shared { scene, state, .. } = self.shared;
         state.begin("decision");
         let chosen: Vec<Candidate> = self.candidates.drain(..count).collect();
-        self.decided = self.decided.min(chosen[0].score);
         let decide = |candidate: Candidate| {
-            let Candidate { strategy, positions, .. } = candidate;
-            Decision::on(scene, Some(strategy), positions, state)
+            let Candidate { strategy, positions, drape, .. } = candidate;
+            (drape, Decision::on(scene, Some(strategy), positions, state))
         };
         let decisions: Vec<_> = chosen.into_par_iter().map(decide).collect();
-        for decision in decisions {
+        for (coarse, decision) in decisions {
             match decision {
                 Ok(decision) => {
+                    if let Some(coarse) = coarse {
+                        lock(&self.shared.bias).learn(&coarse, &decision.drape);
+                    }
                     let better = |best: &Decision| decision.score < best.score;
                     if self.best.as_ref().is_none_or(better) {
                         self.best = Some(decision);
@@ -228,6 +231,13 @@ impl Search<'_, '_> {
                 Err(fault) => self.fault = self.fault.take().or(Some(fault)),
             }
         }
+        let bias = lock(&self.shared.bias).clone();
+        for candidate in &mut self.candidates {
+            if let Some(drape) = &candidate.drape {
+                candidate.score = evaluation::score_with(drape, &bias);
+            }
+        }
+        self.rank();
     }
 }
 
@@ -266,11 +276,16 @@ impl Shared<'_, '_> {
     fn along(&self, strategy: Strategy, positions: Vec<Vec<Point>>) -> Candidate {
         let excess = geometry::excess(self.scene, &positions);
         if excess > TUNING.search.excess {
-            return Candidate { strategy, positions, score: TUNING.search.not_draped * excess };
+            let score = TUNING.search.not_draped * excess;
+            return Candidate { strategy, positions, drape: None, score };
         }
         let drape = evaluation::drape(&self.tabulated, &positions, self.state);
-        let score = evaluation::score(&drape);
+        let score = evaluation::score_with(&drape, &lock(&self.bias).clone());
         self.state.record(&drape, score, false);
-        Candidate { strategy, positions, score }
+        Candidate { strategy, positions, drape: Some(drape), score }
     }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

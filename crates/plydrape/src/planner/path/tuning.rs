@@ -68,8 +68,9 @@ pub struct Front {
 pub struct Search {
     /// Score below which a plan keeps every limit with so wide a margin that the search ends. A score of 1 just keeps them.
     pub good: f64,
-    /// Score of a ranking below which a plan is decided on. Above 1, because a coarse mesh has an error of its own.
-    pub promising: f64,
+    /// Score of a ranking below which a plan is decided on: first, and once the error of the coarse mesh is known. Above 1,
+    /// because of that error.
+    pub promising: [f64; 2],
     /// Ratio of a measure to its limit by the grippers alone beyond which a candidate is not draped: above 1, because the
     /// ply tilts a gripper less or more than the lines to its neighbours.
     pub excess: f64,
@@ -144,7 +145,7 @@ pub const TUNING: Tuning = Tuning {
     },
     search: Search {
         good: 0.8,
-        promising: 1.4,
+        promising: [1.4, 1.1],
         excess: 1.1,
         not_draped: 1e2,
         batch: 4,
