@@ -43,6 +43,8 @@ pub struct Transport {
     pub carrying: f64,
     /// Share of the steps in which it is formed.
     pub forming: f64,
+    /// Share of these after which the lines between grippers have the length that they shall have; they turn all the time.
+    pub tight: f64,
     /// Share of the steps in which it comes down to the first formation. The front takes the other steps, because
     /// contacts are made there.
     pub descent: f64,
@@ -159,6 +161,7 @@ pub const TUNING: Tuning = Tuning {
         formed_height: 0.1,
         carrying: 0.12,
         forming: 0.17,
+        tight: 0.4,
         descent: 0.09,
         turn: PI / 30.0,
         most_turning: 0.4,

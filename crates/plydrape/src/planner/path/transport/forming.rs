@@ -11,13 +11,15 @@ use crate::ply::Grid;
 /// Residual at which the conjugate gradients end, as a share of the first one.
 const RESIDUAL: f64 = 1e-12;
 
-/// The array a share of the way from one shape to another (m).
-pub fn formed(grid: Grid, from: &[Point], to: &[Point], share: f64) -> Vec<Point> {
+/// The array a share of the way from one shape to another (m). Edges have their length after the share `tight`, because
+/// a ply that hangs slack tilts its grippers already, and what inclines it afterwards adds to that.
+pub fn formed(grid: Grid, from: &[Point], to: &[Point], share: f64, tight: f64) -> Vec<Point> {
     let straight: Vec<Point> = from.iter().zip(to).map(|(a, b)| between(*a, *b, share)).collect();
     // what the edges lack on straight ways
     let lacks: Vec<Point> = edges(grid)
         .map(|[a, b]| {
-            let edge = turned(sub(from[b], from[a]), sub(to[b], to[a]), share);
+            let lengthened = (share / tight).min(1.0);
+            let edge = turned(sub(from[b], from[a]), sub(to[b], to[a]), share, lengthened);
             sub(edge, sub(straight[b], straight[a]))
         })
         .collect();
@@ -25,15 +27,15 @@ pub fn formed(grid: Grid, from: &[Point], to: &[Point], share: f64) -> Vec<Point
     straight.iter().zip(corrections).map(|(p, by)| along(*p, 1.0, by)).collect()
 }
 
-/// The vector a share of the way from one to another: its length and its direction change evenly.
-fn turned(from: Point, to: Point, share: f64) -> Point {
+/// The vector a share of the way from the direction of one to that of another, with another share of the length.
+fn turned(from: Point, to: Point, share: f64, lengthened: f64) -> Point {
     let (sin, cos) = (norm(cross(from, to)), dot(from, to));
     let angle = sin.atan2(cos);
     let lengths = [norm(from), norm(to)];
     if sin <= f64::EPSILON * lengths[0] * lengths[1] {
-        return between(from, to, share);
+        return between(from, to, lengthened);
     }
-    let length = lengths[0] + share * (lengths[1] - lengths[0]);
+    let length = lengths[0] + lengthened * (lengths[1] - lengths[0]);
     let weight = |share: f64, own: f64| length / own * (share * angle).sin() / angle.sin();
     let (p, q) = (weight(1.0 - share, lengths[0]), weight(share, lengths[1]));
     [0, 1, 2].map(|n| p * from[n] + q * to[n])
@@ -108,7 +110,7 @@ mod tests {
             [cos * u + sin * v, sin * u + cos * v, 0.02]
         });
         for k in 0..=10 {
-            let between = formed(GRID, &from, &to, f64::from(k) / 10.0);
+            let between = formed(GRID, &from, &to, f64::from(k) / 10.0, 1.0);
             for [a, b] in edges(GRID) {
                 let length = distance(between[a], between[b]);
                 let expected = 0.099 + 1e-4 * f64::from(k);
@@ -127,11 +129,11 @@ mod tests {
             [x, y, -0.5 * (x * x + y * y)]
         });
         for (share, expected) in [(0.0, &from), (1.0, &to)] {
-            for (p, q) in formed(GRID, &from, &to, share).iter().zip(expected) {
+            for (p, q) in formed(GRID, &from, &to, share, 1.0).iter().zip(expected) {
                 assert!(distance(*p, *q) < 1e-12, "{share}: {p:?} {q:?}");
             }
         }
-        for ((p, a), b) in formed(GRID, &from, &to, 0.5).iter().zip(&from).zip(&to) {
+        for ((p, a), b) in formed(GRID, &from, &to, 0.5, 1.0).iter().zip(&from).zip(&to) {
             assert!(distance(*p, between(*a, *b, 0.5)) < 5e-4, "{p:?} {a:?} {b:?}");
         }
     }

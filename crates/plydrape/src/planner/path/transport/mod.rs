@@ -34,8 +34,10 @@ pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec
     let carried = positions[positions.len() - 1].clone();
     let share = |share: f64| ((share * steps as f64).round() as usize).max(1);
     let forming = share(TUNING.transport.forming);
-    let part = |k: usize| k as f64 / forming as f64;
-    positions.extend((1..forming).map(|k| formed(scene.ply.grid, &carried, &above, part(k))));
+    let tight = TUNING.transport.tight;
+    let form =
+        |k: usize| formed(scene.ply.grid, &carried, &above, k as f64 / forming as f64, tight);
+    positions.extend((1..forming).map(form));
     let descent = share(TUNING.transport.descent);
     let down = |k: usize| {
         let pairs = above.iter().zip(formation);

@@ -13,7 +13,8 @@ const ROUNDS: usize = 50;
 /// Share of the array's moments of inertia that keeps a line of grippers, which may turn about itself, from doing so.
 const LINE: f64 = 1e-6;
 
-/// The rotations from one array to another: the heading changes the shorter way, the normal on a great circle.
+/// The rotations from one array to another: the heading changes the shorter way, the normal on a great circle, but never
+/// away from the vertical.
 #[derive(Debug, Clone, Copy)]
 pub struct Turn {
     /// Unit normals of the array at both ends of the way.
@@ -27,10 +28,14 @@ impl Turn {
     pub fn new(grid: Grid, from: &[Point], to: &[Point]) -> Self {
         let whole = best_rotation(from, to);
         let normal = normal(grid, from);
-        let normals = [normal, turned(&whole, normal)];
+        let mut normals = [normal, turned(&whole, normal)];
         // what is left of it between the two upright positions is a rotation about z
         let upright = turned(&whole, turned(&inclined(normals[0]), [1.0, 0.0, 0.0]));
         let [x, y, _] = turned(&transposed(&inclined(normals[1])), upright);
+        // the ply hangs slack while it is carried, and an inclined array adds to the tilt of its grippers
+        if normals[1][2] < normals[0][2] {
+            normals[1] = normals[0];
+        }
         Turn { normals, heading: y.atan2(x) }
     }
 
@@ -195,11 +200,11 @@ mod tests {
         }
     }
 
-    /// The turn begins as no rotation, ends as the best one, and is a rotation everywhere between.
+    /// The turn begins as no rotation, ends as the best one if that is upright, and is a rotation everywhere between.
     #[test]
     fn a_turn_goes_from_one_array_to_the_other() {
-        let places = array(GRID);
-        let there = all(&rotation_about([0.3, -0.2, 1.1]), &places);
+        let there = array(GRID);
+        let places = all(&rotation_about([0.3, -0.2, 1.1]), &there);
         let turn = Turn::new(GRID, &places, &there);
         for (share, expected) in [(0.0, &places), (1.0, &there)] {
             let (from, to) = (centre(&places), centre(expected));
@@ -214,6 +219,18 @@ mod tests {
             let off =
                 (0..9).map(|n| (square[n / 3][n % 3] - f64::from(u8::from(n % 4 == 0))).abs());
             assert!(off.fold(0.0, f64::max) < 1e-12, "{square:?}");
+        }
+    }
+
+    /// An array that shall end inclined is carried as upright as it was.
+    #[test]
+    fn no_array_is_inclined_on_its_way() {
+        let places = array(GRID);
+        let there = all(&rotation_about([0.3, -0.2, 1.1]), &places);
+        let turn = Turn::new(GRID, &places, &there);
+        for k in 0..=10 {
+            let up = turned(&turn.at(f64::from(k) / 10.0), turn.normals[0]);
+            assert!((up[2] - turn.normals[0][2]).abs() < 1e-12, "{k}: {up:?}");
         }
     }
 
