@@ -47,6 +47,8 @@ pub enum Failure {
     Iterations,
     /// The first step turns segments too far to be linear.
     Turn,
+    /// A node came to the mold from too far away.
+    Landing,
     /// The matrix is not positive definite, or a number is not finite.
     Singular,
 }
@@ -210,7 +212,10 @@ impl<'a> Cloth<'a> {
         for (inertial, (x, v)) in self.inertial.iter_mut().zip(self.now.x.iter().zip(&self.now.v)) {
             *inertial = [0, 1, 2].map(|n| x[n] + dt * v[n]);
         }
-        let found = self.iterate(targets, dt, tolerance);
+        let mut found = self.iterate(targets, dt, tolerance);
+        if found.is_ok() && self.lands_too_far() {
+            found = Err(Failure::Landing);
+        }
         if found.is_err() {
             self.now.copy_from(&self.before);
             return found;
@@ -224,9 +229,15 @@ impl<'a> Cloth<'a> {
         found
     }
 
-    /// Whether the ply touches the mold, or may in a step that moves its grippers so far (m).
-    pub fn is_near_contact(&self, way: f64) -> bool {
-        self.contact.as_ref().is_some_and(|contact| contact.is_near(&self.now.x, way))
+    /// Longest time step (s), if not longer than `enough`, in which free nodes come to the mold by no more than the way that
+    /// [`Tuning::contact_way`] allows, if they go on as in the last one.
+    pub fn longest_step(&mut self, enough: f64) -> f64 {
+        let most = self.tuning.contact_way * self.sheet.pitch;
+        let Motion { x, v, .. } = &self.now;
+        match &mut self.contact {
+            Some(contact) => contact.longest_time(x, v, most, enough),
+            None => enough,
+        }
     }
 
     /// Largest movement of a node in the last time step (m).
@@ -235,11 +246,22 @@ impl<'a> Cloth<'a> {
         moved.fold(0.0, f64::max)
     }
 
+    /// Whether grippers and a node that came to the mold went farther in the last time step than twice what
+    /// [`Tuning::contact_way`] allows.
+    fn lands_too_far(&self) -> bool {
+        let most = 2.0 * self.tuning.contact_way * self.sheet.pitch;
+        let pads = self.now.pads.iter().zip(&self.before.pads);
+        let far = pads.into_iter().any(|(a, b)| norm(sub(a.target, b.target)) > most);
+        let landing = |contact: &Contact| contact.landing_way(&self.before.x, &self.now.x) > most;
+        far && self.contact.as_ref().is_some_and(landing)
+    }
+
     fn iterate(&mut self, targets: &[[f64; 3]], dt: f64, tolerance: f64) -> Result<usize, Failure> {
         self.stretch.start(&self.now.x);
         self.aim(targets);
         self.whole = true;
         self.assemble(dt, true);
+        let mut before = f64::INFINITY;
         for iteration in 0..self.tuning.iterations {
             let mut turn = self.solve();
             if turn.is_err() && self.whole {
@@ -254,8 +276,6 @@ impl<'a> Cloth<'a> {
             // contact and friction that switch to and fro settle in shorter steps
             let most = if iteration < self.tuning.full_iterations { 1.0 } else { 0.5 };
             let share = (self.tuning.turn / turn).min(most);
-            let step = &self.step;
-            self.stretch.predict(&self.now.x, |n| step[n], share);
             let largest = self.take(share);
             if !largest.is_finite() {
                 return Err(Failure::Singular);
@@ -263,9 +283,33 @@ impl<'a> Cloth<'a> {
             if share == most && largest <= tolerance && iteration > 0 {
                 return Ok(iteration + 1);
             }
+            if iteration >= self.tuning.full_iterations && largest >= before {
+                return Err(Failure::Iterations);
+            }
+            before = largest;
             self.assemble(dt, false);
+            // what a linear step neglects is the square of its turn
+            let small = share == 1.0 && turn * turn * self.sheet.pitch <= tolerance;
+            if small && self.is_solved(tolerance) {
+                return Ok(iteration + 1);
+            }
         }
         Err(Failure::Iterations)
+    }
+
+    /// Whether another step, with the matrix of the step before, moves no node by more than the tolerance (m) while the same
+    /// nodes touch; it is taken then.
+    fn is_solved(&mut self, tolerance: f64) -> bool {
+        if self.contact.as_ref().is_some_and(|contact| contact.changed) {
+            return false;
+        }
+        self.system.solve();
+        let small =
+            self.linear_step().is_ok() && self.step.iter().all(|step| norm(*step) <= tolerance);
+        if small {
+            self.take(1.0);
+        }
+        small
     }
 
     /// New places of the mounts; rigid ones move their nodes in the first step.
@@ -296,6 +340,8 @@ impl<'a> Cloth<'a> {
             system.stiffen_scalar(node, rate);
         }
         self.add_energies();
+        self.hold_pads();
+        self.system.end(&self.own, self.whole);
     }
 
     /// Gradient and second derivative of the energy.
@@ -323,9 +369,14 @@ impl<'a> Cloth<'a> {
     /// The linear step of all nodes; returns the largest turn of a segment in it (rad).
     fn solve(&mut self) -> Result<f64, Failure> {
         self.solves += 1;
-        self.hold_pads();
-        let system = &mut self.system;
-        system.solve(&self.own, self.whole).map_err(|_| Failure::Singular)?;
+        self.system.factorize().map_err(|_| Failure::Singular)?;
+        self.system.solve();
+        self.linear_step()
+    }
+
+    /// Reads the linear step of all nodes; returns the largest turn of a segment in it (rad).
+    fn linear_step(&mut self) -> Result<f64, Failure> {
+        let system = &self.system;
         for (node, step) in self.step.iter_mut().enumerate() {
             *step = match system.carrier(node) {
                 Carrier::Free { block } => system.step(block),
@@ -383,6 +434,8 @@ impl<'a> Cloth<'a> {
 
     /// Takes a share of the linear step; returns the largest movement of a node (m).
     fn take(&mut self, share: f64) -> f64 {
+        let step = &self.step;
+        self.stretch.predict(&self.now.x, |n| step[n], share);
         for ((pad, nodes), (turn, moved)) in
             self.now.pads.iter_mut().zip(&self.held).zip(&self.turns)
         {

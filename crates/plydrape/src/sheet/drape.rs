@@ -208,11 +208,11 @@ impl Run<'_> {
                 return Err(Ended::NotSolved);
             }
             tries -= 1;
-            let mut share = self.share.min(1.0 - done).min(longest / duration);
-            let most = self.tuning.contact_way * self.sheet.pitch;
-            if way * share > most && self.cloth.is_near_contact(way * share) {
-                share = most / way;
-            }
+            let most = self.share.min(1.0 - done).min(longest / duration);
+            let least = self.tuning.contact_way * self.sheet.pitch / way;
+            let share = (self.cloth.longest_step(most * duration) / duration).max(least).min(most);
+            // steps of one length to the end
+            let share = (1.0 - done) / ((1.0 - done) / share - 1e-9).ceil();
             let next = if done + share > 1.0 - 1e-9 { 1.0 } else { done + share };
             for (target, (a, b)) in self.targets.iter_mut().zip(from.iter().zip(to)) {
                 *target = between(*a, *b, next);
@@ -226,7 +226,7 @@ impl Run<'_> {
                         self.share = (2.0 * self.share).min(1.0);
                     }
                 }
-                Err(_) => {
+                Err(f) => {
                     self.share = 0.5 * share;
                     if self.share < self.tuning.smallest_step {
                         return Err(Ended::NotSolved);

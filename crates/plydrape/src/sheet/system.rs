@@ -54,6 +54,8 @@ pub struct System {
     /// What the movement of held nodes adds to the gradient of each node (N).
     pulled: Vec<[f64; 3]>,
     arms: Vec<[f64; 3]>,
+    /// Right-hand side, what pulls at the unknowns.
+    right: Vec<f64>,
     step: Vec<f64>,
 }
 
@@ -90,6 +92,7 @@ impl System {
             predicts: false,
             pulled: vec![[0.0; 3]; nodes],
             arms: vec![[0.0; 3]; nodes],
+            right: vec![0.0; 3 * block_places.len()],
             step: vec![0.0; 3 * block_places.len()],
             matrix,
         }
@@ -201,42 +204,46 @@ impl System {
         self.matrix.add_diagonal(block, k);
     }
 
-    /// Solves for Newton's step. `own` is what acts on blocks of unknowns themselves. How the forces on a pad act on its
-    /// turn by their arms is added here, all of it (`whole`) or its positive parts.
-    ///
-    /// # Errors
-    /// If the matrix is not positive definite.
-    pub fn solve(
-        &mut self,
-        own: &[(u32, [f64; 3])],
-        whole: bool,
-    ) -> Result<(), NotPositiveDefinite> {
-        self.step.fill(0.0);
+    /// Ends the assembly. `own` is what acts on blocks of unknowns themselves. How the forces on a pad act on its turn by
+    /// their arms is added here, all of it (`whole`) or its positive parts.
+    pub fn end(&mut self, own: &[(u32, [f64; 3])], whole: bool) {
+        self.right.fill(0.0);
         for (node, carrier) in self.carriers.iter().enumerate() {
             let force = self.gradient[node];
             let g = along(force, 1.0, self.pulled[node]);
             match *carrier {
-                Carrier::Free { block } => add_at(&mut self.step, block, g),
+                Carrier::Free { block } => add_at(&mut self.right, block, g),
                 Carrier::Held { .. } => {}
                 Carrier::Pad { turn, shift, .. } => {
                     let arm = self.arms[node];
-                    add_at(&mut self.step, turn, cross(arm, g));
+                    add_at(&mut self.right, turn, cross(arm, g));
                     if let Some(shift) = shift {
-                        add_at(&mut self.step, shift, g);
+                        add_at(&mut self.right, shift, g);
                     }
                     self.matrix.add_diagonal(turn as usize, &lever(force, arm, whole));
                 }
             }
         }
         for (block, g) in own {
-            add_at(&mut self.step, *block, *g);
+            add_at(&mut self.right, *block, *g);
         }
-        for value in &mut self.step {
+        for value in &mut self.right {
             *value = -*value;
         }
-        self.cholesky.factorize(&self.matrix)?;
+    }
+
+    /// Factorizes the matrix.
+    ///
+    /// # Errors
+    /// If it is not positive definite.
+    pub fn factorize(&mut self) -> Result<(), NotPositiveDefinite> {
+        self.cholesky.factorize(&self.matrix)
+    }
+
+    /// Solves for Newton's step with the matrix that was factorized last.
+    pub fn solve(&mut self) {
+        self.step.copy_from_slice(&self.right);
         self.cholesky.solve(&mut self.step);
-        Ok(())
     }
 
     /// The matrix times a direction at each free node.
