@@ -81,6 +81,16 @@ pub struct Cloth<'a> {
     turns: Vec<([f64; 3], [f64; 3])>,
     /// Gradient that acts on blocks of unknowns themselves.
     own: Vec<(u32, [f64; 3])>,
+    /// Whether nodes that lie on the mold among others are no unknowns.
+    pub rests: bool,
+    /// Time steps for which each node has hardly moved.
+    quiet: Vec<u32>,
+    /// Whether each node lies on the mold, or is held by a gripper that stands.
+    lies: Vec<bool>,
+    /// Pairs of nodes that a term couples.
+    pairs: Vec<[u32; 2]>,
+    /// Whether each node is among nodes that lie.
+    still: Vec<bool>,
     /// Solved linear systems.
     pub solves: usize,
 }
@@ -129,7 +139,8 @@ impl<'a> Cloth<'a> {
             [[p, q], [q, r], [r, s], [s, p], [p, r], [q, s]]
         });
         let pairs = segments.chain(bends).chain(cells);
-        let system = System::new(&fabric.places, carriers, &blocks, pairs);
+        let pairs: Vec<[u32; 2]> = pairs.collect();
+        let system = System::new(&fabric.places, carriers, &blocks, pairs.iter().copied());
         let contact = sheet.mold.as_ref().map(|mold| {
             let free = |n: &usize| !matches!(system.carrier(*n), Carrier::Held { .. });
             let rubs = |n: usize| !matches!(system.carrier(n), Carrier::Pad { shift: None, .. });
@@ -167,6 +178,11 @@ impl<'a> Cloth<'a> {
             system,
             sheet,
             tuning,
+            rests: false,
+            quiet: vec![0; nodes],
+            lies: vec![false; nodes],
+            pairs,
+            still: vec![false; nodes],
             solves: 0,
         }
     }
@@ -223,6 +239,11 @@ impl<'a> Cloth<'a> {
         for (v, (x, before)) in self.now.v.iter_mut().zip(self.now.x.iter().zip(&self.before.x)) {
             *v = [0, 1, 2].map(|n| (x[n] - before[n]) / dt);
         }
+        let most = self.tuning.lying_movement * self.sheet.mesh;
+        for (quiet, (x, before)) in self.quiet.iter_mut().zip(self.now.x.iter().zip(&self.before.x))
+        {
+            *quiet = if norm(sub(*x, *before)) <= most { *quiet + 1 } else { 0 };
+        }
         if let Some(contact) = &mut self.contact {
             contact.update(&self.now.x);
         }
@@ -261,6 +282,7 @@ impl<'a> Cloth<'a> {
         self.aim(targets);
         self.whole = true;
         self.assemble(dt, true);
+        self.leave_out();
         let mut before = f64::INFINITY;
         for iteration in 0..self.tuning.iterations {
             let mut turn = self.solve();
@@ -312,6 +334,34 @@ impl<'a> Cloth<'a> {
         small
     }
 
+    /// Leaves nodes out of the linear systems of this time step that lie on the mold, hardly moved in the last ones, and
+    /// have only such nodes around them.
+    fn leave_out(&mut self) {
+        self.lies.fill(false);
+        if let Some(contact) = self.contact.as_ref().filter(|_| self.rests) {
+            let most = self.tuning.lying_movement * self.sheet.mesh;
+            for node in contact.lying(&self.now.x, &self.system.gradient, most) {
+                self.lies[node] = true;
+            }
+            let weight = self.sheet.gravity * self.tuning.lying_force;
+            for (node, lies) in self.lies.iter_mut().enumerate() {
+                *lies |= match self.system.carrier(node) {
+                    Carrier::Free { .. } => {
+                        norm(self.system.gradient[node]) <= weight * self.masses[node]
+                    }
+                    _ => norm(self.system.moved[node]) <= most,
+                };
+                *lies &= self.quiet[node] >= self.tuning.lying_steps;
+            }
+        }
+        self.still.copy_from_slice(&self.lies);
+        for [a, b] in self.pairs.iter().map(|pair| pair.map(|node| node as usize)) {
+            self.still[a] &= self.lies[b];
+            self.still[b] &= self.lies[a];
+        }
+        self.system.keep_still(&self.still);
+    }
+
     /// New places of the mounts; rigid ones move their nodes in the first step.
     fn aim(&mut self, targets: &[[f64; 3]]) {
         self.system.moved.fill([0.0; 3]);
@@ -331,8 +381,9 @@ impl<'a> Cloth<'a> {
     /// Gradient and second derivative of the incremental potential.
     fn assemble(&mut self, dt: f64, predicts: bool) {
         let Cloth { system, now, .. } = self;
-        system
-            .begin(predicts, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
+        system.begin(predicts, !predicts, |node, gripper| {
+            sub(now.x[node], now.pads[gripper as usize].position)
+        });
         for (node, mass) in self.masses.iter().enumerate() {
             let rate = mass / (dt * dt);
             let off = sub(now.x[node], self.inertial[node]);
@@ -491,7 +542,7 @@ impl<'a> Cloth<'a> {
     fn evaluate(&mut self) {
         let now = &self.now;
         let arm = |node: usize, gripper: u32| sub(now.x[node], now.pads[gripper as usize].position);
-        self.system.begin(false, arm);
+        self.system.begin(false, false, arm);
         self.add_energies();
     }
 

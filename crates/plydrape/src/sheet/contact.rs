@@ -116,6 +116,9 @@ impl<'a> Contact<'a> {
         self.changed = false;
         for n in 0..self.points.len() {
             let at = x[self.points[n].node];
+            if system.skips(&[self.points[n].node]) {
+                continue;
+            }
             let slips = self.points[n]
                 .anchor
                 .is_some_and(|anchor| self.hold(&self.points[n], anchor, at, system));
@@ -257,6 +260,33 @@ impl<'a> Contact<'a> {
         let lands = |point: &&Point| point.anchor.is_none() && point.rubs && point.clear <= 0.0;
         let way = |point: &Point| distance(before[point.node], now[point.node]);
         self.points.iter().filter(lands).map(way).fold(0.0, f64::max)
+    }
+
+    /// The nodes that lie on the mold and stay there by themselves, if all of their neighbours stay: those that are anchored
+    /// and pressed, and which the forces on them, whose gradient is given (N), neither lift off nor move along the mold by
+    /// more than `most` (m).
+    pub fn lying(
+        &self,
+        x: &[[f64; 3]],
+        gradient: &[[f64; 3]],
+        most: f64,
+    ) -> impl Iterator<Item = usize> {
+        let lies = move |point: &&Point| {
+            let (at, total) = (x[point.node], gradient[point.node]);
+            let Some(anchor) = point.anchor else { return false };
+            let k = [self.stiffness, self.shear_stiffness].map(|k| k * point.area);
+            let pressure = (-k[0] * dot(sub(at, anchor.point), anchor.normal)).max(0.0);
+            // what the mold has to carry: the pressure of now, and what is out of balance
+            let normal = pressure + dot(total, anchor.normal);
+            let bound = match self.friction {
+                Friction::Coulomb(mu) => self.tack * point.area + mu * normal,
+                Friction::Stick | Friction::StickForEver => f64::INFINITY,
+            };
+            let holds = norm(self.offset(anchor, at)) * k[1] + norm(total) < bound;
+            let pressed = point.acts[0] && normal > 0.0 && !point.acts[1];
+            (pressed && holds || self.holds_for_ever(point)) && norm(total) <= most * k[0].min(k[1])
+        };
+        self.points.iter().filter(lies).map(|point| point.node)
     }
 
     /// The nodes that touch.

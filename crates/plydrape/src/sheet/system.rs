@@ -54,6 +54,11 @@ pub struct System {
     /// What the movement of held nodes adds to the gradient of each node (N).
     pulled: Vec<[f64; 3]>,
     arms: Vec<[f64; 3]>,
+    /// Nodes that stay where they are, and whether terms of such nodes alone are left out of the sums.
+    still: Vec<bool>,
+    skips: bool,
+    /// Whether each block of unknowns is that of a node that stays where it is.
+    out: Vec<bool>,
     /// Right-hand side, what pulls at the unknowns.
     right: Vec<f64>,
     step: Vec<f64>,
@@ -92,10 +97,30 @@ impl System {
             predicts: false,
             pulled: vec![[0.0; 3]; nodes],
             arms: vec![[0.0; 3]; nodes],
+            still: vec![false; nodes],
+            skips: false,
+            out: vec![false; block_places.len()],
             right: vec![0.0; 3 * block_places.len()],
             step: vec![0.0; 3 * block_places.len()],
             matrix,
         }
+    }
+
+    /// Decides which free nodes stay where they are, from now on.
+    pub fn keep_still(&mut self, still: &[bool]) {
+        for (node, carrier) in self.carriers.iter().enumerate() {
+            if let Carrier::Free { block } = carrier {
+                self.still[node] = still[node];
+                self.out[*block as usize] = self.still[node];
+            }
+        }
+        let out = &self.out;
+        self.cholesky.leave_out(|block| out[block]);
+    }
+
+    /// Whether a term of these nodes is left out, because all of them stay where they are.
+    pub fn skips(&self, nodes: &[usize]) -> bool {
+        self.skips && nodes.iter().all(|node| self.still[*node])
     }
 
     /// A pair of nodes for [`System::couple`].
@@ -115,12 +140,14 @@ impl System {
     }
 
     /// Begins a system. `arm` gives a pad node's arm from its gripper (m); with `predicts`, the movement of held nodes
-    /// ([`System::moved`]) adds to the gradient of their neighbours.
-    pub fn begin(&mut self, predicts: bool, arm: impl Fn(usize, u32) -> [f64; 3]) {
+    /// ([`System::moved`]) adds to the gradient of their neighbours; with `skips`, terms of nodes alone that stay where they are
+    /// are left out.
+    pub fn begin(&mut self, predicts: bool, skips: bool, arm: impl Fn(usize, u32) -> [f64; 3]) {
         self.matrix.clear();
         self.gradient.fill([0.0; 3]);
         self.pulled.fill([0.0; 3]);
         self.predicts = predicts;
+        self.skips = skips;
         for (node, carrier) in self.carriers.iter().enumerate() {
             if let Carrier::Pad { gripper, .. } = carrier {
                 self.arms[node] = arm(node, *gripper);

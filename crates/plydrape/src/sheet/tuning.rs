@@ -31,6 +31,12 @@ pub struct Tuning {
     /// Largest way (of the pitch) that grippers go in a time step in which the ply touches the mold: a node is
     /// held where it is at the end of the step in which it touches.
     pub contact_way: f64,
+    /// Largest movement in a time step (of the mesh) of a node that lies on the mold.
+    pub lying_movement: f64,
+    /// Time steps for which it has not moved more, before it is left out of the linear systems.
+    pub lying_steps: u32,
+    /// Largest force (of its own weight) that is out of balance at such a node where the mold does not press it.
+    pub lying_force: f64,
     /// Longest time step of a motion in its own time, as a share of √(pitch/g), the time of a swing: implicit steps damp
     /// what is faster.
     pub real_step: f64,
@@ -63,6 +69,9 @@ impl Default for Tuning {
             full_iterations: 8,
             easy_iterations: 6,
             contact_way: 0.01,
+            lying_movement: 1e-4,
+            lying_steps: 2,
+            lying_force: 0.1,
             real_step: 0.02,
             smallest_step: 1e-4,
             tries: 400,

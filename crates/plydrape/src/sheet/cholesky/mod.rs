@@ -6,7 +6,8 @@
 //! 4. `analysis`: where everything is stored;
 //! 5. `assembly`: a front is the sum of blocks of the matrix and of the updates of its children;
 //! 6. `front`, `kernel`: dense elimination of the pivots of a front;
-//! 7. `substitution`: solutions, front by front.
+//! 7. `restriction`: the same without some of the nodes;
+//! 8. `substitution`: solutions, front by front.
 //!
 //! Order and fronts depend on the pattern only and are found once. Multifrontal method: Duff and Reid 1983; Liu 1992,
 //! "The multifrontal method for sparse matrix solution: theory and practice".
@@ -17,6 +18,7 @@ mod block_matrix;
 mod front;
 mod graph;
 mod kernel;
+mod restriction;
 mod substitution;
 mod supernode;
 mod tuning;
@@ -32,6 +34,7 @@ use assembly::Addition;
 use front::{Elimination, Shape};
 use graph::Graph;
 use kernel::Column;
+use restriction::{OUT, Restriction};
 use substitution::{Backward, Forward};
 use supernode::{PANEL_NODES, Supernodes};
 
@@ -48,6 +51,11 @@ pub struct NotPositiveDefinite {
 pub struct Cholesky {
     /// The node at each place of the order of elimination.
     order: Vec<u32>,
+    /// The same of the nodes that are not left out.
+    remaining: Vec<u32>,
+    /// For each place in the whole order that among the remaining nodes.
+    places: Vec<u32>,
+    restriction: Restriction,
     /// Fronts, children before parents.
     fronts: Vec<Front>,
     /// Number of blocks of the matrix, to recognize another pattern.
@@ -89,7 +97,10 @@ impl Cholesky {
             updates: [0, 1].map(|parity| vec![Column::ZERO; stack(parity)]),
             unknowns: vec![[0.0; 3]; n],
             local: panels.map(|len| vec![Column::ZERO; len.unwrap_or(0)]),
+            remaining: supernodes.order.clone(),
+            places: (0..n as u32).collect(),
             order: supernodes.order,
+            restriction: Restriction::new(&fronts),
             fronts,
         }
     }
@@ -99,6 +110,25 @@ impl Cholesky {
     pub fn memory(&self) -> usize {
         let columns = self.factor.len() + self.updates.iter().map(Vec::len).sum::<usize>();
         columns * size_of::<Column>()
+    }
+
+    /// Leaves out nodes from now on: what follows is about the matrix without their rows and columns, and
+    /// [`Self::solve`] gives them zero. It allocates nothing.
+    pub fn leave_out(&mut self, is_out: impl Fn(usize) -> bool) {
+        self.remaining.clear();
+        let mut changed = false;
+        for (place, node) in self.places.iter_mut().zip(&self.order) {
+            let mut new = OUT;
+            if !is_out(*node as usize) {
+                new = self.remaining.len() as u32;
+                self.remaining.push(*node);
+            }
+            changed |= new != *place;
+            *place = new;
+        }
+        if changed {
+            self.restriction.apply(&self.places, &mut self.fronts);
+        }
     }
 
     /// Factorizes a matrix with the pattern given to [`Self::new`]. It allocates nothing.
@@ -125,8 +155,11 @@ impl Cholesky {
                 let child = &children[child.update..][..child.shape.update_len()];
                 kernel::dispatch(Addition { shape, factor, update, rows, child });
             }
+            if shape.pivots == 0 {
+                continue;
+            }
             kernel::dispatch(Elimination { shape, factor, update }).map_err(|row| {
-                NotPositiveDefinite { node: self.order[front.first + row / 3] as usize }
+                NotPositiveDefinite { node: self.remaining[front.first + row / 3] as usize }
             })?;
         }
         Ok(())
@@ -139,11 +172,12 @@ impl Cholesky {
     pub fn solve(&mut self, x: &mut [f64]) {
         assert_eq!(x.len(), 3 * self.order.len(), "three entries for each node");
         let x = x.as_chunks_mut::<3>().0;
-        for (unknown, &node) in self.unknowns.iter_mut().zip(&self.order) {
+        for (unknown, &node) in self.unknowns.iter_mut().zip(&self.remaining) {
             *unknown = x[node as usize];
         }
         let [right, solution] = &mut self.local;
-        for front in &self.fronts {
+        let fronts = self.fronts.iter().filter(|front| front.shape.pivots > 0);
+        for front in fronts.clone() {
             let shape = front.shape;
             let factor = &self.factor[front.factor..][..shape.factor_len()];
             let pivots = &mut right[..shape.pivot_panels()];
@@ -162,7 +196,7 @@ impl Cholesky {
                 }
             }
         }
-        for front in self.fronts.iter().rev() {
+        for front in fronts.rev() {
             let shape = front.shape;
             let factor = &self.factor[front.factor..][..shape.factor_len()];
             let right = &mut right[..shape.pivot_panels()];
@@ -177,7 +211,8 @@ impl Cholesky {
                 *own = node_of(all, k);
             }
         }
-        for (unknown, &node) in self.unknowns.iter().zip(&self.order) {
+        x.fill([0.0; 3]);
+        for (unknown, &node) in self.unknowns.iter().zip(&self.remaining) {
             x[node as usize] = *unknown;
         }
     }
