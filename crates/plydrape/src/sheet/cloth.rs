@@ -90,7 +90,7 @@ pub struct Cloth<'a> {
     /// Pairs of nodes that a term couples.
     pairs: Vec<[u32; 2]>,
     /// Whether each node is among nodes that lie.
-    still: Vec<bool>,
+    pub still: Vec<bool>,
     /// Solved linear systems.
     pub solves: usize,
 }

@@ -227,7 +227,7 @@ impl Run<'_> {
                         self.share = (2.0 * self.share).min(1.0);
                     }
                 }
-                Err(f) => {
+                Err(_) => {
                     self.share = 0.5 * share;
                     if self.share < self.tuning.smallest_step {
                         return Err(Ended::NotSolved);

@@ -31,7 +31,7 @@ pub use tuning::Tuning;
 
 use analysis::Front;
 use assembly::Addition;
-use front::{Elimination, Shape};
+use front::Shape;
 use graph::Graph;
 use kernel::Column;
 use restriction::{OUT, Restriction};
@@ -58,6 +58,8 @@ pub struct Cholesky {
     restriction: Restriction,
     /// Fronts, children before parents.
     fronts: Vec<Front>,
+    /// Panels of update rows from which on a front is eliminated on several threads.
+    split_panels: usize,
     /// Number of blocks of the matrix, to recognize another pattern.
     blocks: usize,
     /// Columns of L, front by front.
@@ -92,6 +94,11 @@ impl Cholesky {
         };
         let panels = [Shape::pivot_panels, Shape::panels].map(|of| shapes().map(of).max());
         Self {
+            split_panels: if n < tuning.thread_nodes {
+                usize::MAX
+            } else {
+                tuning.split_rows.div_ceil(PANEL_NODES)
+            },
             blocks: matrix.blocks().len(),
             factor: vec![Column::ZERO; shapes().map(Shape::factor_len).sum()],
             updates: [0, 1].map(|parity| vec![Column::ZERO; stack(parity)]),
@@ -131,7 +138,7 @@ impl Cholesky {
         }
     }
 
-    /// Factorizes a matrix with the pattern given to [`Self::new`]. It allocates nothing.
+    /// Factorizes a matrix with the pattern given to [`Self::new`]. On one thread it allocates nothing.
     ///
     /// # Errors
     /// If a pivot is not positive; there is no factorization then, and [`Self::solve`] gives no solution.
@@ -141,6 +148,16 @@ impl Cholesky {
     pub fn factorize(&mut self, matrix: &BlockMatrix) -> Result<(), NotPositiveDefinite> {
         assert_eq!(matrix.nodes(), self.order.len(), "the pattern is another one");
         assert_eq!(matrix.blocks().len(), self.blocks, "the pattern is another one");
+        if self.split_panels == usize::MAX {
+            self.eliminate(matrix)
+        } else {
+            // among the threads, which then wait for each other less than a thread from outside does
+            rayon::scope(|_| self.eliminate(matrix))
+        }
+    }
+
+    /// Eliminates front after front.
+    fn eliminate(&mut self, matrix: &BlockMatrix) -> Result<(), NotPositiveDefinite> {
         let [even, odd] = &mut self.updates;
         for front in &self.fronts {
             let (own, children) =
@@ -158,7 +175,7 @@ impl Cholesky {
             if shape.pivots == 0 {
                 continue;
             }
-            kernel::dispatch(Elimination { shape, factor, update }).map_err(|row| {
+            front::eliminate(shape, factor, update, self.split_panels).map_err(|row| {
                 NotPositiveDefinite { node: self.remaining[front.first + row / 3] as usize }
             })?;
         }
