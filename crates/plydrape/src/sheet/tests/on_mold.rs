@@ -126,7 +126,8 @@ fn nodes_that_were_left_out_are_lifted() {
     let held: Vec<[f64; 2]> =
         (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
     for friction in [Friction::Stick, Friction::Coulomb(0.3)] {
-        let mut sheet = sheet([even(0.3, 30), even(0.1, 10)], &held);
+        let mut sheet = sheet([even(0.3, 18), even(0.1, 6)], &held);
+        sheet.mesh = 0.1 / 6.0;
         sheet.mold = Some(plane(0.0));
         sheet.friction = friction;
         let [ends, all] = [true, false].map(|rests| {
@@ -138,19 +139,19 @@ fn nodes_that_were_left_out_are_lifted() {
             bring(&mut cloth, &at(0.0), 2, 1.0);
             cloth.rests = rests;
             let mut most = 0;
-            for step in 1..=40 {
-                follow(&mut cloth, &at(2e-4 * f64::from(step)), 1.0);
+            for step in 1..=20 {
+                follow(&mut cloth, &at(4e-4 * f64::from(step)), 1.0);
                 most = most.max(cloth.still.iter().filter(|still| **still).count());
             }
-            assert_eq!(most > 50, rests, "{most} of {} nodes", cloth.still.len());
+            assert_eq!(most > 20, rests, "{most} of {} nodes", cloth.still.len());
             let lifted = cloth.now.x.iter().filter(|x| x[2] > 5e-5).count();
-            assert!(lifted > 150, "{lifted} nodes");
+            assert!(lifted > 50, "{lifted} nodes");
             cloth.now.x
         });
-        // steps are solved to 0.01 mm
+        // each step is solved to 0.01 mm, and the point where the ply comes off is known to 0.05 mm of height
         for (a, b) in ends.iter().zip(&all) {
             let off = crate::mold::distance(*a, *b);
-            assert!(off < 2e-5, "{friction:?} {a:?}: {off}");
+            assert!(off < 5e-5, "{friction:?} {a:?}: {off}");
         }
     }
 }
