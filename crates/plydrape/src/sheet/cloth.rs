@@ -82,7 +82,7 @@ pub struct Cloth<'a> {
     /// Gradient that acts on blocks of unknowns themselves.
     own: Vec<(u32, [f64; 3])>,
     /// Whether nodes that lie on the mold among others are no unknowns.
-    pub rests: bool,
+    pub leaves_out: bool,
     /// Time steps for which each node has hardly moved.
     quiet: Vec<u32>,
     /// Whether each node lies on the mold, or is held by a gripper that stands.
@@ -178,7 +178,7 @@ impl<'a> Cloth<'a> {
             system,
             sheet,
             tuning,
-            rests: false,
+            leaves_out: false,
             quiet: vec![0; nodes],
             lies: vec![false; nodes],
             pairs,
@@ -335,7 +335,7 @@ impl<'a> Cloth<'a> {
     /// have only such nodes around them.
     fn leave_out(&mut self) {
         self.lies.fill(false);
-        if let Some(contact) = self.contact.as_ref().filter(|_| self.rests) {
+        if let Some(contact) = self.contact.as_ref().filter(|_| self.leaves_out) {
             let most = self.tuning.lying_movement * self.sheet.mesh;
             for node in contact.lying(&self.now.x, &self.system.gradient, most) {
                 self.lies[node] = true;

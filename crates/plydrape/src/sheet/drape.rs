@@ -197,7 +197,7 @@ impl Run<'_> {
             _ => (stretched, f64::INFINITY),
         };
         let tolerance = self.tuning.step_tolerance * self.sheet.mesh;
-        self.cloth.rests = true;
+        self.cloth.leaves_out = true;
         let mut done = 0.0;
         // a motion in its own time needs so many steps at least
         let mut tries = self.tuning.tries + (2.0 * duration / longest) as usize;
@@ -250,7 +250,7 @@ impl Run<'_> {
     fn rest(&mut self, at: &[[f64; 3]]) -> bool {
         let tolerance = self.tuning.rest_tolerance * self.sheet.mesh;
         let longest = self.stretched(self.sheet.pitch);
-        self.cloth.rests = false;
+        self.cloth.leaves_out = false;
         let mut dt = 0.01 * longest;
         for _ in 0..self.tuning.rest_steps {
             if (self.stop)() {

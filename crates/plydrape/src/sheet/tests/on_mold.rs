@@ -130,20 +130,20 @@ fn nodes_that_were_left_out_are_lifted() {
         sheet.mesh = 0.1 / 6.0;
         sheet.mold = Some(plane(0.0));
         sheet.friction = friction;
-        let [ends, all] = [true, false].map(|rests| {
+        let [ends, all] = [true, false].map(|leaves_out| {
             let mut cloth = flat(&sheet, 1e-4);
             let at = |lift: f64| -> Vec<[f64; 3]> {
                 let place = |[u, v]: &[f64; 2]| [*u, *v, if *u > 0.15 { lift } else { 0.0 }];
                 held.iter().map(place).collect()
             };
             bring(&mut cloth, &at(0.0), 2, 1.0);
-            cloth.rests = rests;
+            cloth.leaves_out = leaves_out;
             let mut most = 0;
             for step in 1..=20 {
                 follow(&mut cloth, &at(4e-4 * f64::from(step)), 1.0);
                 most = most.max(cloth.still.iter().filter(|still| **still).count());
             }
-            assert_eq!(most > 20, rests, "{most} of {} nodes", cloth.still.len());
+            assert_eq!(most > 20, leaves_out, "{most} of {} nodes", cloth.still.len());
             let lifted = cloth.now.x.iter().filter(|x| x[2] > 5e-5).count();
             assert!(lifted > 50, "{lifted} nodes");
             cloth.now.x
