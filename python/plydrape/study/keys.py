@@ -51,6 +51,7 @@ IDLE = {
             "grippers.spacing",
             "grippers.height",
             "grippers.origin",
+            "grippers.middle",
             "grippers.direction",
             "grippers.positions",
             "grippers.parallel_to_mold",

@@ -84,6 +84,7 @@ pub(super) fn above(net: &Net, span: &Range<usize>, around: &Surroundings) -> Pl
 pub(super) fn other_key(keys: &GrippersTable) -> Option<&'static str> {
     [
         ("origin", keys.origin.is_some()),
+        ("middle", keys.middle.is_some()),
         ("direction", keys.direction.is_some()),
         ("parallel_to_mold", keys.parallel_to_mold.is_some()),
     ]
@@ -104,34 +105,38 @@ fn rectangle(
     let distances = [spacing.0[0].size(document)?, spacing.0[1].size(document)?];
     let lift = height.coordinate(document)?;
     let plane = ground(keys, around)?;
-    let (origin, direction) = match &keys.origin {
-        None => ([0.0; 2], 0.0),
-        Some(origin) => match &origin.value {
-            Place::At(origin) => (coordinates(origin, document)?, 0.0),
-            Place::Keyword(_) => {
-                let Some(target) = target else {
-                    return Err(document.error(
-                        origin.span.clone(),
-                        "the start shall be centred above the target, and the scene has no target",
-                        "add [target], or give the place [x, y] of gripper [0, 0]",
-                    ));
-                };
-                let direction = match &keys.direction {
-                    Some(direction) => heading(direction, document)?,
-                    None => heading_of(&target.grippers, ply.grid),
-                };
-                // gripper [0, 0] as far from the middle as without a shift
-                let unmoved = Rectangle::on(&plane, [0.0; 2], direction);
-                let [here, there] =
-                    [unmoved.grippers(ply.grid, distances), target.grippers.clone()]
-                        .map(|points| middle(&points));
-                ([0, 1].map(|n| there[n] - here[n]), direction)
+    let direction = match (&keys.direction, target.filter(|_| is_centred(keys))) {
+        (Some(direction), _) => heading(direction, document)?,
+        (None, Some(target)) => heading_of(&target.grippers, ply.grid),
+        (None, None) => 0.0,
+    };
+    // gripper [0, 0] as far from the middle as without a shift
+    let shift = |[x, y]: [f64; 2]| {
+        let unmoved = Rectangle::on(&plane, [0.0; 2], direction).grippers(ply.grid, distances);
+        let here = middle(&unmoved);
+        [x - here[0], y - here[1]]
+    };
+    let origin = match (&keys.origin, &keys.middle) {
+        (None, None) => [0.0; 2],
+        (None, Some(place)) => shift(coordinates(&place.value, document)?),
+        (Some(_), Some(place)) => {
+            return Err(document.error(
+                place.span.clone(),
+                "the grippers have an `origin` and a `middle`",
+                "keep one of them: `origin` is the place of gripper [0, 0], `middle` that of the middle of all grippers",
+            ));
+        }
+        (Some(origin), None) => match (&origin.value, target) {
+            (Place::At(origin), _) => coordinates(origin, document)?,
+            (Place::Keyword(_), Some(target)) => shift(middle(&target.grippers)),
+            (Place::Keyword(_), None) => {
+                return Err(document.error(
+                    origin.span.clone(),
+                    "the start shall be centred above the target, and the scene has no target",
+                    "add [target], or give the place [x, y] of gripper [0, 0]",
+                ));
             }
         },
-    };
-    let direction = match &keys.direction {
-        Some(direction) => heading(direction, document)?,
-        None => direction,
     };
     let mut points = Rectangle::on(&plane, origin, direction).grippers(ply.grid, distances);
     for point in &mut points {
@@ -145,6 +150,11 @@ fn rectangle(
         spans: vec![place],
         height: Some(height.span.clone()),
     })
+}
+
+/// Whether the rectangle shall be above the middle of the target.
+fn is_centred(keys: &GrippersTable) -> bool {
+    keys.origin.as_ref().is_some_and(|origin| matches!(origin.value, Place::Keyword(_)))
 }
 
 /// The plane above which the rectangle lies: the mold, or z = 0.

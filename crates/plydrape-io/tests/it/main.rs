@@ -25,4 +25,5 @@ mod sheet_fronts;
 mod sheet_shown;
 mod solve_status;
 mod stepwise;
+mod transport;
 mod verdict;

@@ -167,6 +167,26 @@ fn a_centred_start_has_its_middle_and_heading_above_the_target() {
     assert!(start.iter().all(|p| (p[2] - 0.8).abs() < 1e-12));
 }
 
+/// A pick-up is given by the middle of its array and the heading of u there; neither depends on the target.
+#[test]
+fn a_pick_up_has_its_middle_and_heading_where_the_scene_says() {
+    let target = "[target]\nseed = \"middle\"\ndirection = \"30 deg\"";
+    let start = |keys: &str| scene(DOME, target, keys).motion.positions[0].clone();
+    for (keys, heading) in
+        [("middle = [1, -0.2]\ndirection = \"75 deg\"", 75.0_f64), ("middle = [1, -0.2]", 0.0)]
+    {
+        let points = start(keys);
+        let middle = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / 16.0;
+        assert!((middle(0) - 1.0).abs() < 1e-12 && (middle(1) + 0.2).abs() < 1e-12, "{keys}");
+        let [x, y] = [0, 1].map(|k| points[3][k] - points[0][k]);
+        assert!((y.atan2(x) - heading.to_radians()).abs() < 1e-12, "{keys}");
+        // an origin puts gripper [0, 0] there, with the same heading
+        let turned = keys.replace("middle = [1, -0.2]", "origin = [1, -0.2]");
+        let corner = start(&turned)[0];
+        assert!((corner[0] - 1.0).abs() < 1e-12 && (corner[1] + 0.2).abs() < 1e-12, "{turned}");
+    }
+}
+
 #[test]
 fn a_start_in_the_hollow_of_a_trough_is_above_it() {
     let trough = "kind = \"cylinder\"\nradius = 1\nside = \"inside\"\nposition = [0, 0.147, 1.5]";

@@ -1,10 +1,15 @@
 //! How good a plan is: the complete drape along it, and how far its worst measure is from its limit.
+//!
+//! The model of the scene decides. A sheet is draped with a coarse mesh to rank candidates, and with the scene's own to
+//! decide (`decision`).
 
 use crate::draping::{self, Judged};
-use crate::measure::{Verdict, Worth};
+use crate::measure::{Name, Verdict, Worth};
 use crate::planner::search_state::SearchState;
 use crate::planner::tuning::{Evaluation, TUNING};
-use crate::scene::{Motion, Scene, Stepping};
+use crate::scene::{Model, Motion, Scene, SheetTime, Stepping};
+use crate::sheet;
+use std::ops::ControlFlow;
 
 /// A scene as plans are evaluated in it: with steps cut where the ply would penetrate the mold.
 #[must_use]
@@ -20,44 +25,48 @@ pub fn with_motion(scene: &Scene, motion: Motion) -> Scene {
     Scene { motion, ..with_steps_cut(scene) }
 }
 
-/// The complete drape along planned positions of grippers (m), rounded as the motion will round them; broken off
-/// where it needs too many equilibria or the search is stopped.
+/// The complete drape along planned positions of grippers (m), rounded as the motion will round them, of catenaries or a
+/// coarse sheet; broken off where it needs too much or the search is stopped.
 #[must_use]
 pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], state: &SearchState) -> Judged {
-    follow(scene, rounded(planned), state)
-}
-
-/// The same with twice the steps on the same path, because a good plan does not depend on the number of steps.
-#[must_use]
-pub fn drape_finer(scene: &Scene, planned: &[Vec<[f64; 3]>], state: &SearchState) -> Judged {
-    let mut positions = Vec::with_capacity(2 * planned.len());
-    for (k, here) in rounded(planned).into_iter().enumerate() {
-        if k > 0 {
-            positions.push(halfway(planned, k - 1));
-        }
-        positions.push(here);
-    }
-    follow(scene, positions, state)
-}
-
-/// The drape along positions (m), one second a step.
-fn follow(scene: &Scene, positions: Vec<Vec<[f64; 3]>>, state: &SearchState) -> Judged {
-    let most = TUNING.evaluation.most_equilibria * positions.len();
+    let positions = rounded(planned);
     let times = (0..positions.len()).map(|n| n as f64).collect();
-    draping::judge(&with_motion(scene, Motion { times, positions }), most, |_| state.report())
+    let scene = with_motion(scene, Motion { times, positions });
+    match scene.settings.model {
+        Model::Catenaries => {
+            let most = TUNING.evaluation.most_equilibria * planned.len();
+            draping::judge(&scene, most, |_| state.report())
+        }
+        Model::Sheet => coarse_sheet(scene, state),
+    }
 }
 
-/// Where the spline of [`rounded`] passes halfway between two steps; straight between the first two and the last
-/// two.
-fn halfway(planned: &[Vec<[f64; 3]>], k: usize) -> Vec<[f64; 3]> {
-    let weights = if k == 0 || k + 2 == planned.len() {
-        [0.0, 0.5, 0.5, 0.0]
-    } else {
-        [1.0 / 48.0, 23.0 / 48.0, 23.0 / 48.0, 1.0 / 48.0]
-    };
-    let at = |n: usize| &planned[(k + n).saturating_sub(1).min(planned.len() - 1)];
-    let place = |g: usize| [0, 1, 2].map(|c| (0..4).map(|n| weights[n] * at(n)[g][c]).sum::<f64>());
-    (0..planned[k].len()).map(place).collect()
+/// The drape of a coarse sheet.
+fn coarse_sheet(mut scene: Scene, state: &SearchState) -> Judged {
+    let Evaluation { mesh, .. } = TUNING.evaluation;
+    let coarse = mesh * sheet::pitch(&scene.ply);
+    let own = scene.settings.sheet.mesh.unwrap_or(0.0);
+    scene.settings.sheet.mesh = Some(own.max(coarse));
+    // in its own time a motion is draped once it has one
+    scene.settings.sheet.time = SheetTime::QuasiStatic;
+    let stop = || state.report().is_break();
+    let tuning = sheet::Tuning::default();
+    match sheet::drape(&scene, tuning, &stop, |_| ControlFlow::Continue(())) {
+        Ok(drape) => judged(&drape.summary, scene.motion.positions.len()),
+        // a scene without a sheet is refused before a search
+        Err(_) => Judged { limits: Vec::new(), accepted: false, missing: 1.0, unsolved: 1 },
+    }
+}
+
+/// A drape of the sheet along so many steps as the search sees it.
+#[must_use]
+pub fn judged(summary: &sheet::Summary, steps: usize) -> Judged {
+    Judged {
+        limits: summary.limits.clone(),
+        accepted: summary.accepted,
+        missing: 1.0 - summary.steps as f64 / steps.max(1) as f64,
+        unsolved: usize::from(!summary.converged),
+    }
 }
 
 /// Where a cubic B-spline passes the planned positions, which are its control points, if its knots are evenly
@@ -76,18 +85,56 @@ pub fn rounded(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
 
 /// What a limit adds to the score. A limit that only has to be kept counts from a share of it on; of the errors of the
 /// ply, less is always better.
-fn weight(verdict: &Verdict) -> f64 {
-    let (ratio, counted) = (verdict.ratio(), TUNING.evaluation.counted_share);
+fn weight(verdict: &Verdict, bias: f64) -> f64 {
+    let (ratio, counted) = (bias * verdict.ratio(), TUNING.evaluation.counted_share);
     match verdict.name.measure().worth() {
         Worth::Kept if ratio <= 1.0 => ((ratio - counted) / (1.0 - counted)).max(0.0),
         _ => ratio,
     }
 }
 
+/// By how much measures of a coarse sheet differ from those of a fine one: a factor for each that was compared.
+#[derive(Debug, Clone, Default)]
+pub struct Bias(Vec<(Name, f64)>);
+
+impl Bias {
+    /// Learns from two drapes along one plan.
+    pub fn learn(&mut self, coarse: &Judged, fine: &Judged) {
+        for a in &coarse.limits {
+            let Some(b) = fine.limits.iter().find(|b| b.name == a.name) else { continue };
+            // a measure far from its limit says nothing of others near theirs
+            if a.ratio().max(b.ratio()) < TUNING.evaluation.compared_share {
+                continue;
+            }
+            let [low, high] = TUNING.evaluation.bias;
+            let factor = (b.ratio() / a.ratio().max(f64::MIN_POSITIVE)).clamp(low, high);
+            match self.0.iter_mut().find(|(name, _)| *name == a.name) {
+                Some((_, before)) => *before = (*before * factor).sqrt(),
+                None => self.0.push((a.name, factor)),
+            }
+        }
+    }
+
+    /// Whether nothing was learnt.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    fn of(&self, name: Name) -> f64 {
+        self.0.iter().find(|(other, _)| *other == name).map_or(1.0, |(_, factor)| *factor)
+    }
+}
+
 /// The worst ratio, and a little of the mean; smaller is better, and above 1 plus the weight of the mean nothing is accepted.
 #[must_use]
 pub fn score(drape: &Judged) -> f64 {
-    let ratios: Vec<f64> = drape.limits.iter().map(weight).collect();
+    score_with(drape, &Bias::default())
+}
+
+/// The same of a coarse sheet, with what is known of its error.
+#[must_use]
+pub fn score_with(drape: &Judged, bias: &Bias) -> f64 {
+    let ratios: Vec<f64> = drape.limits.iter().map(|v| weight(v, bias.of(v.name))).collect();
     let worst = ratios.iter().copied().fold(0.0, f64::max);
     let Evaluation { mean_weight, largest_ratio, missing_weight, .. } = TUNING.evaluation;
     let mean =
@@ -99,11 +146,10 @@ pub fn score(drape: &Judged) -> f64 {
         + drape.unsolved as f64
         + if missing > 0.0 { missing_weight * (1.0 + missing) } else { 0.0 }
 }
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::{Name, Worst};
+    use crate::measure::Worst;
 
     /// A search prefers a plan that misses a limit to one with a step that is no solution, and any whole one to one broken off.
     #[test]

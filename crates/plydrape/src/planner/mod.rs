@@ -4,12 +4,14 @@
 //! 2. [`path`]: whole trajectories of few parameters, evaluated by complete drapes, on all cores;
 //! 3. [`stepwise`]: step by step, each step a quadratic program, as Krogh et al. 2018 sketch it;
 //! 4. [`sensitivity`]: the quantities of a solved ply that both planners weigh, with exact gradients;
-//! 5. `evaluation`: the complete drape along a plan, and its score against the limits;
+//! 5. `evaluation`: the complete drape along a plan, and its score against the limits; `decision`: the motion in time and
+//!    the drape that decides;
 //! 6. `search_state`: progress of a search that runs; [`Checkpoint`]: its result, from which another search continues;
 //! 7. [`tuning`]: the constants that both planners share;
 //! 8. `plan`: from a scene to a motion in time and the drape along it.
 
 mod checkpoint;
+mod decision;
 mod evaluation;
 pub mod infeasible_limits;
 pub mod path;
@@ -21,5 +23,6 @@ pub mod stepwise;
 pub mod tuning;
 
 pub use checkpoint::Checkpoint;
+pub use decision::PlannedSheet;
 pub use plan::{PlanError, Planned, plan};
 pub use search_state::{Progress, Watcher};

@@ -1,15 +1,15 @@
-//! From a scene to a motion: a planner finds positions, they become a motion in time, and the ply is draped
-//! along it once more.
+//! From a scene to a motion: a planner finds positions, which become a motion in time, and the model that decides drapes
+//! along it. Catenaries drape along it in any case.
 
 use super::checkpoint::Checkpoint;
+use super::decision::{Decision, PlannedSheet};
 use super::evaluation;
 use super::infeasible_limits::infeasible_limits;
-use super::path::{self, Strategy};
+use super::path;
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome, stepwise};
 use super::tuning::TUNING;
 use crate::draping::record::PlanRecord;
-use crate::draping::spans::Point;
 use crate::draping::{Drape, simulate};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
@@ -19,8 +19,10 @@ use std::ops::ControlFlow;
 /// A finished plan.
 #[derive(Debug, Clone)]
 pub struct Planned {
-    /// The drape along the planned motion, step-cutting on, with the verdicts of all limits.
+    /// The drape by catenaries along the planned motion, step-cutting on, with the verdicts of all limits.
     pub drape: Drape,
+    /// The drape by the sheet along it, where the sheet decides.
+    pub sheet: Option<PlannedSheet>,
     /// The data from which the motion is made again.
     pub record: PlanRecord,
     /// The motion in time.
@@ -66,15 +68,6 @@ pub enum PlanError {
     Motion(#[from] MotionError),
 }
 
-/// The result of a planner.
-struct Found {
-    positions: Vec<Vec<Point>>,
-    evaluations: usize,
-    strategy: Option<Strategy>,
-    /// Limits of the planner itself.
-    limits: Vec<Verdict>,
-}
-
 /// Plans the gripper motion of a scene, from where it starts to its target.
 ///
 /// The search continues from `checkpoint`, that of an earlier search for the same ply. `watcher` receives the progress;
@@ -102,63 +95,62 @@ pub fn plan(
         PlanMethod::Stepwise => scene.plan.steps,
     };
     let state = SearchState::new(most, watcher);
-    let found = match scene.plan.method {
+    let (mut decision, own_limits) = match scene.plan.method {
         PlanMethod::Path => by_path(scene, checkpoint, &state)?,
-        PlanMethod::Stepwise => by_steps(scene, &state),
+        PlanMethod::Stepwise => by_steps(scene, &state)?,
     };
-    let interrupted = state.is_stopped();
+    state.finish();
 
-    let bounds = Bounds::from(&scene.limits);
-    let mut motion = TimedMotion::new(&found.positions, &bounds)?;
     let follow = |motion: &TimedMotion| {
         let followed = evaluation::with_motion(scene, motion.steps());
         simulate(&followed, |_| ControlFlow::Continue(()))
     };
-    let mut drape = follow(&motion);
+    let mut drape = follow(&decision.motion);
     // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
     let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
     let slowed = (TUNING.evaluation.tilt_rate_margin * fastest
         / scene.limits.tilt_rate.to_degrees())
     .max(1.0);
     if slowed > 1.0 {
-        motion = motion.slowed(slowed);
-        drape = follow(&motion);
+        decision.slowed(scene, slowed, &state);
+        drape = follow(&decision.motion);
     }
+    let Decision { strategy, positions, motion, sheet, .. } = decision;
     // limits that no plan can keep come first
     let summary = &mut drape.summary;
     let verdicts = std::mem::take(&mut summary.limits);
     summary.judge_also(infeasible_limits(scene));
     summary.limits.extend(verdicts);
-    summary.judge_also(found.limits.into_iter().chain(rates(&motion, &bounds, scene)));
+    let bounds = Bounds::from(&scene.limits);
+    summary.judge_also(own_limits.into_iter().chain(rates(&motion, &bounds, scene)));
+    let evaluations = state.evaluations();
     let record = PlanRecord {
         method: scene.plan.method,
-        evaluations: found.evaluations,
+        evaluations,
         rate: scene.plan.rate,
         slowed,
-        path: found.positions.clone(),
+        path: positions.clone(),
     };
     let attitudes = Attitudes::of(&drape.steps)?;
     let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations);
-    let checkpoint =
-        Checkpoint::new(scene, before + found.evaluations, found.strategy, found.positions);
-    Ok(Planned { drape, record, motion, attitudes, interrupted, checkpoint })
+    let checkpoint = Checkpoint::new(scene, before + evaluations, strategy, positions);
+    let interrupted = state.is_interrupted();
+    Ok(Planned { drape, sheet, record, motion, attitudes, interrupted, checkpoint })
 }
+
+/// A decision, and limits of the planner itself.
+type Found = (Decision, Vec<Verdict>);
 
 fn by_path(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
     state: &SearchState,
 ) -> Result<Found, PlanError> {
-    let best = path::search(scene, checkpoint, state).ok_or(PlanError::NoTarget)?;
-    Ok(Found {
-        positions: best.positions,
-        evaluations: state.evaluations(),
-        strategy: Some(best.strategy),
-        limits: Vec::new(),
-    })
+    let best = path::search(scene, checkpoint, state)?.ok_or(PlanError::NoTarget)?;
+    Ok((best, Vec::new()))
 }
 
-fn by_steps(scene: &Scene, state: &SearchState) -> Found {
+fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, PlanError> {
     state.begin("step by step");
     let plan = stepwise(scene, &mut |done| {
         state.set_evaluations(done);
@@ -177,7 +169,8 @@ fn by_steps(scene: &Scene, state: &SearchState) -> Found {
         }
         Outcome::Arrived | Outcome::Interrupted | Outcome::NoTarget => Vec::new(),
     };
-    Found { evaluations: plan.positions.len(), positions: plan.positions, strategy: None, limits }
+    state.finish();
+    Ok((Decision::on(scene, None, plan.positions, state)?, limits))
 }
 
 /// Largest speed, acceleration and jerk of the motion against their limits.

@@ -14,6 +14,8 @@ pub struct Progress<'a> {
     pub evaluations: usize,
     /// Most that the search may try.
     pub most: usize,
+    /// Whether the search has ended and its best plan is finished; a break then leaves the drape of that plan incomplete.
+    pub finishing: bool,
     /// Name of the present stage of the search.
     pub stage: &'static str,
     /// Limits of the best plan so far; empty before there is one.
@@ -28,6 +30,7 @@ pub type Watcher<'a> = &'a mut (dyn FnMut(&Progress) -> ControlFlow<()> + Send);
 /// The state of a search, shared by all threads.
 pub struct SearchState<'a> {
     stopped: AtomicBool,
+    interrupted: AtomicBool,
     evaluations: AtomicUsize,
     most: usize,
     best: Mutex<Best<'a>>,
@@ -38,6 +41,8 @@ struct Best<'a> {
     score: f64,
     limits: Vec<Verdict>,
     accepted: bool,
+    decided: bool,
+    finishing: bool,
     stage: &'static str,
 }
 
@@ -46,6 +51,7 @@ impl<'a> SearchState<'a> {
     pub fn new(most: usize, watcher: Watcher<'a>) -> Self {
         SearchState {
             stopped: AtomicBool::new(false),
+            interrupted: AtomicBool::new(false),
             evaluations: AtomicUsize::new(0),
             most,
             best: Mutex::new(Best {
@@ -53,6 +59,8 @@ impl<'a> SearchState<'a> {
                 score: f64::INFINITY,
                 limits: Vec::new(),
                 accepted: false,
+                decided: false,
+                finishing: false,
                 stage: "",
             }),
         }
@@ -73,20 +81,34 @@ impl<'a> SearchState<'a> {
         self.stopped.load(Ordering::Relaxed)
     }
 
+    /// Whether the watcher ended the search.
+    pub fn is_interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+
+    /// Ends the search; its best plan is finished even if the search was stopped.
+    pub fn finish(&self) {
+        self.stopped.store(false, Ordering::Relaxed);
+        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        best.finishing = true;
+        best.stage = "finishing the best plan";
+    }
+
     /// Begins a stage of the search.
     pub fn begin(&self, stage: &'static str) {
         self.best.lock().unwrap_or_else(PoisonError::into_inner).stage = stage;
         let _ = self.report();
     }
 
-    /// Counts a complete drape and keeps it if it is the best.
-    pub fn record(&self, drape: &Judged, score: f64) {
+    /// Counts a complete drape and keeps it if it is the best; one that decides is better than all that rank.
+    pub fn record(&self, drape: &Judged, score: f64, decides: bool) {
         self.evaluations.fetch_add(1, Ordering::Relaxed);
         let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-        if score < best.score {
+        if (decides && !best.decided) || (decides == best.decided && score < best.score) {
             best.score = score;
             best.limits.clone_from(&drape.limits);
-            best.accepted = drape.accepted;
+            best.accepted = decides && drape.accepted;
+            best.decided = decides;
         }
         drop(best);
         let _ = self.report();
@@ -98,10 +120,11 @@ impl<'a> SearchState<'a> {
             return ControlFlow::Break(());
         }
         let Ok(mut best) = self.best.try_lock() else { return ControlFlow::Continue(()) };
-        let Best { watcher, limits, accepted, stage, .. } = &mut *best;
+        let Best { watcher, limits, accepted, finishing, stage, .. } = &mut *best;
         let progress = Progress {
             evaluations: self.evaluations(),
             most: self.most,
+            finishing: *finishing,
             stage,
             best: limits,
             accepted: *accepted,
@@ -109,6 +132,7 @@ impl<'a> SearchState<'a> {
         let flow = watcher(&progress);
         if flow.is_break() {
             self.stopped.store(true, Ordering::Relaxed);
+            self.interrupted.store(true, Ordering::Relaxed);
         }
         flow
     }

@@ -18,6 +18,9 @@ pub struct Tuning {
 /// Constants of the evaluation of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evaluation {
+    /// Largest distance between neighbouring lines of the sheet that ranks candidates (of the pitch of the grippers). A
+    /// fifth: cell middles hang and land as in a finer one, and a drape takes a tenth of the time.
+    pub mesh: f64,
     /// Weight of the mean of all ratios of measures to limits beside the largest. 0.1, so that it decides only among
     /// plans that are about equally good at their worst.
     pub mean_weight: f64,
@@ -25,6 +28,10 @@ pub struct Evaluation {
     pub largest_ratio: f64,
     /// Share of a limit that only has to be kept, up to which a measure does not count.
     pub counted_share: f64,
+    /// Ratio to its limit below which a measure of a coarse sheet is not compared with that of a fine one.
+    pub compared_share: f64,
+    /// Least and largest factor between both that is believed.
+    pub bias: [f64; 2],
     /// Equilibria a step on the average from which on a drape is broken off; good drapes take two or three.
     pub most_equilibria: usize,
     /// Score of a drape that was broken off, per share of the steps that are missing: worse than that of any other.
@@ -54,9 +61,12 @@ pub struct Sensitivity {
 pub const TUNING: Tuning = Tuning {
     program_iterations: 60,
     evaluation: Evaluation {
+        mesh: 0.2,
         mean_weight: 0.1,
         largest_ratio: 10.0,
         counted_share: 0.9,
+        compared_share: 0.3,
+        bias: [0.5, 2.0],
         most_equilibria: 12,
         missing_weight: 1e3,
         tilt_rate_margin: 1.5,

@@ -27,7 +27,8 @@ mod tuning;
 pub use drape::{Drape, Status, drape, is_kept};
 pub use fabric::Fabric;
 pub use gripper::{Gripper, Pad};
-pub use model::{Sheet, SheetError};
+pub use measure::Summary;
+pub use model::{Sheet, SheetError, pitch};
 pub use state::State;
 pub use tuning::Tuning;
 

@@ -5,7 +5,7 @@ use super::gripper::Gripper;
 use super::tuning::Tuning;
 use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
-use crate::ply::Direction;
+use crate::ply::{Direction, Ply};
 use crate::scene::{Friction, Scene};
 
 /// A ply as a sheet.
@@ -142,7 +142,7 @@ impl Sheet {
 
         let [a, b] = ply.cell;
         let grid = ply.grid;
-        let pitch = if grid.nv > 1 { a.min(b) } else { a };
+        let pitch = pitch(ply);
         let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch);
         let (radius, overhang) = (settings.pad.radius, settings.sheet.overhang);
         let positive = |what, value: f64| check(value > 0.0, what, value, "positive");
@@ -245,6 +245,13 @@ impl Sheet {
         };
         self.grippers.iter().map(one).collect()
     }
+}
+
+/// Shortest distance between neighbouring grippers in the fabric (m).
+#[must_use]
+pub fn pitch(ply: &Ply) -> f64 {
+    let [a, b] = ply.cell;
+    if ply.grid.nv > 1 { a.min(b) } else { a }
 }
 
 fn check(

@@ -152,7 +152,10 @@ pub(super) struct GrippersTable {
     /// Place x, y of gripper [0, 0] (m), the origin unless given; with `parallel_to_mold`, of the mold point
     /// below it. Or "centred": the rectangle's middle is above the middle of the target.
     pub origin: Option<Located<Place<Centred>>>,
-    /// Heading of u (rad), from x towards y; that of the target where the origin is "centred".
+    /// Place x, y of the middle of all grippers (m), instead of the `origin`: where the ply is picked up.
+    pub middle: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    /// Heading of u at the start (rad), from x towards y, 0 unless given; that of the target where the origin is
+    /// "centred".
     pub direction: Option<Quantity<Angle>>,
     /// True turns the rectangle parallel to the mold, `height` along its normal.
     pub parallel_to_mold: Option<Located<bool>>,

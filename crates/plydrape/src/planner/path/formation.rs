@@ -1,11 +1,12 @@
 //! Positions of the grippers while a front passes over the mold: the net on the mold that is lifted ahead of the front.
 //!
 //! Inside the front the net is the ideal drape, outside it the fabric curves away from the mold. Because it is a net
-//! at every moment, fibre lengths are right at every moment. A pretension stretches the net ahead of the front a
-//! little, so that its spans stay taut.
+//! at every moment, fibre lengths are right at every moment. Then its lines are made taut, see `taut`. A pretension
+//! stretches what is ahead of the front a little.
 
 use super::strategy::Strategy;
 use super::tabulation::{around, height_grid};
+use super::taut::Lines;
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::mold::vector::{along, dot, sub};
@@ -16,15 +17,19 @@ use crate::ply::Grid;
 use crate::scene::Scene;
 use std::sync::Arc;
 
-/// Heights of a scene's mold, which are lifted ahead of a front.
+/// What formations of a scene share: heights of its mold, which are lifted ahead of a front, and the lines of its ply.
 #[derive(Debug, Clone)]
-pub struct MoldHeights(Arc<HeightGrid>);
+pub struct MoldHeights {
+    heights: Arc<HeightGrid>,
+    lines: Option<Arc<Lines>>,
+}
 
 /// The formation of grippers behind and ahead of one front.
 #[derive(Debug, Clone)]
 pub struct Formation<'a> {
-    mold: &'a Mold,
     heights: Arc<HeightGrid>,
+    /// The lines between grippers; none where the ideal drape is not known as a net.
+    lines: Option<Arc<Lines>>,
     /// The net from the front's start; none where the ideal drape is not known as a net.
     layup: Option<Layup>,
     grid: Grid,
@@ -33,8 +38,8 @@ pub struct Formation<'a> {
     centre: [f64; 2],
     /// Unit of length (m).
     cell: f64,
-    /// From each gripper's place in the net on the mold, without and with pretension, to its target (m).
-    offsets: [Vec<Point>; 2],
+    /// From each gripper's place in the net on the mold to its target (m).
+    offsets: Vec<Point>,
 }
 
 impl MoldHeights {
@@ -42,7 +47,7 @@ impl MoldHeights {
     #[must_use]
     pub fn new(scene: &Scene) -> Option<Self> {
         let heights = heights(scene.mold.as_ref()?, &scene.target.as_ref()?.grippers)?;
-        Some(MoldHeights(Arc::new(heights)))
+        Some(MoldHeights { heights: Arc::new(heights), lines: Lines::new(scene).map(Arc::new) })
     }
 }
 
@@ -50,28 +55,27 @@ impl<'a> Formation<'a> {
     /// The formation of a strategy; none without a mold or a target.
     #[must_use]
     pub fn new(scene: &'a Scene, heights: &MoldHeights, strategy: Strategy) -> Option<Self> {
-        let (mold, target) = (scene.mold.as_ref()?, scene.target.as_ref()?);
+        let target = scene.target.as_ref()?;
         let layup = layup(scene, &strategy);
         let count = target.grippers.len() as f64;
         let middle = [0, 1].map(|n| target.grippers.iter().map(|p| p[n]).sum::<f64>() / count);
         let mut formation = Formation {
-            mold,
-            heights: Arc::clone(&heights.0),
+            heights: Arc::clone(&heights.heights),
+            lines: heights.lines.clone(),
             layup,
             grid: scene.ply.grid,
             targets: &target.grippers,
             strategy,
             centre: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
             cell: tuning::cell(scene),
-            offsets: [Vec::new(), Vec::new()],
+            offsets: Vec::new(),
         };
         let beyond = 2.0 * formation.reach() + 1.0;
         let still = vec![[0.0; 3]; target.grippers.len()];
-        formation.offsets =
-            [0.0, strategy.pretension].map(|pretension| match formation.net(beyond, pretension) {
-                Some(ends) => target.grippers.iter().zip(ends).map(|(a, b)| sub(*a, b)).collect(),
-                None => still.clone(),
-            });
+        formation.offsets = match formation.net(beyond) {
+            Some(ends) => target.grippers.iter().zip(ends).map(|(a, b)| sub(*a, b)).collect(),
+            None => still,
+        };
         Some(formation)
     }
 
@@ -96,14 +100,13 @@ impl<'a> Formation<'a> {
     }
 
     /// The net on the lifted mold at the grippers (m); none where it folds or there is none.
-    fn net(&self, front: f64, pretension: f64) -> Option<Vec<Point>> {
+    fn net(&self, front: f64) -> Option<Vec<Point>> {
         let layup = self.layup?;
         let lifted = FrontSurface { mold: Arc::clone(&self.heights), rise: self.lift(front) };
         let (pose, surface) = (Pose::new([0.0; 3], [0.0; 3]), Surface::Front(lifted));
         let mold = Mold::Graph(Graph { pose, surface, domain: None });
         let place = mold.highest_point(self.centre)?;
-        let mesh = layup.mesh.map(|width| width * (1.0 + pretension));
-        let net = Net::drape(&mold, Layup { place, mesh, ..layup }).ok()?;
+        let net = Net::drape(&mold, Layup { place, ..layup }).ok()?;
         let node = |n: usize| net.node(self.grid.id(n).map(|k| k * TUNING.front.divisions));
         (0..self.grid.grippers()).map(node).collect()
     }
@@ -111,19 +114,23 @@ impl<'a> Formation<'a> {
     /// Gripper positions (m) when the front has come to `front` (m).
     #[must_use]
     pub fn grippers(&self, front: f64) -> Vec<Point> {
-        let Some(net) = self.net(front, self.strategy.pretension) else {
+        let Some(net) = self.net(front) else {
             // without a net, straight above their targets
             let lift = FrontSurface { mold: Arc::clone(&self.heights), rise: self.lift(front) };
             let raise = |p: &Point| [p[0], p[1], p[2] + lift.rise_at(p[0], p[1])];
             return self.targets.iter().map(raise).collect();
         };
-        let place = |(n, p): (usize, Point)| {
-            let height = self.mold.signed_distance(p).max(0.0);
-            let landing = (-height / (TUNING.front.landing_height * self.cell)).exp();
-            let [relaxed, stretched] = [self.offsets[0][n], self.offsets[1][n]];
-            along(along(p, 1.0 - landing, relaxed), landing, stretched)
-        };
-        net.into_iter().enumerate().map(place).collect()
+        let mut grippers: Vec<Point> =
+            net.into_iter().zip(&self.offsets).map(|(p, offset)| along(p, 1.0, *offset)).collect();
+        let Some(lines) = &self.lines else { return grippers };
+        let rise = self.lift(front);
+        let radius = |p: Point| rise.radius([p[0], p[1]]);
+        let landed: Vec<bool> = self.targets.iter().map(|p| radius(*p) <= front).collect();
+        for (n, gripper) in grippers.iter_mut().enumerate().filter(|(n, _)| landed[*n]) {
+            *gripper = self.targets[n];
+        }
+        lines.tighten(&mut grippers, &landed, radius, front, self.strategy.pretension);
+        grippers
     }
 }
 

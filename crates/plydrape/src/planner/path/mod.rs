@@ -1,11 +1,14 @@
 //! Whole trajectories, evaluated by complete drapes, section 17 of `docs/theory`.
 
 mod formation;
+mod geometry;
 mod refine;
 mod search;
 mod strategy;
 mod tabulation;
+mod taut;
 mod trajectory;
+mod transport;
 pub mod tuning;
 
 pub use formation::{Formation, MoldHeights};
@@ -13,3 +16,4 @@ pub use refine::correction;
 pub(super) use search::search;
 pub use strategy::Strategy;
 pub use trajectory::trajectory;
+pub use transport::transport;

@@ -1,183 +1,289 @@
-//! The search for a strategy: a few families first, then evolution of the best (CMA-ES, Hansen 2016). Every
-//! candidate is evaluated by its complete drape. Candidates are independent and run on all cores; which one is the
-//! best does not depend on the number of cores.
+//! The search for a strategy: a few families first, then evolution of the best (CMA-ES, Hansen 2016).
+//!
+//! A candidate whose grippers alone would exceed a limit is not draped (`geometry`). The others are ranked by complete
+//! drapes, of a coarse sheet where the sheet decides, and the best are decided on with the mesh of the scene. The search
+//! ends with a plan that is accepted with a margin. Candidates are independent and run on all cores; which one is
+//! the best does not depend on the number of cores.
 
 use super::formation::MoldHeights;
-use super::refine::correction;
+use super::geometry;
 use super::strategy::Strategy;
 use super::tabulation::tabulated;
 use super::trajectory::trajectory;
 use super::tuning::TUNING;
 use crate::draping::Judged;
 use crate::draping::spans::Point;
-use crate::mold::vector::along;
+use crate::motion::MotionError;
 use crate::planner::checkpoint::Checkpoint;
-use crate::planner::evaluation;
+use crate::planner::decision::Decision;
+use crate::planner::evaluation::{self, Bias};
+use crate::planner::infeasible_limits::infeasible_limits;
 use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
 use cmaes::{CMAESOptions, DVector};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// A strategy and the drape that it leads to.
+/// A strategy and the score of the drape that it leads to.
 #[derive(Debug, Clone)]
-pub struct Candidate {
-    /// Its strategy.
-    pub strategy: Strategy,
-    /// The positions that it plans (m), one list of all grippers a step.
-    pub positions: Vec<Vec<Point>>,
-    /// Limits and failures of its complete drape.
-    pub drape: Judged,
-    /// [`evaluation::score`] of it.
-    pub score: f64,
+struct Candidate {
+    strategy: Strategy,
+    positions: Vec<Vec<Point>>,
+    /// Its drape; none of one that was not draped.
+    drape: Option<Judged>,
+    score: f64,
 }
 
-impl Candidate {
-    fn of(
-        scene: &Scene,
-        heights: &MoldHeights,
-        strategy: Strategy,
-        state: &SearchState,
-    ) -> Option<Candidate> {
-        Some(Candidate::along(scene, strategy, trajectory(scene, heights, strategy)?, state))
-    }
+/// What all candidates of a search share.
+struct Shared<'a, 'b> {
+    scene: &'a Scene,
+    /// The scene with its mold as a table, where that is faster.
+    tabulated: Cow<'a, Scene>,
+    heights: MoldHeights,
+    state: &'a SearchState<'b>,
+    /// How far the ranking was wrong where it was decided; it changes between generations only.
+    bias: Mutex<Bias>,
+}
 
-    fn along(
-        scene: &Scene,
-        strategy: Strategy,
-        positions: Vec<Vec<Point>>,
-        state: &SearchState,
-    ) -> Candidate {
-        let drape = evaluation::drape(scene, &positions, state);
-        let mut score = evaluation::score(&drape);
-        if score < TUNING.search.promising {
-            let finer = evaluation::drape_finer(scene, &positions, state);
-            score = score.max(evaluation::score(&finer));
-        }
-        state.record(&drape, score);
-        Candidate { strategy, positions, drape, score }
-    }
+/// A search under way.
+struct Search<'a, 'b> {
+    shared: &'a Shared<'a, 'b>,
+    /// The best candidates on which was not decided.
+    candidates: Vec<Candidate>,
+    best: Option<Decision>,
+    /// The first that could not become a motion.
+    fault: Option<MotionError>,
+    /// Drapes that may be tried.
+    left: usize,
 }
 
 /// The best plan that is found: families first, or the result of an earlier search, then evolution. None without
 /// a mold or a target.
-#[must_use]
+///
+/// # Errors
+/// If no candidate can become a motion.
 pub fn search(
     scene: &Scene,
     checkpoint: Option<&Checkpoint>,
     state: &SearchState,
-) -> Option<Candidate> {
-    let heights = MoldHeights::new(scene)?;
-    let scene = &*tabulated(scene);
-    let most = scene.plan.evaluations.max(1);
-    let try_one = |strategy: Strategy| Candidate::of(scene, &heights, strategy, state);
-    state.begin("first candidates");
-    let tried: Vec<Candidate> = match checkpoint.and_then(|checkpoint| checkpoint.path(scene)) {
-        Some((strategy, Some(positions))) => {
-            vec![Candidate::along(scene, strategy, positions, state)]
-        }
-        Some((strategy, None)) => vec![try_one(strategy)?],
-        None => {
-            let mut first = Strategy::families(scene);
-            first.truncate(most);
-            first.into_par_iter().filter_map(try_one).collect()
-        }
+) -> Result<Option<Decision>, MotionError> {
+    let Some(heights) = MoldHeights::new(scene) else { return Ok(None) };
+    let bias = Mutex::default();
+    let shared = Shared { scene, tabulated: tabulated(scene), heights, state, bias };
+    let mut search = Search {
+        shared: &shared,
+        candidates: Vec::new(),
+        best: None,
+        fault: None,
+        left: scene.plan.evaluations.max(1),
     };
-    let mut left = most.saturating_sub(tried.len());
-    let mut best = tried.into_iter().reduce(better)?;
+    search.first(checkpoint);
+    if infeasible_limits(scene).is_empty() {
+        search.evolve(checkpoint);
+    }
+    // at least one is decided on, even if the search was stopped
+    if search.best.is_none() {
+        state.finish();
+        search.decide_all(f64::INFINITY, 1);
+    }
+    match (search.best, search.fault) {
+        (None, Some(fault)) => Err(fault),
+        (best, _) => Ok(best),
+    }
+}
 
-    best = refine(scene, best, &mut left, state);
-    state.begin("evolution");
-    // evolution about the best; a search that continues an earlier one takes other samples
-    let mean = best.strategy.to_unit().to_vec();
-    let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations as u64);
-    let seed = scene.plan.seed.wrapping_add(before);
-    let found: Mutex<Option<Candidate>> = Mutex::new(None);
-    let objective = |unit: &DVector<f64>| -> f64 {
-        if state.is_stopped() {
-            return f64::MAX;
+impl Search<'_, '_> {
+    /// The first candidates: families, or what an earlier search found.
+    fn first(&mut self, checkpoint: Option<&Checkpoint>) {
+        let Shared { scene, state, .. } = self.shared;
+        state.begin("first candidates");
+        match checkpoint.and_then(|checkpoint| checkpoint.path(scene)) {
+            Some((strategy, Some(positions))) => {
+                self.left = self.left.saturating_sub(1);
+                self.candidates.push(self.shared.along(strategy, positions));
+                self.rank();
+                self.decide_all(f64::INFINITY, 1);
+            }
+            Some((strategy, None)) => {
+                self.drape(&[strategy]);
+                self.decide_all(f64::INFINITY, 1);
+            }
+            None => {
+                let mut families = Strategy::families(scene, |shape| self.shared.steepest(shape));
+                // what grippers alone cannot do comes last
+                let excess = |strategy: &Strategy| self.shared.excess(*strategy).max(1.0);
+                let excess: Vec<f64> = families.par_iter().map(excess).collect();
+                let mut order: Vec<usize> = (0..families.len()).collect();
+                order.sort_by(|a, b| excess[*a].total_cmp(&excess[*b]));
+                families = order.into_iter().map(|n| families[n]).collect();
+                for batch in families.chunks(TUNING.search.batch) {
+                    if self.is_done() {
+                        break;
+                    }
+                    let batch = &batch[..batch.len().min(self.left)];
+                    self.drape(batch);
+                    self.decide(TUNING.search.decisions);
+                }
+            }
         }
-        let Some(candidate) = try_one(Strategy::of_unit(unit.as_slice())) else { return f64::MAX };
-        let score = candidate.score;
-        let mut found = lock(&found);
-        *found = Some(match found.take() {
-            Some(before) => better(before, candidate),
-            None => candidate,
-        });
-        score
-    };
-    let options = CMAESOptions::new(mean, TUNING.search.step)
-        .population_size(TUNING.search.generation)
-        .seed(seed);
-    let Ok(mut evolution) = options.build(objective) else { return Some(best) };
-    let mut idle = 0;
-    while best.score > TUNING.search.good
-        && idle < TUNING.search.patience
-        && left >= TUNING.search.generation + TUNING.search.refinements * TUNING.search.parts.len()
-        && !state.is_stopped()
-    {
-        let ended = evolution.next_parallel().is_some();
-        left -= TUNING.search.generation;
-        let before = best.score;
-        if let Some(candidate) = lock(&found).take() {
-            best = better(best, candidate);
-        }
-        // an accepted plan is not improved for long
-        idle = if best.score < TUNING.search.gain * before || !is_accepted(&best) {
-            0
-        } else {
-            idle + 1
+    }
+
+    /// Evolution about the best; a search that continues an earlier one takes other samples.
+    fn evolve(&mut self, checkpoint: Option<&Checkpoint>) {
+        let ranked = self.candidates.first().map(|first| (first.score, first.strategy));
+        let decided = self.best.as_ref().and_then(|best| Some((best.score, best.strategy?)));
+        let start = ranked.into_iter().chain(decided).reduce(|a, b| if b.0 < a.0 { b } else { a });
+        let Some((_, start)) = start else { return };
+        let shared = self.shared;
+        shared.state.begin("evolution");
+        let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations as u64);
+        let found: Mutex<Vec<Candidate>> = Mutex::new(Vec::new());
+        let objective = |unit: &DVector<f64>| -> f64 {
+            let strategy = Strategy::of_unit(unit.as_slice());
+            let Some(candidate) = shared.of(strategy) else { return f64::MAX };
+            let score = candidate.score;
+            lock(&found).push(candidate);
+            score
         };
-        if ended {
-            break;
+        let options = CMAESOptions::new(start.to_unit().to_vec(), TUNING.search.step)
+            .population_size(TUNING.search.generation)
+            .seed(shared.scene.plan.seed.wrapping_add(before));
+        let Ok(mut evolution) = options.build(objective) else { return };
+        let mut idle = 0;
+        while !self.is_done() && idle < TUNING.search.patience {
+            if self.left < TUNING.search.generation {
+                break;
+            }
+            self.left -= TUNING.search.generation;
+            let ended = evolution.next_parallel().is_some();
+            let before = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
+            self.candidates.append(&mut lock(&found));
+            self.rank();
+            self.decide(1);
+            // an accepted plan is not improved for long
+            let after = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
+            let accepted = self.best.as_ref().is_some_and(|best| best.drape.accepted);
+            let gained = after < TUNING.search.gain * before;
+            idle = if accepted && !gained { idle + 1 } else { 0 };
+            if ended {
+                break;
+            }
         }
     }
-    best = refine(scene, best, &mut left, state);
-    Some(best)
-}
 
-/// Rounds of refinement, as long as they help and are needed.
-fn refine(scene: &Scene, mut best: Candidate, left: &mut usize, state: &SearchState) -> Candidate {
-    state.begin("refinement");
-    for _ in 0..TUNING.search.refinements {
-        if best.score <= TUNING.search.good
-            || *left < TUNING.search.parts.len()
-            || state.is_stopped()
-        {
-            break;
-        }
-        *left -= TUNING.search.parts.len();
-        match refined(scene, &best, state) {
-            Some(refined) if refined.score < best.score => best = refined,
-            _ => break,
-        }
+    /// Whether the search shall end.
+    fn is_done(&self) -> bool {
+        let good = |best: &Decision| best.drape.accepted && best.score <= TUNING.search.good;
+        self.left == 0 || self.shared.state.is_stopped() || self.best.as_ref().is_some_and(good)
     }
-    best
+
+    /// Drapes along strategies.
+    fn drape(&mut self, strategies: &[Strategy]) {
+        self.left = self.left.saturating_sub(strategies.len());
+        let of = |strategy: &Strategy| self.shared.of(*strategy);
+        let found: Vec<Candidate> = strategies.par_iter().filter_map(of).collect();
+        self.candidates.extend(found);
+        self.rank();
+    }
+
+    /// The best candidates first, and no more of them than can matter.
+    fn rank(&mut self) {
+        self.candidates.sort_by(|a, b| {
+            let key = |c: &Candidate| (c.score, c.strategy.to_unit());
+            key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal)
+        });
+        self.candidates.truncate(TUNING.search.kept);
+    }
+
+    /// Decides on the best candidates that are promising, at most so many.
+    fn decide(&mut self, most: usize) {
+        let known = !lock(&self.shared.bias).is_empty();
+        self.decide_all(TUNING.search.promising[usize::from(known)], most);
+    }
+
+    /// Decides on the best candidates with a score below `promising`, at most so many.
+    fn decide_all(&mut self, promising: f64, most: usize) {
+        let count = self.candidates.iter().take_while(|c| c.score < promising).count().min(most);
+        if count == 0 || self.shared.state.is_stopped() {
+            return;
+        }
+        let Shared { scene, state, .. } = self.shared;
+        state.begin("decision");
+        let chosen: Vec<Candidate> = self.candidates.drain(..count).collect();
+        let decide = |candidate: Candidate| {
+            let Candidate { strategy, positions, drape, .. } = candidate;
+            (drape, Decision::on(scene, Some(strategy), positions, state))
+        };
+        let decisions: Vec<_> = chosen.into_par_iter().map(decide).collect();
+        for (coarse, decision) in decisions {
+            match decision {
+                Ok(decision) => {
+                    if let Some(coarse) = coarse {
+                        lock(&self.shared.bias).learn(&coarse, &decision.drape);
+                    }
+                    let better = |best: &Decision| decision.score < best.score;
+                    if self.best.as_ref().is_none_or(better) {
+                        self.best = Some(decision);
+                    }
+                }
+                Err(fault) => self.fault = self.fault.take().or(Some(fault)),
+            }
+        }
+        let bias = lock(&self.shared.bias).clone();
+        for candidate in &mut self.candidates {
+            if let Some(drape) = &candidate.drape {
+                candidate.score = evaluation::score_with(drape, &bias);
+            }
+        }
+        self.rank();
+    }
 }
 
-/// The best along parts of the correction that gradients propose.
-fn refined(scene: &Scene, best: &Candidate, state: &SearchState) -> Option<Candidate> {
-    let correction = correction(scene, &best.positions)?;
-    let corrected = |part: &f64| {
-        let moved = |(p, c): (&Point, &Point)| along(*p, *part, *c);
-        let step = |(p, c): (&Vec<Point>, &Vec<Point>)| p.iter().zip(c).map(moved).collect();
-        let positions = best.positions.iter().zip(&correction).map(step).collect();
-        Candidate::along(scene, best.strategy, positions, state)
-    };
-    let tried: Vec<Candidate> = TUNING.search.parts.par_iter().map(corrected).collect();
-    tried.into_iter().reduce(better)
-}
+impl Shared<'_, '_> {
+    /// The candidate of a strategy; none once the search is stopped.
+    fn of(&self, strategy: Strategy) -> Option<Candidate> {
+        if self.state.is_stopped() {
+            return None;
+        }
+        Some(self.along(strategy, trajectory(&self.tabulated, &self.heights, strategy)?))
+    }
 
-fn is_accepted(candidate: &Candidate) -> bool {
-    candidate.drape.accepted
-}
+    /// [`geometry::excess`] of a strategy.
+    fn excess(&self, strategy: Strategy) -> f64 {
+        let positions = trajectory(&self.tabulated, &self.heights, strategy);
+        positions.map_or(f64::INFINITY, |positions| geometry::excess(self.scene, &positions))
+    }
 
-/// The one with the lower score; where they are equal, the one whose numbers come first.
-fn better(a: Candidate, b: Candidate) -> Candidate {
-    let key = |c: &Candidate| (c.score, c.strategy.to_unit());
-    let order = key(&a).partial_cmp(&key(&b)).unwrap_or(Ordering::Equal);
-    if order == Ordering::Greater { b } else { a }
+    /// The steepest slope of a front of this shape at which no gripper tilts too far, by bisection.
+    fn steepest(&self, shape: Strategy) -> f64 {
+        let keeps =
+            |slope: f64| self.excess(Strategy { slope, ..shape }) <= TUNING.front.tilt_share;
+        if keeps(shape.slope) {
+            return shape.slope;
+        }
+        let (mut low, mut high) = (0.0, shape.slope);
+        for _ in 0..TUNING.front.slope_rounds {
+            let middle = 0.5 * (low + high);
+            *(if keeps(middle) { &mut low } else { &mut high }) = middle;
+        }
+        // a mold as steep as the limit leaves nothing
+        low.max(TUNING.front.ranges[5][0].exp())
+    }
+
+    /// The candidate with these positions (m).
+    fn along(&self, strategy: Strategy, positions: Vec<Vec<Point>>) -> Candidate {
+        let excess = geometry::excess(self.scene, &positions);
+        if excess > TUNING.search.excess {
+            let score = TUNING.search.not_draped * excess;
+            return Candidate { strategy, positions, drape: None, score };
+        }
+        let drape = evaluation::drape(&self.tabulated, &positions, self.state);
+        let score = evaluation::score_with(&drape, &lock(&self.bias).clone());
+        self.state.record(&drape, score, false);
+        Candidate { strategy, positions, drape: Some(drape), score }
+    }
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

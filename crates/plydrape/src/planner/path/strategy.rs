@@ -3,6 +3,7 @@
 use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
+use rayon::prelude::*;
 
 /// Parameters of a front: where it starts, its shape, and how steep and how taut the ply is ahead of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,35 +74,60 @@ impl Strategy {
         numbers.iter().all(|n| n.is_finite()) && ratio > 0.0 && curvature > 0.0 && slope > 0.0
     }
 
-    /// The first candidates: a ring that spreads from the middle, lines along the mold's two principal
-    /// directions there, and a descent of all grippers at once.
+    /// The first candidates, those that most molds take first. `steepest` is the steepest slope that the tilt of the
+    /// grippers leaves to a front of this shape.
     #[must_use]
-    pub fn families(scene: &Scene) -> Vec<Strategy> {
-        let ring = Strategy {
-            start: [0.5; 2],
-            ratio: 1.0,
-            angle: 0.0,
-            curvature: 0.4,
-            slope: 0.4,
-            pretension: 1e-4,
-        };
+    pub fn families(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
+        let grid = scene.ply.grid;
+        let start = [grid.nu, grid.nv].map(middle_of_cell);
         let [first, second] =
             principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
-        let line = |angle| Strategy { ratio: 100.0, angle, ..ring };
-        let sharp = Strategy { curvature: 2.0, slope: 0.25, pretension: 0.0, ..ring };
+        let shape = |ratio, angle| Strategy { ratio, angle, ..Strategy::ring(start) };
+        let shapes = [
+            shape(1.0, 0.0),
+            shape(2.5, second),
+            shape(2.5, first),
+            shape(100.0, second),
+            shape(100.0, first),
+        ];
+        let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
+        let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
+        let [ring, second_ellipse, first_ellipse, second_line, first_line] = shapes[..] else {
+            return shapes;
+        };
+        let flatter = |share: f64, of: Strategy| Strategy { slope: share * of.slope, ..of };
+        let loose = |of: Strategy| Strategy { curvature: 3.0, pretension: 0.0, ..of };
         vec![
             ring,
-            Strategy { curvature: 1.2, ..sharp },
-            line(second),
-            line(first),
-            Strategy { curvature: 0.03, slope: 0.03, ..ring },
-            Strategy { curvature: 0.05, slope: 0.05, ..line(second) },
-            Strategy { ratio: 1.3, angle: second, ..sharp },
-            Strategy { ratio: 1.3, angle: first, ..sharp },
-            Strategy { ratio: 2.0, angle: second, ..sharp },
-            Strategy { ratio: 2.0, angle: first, ..sharp },
+            flatter(0.8, ring),
+            loose(ring),
+            second_ellipse,
+            first_ellipse,
+            Strategy { pretension: 1e-3, ..ring },
+            second_line,
+            first_line,
+            loose(second_ellipse),
+            loose(first_ellipse),
+            flatter(0.6, ring),
+            flatter(0.6, loose(ring)),
+            Strategy { start: [0.5; 2], ..ring },
+            loose(second_line),
+            loose(first_line),
+            Strategy { curvature: 0.05, ..flatter(0.1, ring) },
         ]
     }
+
+    /// A ring that spreads from a start, as steep as no tilt forbids.
+    fn ring(start: [f64; 2]) -> Self {
+        let slope = TUNING.front.steepest;
+        Strategy { start, ratio: 1.0, angle: 0.0, curvature: 5.0, slope, pretension: 6e-4 }
+    }
+}
+
+/// The middle of the cell that is nearest the middle of so many grippers, as a share of the fabric.
+fn middle_of_cell(grippers: usize) -> f64 {
+    let cells = grippers.saturating_sub(1).max(1);
+    ((cells / 2) as f64 + if cells % 2 == 1 { 0.5 } else { -0.5 }) / cells as f64
 }
 
 /// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape.

@@ -16,7 +16,10 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
         return Cow::Borrowed(scene);
     };
     let domain = graph.domain.unwrap_or_else(|| {
-        let local: Vec<Point> = target.grippers.iter().map(|p| graph.pose.local(*p)).collect();
+        // the grippers also pass over it on their way from the start
+        let places =
+            target.grippers.iter().chain(scene.motion.positions.first().into_iter().flatten());
+        let local: Vec<Point> = places.map(|p| graph.pose.local(*p)).collect();
         around(&local, TUNING.front.table_margin)
     });
     let tolerance = TUNING.front.table_error * tuning::cell(scene);

@@ -1,12 +1,12 @@
-//! From a strategy to the positions of every step: approach, descent, and the front that passes over the mold.
+//! From a strategy to the positions of every step: transport, and the front that passes over the mold.
 
 use super::formation::{Formation, MoldHeights};
 use super::strategy::Strategy;
+use super::transport::transport;
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::mold::vector;
 use crate::motion::farthest;
-use crate::planner::tuning;
 use crate::scene::Scene;
 
 /// Positions (m) of `scene.plan.steps` steps: the first is the scene's start, the last the target. None without a
@@ -35,18 +35,10 @@ fn positions(
     steps: usize,
 ) -> Option<Vec<Vec<Point>>> {
     let formation = Formation::new(scene, heights, strategy)?;
-    let start = scene.motion.positions.first()?;
     let target = &scene.target.as_ref()?.grippers;
-    let share = |share: f64| ((share * steps as f64).round() as usize).max(1);
-    let [approach, descent] = TUNING.front.shares.map(share);
-    let roll = steps.saturating_sub(approach + descent + 1).max(1);
+    let mut out = transport(scene, &formation.grippers(0.0), steps)?;
+    let roll = steps.saturating_sub(out.len() + 1).max(1);
 
-    let first = formation.grippers(0.0);
-    let height = TUNING.front.approach_height * tuning::cell(scene);
-    let above: Vec<Point> = first.iter().map(|p| [p[0], p[1], p[2] + height]).collect();
-    let mut out = Vec::with_capacity(steps);
-    out.extend((0..approach).map(|k| between(start, &above, k as f64 / approach as f64)));
-    out.extend((0..descent).map(|k| between(&above, &first, k as f64 / descent as f64)));
     let reach = formation.reach() * (1.0 + TUNING.front.beyond);
     out.extend((0..roll).map(|k| formation.grippers(reach * k as f64 / roll as f64)));
     out.push(target.clone());

@@ -2,17 +2,56 @@
 //!
 //! Lengths are in terms of a cell, the shorter side of a cell of the ply.
 
-use std::f64::consts::{FRAC_PI_2, LN_10};
+use std::f64::consts::{FRAC_PI_2, LN_10, PI};
 
 /// Constants of each stage of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tuning {
+    /// The way from the start to the first formation of a front.
+    pub transport: Transport,
     /// Fronts and the trajectories that they give.
     pub front: Front,
     /// The search for the best front.
     pub search: Search,
     /// Corrections of single grippers by gradients.
     pub refinement: Refinement,
+}
+
+/// Constants of the way from the start to the first formation of a front.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transport {
+    /// Distance that the ply keeps from the mold and from the table while it is carried (cells).
+    pub margin: f64,
+    /// Points of a cell along each side at which this distance is measured, the farther end not counted: at the
+    /// grippers and half-way between them.
+    pub divisions: usize,
+    /// Length of the way between two places at which it is measured (cells); several in a step, because corners of the
+    /// way are rounded within two steps.
+    pub sampling: f64,
+    /// Most places at which it is measured on a way.
+    pub most_samples: usize,
+    /// Rounds in which the height of the carried array is raised until it is kept where corners are rounded, too.
+    pub rounds: usize,
+    /// Share of the margin that may be missing after these rounds.
+    pub tolerance: f64,
+    /// Height over the lowest place that is clear of the mold from which on the array is formed (cells).
+    pub forming_height: f64,
+    /// Height above the first formation at which the array has its shape (cells).
+    pub formed_height: f64,
+    /// Share of the steps in which the array is carried, for a way that is long beside that of forming; of a shorter
+    /// way in proportion.
+    pub carrying: f64,
+    /// Share of the steps in which it is formed.
+    pub forming: f64,
+    /// Share of the steps in which it comes down to the first formation. The front takes the other steps, because
+    /// contacts are made there.
+    pub descent: f64,
+    /// Largest turn in a step (rad): 6°. A cubic spline whose control points are turned by θ a step draws the array in
+    /// by θ²/6. This is compensated where knots are evenly spaced; where they are not, up to about a tenth of it is left:
+    /// 0.02 % of an edge.
+    pub turn: f64,
+    /// Share of the steps up to which that largest turn makes the way longer.
+    pub most_turning: f64,
 }
 
 /// Constants of fronts and their trajectories.
@@ -30,22 +69,30 @@ pub struct Front {
     pub upright_border: f64,
     /// Rounds in which the height of the tangent plane at the border is found.
     pub border_rounds: usize,
-    /// Height over which a gripper gives up its pretension as it lands (cells): where the ply beside it comes into contact.
-    pub landing_height: f64,
+    /// Parts of a line between two grippers, between whose ends the front's crossing is found.
+    pub line_parts: usize,
+    /// Rounds over all lines at most in which they are made taut.
+    pub tightenings: usize,
+    /// Difference of a line and its chord, as a share of its length, at which it is taut; small beside the slack that
+    /// lets a cell sag visibly, some 1e-5.
+    pub taut: f64,
     /// Nodes of the table of a mold that is a formula along each axis.
     pub table_nodes: usize,
     /// Error up to which this table is used (cells).
     pub table_error: f64,
     /// Margin of the table around the drape where the formula has no borders, as a share of its size.
     pub table_margin: f64,
-    /// Height of the approach above the first formation (cells).
-    pub approach_height: f64,
-    /// Shares of the steps for approach and descent; the front takes the others, because contacts are made there.
-    pub shares: [f64; 2],
     /// How far the front runs beyond the last gripper, as a share of its path.
     pub beyond: f64,
     /// Formations per step from which steps of equal length are cut, where a move limit asks for them.
     pub finer: usize,
+    /// Steepest slope that is tried first: steeper ones make the ply fold at the front.
+    pub steepest: f64,
+    /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
+    /// and tilts those at its boundary more.
+    pub tilt_share: f64,
+    /// Rounds in which that slope is found.
+    pub slope_rounds: usize,
     /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension. Ratios go up to
     /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 3, slopes from 0.02 to 1.
     pub ranges: [[f64; 2]; 7],
@@ -56,8 +103,20 @@ pub struct Front {
 pub struct Search {
     /// Score below which a plan keeps every limit with so wide a margin that the search ends. A score of 1 just keeps them.
     pub good: f64,
-    /// Score below which a plan is evaluated with twice the steps, too. Above 1, because a refinement may improve it.
-    pub promising: f64,
+    /// Score of a ranking below which a plan is decided on: first, and once the error of the coarse mesh is known. Above 1,
+    /// because of that error.
+    pub promising: [f64; 2],
+    /// Ratio of a measure to its limit by the grippers alone beyond which a candidate is not draped: above 1, because the
+    /// ply tilts a gripper less or more than the lines to its neighbours.
+    pub excess: f64,
+    /// Score of such a candidate, as a multiple of the ratio: worse than that of one that is draped.
+    pub not_draped: f64,
+    /// First candidates that are draped before the best of them is decided on: whole pairs, for two cores.
+    pub batch: usize,
+    /// Candidates that are decided on at once.
+    pub decisions: usize,
+    /// Candidates that are kept to be decided on.
+    pub kept: usize,
     /// First step of the evolution, in shares of each range: it explores around the best member of a family.
     pub step: f64,
     /// Candidates of a generation: whole pairs, for two cores.
@@ -66,10 +125,6 @@ pub struct Search {
     pub patience: usize,
     /// Ratio of scores that is a gain.
     pub gain: f64,
-    /// Rounds of refinement.
-    pub refinements: usize,
-    /// Shares of a correction that are tried, because the correction is linear and the drape is not.
-    pub parts: [f64; 2],
 }
 
 /// Constants of the refinement by gradients.
@@ -95,6 +150,21 @@ pub struct Refinement {
 
 /// The constants in use.
 pub const TUNING: Tuning = Tuning {
+    transport: Transport {
+        margin: 0.1,
+        divisions: 2,
+        sampling: 0.2,
+        most_samples: 2000,
+        rounds: 8,
+        tolerance: 1e-3,
+        forming_height: 1.0,
+        formed_height: 0.1,
+        carrying: 0.12,
+        forming: 0.17,
+        descent: 0.09,
+        turn: PI / 30.0,
+        most_turning: 0.4,
+    },
     front: Front {
         tip: 1e-3,
         divisions: 4,
@@ -102,14 +172,17 @@ pub const TUNING: Tuning = Tuning {
         height_margin: 0.25,
         upright_border: 0.3,
         border_rounds: 4,
-        landing_height: 0.02,
+        line_parts: 16,
+        tightenings: 500,
+        taut: 1e-6,
         table_nodes: 161,
         table_error: 1e-6,
         table_margin: 0.5,
-        approach_height: 0.1,
-        shares: [0.17, 0.09],
         beyond: 0.02,
         finer: 4,
+        steepest: 0.6,
+        tilt_share: 0.95,
+        slope_rounds: 6,
         ranges: [
             [0.0, 1.0],
             [0.0, 1.0],
@@ -117,18 +190,21 @@ pub const TUNING: Tuning = Tuning {
             [-FRAC_PI_2, FRAC_PI_2],
             [-1.6 - LN_10, 3.4 - LN_10],
             [-4.0, 0.0],
-            [0.0, 4e-4],
+            [0.0, 1.2e-3],
         ],
     },
     search: Search {
-        good: 0.6,
-        promising: 1.3,
-        step: 0.08,
+        good: 0.8,
+        promising: [1.4, 1.1],
+        excess: 1.1,
+        not_draped: 1e2,
+        batch: 4,
+        decisions: 2,
+        kept: 16,
+        step: 0.1,
         generation: 8,
-        patience: 3,
-        gain: 0.98,
-        refinements: 3,
-        parts: [1.0, 0.4],
+        patience: 2,
+        gain: 0.95,
     },
     refinement: Refinement {
         splines: 5,

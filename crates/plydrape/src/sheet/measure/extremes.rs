@@ -25,6 +25,7 @@ impl Extremes {
     /// Evaluates the state of a step; `touching` is the height that counts as contact (m).
     pub fn see(&mut self, sheet: &Sheet, state: &State, touching: f64) {
         let (fabric, x, step) = (&sheet.fabric, &state.positions, state.step);
+        let reach = TILT_REACH * sheet.pitch;
         let of = |nodes: [u32; 2]| {
             let [a, b] = nodes.map(|n| n as usize);
             (middle([fabric.places[a], fabric.places[b]]), middle([x[a], x[b]]))
@@ -51,9 +52,11 @@ impl Extremes {
             let at = pad.position;
             self.force.meet(norm(*force), gripper.place, at, step);
             self.lateral.meet(force[0].hypot(force[1]), gripper.place, at, step);
-            let node = fabric.node_at(gripper.place).filter(|_| gripper.radius == 0.0);
-            let tilt = node.map_or(Some(pad.tilt()), |node| tilt(fabric, x, node));
-            self.tilt.meet(tilt.unwrap_or(0.0), gripper.place, at, step);
+            let tilt = match gripper.radius {
+                0.0 => tilt(fabric, x, gripper.place, reach).unwrap_or(0.0),
+                _ => pad.tilt(),
+            };
+            self.tilt.meet(tilt, gripper.place, at, step);
         }
         for (node, height) in state.heights.iter().enumerate() {
             self.depth.meet((-height).max(0.0), fabric.places[node], x[node], step);
@@ -105,11 +108,22 @@ impl Extremes {
     }
 }
 
-/// Tilt of the ply at a node (rad), by the normals of the cells around it; none without cells.
+/// Fabric to each side of a gripper that is a point, over which its tilt is measured (of the pitch of the grippers).
+///
+/// Right beside a point that holds it, fabric is the steeper the finer the mesh. A gripper is a cup, and a fifth of the
+/// pitch is the size of a usual one, 40 mm of 100 mm.
+const TILT_REACH: f64 = 0.2;
+
+/// Tilt (rad) of the fabric around a place: of the area vector of the cells whose middles are within `reach` (m) of it
+/// along u and v, which depends on the boundary of that patch alone and so hardly on the mesh; none without cells.
 #[must_use]
-pub fn tilt(fabric: &Fabric, x: &[[f64; 3]], node: usize) -> Option<f64> {
+pub fn tilt(fabric: &Fabric, x: &[[f64; 3]], place: [f64; 2], reach: f64) -> Option<f64> {
     let mut sum = [0.0; 3];
-    for cell in fabric.cells.iter().filter(|cell| cell.nodes.contains(&(node as u32))) {
+    for cell in &fabric.cells {
+        let at = middle(cell.nodes.map(|n| fabric.places[n as usize]));
+        if (0..2).any(|n| (at[n] - place[n]).abs() > reach) {
+            continue;
+        }
         let [a, b, c, d] = cell.nodes.map(|n| x[n as usize]);
         let normal = cross(sub(c, a), sub(d, b));
         for n in 0..3 {

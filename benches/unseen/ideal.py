@@ -1,0 +1,105 @@
+"""The ideal drape of a scene as `plydrape net` finds it, and whether it is a fair task."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from molds import Height
+from plies import Array
+
+MAX_SHEAR_DEG = 30.0
+"""Largest shear of an ideal drape (degrees)."""
+
+MAX_TILT_DEG = 30.0
+"""Largest tilt of a gripper at its target (degrees); its joint tilts by 40."""
+
+STEP = 0.01
+"""Step of the differences that give a slope, of the shorter side of a cell."""
+
+
+class RefusedError(Exception):
+    """A draw that is no fair task, with the reason."""
+
+
+@dataclass(frozen=True)
+class Drape:
+    """Where everything should end."""
+
+    shear_deg: float
+    """Largest shear of a cell."""
+    tilt_deg: float
+    """Largest angle of the mold to the plane at a gripper."""
+    middle: tuple[float, float]
+    """Mean place x, y of the grippers (m)."""
+    bottom: float
+    """Height of its lowest point (m)."""
+    top: float
+    """Height of its highest point (m)."""
+
+
+class Plydrape:
+    """The program that judges scenes."""
+
+    def __init__(self, program: Path) -> None:
+        """Of the program's file."""
+        self.program = program
+
+    def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        """Runs it; above exit code 1 the scene is refused, and why is printed."""
+        command = [str(self.program), *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode > 1 or done.returncode < 0:
+            sys.stderr.write(done.stderr)
+            raise RefusedError(f"exit {done.returncode} of {arguments[0]}")
+        return done
+
+    def check(self, scene: Path) -> None:
+        """Refuses what `check` refuses. It may warn of straight ways, which no plan follows."""
+        self.run("check", str(scene))
+
+    def drape(self, scene: Path, ply: Array, height: Height) -> Drape:
+        """The ideal drape; refused if there is none, or if it shears or tilts too much."""
+        folder = scene.with_suffix(".net")
+        done = self.run("net", str(scene), "-o", str(folder), "--json")
+        if done.returncode == 1:
+            raise RefusedError("no ideal drape")
+        drape = read(folder / "nodes.csv", json.loads(done.stdout), ply, height)
+        if drape.shear_deg > MAX_SHEAR_DEG:
+            raise RefusedError("shear")
+        if drape.tilt_deg > MAX_TILT_DEG:
+            raise RefusedError("tilt")
+        return drape
+
+
+def read(table: Path, printed: dict[str, float], ply: Array, height: Height) -> Drape:
+    """The ideal drape from its nodes; every gripper holds one of them."""
+    heights, grippers = [], []
+    with table.open(newline="") as file:
+        for row in csv.DictReader(file):
+            heights.append(float(row["z"]))
+            cells = (float(row["u"]) / ply.cell[0], float(row["v"]) / ply.cell[1])
+            if all(abs(share - round(share)) < 1e-6 for share in cells):
+                grippers.append((float(row["x"]), float(row["y"])))
+    assert len(grippers) == ply.grippers[0] * ply.grippers[1]
+    x, y = (sum(axis) / len(grippers) for axis in zip(*grippers, strict=True))
+    step = STEP * min(ply.cell)
+    return Drape(
+        shear_deg=printed["max_shear_deg"],
+        tilt_deg=max(slope(height, place, step) for place in grippers),
+        middle=(x, y),
+        bottom=min(heights),
+        top=max(heights),
+    )
+
+
+def slope(height: Height, place: tuple[float, float], step: float) -> float:
+    """Angle of a mold to the plane over a place (degrees), by central differences."""
+    x, y = place
+    along = height(x + step, y) - height(x - step, y), height(x, y + step) - height(x, y - step)
+    return math.degrees(math.atan2(math.hypot(*along), 2.0 * step))

@@ -1,0 +1,192 @@
+"""Plans random scenes one after the other and says how many the sheet accepts.
+
+Writes one row a scene to plans.csv in the folder of the scenes, as soon as it is planned, and
+prints tables in Markdown: the share accepted and the times by family and by size, what stopped the
+others, and apart from these every scene whose program crashed, printed a NaN or ended with another
+exit code than 0 or 1.
+
+    python benches/unseen/run.py /tmp/unseen --timeout 600
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from summary import tables
+
+ROOT = Path(__file__).resolve().parents[2]
+
+GRACE = 60.0
+"""Time that a plan which is told to end may take to write its best (s)."""
+
+AT_LEAST = ("contact_share", "gripper_distance")
+"""Limits that a value shall not fall below."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """How one run of the program ended."""
+
+    exit: int
+    """Its exit code; below zero the signal that ended it."""
+    late: bool
+    """Whether it was told to end because its time was over."""
+    seconds: float
+    memory_mb: float
+    """Peak resident memory."""
+    out: str
+    """What it printed on standard output."""
+    error: str
+    """What it printed on standard error."""
+
+
+def run(command: list[str], timeout: float) -> Run:
+    """Runs a program, with the time and memory of that process alone."""
+    with tempfile.TemporaryFile("w+b") as out, tempfile.TemporaryFile("w+b") as error:
+        begin = time.perf_counter()
+        child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=error)
+        late = threading.Event()
+
+        def end(sign: signal.Signals) -> None:
+            late.set()
+            os.kill(child.pid, sign)
+
+        timers = [
+            threading.Timer(timeout, end, [signal.SIGTERM]),
+            threading.Timer(timeout + GRACE, end, [signal.SIGKILL]),
+        ]
+        for timer in timers:
+            timer.start()
+        try:
+            _, status, usage = os.wait4(child.pid, 0)
+        finally:
+            for timer in timers:
+                timer.cancel()
+        seconds = time.perf_counter() - begin
+        child.returncode = os.waitstatus_to_exitcode(status)
+        texts = []
+        for file in (out, error):
+            file.seek(0)
+            texts.append(file.read().decode(errors="replace"))
+    # Linux counts in KiB, macOS in bytes
+    unit = 1 if sys.platform == "darwin" else 1024
+    return Run(
+        child.returncode, late.is_set(), seconds, usage.ru_maxrss * unit / 1e6, texts[0], texts[1]
+    )
+
+
+def excess(limit: dict[str, Any]) -> float:
+    """How many times the allowed a value is; above one it is exceeded."""
+    value, allowed = float(limit["value"]), float(limit["limit"])
+    if limit["name"] in AT_LEAST:
+        value, allowed = allowed, value
+    return value / allowed if allowed else float("inf" if value else 0.0)
+
+
+def worst(printed: dict[str, Any]) -> dict[str, Any]:
+    """The limit that is exceeded most, of the sheet before others; the closest one if none is."""
+    sheet = (printed.get("sheet") or {}).get("limits") or []
+    for limits in (sheet, printed.get("limits") or []):
+        exceeded = [limit for limit in limits if not limit["ok"]]
+        if exceeded:
+            return max(exceeded, key=excess)
+    known = [limit for limit in sheet if limit["value"] is not None]
+    return max(known, key=excess) if known and printed.get("accepted") else {}
+
+
+def row_of(scene: dict[str, str], done: Run) -> dict[str, str]:
+    """The row of a scene that was planned."""
+    printed: dict[str, Any] = {}
+    lines = done.error.strip().splitlines()
+    message = lines[0].strip() if lines else ""
+    try:
+        printed = json.loads(done.out)
+    except json.JSONDecodeError:
+        message = message or "no JSON"
+    if re.search(r"\bnan\b", done.out + done.error, re.IGNORECASE):
+        result, message = "failed", "NaN"
+    elif done.late:
+        result = "out of time"
+    elif done.exit not in (0, 1) or not printed:
+        result = "failed"
+    else:
+        result = "accepted" if printed["accepted"] and done.exit == 0 else "not accepted"
+    sheet, limit = printed.get("sheet") or {}, worst(printed)
+
+    def number(value: object, digits: int) -> str:
+        return f"{value:.{digits}f}" if isinstance(value, int | float) else ""
+
+    return {
+        **scene,
+        "result": result,
+        "time (s)": number(done.seconds, 2),
+        "drapes": number(printed.get("evaluations"), 0),
+        "height (mm)": number(sheet.get("height_max_mm"), 3),
+        "position (mm)": number(sheet.get("position_max_mm"), 3),
+        "limit": limit.get("name", ""),
+        "value": number(limit.get("value"), 3),
+        "allowed": number(limit.get("limit"), 3),
+        "unit": limit.get("unit", ""),
+        "where": limit.get("where", ""),
+        "memory (MB)": number(done.memory_mb, 0),
+        "exit": str(done.exit),
+        "message": message,
+    }
+
+
+def read(path: Path) -> list[dict[str, str]]:
+    """The rows of a table."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def main() -> None:
+    """Plans the scenes of the command line."""
+    parser = argparse.ArgumentParser(description="Plans random scenes, and says how they end.")
+    parser.add_argument("folder", type=Path, help="folder that scenes.py wrote")
+    parser.add_argument("--plydrape", type=Path, default=ROOT / "target" / "release" / "plydrape")
+    parser.add_argument("--timeout", type=float, default=900.0, help="seconds a scene")
+    parser.add_argument("--only", nargs="+", help="numbers or families of scenes")
+    parser.add_argument("--resume", action="store_true", help="keep the rows of an earlier run")
+    parser.add_argument("-o", "--output", type=Path, help="table; plans.csv in the folder")
+    options = parser.parse_args()
+    program = str(options.plydrape.resolve())
+    output = options.output or options.folder / "plans.csv"
+    rows = read(output) if options.resume and output.is_file() else []
+    planned = {row["scene"] for row in rows}
+    for scene in read(options.folder / "scenes.csv"):
+        name = scene["scene"]
+        wanted = not options.only or {name, scene["family"]} & set(options.only)
+        if name in planned or not wanted:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            command = [program, "plan", str(options.folder / f"{name}.toml"), "-o", folder]
+            row = row_of(scene, run([*command, "--json", "--quiet"], options.timeout))
+        rows.append(row)
+        with output.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, list(row))
+            writer.writeheader()
+            writer.writerows(rows)
+        limit = f"{row['limit']} {row['value']} {row['unit']}".strip()
+        print(
+            f"{name} {row['family']}: {row['result']}, {row['time (s)']} s, {limit}",
+            file=sys.stderr,
+        )
+    print(tables(rows))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,154 @@
+"""Random scenes that no example shows, to prove the planner on.
+
+Writes N scenes (000.toml, 001.toml, ...) and scenes.csv, a table of them. The same seed gives the
+same bytes, and a scene does not depend on how many are written. Families of molds take turns. A
+draw that nobody can lay is drawn again, which is counted by reason: the ideal drape of
+`plydrape net` has to exist, to shear by at most 30 degrees and to tilt no gripper by more than 30
+degrees, and `plydrape check` has to read the scene.
+
+    python benches/unseen/scenes.py --seed 7 --count 100 -o /tmp/unseen
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import random
+import sys
+import tempfile
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+from families import FAMILIES
+from ideal import Plydrape, RefusedError
+from molds import Draw, Mold
+from pickup import pick_up
+from plies import SIZES, array, material, scaled, target
+from units import length, table
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is drawn from."""
+
+    seed: int
+    sizes: list[str]
+    """Size classes of the arrays."""
+    scale: float
+    """Of all lengths."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene as a file, its mold, and its row of the table."""
+
+    text: str
+    mold: Mold
+    row: dict[str, str]
+
+
+def family_of(seed: int, index: int) -> str:
+    """The family of a scene: all of them in every round, each round in an order of its own."""
+    names = list(FAMILIES)
+    turn = index // len(names)
+    random.Random(f"{seed} round {turn}").shuffle(names)
+    return names[index % len(names)]
+
+
+def scene(task: Task, index: int, program: Plydrape, refused: Counter[str]) -> Scene:
+    """The scene of a number; counts what was drawn again."""
+    rng, family = random.Random(f"{task.seed} scene {index}"), family_of(task.seed, index)
+    while True:
+        try:
+            return draw(rng, f"{index:03d}", family, task, program)
+        except RefusedError as reason:  # noqa: PERF203
+            refused[f"{family}: {reason}"] += 1
+
+
+def draw(rng: random.Random, name: str, family: str, task: Task, program: Plydrape) -> Scene:
+    """One draw; refused if nobody can lay it."""
+    size, ply = array(rng, task.sizes, task.scale)
+    mold = FAMILIES[family](Draw(rng, ply))
+    heading, aim = target(rng, ply, mold.middle, mold.shear_deg)
+    tables = {
+        "ply": {
+            "grippers": f"[{ply.grippers[0]}, {ply.grippers[1]}]",
+            "cell": f"[{length(ply.cell[0])}, {length(ply.cell[1])}]",
+            "material": '"krogh2018"',
+        },
+        "mold": {key: value.replace("{name}", name) for key, value in mold.keys.items()},
+        "target": aim,
+    }
+    title = f"Unseen {name}: {family}, {ply.grippers[0]} × {ply.grippers[1]} grippers"
+
+    def text() -> str:
+        return f'title = "{title}"\n' + "".join(table(*each) for each in tables.items())
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"{name}.toml"
+        path.with_suffix(".stl").write_bytes(mold.mesh)
+        path.write_text(text(), encoding="utf-8")
+        drape = program.drape(path, ply, mold.height)
+        start, kind = pick_up(rng, ply, mold, drape, heading), "krogh2018"
+        if task.scale == 1.0:
+            kind = material(rng, drape.shear_deg)
+            tables["ply"]["material"] = f'"{kind}"'
+        else:
+            del tables["ply"]["material"]
+            tables.update(scaled(task.scale))
+        tables["grippers"] = start.taut(kind).keys(ply)
+        path.write_text(text(), encoding="utf-8")
+        program.check(path)
+    row = {
+        "scene": name,
+        "family": family,
+        "size": size,
+        "grippers": f"{ply.grippers[0]} × {ply.grippers[1]}",
+        "cell (mm)": " × ".join(f"{1e3 * side:.6g}" for side in ply.cell),
+        "material": kind,
+        "start": start.name,
+        "shear (deg)": f"{drape.shear_deg:.2f}",
+        "tilt (deg)": f"{drape.tilt_deg:.2f}",
+    }
+    return Scene(text(), mold, row)
+
+
+def write(task: Task, count: int, folder: Path, program: Plydrape) -> Counter[str]:
+    """Writes scenes and their table; what was drawn again, by family and reason."""
+    folder.mkdir(parents=True, exist_ok=True)
+    refused, rows = Counter[str](), []
+    for index in range(count):
+        made = scene(task, index, program, refused)
+        path = folder / f"{index:03d}.toml"
+        path.write_text(made.text, encoding="utf-8")
+        if made.mold.mesh:
+            path.with_suffix(".stl").write_bytes(made.mold.mesh)
+        rows.append(made.row)
+    with (folder / "scenes.csv").open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+    return refused
+
+
+def main() -> None:
+    """Writes the scenes of the command line."""
+    parser = argparse.ArgumentParser(description="Random scenes that no example shows.")
+    parser.add_argument("--seed", type=int, required=True)
+    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("-o", "--output", type=Path, required=True, help="folder of the scenes")
+    parser.add_argument("--sizes", nargs="+", choices=SIZES, default=list(SIZES))
+    parser.add_argument("--scale", type=float, default=1.0, help="of all lengths")
+    parser.add_argument("--plydrape", type=Path, default=ROOT / "target" / "release" / "plydrape")
+    options = parser.parse_args()
+    task = Task(options.seed, options.sizes, options.scale)
+    refused = write(task, options.count, options.output, Plydrape(options.plydrape.resolve()))
+    reasons = ", ".join(f"{reason} ({count})" for reason, count in sorted(refused.items()))
+    print(f"{options.count} scenes; {refused.total()} drawn again: {reasons}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

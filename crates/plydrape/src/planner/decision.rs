@@ -1,0 +1,102 @@
+//! The decision about a plan: its motion in time, and the drape along it by the model that decides, with the mesh of the
+//! scene.
+
+use super::evaluation;
+use super::path::Strategy;
+use super::search_state::SearchState;
+use super::tuning::TUNING;
+use crate::draping::spans::Point;
+use crate::draping::{self, Judged};
+use crate::motion::{Bounds, MotionError, TimedMotion};
+use crate::scene::{Model, Scene};
+use crate::sheet;
+use std::ops::ControlFlow;
+
+/// The drape of the sheet along a planned motion.
+#[derive(Debug, Clone)]
+pub struct PlannedSheet {
+    /// The drape.
+    pub drape: sheet::Drape,
+    /// The states that the scene wants to be kept.
+    pub states: Vec<sheet::State>,
+}
+
+/// A plan on which was decided.
+#[derive(Debug, Clone)]
+pub struct Decision {
+    /// The strategy behind it, of a plan of whole trajectories.
+    pub strategy: Option<Strategy>,
+    /// The positions that were planned (m), one list of all grippers a step.
+    pub positions: Vec<Vec<Point>>,
+    /// The motion in time.
+    pub motion: TimedMotion,
+    /// The drape of the sheet, where that decides.
+    pub sheet: Option<PlannedSheet>,
+    /// Its limits and failures.
+    pub drape: Judged,
+    /// [`evaluation::score`] of it.
+    pub score: f64,
+}
+
+impl Decision {
+    /// Drapes along planned positions (m).
+    ///
+    /// # Errors
+    /// If they cannot become a motion.
+    pub fn on(
+        scene: &Scene,
+        strategy: Option<Strategy>,
+        positions: Vec<Vec<Point>>,
+        state: &SearchState,
+    ) -> Result<Self, MotionError> {
+        let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
+        let (sheet, drape) = draped(scene, &motion, state);
+        let score = evaluation::score(&drape);
+        state.record(&drape, score, true);
+        Ok(Decision { strategy, positions, motion, sheet, drape, score })
+    }
+
+    /// The same in another time.
+    pub fn slowed(&mut self, scene: &Scene, factor: f64, state: &SearchState) {
+        self.motion = self.motion.slowed(factor);
+        if scene.settings.sheet.time == crate::scene::SheetTime::Real {
+            (self.sheet, self.drape) = draped(scene, &self.motion, state);
+            self.score = evaluation::score(&self.drape);
+        } else if let Some(sheet) = &mut self.sheet {
+            for state in sheet.states.iter_mut().chain([&mut sheet.drape.last]) {
+                state.time = self.motion.times()[state.step - 1];
+            }
+        }
+    }
+}
+
+fn draped(
+    scene: &Scene,
+    motion: &TimedMotion,
+    state: &SearchState,
+) -> (Option<PlannedSheet>, Judged) {
+    let steps = motion.times().len();
+    let scene = evaluation::with_motion(scene, motion.steps());
+    let mut states = Vec::new();
+    let keep = |state: &sheet::State| {
+        if sheet::is_kept(state.step, steps, scene.settings.sheet.keep) {
+            states.push(state.clone());
+        }
+        ControlFlow::Continue(())
+    };
+    let stop = || state.report().is_break();
+    let drape = match scene.settings.model {
+        Model::Sheet => sheet::drape(&scene, sheet::Tuning::default(), &stop, keep).ok(),
+        Model::Catenaries => None,
+    };
+    match drape {
+        Some(drape) => {
+            let judged = evaluation::judged(&drape.summary, steps);
+            (Some(PlannedSheet { drape, states }), judged)
+        }
+        None => {
+            let most = TUNING.evaluation.most_equilibria * steps;
+            (None, draping::judge(&scene, most, |_| state.report()))
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Taut lines of the ply between neighbouring grippers, while a front passes over the mold.
+//!
+//! The net on the lifted mold follows its curvature, but a free line hangs from gripper to gripper along a chord, so the
+//! net leaves slack. Here grippers are moved sideways, at the height that they have, until every free line is as long as
+//! its chord: from gripper to gripper, or from a gripper to where the front crosses the line on the mold. The slack that
+//! is taken away would hang down, touch the mold first and stay as a ridge.
+//!
+//! Lines are shortened and lengthened one after the other until all fit (Müller et al. 2007, "Position based dynamics").
+
+use super::tuning::TUNING;
+use crate::draping::spans::Point;
+use crate::mold::vector::between;
+use crate::scene::Scene;
+
+/// The lines between neighbouring grippers of a scene, as they shall lie on the mold.
+#[derive(Debug, Clone)]
+pub struct Lines(Vec<Line>);
+
+#[derive(Debug, Clone)]
+struct Line {
+    /// Grippers at both ends.
+    grippers: [usize; 2],
+    /// Fabric length (m).
+    length: f64,
+    /// Places on the mold (m), evenly spaced in the fabric.
+    places: Vec<Point>,
+}
+
+/// A free part of a line.
+struct Free {
+    gripper: usize,
+    other: End,
+    length: f64,
+}
+
+/// The far end of a free part.
+enum End {
+    Gripper(usize),
+    Mold(Point),
+}
+
+impl Lines {
+    /// The lines of a scene; none where its ideal drape is not known.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Option<Self> {
+        let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
+        let (grid, cell) = (scene.ply.grid, scene.ply.cell);
+        let parts = TUNING.front.line_parts;
+        let line = |n: usize| {
+            let catenary = grid.catenary(n);
+            let [a, b] = [catenary.from, catenary.to].map(|[i, j]| [i as f64, j as f64]);
+            let place = |k: usize| {
+                let t = k as f64 / parts as f64;
+                drape.place(mold, [0, 1].map(|c| (a[c] + t * (b[c] - a[c])) * cell[c]))
+            };
+            Some(Line {
+                grippers: [catenary.from, catenary.to].map(|id| grid.index(id)),
+                length: scene.ply.flat_length(catenary.kind),
+                places: (0..=parts).map(place).collect::<Option<_>>()?,
+            })
+        };
+        (0..grid.edges()).map(line).collect::<Option<_>>().map(Lines)
+    }
+
+    /// Moves grippers (m) that are not in contact sideways until all free lines are taut, `stretch` beyond their length.
+    /// `radius` is the distance of a place from where the front started, `front` how far it has come (m).
+    pub fn tighten(
+        &self,
+        grippers: &mut [Point],
+        landed: &[bool],
+        radius: impl Fn(Point) -> f64,
+        front: f64,
+        stretch: f64,
+    ) {
+        let free = self.free(&radius, front, stretch);
+        for _ in 0..TUNING.front.tightenings {
+            let mut worst = 0.0_f64;
+            for part in &free {
+                let other = match part.other {
+                    End::Gripper(other) => grippers[other],
+                    End::Mold(place) => place,
+                };
+                let moves = [
+                    !landed[part.gripper],
+                    matches!(part.other, End::Gripper(other) if !landed[other]),
+                ];
+                let Some(share) = (match moves {
+                    [true, true] => Some(0.5),
+                    [false, false] => None,
+                    _ => Some(1.0),
+                }) else {
+                    continue;
+                };
+                let here = grippers[part.gripper];
+                let way = [here[0] - other[0], here[1] - other[1]];
+                let run = way[0].hypot(way[1]);
+                if run <= 0.0 {
+                    continue;
+                }
+                let rise = here[2] - other[2];
+                let error = (part.length * part.length - rise * rise).max(0.0).sqrt() - run;
+                worst = worst.max(error.abs() / part.length);
+                for axis in 0..2 {
+                    let by = share * error * way[axis] / run;
+                    if moves[0] {
+                        grippers[part.gripper][axis] += by;
+                    }
+                    if let (true, End::Gripper(other)) = (moves[1], &part.other) {
+                        grippers[*other][axis] -= by;
+                    }
+                }
+            }
+            if worst < TUNING.front.taut {
+                break;
+            }
+        }
+    }
+
+    /// The free parts of all lines.
+    fn free(&self, radius: &impl Fn(Point) -> f64, front: f64, stretch: f64) -> Vec<Free> {
+        let mut out = Vec::with_capacity(2 * self.0.len());
+        for line in &self.0 {
+            let [first, last] = line.grippers;
+            let parts = line.places.len() - 1;
+            let radii: Vec<f64> = line.places.iter().map(|place| radius(*place)).collect();
+            let inside = |k: &usize| radii[*k] <= front;
+            let (Some(from), Some(to)) = ((0..=parts).find(inside), (0..=parts).rfind(inside))
+            else {
+                let length = line.length * (1.0 + stretch);
+                out.push(Free { gripper: first, other: End::Gripper(last), length });
+                continue;
+            };
+            // where the front crosses the line between two of its places
+            let crossing = |out: usize, into: usize| {
+                let t = (front - radii[out]) / (radii[into] - radii[out]);
+                let share = out as f64 + t * (into as f64 - out as f64);
+                (share / parts as f64, between(line.places[out], line.places[into], t))
+            };
+            let mut part = |gripper: usize, place: Point, share: f64| {
+                let length = line.length * share * (1.0 + stretch);
+                out.push(Free { gripper, other: End::Mold(place), length });
+            };
+            if from > 0 {
+                let (share, place) = crossing(from - 1, from);
+                part(first, place, share);
+            }
+            if to < parts {
+                let (share, place) = crossing(to + 1, to);
+                part(last, place, 1.0 - share);
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,138 @@
+//! How far an array that is carried stays above the mold, and above the table that it was picked up from.
+
+use super::turn::{Rotation, centre, turned};
+use crate::draping::spans::Point;
+use crate::mold::Mold;
+use crate::mold::vector::{along, distance, sub};
+use crate::planner::path::tuning::TUNING;
+use crate::planner::tuning;
+use crate::ply::Ply;
+use crate::scene::Scene;
+
+/// What a carried array must stay clear of.
+#[derive(Debug)]
+pub struct Clearance<'a> {
+    mold: &'a Mold,
+    /// Points of the ply at the start, from the centre of the grippers (m): the grippers, and so many between them and
+    /// on the overhang.
+    points: Vec<Point>,
+    /// Centre of the grippers at the start (m).
+    start: Point,
+    /// How far the ply hangs below these points (m).
+    hang: f64,
+    /// Distance to keep (m).
+    margin: f64,
+    /// Height of a table below the start (m); none where the mold is below all of it.
+    table: Option<f64>,
+    /// How far the start is above the mold (m).
+    own: f64,
+}
+
+impl<'a> Clearance<'a> {
+    /// For the array of a scene at its start.
+    pub fn new(scene: &Scene, mold: &'a Mold, start: &[Point]) -> Self {
+        let ply = &scene.ply;
+        let overhang = scene.settings.sheet.overhang;
+        let middle = centre(start);
+        let points = points(ply, start, overhang).into_iter().map(|p| sub(p, middle)).collect();
+        let mut clearance = Clearance {
+            mold,
+            points,
+            start: middle,
+            hang: sag(ply, start).max(overhang),
+            margin: TUNING.transport.margin * tuning::cell(scene),
+            table: None,
+            own: f64::INFINITY,
+        };
+        let heights = || clearance.points.iter().map(|p| clearance.above(along(middle, 1.0, *p)));
+        let is_on_mold = heights().all(|height| height.is_some());
+        clearance.own = heights().flatten().fold(f64::INFINITY, f64::min);
+        if !is_on_mold {
+            let lowest = start.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
+            clearance.table = Some(lowest - clearance.hang);
+        }
+        clearance
+    }
+
+    /// By how much the array, with its centre at a place (m) and turned, is too low over the mold and the table (m).
+    pub fn shortfall(&self, centre: Point, rotation: &Rotation) -> f64 {
+        let lowest = self.points.iter().map(|p| along(centre, 1.0, turned(rotation, *p))[2]);
+        let lowest = lowest.fold(f64::INFINITY, f64::min) - self.hang;
+        let over_table = self.table.map_or(f64::NEG_INFINITY, |table| {
+            table + self.margin.min(self.moved(centre, rotation)) - lowest
+        });
+        over_table.max(self.shortfall_over_mold(centre, rotation))
+    }
+
+    /// By how much it is too low over the mold alone (m). It shall keep the margin; where it has hardly moved, as much as it
+    /// had at the start and the distance that it has moved.
+    pub fn shortfall_over_mold(&self, centre: Point, rotation: &Rotation) -> f64 {
+        let wanted = self.margin.min(self.own + self.moved(centre, rotation));
+        let places = self.points.iter().map(|p| along(centre, 1.0, turned(rotation, *p)));
+        let heights = places.filter_map(|place| self.above(place));
+        wanted - heights.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The farthest that a point of the array has moved in plan (m).
+    fn moved(&self, centre: Point, rotation: &Rotation) -> f64 {
+        let by = sub(centre, self.start);
+        let moves = self.points.iter().map(|p| along(sub(turned(rotation, *p), *p), 1.0, by));
+        moves.map(|d| d[0].hypot(d[1])).fold(0.0, f64::max)
+    }
+
+    /// Height of the ply that hangs from a place over the mold below it (m); none where there is no mold.
+    fn above(&self, place: Point) -> Option<f64> {
+        let top = self.mold.highest_point([place[0], place[1]])?;
+        Some(place[2] - self.hang - top[2])
+    }
+}
+
+/// Points of an array: a few each cell, bilinear between grippers, and the same surface continued over the overhang (m).
+fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Point> {
+    let grid = ply.grid;
+    let axis = |n: usize| -> Vec<f64> {
+        let last = [grid.nu, grid.nv][n] - 1;
+        if last == 0 {
+            return vec![0.0];
+        }
+        let divisions = last * TUNING.transport.divisions;
+        let inner = (0..=divisions).map(|k| k as f64 / TUNING.transport.divisions as f64);
+        let beyond = overhang / ply.cell[n];
+        let mut axis: Vec<f64> = inner.collect();
+        if beyond > 0.0 {
+            axis.insert(0, -beyond);
+            axis.push(last as f64 + beyond);
+        }
+        axis
+    };
+    let at = |u: f64, v: f64| {
+        let cell = |x: f64, count: usize| (x.max(0.0) as usize).min(count.saturating_sub(2));
+        let (i, j) = (cell(u, grid.nu), cell(v, grid.nv));
+        let place =
+            |i: usize, j: usize| places[grid.index([i.min(grid.nu - 1), j.min(grid.nv - 1)])];
+        let line = |j: usize| {
+            let (a, b) = (place(i, j), place(i + 1, j));
+            along(a, u - i as f64, sub(b, a))
+        };
+        let (a, b) = (line(j), line(j + 1));
+        along(a, v - j as f64, sub(b, a))
+    };
+    let (u, v) = (axis(0), axis(1));
+    v.iter().flat_map(|v| u.iter().map(|u| at(*u, *v))).collect()
+}
+
+/// The most that a cell hangs below its grippers (m): its middle hangs below the middles of two of its edges as an edge
+/// along the other direction does, each as a parabola, `f² = 3/8 ℓ (L − ℓ)`.
+fn sag(ply: &Ply, places: &[Point]) -> f64 {
+    let grid = ply.grid;
+    let mut largest = [0.0_f64; 2];
+    for edge in 0..grid.edges() {
+        let c = grid.catenary(edge);
+        let [a, b] = [c.from, c.to].map(|g| places[grid.index(g)]);
+        let (chord, length) = (distance(a, b), ply.flat_length(c.kind));
+        let sag = (0.375 * chord * (length - chord).max(0.0)).sqrt();
+        let of = &mut largest[usize::from(edge >= grid.edges_u())];
+        *of = of.max(sag);
+    }
+    largest[0] + largest[1]
+}
