@@ -335,7 +335,8 @@ impl<'a> Cloth<'a> {
     /// have only such nodes around them.
     fn leave_out(&mut self) {
         self.lies.fill(false);
-        if let Some(contact) = self.contact.as_ref().filter(|_| self.leaves_out) {
+        let sticks = |contact: &&Contact| self.leaves_out && contact.sticks();
+        if let Some(contact) = self.contact.as_ref().filter(sticks) {
             let most = self.tuning.lying_movement * self.sheet.mesh;
             for node in contact.lying(&self.now.x, &self.system.gradient, most) {
                 self.lies[node] = true;

@@ -262,9 +262,13 @@ impl<'a> Contact<'a> {
         self.points.iter().filter(lands).map(way).fold(0.0, f64::max)
     }
 
-    /// The nodes that lie on the mold and stay there by themselves, if all of their neighbours stay: those that are anchored
-    /// and pressed, and which the forces on them, whose gradient is given (N), neither lift off nor move along the mold by
-    /// more than `most` (m).
+    /// Whether an anchor stays where it is as long as its node touches.
+    pub fn sticks(&self) -> bool {
+        !matches!(self.friction, Friction::Coulomb(_))
+    }
+
+    /// The nodes that stay on the mold by themselves, if all of their neighbours stay: those that are anchored and pressed,
+    /// and which the forces on them, whose gradient is given (N), neither lift nor move by more than `most` (m).
     pub fn lying(
         &self,
         x: &[[f64; 3]],
@@ -272,19 +276,13 @@ impl<'a> Contact<'a> {
         most: f64,
     ) -> impl Iterator<Item = usize> {
         let lies = move |point: &&Point| {
-            let (at, total) = (x[point.node], gradient[point.node]);
             let Some(anchor) = point.anchor else { return false };
-            let k = [self.stiffness, self.shear_stiffness].map(|k| k * point.area);
-            let pressure = (-k[0] * dot(sub(at, anchor.point), anchor.normal)).max(0.0);
+            let (off, total) = (sub(x[point.node], anchor.point), gradient[point.node]);
+            let k = self.stiffness * point.area;
             // what the mold has to carry: the pressure of now, and what is out of balance
-            let normal = pressure + dot(total, anchor.normal);
-            let bound = match self.friction {
-                Friction::Coulomb(mu) => self.tack * point.area + mu * normal,
-                Friction::Stick | Friction::StickForEver => f64::INFINITY,
-            };
-            let holds = norm(self.offset(anchor, at)) * k[1] + norm(total) < bound;
-            let pressed = point.acts[0] && normal > 0.0 && !point.acts[1];
-            (pressed && holds || self.holds_for_ever(point)) && norm(total) <= most * k[0].min(k[1])
+            let normal = (-k * dot(off, anchor.normal)).max(0.0) + dot(total, anchor.normal);
+            let pressed = point.acts[0] && normal > 0.0 || self.holds_for_ever(point);
+            pressed && norm(total) <= most * k
         };
         self.points.iter().filter(lies).map(|point| point.node)
     }

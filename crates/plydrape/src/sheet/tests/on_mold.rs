@@ -125,7 +125,7 @@ fn an_isometric_roll_leaves_nothing() {
 fn nodes_that_were_left_out_are_lifted() {
     let held: Vec<[f64; 2]> =
         (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
-    for friction in [Friction::Stick, Friction::Coulomb(0.3)] {
+    for friction in [Friction::Stick, Friction::StickForEver] {
         let mut sheet = sheet([even(0.3, 18), even(0.1, 6)], &held);
         sheet.mesh = 0.1 / 6.0;
         sheet.mold = Some(plane(0.0));
@@ -145,7 +145,7 @@ fn nodes_that_were_left_out_are_lifted() {
             }
             assert_eq!(most > 20, leaves_out, "{most} of {} nodes", cloth.still.len());
             let lifted = cloth.now.x.iter().filter(|x| x[2] > 5e-5).count();
-            assert!(lifted > 50, "{lifted} nodes");
+            assert_eq!(lifted > 50, friction == Friction::Stick, "{lifted} nodes");
             cloth.now.x
         });
         // each step is solved to 0.01 mm, and the point where the ply comes off is known to 0.05 mm of height
