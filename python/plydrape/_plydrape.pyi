@@ -164,7 +164,7 @@ class Equilibrium:
                 u and v (m), axis (2,); "material", its `names`, axis (names,): mass and rigidities in SI units.
 
         Raises:
-            ValueError: If there is no such `wrt`.
+            ValueError: If there is no such `wrt`, or the derivatives would take more memory than allowed.
             SolveError: If the equilibrium was not found, or a rigidity is zero: it has no neighbourhood.
 
         Example:
@@ -1611,7 +1611,7 @@ def outcome(
         progress: As that of `simulate`.
 
     Raises:
-        ValueError: If the drape has no steps.
+        ValueError: If the drape has no steps, or the derivatives would take more memory than allowed.
 
     Example:
         >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")

@@ -4,6 +4,7 @@
 //! each kind of work were measured as the largest resident size of a release build, divided by the number of parts.
 
 use plydrape::ply::Ply;
+use plydrape::scene::{Plan, PlanMethod};
 use std::env;
 
 /// Environment variable that holds another budget, as in `16 GB`.
@@ -28,12 +29,19 @@ const UNITS: [(&str, f64); 8] = [
 const CATENARY: f64 = 5e3;
 /// Memory that a gripper of a step takes (bytes).
 const GRIPPER: f64 = 1e3;
-/// Memory that a node of a sheet takes while it is draped (bytes), most of it in the factors of the stiffness matrix.
+/// Memory that a node of a sheet takes while it is draped (bytes). The factors of the stiffness matrix take 3 to 10 kB of it,
+/// from 120 to 160 000 nodes.
 const NODE: f64 = 4e4;
 /// Memory that a node of a state of a sheet takes (bytes).
 const STATE: f64 = 60.0;
 /// Memory that a plan takes, as a multiple of that of a drape with its steps.
 const PLAN: f64 = 2.0;
+/// Memory that a gripper takes in the program of a step of the stepwise planner (bytes): derivatives, matrices and factors;
+/// 57 kB with 60 × 60 grippers.
+const PROGRAM: f64 = 1e5;
+/// Memory that a derivative of a catenary to a coordinate takes (bytes): those of force, slopes, run, rise and length, as
+/// rows and as arrays.
+const DERIVATIVE: f64 = 200.0;
 /// Memory that a triangle of a mold takes while a mesh is built (bytes).
 const TRIANGLE: f64 = 500.0;
 /// Memory per byte of a result file that is read and made into something else.
@@ -126,24 +134,68 @@ pub fn check(estimate: f64, what: impl FnOnce() -> String) -> Result<(), SizeErr
 ///
 /// # Errors
 /// As [`check`].
-pub fn drape(ply: &Ply, steps: usize) -> Result<(), SizeError> {
-    of_steps("the result", 1.0, ply, steps)
+pub fn drape(ply: &Ply, count: usize) -> Result<(), SizeError> {
+    check(of_steps(ply, count), || steps("the result", ply, count))
 }
 
-/// Refuses a plan that would be too large.
+/// The sheets of a plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlanSheets {
+    /// Nodes of the sheet that decides.
+    pub nodes: f64,
+    /// Nodes of a sheet that ranks candidates; there is one on each core.
+    pub coarse_nodes: f64,
+    /// States that the one that decides keeps.
+    pub keep: usize,
+}
+
+/// Refuses a plan that would be too large: the drapes that are tried, the program of a step, and the sheets where that is
+/// the model.
 ///
 /// # Errors
 /// As [`check`].
-pub fn plan(ply: &Ply, steps: usize) -> Result<(), SizeError> {
-    of_steps("a plan", PLAN, ply, steps)
+pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), SizeError> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from) as f64;
+    let (program, cores) = match plan.method {
+        PlanMethod::Path => (0.0, cores),
+        PlanMethod::Stepwise => (PROGRAM * ply.grid.grippers() as f64, 0.0),
+    };
+    let of_sheets = sheets.map_or(0.0, |PlanSheets { nodes, coarse_nodes, keep }| {
+        of_sheet(nodes, keep.min(plan.steps)) + cores * of_sheet(coarse_nodes, 0)
+    });
+    check(PLAN * of_steps(ply, plan.steps) + program + of_sheets, || {
+        let steps = steps("a plan", ply, plan.steps);
+        match sheets {
+            Some(PlanSheets { nodes, .. }) => format!("{steps}, and a sheet of {nodes:.0} nodes,"),
+            None => steps,
+        }
+    })
 }
 
-fn of_steps(what: &str, factor: f64, ply: &Ply, steps: usize) -> Result<(), SizeError> {
-    let (grippers, catenaries) = (ply.grid.grippers(), ply.grid.catenaries());
-    let step = GRIPPER * grippers as f64 + CATENARY * catenaries as f64;
-    check(factor * step * steps as f64, || {
-        format!("{what} of {steps} steps with {grippers} grippers and {catenaries} catenaries")
+/// Refuses derivatives of so many numbers to all gripper positions, as one array.
+///
+/// # Errors
+/// As [`check`].
+pub fn derivatives(ply: &Ply) -> Result<(), SizeError> {
+    let grippers = ply.grid.grippers();
+    let (rows, columns) = (ply.grid.catenaries(), 3 * grippers);
+    check(DERIVATIVE * rows as f64 * columns as f64, || {
+        format!("derivatives of {rows} catenaries to {columns} coordinates of {grippers} grippers")
     })
+}
+
+fn of_steps(ply: &Ply, steps: usize) -> f64 {
+    let (grippers, catenaries) = (ply.grid.grippers() as f64, ply.grid.catenaries() as f64);
+    (GRIPPER * grippers + CATENARY * catenaries) * steps as f64
+}
+
+fn steps(what: &str, ply: &Ply, steps: usize) -> String {
+    let (grippers, catenaries) = (ply.grid.grippers(), ply.grid.catenaries());
+    let steps = match steps {
+        1 => "a single step".to_owned(),
+        steps => format!("{steps} steps"),
+    };
+    format!("{what} of {steps} with {grippers} grippers and {catenaries} catenaries")
 }
 
 /// Refuses a sheet of so many nodes whose drape keeps so many states.

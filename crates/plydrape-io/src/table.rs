@@ -361,7 +361,7 @@ mod tests {
         result.summary.decide_by(sheet);
         let text = verdict(&result);
         assert!(text.contains("which decides\n  height 0.2 mm against 0.5 mm"), "{text}");
-        assert!(text.contains("\nthe ply is not at rest at the end\n"), "{text}");
+        assert!(text.contains("\nthe sheet is not at rest at the end\n"), "{text}");
         assert!(widest(&text) <= 100, "{text}");
     }
 

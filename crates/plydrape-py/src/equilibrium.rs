@@ -7,6 +7,7 @@ use crate::solver::{State, shear_angles};
 use plydrape::draping::spans::{FreeSpan, Shape};
 use plydrape::equilibrium::{Direction, EarlyEnds, Property, Status};
 use plydrape::ply;
+use plydrape_io::size;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -148,7 +149,7 @@ impl Equilibrium {
     ///         u and v (m), axis (2,); "material", its `names`, axis (names,): mass and rigidities in SI units.
     ///
     /// Raises:
-    ///     ValueError: If there is no such `wrt`.
+    ///     ValueError: If there is no such `wrt`, or the derivatives would take more memory than allowed.
     ///     SolveError: If the equilibrium was not found, or a rigidity is zero: it has no neighbourhood.
     ///
     /// Example:
@@ -163,6 +164,7 @@ impl Equilibrium {
         let grippers = self.positions.len();
         let (axes, names, directions): (Vec<usize>, Vec<String>, Vec<Direction>) = match wrt {
             "grippers" => {
+                size::derivatives(&ply).map_err(|fault| error::too_large(&fault))?;
                 let axis = |n: usize, k: usize| Direction::gripper(&ply, n, k);
                 let directions =
                     (0..grippers).flat_map(|n| (0..3).map(move |k| axis(n, k))).collect();

@@ -5,6 +5,8 @@ use plydrape_io::OutputError;
 use plydrape_io::result::read::ReadError;
 use plydrape_io::scene::SceneError;
 use plydrape_io::sheet::SheetDrapeError;
+use plydrape_io::size::SizeError;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::fmt::Display;
@@ -54,6 +56,11 @@ pub fn sheet(fault: &SheetDrapeError) -> PyErr {
             help: fault.remedy().into(),
         }),
     }
+}
+
+/// Work that would take too much memory.
+pub fn too_large(fault: &SizeError) -> PyErr {
+    PyValueError::new_err(format!("{fault}; {}", fault.remedy()))
 }
 
 /// A scene without a plan.

@@ -1,11 +1,12 @@
 //! `plydrape.outcome`: how a drape comes out, and how that changes with where its grippers end.
 
 use crate::arrays::Array;
+use crate::error;
 use crate::result::Result;
 use crate::scene::Scene;
 use crate::work::run;
 use plydrape::planner::sensitivity::{self, Quantity};
-use plydrape_io::ResultFile;
+use plydrape_io::{ResultFile, size};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -38,7 +39,7 @@ pub struct Outcome {
 ///     progress: As that of `simulate`.
 ///
 /// Raises:
-///     ValueError: If the drape has no steps.
+///     ValueError: If the drape has no steps, or the derivatives would take more memory than allowed.
 ///
 /// Example:
 ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
@@ -55,6 +56,7 @@ pub fn outcome(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Outcome> {
     let scene = Arc::clone(&scene.get().0);
+    size::derivatives(&scene.ply).map_err(|fault| error::too_large(&fault))?;
     let (steps, grippers) = (scene.motion.positions.len(), scene.ply.grid.grippers());
     let found = run(py, progress, move |watch| {
         let found = sensitivity::outcome(&scene, |done| watch.tell(done, steps, "draping"))?;
@@ -83,7 +85,7 @@ impl Outcome {
         let mut values = Vec::with_capacity(quantities.len() * width);
         for quantity in quantities {
             match quantity {
-                Some(quantity) => values.extend_from_slice(&quantity.gradient),
+                Some(quantity) => values.extend(quantity.gradient.dense(width)),
                 None => values.resize(values.len() + width, f64::NAN),
             }
         }

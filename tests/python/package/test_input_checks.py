@@ -80,6 +80,19 @@ def test_what_is_far_too_large_is_refused_before_the_work(monkeypatch: pytest.Mo
     assert scene.with_motion(np.arange(steps), positions).times.shape == (steps,)
 
 
+def test_derivatives_that_are_far_too_large_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are one array of all catenaries by all coordinates of grippers."""
+    scene = plydrape.Scene.read(EXAMPLES / "01_flat_sheared_mold" / "scene.toml")
+    equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+    monkeypatch.setenv("PLYDRAPE_MEMORY", "10 kB")
+    refused = r"16 catenaries to 24 coordinates of 8 grippers.*PLYDRAPE_MEMORY"
+    with pytest.raises(ValueError, match=refused):
+        plydrape.outcome(scene)
+    with pytest.raises(ValueError, match=refused):
+        equilibrium.jacobian(wrt="grippers")
+    assert equilibrium.jacobian(wrt="lengths").forces.shape == (16, 2)
+
+
 def test_a_title_is_one_line_of_plain_text() -> None:
     """It goes to terminals, which obey control characters."""
     scene = strip()

@@ -8,8 +8,7 @@ use super::geometry::{hundredths, micrometres};
 use super::{Field, Limit, limit};
 use crate::OutputError;
 use crate::result::ResultFile;
-use crate::sheet::{SheetSides, SheetState, SheetStates, normal};
-use plydrape::sheet::Status;
+use crate::sheet::{SheetSides, SheetState, SheetStates, ended, normal};
 use plydrape::sheet::measure::Summary;
 use serde::Serialize;
 
@@ -156,19 +155,6 @@ pub(super) fn sheet<'a>(
         normals: block(3, &packed.normals),
         forces: block(3, &packed.forces),
     })
-}
-
-/// Why its end does not count, of a drape with so many steps planned.
-fn ended(summary: &Summary, planned: usize) -> Option<String> {
-    let done = summary.steps;
-    match summary.status {
-        Status::Converged => None,
-        Status::NotAtRest => Some("the sheet is not at rest at the end".into()),
-        Status::NotSolved => {
-            Some(format!("no state of the sheet was found after step {done} of {planned}"))
-        }
-        Status::Interrupted => Some(format!("interrupted after step {done} of {planned}")),
-    }
 }
 
 /// What colours can tell of the sheet.

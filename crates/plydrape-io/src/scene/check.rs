@@ -36,10 +36,6 @@ pub(super) fn scene(
         None => (made, None),
     };
     let settings = settings(file, &ply, document)?;
-    let target = match &file.target {
-        Some(table) => Some(target::target(table, &ply, mold.as_ref(), document, base)?),
-        None => None,
-    };
     let places = Surroundings {
         ply: &ply,
         mold: mold.as_ref(),
@@ -47,14 +43,20 @@ pub(super) fn scene(
         document,
         base,
     };
+    // too many grippers for a single step are refused before a net is draped for them
+    places.fits(&file.ply.grippers.span, 1)?;
+    let target = match &file.target {
+        Some(table) => Some(target::target(table, &ply, mold.as_ref(), document, base)?),
+        None => None,
+    };
     let motion = places.motion(file, target.as_ref())?;
     places.fits(&file.ply.grippers.span, motion.positions.len())?;
     let limits = limits(&file.limits, &ply, &settings, document)?;
-    sheet::fits(file, &ply, &settings, motion.positions.len(), document)?;
+    let sheets = sheet::fits(file, &ply, &settings, motion.positions.len(), document)?;
     let plan = plan(&file.plan, ply.grid, document)?;
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(&file.ply.grippers.span, |steps| &steps.span);
-    let fits = places.allowed(steps, size::plan(&ply, plan.steps));
+    let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
     let title = title(file.title.as_ref(), document, base)?;
     Ok(SceneFile {
         scene: Scene { title, ply, mold, motion, target, settings, limits, plan },

@@ -3,39 +3,45 @@
 use super::error::{Document, SceneError};
 use super::file::SceneKeys;
 use crate::shown::millimetres;
-use crate::size;
+use crate::size::{self, PlanSheets};
 use plydrape::material::{Material, Section};
+use plydrape::planner::tuning::TUNING;
 use plydrape::ply::Ply;
 use plydrape::scene::{Model, Settings};
+use plydrape::sheet::{coarsest_mesh, pitch};
 use std::ops::Range;
 
 /// Lines of nodes across the shorter side of a cell, unless the scene gives their distance.
 const LINES: f64 = 10.0;
 
-/// Refuses a scene whose model is the sheet if material, pads, mesh or memory do not allow that.
+/// Refuses a scene whose model is the sheet if material, pads, mesh or memory do not allow that. Returns the sheets of a plan; none
+/// where the model is another.
 pub(super) fn fits(
     file: &SceneKeys,
     ply: &Ply,
     settings: &Settings,
     steps: usize,
     document: &Document,
-) -> Result<(), SceneError> {
+) -> Result<Option<PlanSheets>, SceneError> {
     if settings.model != Model::Sheet {
-        return Ok(());
+        return Ok(None);
     }
     stiffness(&file.ply.material.span, &ply.material, document)?;
     let around = Around { file, ply, settings, document };
     around.pads()?;
     let mesh = around.mesh()?;
     let states = settings.sheet.keep.min(steps);
-    size::sheet(around.nodes(mesh), states).map_err(|fault| {
+    let nodes = around.nodes(mesh);
+    size::sheet(nodes, states).map_err(|fault| {
         let span = around.mesh_span().unwrap_or_else(|| file.ply.grippers.span.clone());
         document.error(
             span,
             fault.to_string(),
             format!("{}; a coarser `mesh` has fewer nodes", fault.remedy()),
         )
-    })
+    })?;
+    let coarse = mesh.max(TUNING.evaluation.mesh * pitch(ply));
+    Ok(Some(PlanSheets { nodes, coarse_nodes: around.nodes(coarse), keep: settings.sheet.keep }))
 }
 
 /// Refuses a material that does not say how it resists tension, shear and bending; `span` is where the scene names it.
@@ -102,7 +108,7 @@ impl Around<'_> {
     fn pads(&self) -> Result<(), SceneError> {
         let radius = self.settings.pad.radius;
         let Some(span) = self.pad_span().filter(|_| radius > 0.0) else { return Ok(()) };
-        let (pitch, overhang) = (self.pitch(), self.settings.sheet.overhang);
+        let (pitch, overhang) = (pitch(self.ply), self.settings.sheet.overhang);
         if 2.0 * radius >= pitch {
             return Err(self.document.error(
                 span,
@@ -133,9 +139,8 @@ impl Around<'_> {
 
     /// The largest distance between lines of nodes (m); refuses one that leaves no line between two pads.
     fn mesh(&self) -> Result<f64, SceneError> {
-        let mesh = self.settings.sheet.mesh.unwrap_or(self.pitch() / LINES);
-        let radius = self.settings.pad.radius;
-        let most = 0.5 * self.pitch() - radius;
+        let mesh = self.settings.sheet.mesh.unwrap_or(pitch(self.ply) / LINES);
+        let most = coarsest_mesh(pitch(self.ply), self.settings.pad.radius);
         if mesh <= most * (1.0 + ROUNDING) {
             return Ok(mesh);
         }
@@ -180,12 +185,6 @@ impl Around<'_> {
         };
         let (grid, [a, b]) = (self.ply.grid, self.ply.cell);
         along(grid.nu, a) * along(grid.nv, b)
-    }
-
-    /// Smallest fabric length between neighbouring grippers (m).
-    fn pitch(&self) -> f64 {
-        let [a, b] = self.ply.cell;
-        if self.ply.grid.nv > 1 { a.min(b) } else { a }
     }
 
     fn mesh_span(&self) -> Option<Range<usize>> {

@@ -9,6 +9,7 @@
 mod array;
 mod check;
 mod drape;
+mod ended;
 mod error;
 mod kept;
 mod latch;
@@ -19,6 +20,7 @@ mod spool;
 
 pub use array::{ARRAYS, Array, Extent, Scalar};
 pub use drape::{SheetDrape, SheetDrapeError, SheetSize, drape};
+pub(crate) use ended::ended;
 pub use error::SheetError;
 pub use kept::SheetKept;
 pub use read::SheetStates;

@@ -1,16 +1,18 @@
 //! The outcome of the sheet as plain text.
 
 use super::{WIDTH, limiting, limits, significant, verdict_text};
+use crate::sheet::ended;
 use crate::shown;
 use plydrape::draping::record::{Summary, Verdict};
 use plydrape::measure::Subject;
-use plydrape::sheet::{self, Status};
+use plydrape::sheet;
 
 /// The table of the sheet's limits, what else it says of the ply, and the verdict that counts.
 pub(super) fn verdict(summary: &Summary, sheet: &sheet::measure::Summary) -> String {
     let mut text = format!("the whole ply as a sheet of {} nodes:\n", sheet.nodes);
     text += &limits(&sheet.limits);
-    for said in [heights(sheet), landing(sheet), ended(summary, sheet)].into_iter().flatten() {
+    let planned = summary.steps_planned;
+    for said in [heights(sheet), landing(sheet), ended(sheet, planned)].into_iter().flatten() {
         text += &shown::excerpt(&said, WIDTH);
         text.push('\n');
     }
@@ -49,15 +51,4 @@ fn heights(sheet: &sheet::measure::Summary) -> Option<String> {
 fn landing(sheet: &sheet::measure::Summary) -> Option<String> {
     let (step, [u, v]) = (sheet.first_contact_step?, sheet.first_contact_uv_mm?);
     Some(format!("touches the mold first in step {step}, at fabric point ({u:.1}, {v:.1}) mm"))
-}
-
-/// Why it has not come to rest at the end of the motion.
-fn ended(summary: &Summary, sheet: &sheet::measure::Summary) -> Option<String> {
-    let (done, planned) = (sheet.steps, summary.steps_planned);
-    match sheet.status {
-        Status::Converged => None,
-        Status::NotAtRest => Some("the ply is not at rest at the end".into()),
-        Status::NotSolved => Some(format!("no state was found after step {done} of {planned}")),
-        Status::Interrupted => Some(format!("interrupted after step {done} of {planned}")),
-    }
 }

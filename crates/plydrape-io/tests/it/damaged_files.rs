@@ -1,14 +1,18 @@
 //! What comes in through files: results with a forged check sum, files without end, and texts that would grow beyond all memory.
 
+use crate::common::examples;
 use plydrape::draping;
+use plydrape::scene::Plan;
 use plydrape_io::export::{self, Format};
 use plydrape_io::mesh::{self, MeshFileError};
 use plydrape_io::scene::{self, SceneError};
-use plydrape_io::{ResultFile, formula, input, page, read};
+use plydrape_io::size::PlanSheets;
+use plydrape_io::{ResultFile, formula, input, page, read, size};
 use serde_json::Value;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 const SCENE: &str = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n\
      [mold]\nkind = \"plane\"\n[grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"20 mm\"\n\
@@ -278,6 +282,31 @@ fn a_plan_of_more_steps_than_fit_the_memory_is_refused_with_its_estimate() {
             && refused.help.contains("PLYDRAPE_MEMORY"),
         "{refused}"
     );
+}
+
+/// A sheet that fits the memory alone does not beside the drapes of a plan.
+#[test]
+fn a_plan_is_refused_for_its_sheet_too() {
+    let scene = parse(SCENE).unwrap();
+    let sheets = PlanSheets { nodes: 9e4, coarse_nodes: 1e3, keep: 40 };
+    assert!(size::sheet(sheets.nodes, sheets.keep).is_ok());
+    let plan = Plan { steps: 10_000, ..scene.plan };
+    assert!(size::plan(&scene.ply, &plan, None).is_ok());
+    let refused = size::plan(&scene.ply, &plan, Some(sheets)).unwrap_err().to_string();
+    assert!(
+        refused.contains("with 4 grippers") && refused.contains("a sheet of 90000 nodes"),
+        "{refused}"
+    );
+}
+
+/// A million grippers are within the bounds of each direction. Their ideal drape alone would take minutes.
+#[test]
+fn a_million_grippers_are_refused_before_their_ideal_drape_is_sought() {
+    let dome = std::fs::read_to_string(examples().join("04_dome/scene.toml")).unwrap();
+    let began = Instant::now();
+    let refused = parse(&dome.replace("[4, 4]", "[1000, 1000]")).unwrap_err();
+    assert!(refused.message.contains("a single step with 1000000 grippers"), "{refused}");
+    assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
 }
 
 /// Texts for people are plain; names of files, which a user may not choose, are shown escaped.

@@ -149,7 +149,7 @@ fn a_scaled_scene_has_the_scaled_trajectory() {
 /// A strategy is a point of the search's cube and back; a point outside the cube is reflected into it.
 #[test]
 fn a_strategy_is_a_point_of_the_search_and_back() {
-    for strategy in Strategy::families(&example("06_saddle")) {
+    for strategy in Strategy::families(&example("06_saddle"), |_| 0.4) {
         assert!(strategy.is_sound());
         let unit = strategy.to_unit();
         assert!(unit.iter().all(|x| (0.0..=1.0).contains(x)), "{unit:?}");

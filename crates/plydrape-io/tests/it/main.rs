@@ -19,6 +19,7 @@ mod net;
 mod plans;
 mod reach;
 mod results;
+mod scaled;
 mod scenes;
 mod sheet_examples;
 mod sheet_fronts;

@@ -2,12 +2,14 @@
 //! judged by draping along them.
 
 use crate::common::{Point, distance, example};
+use crate::scaled::scaled;
 use plydrape::draping::simulate;
 use plydrape::draping::spans::{Shape, shape};
 use plydrape::equilibrium::{Side, Solver, Status};
 use plydrape::measure::Name;
 use plydrape::mold::{Face, Mold, Plane, Pose, Sphere, SurfaceCurve};
 use plydrape::planner::sensitivity::{Quantity, Sensitivity};
+use plydrape::planner::stepwise::tuning::TUNING;
 use plydrape::planner::stepwise::{Outcome, Stepwise, stepwise};
 use plydrape::ply::{ContactSegment, Grid};
 use plydrape::scene::{ContactEnd, Motion, Scene, SlopeRule, Stepping};
@@ -148,7 +150,7 @@ fn solve(ply: &Ply, shift: f64, direction: &[f64]) -> Solved {
 /// Every quantity that a plan may limit, by name.
 fn quantities(ply: &Ply, solved: &mut Solved) -> Vec<(String, Quantity)> {
     let Solved { solver, shape, positions } = solved;
-    let look = Sensitivity::new(&ply.scene, solver, shape, positions, &ply.contacts);
+    let look = Sensitivity::whole(&ply.scene, solver, shape, positions, &ply.contacts);
     let mut out = Vec::new();
     let grid = ply.scene.ply.grid;
     for span in &look.shape.spans {
@@ -243,7 +245,7 @@ proptest! {
         for (n, (name, quantity)) in found.iter().enumerate() {
             // a segment close to taut bends within micrometres: the error of second order follows
             let difference = (4.0 * near[n] - far[n]) / 3.0;
-            let along: f64 = quantity.gradient.iter().zip(&direction).map(|(g, d)| g * d).sum();
+            let along: f64 = quantity.gradient.dot(&direction);
             // differences carry the solver's 1e-8 of the slopes over h
             let scale = difference.abs() + quantity.value.abs() + 1.0;
             prop_assert!((along - difference).abs() < 2e-4 * scale, "{name}: {along} for {difference}");
@@ -367,6 +369,40 @@ fn moves_keep_to_their_limit_and_nothing_rises_after_the_landing() {
     let last = plan.positions.last().expect("steps");
     for (place, target) in last.iter().zip(targets) {
         assert!(distance(*place, *target) <= scene.limits.landing_gripper);
+    }
+}
+
+/// Largest distance of a gripper in the steps of both plans, of which the other is of a scene multiplied by `s` (m).
+fn apart(own: &Stepwise, other: &Stepwise, s: f64) -> f64 {
+    let pairs = own.positions.iter().flatten().zip(other.positions.iter().flatten());
+    pairs.map(|(a, b)| distance(*a, b.map(|x| x / s))).fold(0.0, f64::max)
+}
+
+/// No length but those of the scene: a scene of another size has the plan of that size, within a ten-thousandth of a cell.
+/// That is room for rounding where the slack of a segment is just so large that it counts, and a move removes it.
+#[test]
+fn a_scaled_scene_has_the_scaled_plan() {
+    for name in ["01_flat_sheared_mold", "04_dome", "05_cylinder"] {
+        let scene = cut(name);
+        let own = plan(&scene);
+        for s in [0.1, 10.0] {
+            let other = plan(&scaled(&scene, s));
+            assert_eq!(other.outcome, own.outcome, "{name} × {s}");
+            let more = own.positions.len().abs_diff(other.positions.len());
+            assert!(more <= TUNING.slack.moves, "{name} × {s}: {more} steps");
+            let apart = apart(&own, &other, s);
+            assert!(apart < 1e-4 * scene.ply.cell[0], "{name} × {s}: {apart}");
+        }
+        // powers of two change no digit, and without the net, which is draped anew, hardly anything remains
+        let mut scene = scene;
+        scene.target.as_mut().expect("a target").drape = None;
+        let own = plan(&scene);
+        for s in [0.125, 8.0] {
+            let other = plan(&scaled(&scene, s));
+            assert_eq!(other.positions.len(), own.positions.len(), "{name} × {s}");
+            let apart = apart(&own, &other, s);
+            assert!(apart < 1e-9 * scene.ply.cell[0], "{name} × {s}: {apart}");
+        }
     }
 }
 

@@ -44,7 +44,8 @@ pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], state: &SearchState) -> J
 /// The drape of a coarse sheet.
 fn coarse_sheet(mut scene: Scene, state: &SearchState) -> Judged {
     let Evaluation { mesh, .. } = TUNING.evaluation;
-    let coarse = mesh * sheet::pitch(&scene.ply);
+    let (pitch, radius) = (sheet::pitch(&scene.ply), scene.settings.pad.radius);
+    let coarse = (mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));
     let own = scene.settings.sheet.mesh.unwrap_or(0.0);
     scene.settings.sheet.mesh = Some(own.max(coarse));
     // in its own time a motion is draped once it has one

@@ -17,6 +17,7 @@ pub mod infeasible_limits;
 pub mod path;
 mod plan;
 mod program;
+pub mod row;
 mod search_state;
 pub mod sensitivity;
 pub mod stepwise;

@@ -2,30 +2,30 @@
 //! cones and places that are fixed.
 //!
 //! `min Σ wᵢ(cᵢ + gᵢ·x)²` over the moves x of all grippers, subject to `g·x ≤ c`, `|B x + d| ≤ c` and `x_g = d_g`.
-//! Lengths are in millimetres here, so that all residuals are of a like size; solved by the interior point
-//! method of Clarabel (Goulart and Chen 2024).
+//! Lengths are in hundredths of a cell here, so that all residuals are of a like size in a scene of any scale; solved by the
+//! interior point method of Clarabel (Goulart and Chen 2024). All matrices are sparse.
 
-use super::tuning::TUNING;
+use super::row::Row;
+use super::tuning::{TUNING, cell};
+use crate::scene::Scene;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
-/// Millimetres in a metre: the program's unit of length.
-pub const MM: f64 = 1e3;
-
 /// The program, as it is put together.
 pub struct Program {
-    size: usize,
-    /// Normal matrix of the least squares, row by row.
-    matrix: Vec<f64>,
+    /// The program's units of length in a metre.
+    pub scale: f64,
+    /// Upper triangle of the normal matrix of the least squares, column by column.
+    matrix: Vec<Row>,
     linear: Vec<f64>,
-    rows: Vec<Row>,
+    bounds: Vec<Bound>,
     fixed: Vec<(usize, f64)>,
     cones: Vec<Cone>,
 }
 
 /// g·x ≤ c.
-struct Row {
-    gradient: Vec<(usize, f64)>,
+struct Bound {
+    gradient: Row,
     bound: f64,
 }
 
@@ -37,54 +37,46 @@ struct Cone {
 }
 
 impl Program {
-    /// An empty program for `grippers` grippers.
-    pub fn new(grippers: usize) -> Self {
+    /// An empty program for `grippers` grippers of a scene.
+    pub fn new(scene: &Scene, grippers: usize) -> Self {
         let size = 3 * grippers;
         Program {
-            size,
-            matrix: vec![0.0; size * size],
+            scale: 1.0 / (TUNING.program_unit * cell(scene)),
+            matrix: vec![Row::default(); size],
             linear: vec![0.0; size],
-            rows: Vec::new(),
+            bounds: Vec::new(),
             fixed: Vec::new(),
             cones: Vec::new(),
         }
     }
 
     /// Adds `weight (value + gradient·x)²` to the objective.
-    pub fn square(&mut self, weight: f64, value: f64, gradient: &[f64]) {
-        if !(weight > 0.0 && value.is_finite() && gradient.iter().all(|g| g.is_finite())) {
+    pub fn square(&mut self, weight: f64, value: f64, gradient: &Row) {
+        if !(weight > 0.0 && value.is_finite() && gradient.is_finite()) {
             return;
         }
-        let places: Vec<usize> = (0..self.size).filter(|n| gradient[*n] != 0.0).collect();
-        for &i in &places {
-            self.linear[i] += 2.0 * weight * value * gradient[i];
-            for &j in &places {
-                self.matrix[i * self.size + j] += 2.0 * weight * gradient[i] * gradient[j];
-            }
+        for (n, (column, g)) in gradient.entries().enumerate() {
+            self.linear[column] += 2.0 * weight * value * g;
+            self.matrix[column].add_first(n + 1, 2.0 * weight * g, gradient);
         }
     }
 
     /// Adds `weight (x_n − value)²` to the objective.
     pub fn near(&mut self, weight: f64, n: usize, value: f64) {
         self.linear[n] -= 2.0 * weight * value;
-        self.matrix[n * self.size + n] += 2.0 * weight;
+        self.matrix[n].add_at(n, 2.0 * weight);
     }
 
     /// Demands gradient·x ≤ bound.
-    pub fn at_most(&mut self, gradient: &[f64], factor: f64, bound: f64) {
-        let gradient: Vec<(usize, f64)> = gradient
-            .iter()
-            .enumerate()
-            .filter(|(_, g)| **g != 0.0)
-            .map(|(n, g)| (n, factor * g))
-            .collect();
-        if bound.is_finite() && gradient.iter().all(|(_, g)| g.is_finite()) && !gradient.is_empty()
-        {
-            self.rows.push(Row { gradient, bound });
+    pub fn at_most(&mut self, gradient: &Row, factor: f64, bound: f64) {
+        if bound.is_finite() && gradient.is_finite() && gradient.count() > 0 {
+            let mut gradient = gradient.clone();
+            gradient.scale(factor);
+            self.bounds.push(Bound { gradient, bound });
         }
     }
 
-    /// Fixes the move of a gripper (mm).
+    /// Fixes the move of a gripper (units).
     pub fn fix(&mut self, gripper: usize, value: [f64; 3]) {
         self.fixed.extend((0..3).map(|n| (3 * gripper + n, value[n])));
     }
@@ -94,9 +86,18 @@ impl Program {
         self.cones.push(Cone { grippers, offset, radius });
     }
 
-    /// The best moves (mm); none if there are none within the limits.
+    /// Numbers that its matrices hold.
+    #[cfg(test)]
+    pub fn count(&self) -> usize {
+        let bounds = self.bounds.iter().map(|bound| bound.gradient.count());
+        let cones = self.cones.iter().map(|cone| 3 * cone.grippers.len());
+        let matrix = self.matrix.iter().map(Row::count);
+        matrix.chain(bounds).chain(cones).sum::<usize>() + self.fixed.len()
+    }
+
+    /// The best moves (units); none if there are none within the limits.
     pub fn solve(&self) -> Option<Vec<f64>> {
-        let count = self.fixed.len() + self.rows.len() + 4 * self.cones.len();
+        let count = self.fixed.len() + self.bounds.len() + 4 * self.cones.len();
         let (mut i, mut j, mut v) = (Vec::new(), Vec::new(), Vec::new());
         let mut b = Vec::with_capacity(count);
         let mut put = |row: usize, column: usize, value: f64| {
@@ -108,11 +109,11 @@ impl Program {
             put(b.len(), *n, 1.0);
             b.push(*value);
         }
-        for row in &self.rows {
-            for (n, g) in &row.gradient {
-                put(b.len(), *n, *g);
+        for Bound { gradient, bound } in &self.bounds {
+            for (n, g) in gradient.entries() {
+                put(b.len(), n, g);
             }
-            b.push(row.bound);
+            b.push(*bound);
         }
         // s = b − A x must lie in (radius, vector)
         for cone in &self.cones {
@@ -126,10 +127,10 @@ impl Program {
         }
         let mut cones = vec![
             SupportedConeT::ZeroConeT(self.fixed.len()),
-            SupportedConeT::NonnegativeConeT(self.rows.len()),
+            SupportedConeT::NonnegativeConeT(self.bounds.len()),
         ];
         cones.extend(self.cones.iter().map(|_| SupportedConeT::SecondOrderConeT(4)));
-        let a = CscMatrix::new_from_triplets(count, self.size, i, j, v);
+        let a = CscMatrix::new_from_triplets(count, self.linear.len(), i, j, v);
         let settings = DefaultSettings {
             verbose: false,
             max_iter: TUNING.program_iterations,
@@ -149,16 +150,13 @@ impl Program {
     /// The upper triangle of the normal matrix.
     fn objective(&self) -> CscMatrix<f64> {
         let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-        for column in 0..self.size {
-            for row in 0..=column {
-                let value = self.matrix[row * self.size + column];
-                if value != 0.0 || row == column {
-                    rows.push(row);
-                    values.push(value);
-                }
+        for column in &self.matrix {
+            for (row, value) in column.entries() {
+                rows.push(row);
+                values.push(value);
             }
             starts.push(rows.len());
         }
-        CscMatrix::new(self.size, self.size, starts, rows, values)
+        CscMatrix::new(self.linear.len(), self.linear.len(), starts, rows, values)
     }
 }

@@ -13,6 +13,9 @@ pub struct Tuning {
     pub sensitivity: Sensitivity,
     /// Iterations of the interior point method for a quadratic program; it needs ten to thirty.
     pub program_iterations: u32,
+    /// Unit of length of a quadratic program (cells): a millimetre for cells of 100 mm, the size of what grippers have left
+    /// to correct, so that its residuals are neither tiny nor large.
+    pub program_unit: f64,
 }
 
 /// Constants of the evaluation of a plan.
@@ -44,6 +47,14 @@ pub struct Evaluation {
 /// Constants of derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensitivity {
+    /// Share of the largest derivative of a quantity below which others of it are left out. 1e-4: a quadratic program for
+    /// steps that the true model judges needs no more digits.
+    pub negligible: f64,
+    /// Distance (cells) up to which a gripper counts, at first: twice as far where derivatives there are not negligible. 4:
+    /// they decay by a factor of 20 to 100 a cell.
+    pub reach: usize,
+    /// Share of the largest derivative of all quantities of a kind below which there is only rounding.
+    pub noise: f64,
     /// Step of the central differences of a lying path's length (cells): small beside a mold's radii, large beside
     /// rounding.
     pub step: f64,
@@ -60,6 +71,7 @@ pub struct Sensitivity {
 /// The constants in use.
 pub const TUNING: Tuning = Tuning {
     program_iterations: 60,
+    program_unit: 0.01,
     evaluation: Evaluation {
         mesh: 0.2,
         mean_weight: 0.1,
@@ -72,6 +84,9 @@ pub const TUNING: Tuning = Tuning {
         tilt_rate_margin: 1.5,
     },
     sensitivity: Sensitivity {
+        negligible: 1e-4,
+        reach: 4,
+        noise: 1e-9,
         step: 1e-5,
         on_mold: 1e-8,
         fraction: 1e-13,

@@ -68,8 +68,8 @@ pub struct Cloth<'a> {
     masses: Vec<f64>,
     /// Nodes of each gripper with their distance from its middle (m).
     held: Vec<Vec<(usize, [f64; 2])>>,
-    /// Whether a gripper holds a node.
-    gripped: Vec<bool>,
+    /// Whether a gripper holds each node.
+    pub gripped: Vec<bool>,
     /// Positions, speeds and pads.
     pub now: Motion,
     before: Motion,
@@ -152,7 +152,8 @@ impl<'a> Cloth<'a> {
                 Friction::Stick | Friction::StickForEver => tuning.contact_depth,
             };
             let stiffness = [tuning.contact_depth, along].map(stiffness);
-            Contact::new(mold, stiffness, sheet.clear, sheet.friction, sheet.tack, points)
+            let clear = tuning.release * sheet.pitch;
+            Contact::new(mold, stiffness, clear, sheet.friction, sheet.tack, points)
         });
         let mut gripped = vec![false; nodes];
         for (node, _) in held.iter().flatten() {

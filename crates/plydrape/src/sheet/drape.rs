@@ -5,7 +5,7 @@
 
 use super::cloth::Cloth;
 use super::gripper::Pad;
-use super::measure::{Extremes, Summary};
+use super::measure::{Effort, Extremes, Summary};
 use super::model::{Sheet, SheetError};
 use super::shear::angle;
 use super::state::State;
@@ -83,9 +83,13 @@ pub fn drape(
         landing_shear: vec![None; sheet.fabric.cells.len()],
     };
     let (status, last) = run.run(&placed, &mut see);
-    let counts = [run.time_steps, run.cloth.solves];
-    let smallest = run.smallest_step;
-    let summary = Summary::new(scene, &sheet, &run.extremes, &last, status, counts, smallest);
+    let effort = Effort {
+        time_steps: run.time_steps,
+        solves: run.cloth.solves,
+        smallest_step: run.smallest_step,
+    };
+    let clear = tuning.release * sheet.pitch;
+    let summary = Summary::new(scene, &sheet, clear, &run.extremes, &last, status, effort);
     let Run { landing_step, landing_shear, .. } = run;
     Ok(Drape { sheet, summary, landing_step, landing_shear, last, duration: began.elapsed() })
 }
@@ -169,7 +173,8 @@ impl Run<'_> {
     /// Evaluates the state of a step.
     fn see(&mut self, step: usize) -> State {
         let state = self.state(step);
-        self.extremes.see(self.sheet, &state, self.scene.settings.contact.tolerance);
+        let touching = self.scene.settings.contact.tolerance;
+        self.extremes.see(self.sheet, &self.cloth.gripped, &state, touching);
         for (landed, touches) in self.landing_step.iter_mut().zip(&state.contact) {
             *landed = touches.then(|| landed.unwrap_or(step));
         }
@@ -280,11 +285,10 @@ impl Run<'_> {
         };
         let heights = self.sheet.mold.as_ref().map(height).unwrap_or_default();
         // a node under a gripper touches where it is as near as one that is not clear
-        let held = self.sheet.held();
-        let mut contact = vec![false; positions.len()];
-        for (node, _) in held.iter().flatten() {
-            contact[*node] = heights.get(*node).is_some_and(|height| *height <= self.sheet.clear);
-        }
+        let clear = self.tuning.release * self.sheet.pitch;
+        let near = |node: usize| heights.get(node).is_some_and(|height| *height <= clear);
+        let gripped = self.cloth.gripped.iter().enumerate();
+        let mut contact: Vec<bool> = gripped.map(|(node, held)| *held && near(node)).collect();
         for node in self.cloth.contact.iter().flat_map(|contact| contact.touching()) {
             contact[node] = true;
         }

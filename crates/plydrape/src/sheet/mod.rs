@@ -28,7 +28,7 @@ pub use drape::{Drape, Status, drape, is_kept};
 pub use fabric::Fabric;
 pub use gripper::{Gripper, Pad};
 pub use measure::Summary;
-pub use model::{Sheet, SheetError, pitch};
+pub use model::{Sheet, SheetError, coarsest_mesh, pitch};
 pub use state::State;
 pub use tuning::Tuning;
 

@@ -2,7 +2,6 @@
 
 use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
-use super::tuning::Tuning;
 use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
 use crate::ply::{Direction, Ply};
@@ -35,8 +34,6 @@ pub struct Sheet {
     pub pitch: f64,
     /// Largest distance of neighbouring lines (m).
     pub mesh: f64,
-    /// Height over the mold (m) at which a point is clear of it.
-    pub clear: f64,
 }
 
 /// Why a scene has no sheet.
@@ -58,15 +55,15 @@ pub enum SheetError {
         /// Its name.
         material: String,
     },
-    /// No line of nodes between two grippers.
+    /// No line of nodes between two pads.
     #[error(
-        "a mesh of {mesh_mm:.3} mm puts no line of nodes between grippers {pitch_mm:.3} mm apart; at most {most_mm:.3} mm does"
+        "a mesh of {mesh_mm:.3} mm puts no line of nodes into the {between_mm:.3} mm of fabric between neighbouring pads; at most {most_mm:.3} mm does"
     )]
     Coarse {
         /// The mesh (mm).
         mesh_mm: f64,
-        /// The distance (mm).
-        pitch_mm: f64,
+        /// Fabric between two pads (mm).
+        between_mm: f64,
         /// The largest mesh (mm).
         most_mm: f64,
     },
@@ -158,12 +155,13 @@ impl Sheet {
         for stiffness in mount.into_iter().flatten() {
             positive("the stiffness of the mounts", stiffness)?;
         }
-        if mesh > 0.5 * pitch * (1.0 + 1e-9) {
-            let [mesh_mm, pitch_mm, most_mm] = [mesh, pitch, 0.5 * pitch].map(|x| x * 1e3);
-            return Err(SheetError::Coarse { mesh_mm, pitch_mm, most_mm });
-        }
         if 2.0 * radius >= pitch {
             return Err(SheetError::Overlap { radius_mm: radius * 1e3, pitch_mm: pitch * 1e3 });
+        }
+        let most = coarsest_mesh(pitch, radius);
+        if mesh > most * (1.0 + 1e-9) {
+            let [mesh_mm, between_mm, most_mm] = [mesh, 2.0 * most, most].map(|x| x * 1e3);
+            return Err(SheetError::Coarse { mesh_mm, between_mm, most_mm });
         }
         if radius > overhang * (1.0 + 1e-9) {
             let [radius_mm, overhang_mm] = [radius, overhang].map(|x| x * 1e3);
@@ -225,7 +223,6 @@ impl Sheet {
             tack: settings.contact.tack,
             pitch,
             mesh,
-            clear: Tuning::default().release * pitch,
         };
         Ok(sheet)
     }
@@ -245,6 +242,13 @@ impl Sheet {
         };
         self.grippers.iter().map(one).collect()
     }
+}
+
+/// The largest mesh (m) that puts a line of nodes between pads of a radius on grippers a pitch apart (m): half of the fabric
+/// that is free between them.
+#[must_use]
+pub fn coarsest_mesh(pitch: f64, radius: f64) -> f64 {
+    0.5 * pitch - radius
 }
 
 /// Shortest distance between neighbouring grippers in the fabric (m).

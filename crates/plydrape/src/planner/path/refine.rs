@@ -12,7 +12,8 @@ use crate::draping::Draping;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, cross, dot, unit};
 use crate::planner::evaluation;
-use crate::planner::program::{MM, Program};
+use crate::planner::program::Program;
+use crate::planner::row::Row;
 use crate::planner::sensitivity::Sensitivity;
 use crate::planner::tuning;
 use crate::scene::Scene;
@@ -21,16 +22,13 @@ use crate::scene::Scene;
 const SPLINES: usize = TUNING.refinement.splines;
 
 /// Smooth corrections (m) of all positions of a plan, one list of all grippers a step; none where nothing
-/// comes into contact, or the program has no solution or would be too large.
+/// comes into contact, or the program has no solution.
 #[must_use]
 pub fn correction(scene: &Scene, planned: &[Vec<Point>]) -> Option<Vec<Vec<Point>>> {
     let grippers = scene.ply.grid.grippers();
-    if 3 * grippers * SPLINES > TUNING.refinement.unknowns {
-        return None;
-    }
     let scene = evaluation::with_steps_cut(scene);
     let mut draping = Draping::new(&scene);
-    let mut program = Program::new(grippers * SPLINES);
+    let mut program = Program::new(&scene, grippers * SPLINES);
     let mut splines: Option<Splines> = None;
     for (k, positions) in evaluation::rounded(planned).iter().enumerate() {
         let shape = draping.move_to(positions);
@@ -65,7 +63,7 @@ pub fn correction(scene: &Scene, planned: &[Vec<Point>]) -> Option<Vec<Vec<Point
             .map(|g| {
                 [0, 1, 2].map(|c| {
                     let part = |j: usize| weights[j] * moves[3 * (j * grippers + g) + c];
-                    (0..SPLINES).map(part).sum::<f64>() / MM
+                    (0..SPLINES).map(part).sum::<f64>() / program.scale
                 })
             })
             .collect()
@@ -107,8 +105,14 @@ struct Terms<'a, 'b> {
 
 impl Terms<'_, '_> {
     /// A gradient to the positions of this step as one to all corrections.
-    fn spread(&self, gradient: &[f64]) -> Vec<f64> {
-        self.weights.iter().flat_map(|w| gradient.iter().map(move |g| w * g)).collect()
+    fn spread(&self, gradient: &Row) -> Row {
+        let width = self.sensitivity.width();
+        let part = |(spline, weight): (usize, &f64)| {
+            let weight = *weight;
+            gradient.entries().map(move |(n, g)| (spline * width + n, weight * g))
+        };
+        let weights = self.weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
+        weights.flat_map(part).collect()
     }
 
     /// The point of a span that comes into contact next shall be where the ideal drape has it; a diagonal, which is no
@@ -133,19 +137,20 @@ impl Terms<'_, '_> {
         for direction in [Some(ahead), across].into_iter().flatten() {
             let part = error.along(direction);
             let gradient = self.spread(&part.gradient);
-            self.program.square(1.0, MM * part.value, &gradient);
+            self.program.square(1.0, self.program.scale * part.value, &gradient);
         }
     }
 
     /// No span is stretched far beyond its fabric, and the stretch of taut spans is reduced.
     fn stretch(&mut self, span: &FreeSpan) {
+        let scale = self.program.scale;
         let stretch = self.sensitivity.overstretch(span);
         let gradient = self.spread(&stretch.gradient);
         let whole = self.scene.ply.flat_length(self.scene.ply.grid.catenary(span.catenary).kind);
         let most = TUNING.refinement.stretch_share * self.scene.limits.overstretch * whole;
-        self.program.at_most(&gradient, 1.0, MM * (most - stretch.value).max(0.0));
+        self.program.at_most(&gradient, 1.0, scale * (most - stretch.value).max(0.0));
         let excess = (stretch.value - TUNING.refinement.taut * whole).max(0.0);
-        self.program.square(1.0, MM * excess, &gradient);
+        self.program.square(1.0, scale * excess, &gradient);
     }
 
     /// A gripper that stands on the mold stays there.
@@ -157,9 +162,7 @@ impl Terms<'_, '_> {
                 continue;
             }
             for c in 0..3 {
-                let mut gradient = vec![0.0; 3 * positions.len()];
-                gradient[3 * g + c] = 1.0;
-                let gradient = self.spread(&gradient);
+                let gradient = self.spread(&[(3 * g + c, 1.0)].into_iter().collect());
                 self.program.square(TUNING.refinement.standing_weight, 0.0, &gradient);
             }
         }

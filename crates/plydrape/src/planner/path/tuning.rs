@@ -130,10 +130,8 @@ pub struct Search {
 /// Constants of the refinement by gradients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Refinement {
-    /// B-splines of each gripper's correction: as smooth as the path, and few enough for dense matrices.
+    /// B-splines of each gripper's correction: as smooth as the path.
     pub splines: usize,
-    /// Unknowns beyond which the program would cost more than the drapes.
-    pub unknowns: usize,
     /// Fabric ahead of a contact end whose position error is reduced, as a share of the span.
     pub ahead: f64,
     /// Height below which a span is about to come into contact (cells).
@@ -208,7 +206,6 @@ pub const TUNING: Tuning = Tuning {
     },
     refinement: Refinement {
         splines: 5,
-        unknowns: 800,
         ahead: 0.1,
         near: 0.05,
         stretch_share: 0.5,

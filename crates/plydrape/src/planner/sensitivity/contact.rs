@@ -1,6 +1,6 @@
 //! A span and the mold: its distance, its position error, and the slope at which it leaves the mold.
 
-use super::{Place, Quantity, Sensitivity, add};
+use super::{Place, Quantity, Sensitivity};
 use crate::draping::fabric;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, dot, sub};
@@ -55,7 +55,7 @@ impl Sensitivity<'_> {
         let outward = if end == 0 { 1.0 } else { -1.0 };
         let mut ply = match (span.profile.is_some(), span.element) {
             (true, Some(element)) => {
-                let gradient = self.row(element, 1 + end).to_vec();
+                let gradient = self.row(element, 1 + end).clone();
                 Quantity { value: span.slopes[end], gradient }
             }
             _ => self.slope(span, end as f64),
@@ -74,16 +74,15 @@ impl Sensitivity<'_> {
         let across = (normal[0] * y - normal[1] * x) / normal[2] / run;
         for (at, sign) in [(0, -1.0), (1, 1.0)] {
             if let Some(gripper) = self.gripper_at(span, at) {
-                ply.gradient[3 * gripper] -= sign * across * -y;
-                ply.gradient[3 * gripper + 1] -= sign * across * x;
+                ply.gradient.add_from(3 * gripper, -sign * across, [-y, x, 0.0]);
             }
         }
         if let Some(gripper) = gripper {
             let turn = slope_gradient(mold, span.ends[end], normal, [x, y], slope);
-            add(&mut ply.gradient[3 * gripper..][..3], -1.0, &turn);
+            ply.gradient.add_from(3 * gripper, -1.0, turn);
         }
         ply.value = outward * (ply.value - slope);
-        ply.gradient.iter_mut().for_each(|g| *g *= outward);
+        ply.gradient.scale(outward);
         Some(ply)
     }
 }

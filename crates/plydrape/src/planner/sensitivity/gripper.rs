@@ -3,9 +3,11 @@
 use super::{Quantity, Sensitivity};
 use crate::equilibrium::neighbours;
 use crate::mold::vector::{sub, unit};
+use crate::planner::row::Row;
 use crate::planner::tuning::TUNING;
 use crate::ply::shear;
 use num_dual::{Dual64, DualNum};
+use std::collections::BTreeSet;
 
 impl Sensitivity<'_> {
     /// Shear angle γ of a cell (rad); none while it does not shear.
@@ -18,7 +20,9 @@ impl Sensitivity<'_> {
         let rate = path.value / (sides[0] * sides[1] * value.cos());
         let rate =
             if rate.is_finite() && value.cos() > TUNING.sensitivity.folded { rate } else { 0.0 };
-        Some(Quantity { value, gradient: path.gradient.iter().map(|g| rate * g).collect() })
+        let mut gradient = path.gradient.clone();
+        gradient.scale(rate);
+        Some(Quantity { value, gradient })
     }
 
     /// Distance of a gripper from the mold (m); none without a mold.
@@ -26,8 +30,8 @@ impl Sensitivity<'_> {
     pub fn clearance(&self, gripper: usize) -> Option<Quantity> {
         let point = self.positions[gripper];
         let closest = self.scene.mold.as_ref()?.closest_point(point);
-        let mut gradient = self.zeros();
-        gradient[3 * gripper..][..3].copy_from_slice(&self.distance_gradient(point, &closest));
+        let mut gradient = Row::default();
+        gradient.add_from(3 * gripper, 1.0, self.distance_gradient(point, &closest));
         Some(Quantity { value: closest.distance, gradient })
     }
 
@@ -35,12 +39,10 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn separation(&self, a: usize, b: usize) -> Quantity {
         let way = sub(self.positions[b], self.positions[a]);
-        let mut gradient = self.zeros();
+        let mut gradient = Row::default();
         let direction = unit(way).unwrap_or([0.0; 3]);
-        for n in 0..3 {
-            gradient[3 * a + n] -= direction[n];
-            gradient[3 * b + n] += direction[n];
-        }
+        gradient.add_from(3 * a, -1.0, direction);
+        gradient.add_from(3 * b, 1.0, direction);
         Quantity { value: way.iter().map(|c| c * c).sum::<f64>().sqrt(), gradient }
     }
 
@@ -48,11 +50,17 @@ impl Sensitivity<'_> {
     /// level gripper's has no derivative and gets zeros.
     #[must_use]
     pub fn tilt(&self, gripper: usize) -> Quantity {
-        let mut gradient = self.zeros();
         let value = self.tilt_along(gripper, None).re;
-        for (column, out) in gradient.iter_mut().enumerate() {
-            *out = self.tilt_along(gripper, Some(column)).eps;
+        // its slopes, and the grippers that its lines pass
+        let slopes = self.slopes[gripper].iter().flatten();
+        let mut columns: BTreeSet<usize> =
+            slopes.flat_map(|slope| slope.gradient.entries().map(|(column, _)| column)).collect();
+        for neighbour in [0, 1].map(|d| neighbours(self.scene.ply.grid, gripper, d)).as_flattened()
+        {
+            columns.extend(3 * neighbour..3 * neighbour + 3);
         }
+        let along = |column: usize| (column, self.tilt_along(gripper, Some(column)).eps);
+        let gradient = columns.into_iter().map(along).filter(|(_, x)| *x != 0.0).collect();
         Quantity { value, gradient }
     }
 
@@ -71,7 +79,7 @@ impl Sensitivity<'_> {
         let u = heading(0).unwrap_or([one, zero]);
         let v = heading(1).unwrap_or([-u[1], u[0]]);
         let [su, sv] = [0, 1].map(|d| match &self.slopes[gripper][d] {
-            Some(slope) => Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient[c])),
+            Some(slope) => Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient.at(c))),
             None => zero,
         });
         // the normal is the cross product of both tangents

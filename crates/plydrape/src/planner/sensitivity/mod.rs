@@ -1,26 +1,33 @@
-//! The quantities of a solved ply that a plan weighs, each with its exact gradient to all gripper positions.
+//! The quantities of a solved ply that a plan weighs, each with its gradient to all gripper positions.
 //!
 //! The equilibrium is differentiated by the implicit function theorem, eq. (11) of `docs/theory/equilibrium.md`: one
-//! tangent for each gripper coordinate gives how every span's force, end slopes, run, rise and length
-//! follow. All else is the chain rule. Contact segments stay fixed. Gradients are exact wherever the state is
-//! differentiable: not where a diagonal just begins to shear, a slope just reaches its limit, or a point
-//! just comes into contact.
+//! tangent for each group of distant grippers and each axis gives how every span's force, end slopes, run, rise and length
+//! follow. All else is the chain rule. Contact segments stay fixed. Gradients are exact, but for what is left out of them
+//! as negligible, wherever the state is differentiable: not where a diagonal just begins to shear, a slope just reaches its
+//! limit, or a point just comes into contact.
 //!
-//! `span` has the quantities of one span, `contact` those of a span and the mold, `gripper` those of
-//! grippers and cells, `outcome` those of the end of a drape.
+//! `coloring` has the groups, `state` the derivatives of the state as sparse rows, `span` the quantities of one span,
+//! `contact` those of a span and the mold, `gripper` those of grippers and cells, `outcome` those of the end of a drape.
 
+mod coloring;
 mod contact;
 mod gripper;
 mod outcome;
 mod span;
+mod state;
+#[cfg(test)]
+mod tests;
 
 pub use outcome::{Outcome, outcome};
 pub use span::Place;
 
 use crate::draping::spans::{FreeSpan, Point, Shape};
-use crate::equilibrium::{Direction, Solver, StateTangent};
+use crate::equilibrium::Solver;
+use crate::planner::row::Row;
+use crate::planner::tuning::TUNING;
 use crate::ply::ContactSegment;
 use crate::scene::Scene;
+use state::State;
 
 /// A number with its gradient to all gripper positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +35,7 @@ pub struct Quantity {
     /// The value.
     pub value: f64,
     /// Derivatives to x, y, z of each gripper (per m), in the order of [`crate::ply::Grid::index`].
-    pub gradient: Vec<f64>,
+    pub gradient: Row,
 }
 
 /// Rows of an element: force, both end slopes, run, rise, length.
@@ -42,7 +49,7 @@ pub struct Sensitivity<'a> {
     positions: &'a [Point],
     contacts: &'a [Option<ContactSegment>],
     /// Derivatives of each element's force (N), end slopes, run, rise and length (m).
-    rows: Vec<f64>,
+    rows: Vec<[Row; ROWS]>,
     /// Taut path of each cell's stretched diagonal (m), if any, and its derivatives.
     paths: Vec<Option<Quantity>>,
     /// Slope of the ply at each gripper along u and v, where there is one.
@@ -53,7 +60,9 @@ pub struct Sensitivity<'a> {
 
 impl<'a> Sensitivity<'a> {
     /// Differentiates the last state of a solver: `shape` are its spans, `positions` (m) and `contacts`
-    /// those with which it was solved.
+    /// those with which it was solved. Derivatives that are negligible beside others of the same quantity are left out, see
+    /// [`crate::planner::tuning::Sensitivity`], so that the memory and the directions that it takes grow with the number of
+    /// grippers and not with its square.
     #[must_use]
     pub fn new(
         scene: &'a Scene,
@@ -62,17 +71,34 @@ impl<'a> Sensitivity<'a> {
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {
-        let width = 3 * positions.len();
-        let mut state = State::new(solver, positions);
-        let mut direction = Direction::none(positions.len());
-        let mut linearized = solver.linearize(positions, contacts);
-        for column in 0..width {
-            direction.grippers[column / 3][column % 3] = 1.0;
-            state.put(column, &linearized.along(&direction));
-            direction.grippers[column / 3][column % 3] = 0.0;
-        }
-        let is_sound = linearized.is_sound();
-        let State { rows, paths, slopes, .. } = state;
+        let negligible = TUNING.sensitivity.negligible;
+        Self::without(negligible, scene, solver, shape, positions, contacts)
+    }
+
+    /// The same with every derivative. Its memory and time grow with the square of the number of grippers.
+    #[must_use]
+    pub fn whole(
+        scene: &'a Scene,
+        solver: &mut Solver,
+        shape: &'a Shape,
+        positions: &'a [Point],
+        contacts: &'a [Option<ContactSegment>],
+    ) -> Self {
+        Self::without(0.0, scene, solver, shape, positions, contacts)
+    }
+
+    /// Without derivatives below a share of the largest of the same quantity.
+    fn without(
+        negligible: f64,
+        scene: &'a Scene,
+        solver: &mut Solver,
+        shape: &'a Shape,
+        positions: &'a [Point],
+        contacts: &'a [Option<ContactSegment>],
+    ) -> Self {
+        let grid = scene.ply.grid;
+        let State { rows, paths, slopes, is_sound } =
+            State::new(grid, solver, positions, contacts, negligible);
         Sensitivity { scene, shape, positions, contacts, rows, paths, slopes, is_sound }
     }
 
@@ -83,9 +109,8 @@ impl<'a> Sensitivity<'a> {
     }
 
     /// Derivatives of one row of an element.
-    fn row(&self, element: usize, row: usize) -> &[f64] {
-        let width = self.width();
-        &self.rows[(ROWS * element + row) * width..][..width]
+    fn row(&self, element: usize, row: usize) -> &Row {
+        &self.rows[element][row]
     }
 
     /// The gripper that holds an end of a span; none where the mold does.
@@ -95,62 +120,5 @@ impl<'a> Sensitivity<'a> {
         let c = grid.catenary(span.catenary);
         let whole = self.contacts[span.catenary].is_none();
         (whole || span.segment == end).then(|| grid.index(if end == 0 { c.from } else { c.to }))
-    }
-
-    fn zeros(&self) -> Vec<f64> {
-        vec![0.0; self.width()]
-    }
-}
-
-/// Adds `factor` times `row` to `to`.
-fn add(to: &mut [f64], factor: f64, row: &[f64]) {
-    if factor != 0.0 {
-        for (to, x) in to.iter_mut().zip(row) {
-            *to += factor * x;
-        }
-    }
-}
-
-/// The derivatives of a state, filled column by column.
-struct State {
-    width: usize,
-    rows: Vec<f64>,
-    paths: Vec<Option<Quantity>>,
-    slopes: Vec<[Option<Quantity>; 2]>,
-}
-
-impl State {
-    fn new(solver: &Solver, positions: &[Point]) -> Self {
-        let (problem, width) = (solver.problem(), 3 * positions.len());
-        let quantity = |value| Quantity { value, gradient: vec![0.0; width] };
-        let slope = |gripper, d| solver.gripper_slope(positions, gripper, d).map(quantity);
-        let slopes = (0..positions.len()).map(|n| [0, 1].map(|d| slope(n, d))).collect();
-        State {
-            width,
-            rows: vec![0.0; ROWS * problem.elements.len() * width],
-            paths: problem.shearing.iter().map(|s| s.map(|(path, _)| quantity(path))).collect(),
-            slopes,
-        }
-    }
-
-    fn put(&mut self, column: usize, tangent: &StateTangent) {
-        for (n, force) in tangent.force.iter().enumerate() {
-            let ([first, second], [run, rise, length]) = (tangent.end_slopes[n], tangent.spans[n]);
-            for (row, value) in [*force, first, second, run, rise, length].into_iter().enumerate() {
-                self.rows[(ROWS * n + row) * self.width + column] = value;
-            }
-        }
-        for (path, change) in self.paths.iter_mut().zip(&tangent.paths) {
-            if let Some(path) = path {
-                path.gradient[column] = *change;
-            }
-        }
-        for (slopes, changes) in self.slopes.iter_mut().zip(&tangent.grippers) {
-            for (slope, change) in slopes.iter_mut().zip(changes) {
-                if let Some(slope) = slope {
-                    slope.gradient[column] = *change;
-                }
-            }
-        }
     }
 }

@@ -3,6 +3,7 @@
 use super::{Quantity, Sensitivity};
 use crate::draping::spans::Point;
 use crate::draping::{Drape, Draping, lying_segments};
+use crate::planner::row::Row;
 use crate::planner::tuning::{self, TUNING};
 use crate::ply::ContactSegment;
 use crate::scene::Scene;
@@ -38,9 +39,9 @@ pub fn outcome(
     let (drape, shape) = draping.run(&mut progress);
     let (shape, grid) = (shape?, scene.ply.grid);
     let Draping { solver, positions, contacts, .. } = &mut draping;
-    let sensitivity = Sensitivity::new(scene, solver, &shape, positions, contacts);
+    let sensitivity = Sensitivity::whole(scene, solver, &shape, positions, contacts);
 
-    let nothing = Quantity { value: f64::NEG_INFINITY, gradient: Vec::new() };
+    let nothing = Quantity { value: f64::NEG_INFINITY, gradient: Row::default() };
     let mut overstretch = vec![nothing; grid.catenaries()];
     let mut force: Vec<Option<Quantity>> = vec![None; grid.catenaries()];
     for catenary in 0..grid.catenaries() {
@@ -90,7 +91,7 @@ fn lying(
     let ends = grippers.map(|gripper| positions[gripper]);
     let step = TUNING.sensitivity.step * tuning::cell(scene);
     let mut out: Vec<Quantity> = (misfits(ends).into_iter())
-        .map(|value| Quantity { value, gradient: vec![0.0; 3 * positions.len()] })
+        .map(|value| Quantity { value, gradient: Row::default() })
         .collect();
     if out.is_empty() {
         return out;
@@ -104,7 +105,7 @@ fn lying(
             };
             let (low, high) = (moved(-step), moved(step));
             for (found, (low, high)) in out.iter_mut().zip(low.into_iter().zip(high)) {
-                found.gradient[3 * gripper + axis] = (high - low) / (2.0 * step);
+                found.gradient.add_at(3 * gripper + axis, (high - low) / (2.0 * step));
             }
         }
     }

@@ -4,11 +4,12 @@
 //! of its fabric the fraction t follows from the arc length, s(t)/s(1) = const, so that
 //! dt = −(ds(t) − s(t)/s(1) ds(1)) / (ℓ√(1+z'²)).
 
-use super::{Quantity, Sensitivity, add};
+use super::{Quantity, Sensitivity};
 use crate::catenary::{Graded, Profile};
 use crate::draping::misfit;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{along, dot, sub, unit};
+use crate::planner::row::Row;
 use crate::planner::tuning::TUNING;
 
 /// A point with its gradient to all gripper positions.
@@ -17,16 +18,16 @@ pub struct Place {
     /// The point (m).
     pub point: Point,
     /// Derivatives of x, y and z, each as in [`Quantity::gradient`].
-    pub gradient: [Vec<f64>; 3],
+    pub gradient: [Row; 3],
 }
 
 impl Place {
     /// Its part along a fixed direction (m).
     #[must_use]
     pub fn along(&self, direction: [f64; 3]) -> Quantity {
-        let mut gradient = vec![0.0; self.gradient[0].len()];
+        let mut gradient = Row::default();
         for (part, row) in direction.iter().zip(&self.gradient) {
-            add(&mut gradient, *part, row);
+            gradient.add(*part, row);
         }
         Quantity { value: dot(self.point, direction), gradient }
     }
@@ -34,11 +35,11 @@ impl Place {
 
 impl Sensitivity<'_> {
     /// Gradient of a quantity of a span's closed form to the gripper positions.
-    pub(super) fn chain(&self, element: usize, graded: &Graded) -> Vec<f64> {
-        let mut gradient = self.zeros();
+    pub(super) fn chain(&self, element: usize, graded: &Graded) -> Row {
+        let mut gradient = Row::default();
         // force, slopes, run and rise are the first five variables of both
         for row in 0..5 {
-            add(&mut gradient, graded.gradient[row], self.row(element, row));
+            gradient.add(graded.gradient[row], self.row(element, row));
         }
         gradient
     }
@@ -52,13 +53,13 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn force(&self, span: &FreeSpan) -> Option<Quantity> {
         let (value, element) = (span.force?, span.element?);
-        Some(Quantity { value, gradient: self.row(element, 0).to_vec() })
+        Some(Quantity { value, gradient: self.row(element, 0).clone() })
     }
 
     /// Path between its ends minus its fabric length (m), see `docs/theory/measures.md`; negative is slack.
     #[must_use]
     pub fn overstretch(&self, span: &FreeSpan) -> Quantity {
-        let mut gradient = self.zeros();
+        let mut gradient = Row::default();
         let contact = self.contacts[span.catenary].as_ref();
         let [a, b] = span.ends;
         let mut chord = unit(sub(b, a)).unwrap_or([0.0; 3]);
@@ -74,15 +75,13 @@ impl Sensitivity<'_> {
         }
         for (end, sign) in [(0, -1.0), (1, 1.0)] {
             if let Some(gripper) = self.gripper_at(span, end) {
-                for n in 0..3 {
-                    gradient[3 * gripper + n] += sign * chord[n];
-                }
+                gradient.add_from(3 * gripper, sign, chord);
             }
         }
         match span.element {
-            Some(element) => add(&mut gradient, -1.0, self.row(element, 5)),
+            Some(element) => gradient.add(-1.0, self.row(element, 5)),
             // a stretched diagonal without contact is as long as its path
-            None if self.contacts[span.catenary].is_none() => gradient.fill(0.0),
+            None if self.contacts[span.catenary].is_none() => gradient = Row::default(),
             None => {}
         }
         Quantity { value: -misfit(span, contact).excess(), gradient }
@@ -96,15 +95,13 @@ impl Sensitivity<'_> {
             return Quantity { value: slope.value, gradient: self.chain(element, &slope) };
         }
         let (run, value) = (span.run(), span.slope(t));
-        let mut gradient = self.zeros();
+        let mut gradient = Row::default();
         if run > 0.0 {
             let [x, y] = span.heading();
             let by_end = [-value * x / run, -value * y / run, 1.0 / run];
             for (end, sign) in [(0, -1.0), (1, 1.0)] {
                 if let Some(gripper) = self.gripper_at(span, end) {
-                    for n in 0..3 {
-                        gradient[3 * gripper + n] += sign * by_end[n];
-                    }
+                    gradient.add_from(3 * gripper, sign, by_end);
                 }
             }
         }
@@ -114,24 +111,25 @@ impl Sensitivity<'_> {
     /// Its point at a fixed fraction `t` of its run (m).
     #[must_use]
     pub fn place(&self, span: &FreeSpan, t: f64) -> Place {
-        let mut gradient = [self.zeros(), self.zeros(), self.zeros()];
+        let mut gradient: [Row; 3] = Default::default();
         let hanging = self.hanging(span);
         for (end, share) in [(0, 1.0 - t), (1, t)] {
             if let Some(gripper) = self.gripper_at(span, end) {
                 for n in 0..2 {
-                    gradient[n][3 * gripper + n] += share;
+                    gradient[n].add_at(3 * gripper + n, share);
                 }
                 // a hanging span's height counts from its first end
-                gradient[2][3 * gripper + 2] += match (hanging, end) {
+                let rise = match (hanging, end) {
                     (Some(_), 0) => 1.0,
                     (Some(_), _) => 0.0,
                     (None, _) => share,
                 };
+                gradient[2].add_at(3 * gripper + 2, rise);
             }
         }
         if let Some((profile, element)) = hanging {
             let height = self.chain(element, &profile.stations().height(t));
-            add(&mut gradient[2], 1.0, &height);
+            gradient[2].add(1.0, &height);
         }
         Place { point: span.point(t), gradient }
     }
@@ -149,11 +147,11 @@ impl Sensitivity<'_> {
         let slope = profile.station(t * span.run()).slope;
         let rate = span.run() * slope.hypot(1.0);
         let mut along = self.chain(element, &part);
-        add(&mut along, -part.value / whole.value, &self.chain(element, &whole));
+        along.add(-part.value / whole.value, &self.chain(element, &whole));
         let [a, b] = span.ends;
         let velocity = [b[0] - a[0], b[1] - a[1], span.run() * slope];
         for n in 0..3 {
-            add(&mut place.gradient[n], -velocity[n] / rate, &along);
+            place.gradient[n].add(-velocity[n] / rate, &along);
         }
         place
     }

@@ -3,17 +3,18 @@
 use super::step::Step;
 use super::tuning::TUNING;
 use crate::mold::vector::sub;
-use crate::planner::program::{MM, Program};
+use crate::planner::program::Program;
+use crate::planner::row::Row;
 use crate::planner::sensitivity::{Quantity, Sensitivity};
 
 impl Step<'_> {
     /// Shear, tilt, force, distances: linear. A limit that is exceeded already must not be exceeded further.
     pub(super) fn limits(&self, sensitivity: &Sensitivity, program: &mut Program) {
         let limits = &self.scene.limits;
-        let grid = self.scene.ply.grid;
+        let (grid, scale) = (self.scene.ply.grid, program.scale);
         let mut keep = |q: Option<Quantity>, limit: f64| {
             if let Some(q) = q {
-                program.at_most(&q.gradient, 1.0 / MM, limit.max(q.value) - q.value);
+                program.at_most(&q.gradient, 1.0 / scale, limit.max(q.value) - q.value);
             }
         };
         (0..grid.cells()).for_each(|cell| keep(sensitivity.shear(cell), limits.shear));
@@ -24,7 +25,7 @@ impl Step<'_> {
             sensitivity.shape.spans.iter().for_each(|span| keep(sensitivity.force(span), limit));
         }
         let mut above = |q: Quantity, least: f64| {
-            program.at_most(&q.gradient, -1.0, MM * (q.value - least.min(q.value)));
+            program.at_most(&q.gradient, -1.0, scale * (q.value - least.min(q.value)));
         };
         for gripper in 0..grid.grippers() {
             if !self.lands(gripper) {
@@ -46,11 +47,10 @@ impl Step<'_> {
         if let Some(box_) = limits.workspace {
             for (gripper, p) in self.positions.iter().enumerate() {
                 for axis in 0..3 {
-                    let mut unit = vec![0.0; sensitivity.width()];
-                    unit[3 * gripper + axis] = 1.0;
+                    let unit: Row = [(3 * gripper + axis, 1.0)].into_iter().collect();
                     let [low, high] = box_[axis];
-                    program.at_most(&unit, 1.0, MM * (high.max(p[axis]) - p[axis]));
-                    program.at_most(&unit, -1.0, MM * (p[axis] - low.min(p[axis])));
+                    program.at_most(&unit, 1.0, scale * (high.max(p[axis]) - p[axis]));
+                    program.at_most(&unit, -1.0, scale * (p[axis] - low.min(p[axis])));
                 }
             }
         }
@@ -58,12 +58,13 @@ impl Step<'_> {
 
     /// Moves and lengths of edges: cones, exact for any move.
     pub(super) fn reaches(&self, sensitivity: &Sensitivity, program: &mut Program) {
+        let scale = program.scale;
         for (gripper, target) in self.targets.iter().enumerate() {
             let way = sub(*target, self.positions[gripper]);
             if self.lands(gripper) {
-                program.fix(gripper, way.map(|c| MM * c));
+                program.fix(gripper, way.map(|c| scale * c));
             } else {
-                program.cone(vec![(gripper, 1.0)], [0.0; 3], MM * self.reach);
+                program.cone(vec![(gripper, 1.0)], [0.0; 3], scale * self.reach);
             }
         }
         for span in self.edges(sensitivity) {
@@ -83,7 +84,7 @@ impl Step<'_> {
                 TUNING.most_stretch
             };
             let most = (span.length + stretch * self.whole(span)).max(span.chord());
-            program.cone(free, sub(b, a).map(|c| MM * c), MM * most);
+            program.cone(free, sub(b, a).map(|c| scale * c), scale * most);
         }
     }
 }

@@ -12,6 +12,8 @@ mod outcome;
 mod slack;
 mod stage;
 mod step;
+#[cfg(test)]
+pub(super) mod tests;
 pub mod tuning;
 
 pub use outcome::{Outcome, PositionError, Stepwise};

@@ -11,7 +11,8 @@ use crate::draping::spans::{Point, Shape};
 use crate::draping::{Draping, lying_segments, misfit};
 use crate::mold::SurfaceCurve;
 use crate::mold::vector::{along, norm, sub, unit};
-use crate::planner::program::{MM, Program};
+use crate::planner::program::Program;
+use crate::planner::row::Row;
 use crate::scene::Scene;
 
 /// A free segment of an edge in contact, or a whole edge that lies, with the grippers that hold it.
@@ -33,22 +34,23 @@ impl FreeSegment {
         self.length > TUNING.slack.short * self.whole
     }
 
-    /// Stretch (m) after moves (mm) of all grippers.
+    /// Stretch (m) after moves (m) of all grippers.
     fn stretch_after(&self, moves: &[f64]) -> f64 {
         let stretch = |(gripper, way): &(usize, [f64; 3])| {
-            (0..3).map(|n| way[n] * moves[3 * gripper + n] / MM).sum::<f64>()
+            (0..3).map(|n| way[n] * moves[3 * gripper + n]).sum::<f64>()
         };
         self.stretch + self.grippers.iter().map(stretch).sum::<f64>()
     }
 }
 
-/// Direction out of a line at one of its ends.
-fn outward(line: &SurfaceCurve, end: usize) -> Option<[f64; 3]> {
+/// Direction out of a line at one of its ends; none where its points there are nearer than `least` (m), which is rounding.
+fn outward(line: &SurfaceCurve, end: usize, least: f64) -> Option<[f64; 3]> {
     let (points, last) = (&line.points, line.points.len() - 1);
-    match end {
-        0 => unit(sub(points[0], *points.get(1)?)),
-        _ => unit(sub(points[last], points[last.checked_sub(1)?])),
-    }
+    let way = match end {
+        0 => sub(points[0], *points.get(1)?),
+        _ => sub(points[last], points[last.checked_sub(1)?]),
+    };
+    unit(way).filter(|_| norm(way) > least)
 }
 
 fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSegment> {
@@ -68,6 +70,7 @@ fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSeg
                 Some(0) => &[0],
                 Some(_) => &[1],
             };
+            let least = TUNING.slack.shortest * ply.flat_length(c.kind);
             out.push(FreeSegment {
                 stretch: segment.misfit.path - segment.misfit.length,
                 target: TUNING.slack.target_stretch * ply.flat_length(c.kind),
@@ -78,7 +81,7 @@ fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSeg
                     .filter_map(|&end| {
                         // behind the contact, the path grows back over it
                         let sense = if segment.misfit.path < 0.0 { -1.0 } else { 1.0 };
-                        Some((ids[end], outward(&segment.line, end)?.map(|c| sense * c)))
+                        Some((ids[end], outward(&segment.line, end, least)?.map(|c| sense * c)))
                     })
                     .collect(),
             });
@@ -127,34 +130,34 @@ pub fn removal(
     let mut active: Vec<bool> = segments.iter().map(slack).collect();
     let mut moves = Vec::new();
     for _ in 0..TUNING.slack.rounds {
-        let mut program = Program::new(count);
+        let mut program = Program::new(scene, count);
+        let scale = program.scale;
         for (gripper, target) in targets.iter().enumerate() {
             let way = sub(*target, draping.positions[gripper]);
             for n in 0..3 {
-                program.near(1.0, 3 * gripper + n, MM * way[n]);
+                program.near(1.0, 3 * gripper + n, scale * way[n]);
             }
-            let radius = MM * TUNING.slack.share * limits.landing_gripper;
-            program.cone(vec![(gripper, 1.0)], way.map(|c| -MM * c), radius + MM * norm(way));
+            let radius = scale * TUNING.slack.share * limits.landing_gripper;
+            program.cone(vec![(gripper, 1.0)], way.map(|c| -scale * c), radius + scale * norm(way));
         }
         for (segment, active) in segments.iter().zip(&active) {
-            let mut gradient = vec![0.0; 3 * count];
+            let mut gradient = Row::default();
             for (gripper, way) in &segment.grippers {
-                for n in 0..3 {
-                    gradient[3 * gripper + n] += way[n];
-                }
+                gradient.add_from(3 * gripper, 1.0, *way);
             }
             if *active {
                 program.square(
                     TUNING.slack.weight,
-                    MM * (segment.stretch - segment.target),
+                    scale * (segment.stretch - segment.target),
                     &gradient,
                 );
             }
             let most = (TUNING.slack.stretch_share * limits.overstretch * segment.whole)
                 .max(segment.stretch);
-            program.at_most(&gradient, 1.0, MM * (most - segment.stretch));
+            program.at_most(&gradient, 1.0, scale * (most - segment.stretch));
         }
         moves = program.solve()?;
+        moves.iter_mut().for_each(|x| *x /= scale);
         let mut changed = false;
         for (segment, active) in segments.iter().zip(&mut active) {
             let slack = segment.counts() && segment.stretch_after(&moves) < 0.0;
@@ -167,7 +170,7 @@ pub fn removal(
     }
     let place = |gripper: usize| {
         let way = [0, 1, 2].map(|n| moves[3 * gripper + n]);
-        mold.closest_point(along(draping.positions[gripper], 1.0 / MM, way)).point
+        mold.closest_point(along(draping.positions[gripper], 1.0, way)).point
     };
     Some((0..count).map(place).collect())
 }

@@ -10,7 +10,8 @@ use super::front::Front;
 use super::tuning::TUNING;
 use crate::draping::spans::{FreeSpan, Point};
 use crate::mold::vector::{dot, sub};
-use crate::planner::program::{MM, Program};
+use crate::planner::program::Program;
+use crate::planner::row::Row;
 use crate::planner::sensitivity::{Quantity, Sensitivity};
 use crate::planner::tuning::cell;
 use crate::scene::Scene;
@@ -36,7 +37,14 @@ pub struct Step<'a> {
 impl Step<'_> {
     /// The moves of all grippers (m); none if the program has no solution.
     pub fn moves(&self, sensitivity: &Sensitivity) -> Option<Vec<[f64; 3]>> {
-        let mut program = Program::new(self.positions.len());
+        let program = self.program(sensitivity);
+        let x = program.solve()?;
+        Some(x.chunks(3).map(|c| [c[0], c[1], c[2]].map(|x| x / program.scale)).collect())
+    }
+
+    /// The program whose solution they are.
+    pub fn program(&self, sensitivity: &Sensitivity) -> Program {
+        let mut program = Program::new(self.scene, self.positions.len());
         self.heights(sensitivity, &mut program);
         self.places(&mut program);
         self.lengths(sensitivity, &mut program);
@@ -45,8 +53,7 @@ impl Step<'_> {
         self.smoothness(&mut program);
         self.limits(sensitivity, &mut program);
         self.reaches(sensitivity, &mut program);
-        let x = program.solve()?;
-        Some(x.chunks(3).map(|c| [c[0] / MM, c[1] / MM, c[2] / MM]).collect())
+        program
     }
 
     /// Whether a gripper stands on its target after this step; it then stays there.
@@ -59,9 +66,9 @@ impl Step<'_> {
     /// Height of a gripper above the mold, or above its target where there is no mold.
     pub(super) fn clearance(&self, sensitivity: &Sensitivity, gripper: usize) -> Quantity {
         sensitivity.clearance(gripper).unwrap_or_else(|| {
-            let mut gradient = vec![0.0; sensitivity.width()];
+            let mut gradient = Row::default();
             let normal = self.front.normal[gripper];
-            gradient[3 * gripper..][..3].copy_from_slice(&normal);
+            gradient.add_from(3 * gripper, 1.0, normal);
             let value = dot(normal, sub(self.positions[gripper], self.targets[gripper]));
             Quantity { value, gradient }
         })
@@ -70,7 +77,7 @@ impl Step<'_> {
     fn heights(&self, sensitivity: &Sensitivity, program: &mut Program) {
         for gripper in 0..self.positions.len() {
             let height = self.clearance(sensitivity, gripper);
-            let residual = MM * (height.value - self.front.height(gripper));
+            let residual = program.scale * (height.value - self.front.height(gripper));
             program.square(TUNING.weights.height, residual, &height.gradient);
         }
     }
@@ -84,13 +91,11 @@ impl Step<'_> {
             let weight = TUNING.weights.place + TUNING.weights.landing * self.nearness(height);
             for axis in 0..3 {
                 // the part along the mold of the error in this axis
-                let mut gradient = vec![0.0; 3 * self.positions.len()];
-                for n in 0..3 {
-                    let unit = f64::from(u8::from(n == axis));
-                    gradient[3 * gripper + n] = unit - normal[axis] * normal[n];
-                }
-                let value = dot([0, 1, 2].map(|n| gradient[3 * gripper + n]), error);
-                program.square(weight, MM * value, &gradient);
+                let unit = |n: usize| f64::from(u8::from(n == axis));
+                let part = [0, 1, 2].map(|n| unit(n) - normal[axis] * normal[n]);
+                let mut gradient = Row::default();
+                gradient.add_from(3 * gripper, 1.0, part);
+                program.square(weight, program.scale * dot(part, error), &gradient);
             }
         }
     }
@@ -112,7 +117,7 @@ impl Step<'_> {
     fn lengths(&self, sensitivity: &Sensitivity, program: &mut Program) {
         for span in self.edges(sensitivity) {
             let stretch = sensitivity.overstretch(span);
-            let residual = MM * (stretch.value - target_stretch(self.scene, span));
+            let residual = program.scale * (stretch.value - target_stretch(self.scene, span));
             program.square(TUNING.weights.stretch, residual, &stretch.gradient);
         }
     }
@@ -136,7 +141,7 @@ impl Step<'_> {
                     let mut unit = [0.0; 3];
                     unit[axis] = 1.0;
                     let part = error.along(unit);
-                    program.square(weight, MM * part.value, &part.gradient);
+                    program.square(weight, program.scale * part.value, &part.gradient);
                 }
             }
         }
@@ -154,8 +159,10 @@ impl Step<'_> {
                 };
                 // in terms of the height that it makes at the other end
                 let arm = span.length;
-                let gradient: Vec<f64> = rise.gradient.iter().map(|g| arm * g).collect();
-                program.square(TUNING.weights.rolling, MM * arm * rise.value, &gradient);
+                let mut gradient = rise.gradient;
+                gradient.scale(arm);
+                let value = program.scale * arm * rise.value;
+                program.square(TUNING.weights.rolling, value, &gradient);
             }
         }
     }
@@ -169,7 +176,7 @@ impl Step<'_> {
     fn smoothness(&self, program: &mut Program) {
         for (gripper, before) in self.before.iter().enumerate() {
             for n in 0..3 {
-                program.near(TUNING.weights.smoothness, 3 * gripper + n, MM * before[n]);
+                program.near(TUNING.weights.smoothness, 3 * gripper + n, program.scale * before[n]);
             }
         }
     }

@@ -91,6 +91,8 @@ pub struct Slack {
     pub weight: f64,
     /// Share of its edge below which the slack of a segment does not count.
     pub short: f64,
+    /// Share of its edge below which two points of a line on the mold give no direction: what is less is rounding.
+    pub shortest: f64,
     /// Rounds in which segments that have become slack are added.
     pub rounds: usize,
 }
@@ -134,6 +136,7 @@ pub const TUNING: Tuning = Tuning {
         stretch_share: 0.8,
         weight: 1e3,
         short: 1e-2,
+        shortest: 1e-9,
         rounds: 6,
     },
 };

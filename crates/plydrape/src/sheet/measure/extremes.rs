@@ -22,8 +22,9 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// Evaluates the state of a step; `touching` is the height that counts as contact (m).
-    pub fn see(&mut self, sheet: &Sheet, state: &State, touching: f64) {
+    /// Evaluates the state of a step; `gripped` are the nodes that grippers hold, `touching` is the height that counts as
+    /// contact (m).
+    pub fn see(&mut self, sheet: &Sheet, gripped: &[bool], state: &State, touching: f64) {
         let (fabric, x, step) = (&sheet.fabric, &state.positions, state.step);
         let reach = TILT_REACH * sheet.pitch;
         let of = |nodes: [u32; 2]| {
@@ -65,10 +66,7 @@ impl Extremes {
             self.between(fabric, mold, state, sheet.mesh);
         }
         if self.first_contact.is_none() {
-            let held = sheet.held();
-            let mut free = vec![true; x.len()];
-            held.iter().flatten().for_each(|(node, _)| free[*node] = false);
-            let heights = state.heights.iter().enumerate().filter(|(node, _)| free[*node]);
+            let heights = state.heights.iter().enumerate().filter(|(node, _)| !gripped[*node]);
             let lowest = heights.min_by(|a, b| a.1.total_cmp(b.1));
             self.first_contact =
                 lowest.filter(|(_, height)| **height <= touching).map(|(node, height)| Place {

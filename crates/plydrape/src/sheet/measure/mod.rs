@@ -12,6 +12,7 @@ mod summary;
 
 pub use extremes::Extremes;
 pub use height::{Raised, raised};
+pub(super) use summary::Effort;
 pub use summary::Summary;
 
 /// A largest value and where it is.

@@ -80,6 +80,17 @@ pub struct Summary {
     pub limits: Vec<Verdict>,
 }
 
+/// What a drape took.
+#[derive(Debug, Clone, Copy)]
+pub(in super::super) struct Effort {
+    /// Time steps.
+    pub time_steps: usize,
+    /// Linear systems that were solved.
+    pub solves: usize,
+    /// Shortest time step as a share of a step of the motion.
+    pub smallest_step: f64,
+}
+
 /// What is measured at the end.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Ends {
@@ -90,16 +101,17 @@ pub(super) struct Ends {
 }
 
 impl Summary {
-    /// Of a drape that ended with a state.
+    /// Of a drape that ended with a state; points up to `clear` (m) over the mold lie on it.
     pub(in super::super) fn new(
         scene: &Scene,
         sheet: &Sheet,
+        clear: f64,
         extremes: &Extremes,
         last: &State,
         status: Status,
-        [time_steps, solves]: [usize; 2],
-        smallest_step: f64,
+        effort: Effort,
     ) -> Self {
+        let Effort { time_steps, solves, smallest_step } = effort;
         let mut ends = Ends::default();
         let (mut rms, mut share, mut ridge, mut bridge, mut position_rms) =
             (None, None, None, None, None);
@@ -122,7 +134,7 @@ impl Summary {
             }
             if area > 0.0 {
                 (rms, share) = (Some((squares / area).sqrt()), Some(above / area));
-                let kinds = raised(fabric, mold, x, sheet.clear);
+                let kinds = raised(fabric, mold, x, clear);
                 let highest = |kind: Raised| {
                     let of = kinds.iter().zip(&last.heights).filter(|(k, _)| **k == Some(kind));
                     Some(of.map(|(_, height)| *height).fold(0.0, f64::max))

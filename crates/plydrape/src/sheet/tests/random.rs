@@ -125,7 +125,11 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
         };
         let drape = match drape(&scene, tuning, &stop, |_| ControlFlow::Continue(())) {
             Ok(drape) => drape,
-            Err(SheetError::Overlap { .. } | SheetError::Overhang { .. }) => {
+            Err(
+                SheetError::Coarse { .. }
+                | SheetError::Overlap { .. }
+                | SheetError::Overhang { .. },
+            ) => {
                 assert!(scene.settings.pad.radius > 0.0);
                 refused += 1;
                 continue;
@@ -149,6 +153,25 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
     }
     // what grippers fling apart cannot be solved; the others are
     assert!(solved > 15 && refused > 10, "{solved} solved, {refused} refused");
+}
+
+/// A mesh as wide as half of the fabric between two pads has a line of nodes there; a wider one is refused with that width.
+#[test]
+fn a_mesh_is_refused_from_half_of_the_free_fabric_between_pads_on() {
+    let mut scene = scene(WHOLE);
+    let [a, b] = scene.ply.cell;
+    let pitch = if scene.ply.grid.nv > 1 { a.min(b) } else { a };
+    scene.settings.pad.radius = 0.2 * pitch;
+    scene.settings.sheet.overhang = 0.2 * pitch;
+    let mut with_mesh = |mesh: f64| {
+        scene.settings.sheet.mesh = Some(mesh);
+        Sheet::new(&scene)
+    };
+    assert!(with_mesh(0.3 * pitch).is_ok());
+    let Err(SheetError::Coarse { most_mm, .. }) = with_mesh(0.31 * pitch) else {
+        panic!("a mesh without a line between the pads");
+    };
+    assert!((most_mm - 300.0 * pitch).abs() < 1e-9, "{most_mm}");
 }
 
 /// The same scene gives the same bytes, whatever else ran before or beside it.
