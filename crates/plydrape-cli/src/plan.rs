@@ -4,12 +4,11 @@ use crate::failure::{Done, Failure};
 use crate::numbers::short;
 use crate::outcome::{self, exit_code};
 use crate::results::Results;
-use crate::sheet::drape_sheet;
 use crate::watch::{Interrupt, bar};
 use clap::{ValueEnum, value_parser};
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Checkpoint, Planned, Progress};
-use plydrape::scene::{PlanMethod, Scene};
+use plydrape::scene::PlanMethod;
 use plydrape_io::scene::{SceneError, SceneFile};
 use plydrape_io::{Folder, NAMES, ResultFile, input, plan, table};
 use serde::Serialize;
@@ -111,7 +110,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         // the pool cannot be set a second time, and has not been set before
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
-    let sheet = crate::sheet::check(&scene)?;
+    crate::sheet::check(&scene)?;
     let folder = Folder::claim(&results.folder("plan"), "plan")?;
     folder.refuse_inputs(&NAMES, &scene.files)?;
     let verbose = !quiet && !results.json;
@@ -136,11 +135,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     });
     let plan_time_s = start.elapsed().as_secs_f64();
     bar.finish_and_clear();
-    let planned = planned?;
+    let mut planned = planned?;
 
     let mut result = ResultFile::planned(&scene, scene.input.clone(), &planned);
-    let followed = Scene { motion: planned.motion.steps(), ..scene.scene.clone() };
-    let took = drape_sheet(&mut result, &followed, sheet, folder.stage(), &interrupt, quiet)?;
+    let keep = |sheet| result.keep_sheet(sheet, folder.stage());
+    let took = planned.sheet.take().map(keep).transpose()?;
     let files = plan::write_into(folder, &result, &planned.checkpoint, &scene.files)?;
     let printed = Printed {
         method: planned.record.method,

@@ -82,7 +82,7 @@ pub fn for_model(scene: &Arc<SceneFile>, model: Option<&str>) -> PyResult<Arc<Sc
 }
 
 /// Drapes the sheet of a scene too, if its model says so, with its states in the folder for temporary files.
-pub fn drape_sheet(
+fn drape_sheet(
     result: &mut ResultFile,
     scene: &plydrape::scene::Scene,
     watch: &Watch,
@@ -157,14 +157,13 @@ pub fn plan(
     }
     let scene = for_model(&Arc::new(scene), None)?;
     let planned = run(py, progress, move |watch| {
-        let planned = planner::plan(&scene, checkpoint.as_ref(), &mut |progress| {
+        let mut planned = planner::plan(&scene, checkpoint.as_ref(), &mut |progress| {
             watch.tell(progress.evaluations, progress.most, progress.stage)
         })?;
         let mut result = ResultFile::planned(&scene, scene.input.clone(), &planned);
-        let followed =
-            plydrape::scene::Scene { motion: planned.motion.steps(), ..scene.scene.clone() };
-        let draped = drape_sheet(&mut result, &followed, watch);
-        Ok(draped.map(|()| Plan { planned: Arc::new(planned), result: Arc::new(result) }))
+        let keep = |sheet| result.keep_sheet(sheet, &std::env::temp_dir());
+        let kept = planned.sheet.take().map(keep).transpose();
+        Ok(kept.map(|_| Plan { planned: Arc::new(planned), result: Arc::new(result) }))
     })?;
     planned.map_err(|fault| error::plan(&fault))?.map_err(|fault| error::sheet(&fault))
 }
