@@ -142,7 +142,7 @@ impl Search<'_, '_> {
         let strategies = earlier.map_or_else(families, |(strategy, _)| vec![strategy]);
         let of = |strategy| Some((strategy, trajectory(tabulated, heights, strategy)?));
         if let Some((strategy, positions)) = strategies.into_iter().find_map(of) {
-            let score = f64::INFINITY;
+            let score = f64::MAX;
             self.candidates.push(Candidate { strategy, positions, drape: None, score });
         }
     }
