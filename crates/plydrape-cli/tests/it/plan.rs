@@ -401,7 +401,7 @@ fn signalled(scene: &Path, signals: &[(u64, &str)]) -> Output {
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     for (wait, signal) in signals {
         std::thread::sleep(std::time::Duration::from_millis(*wait));
-        let kill = Command::new("kill").args([signal, &child.id().to_string()]).status();
+        let kill = Command::new("kill").args([*signal, &child.id().to_string()]).status();
         assert!(kill.unwrap().success());
     }
     child.wait_with_output().unwrap()
