@@ -142,7 +142,7 @@ impl Search<'_, '_> {
         let strategies = earlier.map_or_else(families, |(strategy, _)| vec![strategy]);
         let of = |strategy| Some((strategy, trajectory(tabulated, heights, strategy)?));
         if let Some((strategy, positions)) = strategies.into_iter().find_map(of) {
-            let score = f64::MAX;
+            let score = f64::INFINITY;
             self.candidates.push(Candidate { strategy, positions, drape: None, score });
         }
     }
@@ -223,10 +223,11 @@ impl Search<'_, '_> {
         self.decide_all(TUNING.search.promising[usize::from(known)], most);
     }
 
-    /// Decides on the best candidates with a score below `promising`, at most so many.
+    /// Decides on the best candidates with a score up to `promising`, at most so many.
     fn decide_all(&mut self, promising: f64, most: usize) {
-        let count = self.candidates.iter().take_while(|c| c.score < promising).count().min(most);
-        if count == 0 || self.shared.state.is_stopped() {
+        let count = self.candidates.iter().take_while(|c| c.score <= promising).count().min(most);
+        let ended = self.shared.state.is_stopped() && !self.shared.state.is_finishing();
+        if count == 0 || ended {
             return;
         }
         let Shared { scene, state, .. } = self.shared;
