@@ -58,7 +58,7 @@ impl Default for Plan {
             steps: 90,
             move_limit: None,
             seed: 0,
-            evaluations: 60,
+            evaluations: 100,
             improve: false,
             rate: 100.0,
         }

@@ -192,7 +192,7 @@ pub const TUNING: Tuning = Tuning {
             [-FRAC_PI_2, FRAC_PI_2],
             [-1.6 - LN_10, 3.4 - LN_10],
             [-4.0, 0.0],
-            [0.0, 1.2e-3],
+            [0.0, 2.5e-3],
         ],
     },
     search: Search {
