@@ -55,6 +55,8 @@ struct Search<'a, 'b> {
     best: Option<Decision>,
     /// The first that could not become a motion.
     fault: Option<MotionError>,
+    /// Rounds in which an accepted plan was not improved.
+    idle: usize,
     /// Drapes that may be tried.
     left: usize,
 }
@@ -77,6 +79,7 @@ pub fn search(
         candidates: Vec::new(),
         best: None,
         fault: None,
+        idle: 0,
         left: scene.plan.evaluations.max(1),
     };
     search.first(checkpoint);
@@ -168,35 +171,26 @@ impl Search<'_, '_> {
             .population_size(TUNING.search.generation)
             .seed(shared.scene.plan.seed.wrapping_add(before));
         let Ok(mut evolution) = options.build(objective) else { return };
-        let mut idle = 0;
-        let patience = if shared.scene.plan.improve { usize::MAX } else { TUNING.search.patience };
-        while !self.is_done() && idle < patience {
-            if self.left < TUNING.search.generation {
-                break;
-            }
+        while !self.is_done() && self.left >= TUNING.search.generation {
             self.left -= TUNING.search.generation;
             let ended = evolution.next_parallel().is_some();
-            let before = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
             self.candidates.append(&mut lock(&found));
             self.rank();
             self.decide(1);
-            // an accepted plan is not improved for long
-            let after = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
-            let accepted = self.best.as_ref().is_some_and(|best| best.drape.accepted);
-            let gained = after < TUNING.search.gain * before;
-            idle = if accepted && !gained { idle + 1 } else { 0 };
             if ended {
                 break;
             }
         }
     }
 
-    /// Whether the search shall end.
+    /// Whether the search shall end: an accepted plan is not improved for long, unless the scene asks for it.
     fn is_done(&self) -> bool {
         let improve = self.shared.scene.plan.improve;
-        let good =
-            |best: &Decision| !improve && best.drape.accepted && best.score <= TUNING.search.good;
-        self.left == 0 || self.shared.state.is_stopped() || self.best.as_ref().is_some_and(good)
+        let enough = |best: &Decision| {
+            let good = best.score <= TUNING.search.good;
+            !improve && best.drape.accepted && (good || self.idle >= TUNING.search.patience)
+        };
+        self.left == 0 || self.shared.state.is_stopped() || self.best.as_ref().is_some_and(enough)
     }
 
     /// Drapes along strategies.
@@ -220,7 +214,12 @@ impl Search<'_, '_> {
     /// Decides on the best candidates that are promising, at most so many.
     fn decide(&mut self, most: usize) {
         let known = !lock(&self.shared.bias).is_empty();
+        let score = |best: &Option<Decision>| best.as_ref().map_or(f64::INFINITY, |b| b.score);
+        let before = score(&self.best);
         self.decide_all(TUNING.search.promising[usize::from(known)], most);
+        let gained = score(&self.best) < TUNING.search.gain * before;
+        let accepted = self.best.as_ref().is_some_and(|best| best.drape.accepted);
+        self.idle = if accepted && !gained { self.idle + 1 } else { 0 };
     }
 
     /// Decides on the best candidates with a score up to `promising`, at most so many.

@@ -124,7 +124,7 @@ pub struct Search {
     pub step: f64,
     /// Candidates of a generation: whole pairs, for two cores.
     pub generation: usize,
-    /// Generations without a gain after which an accepted plan is good enough.
+    /// Rounds of first candidates, or generations, without a gain after which an accepted plan is good enough.
     pub patience: usize,
     /// Ratio of scores that is a gain.
     pub gain: f64,
