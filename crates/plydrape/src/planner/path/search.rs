@@ -216,7 +216,12 @@ impl Search<'_, '_> {
         let known = !lock(&self.shared.bias).is_empty();
         let score = |best: &Option<Decision>| best.as_ref().map_or(f64::INFINITY, |b| b.score);
         let before = score(&self.best);
-        self.decide_all(TUNING.search.promising[usize::from(known)], most);
+        let mut promising = TUNING.search.promising[usize::from(known)];
+        // a plan that is accepted is only replaced by a better one
+        if let Some(best) = self.best.as_ref().filter(|best| best.drape.accepted) {
+            promising = promising.min(TUNING.search.gain * best.score);
+        }
+        self.decide_all(promising, most);
         let gained = score(&self.best) < TUNING.search.gain * before;
         let accepted = self.best.as_ref().is_some_and(|best| best.drape.accepted);
         self.idle = if accepted && !gained { self.idle + 1 } else { 0 };

@@ -196,7 +196,7 @@ pub const TUNING: Tuning = Tuning {
         ],
     },
     search: Search {
-        good: 0.8,
+        good: 0.9,
         promising: [1.4, 1.1],
         excess: 1.1,
         not_draped: 1e2,
@@ -205,7 +205,7 @@ pub const TUNING: Tuning = Tuning {
         kept: 16,
         step: 0.1,
         generation: 8,
-        patience: 2,
+        patience: 1,
         gain: 0.95,
     },
     refinement: Refinement {
