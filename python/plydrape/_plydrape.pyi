@@ -625,6 +625,12 @@ class Plan:
         The checkpoint from which a later search continues: the text of plan.json.
         """
     @property
+    def decisions(self, /) -> int:
+        """
+        How many of these drapes decided on a plan, with the mesh of the scene where the sheet decides; the others ranked
+        candidates.
+        """
+    @property
     def duration(self, /) -> float:
         """
         How long the motion takes (s).
@@ -632,7 +638,7 @@ class Plan:
     @property
     def evaluations(self, /) -> int:
         """
-        Complete drapes that the search tried; of the stepwise planner, steps.
+        Drapes that the search took; of the stepwise planner, steps.
         """
     @property
     def method(self, /) -> str:
@@ -666,6 +672,11 @@ class Plan:
     def result(self, /) -> Result:
         """
         The drape along the planned motion, with all limits judged.
+        """
+    @property
+    def time_over(self, /) -> bool:
+        """
+        Whether the search ended because its time was over.
         """
     @property
     def times(self, /) -> NDArray[float64]:
@@ -1625,23 +1636,30 @@ def plan(
     *,
     method: typing.Literal["path", "stepwise"] | None = None,
     seed: SupportsIndex | None = None,
+    improve: bool | None = None,
+    time: float | str | None = None,
     checkpoint: str | None = None,
     progress: typing.Callable[[int, int, str], object] | None = None,
 ) -> Plan:
     """
     Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
 
-    Where the scene's model is the sheet, the plan is draped by it too, and its verdict counts.
+    Where the scene's model is the sheet, the sheet decides on the plan; the catenaries are draped along it too.
 
-    Other threads of Python run on meanwhile. Ctrl-C raises KeyboardInterrupt at once; to stop early and keep the
-    best so far, give the search fewer `evaluations` in the scene's `plan`.
+    The search ends with a plan that keeps all limits with a margin. Other threads of Python run on meanwhile. Ctrl-C raises
+    KeyboardInterrupt at once; to stop early and keep the best so far, give the search a `time`, or fewer `evaluations`
+    in the scene's `plan`.
 
     Args:
         scene: The scene, with mold and target.
         method: "path" or "stepwise", instead of the scene's.
         seed: Seed of the search, instead of the scene's: the same seed, the same plan.
+        improve: Whether to go on improving a plan that keeps all limits with a margin, until the `evaluations` of the scene's
+            `plan` are used up or the time is over, instead of what the scene says.
+        time: Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
+            drape that decides on that plan may take a little longer.
         checkpoint: Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
-        progress: Called with (drapes done, most, what is done), some 50 times a second.
+        progress: Called with (candidates draped, most, what is done), some 50 times a second.
 
     Returns:
         The best plan found, whether or not it is accepted.
@@ -1649,7 +1667,7 @@ def plan(
     Raises:
         PlanError: If the scene has no mold or target, or `checkpoint` is not of its ply.
         SceneError: If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
-        ValueError: If there is no such method, or `checkpoint` is no plan.json.
+        ValueError: If there is no such method, `time` is no time above zero, or `checkpoint` is no plan.json.
 
     Example:
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")

@@ -42,7 +42,7 @@ def test_a_plan_is_the_command_lines(tmp_path: Path) -> None:
 
 
 def test_a_plan_is_improved_until_its_time_is_over() -> None:
-    """A search that shall improve its plan takes more drapes; one that has hardly time is whole too."""
+    """A search that shall improve its plan takes more drapes; without time it is whole too."""
     scene = plydrape.Scene.read(EXAMPLE)
     first = plydrape.plan(scene)
     improved = plydrape.plan(scene, improve=True)
@@ -52,9 +52,9 @@ def test_a_plan_is_improved_until_its_time_is_over() -> None:
     short = plydrape.plan(scene, improve=True, time="1 ms")
     assert short.time_over and short.evaluations < first.evaluations
     assert plydrape.plan(scene, time=0.001).time_over
-    for time in (0, -1.0, float("nan"), "5 mm", "soon", "0 s"):
+    for refused in (0, -1.0, float("nan"), "5 mm", "soon", "0 s"):
         with pytest.raises(ValueError, match="time"):
-            plydrape.plan(scene, time=time)
+            plydrape.plan(scene, time=refused)
 
 
 def test_a_search_goes_on_from_its_memory() -> None:
