@@ -30,6 +30,8 @@ pub struct Transport {
     pub sampling: f64,
     /// Most places at which it is measured on a way.
     pub most_samples: usize,
+    /// How often the distance between these places is halved around the worst of them.
+    pub halvings: usize,
     /// Rounds in which the height of the carried array is raised until it is kept where corners are rounded, too.
     pub rounds: usize,
     /// Share of the margin that may be missing after these rounds.
@@ -155,6 +157,7 @@ pub const TUNING: Tuning = Tuning {
         divisions: 2,
         sampling: 0.2,
         most_samples: 2000,
+        halvings: 6,
         rounds: 8,
         tolerance: 1e-3,
         forming_height: 1.0,
