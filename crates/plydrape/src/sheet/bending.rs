@@ -52,6 +52,9 @@ impl Bending {
     /// Adds gradient and second derivative.
     pub fn add(&self, x: &[[f64; 3]], system: &mut System) {
         for e in &self.bends {
+            if system.skips(&e.nodes) {
+                continue;
+            }
             let curvature = e.curvature(x);
             for (node, weight) in e.nodes.into_iter().zip(e.weights) {
                 add(&mut system.gradient[node], e.stiffness * weight, curvature);

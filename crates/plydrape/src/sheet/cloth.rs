@@ -47,6 +47,8 @@ pub enum Failure {
     Iterations,
     /// The first step turns segments too far to be linear.
     Turn,
+    /// A node came to the mold from too far away.
+    Landing,
     /// The matrix is not positive definite, or a number is not finite.
     Singular,
 }
@@ -79,6 +81,16 @@ pub struct Cloth<'a> {
     turns: Vec<([f64; 3], [f64; 3])>,
     /// Gradient that acts on blocks of unknowns themselves.
     own: Vec<(u32, [f64; 3])>,
+    /// Whether nodes that lie on the mold among others are no unknowns.
+    pub leaves_out: bool,
+    /// Time steps for which each node has hardly moved.
+    quiet: Vec<u32>,
+    /// Whether each node lies on the mold, or is held by a gripper that stands.
+    lies: Vec<bool>,
+    /// Pairs of nodes that a term couples.
+    pairs: Vec<[u32; 2]>,
+    /// Whether each node is among nodes that lie.
+    pub still: Vec<bool>,
     /// Solved linear systems.
     pub solves: usize,
 }
@@ -127,7 +139,8 @@ impl<'a> Cloth<'a> {
             [[p, q], [q, r], [r, s], [s, p], [p, r], [q, s]]
         });
         let pairs = segments.chain(bends).chain(cells);
-        let system = System::new(&fabric.places, carriers, &blocks, pairs);
+        let pairs: Vec<[u32; 2]> = pairs.collect();
+        let system = System::new(&fabric.places, carriers, &blocks, pairs.iter().copied());
         let contact = sheet.mold.as_ref().map(|mold| {
             let free = |n: &usize| !matches!(system.carrier(*n), Carrier::Held { .. });
             let rubs = |n: usize| !matches!(system.carrier(n), Carrier::Pad { shift: None, .. });
@@ -166,6 +179,11 @@ impl<'a> Cloth<'a> {
             system,
             sheet,
             tuning,
+            leaves_out: false,
+            quiet: vec![0; nodes],
+            lies: vec![false; nodes],
+            pairs,
+            still: vec![false; nodes],
             solves: 0,
         }
     }
@@ -211,7 +229,10 @@ impl<'a> Cloth<'a> {
         for (inertial, (x, v)) in self.inertial.iter_mut().zip(self.now.x.iter().zip(&self.now.v)) {
             *inertial = [0, 1, 2].map(|n| x[n] + dt * v[n]);
         }
-        let found = self.iterate(targets, dt, tolerance);
+        let mut found = self.iterate(targets, dt, tolerance);
+        if found.is_ok() && self.lands_too_far() {
+            found = Err(Failure::Landing);
+        }
         if found.is_err() {
             self.now.copy_from(&self.before);
             return found;
@@ -219,15 +240,26 @@ impl<'a> Cloth<'a> {
         for (v, (x, before)) in self.now.v.iter_mut().zip(self.now.x.iter().zip(&self.before.x)) {
             *v = [0, 1, 2].map(|n| (x[n] - before[n]) / dt);
         }
+        let most = self.tuning.lying_movement * self.sheet.mesh;
+        for (quiet, (x, before)) in self.quiet.iter_mut().zip(self.now.x.iter().zip(&self.before.x))
+        {
+            *quiet = if norm(sub(*x, *before)) <= most { *quiet + 1 } else { 0 };
+        }
         if let Some(contact) = &mut self.contact {
             contact.update(&self.now.x);
         }
         found
     }
 
-    /// Whether the ply touches the mold, or may in a step that moves its grippers so far (m).
-    pub fn is_near_contact(&self, way: f64) -> bool {
-        self.contact.as_ref().is_some_and(|contact| contact.is_near(&self.now.x, way))
+    /// Longest time step (s), if not longer than `enough`, in which free nodes come to the mold by no more than the way that
+    /// [`Tuning::contact_way`] allows, if they go on as in the last one.
+    pub fn longest_step(&mut self, enough: f64) -> f64 {
+        let most = self.tuning.contact_way * self.sheet.pitch;
+        let Motion { x, v, .. } = &self.now;
+        match &mut self.contact {
+            Some(contact) => contact.longest_time(x, v, most, enough),
+            None => enough,
+        }
     }
 
     /// Largest movement of a node in the last time step (m).
@@ -236,11 +268,22 @@ impl<'a> Cloth<'a> {
         moved.fold(0.0, f64::max)
     }
 
+    /// Whether grippers and a node that came to the mold went farther in the last time step than twice what
+    /// [`Tuning::contact_way`] allows.
+    fn lands_too_far(&self) -> bool {
+        let most = 2.0 * self.tuning.contact_way * self.sheet.pitch;
+        let pads = self.now.pads.iter().zip(&self.before.pads);
+        let far = pads.into_iter().any(|(a, b)| norm(sub(a.target, b.target)) > most);
+        let landing = |contact: &Contact| contact.landing_way(&self.before.x, &self.now.x) > most;
+        far && self.contact.as_ref().is_some_and(landing)
+    }
+
     fn iterate(&mut self, targets: &[[f64; 3]], dt: f64, tolerance: f64) -> Result<usize, Failure> {
         self.stretch.start(&self.now.x);
         self.aim(targets);
         self.whole = true;
         self.assemble(dt, true);
+        self.leave_out();
         for iteration in 0..self.tuning.iterations {
             let mut turn = self.solve();
             if turn.is_err() && self.whole {
@@ -253,10 +296,10 @@ impl<'a> Cloth<'a> {
                 return Err(Failure::Turn);
             }
             // contact and friction that switch to and fro settle in shorter steps
-            let most = if iteration < self.tuning.full_iterations { 1.0 } else { 0.5 };
+            let switched = self.contact.as_ref().is_some_and(|contact| contact.changed);
+            let late = iteration >= self.tuning.full_iterations;
+            let most = if late && switched { 0.5 } else { 1.0 };
             let share = (self.tuning.turn / turn).min(most);
-            let step = &self.step;
-            self.stretch.predict(&self.now.x, |n| step[n], share);
             let largest = self.take(share);
             if !largest.is_finite() {
                 return Err(Failure::Singular);
@@ -265,8 +308,57 @@ impl<'a> Cloth<'a> {
                 return Ok(iteration + 1);
             }
             self.assemble(dt, false);
+            // what a linear step neglects is the square of its turn
+            let small = share == 1.0 && turn * turn * self.sheet.pitch <= tolerance;
+            if small && self.is_solved(tolerance) {
+                return Ok(iteration + 1);
+            }
         }
         Err(Failure::Iterations)
+    }
+
+    /// Whether another step, with the matrix of the step before, moves no node by more than the tolerance (m) while the same
+    /// nodes touch; it is taken then.
+    fn is_solved(&mut self, tolerance: f64) -> bool {
+        if self.contact.as_ref().is_some_and(|contact| contact.changed) {
+            return false;
+        }
+        self.system.solve();
+        let small =
+            self.linear_step().is_ok() && self.step.iter().all(|step| norm(*step) <= tolerance);
+        if small {
+            self.take(1.0);
+        }
+        small
+    }
+
+    /// Leaves nodes out of the linear systems of this time step that lie on the mold, hardly moved in the last ones, and
+    /// have only such nodes around them.
+    fn leave_out(&mut self) {
+        self.lies.fill(false);
+        let sticks = |contact: &&Contact| self.leaves_out && contact.sticks();
+        if let Some(contact) = self.contact.as_ref().filter(sticks) {
+            let most = self.tuning.lying_movement * self.sheet.mesh;
+            for node in contact.lying(&self.now.x, &self.system.gradient, most) {
+                self.lies[node] = true;
+            }
+            let weight = self.sheet.gravity * self.tuning.lying_force;
+            for (node, lies) in self.lies.iter_mut().enumerate() {
+                *lies |= match self.system.carrier(node) {
+                    Carrier::Free { .. } => {
+                        norm(self.system.gradient[node]) <= weight * self.masses[node]
+                    }
+                    _ => norm(self.system.moved[node]) <= most,
+                };
+                *lies &= self.quiet[node] >= self.tuning.lying_steps;
+            }
+        }
+        self.still.copy_from_slice(&self.lies);
+        for [a, b] in self.pairs.iter().map(|pair| pair.map(|node| node as usize)) {
+            self.still[a] &= self.lies[b];
+            self.still[b] &= self.lies[a];
+        }
+        self.system.keep_still(&self.still);
     }
 
     /// New places of the mounts; rigid ones move their nodes in the first step.
@@ -288,8 +380,9 @@ impl<'a> Cloth<'a> {
     /// Gradient and second derivative of the incremental potential.
     fn assemble(&mut self, dt: f64, predicts: bool) {
         let Cloth { system, now, .. } = self;
-        system
-            .begin(predicts, |node, gripper| sub(now.x[node], now.pads[gripper as usize].position));
+        system.begin(predicts, !predicts, |node, gripper| {
+            sub(now.x[node], now.pads[gripper as usize].position)
+        });
         for (node, mass) in self.masses.iter().enumerate() {
             let rate = mass / (dt * dt);
             let off = sub(now.x[node], self.inertial[node]);
@@ -297,6 +390,8 @@ impl<'a> Cloth<'a> {
             system.stiffen_scalar(node, rate);
         }
         self.add_energies();
+        self.hold_pads();
+        self.system.end(&self.own, self.whole);
     }
 
     /// Gradient and second derivative of the energy.
@@ -324,9 +419,14 @@ impl<'a> Cloth<'a> {
     /// The linear step of all nodes; returns the largest turn of a segment in it (rad).
     fn solve(&mut self) -> Result<f64, Failure> {
         self.solves += 1;
-        self.hold_pads();
-        let system = &mut self.system;
-        system.solve(&self.own, self.whole).map_err(|_| Failure::Singular)?;
+        self.system.factorize().map_err(|_| Failure::Singular)?;
+        self.system.solve();
+        self.linear_step()
+    }
+
+    /// Reads the linear step of all nodes; returns the largest turn of a segment in it (rad).
+    fn linear_step(&mut self) -> Result<f64, Failure> {
+        let system = &self.system;
         for (node, step) in self.step.iter_mut().enumerate() {
             *step = match system.carrier(node) {
                 Carrier::Free { block } => system.step(block),
@@ -384,6 +484,8 @@ impl<'a> Cloth<'a> {
 
     /// Takes a share of the linear step; returns the largest movement of a node (m).
     fn take(&mut self, share: f64) -> f64 {
+        let step = &self.step;
+        self.stretch.predict(&self.now.x, |n| step[n], share);
         for ((pad, nodes), (turn, moved)) in
             self.now.pads.iter_mut().zip(&self.held).zip(&self.turns)
         {
@@ -439,7 +541,7 @@ impl<'a> Cloth<'a> {
     fn evaluate(&mut self) {
         let now = &self.now;
         let arm = |node: usize, gripper: u32| sub(now.x[node], now.pads[gripper as usize].position);
-        self.system.begin(false, arm);
+        self.system.begin(false, false, arm);
         self.add_energies();
     }
 

@@ -30,6 +30,8 @@ struct Point {
     anchor: Option<Anchor>,
     /// Largest force of the spring along the mold (N).
     bound: f64,
+    /// Whether the mold pressed it, and whether it slipped, when forces were added last.
+    acts: [bool; 2],
 }
 
 /// Contact of all nodes that grippers do not hold.
@@ -45,6 +47,8 @@ pub struct Contact<'a> {
     friction: Friction,
     tack: f64,
     points: Vec<Point>,
+    /// Whether other nodes were pressed or slipped when forces were added last than the time before.
+    pub changed: bool,
 }
 
 impl<'a> Contact<'a> {
@@ -65,6 +69,7 @@ impl<'a> Contact<'a> {
             clear: f64::NEG_INFINITY,
             anchor: None,
             bound: 0.0,
+            acts: [false; 2],
         };
         Contact {
             mold,
@@ -74,6 +79,7 @@ impl<'a> Contact<'a> {
             friction,
             tack,
             points: nodes.map(point).collect(),
+            changed: true,
         }
     }
 
@@ -107,31 +113,44 @@ impl<'a> Contact<'a> {
 
     /// Adds gradient and second derivative.
     pub fn add(&mut self, x: &[[f64; 3]], system: &mut System) {
+        self.changed = false;
         for n in 0..self.points.len() {
-            let (node, at) = (self.points[n].node, x[self.points[n].node]);
-            let k = self.stiffness * self.points[n].area;
-            if let Some(anchor) = self.points[n].anchor {
-                self.hold(&self.points[n], anchor, at, system);
-            }
-            if self.is_clear(&self.points[n], at) {
+            let at = x[self.points[n].node];
+            if system.skips(&[self.points[n].node]) {
                 continue;
             }
-            let closest = self.mold.closest_point(at);
-            let distance = if closest.beyond { f64::INFINITY } else { closest.distance };
-            let point = &mut self.points[n];
-            (point.seen, point.clear) = (at, if closest.beyond { 0.0 } else { distance });
-            if distance < 0.0 && !self.holds_for_ever(&self.points[n]) {
-                // the blended normal of a mesh would leave a node outside that it should bring to the surface
-                let normal = self.mold.distance_gradient(at, &closest);
-                add(&mut system.gradient[node], k * distance, normal);
-                let normal = outer(normal, normal);
-                system.stiffen(node, &normal.map(|row| row.map(|c| k * c)));
-            }
+            let slips = self.points[n]
+                .anchor
+                .is_some_and(|anchor| self.hold(&self.points[n], anchor, at, system));
+            let acts = [self.press(n, at, system), slips];
+            self.changed |= acts != self.points[n].acts;
+            self.points[n].acts = acts;
         }
     }
 
-    /// Adds the spring along the mold.
-    fn hold(&self, point: &Point, anchor: Anchor, at: [f64; 3], system: &mut System) {
+    /// Adds the pressure of the mold on a node, if there is any.
+    fn press(&mut self, n: usize, at: [f64; 3], system: &mut System) -> bool {
+        if self.is_clear(&self.points[n], at) {
+            return false;
+        }
+        let closest = self.mold.closest_point(at);
+        let distance = if closest.beyond { f64::INFINITY } else { closest.distance };
+        let point = &mut self.points[n];
+        (point.seen, point.clear) = (at, if closest.beyond { 0.0 } else { distance });
+        let (node, k) = (point.node, self.stiffness * point.area);
+        if distance >= 0.0 || self.holds_for_ever(&self.points[n]) {
+            return false;
+        }
+        // the blended normal of a mesh would leave a node outside that it should bring to the surface
+        let normal = self.mold.distance_gradient(at, &closest);
+        add(&mut system.gradient[node], k * distance, normal);
+        let normal = outer(normal, normal);
+        system.stiffen(node, &normal.map(|row| row.map(|c| k * c)));
+        true
+    }
+
+    /// Adds the spring along the mold; returns whether the node slips.
+    fn hold(&self, point: &Point, anchor: Anchor, at: [f64; 3], system: &mut System) -> bool {
         let k = self.shear_stiffness * point.area;
         let off = self.offset(anchor, at);
         let size = norm(off);
@@ -139,7 +158,7 @@ impl<'a> Contact<'a> {
         let slips = matches!(self.friction, Friction::Coulomb(_)) && k * size > point.bound;
         let stiffness = if slips { point.bound / size } else { k };
         if stiffness == 0.0 {
-            return;
+            return slips;
         }
         add(&mut system.gradient[point.node], stiffness, off);
         for n in 0..3 {
@@ -152,6 +171,7 @@ impl<'a> Contact<'a> {
             subtract(&mut spring, stiffness, off.map(|c| c / size));
         }
         system.stiffen(point.node, &spring);
+        slips
     }
 
     /// After a time step: nodes that touch the mold get an anchor where they are, so that it stores no energy, those that
@@ -215,11 +235,56 @@ impl<'a> Contact<'a> {
         self.friction == Friction::StickForEver && point.anchor.is_some()
     }
 
-    /// Whether any node is anchored, or may come as near as `reach` (m).
-    pub fn is_near(&self, x: &[[f64; 3]], reach: f64) -> bool {
-        self.points.iter().any(|point| {
-            point.anchor.is_some() || point.clear - distance(x[point.node], point.seen) < reach
-        })
+    /// Longest time (s) in which no node that is free of the mold goes farther than its distance from it, or farther than
+    /// `most` (m) where it is nearer than that. Nodes go with the velocities `v` (m/s). No times above `enough` (s) are told
+    /// apart.
+    pub fn longest_time(&mut self, x: &[[f64; 3]], v: &[[f64; 3]], most: f64, enough: f64) -> f64 {
+        let mut longest = enough;
+        for point in &mut self.points {
+            let (at, speed) = (x[point.node], norm(v[point.node]));
+            if point.anchor.is_some() || speed * longest <= most {
+                continue;
+            }
+            if speed * longest > point.clear - distance(at, point.seen) {
+                let closest = self.mold.closest_point(at);
+                point.seen = at;
+                point.clear = if closest.beyond { 0.0 } else { closest.distance };
+            }
+            longest = longest.min(point.clear.max(most) / speed);
+        }
+        longest
+    }
+
+    /// Farthest way (m) from `before` to `now` of a node that came to the mold in between.
+    pub fn landing_way(&self, before: &[[f64; 3]], now: &[[f64; 3]]) -> f64 {
+        let lands = |point: &&Point| point.anchor.is_none() && point.rubs && point.clear < 0.0;
+        let way = |point: &Point| distance(before[point.node], now[point.node]);
+        self.points.iter().filter(lands).map(way).fold(0.0, f64::max)
+    }
+
+    /// Whether an anchor stays where it is as long as its node touches.
+    pub fn sticks(&self) -> bool {
+        !matches!(self.friction, Friction::Coulomb(_))
+    }
+
+    /// The nodes that stay on the mold by themselves, if all of their neighbours stay: those that are anchored and pressed,
+    /// and which the forces on them, whose gradient is given (N), neither lift nor move by more than `most` (m).
+    pub fn lying(
+        &self,
+        x: &[[f64; 3]],
+        gradient: &[[f64; 3]],
+        most: f64,
+    ) -> impl Iterator<Item = usize> {
+        let lies = move |point: &&Point| {
+            let Some(anchor) = point.anchor else { return false };
+            let (off, total) = (sub(x[point.node], anchor.point), gradient[point.node]);
+            let k = self.stiffness * point.area;
+            // what the mold has to carry: the pressure of now, and what is out of balance
+            let normal = (-k * dot(off, anchor.normal)).max(0.0) + dot(total, anchor.normal);
+            let pressed = point.acts[0] && normal > 0.0 || self.holds_for_ever(point);
+            pressed && norm(total) <= most * k
+        };
+        self.points.iter().filter(lies).map(|point| point.node)
     }
 
     /// The nodes that touch.

@@ -202,6 +202,7 @@ impl Run<'_> {
             _ => (stretched, f64::INFINITY),
         };
         let tolerance = self.tuning.step_tolerance * self.sheet.mesh;
+        self.cloth.leaves_out = true;
         let mut done = 0.0;
         // a motion in its own time needs so many steps at least
         let mut tries = self.tuning.tries + (2.0 * duration / longest) as usize;
@@ -213,11 +214,11 @@ impl Run<'_> {
                 return Err(Ended::NotSolved);
             }
             tries -= 1;
-            let mut share = self.share.min(1.0 - done).min(longest / duration);
-            let most = self.tuning.contact_way * self.sheet.pitch;
-            if way * share > most && self.cloth.is_near_contact(way * share) {
-                share = most / way;
-            }
+            let most = self.share.min(1.0 - done).min(longest / duration);
+            let least = self.tuning.contact_way * self.sheet.pitch / way;
+            let share = (self.cloth.longest_step(most * duration) / duration).max(least).min(most);
+            // steps of one length to the end
+            let share = (1.0 - done) / ((1.0 - done) / share - 1e-9).ceil();
             let next = if done + share > 1.0 - 1e-9 { 1.0 } else { done + share };
             for (target, (a, b)) in self.targets.iter_mut().zip(from.iter().zip(to)) {
                 *target = between(*a, *b, next);
@@ -254,6 +255,7 @@ impl Run<'_> {
     fn rest(&mut self, at: &[[f64; 3]]) -> bool {
         let tolerance = self.tuning.rest_tolerance * self.sheet.mesh;
         let longest = self.stretched(self.sheet.pitch);
+        self.cloth.leaves_out = false;
         let mut dt = 0.01 * longest;
         for _ in 0..self.tuning.rest_steps {
             if (self.stop)() {

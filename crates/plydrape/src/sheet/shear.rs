@@ -83,6 +83,9 @@ impl Shear {
     /// Adds gradient and second derivative, all of it or its positive parts.
     pub fn add(&self, x: &[[f64; 3]], whole: bool, system: &mut System) {
         for e in &self.cells {
+            if system.skips(&e.nodes) {
+                continue;
+            }
             let lines = MidLines::of(e.nodes.map(|n| x[n]));
             let (size, slope) = self.curve.force(lines.angle);
             let stress = if lines.angle < 0.0 { -size } else { size };

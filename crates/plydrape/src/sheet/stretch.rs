@@ -61,6 +61,9 @@ impl Stretch {
     pub fn add(&self, x: &[[f64; 3]], whole: bool, system: &mut System) {
         for ((s, pair), predicted) in self.segments.iter().zip(&self.pairs).zip(&self.predicted) {
             let [a, b] = s.nodes.map(|node| node as usize);
+            if system.skips(&[a, b]) {
+                continue;
+            }
             let (unit, length) = direction(x[a], x[b]);
             let [_, tension, slope] = self.law.tension(length / s.length - 1.0);
             add(&mut system.gradient[b], tension * s.width, unit);

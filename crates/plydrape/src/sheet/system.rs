@@ -54,6 +54,13 @@ pub struct System {
     /// What the movement of held nodes adds to the gradient of each node (N).
     pulled: Vec<[f64; 3]>,
     arms: Vec<[f64; 3]>,
+    /// Nodes that stay where they are, and whether terms of such nodes alone are left out of the sums.
+    still: Vec<bool>,
+    skips: bool,
+    /// Whether each block of unknowns is that of a node that stays where it is.
+    out: Vec<bool>,
+    /// Right-hand side, what pulls at the unknowns.
+    right: Vec<f64>,
     step: Vec<f64>,
 }
 
@@ -90,9 +97,30 @@ impl System {
             predicts: false,
             pulled: vec![[0.0; 3]; nodes],
             arms: vec![[0.0; 3]; nodes],
+            still: vec![false; nodes],
+            skips: false,
+            out: vec![false; block_places.len()],
+            right: vec![0.0; 3 * block_places.len()],
             step: vec![0.0; 3 * block_places.len()],
             matrix,
         }
+    }
+
+    /// Decides which free nodes stay where they are, from now on.
+    pub fn keep_still(&mut self, still: &[bool]) {
+        for (node, carrier) in self.carriers.iter().enumerate() {
+            if let Carrier::Free { block } = carrier {
+                self.still[node] = still[node];
+                self.out[*block as usize] = self.still[node];
+            }
+        }
+        let out = &self.out;
+        self.cholesky.leave_out(|block| out[block]);
+    }
+
+    /// Whether a term of these nodes is left out, because all of them stay where they are.
+    pub fn skips(&self, nodes: &[usize]) -> bool {
+        self.skips && nodes.iter().all(|node| self.still[*node])
     }
 
     /// A pair of nodes for [`System::couple`].
@@ -112,12 +140,14 @@ impl System {
     }
 
     /// Begins a system. `arm` gives a pad node's arm from its gripper (m); with `predicts`, the movement of held nodes
-    /// ([`System::moved`]) adds to the gradient of their neighbours.
-    pub fn begin(&mut self, predicts: bool, arm: impl Fn(usize, u32) -> [f64; 3]) {
+    /// ([`System::moved`]) adds to the gradient of their neighbours; with `skips`, terms of nodes alone that stay where they are
+    /// are left out.
+    pub fn begin(&mut self, predicts: bool, skips: bool, arm: impl Fn(usize, u32) -> [f64; 3]) {
         self.matrix.clear();
         self.gradient.fill([0.0; 3]);
         self.pulled.fill([0.0; 3]);
         self.predicts = predicts;
+        self.skips = skips;
         for (node, carrier) in self.carriers.iter().enumerate() {
             if let Carrier::Pad { gripper, .. } = carrier {
                 self.arms[node] = arm(node, *gripper);
@@ -201,42 +231,46 @@ impl System {
         self.matrix.add_diagonal(block, k);
     }
 
-    /// Solves for Newton's step. `own` is what acts on blocks of unknowns themselves. How the forces on a pad act on its
-    /// turn by their arms is added here, all of it (`whole`) or its positive parts.
-    ///
-    /// # Errors
-    /// If the matrix is not positive definite.
-    pub fn solve(
-        &mut self,
-        own: &[(u32, [f64; 3])],
-        whole: bool,
-    ) -> Result<(), NotPositiveDefinite> {
-        self.step.fill(0.0);
+    /// Ends the assembly. `own` is what acts on blocks of unknowns themselves. How the forces on a pad act on its turn by
+    /// their arms is added here, all of it (`whole`) or its positive parts.
+    pub fn end(&mut self, own: &[(u32, [f64; 3])], whole: bool) {
+        self.right.fill(0.0);
         for (node, carrier) in self.carriers.iter().enumerate() {
             let force = self.gradient[node];
             let g = along(force, 1.0, self.pulled[node]);
             match *carrier {
-                Carrier::Free { block } => add_at(&mut self.step, block, g),
+                Carrier::Free { block } => add_at(&mut self.right, block, g),
                 Carrier::Held { .. } => {}
                 Carrier::Pad { turn, shift, .. } => {
                     let arm = self.arms[node];
-                    add_at(&mut self.step, turn, cross(arm, g));
+                    add_at(&mut self.right, turn, cross(arm, g));
                     if let Some(shift) = shift {
-                        add_at(&mut self.step, shift, g);
+                        add_at(&mut self.right, shift, g);
                     }
                     self.matrix.add_diagonal(turn as usize, &lever(force, arm, whole));
                 }
             }
         }
         for (block, g) in own {
-            add_at(&mut self.step, *block, *g);
+            add_at(&mut self.right, *block, *g);
         }
-        for value in &mut self.step {
+        for value in &mut self.right {
             *value = -*value;
         }
-        self.cholesky.factorize(&self.matrix)?;
+    }
+
+    /// Factorizes the matrix.
+    ///
+    /// # Errors
+    /// If it is not positive definite.
+    pub fn factorize(&mut self) -> Result<(), NotPositiveDefinite> {
+        self.cholesky.factorize(&self.matrix)
+    }
+
+    /// Solves for Newton's step with the matrix that was factorized last.
+    pub fn solve(&mut self) {
+        self.step.copy_from_slice(&self.right);
         self.cholesky.solve(&mut self.step);
-        Ok(())
     }
 
     /// The matrix times a direction at each free node.

@@ -24,13 +24,21 @@ pub struct Tuning {
     pub turn: f64,
     /// Most iterations of a time step before it is halved.
     pub iterations: usize,
-    /// Iterations of full steps; half of each step is taken in those that follow, which ends cycles of contact.
+    /// Iterations of full steps; in those that follow, half of each step in which contact or slip switched is taken, which
+    /// ends cycles of contact.
     pub full_iterations: usize,
     /// A time step that took no more than these is followed by one twice as long.
     pub easy_iterations: usize,
-    /// Largest way (of the pitch) that grippers go in a time step in which the ply touches the mold: a node is
-    /// held where it is at the end of the step in which it touches.
+    /// Way (of the pitch) that a node may go in the time step in which it comes to the mold: it is held where it is at the
+    /// end of this step. A time step is no longer than that in which every free node goes this way or its distance from the
+    /// mold, the larger of the two.
     pub contact_way: f64,
+    /// Largest movement in a time step (of the mesh) of a node that lies on the mold.
+    pub lying_movement: f64,
+    /// Time steps for which it has not moved more, before it is left out of the linear systems.
+    pub lying_steps: u32,
+    /// Largest force (of its own weight) that is out of balance at such a node where the mold does not press it.
+    pub lying_force: f64,
     /// Longest time step of a motion in its own time, as a share of √(pitch/g), the time of a swing: implicit steps damp
     /// what is faster.
     pub real_step: f64,
@@ -63,6 +71,9 @@ impl Default for Tuning {
             full_iterations: 8,
             easy_iterations: 6,
             contact_way: 0.01,
+            lying_movement: 1e-4,
+            lying_steps: 2,
+            lying_force: 0.1,
             real_step: 0.02,
             smallest_step: 1e-4,
             tries: 400,

@@ -7,6 +7,7 @@
 use super::kernel::{self, COLUMNS, Column, ROWS};
 use super::supernode::PANEL_NODES;
 use pulp::{Simd, WithSimd};
+use std::ops::Range;
 
 /// Sizes of a front.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,68 +60,151 @@ pub fn update_start(i: usize) -> usize {
     ROWS * i * (i + 1) / 2
 }
 
-/// Eliminates the pivots of a front.
-pub struct Elimination<'a> {
-    pub shape: Shape,
-    /// Assembled pivot columns; on return the columns of L with the reciprocals of its diagonal.
-    pub factor: &'a mut [Column],
-    /// Assembled lower triangle of the update rows; on return the update.
-    pub update: &'a mut [Column],
+/// Eliminates the pivots of a front. `factor` has the assembled pivot columns, on return the columns of L with the
+/// reciprocals of its diagonal; `update` the assembled lower triangle of the update rows, on return the update. A front of
+/// so many panels of update rows as `split` is eliminated on several threads.
+///
+/// # Errors
+/// The pivot (a row of the front) that is not positive.
+pub fn eliminate(
+    shape: Shape,
+    factor: &mut [Column],
+    update: &mut [Column],
+    split: usize,
+) -> Result<(), usize> {
+    let columns = shape.columns();
+    let (head, tail) = factor.split_at_mut(shape.pivot_panels() * columns);
+    kernel::dispatch(Pivots { columns, head })?;
+    below(columns, head, tail, split);
+    remainder(columns, tail, update, 0..shape.update_panels(), split);
+    Ok(())
 }
 
-impl WithSimd for Elimination<'_> {
-    /// The pivot (a row of the front) that is not positive, if there is one.
+/// The columns of L on the update rows; panels do not depend on each other.
+fn below(columns: usize, head: &[Column], tail: &mut [Column], split: usize) {
+    let panels = tail.len() / columns;
+    if panels < split.max(2) {
+        kernel::dispatch(Below { columns, head, tail });
+        return;
+    }
+    let (first, second) = tail.split_at_mut(panels / 2 * columns);
+    rayon::join(|| below(columns, head, first, split), || below(columns, head, second, split));
+}
+
+/// What remains on the update rows of some panels; panels do not depend on each other.
+fn remainder(
+    columns: usize,
+    tail: &[Column],
+    update: &mut [Column],
+    panels: Range<usize>,
+    split: usize,
+) {
+    if panels.len() < split.max(2) {
+        kernel::dispatch(Remainder { columns, tail, update, panels });
+        return;
+    }
+    let middle = panels.start + panels.len() / 2;
+    let (first, second) = update.split_at_mut(update_start(middle) - update_start(panels.start));
+    rayon::join(
+        || remainder(columns, tail, first, panels.start..middle, split),
+        || remainder(columns, tail, second, middle..panels.end, split),
+    );
+}
+
+/// Factorizes the pivot rows.
+pub struct Pivots<'a> {
+    pub columns: usize,
+    pub head: &'a mut [Column],
+}
+
+impl WithSimd for Pivots<'_> {
+    /// The pivot that is not positive, if there is one.
     type Output = Result<(), usize>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Self { shape, factor, update } = self;
-        let (columns, pivot_panels) = (shape.columns(), shape.pivot_panels());
-        for i in 0..shape.panels() {
-            let (above, panel) = factor.split_at_mut(i * columns);
+        let Self { columns, head } = self;
+        for i in 0..head.len() / columns {
+            let (above, panel) = head.split_at_mut(i * columns);
             let panel = &mut panel[..columns];
-            // the columns of the panels above
-            for (j, l) in above.chunks_exact(columns).take(pivot_panels).enumerate() {
-                let end = (ROWS * (j + 1)).min(columns);
-                for first in (ROWS * j..end).step_by(COLUMNS) {
-                    let (a, c) = tile(panel, first);
-                    let (b, l) = (&l[..first], columns_at(l, first));
-                    match first % ROWS {
-                        0 => kernel::eliminate::<S, 0>(simd, c, a, b, l),
-                        4 => kernel::eliminate::<S, 4>(simd, c, a, b, l),
-                        _ => kernel::eliminate::<S, 8>(simd, c, a, b, l),
-                    }
-                }
-            }
-            if i < pivot_panels {
-                // its own columns
-                for first in (ROWS * i..(ROWS * (i + 1)).min(columns)).step_by(COLUMNS) {
-                    let (a, c) = tile(panel, first);
-                    let pivot = match first % ROWS {
-                        0 => diagonal::<S, 0>(simd, c, a),
-                        4 => diagonal::<S, 4>(simd, c, a),
-                        _ => diagonal::<S, 8>(simd, c, a),
-                    };
-                    pivot.map_err(|j| first + j)?;
-                }
-            } else {
-                // what remains on the update rows
-                let row = i - pivot_panels;
-                let c = &mut update[update_start(row)..update_start(row + 1)];
-                for (j, c) in c.chunks_exact_mut(ROWS).enumerate() {
-                    let b = if j == row {
-                        &*panel
-                    } else {
-                        &above[(pivot_panels + j) * columns..][..columns]
-                    };
-                    let (c, _) = c.as_chunks_mut::<COLUMNS>();
-                    kernel::subtract_product::<S, 0>(simd, &mut c[0], panel, b);
-                    kernel::subtract_product::<S, 4>(simd, &mut c[1], panel, b);
-                    kernel::subtract_product::<S, 8>(simd, &mut c[2], panel, b);
-                }
+            eliminate_above(simd, columns, above, panel);
+            // its own columns
+            for first in (ROWS * i..(ROWS * (i + 1)).min(columns)).step_by(COLUMNS) {
+                let (a, c) = tile(panel, first);
+                let pivot = match first % ROWS {
+                    0 => diagonal::<S, 0>(simd, c, a),
+                    4 => diagonal::<S, 4>(simd, c, a),
+                    _ => diagonal::<S, 8>(simd, c, a),
+                };
+                pivot.map_err(|j| first + j)?;
             }
         }
         Ok(())
+    }
+}
+
+/// Gives the columns of L on panels of update rows.
+pub struct Below<'a> {
+    pub columns: usize,
+    pub head: &'a [Column],
+    pub tail: &'a mut [Column],
+}
+
+impl WithSimd for Below<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { columns, head, tail } = self;
+        for panel in tail.chunks_exact_mut(columns) {
+            eliminate_above(simd, columns, head, panel);
+        }
+    }
+}
+
+/// Subtracts `L₂₁ L₂₁ᵀ` from panels of the update.
+pub struct Remainder<'a> {
+    pub columns: usize,
+    pub tail: &'a [Column],
+    /// The part of the update that has the panels.
+    pub update: &'a mut [Column],
+    pub panels: Range<usize>,
+}
+
+impl WithSimd for Remainder<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { columns, tail, update, panels } = self;
+        let begin = update_start(panels.start);
+        for row in panels {
+            let panel = &tail[row * columns..][..columns];
+            let c = &mut update[update_start(row) - begin..update_start(row + 1) - begin];
+            for (c, b) in c.chunks_exact_mut(ROWS).zip(tail.chunks_exact(columns)) {
+                let (c, _) = c.as_chunks_mut::<COLUMNS>();
+                kernel::subtract_product::<S, 0>(simd, &mut c[0], panel, b);
+                kernel::subtract_product::<S, 4>(simd, &mut c[1], panel, b);
+                kernel::subtract_product::<S, 8>(simd, &mut c[2], panel, b);
+            }
+        }
+    }
+}
+
+/// The columns of L of a panel that belong to the panels above.
+#[inline(always)]
+fn eliminate_above<S: Simd>(simd: S, columns: usize, above: &[Column], panel: &mut [Column]) {
+    for (j, l) in above.chunks_exact(columns).enumerate() {
+        let end = (ROWS * (j + 1)).min(columns);
+        for first in (ROWS * j..end).step_by(COLUMNS) {
+            let (a, c) = tile(panel, first);
+            let (b, l) = (&l[..first], columns_at(l, first));
+            match first % ROWS {
+                0 => kernel::eliminate::<S, 0>(simd, c, a, b, l),
+                4 => kernel::eliminate::<S, 4>(simd, c, a, b, l),
+                _ => kernel::eliminate::<S, 8>(simd, c, a, b, l),
+            }
+        }
     }
 }
 

@@ -6,7 +6,8 @@
 //! 4. `analysis`: where everything is stored;
 //! 5. `assembly`: a front is the sum of blocks of the matrix and of the updates of its children;
 //! 6. `front`, `kernel`: dense elimination of the pivots of a front;
-//! 7. `substitution`: solutions, front by front.
+//! 7. `restriction`: the same without some of the nodes;
+//! 8. `substitution`: solutions, front by front.
 //!
 //! Order and fronts depend on the pattern only and are found once. Multifrontal method: Duff and Reid 1983; Liu 1992,
 //! "The multifrontal method for sparse matrix solution: theory and practice".
@@ -17,6 +18,7 @@ mod block_matrix;
 mod front;
 mod graph;
 mod kernel;
+mod restriction;
 mod substitution;
 mod supernode;
 mod tuning;
@@ -29,9 +31,10 @@ pub use tuning::Tuning;
 
 use analysis::Front;
 use assembly::Addition;
-use front::{Elimination, Shape};
+use front::Shape;
 use graph::Graph;
 use kernel::Column;
+use restriction::{OUT, Restriction};
 use substitution::{Backward, Forward};
 use supernode::{PANEL_NODES, Supernodes};
 
@@ -48,8 +51,15 @@ pub struct NotPositiveDefinite {
 pub struct Cholesky {
     /// The node at each place of the order of elimination.
     order: Vec<u32>,
+    /// The same of the nodes that are not left out.
+    remaining: Vec<u32>,
+    /// For each place in the whole order that among the remaining nodes.
+    places: Vec<u32>,
+    restriction: Restriction,
     /// Fronts, children before parents.
     fronts: Vec<Front>,
+    /// Panels of update rows from which on a front is eliminated on several threads.
+    split_panels: usize,
     /// Number of blocks of the matrix, to recognize another pattern.
     blocks: usize,
     /// Columns of L, front by front.
@@ -84,12 +94,20 @@ impl Cholesky {
         };
         let panels = [Shape::pivot_panels, Shape::panels].map(|of| shapes().map(of).max());
         Self {
+            split_panels: if n < tuning.thread_nodes {
+                usize::MAX
+            } else {
+                tuning.split_rows.div_ceil(PANEL_NODES)
+            },
             blocks: matrix.blocks().len(),
             factor: vec![Column::ZERO; shapes().map(Shape::factor_len).sum()],
             updates: [0, 1].map(|parity| vec![Column::ZERO; stack(parity)]),
             unknowns: vec![[0.0; 3]; n],
             local: panels.map(|len| vec![Column::ZERO; len.unwrap_or(0)]),
+            remaining: supernodes.order.clone(),
+            places: (0..n as u32).collect(),
             order: supernodes.order,
+            restriction: Restriction::new(&fronts),
             fronts,
         }
     }
@@ -101,7 +119,26 @@ impl Cholesky {
         columns * size_of::<Column>()
     }
 
-    /// Factorizes a matrix with the pattern given to [`Self::new`]. It allocates nothing.
+    /// Leaves out nodes from now on: what follows is about the matrix without their rows and columns, and
+    /// [`Self::solve`] gives them zero. It allocates nothing.
+    pub fn leave_out(&mut self, is_out: impl Fn(usize) -> bool) {
+        self.remaining.clear();
+        let mut changed = false;
+        for (place, node) in self.places.iter_mut().zip(&self.order) {
+            let mut new = OUT;
+            if !is_out(*node as usize) {
+                new = self.remaining.len() as u32;
+                self.remaining.push(*node);
+            }
+            changed |= new != *place;
+            *place = new;
+        }
+        if changed {
+            self.restriction.apply(&self.places, &mut self.fronts);
+        }
+    }
+
+    /// Factorizes a matrix with the pattern given to [`Self::new`]. On one thread it allocates nothing.
     ///
     /// # Errors
     /// If a pivot is not positive; there is no factorization then, and [`Self::solve`] gives no solution.
@@ -111,6 +148,16 @@ impl Cholesky {
     pub fn factorize(&mut self, matrix: &BlockMatrix) -> Result<(), NotPositiveDefinite> {
         assert_eq!(matrix.nodes(), self.order.len(), "the pattern is another one");
         assert_eq!(matrix.blocks().len(), self.blocks, "the pattern is another one");
+        if self.split_panels == usize::MAX {
+            self.eliminate(matrix)
+        } else {
+            // among the threads, which then wait for each other less than a thread from outside does
+            rayon::scope(|_| self.eliminate(matrix))
+        }
+    }
+
+    /// Eliminates front after front.
+    fn eliminate(&mut self, matrix: &BlockMatrix) -> Result<(), NotPositiveDefinite> {
         let [even, odd] = &mut self.updates;
         for front in &self.fronts {
             let (own, children) =
@@ -125,8 +172,11 @@ impl Cholesky {
                 let child = &children[child.update..][..child.shape.update_len()];
                 kernel::dispatch(Addition { shape, factor, update, rows, child });
             }
-            kernel::dispatch(Elimination { shape, factor, update }).map_err(|row| {
-                NotPositiveDefinite { node: self.order[front.first + row / 3] as usize }
+            if shape.pivots == 0 {
+                continue;
+            }
+            front::eliminate(shape, factor, update, self.split_panels).map_err(|row| {
+                NotPositiveDefinite { node: self.remaining[front.first + row / 3] as usize }
             })?;
         }
         Ok(())
@@ -139,11 +189,12 @@ impl Cholesky {
     pub fn solve(&mut self, x: &mut [f64]) {
         assert_eq!(x.len(), 3 * self.order.len(), "three entries for each node");
         let x = x.as_chunks_mut::<3>().0;
-        for (unknown, &node) in self.unknowns.iter_mut().zip(&self.order) {
+        for (unknown, &node) in self.unknowns.iter_mut().zip(&self.remaining) {
             *unknown = x[node as usize];
         }
         let [right, solution] = &mut self.local;
-        for front in &self.fronts {
+        let fronts = self.fronts.iter().filter(|front| front.shape.pivots > 0);
+        for front in fronts.clone() {
             let shape = front.shape;
             let factor = &self.factor[front.factor..][..shape.factor_len()];
             let pivots = &mut right[..shape.pivot_panels()];
@@ -162,7 +213,7 @@ impl Cholesky {
                 }
             }
         }
-        for front in self.fronts.iter().rev() {
+        for front in fronts.rev() {
             let shape = front.shape;
             let factor = &self.factor[front.factor..][..shape.factor_len()];
             let right = &mut right[..shape.pivot_panels()];
@@ -177,7 +228,8 @@ impl Cholesky {
                 *own = node_of(all, k);
             }
         }
-        for (unknown, &node) in self.unknowns.iter().zip(&self.order) {
+        x.fill([0.0; 3]);
+        for (unknown, &node) in self.unknowns.iter().zip(&self.remaining) {
             x[node as usize] = *unknown;
         }
     }

@@ -173,6 +173,31 @@ proptest! {
         prop_assert_eq!(result.is_ok(), dense_solution(&matrix, &b).is_some());
     }
 
+    /// With nodes left out, the solution is that of the matrix without their rows and columns, and zero at them. It is that
+    /// of the whole matrix again once none is left out.
+    #[test]
+    fn nodes_that_are_left_out_have_no_part((nodes, pairs) in graphs(), seed: u64, outs: [u64; 2]) {
+        let mut random = Random(seed);
+        let matrix = positive_definite(nodes, &pairs, &mut random);
+        let b = random.vector(3 * nodes);
+        let mut cholesky = Cholesky::new(&matrix);
+        for out in outs.into_iter().chain([0]) {
+            let is_out = |node: usize| out >> (node % 64) & 1 == 1;
+            cholesky.leave_out(is_out);
+            prop_assert_eq!(cholesky.factorize(&matrix), Ok(()));
+            let mut x = b.clone();
+            cholesky.solve(&mut x);
+            let mut product = vec![0.0; 3 * nodes];
+            matrix.multiply(&x, &mut product);
+            for node in 0..nodes {
+                for n in 3 * node..3 * node + 3 {
+                    let error = if is_out(node) { x[n] } else { product[n] - b[n] };
+                    prop_assert!(error.abs() < 1e-10, "node {}: {}", node, error);
+                }
+            }
+        }
+    }
+
     /// Merging more or fewer supernodes changes a solution by rounding only.
     #[test]
     fn tuning_does_not_change_solutions(
@@ -183,7 +208,7 @@ proptest! {
         let matrix = positive_definite(nodes, &pairs, &mut random);
         let b = random.vector(3 * nodes);
         let mut x = b.clone();
-        let tuning = Tuning { front_cost, tile_cost, block_cost };
+        let tuning = Tuning { front_cost, tile_cost, block_cost, ..Tuning::default() };
         let mut cholesky = Cholesky::with_tuning(&matrix, &tuning);
         prop_assert_eq!(cholesky.factorize(&matrix), Ok(()));
         cholesky.solve(&mut x);
@@ -284,6 +309,23 @@ fn the_same_matrix_gives_the_same_bytes() {
     assert_eq!(first, solution(&mut Cholesky::new(&other)));
 }
 
+/// The threads of rayon give the same bytes as one.
+#[test]
+fn threads_do_not_change_a_solution() {
+    let mut random = Random(6);
+    let matrix = positive_definite(900, &woven(30, 30), &mut random);
+    let b = random.vector(3 * 900);
+    let [one, many] = [usize::MAX, 0].map(|thread_nodes| {
+        let tuning = Tuning { thread_nodes, split_rows: 8, ..Tuning::default() };
+        let mut cholesky = Cholesky::with_tuning(&matrix, &tuning);
+        cholesky.factorize(&matrix).expect("the matrix is positive definite");
+        let mut x = b.clone();
+        cholesky.solve(&mut x);
+        x
+    });
+    assert_eq!(one, many);
+}
+
 /// A number that is not finite is refused and does not come back as a solution.
 #[test]
 fn a_matrix_with_nan_is_refused() {
@@ -313,10 +355,16 @@ fn elimination_without_vector_instructions_agrees() {
         }
     }
     let (mut plain_factor, mut plain_update) = (factor.clone(), update.clone());
-    let plain = Elimination { shape, factor: &mut plain_factor, update: &mut plain_update };
-    Simd::vectorize(pulp::Scalar::new(), plain).unwrap();
-    kernel::dispatch(Elimination { shape, factor: &mut factor, update: &mut update }).unwrap();
-    let pairs = factor.iter().chain(&update).zip(plain_factor.iter().chain(&plain_update));
+    let mut whole_update = update;
+    front::eliminate(shape, &mut factor, &mut whole_update, usize::MAX).unwrap();
+    let (columns, plain) = (shape.columns(), pulp::Scalar::new());
+    let (head, tail) = plain_factor.split_at_mut(shape.pivot_panels() * columns);
+    Simd::vectorize(plain, front::Pivots { columns, head }).unwrap();
+    Simd::vectorize(plain, front::Below { columns, head, tail });
+    let (update, panels) = (&mut plain_update[..], 0..shape.update_panels());
+    Simd::vectorize(plain, front::Remainder { columns, tail, update, panels });
+    let (factor, update) = (&factor, &whole_update);
+    let pairs = factor.iter().chain(update).zip(plain_factor.iter().chain(&plain_update));
     for (a, b) in pairs {
         for r in 0..12 {
             assert!((a.0[r] - b.0[r]).abs() < 1e-14);

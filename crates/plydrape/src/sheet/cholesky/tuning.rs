@@ -13,10 +13,15 @@ pub struct Tuning {
     pub tile_cost: usize,
     /// Cost of adding one 3×3 block of an update to the parent's front.
     pub block_cost: usize,
+    /// Nodes of a matrix from which on its fronts are eliminated on all threads of rayon. Smaller ones take a few
+    /// milliseconds, and searches have one on each core. The result does not depend on the threads.
+    pub thread_nodes: usize,
+    /// Fewer update rows (nodes) of a front are eliminated on one thread.
+    pub split_rows: usize,
 }
 
 impl Default for Tuning {
     fn default() -> Self {
-        Self { front_cost: 50, tile_cost: 6, block_cost: 1 }
+        Self { front_cost: 50, tile_cost: 6, block_cost: 1, thread_nodes: 2000, split_rows: 32 }
     }
 }
