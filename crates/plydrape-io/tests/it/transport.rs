@@ -248,7 +248,7 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
 
 /// A start level above the first formation with the same heading goes straight down while it is formed: all heights change
 /// evenly, to a hundredth of a cell, the middle goes straight and never up. Edges have the length that they shall have, to
-/// 0.3 %, from the share of the way on at which they are to be tight.
+/// 0.01 %, from the share of the way on at which they are to be tight.
 #[test]
 fn a_start_right_above_keeps_its_straight_way() {
     let scene = on(DOME, "spacing = [0.098, 0.098]\nheight = 0.05\norigin = \"centred\"");
@@ -273,7 +273,7 @@ fn a_start_right_above_keeps_its_straight_way() {
             let [now, before, after] =
                 [places, start, &above].map(|places| distance(places[ends[0]], places[ends[1]]));
             let tight = before + (t / TUNING.transport.tight).min(1.0) * (after - before);
-            assert!((now / tight - 1.0).abs() < 3e-3, "step {k}: {now}, not {tight}");
+            assert!((now / tight - 1.0).abs() < 1e-4, "step {k}: {now}, not {tight}");
         }
     }
     for pair in positions.windows(2) {
