@@ -166,8 +166,9 @@ fn clear_of(scene: &Scene, places: &[Point], sag: f64) -> [f64; 2] {
 
 /// From starts anywhere around molds of several kinds, turned and inclined: wherever the array is more than its margin away
 /// from its start, the ply keeps this margin over the mold, and over the table on the first half of the way, where there is no mold below the start,
-/// also where the spline rounds the corners. And it is not carried higher than that: somewhere it is no more than a
-/// hundredth of a cell above the margin, unless it starts or is formed at that height.
+/// also where the spline rounds the corners. And it is not carried higher than that: somewhere it is no more than four
+/// hundredths of a cell above the margin, unless it starts or is formed at that height. The points at which this is measured
+/// miss the top of a bowl's upright boundary by as much.
 #[test]
 fn a_carried_array_stays_clear_of_mold_and_table() {
     let molds = [
@@ -241,14 +242,14 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
             let highest = positions[..count].iter().map(|p| centre(p)[2]).fold(f64::MIN, f64::max);
             let formed = centre(&formation)[2] + TUNING.transport.formed_height * 0.1;
             let is_lifted = highest > centre(&start)[2].max(formed) + 1e-9;
-            assert!(!is_lifted || closest < margin + 1e-3, "{what}: {closest} m at {highest} m");
+            assert!(!is_lifted || closest < margin + 4e-3, "{what}: {closest} m at {highest} m");
         }
     }
 }
 
 /// A start level above the first formation with the same heading goes straight down while it is formed: all heights change
-/// evenly, to a hundredth of a cell, the middle goes straight and never up. Edges have the length that they shall have, to
-/// 0.01 %, from the share of the way on at which they are to be tight.
+/// evenly, to a hundredth of a cell, the middle goes straight and never up. All edges
+/// have the lengths that they shall have meanwhile, to 0.01 %.
 #[test]
 fn a_start_right_above_keeps_its_straight_way() {
     let scene = on(DOME, "spacing = [0.098, 0.098]\nheight = 0.05\norigin = \"centred\"");
@@ -272,7 +273,10 @@ fn a_start_right_above_keeps_its_straight_way() {
             let ends = [c.from, c.to].map(|id| grid.index(id));
             let [now, before, after] =
                 [places, start, &above].map(|places| distance(places[ends[0]], places[ends[1]]));
-            let tight = before + (t / TUNING.transport.tight).min(1.0) * (after - before);
+            let [early, most] = TUNING.transport.tight;
+            let rest = (1.0 - most) * (t - early) / (1.0 - early);
+            let share = if t < early { most * t / early } else { most + rest };
+            let tight = before + share * (after - before);
             assert!((now / tight - 1.0).abs() < 1e-4, "step {k}: {now}, not {tight}");
         }
     }

@@ -79,10 +79,9 @@ impl Strategy {
     #[must_use]
     pub fn families(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
         let grid = scene.ply.grid;
-        let start = [grid.nu, grid.nv].map(middle_of_cell);
         let [first, second] =
             principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
-        let shape = |ratio, angle| Strategy { ratio, angle, ..Strategy::ring(start) };
+        let shape = |ratio, angle| Strategy { ratio, angle, ..Strategy::ring() };
         let shapes = [
             shape(1.0, 0.0),
             shape(2.5, second),
@@ -97,30 +96,33 @@ impl Strategy {
         };
         let flatter = |share: f64, of: Strategy| Strategy { slope: share * of.slope, ..of };
         let loose = |of: Strategy| Strategy { curvature: 3.0, pretension: 0.0, ..of };
+        let tauter = |of: Strategy| Strategy { pretension: 2.0 * of.pretension, ..of };
+        let softer = |of: Strategy| Strategy { pretension: 0.5 * of.pretension, ..of };
         vec![
             ring,
             flatter(0.8, ring),
-            loose(ring),
+            softer(ring),
+            tauter(ring),
             second_ellipse,
             first_ellipse,
-            Strategy { pretension: 1e-3, ..ring },
+            loose(ring),
+            flatter(0.8, tauter(ring)),
             second_line,
             first_line,
             loose(second_ellipse),
             loose(first_ellipse),
-            flatter(0.6, ring),
+            flatter(0.6, tauter(ring)),
             flatter(0.6, loose(ring)),
-            Strategy { start: [0.5; 2], ..ring },
-            loose(second_line),
-            loose(first_line),
+            Strategy { start: [grid.nu, grid.nv].map(middle_of_cell), ..ring },
             Strategy { curvature: 0.05, ..flatter(0.1, ring) },
         ]
     }
 
-    /// A ring that spreads from a start, as steep as no tilt forbids.
-    fn ring(start: [f64; 2]) -> Self {
+    /// A ring that spreads from the middle of the ply, as steep as no tilt forbids.
+    fn ring() -> Self {
         let slope = TUNING.front.steepest;
-        Strategy { start, ratio: 1.0, angle: 0.0, curvature: 5.0, slope, pretension: 6e-4 }
+        let (start, ratio, angle) = ([0.5; 2], 1.0, 0.0);
+        Strategy { start, ratio, angle, curvature: 5.0, slope, pretension: 1.2e-3 }
     }
 }
 

@@ -45,8 +45,9 @@ pub struct Transport {
     pub carrying: f64,
     /// Share of the steps in which it is formed.
     pub forming: f64,
-    /// Share of these after which the lines between grippers have the length that they shall have; they turn all the time.
-    pub tight: f64,
+    /// Share of these steps after which lines between grippers have most of their change of length, and how much of it; they
+    /// turn all the time.
+    pub tight: [f64; 2],
     /// Share of the steps in which it comes down to the first formation. The front takes the other steps, because
     /// contacts are made there.
     pub descent: f64,
@@ -164,7 +165,7 @@ pub const TUNING: Tuning = Tuning {
         formed_height: 0.1,
         carrying: 0.12,
         forming: 0.17,
-        tight: 0.4,
+        tight: [0.4, 0.85],
         descent: 0.09,
         turn: PI / 30.0,
         most_turning: 0.4,
@@ -194,7 +195,7 @@ pub const TUNING: Tuning = Tuning {
             [-FRAC_PI_2, FRAC_PI_2],
             [-1.6 - LN_10, 3.4 - LN_10],
             [-4.0, 0.0],
-            [0.0, 1.2e-3],
+            [0.0, 2.5e-3],
         ],
     },
     search: Search {

@@ -39,7 +39,8 @@ fn a_net_of_pins_hangs_as_an_independent_simulator_has_it() {
 }
 
 /// The tilt of a gripper that is a point does not depend on the mesh: in the same net of pins, lines every fifth, tenth and
-/// twentieth of a cell agree within 1.5°. Of the cells beside a pin alone it would grow as the mesh becomes finer.
+/// twentieth of a cell agree within 2°, and the finer two within 0.5°. Of the cells beside a pin alone it would grow as the
+/// mesh becomes finer.
 #[test]
 fn the_tilt_of_a_point_does_not_depend_on_the_mesh() {
     let held: Vec<[f64; 2]> =
@@ -58,9 +59,8 @@ fn the_tilt_of_a_point_does_not_depend_on_the_mesh() {
     });
     for n in 0..held.len() {
         let of = tilts.each_ref().map(|tilts| tilts[n]);
-        let spread =
-            of.iter().fold(f64::MIN, |a, b| a.max(*b)) - of.iter().fold(f64::MAX, |a, b| a.min(*b));
-        assert!(of[0] > 3.0 && spread < 1.5, "gripper {n}: {of:?}°");
+        let [coarse, fine] = [of[0], of[1]].map(|tilt| (tilt - of[2]).abs());
+        assert!(of[2] > 10.0 && coarse < 2.0 && fine < 0.5, "gripper {n}: {of:?}°");
     }
 }
 

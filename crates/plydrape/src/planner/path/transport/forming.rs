@@ -17,12 +17,18 @@ const ROUNDS: usize = 200;
 /// Error of a length, as a share of it, at which the rounds end: small beside the pretension of a front, some 1e-4.
 const ERROR: f64 = 1e-6;
 
-/// The array a share of the way from one shape to another (m). Edges have their length after the share `tight`, because
-/// a ply that hangs slack tilts its grippers already, and what inclines it afterwards adds to that.
-pub fn formed(grid: Grid, from: &[Point], to: &[Point], share: f64, tight: f64) -> Vec<Point> {
+/// The array a share of the way from one shape to another (m). Its edges have the share `tight[1]` of their change of length
+/// after the share `tight[0]` of the way, because a ply that hangs slack tilts its grippers already, and what inclines it
+/// afterwards adds to that; the rest of it comes last, because no edge may be too long meanwhile.
+pub fn formed(grid: Grid, from: &[Point], to: &[Point], share: f64, tight: [f64; 2]) -> Vec<Point> {
+    let [early, most] = tight;
+    let lengthened = if share < early {
+        most * share / early
+    } else {
+        most + (1.0 - most) * (share - early) / (1.0 - early).max(f64::MIN_POSITIVE)
+    };
     let straight: Vec<Point> = from.iter().zip(to).map(|(a, b)| between(*a, *b, share)).collect();
     // what the edges lack on straight ways
-    let lengthened = (share / tight).min(1.0);
     let turned: Vec<Point> = edges(grid)
         .map(|[a, b]| turned(sub(from[b], from[a]), sub(to[b], to[a]), share, lengthened))
         .collect();
@@ -141,7 +147,7 @@ mod tests {
             [cos * u + sin * v, sin * u + cos * v, 0.02]
         });
         for k in 0..=10 {
-            let between = formed(GRID, &from, &to, f64::from(k) / 10.0, 1.0);
+            let between = formed(GRID, &from, &to, f64::from(k) / 10.0, [0.5, 0.5]);
             for [a, b] in edges(GRID) {
                 let length = distance(between[a], between[b]);
                 let expected = 0.099 + 1e-4 * f64::from(k);
@@ -160,7 +166,7 @@ mod tests {
             [x, y, 0.3 * x - 1.2 * x * x + 0.8 * x * y - 0.6 * y * y]
         });
         for k in 4..=10 {
-            let between = formed(GRID, &from, &to, f64::from(k) / 10.0, 0.4);
+            let between = formed(GRID, &from, &to, f64::from(k) / 10.0, [0.4, 1.0]);
             for [a, b] in edges(GRID) {
                 let ratio = distance(between[a], between[b]) / distance(to[a], to[b]);
                 assert!((ratio - 1.0).abs() < 1e-5, "{k}: {ratio}");
@@ -178,11 +184,11 @@ mod tests {
             [x, y, -0.5 * (x * x + y * y)]
         });
         for (share, expected) in [(0.0, &from), (1.0, &to)] {
-            for (p, q) in formed(GRID, &from, &to, share, 1.0).iter().zip(expected) {
+            for (p, q) in formed(GRID, &from, &to, share, [0.5, 0.5]).iter().zip(expected) {
                 assert!(distance(*p, *q) < 1e-12, "{share}: {p:?} {q:?}");
             }
         }
-        for ((p, a), b) in formed(GRID, &from, &to, 0.5, 1.0).iter().zip(&from).zip(&to) {
+        for ((p, a), b) in formed(GRID, &from, &to, 0.5, [0.5, 0.5]).iter().zip(&from).zip(&to) {
             assert!(distance(*p, between(*a, *b, 0.5)) < 5e-4, "{p:?} {a:?} {b:?}");
         }
     }
