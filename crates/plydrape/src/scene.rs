@@ -50,7 +50,7 @@ pub struct Plan {
 impl Default for Plan {
     fn default() -> Self {
         let method = PlanMethod::Path;
-        Plan { method, steps: 90, move_limit: None, seed: 0, evaluations: 60, rate: 100.0 }
+        Plan { method, steps: 90, move_limit: None, seed: 0, evaluations: 100, rate: 100.0 }
     }
 }
 

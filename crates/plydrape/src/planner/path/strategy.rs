@@ -98,24 +98,35 @@ impl Strategy {
         let loose = |of: Strategy| Strategy { curvature: 3.0, pretension: 0.0, ..of };
         let tauter = |of: Strategy| Strategy { pretension: 2.0 * of.pretension, ..of };
         let softer = |of: Strategy| Strategy { pretension: 0.5 * of.pretension, ..of };
-        vec![
+        let beside =
+            |of: Strategy| Strategy { start: [grid.nu, grid.nv].map(middle_of_cell), ..of };
+        let mut families = vec![
             ring,
             flatter(0.8, ring),
             softer(ring),
             tauter(ring),
+            softer(second_ellipse),
+            softer(first_ellipse),
             second_ellipse,
             first_ellipse,
             loose(ring),
             flatter(0.8, tauter(ring)),
+            beside(softer(ring)),
+            beside(ring),
             second_line,
             first_line,
             loose(second_ellipse),
             loose(first_ellipse),
             flatter(0.6, tauter(ring)),
             flatter(0.6, loose(ring)),
-            Strategy { start: [grid.nu, grid.nv].map(middle_of_cell), ..ring },
-            Strategy { curvature: 0.05, ..flatter(0.1, ring) },
-        ]
+            loose(second_line),
+            loose(first_line),
+        ];
+        // where a cell is in the middle, both starts are one
+        if [grid.nu, grid.nv].map(middle_of_cell) == [0.5; 2] {
+            families.drain(10..12);
+        }
+        families
     }
 
     /// A ring that spreads from the middle of the ply, as steep as no tilt forbids.
