@@ -1,5 +1,6 @@
 //! The command `plydrape`: one file per subcommand, this one only sends to them.
 
+mod argument;
 mod check;
 mod complete;
 mod export;
@@ -12,6 +13,7 @@ mod plan;
 mod report;
 mod results;
 mod schema;
+mod search;
 mod sheet;
 mod simulate;
 mod span;

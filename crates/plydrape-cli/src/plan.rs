@@ -1,21 +1,22 @@
 //! `plydrape plan`: finds a motion that puts the ply on its mold, and says how it went.
 
+use crate::argument;
 use crate::failure::{Done, Failure};
 use crate::numbers::short;
 use crate::outcome::{self, exit_code};
 use crate::results::Results;
-use crate::sheet::drape_sheet;
-use crate::watch::{Interrupt, bar};
+use crate::search::{Ended, Search, time_text};
+use crate::watch::Interrupt;
 use clap::{ValueEnum, value_parser};
 use plydrape::planner::infeasible_limits::infeasible_limits;
-use plydrape::planner::{self, Checkpoint, Planned, Progress};
-use plydrape::scene::{PlanMethod, Scene};
-use plydrape_io::scene::{SceneError, SceneFile};
+use plydrape::planner::{self, Checkpoint, Planned};
+use plydrape::scene::PlanMethod;
+use plydrape_io::scene::{Measured, SceneError, SceneFile};
 use plydrape_io::{Folder, NAMES, ResultFile, input, plan, table};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::Duration;
 
 /// Find trajectories that lay the ply on its mold, and drape along them; verdict, files.
 #[derive(Debug, clap::Args)]
@@ -23,8 +24,10 @@ use std::time::Instant;
 The scene needs [mold] and [target]; [plan] and [limits] say how to look and what to keep. Grippers \
 start where they start in `simulate`: of a motion from a file only the first step is used, and a \
 `duration` in [motion] is refused: limits.duration is what a plan keeps. What no \
-plan can keep is said first. The best plan found is written even if it is not accepted. Ctrl-C ends \
-the search and writes the best plan so far.
+plan can keep is said first. The search ends with a plan that keeps all limits with a margin. The best \
+plan found is written even if it is not accepted. Ctrl-C or SIGTERM ends the search, finishes the best \
+plan so far and writes it; a second one ends that too. Without a terminal, how far the search is stands on \
+standard error once a minute.
 
 Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json to \
 the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
@@ -40,6 +43,16 @@ pub struct Arguments {
     /// Seed of the search, instead of the scene's: the same seed, the same plan.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+
+    /// Go on improving a plan that keeps all limits with a margin, until all drapes of [plan] evaluations are used up or
+    /// the time is over.
+    #[arg(long)]
+    improve: bool,
+
+    /// End the search after this time, e.g. 5min or 90s, with the best plan so far; the drape that decides on it may
+    /// take a little longer.
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    time: Option<String>,
 
     /// Threads of the search, one per core unless given; the plan does not depend on it.
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
@@ -74,6 +87,7 @@ struct Printed<'a> {
     method: PlanMethod,
     plan_time_s: f64,
     evaluations: usize,
+    decisions: usize,
     motion: Motion,
     #[serde(flatten)]
     drape: outcome::Printed<'a>,
@@ -105,13 +119,14 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let results = &arguments.results;
     // first of all, so that even a long read ends in files
     let interrupt = Interrupt::listen();
+    let time = arguments.time.as_deref().map(time).transpose()?;
     let scene = scene(arguments)?;
     let earlier = arguments.earlier.as_deref().map(checkpoint).transpose()?;
     if let Some(threads) = arguments.threads {
         // the pool cannot be set a second time, and has not been set before
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
-    let sheet = crate::sheet::check(&scene)?;
+    crate::sheet::check(&scene)?;
     let folder = Folder::claim(&results.folder("plan"), "plan")?;
     folder.refuse_inputs(&NAMES, &scene.files)?;
     let verbose = !quiet && !results.json;
@@ -125,32 +140,27 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         out.flush()?;
     }
 
-    let template = "planning {bar:40} {pos} of {len} drapes, {eta} left\n{wide_msg}";
-    let bar = bar(scene.plan.evaluations, template, quiet);
-    let start = Instant::now();
-    let planned = planner::plan(&scene, earlier.as_ref(), &mut |progress| {
-        bar.set_length(progress.most as u64);
-        bar.set_position(progress.evaluations as u64);
-        bar.set_message(best(progress));
-        interrupt.asked()
-    });
-    let plan_time_s = start.elapsed().as_secs_f64();
-    bar.finish_and_clear();
-    let planned = planned?;
+    let mut search = Search::new(&scene.plan, time, &interrupt, quiet);
+    let planned = planner::plan(&scene, earlier.as_ref(), &mut |progress| search.watch(progress));
+    let (took, ended) = search.finish();
+    let plan_time_s = took.as_secs_f64();
+    let mut planned = planned?;
 
     let mut result = ResultFile::planned(&scene, scene.input.clone(), &planned);
-    let followed = Scene { motion: planned.motion.steps(), ..scene.scene.clone() };
-    let took = drape_sheet(&mut result, &followed, sheet, folder.stage(), &interrupt, quiet)?;
+    let keep = |sheet| result.keep_sheet(sheet, folder.stage());
+    let took = planned.sheet.take().map(keep).transpose()?;
     let files = plan::write_into(folder, &result, &planned.checkpoint, &scene.files)?;
     let printed = Printed {
         method: planned.record.method,
         plan_time_s,
         evaluations: planned.record.evaluations,
+        decisions: planned.decisions,
         motion: Motion::of(&planned),
         drape: outcome::Printed::of(&result, planned.drape.solving, took),
     };
-    results.print(quiet, &printed, &text(&planned, &result, &printed), &files)?;
-    Ok(exit_code(&result, planned.interrupted || result.summary.interrupted()))
+    results.print(quiet, &printed, &text(&result, &printed, ended, time), &files)?;
+    let interrupted = ended == Some(Ended::Interrupted) || result.summary.interrupted();
+    Ok(exit_code(&result, interrupted))
 }
 
 /// The scene, with what the options say instead of it.
@@ -187,7 +197,18 @@ fn scene(arguments: &Arguments) -> Result<SceneFile, Failure> {
     if let Some(seed) = arguments.seed {
         scene.plan.seed = seed;
     }
+    scene.plan.improve |= arguments.improve;
     Ok(scene)
+}
+
+/// Shortest and longest time of a search (s).
+const TIMES: [f64; 2] = [1e-3, 1e7];
+
+/// The time after which the search ends.
+fn time(text: &str) -> Result<Duration, Failure> {
+    let help = "a time of up to some 100 days is wanted, e.g. 5min, 90s or 1.5h";
+    let seconds = argument::value("--time", text, Measured::Time, TIMES, help)?;
+    Ok(Duration::from_secs_f64(seconds))
 }
 
 /// Largest plan.json that is read (bytes).
@@ -211,28 +232,33 @@ fn checkpoint(folder: &Path) -> Result<Checkpoint, Failure> {
     })
 }
 
-/// Where the search stands, for the bar.
-fn best(progress: &Progress) -> String {
-    let best = match table::limiting(progress.best) {
-        _ if progress.accepted => "; the best so far is accepted".into(),
-        Some(worst) => format!("; best so far: {}", table::verdict_text(worst)),
-        None => String::new(),
-    };
-    format!("{}{best}", progress.stage)
-}
-
 /// What is printed for people, below the infeasible limits.
-fn text(planned: &Planned, result: &ResultFile, printed: &Printed) -> String {
-    let method = match printed.method {
-        PlanMethod::Path => "path",
-        PlanMethod::Stepwise => "stepwise",
+fn text(
+    result: &ResultFile,
+    printed: &Printed,
+    ended: Option<Ended>,
+    time: Option<Duration>,
+) -> String {
+    let Printed { evaluations, decisions, .. } = printed;
+    let sheet = result.summary.sheet.is_some();
+    let tried = match (printed.method, decisions) {
+        (PlanMethod::Stepwise, _) => format!("stepwise plan of {evaluations} steps"),
+        (PlanMethod::Path, decisions) => {
+            let with = if sheet { "with the mesh of the scene" } else { "along a finished motion" };
+            format!("path plan after {evaluations} drapes, {decisions} of them {with},")
+        }
+    };
+    let ended = match (ended, time) {
+        (Some(Ended::Interrupted), _) => ", interrupted: the best so far".into(),
+        (Some(Ended::TimeOver), Some(time)) => {
+            format!(", stopped after {}, as asked: the best so far", time_text(time))
+        }
+        _ => String::new(),
     };
     let Motion { duration_s, max_speed, max_acceleration, max_jerk } = &printed.motion;
     let found = format!(
-        "{method} plan after {} drapes in {:.1} s{}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³",
-        printed.evaluations,
+        "{tried} in {:.1} s{ended}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³",
         printed.plan_time_s,
-        if planned.interrupted { ", interrupted: the best so far" } else { "" },
         short(*max_speed),
         short(*max_acceleration),
         short(*max_jerk),

@@ -3,10 +3,11 @@
 mod picture;
 mod text;
 
+use crate::argument::{refused, value};
 use crate::failure::{Done, Failure};
 use plydrape::catenary::{EndCondition, Profile, Root, Span, SpanState, Station};
 use plydrape_io::json;
-use plydrape_io::scene::{Measured, quantity};
+use plydrape_io::scene::Measured;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -156,36 +157,6 @@ fn end(option: &str, text: &str, flexural_rigidity: f64) -> Result<EndCondition,
         return Err(refused(option, text, fault, &help));
     }
     Ok(EndCondition::Slope(slope))
-}
-
-/// A value of an option in SI units, within a range.
-fn value(
-    option: &str,
-    text: &str,
-    measured: Measured,
-    [low, high]: [f64; 2],
-    help: &str,
-) -> Result<f64, Failure> {
-    let value = quantity(text, measured).map_err(|error| Failure::Argument {
-        message: format!("{option} {}", error.message),
-        help: error.help,
-    })?;
-    let fault = if value == 0.0 && low > 0.0 {
-        "is zero"
-    } else if value < 0.0 && low >= 0.0 {
-        "is negative"
-    } else if value < low {
-        "is too small"
-    } else if value > high {
-        "is too large"
-    } else {
-        return Ok(value);
-    };
-    Err(refused(option, text, fault, help))
-}
-
-fn refused(option: &str, text: &str, fault: &str, help: &str) -> Failure {
-    Failure::Argument { message: format!("{option} \"{text}\" {fault}"), help: help.into() }
 }
 
 /// A span and the force that gives it its length.

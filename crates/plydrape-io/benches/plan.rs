@@ -1,67 +1,96 @@
-//! What a plan leaves of slack, bridges and errors beside straight paths, how long it takes, and how that grows with
-//! the number of grippers: the tables of README.md and benches/README.md, in markdown.
+//! How long a plan takes to the verdict of the fine sheet, and how the ply lies then: the table of benches/README.md, in
+//! markdown. Beside each plan stands the drape of the same sheet along straight paths.
 //!
-//! Each is made once, not a hundred times. `cargo bench --bench plan -- molds` or `-- grippers` prints one table
-//! alone.
+//! Each is made once, on all cores. `cargo bench -p plydrape-io --bench plan -- dome` makes those whose name holds a text.
 
-use plydrape::draping::simulate;
-use plydrape::measure::Name;
 use plydrape::planner;
-use plydrape::scene::{PlanMethod, Scene, Stepping};
-use plydrape_io::ResultFile;
-use plydrape_io::scene;
-use plydrape_io::table;
+use plydrape::scene::Scene;
+use plydrape::sheet::{self, Tuning};
+use plydrape_io::{scene, table};
+use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-/// Examples that a plan solves, and the heights that they start from (mm).
-const SOLVED: [(&str, usize); 6] = [
-    ("01_flat_sheared_mold", 75),
-    ("04_dome", 50),
-    ("05_cylinder", 50),
-    ("06_saddle", 80),
-    ("08_stl_mold", 50),
-    ("10_shallow", 50),
+/// Examples that are planned.
+const EXAMPLES: [&str; 7] = [
+    "01_flat_sheared_mold",
+    "04_dome",
+    "05_cylinder",
+    "06_saddle",
+    "08_stl_mold",
+    "10_shallow",
+    "07_cubic",
 ];
-/// Grippers along u and v.
-const ARRAYS: [[usize; 2]; 5] = [[4, 2], [4, 4], [6, 6], [8, 8], [10, 10]];
-const METHODS: [(&str, PlanMethod); 2] =
-    [("stepwise", PlanMethod::Stepwise), ("path", PlanMethod::Path)];
+/// Grippers along u and v, and the radius (m) of the dome below them.
+const DOMES: [([usize; 2], f64); 3] = [([6, 4], 0.8), ([8, 8], 1.0), ([12, 10], 1.5)];
+/// Squares of the triangle mesh along each side: 20 000 triangles.
+const SQUARES: usize = 100;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
-    let wanted = |table: &str| asked.is_empty() || asked.iter().any(|a| a == table);
-    if wanted("molds") {
-        molds();
-    }
-    if wanted("grippers") {
-        grippers();
-    }
-}
-
-/// An example from a height (mm) instead of its own.
-fn example(name: &str, own: usize, height: usize) -> Scene {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples")).join(name);
-    let text = std::fs::read_to_string(folder.join("scene.toml")).expect("a shipped scene");
-    let key = |height| format!("height = \"{height} mm\"");
-    assert!(text.contains(&key(own)), "{name} starts from another height");
-    let text = text.replace(&key(own), &key(height));
-    scene::parse(&text, &folder, name).unwrap_or_else(|error| panic!("{error}")).scene
-}
-
-/// Grippers in cells of 100 mm on a flat mold, or on a dome of R = 2 m.
-fn array([nu, nv]: [usize; 2], dome: bool) -> Scene {
-    let mold = match dome {
-        true => "kind = \"sphere\"\nradius = 2.0\nposition = [0, 0, -2.0]",
-        false => "kind = \"plane\"",
-    };
-    // the rim of the largest dome is 0.2 m below its top
-    let text = format!(
-        "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [{nu}, {nv}]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\n{mold}\n\
-         [grippers]\nspacing = [0.098, 0.098]\nheight = 0.06\norigin = \"centred\"\n[target]\nseed = \"middle\"\n"
+    let folder = tempfile::tempdir().expect("a folder");
+    println!(
+        "| plan | nodes | straight: height | time | plan: height | position | drapes | accepted | time |\n|---|---|---|---|---|---|---|---|---|"
     );
-    scene::parse(&text, Path::new(""), "array").unwrap_or_else(|error| panic!("{error}")).scene
+    for (name, scene) in scenes(folder.path()) {
+        if asked.is_empty() || asked.iter().any(|text| name.contains(text)) {
+            row(&name, &scene);
+        }
+    }
+}
+
+fn scenes(folder: &Path) -> Vec<(String, Scene)> {
+    let examples = EXAMPLES.map(|name| {
+        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples")).join(name);
+        let text = std::fs::read_to_string(folder.join("scene.toml")).expect("a shipped scene");
+        (name.to_owned(), read(&text, &folder))
+    });
+    let domes = DOMES.map(|([nu, nv], radius)| {
+        let mold = format!("kind = \"sphere\"\nradius = {radius}\nposition = [0, 0, -{radius}]");
+        (format!("{nu} × {nv} dome, R = {radius} m"), array([nu, nv], &mold, folder))
+    });
+    std::fs::write(folder.join("mold.stl"), triangles()).expect("a file");
+    let mesh = array([6, 4], "kind = \"mesh\"\nfile = \"mold.stl\"\nunit = \"m\"", folder);
+    let name = format!("6 × 4 on {} triangles", 2 * SQUARES * SQUARES);
+    examples.into_iter().chain(domes).chain([(name, mesh)]).collect()
+}
+
+fn read(text: &str, folder: &Path) -> Scene {
+    scene::parse(text, folder, "scene.toml").unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+/// Grippers in cells of 100 mm over a mold.
+fn array([nu, nv]: [usize; 2], mold: &str, folder: &Path) -> Scene {
+    let text = format!(
+        "[ply]\ngrippers = [{nu}, {nv}]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\n{mold}\n\
+         [grippers]\nspacing = [0.098, 0.098]\nheight = 0.1\norigin = \"centred\"\n\
+         [target]\nseed = \"middle\"\n"
+    );
+    read(&text, folder)
+}
+
+/// A shallow doubly curved surface of 0.8 m by 0.6 m as an ASCII STL file.
+fn triangles() -> String {
+    let at = |i: usize, j: usize| {
+        let [x, y] = [i, j].map(|k| k as f64 / SQUARES as f64 - 0.5);
+        let (x, y) = (0.8 * x, 0.6 * y);
+        [x, y, -0.5 * x * x - 0.7 * y * y + 0.4 * x * y + 0.3 * x * x * x]
+    };
+    let mut text = String::from("solid mold\n");
+    for i in 0..SQUARES {
+        for j in 0..SQUARES {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            for corners in [[a, b, c], [a, c, d]] {
+                text.push_str("facet normal 0 0 1\nouter loop\n");
+                for [x, y, z] in corners {
+                    let _ = writeln!(text, "vertex {x} {y} {z}");
+                }
+                text.push_str("endloop\nendfacet\n");
+            }
+        }
+    }
+    text + "endsolid mold\n"
 }
 
 /// A drape or a plan, and the seconds that it took.
@@ -71,84 +100,27 @@ fn timed<T>(make: impl FnOnce() -> T) -> (T, f64) {
     (made, start.elapsed().as_secs_f64())
 }
 
-fn straight(scene: &Scene) -> ResultFile {
+fn row(name: &str, scene: &Scene) {
     let mut scene = scene.clone();
-    scene.settings.contact.stepping = Stepping::Cut;
-    ResultFile::new(&scene, None, simulate(&scene, |_| ControlFlow::Continue(())))
-}
-
-/// The finished drape of a plan, and how many drapes or steps were tried for it.
-fn plan(scene: &Scene, method: PlanMethod) -> (ResultFile, usize) {
-    let mut scene = scene.clone();
-    scene.plan.method = method;
-    let planned = planner::plan(&scene, None, &mut |_| ControlFlow::Continue(()));
+    scene.settings.model = plydrape::scene::Model::Sheet;
+    let along = || ControlFlow::Continue(());
+    let (straight, straight_time) =
+        timed(|| sheet::drape(&scene, Tuning::default(), &|| false, |_| along()));
+    let straight = straight.expect("a sheet").summary;
+    let (planned, time) = timed(|| planner::plan(&scene, None, &mut |_| along()));
     let planned = planned.expect("mold and target");
-    (ResultFile::planned(&scene, None, &planned), planned.record.evaluations)
-}
-
-fn molds() {
-    println!(
-        "| mold | start | paths | slack (mm) | slack (%) | bridging (mm) | landing (mm) | overstretch (%) | accepted | time (s) |"
-    );
-    println!("|---|---|---|---|---|---|---|---|---|---|");
-    for (name, own) in SOLVED {
-        for height in [own, 2 * own] {
-            let scene = example(name, own, height);
-            let start = format!("{} | {height} mm", scene.title);
-            let (result, time) = timed(|| straight(&scene));
-            println!("| {start} | straight | {}", row(&result, time));
-            for (word, method) in METHODS {
-                let ((result, _), time) = timed(|| plan(&scene, method));
-                println!("| {start} | {word} | {}", row(&result, time));
-            }
-        }
-    }
-}
-
-/// What is left at the end, the largest overstretch of any step, and whether every limit is kept.
-fn row(result: &ResultFile, time: f64) -> String {
-    let end = &result.summary.last;
-    let three = |value: Option<f64>| format!("{:.3}", value.unwrap_or(0.0));
-    let verdict = match table::limiting(&result.summary.limits) {
+    let summary = &planned.sheet.expect("the sheet decides").drape.summary;
+    let mm = |value: Option<f64>| format!("{:.2} mm", value.unwrap_or(f64::NAN));
+    let verdict = match table::limiting(&summary.limits) {
         None => "yes".into(),
-        Some(worst) => {
-            format!("no: {} {}", worst.name.title(), amount(worst.value, &worst.unit))
-        }
+        Some(worst) => format!("no: {} {:.3} {}", worst.name.title(), worst.value, worst.unit),
     };
-    format!(
-        "{} | {} | {} | {} | {} | {verdict} | {time:.1} |",
-        three(end.value(Name::Slack)),
-        three(end.value(Name::SlackRatio).map(|ratio| 100.0 * ratio)),
-        three(end.value(Name::Bridging)),
-        three(end.value(Name::LandingError)),
-        three(result.summary.worst.value(Name::Overstretch).map(|ratio| 100.0 * ratio)),
-    )
-}
-
-fn amount(value: f64, unit: &str) -> String {
-    format!("{value:.3} {unit}")
-}
-
-fn grippers() {
     println!(
-        "\n| grippers | mold | paths | tried | accepted | time (s) |\n|---|---|---|---|---|---|"
+        "| {name} | {} | {} | {straight_time:.2} s | {} | {} | {} | {verdict} | {time:.1} s |",
+        summary.nodes,
+        mm(straight.height_max_mm),
+        mm(summary.height_max_mm),
+        mm(summary.position_max_mm),
+        planned.record.evaluations,
     );
-    for size in ARRAYS {
-        for (mold, dome) in [("flat", false), ("dome, R = 2 m", true)] {
-            let scene = array(size, dome);
-            let [nu, nv] = size;
-            let (result, time) = timed(|| straight(&scene));
-            let yes = |result: &ResultFile| if result.summary.accepted { "yes" } else { "no" };
-            println!(
-                "| {nu} × {nv} | {mold} | straight | 1 drape | {} | {time:.2} |",
-                yes(&result)
-            );
-            for (word, method) in METHODS {
-                let ((result, tried), time) = timed(|| plan(&scene, method));
-                let unit = if method == PlanMethod::Path { "drapes" } else { "steps" };
-                let yes = yes(&result);
-                println!("| {nu} × {nv} | {mold} | {word} | {tried} {unit} | {yes} | {time:.2} |");
-            }
-        }
-    }
 }

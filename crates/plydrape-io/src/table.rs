@@ -197,11 +197,17 @@ pub fn closest(limits: &[Verdict]) -> Option<&Verdict> {
 /// A verdict as text: name, value, limit, step and place.
 #[must_use]
 pub fn verdict_text(v: &Verdict) -> String {
-    let (name, unit) = (v.name.title(), unit(&v.unit));
-    let (value, limit) = (significant(v.value), significant(v.limit));
     let step = v.step.map(|step| format!(" in step {step}")).unwrap_or_default();
     let at = if v.at.is_empty() { String::new() } else { format!(", {}", v.at) };
-    format!("{name} {value}{unit} against {limit}{unit}{step}{at}")
+    format!("{}{step}{at}", measure_text(v))
+}
+
+/// The measure of a verdict as text: name, value, limit.
+#[must_use]
+pub fn measure_text(v: &Verdict) -> String {
+    let (name, unit) = (v.name.title(), unit(&v.unit));
+    let (value, limit) = (significant(v.value), significant(v.limit));
+    format!("{name} {value}{unit} against {limit}{unit}")
 }
 
 /// The limits that no plan can keep, one in a line; empty if there are none.

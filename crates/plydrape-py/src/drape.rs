@@ -10,12 +10,14 @@ use plydrape::planner::{self, Checkpoint, Planned};
 use plydrape::scene::{Model, PlanMethod};
 use plydrape_io::ResultFile;
 use plydrape_io::plan as plan_file;
-use plydrape_io::scene::SceneFile;
+use plydrape_io::scene::{Measured, SceneFile, quantity};
 use plydrape_io::sheet::{SheetDrapeError, SheetSize};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Drapes the ply of a scene along its motion, as `plydrape simulate` does.
 ///
@@ -82,7 +84,7 @@ pub fn for_model(scene: &Arc<SceneFile>, model: Option<&str>) -> PyResult<Arc<Sc
 }
 
 /// Drapes the sheet of a scene too, if its model says so, with its states in the folder for temporary files.
-pub fn drape_sheet(
+fn drape_sheet(
     result: &mut ResultFile,
     scene: &plydrape::scene::Scene,
     watch: &Watch,
@@ -97,17 +99,22 @@ pub fn drape_sheet(
 
 /// Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
 ///
-/// Where the scene's model is the sheet, the plan is draped by it too, and its verdict counts.
+/// Where the scene's model is the sheet, the sheet decides on the plan; the catenaries are draped along it too.
 ///
-/// Other threads of Python run on meanwhile. Ctrl-C raises KeyboardInterrupt at once; to stop early and keep the
-/// best so far, give the search fewer `evaluations` in the scene's `plan`.
+/// The search ends with a plan that keeps all limits with a margin. Other threads of Python run on meanwhile. Ctrl-C raises
+/// KeyboardInterrupt at once; to stop early and keep the best so far, give the search a `time`, or fewer `evaluations`
+/// in the scene's `plan`.
 ///
 /// Args:
 ///     scene: The scene, with mold and target.
 ///     method: "path" or "stepwise", instead of the scene's.
 ///     seed: Seed of the search, instead of the scene's: the same seed, the same plan.
+///     improve: Whether to go on improving a plan that keeps all limits with a margin, until the `evaluations` of the scene's
+///         `plan` are used up or the time is over, instead of what the scene says.
+///     time: Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
+///         drape that decides on that plan may take a little longer.
 ///     checkpoint: Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
-///     progress: Called with (drapes done, most, what is done), some 50 times a second.
+///     progress: Called with (candidates draped, most, what is done), some 50 times a second.
 ///
 /// Returns:
 ///     The best plan found, whether or not it is accepted.
@@ -115,7 +122,7 @@ pub fn drape_sheet(
 /// Raises:
 ///     PlanError: If the scene has no mold or target, or `checkpoint` is not of its ply.
 ///     SceneError: If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
-///     ValueError: If there is no such method, or `checkpoint` is no plan.json.
+///     ValueError: If there is no such method, `time` is no time above zero, or `checkpoint` is no plan.json.
 ///
 /// Example:
 ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
@@ -124,14 +131,18 @@ pub fn drape_sheet(
 ///     ('path', True)
 #[pyfunction]
 #[pyo3(signature = (
-    scene, *, method: "typing.Literal['path', 'stepwise'] | None" = None, seed = None, checkpoint = None,
+    scene, *, method: "typing.Literal['path', 'stepwise'] | None" = None, seed = None, improve = None,
+    time: "float | str | None" = None, checkpoint = None,
     progress: "typing.Callable[[int, int, str], object] | None" = None
 ))]
+#[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn plan(
     py: Python<'_>,
     scene: &Bound<'_, Scene>,
     method: Option<&str>,
     seed: Option<u64>,
+    improve: Option<bool>,
+    time: Option<Time>,
     checkpoint: Option<&str>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
@@ -146,6 +157,8 @@ pub fn plan(
         }
     }
     scene.plan.seed = seed.unwrap_or(scene.plan.seed);
+    scene.plan.improve = improve.unwrap_or(scene.plan.improve);
+    let time = time.map(Time::duration).transpose()?;
     let checkpoint: Option<Checkpoint> =
         checkpoint.map(plan_file::read).transpose().map_err(|fault| {
             PyValueError::new_err(format!(
@@ -157,16 +170,44 @@ pub fn plan(
     }
     let scene = for_model(&Arc::new(scene), None)?;
     let planned = run(py, progress, move |watch| {
-        let planned = planner::plan(&scene, checkpoint.as_ref(), &mut |progress| {
-            watch.tell(progress.evaluations, progress.most, progress.stage)
+        let began = Instant::now();
+        let mut planned = planner::plan(&scene, checkpoint.as_ref(), &mut |progress| {
+            let over = time.is_some_and(|time| began.elapsed() >= time);
+            match watch.tell(progress.candidates, progress.most, progress.stage) {
+                ControlFlow::Continue(()) if over && !progress.finishing => ControlFlow::Break(()),
+                flow => flow,
+            }
         })?;
         let mut result = ResultFile::planned(&scene, scene.input.clone(), &planned);
-        let followed =
-            plydrape::scene::Scene { motion: planned.motion.steps(), ..scene.scene.clone() };
-        let draped = drape_sheet(&mut result, &followed, watch);
-        Ok(draped.map(|()| Plan { planned: Arc::new(planned), result: Arc::new(result) }))
+        let keep = |sheet| result.keep_sheet(sheet, &std::env::temp_dir());
+        let kept = planned.sheet.take().map(keep).transpose();
+        Ok(kept.map(|_| Plan { planned: Arc::new(planned), result: Arc::new(result) }))
     })?;
     planned.map_err(|fault| error::plan(&fault))?.map_err(|fault| error::sheet(&fault))
+}
+
+/// A time as Python gives it.
+#[derive(FromPyObject)]
+pub enum Time {
+    /// In seconds.
+    Seconds(f64),
+    /// With its unit, or in seconds.
+    Text(String),
+}
+
+impl Time {
+    fn duration(self) -> PyResult<Duration> {
+        let seconds = match self {
+            Time::Seconds(seconds) => seconds,
+            Time::Text(text) => quantity(&text, Measured::Time).map_err(|refused| {
+                PyValueError::new_err(format!("time: {}; {}", refused.message, refused.help))
+            })?,
+        };
+        Duration::try_from_secs_f64(seconds).ok().filter(|time| !time.is_zero()).ok_or_else(|| {
+            let text = format!("time is {seconds} s; a time above zero is wanted, e.g. \"5 min\"");
+            PyValueError::new_err(text)
+        })
+    }
 }
 
 /// A planned motion, and the drape along it.
@@ -199,10 +240,23 @@ impl Plan {
         }
     }
 
-    /// Complete drapes that the search tried; of the stepwise planner, steps.
+    /// Drapes that the search took; of the stepwise planner, steps.
     #[getter]
     fn evaluations(&self) -> usize {
         self.planned.record.evaluations
+    }
+
+    /// How many of these drapes decided on a plan, with the mesh of the scene where the sheet decides; the others ranked
+    /// candidates.
+    #[getter]
+    fn decisions(&self) -> usize {
+        self.planned.decisions
+    }
+
+    /// Whether the search ended because its time was over.
+    #[getter]
+    fn time_over(&self) -> bool {
+        self.planned.interrupted
     }
 
     /// Whether every limit is kept, by the model that decides.

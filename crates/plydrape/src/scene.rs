@@ -41,8 +41,11 @@ pub struct Plan {
     pub move_limit: Option<f64>,
     /// Seed of the search.
     pub seed: u64,
-    /// Most complete drapes that the search may try.
+    /// Most candidates that the search may drape. Those on which is decided are draped once more, in the time of their
+    /// motion and where the sheet decides with the mesh of the scene.
     pub evaluations: usize,
+    /// Whether the search goes on improving a plan that keeps every limit with a margin.
+    pub improve: bool,
     /// Samples a second of the dense motion file (Hz).
     pub rate: f64,
 }
@@ -50,7 +53,15 @@ pub struct Plan {
 impl Default for Plan {
     fn default() -> Self {
         let method = PlanMethod::Path;
-        Plan { method, steps: 90, move_limit: None, seed: 0, evaluations: 100, rate: 100.0 }
+        Plan {
+            method,
+            steps: 90,
+            move_limit: None,
+            seed: 0,
+            evaluations: 100,
+            improve: false,
+            rate: 100.0,
+        }
     }
 }
 

@@ -41,6 +41,22 @@ def test_a_plan_is_the_command_lines(tmp_path: Path) -> None:
         assert file.read_bytes() == (tmp_path / "cli" / file.name).read_bytes(), file.name
 
 
+def test_a_plan_is_improved_until_its_time_is_over() -> None:
+    """A search that shall improve its plan takes more drapes; one that has hardly time is whole too."""
+    scene = plydrape.Scene.read(EXAMPLE)
+    first = plydrape.plan(scene)
+    improved = plydrape.plan(scene, improve=True)
+    assert first.accepted and improved.accepted
+    assert improved.evaluations - improved.decisions > first.evaluations - first.decisions > 0
+    assert not improved.time_over
+    short = plydrape.plan(scene, improve=True, time="1 ms")
+    assert short.time_over and short.evaluations < first.evaluations
+    assert plydrape.plan(scene, time=0.001).time_over
+    for time in (0, -1.0, float("nan"), "5 mm", "soon", "0 s"):
+        with pytest.raises(ValueError, match="time"):
+            plydrape.plan(scene, time=time)
+
+
 def test_a_search_goes_on_from_its_memory() -> None:
     """The second search begins where the first one ended: it is no worse."""
     scene = plydrape.Scene.read(EXAMPLE)

@@ -230,6 +230,11 @@ fn options_out_of_range_are_refused() {
         ["--seed", "18446744073709551616"],
         ["--threads", "0"],
         ["--threads", "all"],
+        ["--time", "soon"],
+        ["--time", "0"],
+        ["--time", "-5min"],
+        ["--time", "5 mm"],
+        ["--time", "inf"],
     ] {
         let output = plan(&scene, &flags);
         assert_eq!(output.status.code(), Some(2), "{flags:?}");
@@ -241,8 +246,17 @@ fn options_out_of_range_are_refused() {
 #[test]
 fn help_names_every_option_and_every_file() {
     let help = text(&plan(Path::new("--help"), &[]).stdout);
-    for option in ["--output", "--json", "--method", "--seed", "--threads", "--continue", "--quiet"]
-    {
+    for option in [
+        "--output",
+        "--json",
+        "--method",
+        "--seed",
+        "--improve",
+        "--time",
+        "--threads",
+        "--continue",
+        "--quiet",
+    ] {
         assert!(help.contains(option), "{option} in {help}");
     }
     for file in FILES {
@@ -297,21 +311,147 @@ fn the_plan_does_not_depend_on_the_threads() {
     }
 }
 
+/// What is wrong with a time, and what would be right.
+#[test]
+fn a_time_without_sense_is_refused_with_an_example() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), SCENE);
+    for (time, fault) in [
+        ("5 mm", "--time \"5 mm\" is a length"),
+        ("0", "--time \"0\" is zero"),
+        ("-5min", "--time \"-5min\" is negative"),
+        ("5 hours", "did you mean `h`?"),
+    ] {
+        let output = plan(&scene, &["--time", time]);
+        let message = one_line(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains(fault) && message.contains("help:"), "{message}");
+    }
+}
+
+/// The search of an easy scene ends with its first good plan, unless it shall improve it: then it uses all of its drapes,
+/// and its plan is no worse: on a flat mold the ply lands closer to its place.
+#[test]
+fn improving_takes_more_drapes_and_is_never_worse() {
+    let folder = tempfile::tempdir().unwrap();
+    let easy = SCENE.replace("evaluations = 2", "evaluations = 30");
+    let path = scene(folder.path(), &easy);
+    let run = |flags: &[&str]| -> Value {
+        serde_json::from_slice(&plan(&path, &[&["--json"], flags].concat()).stdout).unwrap()
+    };
+    let (first, improved) = (run(&[]), run(&["--improve"]));
+    let count = |printed: &Value, of: &str| printed[of].as_u64().unwrap();
+    let ranked = |printed: &Value| count(printed, "evaluations") - count(printed, "decisions");
+    assert!(ranked(&first) < ranked(&improved), "{first} {improved}");
+    assert!((24..=30).contains(&ranked(&improved)), "{improved}");
+    assert!(first["accepted"] == true && improved["accepted"] == true);
+    let worst = |printed: &Value| {
+        let limits = printed["limits"].as_array().unwrap().iter();
+        let errors = limits.filter(|limit| limit["name"] == "landing_contact");
+        errors.map(|limit| limit["value"].as_f64().unwrap()).fold(0.0, f64::max)
+    };
+    assert!(worst(&improved) <= worst(&first), "{first} {improved}");
+
+    // the same as a key of the scene
+    let path = scene(folder.path(), &easy.replace("evaluations", "improve = true\nevaluations"));
+    let output = plan(&path, &["--json"]);
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(ranked(&printed), ranked(&improved));
+}
+
+/// A time that is over ends a search as its verdict says, not as an interruption.
+#[test]
+fn a_search_ends_when_its_time_is_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = scene(folder.path(), &long());
+    let start = std::time::Instant::now();
+    let output = plan(&path, &["--time", "1s", "--improve"]);
+    let shown = text(&output.stdout);
+    assert!(start.elapsed().as_secs() < 60);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+    assert!(shown.contains(", stopped after 1 s, as asked: the best so far\n"), "{shown}");
+    assert_eq!(files(&folder.path().join("flat.plan")), FILES);
+    // before the first candidate is draped, too
+    let output = plan(&path, &["--time", "1ms", "--quiet"]);
+    assert!(matches!(output.status.code(), Some(0 | 1)), "{}", text(&output.stderr));
+    assert!(output.stdout.is_empty() && output.stderr.is_empty());
+    assert_eq!(files(&folder.path().join("flat.plan")), FILES);
+}
+
+/// A search that may try a million candidates for a dome, on which the ply never lands within a micrometre.
+fn long() -> String {
+    let dome = "kind = \"sphere\"\nradius = \"1 m\"\nposition = [0.05, 0.05, -1]";
+    let limits = "\n[limits]\nlanding_contact = \"1 um\"\nheight = \"1 um\"\n";
+    let long = SCENE.replace("evaluations = 2", "evaluations = 1000000");
+    long.replace("kind = \"plane\"", dome) + limits
+}
+
+/// The same, by a sheet of this mesh.
+#[cfg(unix)]
+fn long_sheet(mesh: &str) -> String {
+    long().replace("catenaries", "sheet") + &format!("\n[sheet]\nmesh = \"{mesh}\"\n")
+}
+
+/// Signals that a running plan is sent, after so many milliseconds each; what it prints.
+#[cfg(unix)]
+fn signalled(scene: &Path, signals: &[(u64, &str)]) -> Output {
+    let mut command = command();
+    command.arg("plan").arg(scene).arg("--json");
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    for (wait, signal) in signals {
+        std::thread::sleep(std::time::Duration::from_millis(*wait));
+        let kill = Command::new("kill").args([*signal, &child.id().to_string()]).status();
+        assert!(kill.unwrap().success());
+    }
+    child.wait_with_output().unwrap()
+}
+
+/// Whatever is under way when SIGTERM or SIGINT comes, the drape that decides runs to its end, and nothing says otherwise.
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_the_search_of_a_sheet_and_its_best_plan_is_finished() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = scene(folder.path(), &long_sheet("10 mm"));
+    for (wait, signal) in [(300, "-TERM"), (1000, "-INT"), (2500, "-TERM")] {
+        let output = signalled(&path, &[(wait, signal)]);
+        assert_eq!(output.status.code(), Some(130), "{wait} {}", text(&output.stderr));
+        assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+        let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(printed["sheet"]["status"], "converged", "{printed}");
+        assert_eq!(printed["sheet"]["steps"], printed["steps_planned"]);
+        assert!(printed["decisions"].as_u64().unwrap() >= 1, "{printed}");
+        let mut written = FILES.to_vec();
+        written.insert(5, "sheet.npz");
+        assert_eq!(files(&folder.path().join("flat.plan")), written);
+    }
+}
+
+/// A second signal ends the drape that decides; its states so far are whole files.
+#[cfg(unix)]
+#[test]
+fn a_second_signal_ends_the_last_drape_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = scene(folder.path(), &long_sheet("3 mm"));
+    let output = signalled(&path, &[(1000, "-INT"), (1000, "-TERM")]);
+    assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(printed["sheet"]["status"], "interrupted", "{printed}");
+    assert_eq!(printed["accepted"], false);
+    let out = folder.path().join("flat.plan");
+    assert!(files(&out).contains(&"sheet.npz".to_owned()));
+    let written: Value =
+        serde_json::from_slice(&std::fs::read(out.join("result.json")).unwrap()).unwrap();
+    assert_eq!(written["summary"]["limits"], printed["limits"]);
+}
+
 /// A long search, that no plan can end early by being accepted: the best so far, in files that are whole.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_leaves_complete_files_of_the_best_plan() {
     let folder = tempfile::tempdir().unwrap();
-    let limits = "\n[limits]\nworkspace = [[-1, 1], [-1, 1], [-1, \"60 mm\"]]\n";
-    let long = SCENE.replace("evaluations = 2", "evaluations = 1000000");
-    let scene = scene(folder.path(), &format!("{long}{limits}"));
-    let mut command = command();
-    command.arg("plan").arg(&scene).arg("--json");
-    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(700));
-    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(kill.unwrap().success());
-    let output = child.wait_with_output().unwrap();
+    let scene = scene(folder.path(), &long());
+    let output = signalled(&scene, &[(700, "-INT")]);
     assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
 
     let out = folder.path().join("flat.plan");

@@ -10,12 +10,12 @@ mod mold;
 pub mod read;
 mod step;
 
-use crate::sheet::{self, SheetDrapeError, SheetKept};
+use crate::sheet::{self, SheetDrape, SheetDrapeError, SheetKept};
 use plydrape::draping::record::{PlanRecord, Step, Summary, Verdict};
 use plydrape::draping::{Drape, curves};
 use plydrape::mold::Mold;
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
-use plydrape::planner::Planned;
+use plydrape::planner::{Planned, PlannedSheet};
 use plydrape::ply::Ply;
 use plydrape::scene::{Limits, Model, Scene, Settings, Target};
 use serde::{Deserialize, Serialize};
@@ -120,13 +120,29 @@ impl ResultFile {
         if scene.settings.model != Model::Sheet || self.summary.catenaries_interrupted() {
             return Ok(None);
         }
-        let draped = sheet::drape(scene, dir, stop, progress)?;
-        self.summary.decide_by(draped.summary);
-        self.sheet_states = Some(draped.states);
-        Ok(Some(draped.duration))
+        Ok(Some(self.decided_by(sheet::drape(scene, dir, stop, progress)?)))
     }
 
-    /// The result of a plan of a scene.
+    /// Lets the drape of the sheet that decided on the plan of this result decide on it; arguments as [`sheet::keep`].
+    /// Returns the time that the drape took. The result is as after [`Self::drape_sheet`] along the planned motion.
+    ///
+    /// # Errors
+    /// As [`sheet::keep`].
+    pub fn keep_sheet(
+        &mut self,
+        planned: PlannedSheet,
+        dir: &Path,
+    ) -> Result<Duration, SheetDrapeError> {
+        Ok(self.decided_by(sheet::keep(planned, dir)?))
+    }
+
+    fn decided_by(&mut self, draped: SheetDrape) -> Duration {
+        self.summary.decide_by(draped.summary);
+        self.sheet_states = Some(draped.states);
+        draped.duration
+    }
+
+    /// The result of a plan of a scene. Where the sheet decides, [`Self::keep_sheet`] adds it.
     #[must_use]
     pub fn planned(scene: &Scene, input: Option<Arc<str>>, planned: &Planned) -> Self {
         let plan = Some(planned.record.clone());

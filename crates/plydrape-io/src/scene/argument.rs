@@ -3,7 +3,7 @@
 use super::error::{Document, SceneError};
 use super::located::Located;
 use super::quantity::{
-    FlexuralRigidity, Force, ForcePerLength, Length, Measure, Quantity, Ratio, Unchecked,
+    FlexuralRigidity, Force, ForcePerLength, Length, Measure, Quantity, Ratio, Time, Unchecked,
 };
 
 /// What a value measures.
@@ -19,6 +19,8 @@ pub enum Measured {
     FlexuralRigidity,
     /// A ratio without a unit, as a slope.
     Ratio,
+    /// A time (s).
+    Time,
 }
 
 /// Reads a value in SI units, written as in a scene but without quotes: a plain number is SI, a unit
@@ -33,6 +35,7 @@ pub fn quantity(text: &str, measured: Measured) -> Result<f64, SceneError> {
         Measured::ForcePerLength => read::<ForcePerLength>(text),
         Measured::FlexuralRigidity => read::<FlexuralRigidity>(text),
         Measured::Ratio => read::<Ratio>(text),
+        Measured::Time => read::<Time>(text),
     }
 }
 
@@ -60,6 +63,8 @@ mod tests {
         assert_eq!(read("9e-6 N m^2", Measured::FlexuralRigidity), 9e-6);
         assert_eq!(read("3.08 N/m", Measured::ForcePerLength), 3.08);
         assert_eq!(read("-0.3", Measured::Ratio), -0.3);
+        assert_eq!(read("1.5h", Measured::Time), 5400.0);
+        assert_eq!(read("5 min", Measured::Time), 300.0);
     }
 
     #[test]

@@ -13,8 +13,8 @@ use plydrape::net::{EdgeRule, Generators, Layup};
 use plydrape::ply::Ply;
 use std::ops::Range;
 
-/// Widest mesh on a curved mold unless given (m).
-const MESH: f64 = 0.01;
+/// Widest mesh on a curved mold unless given, as a share of the shorter side of a cell.
+const MESH: f64 = 0.1;
 /// Most nodes of a net.
 const MOST_NODES: usize = 250_000;
 /// Most meshes that a cell is divided into to put the seed on a node.
@@ -216,7 +216,7 @@ fn nearest_width(value: f64, ply: &Ply, cells: [bool; 2]) -> Option<f64> {
         .min_by(|p, q| (p - value).abs().total_cmp(&(q - value).abs()))
 }
 
-/// The coarsest divisions with meshes of 10 mm or less and the seed on a node; a plane needs none.
+/// The coarsest divisions with meshes of a tenth of a cell or less and the seed on a node; a plane needs none.
 fn own_divisions(
     ply: &Ply,
     mold: &Mold,
@@ -224,7 +224,11 @@ fn own_divisions(
     document: &Document,
 ) -> Result<[usize; 2], SceneError> {
     let mut divisions = [1; 2];
-    let mut widest = if matches!(mold, Mold::Plane(_)) { f64::INFINITY } else { MESH };
+    let mut widest = if matches!(mold, Mold::Plane(_)) {
+        f64::INFINITY
+    } else {
+        MESH * ply.cell[0].min(ply.cell[1])
+    };
     loop {
         for n in 0..2 {
             let least = (ply.cell[n] / widest * (1.0 - WHOLE)).ceil().max(1.0) as usize;

@@ -9,7 +9,7 @@ use plydrape::scene::{Plan, PlanMethod};
 
 /// Most steps of a plan: each is solved in every drape that the search tries.
 const MOST_STEPS: usize = 10_000;
-/// Most drapes that a search may try.
+/// Most candidates that a search may drape.
 const MOST_EVALUATIONS: usize = 1_000_000;
 /// Smallest and largest rate of the motion file (Hz).
 const RATES: [f64; 2] = [0.1, 1e4];
@@ -40,6 +40,7 @@ pub(super) fn plan(table: &PlanTable, grid: Grid, document: &Document) -> Result
             Some(most) => count(most, [1, MOST_EVALUATIONS], "drapes", document)?,
             None => default.evaluations,
         },
+        improve: table.improve.unwrap_or(default.improve),
         rate: match &table.rate {
             Some(rate) => rate.within_for(document, RATES, "a motion file")?,
             None => default.rate,

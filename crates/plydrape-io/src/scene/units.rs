@@ -83,7 +83,7 @@ impl fmt::Display for Dimension {
 }
 
 /// Symbols of units, their size in SI base units and their dimension.
-const UNITS: [(&str, f64, Dimension); 26] = [
+const UNITS: [(&str, f64, Dimension); 27] = [
     ("m", 1.0, Dimension::LENGTH),
     ("cm", 1e-2, Dimension::LENGTH),
     ("mm", 1e-3, Dimension::LENGTH),
@@ -100,6 +100,7 @@ const UNITS: [(&str, f64, Dimension); 26] = [
     ("s", 1.0, Dimension::TIME),
     ("ms", 1e-3, Dimension::TIME),
     ("min", 60.0, Dimension::TIME),
+    ("h", 3600.0, Dimension::TIME),
     ("Hz", 1.0, Dimension::FREQUENCY),
     ("kHz", 1e3, Dimension::FREQUENCY),
     ("N", 1.0, Dimension::FORCE),
@@ -159,6 +160,8 @@ fn nearest_unit(symbol: &str) -> Option<&'static str> {
         "degree" | "degrees" | "grad" => "deg",
         "radian" | "radians" => "rad",
         "sec" | "second" | "seconds" => "s",
+        "minute" | "minutes" => "min",
+        "hr" | "hour" | "hours" => "h",
         "hertz" => "Hz",
         "newton" | "newtons" => "N",
         "gram" | "grams" => "g",
@@ -323,6 +326,7 @@ mod tests {
         assert_eq!(quantity("9 kg/"), Err(UnitError::Dangling('/')));
         assert_eq!(quantity("9 kg//m"), Err(UnitError::Dangling('/')));
         assert_eq!(quantity("9 m^x"), Err(UnitError::Power("^x".into())));
+        assert!(UnitError::Unknown("hours".into()).help().contains("did you mean `h`?"));
         assert!(UnitError::Unknown("MM".into()).help().contains("did you mean `mm`?"));
     }
 

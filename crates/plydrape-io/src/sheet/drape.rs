@@ -3,6 +3,7 @@
 use super::kept::SheetKept;
 use super::{SheetError, SheetMesh, SheetSpool, SheetState};
 use crate::size::{self, SizeError};
+use plydrape::planner::PlannedSheet;
 use plydrape::scene::Scene;
 use plydrape::sheet::measure::Summary;
 use plydrape::sheet::{self, Drape, Sheet, State, Tuning, is_kept};
@@ -112,6 +113,30 @@ pub fn drape(
     if let Some(fault) = fault {
         return Err(fault.into());
     }
+    finished(draped, last, spool)
+}
+
+/// The drape that decided on a plan, with the states that it keeps. They go into a hidden folder within `dir`, as those of
+/// [`drape`], and the file is the same.
+///
+/// # Errors
+/// [`SheetDrapeError`] if the disk refuses.
+pub fn keep(planned: PlannedSheet, dir: &Path) -> Result<SheetDrape, SheetDrapeError> {
+    let PlannedSheet { drape, states } = planned;
+    let mut spool = SheetSpool::new(dir, mesh(&drape.sheet))?;
+    let last = states.last().map_or(0, |kept| kept.step);
+    for kept in states {
+        spool.push(&state(&kept))?;
+    }
+    finished(drape, last, spool)
+}
+
+/// The drape whose states are in the spool, up to the one of step `last`.
+fn finished(
+    draped: Drape,
+    last: usize,
+    mut spool: SheetSpool,
+) -> Result<SheetDrape, SheetDrapeError> {
     let Drape { summary, landing_step, last: end, duration, .. } = draped;
     if end.step != last {
         // where the drape ended early, its end is kept too

@@ -19,7 +19,7 @@ mod shown;
 mod spool;
 
 pub use array::{ARRAYS, Array, Extent, Scalar};
-pub use drape::{SheetDrape, SheetDrapeError, SheetSize, drape};
+pub use drape::{SheetDrape, SheetDrapeError, SheetSize, drape, keep};
 pub(crate) use ended::ended;
 pub use error::SheetError;
 pub use kept::SheetKept;

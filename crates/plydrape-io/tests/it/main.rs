@@ -11,6 +11,7 @@ mod figure;
 mod front;
 mod gap;
 mod infeasible_limits;
+mod interrupted;
 mod mesh;
 mod mesh_files;
 mod molds_in_scenes;

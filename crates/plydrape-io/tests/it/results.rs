@@ -4,8 +4,8 @@ use crate::common;
 use plydrape::draping::simulate;
 use plydrape::planner;
 use plydrape::scene::{Motion, Scene};
-use plydrape_io::ResultFile;
 use plydrape_io::scene::{self, SceneFile};
+use plydrape_io::{Content, ResultFile};
 use plydrape_io::{csv, figure, page, read};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -73,6 +73,34 @@ fn molds_survive_the_file() {
             assert_eq!(back.closest_point(*p), mold.closest_point(*p), "{} at {p:?}", scene.title);
         }
     }
+}
+
+/// The sheet that decided on a plan is not draped again: its result is that of a drape along the planned motion, to the last
+/// byte.
+#[test]
+fn the_sheet_of_a_plan_is_kept_as_if_draped_along_it() {
+    let path = common::examples().join("01_flat_sheared_mold");
+    let text = std::fs::read_to_string(path.join("scene.toml")).unwrap();
+    let text = text.replace("kind = \"catenaries\"", "kind = \"sheet\"")
+        + "\n[sheet]\nmesh = \"25 mm\"\nkeep = 7\n[limits]\ntilt_rate = \"1 deg/s\"\n";
+    let mut scene = scene::parse(&text, &path, "flat").unwrap().scene;
+    (scene.plan.steps, scene.plan.evaluations) = (20, 1);
+    let mut planned = planner::plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert!(planned.record.slowed > 1.0, "{}", planned.record.slowed);
+    let dir = tempfile::tempdir().unwrap();
+    let mut kept = ResultFile::planned(&scene, None, &planned);
+    let mut draped = kept.clone();
+    kept.keep_sheet(planned.sheet.take().expect("a sheet"), dir.path()).unwrap();
+    scene.motion = planned.motion.steps();
+    draped.drape_sheet(&scene, dir.path(), &|| false, |_| {}).unwrap().expect("a sheet");
+
+    assert_eq!(kept.text().unwrap(), draped.text().unwrap());
+    let bytes = |result: &ResultFile| {
+        let mut bytes = Vec::new();
+        result.sheet_states.as_ref().unwrap().write(&mut bytes).unwrap();
+        bytes
+    };
+    assert!(bytes(&kept) == bytes(&draped), "the states differ");
 }
 
 /// The motion of a plan is made from the file again, at any time to the last bit.

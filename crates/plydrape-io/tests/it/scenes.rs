@@ -126,7 +126,7 @@ fn a_plan_and_its_limits_are_read_in_si() {
         (plan.method, plan.steps, plan.seed),
         (plydrape::scene::PlanMethod::Stepwise, 40, 1 << 63)
     );
-    assert_eq!((plan.move_limit, plan.rate, plan.evaluations), (Some(0.005), 1000.0, 60));
+    assert_eq!((plan.move_limit, plan.rate, plan.evaluations), (Some(0.005), 1000.0, 100));
     let limits = scene.limits;
     assert_eq!(limits.gripper_distance, 0.06);
     assert_eq!(limits.workspace, Some([[-0.5, 1.0], [-1.0, 1.0], [0.0, 2.0]]));

@@ -62,6 +62,7 @@ impl Decision {
         if scene.settings.sheet.time == crate::scene::SheetTime::Real {
             (self.sheet, self.drape) = draped(scene, &self.motion, state);
             self.score = evaluation::score(&self.drape);
+            state.record(&self.drape, self.score, true);
         } else if let Some(sheet) = &mut self.sheet {
             for state in sheet.states.iter_mut().chain([&mut sheet.drape.last]) {
                 state.time = self.motion.times()[state.step - 1];

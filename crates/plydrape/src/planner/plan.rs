@@ -29,7 +29,10 @@ pub struct Planned {
     pub motion: TimedMotion,
     /// How the grippers are turned in it.
     pub attitudes: Attitudes,
-    /// Whether the search was broken off.
+    /// How many of the drapes that the search took decided on a plan, in the time of its motion and where the sheet decides with
+    /// the mesh of the scene; the others ranked candidates.
+    pub decisions: usize,
+    /// Whether the watcher ended the search.
     pub interrupted: bool,
     /// The result of the search, from which another search continues.
     pub checkpoint: Checkpoint,
@@ -123,7 +126,10 @@ pub fn plan(
     summary.limits.extend(verdicts);
     let bounds = Bounds::from(&scene.limits);
     summary.judge_also(own_limits.into_iter().chain(rates(&motion, &bounds, scene)));
-    let evaluations = state.evaluations();
+    let evaluations = match scene.plan.method {
+        PlanMethod::Path => state.candidates() + state.decisions(),
+        PlanMethod::Stepwise => state.candidates(),
+    };
     let record = PlanRecord {
         method: scene.plan.method,
         evaluations,
@@ -135,7 +141,8 @@ pub fn plan(
     let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations);
     let checkpoint = Checkpoint::new(scene, before + evaluations, strategy, positions);
     let interrupted = state.is_interrupted();
-    Ok(Planned { drape, sheet, record, motion, attitudes, interrupted, checkpoint })
+    let decisions = state.decisions();
+    Ok(Planned { drape, sheet, record, motion, attitudes, decisions, interrupted, checkpoint })
 }
 
 /// A decision, and limits of the planner itself.
@@ -153,7 +160,7 @@ fn by_path(
 fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, PlanError> {
     state.begin("step by step");
     let plan = stepwise(scene, &mut |done| {
-        state.set_evaluations(done);
+        state.set_steps(done);
         state.report()
     });
     let limits = match plan.outcome {

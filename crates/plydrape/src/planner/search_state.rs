@@ -10,17 +10,21 @@ use std::sync::{Mutex, PoisonError};
 /// How far a search has come.
 #[derive(Debug)]
 pub struct Progress<'a> {
-    /// Complete drapes tried; of the stepwise planner, steps.
-    pub evaluations: usize,
-    /// Most that the search may try.
+    /// Candidates draped; of the stepwise planner, steps.
+    pub candidates: usize,
+    /// Most candidates, or steps, that the search may try.
     pub most: usize,
+    /// Drapes by which was decided: one more of each candidate that seemed good.
+    pub decisions: usize,
     /// Whether the search has ended and its best plan is finished; a break then leaves the drape of that plan incomplete.
     pub finishing: bool,
     /// Name of the present stage of the search.
     pub stage: &'static str,
     /// Limits of the best plan so far; empty before there is one.
     pub best: &'a [Verdict],
-    /// Whether the best plan so far keeps them all.
+    /// Whether on the best plan so far was decided; else these are the limits of its ranking.
+    pub decided: bool,
+    /// Whether the best plan so far keeps them all, as was decided.
     pub accepted: bool,
 }
 
@@ -31,7 +35,9 @@ pub type Watcher<'a> = &'a mut (dyn FnMut(&Progress) -> ControlFlow<()> + Send);
 pub struct SearchState<'a> {
     stopped: AtomicBool,
     interrupted: AtomicBool,
-    evaluations: AtomicUsize,
+    finishing: AtomicBool,
+    candidates: AtomicUsize,
+    decisions: AtomicUsize,
     most: usize,
     best: Mutex<Best<'a>>,
 }
@@ -42,17 +48,18 @@ struct Best<'a> {
     limits: Vec<Verdict>,
     accepted: bool,
     decided: bool,
-    finishing: bool,
     stage: &'static str,
 }
 
 impl<'a> SearchState<'a> {
-    /// The state of a search of at most `most` complete drapes.
+    /// The state of a search of at most `most` candidates or steps.
     pub fn new(most: usize, watcher: Watcher<'a>) -> Self {
         SearchState {
             stopped: AtomicBool::new(false),
             interrupted: AtomicBool::new(false),
-            evaluations: AtomicUsize::new(0),
+            finishing: AtomicBool::new(false),
+            candidates: AtomicUsize::new(0),
+            decisions: AtomicUsize::new(0),
             most,
             best: Mutex::new(Best {
                 watcher,
@@ -60,20 +67,24 @@ impl<'a> SearchState<'a> {
                 limits: Vec::new(),
                 accepted: false,
                 decided: false,
-                finishing: false,
                 stage: "",
             }),
         }
     }
 
-    /// Complete drapes that have been tried.
-    pub fn evaluations(&self) -> usize {
-        self.evaluations.load(Ordering::Relaxed)
+    /// Candidates that have been draped; of the stepwise planner, steps.
+    pub fn candidates(&self) -> usize {
+        self.candidates.load(Ordering::Relaxed)
     }
 
-    /// Sets the number of evaluations.
-    pub fn set_evaluations(&self, done: usize) {
-        self.evaluations.store(done, Ordering::Relaxed);
+    /// Drapes by which was decided.
+    pub fn decisions(&self) -> usize {
+        self.decisions.load(Ordering::Relaxed)
+    }
+
+    /// Sets the number of steps of the stepwise planner.
+    pub fn set_steps(&self, done: usize) {
+        self.candidates.store(done, Ordering::Relaxed);
     }
 
     /// Whether the search shall end with the best that it has.
@@ -86,28 +97,47 @@ impl<'a> SearchState<'a> {
         self.interrupted.load(Ordering::Relaxed)
     }
 
+    /// Whether this drape was broken off because the search shall end.
+    pub fn is_cut_short(&self, drape: &Judged) -> bool {
+        self.is_stopped() && drape.missing > 0.0
+    }
+
+    /// Whether the search has ended and its best plan is finished.
+    pub fn is_finishing(&self) -> bool {
+        self.finishing.load(Ordering::Relaxed)
+    }
+
     /// Ends the search; its best plan is finished even if the search was stopped.
     pub fn finish(&self) {
         self.stopped.store(false, Ordering::Relaxed);
-        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-        best.finishing = true;
-        best.stage = "finishing the best plan";
+        self.finishing.store(true, Ordering::Relaxed);
+        self.begin("finishing the best plan");
     }
 
-    /// Begins a stage of the search.
-    pub fn begin(&self, stage: &'static str) {
-        self.best.lock().unwrap_or_else(PoisonError::into_inner).stage = stage;
+    /// Begins a stage of the search; returns the one before.
+    pub fn begin(&self, stage: &'static str) -> &'static str {
+        let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
+        let before = std::mem::replace(&mut best.stage, stage);
+        drop(best);
         let _ = self.report();
+        before
     }
 
-    /// Counts a complete drape and keeps it if it is the best; one that decides is better than all that rank.
+    /// Counts a complete drape and keeps it if it is the best; one that decides is better than all that rank, one that is
+    /// accepted better than all that are not. One that was broken off because the search shall end does not count.
     pub fn record(&self, drape: &Judged, score: f64, decides: bool) {
-        self.evaluations.fetch_add(1, Ordering::Relaxed);
+        if self.is_cut_short(drape) {
+            return;
+        }
+        let count = if decides { &self.decisions } else { &self.candidates };
+        count.fetch_add(1, Ordering::Relaxed);
         let mut best = self.best.lock().unwrap_or_else(PoisonError::into_inner);
-        if (decides && !best.decided) || (decides == best.decided && score < best.score) {
+        let key = |decided: bool, accepted: bool, score: f64| (!decided, !accepted, score);
+        let accepted = decides && drape.accepted;
+        if key(decides, accepted, score) < key(best.decided, best.accepted, best.score) {
             best.score = score;
             best.limits.clone_from(&drape.limits);
-            best.accepted = decides && drape.accepted;
+            best.accepted = accepted;
             best.decided = decides;
         }
         drop(best);
@@ -120,13 +150,15 @@ impl<'a> SearchState<'a> {
             return ControlFlow::Break(());
         }
         let Ok(mut best) = self.best.try_lock() else { return ControlFlow::Continue(()) };
-        let Best { watcher, limits, accepted, finishing, stage, .. } = &mut *best;
+        let Best { watcher, limits, decided, accepted, stage, .. } = &mut *best;
         let progress = Progress {
-            evaluations: self.evaluations(),
+            candidates: self.candidates(),
             most: self.most,
-            finishing: *finishing,
+            decisions: self.decisions(),
+            finishing: self.is_finishing(),
             stage,
             best: limits,
+            decided: *decided,
             accepted: *accepted,
         };
         let flow = watcher(&progress);

@@ -19,8 +19,11 @@ pub(in crate::scene) struct PlanTable {
     pub move_limit: Option<Quantity<Length>>,
     /// Seed of the search, 0 unless given: the same seed, the same plan.
     pub seed: Option<Located<Seed>>,
-    /// Most complete drapes that the search may try, 60 unless given.
+    /// Most candidates that the search may drape, 100 unless given; those on which it decides are draped once more.
     pub evaluations: Option<Located<Count>>,
+    /// Whether the search goes on improving a plan that keeps every limit with a margin, false unless given. The planner
+    /// "stepwise" improves nothing.
+    pub improve: Option<bool>,
     /// Samples a second of the file motion.csv (Hz), 100 unless given.
     pub rate: Option<Quantity<Frequency>>,
 }

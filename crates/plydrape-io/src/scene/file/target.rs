@@ -19,7 +19,7 @@ pub(in crate::scene) struct TargetTable {
     pub shear: Option<Quantity<Angle>>,
     /// The fabric point [u, v] (m) that is laid first, gripper [0, 0] unless given; or "middle".
     pub seed: Option<Located<Place<Middle>>>,
-    /// Mesh width of the net (m), a whole part of both cells. Unless given, cells are divided to 10 mm or
+    /// Mesh width of the net (m), a whole part of both cells. Unless given, cells are divided to a tenth of their shorter side or
     /// less, on a plane not at all.
     pub mesh: Option<Quantity<Length>>,
     /// How the first two yarns run, "geodesic" unless given.

@@ -23,7 +23,7 @@ use crate::scene::PlanMethod;
 pub struct PlanRecord {
     /// The planner.
     pub method: PlanMethod,
-    /// Drapes that the search took.
+    /// Drapes that the search took; of the stepwise planner, steps.
     pub evaluations: usize,
     /// Samples a second of the motion as it is written (Hz).
     pub rate: f64,

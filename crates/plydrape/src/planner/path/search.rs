@@ -55,6 +55,8 @@ struct Search<'a, 'b> {
     best: Option<Decision>,
     /// The first that could not become a motion.
     fault: Option<MotionError>,
+    /// Rounds in which an accepted plan was not improved.
+    idle: usize,
     /// Drapes that may be tried.
     left: usize,
 }
@@ -77,6 +79,7 @@ pub fn search(
         candidates: Vec::new(),
         best: None,
         fault: None,
+        idle: 0,
         left: scene.plan.evaluations.max(1),
     };
     search.first(checkpoint);
@@ -86,6 +89,7 @@ pub fn search(
     // at least one is decided on, even if the search was stopped
     if search.best.is_none() {
         state.finish();
+        search.ensure_candidate(checkpoint);
         search.decide_all(f64::INFINITY, 1);
     }
     match (search.best, search.fault) {
@@ -98,7 +102,7 @@ impl Search<'_, '_> {
     /// The first candidates: families, or what an earlier search found.
     fn first(&mut self, checkpoint: Option<&Checkpoint>) {
         let Shared { scene, state, .. } = self.shared;
-        state.begin("first candidates");
+        state.begin("draping the first candidates");
         match checkpoint.and_then(|checkpoint| checkpoint.path(scene)) {
             Some((strategy, Some(positions))) => {
                 self.left = self.left.saturating_sub(1);
@@ -130,6 +134,22 @@ impl Search<'_, '_> {
         }
     }
 
+    /// A candidate, even if the search was stopped before the first was draped.
+    fn ensure_candidate(&mut self, checkpoint: Option<&Checkpoint>) {
+        let Shared { scene, tabulated, heights, .. } = self.shared;
+        if !self.candidates.is_empty() || self.fault.is_some() {
+            return;
+        }
+        let earlier = checkpoint.and_then(|checkpoint| checkpoint.path(scene));
+        let families = || Strategy::families(scene, |shape| shape.slope);
+        let strategies = earlier.map_or_else(families, |(strategy, _)| vec![strategy]);
+        let of = |strategy| Some((strategy, trajectory(tabulated, heights, strategy)?));
+        if let Some((strategy, positions)) = strategies.into_iter().find_map(of) {
+            let score = f64::INFINITY;
+            self.candidates.push(Candidate { strategy, positions, drape: None, score });
+        }
+    }
+
     /// Evolution about the best; a search that continues an earlier one takes other samples.
     fn evolve(&mut self, checkpoint: Option<&Checkpoint>) {
         let ranked = self.candidates.first().map(|first| (first.score, first.strategy));
@@ -137,7 +157,7 @@ impl Search<'_, '_> {
         let start = ranked.into_iter().chain(decided).reduce(|a, b| if b.0 < a.0 { b } else { a });
         let Some((_, start)) = start else { return };
         let shared = self.shared;
-        shared.state.begin("evolution");
+        shared.state.begin("improving the best by evolution");
         let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations as u64);
         let found: Mutex<Vec<Candidate>> = Mutex::new(Vec::new());
         let objective = |unit: &DVector<f64>| -> f64 {
@@ -151,32 +171,26 @@ impl Search<'_, '_> {
             .population_size(TUNING.search.generation)
             .seed(shared.scene.plan.seed.wrapping_add(before));
         let Ok(mut evolution) = options.build(objective) else { return };
-        let mut idle = 0;
-        while !self.is_done() && idle < TUNING.search.patience {
-            if self.left < TUNING.search.generation {
-                break;
-            }
+        while !self.is_done() && self.left >= TUNING.search.generation {
             self.left -= TUNING.search.generation;
             let ended = evolution.next_parallel().is_some();
-            let before = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
             self.candidates.append(&mut lock(&found));
             self.rank();
             self.decide(1);
-            // an accepted plan is not improved for long
-            let after = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
-            let accepted = self.best.as_ref().is_some_and(|best| best.drape.accepted);
-            let gained = after < TUNING.search.gain * before;
-            idle = if accepted && !gained { idle + 1 } else { 0 };
             if ended {
                 break;
             }
         }
     }
 
-    /// Whether the search shall end.
+    /// Whether the search shall end: an accepted plan is not improved for long, unless the scene asks for it.
     fn is_done(&self) -> bool {
-        let good = |best: &Decision| best.drape.accepted && best.score <= TUNING.search.good;
-        self.left == 0 || self.shared.state.is_stopped() || self.best.as_ref().is_some_and(good)
+        let improve = self.shared.scene.plan.improve;
+        let enough = |best: &Decision| {
+            let good = best.score <= TUNING.search.good;
+            !improve && best.drape.accepted && (good || self.idle >= TUNING.search.patience)
+        };
+        self.left == 0 || self.shared.state.is_stopped() || self.best.as_ref().is_some_and(enough)
     }
 
     /// Drapes along strategies.
@@ -200,30 +214,49 @@ impl Search<'_, '_> {
     /// Decides on the best candidates that are promising, at most so many.
     fn decide(&mut self, most: usize) {
         let known = !lock(&self.shared.bias).is_empty();
-        self.decide_all(TUNING.search.promising[usize::from(known)], most);
+        let score = |best: &Option<Decision>| best.as_ref().map_or(f64::INFINITY, |b| b.score);
+        let before = score(&self.best);
+        let mut promising = TUNING.search.promising[usize::from(known)];
+        // a plan that is accepted is only replaced by a better one
+        if let Some(best) = self.best.as_ref().filter(|best| best.drape.accepted) {
+            promising = promising.min(TUNING.search.gain * best.score);
+        }
+        self.decide_all(promising, most);
+        let gained = score(&self.best) < TUNING.search.gain * before;
+        let accepted = self.best.as_ref().is_some_and(|best| best.drape.accepted);
+        self.idle = if accepted && !gained { self.idle + 1 } else { 0 };
     }
 
-    /// Decides on the best candidates with a score below `promising`, at most so many.
+    /// Decides on the best candidates with a score up to `promising`, at most so many.
     fn decide_all(&mut self, promising: f64, most: usize) {
-        let count = self.candidates.iter().take_while(|c| c.score < promising).count().min(most);
-        if count == 0 || self.shared.state.is_stopped() {
+        let count = self.candidates.iter().take_while(|c| c.score <= promising).count().min(most);
+        let ended = self.shared.state.is_stopped() && !self.shared.state.is_finishing();
+        if count == 0 || ended {
             return;
         }
         let Shared { scene, state, .. } = self.shared;
-        state.begin("decision");
+        let stage = if state.is_finishing() { "finishing the best plan" } else { "deciding" };
+        let before = state.begin(stage);
         let chosen: Vec<Candidate> = self.candidates.drain(..count).collect();
         let decide = |candidate: Candidate| {
-            let Candidate { strategy, positions, drape, .. } = candidate;
-            (drape, Decision::on(scene, Some(strategy), positions, state))
+            let positions = candidate.positions.clone();
+            let decision = Decision::on(scene, Some(candidate.strategy), positions, state);
+            (candidate, decision)
         };
         let decisions: Vec<_> = chosen.into_par_iter().map(decide).collect();
-        for (coarse, decision) in decisions {
+        state.begin(before);
+        for (candidate, decision) in decisions {
             match decision {
+                // what the end of the search broke off is decided on when it is finished
+                Ok(cut) if state.is_cut_short(&cut.drape) && !state.is_finishing() => {
+                    self.candidates.push(candidate);
+                }
                 Ok(decision) => {
-                    if let Some(coarse) = coarse {
+                    if let Some(coarse) = candidate.drape {
                         lock(&self.shared.bias).learn(&coarse, &decision.drape);
                     }
-                    let better = |best: &Decision| decision.score < best.score;
+                    let key = |d: &Decision| (!d.drape.accepted, d.score);
+                    let better = |best: &Decision| key(&decision) < key(best);
                     if self.best.as_ref().is_none_or(better) {
                         self.best = Some(decision);
                     }

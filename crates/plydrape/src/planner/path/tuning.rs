@@ -126,7 +126,7 @@ pub struct Search {
     pub step: f64,
     /// Candidates of a generation: whole pairs, for two cores.
     pub generation: usize,
-    /// Generations without a gain after which an accepted plan is good enough.
+    /// Rounds of first candidates, or generations, without a gain after which an accepted plan is good enough.
     pub patience: usize,
     /// Ratio of scores that is a gain.
     pub gain: f64,
@@ -199,7 +199,7 @@ pub const TUNING: Tuning = Tuning {
         ],
     },
     search: Search {
-        good: 0.8,
+        good: 0.9,
         promising: [1.4, 1.1],
         excess: 1.1,
         not_draped: 1e2,
@@ -208,7 +208,7 @@ pub const TUNING: Tuning = Tuning {
         kept: 16,
         step: 0.1,
         generation: 8,
-        patience: 2,
+        patience: 1,
         gain: 0.95,
     },
     refinement: Refinement {

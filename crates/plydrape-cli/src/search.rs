@@ -1,0 +1,216 @@
+//! A search for a plan under someone's eyes: when it ends, and how far it is.
+
+use crate::watch::{Interrupt, bar};
+use indicatif::ProgressBar;
+use plydrape::planner::Progress;
+use plydrape::scene::{Plan, PlanMethod};
+use plydrape_io::table;
+use std::io::{self, IsTerminal, Write};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// Why a search was ended from outside.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// By Ctrl-C or SIGTERM.
+    Interrupted,
+    /// Its time was over.
+    TimeOver,
+}
+
+/// A search under way, as the command watches it.
+pub struct Search<'a> {
+    interrupt: &'a Interrupt,
+    /// The time after which it ends.
+    time: Option<Duration>,
+    began: Instant,
+    ended: Option<Ended>,
+    /// What a search counts.
+    unit: &'static str,
+    bar: ProgressBar,
+    lines: Option<Lines>,
+}
+
+impl<'a> Search<'a> {
+    /// A search that begins now, and ends by `interrupt` or after `time`. Someone at a terminal sees a bar, others a plain line
+    /// a minute on standard error; nothing is shown if `quiet`.
+    pub fn new(plan: &Plan, time: Option<Duration>, interrupt: &'a Interrupt, quiet: bool) -> Self {
+        let (most, unit) = match plan.method {
+            PlanMethod::Path => (plan.evaluations, "candidates"),
+            PlanMethod::Stepwise => (plan.steps, "steps"),
+        };
+        let template = format!(
+            "planning {{bar:40}} {{pos}} of at most {{len}} {unit}, {{elapsed}}\n{{wide_msg}}"
+        );
+        let bar = bar(most, &template, quiet);
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(Duration::from_millis(500));
+        }
+        let lines = (!quiet && !io::stderr().is_terminal()).then(Lines::default);
+        let began = Instant::now();
+        Search { interrupt, time, began, ended: None, unit, bar, lines }
+    }
+
+    /// Shows how far the search is, and says whether it goes on. A plan that is being finished is let go on after the first
+    /// request to end, not after the second.
+    pub fn watch(&mut self, progress: &Progress) -> ControlFlow<()> {
+        let elapsed = self.began.elapsed();
+        self.show(progress, elapsed);
+        let ended = if progress.finishing {
+            self.interrupt.asked_again().is_break().then_some(Ended::Interrupted)
+        } else if self.interrupt.asked().is_break() {
+            Some(Ended::Interrupted)
+        } else {
+            self.time.filter(|time| elapsed >= *time).map(|_| Ended::TimeOver)
+        };
+        self.ended = ended.or(self.ended);
+        match ended {
+            Some(_) => ControlFlow::Break(()),
+            None => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Takes the bar away. Returns the time that the search took, and why it was ended if it did not end by itself.
+    pub fn finish(self) -> (Duration, Option<Ended>) {
+        self.bar.finish_and_clear();
+        (self.began.elapsed(), self.ended)
+    }
+
+    fn show(&mut self, progress: &Progress, elapsed: Duration) {
+        if !self.bar.is_hidden() {
+            self.bar.set_position(progress.candidates as u64);
+            self.bar.set_message(state(progress, true));
+        }
+        if self.lines.as_mut().is_some_and(|lines| lines.is_due(elapsed)) {
+            // where standard error cannot be written, the search is no worse
+            let _ = writeln!(io::stderr(), "{}", line(progress, self.unit, elapsed));
+        }
+    }
+}
+
+/// The plain lines of a search: one a minute, none within the first.
+#[derive(Debug, Default)]
+struct Lines {
+    minutes: u64,
+}
+
+impl Lines {
+    /// Whether the next line is due.
+    fn is_due(&mut self, elapsed: Duration) -> bool {
+        let minutes = elapsed.as_secs() / 60;
+        let due = minutes > self.minutes;
+        self.minutes = minutes;
+        due
+    }
+}
+
+/// A plain line about a search.
+fn line(progress: &Progress, unit: &str, elapsed: Duration) -> String {
+    let minutes = Duration::from_secs(elapsed.as_secs() / 60 * 60);
+    let Progress { candidates, most, .. } = progress;
+    let state = state(progress, false);
+    format!("plydrape: {}, {candidates} {unit} of at most {most}, {state}", time_text(minutes))
+}
+
+/// What is being done, and how good the best plan so far is.
+fn state(progress: &Progress, at_terminal: bool) -> String {
+    let again = if at_terminal { " (Ctrl-C twice ends that too)" } else { "" };
+    let done = format!("{}{}", progress.stage, if progress.finishing { again } else { "" });
+    let decided = match (progress.decided, progress.decisions) {
+        (false, _) => ", by its ranking".into(),
+        (true, 1) => String::new(),
+        (true, decisions) => format!(" of {decisions} decided on"),
+    };
+    let best = match (table::limiting(progress.best), table::closest(progress.best)) {
+        _ if progress.best.is_empty() => return done,
+        (Some(worst), _) => table::measure_text(worst),
+        (None, _) if !progress.accepted => "all limits are kept".into(),
+        (None, Some(closest)) => format!("accepted, {}", table::measure_text(closest)),
+        (None, None) => "accepted".into(),
+    };
+    format!("{done}; best so far{decided}: {best}")
+}
+
+/// A time in hours, minutes and seconds, without what is zero.
+pub fn time_text(time: Duration) -> String {
+    let (minutes, hours) = (time.as_secs() / 60 % 60, time.as_secs() / 3600);
+    let seconds = time.as_secs_f64() - (time.as_secs() / 60 * 60) as f64;
+    let mut parts = Vec::new();
+    if hours > 0 {
+        parts.push(format!("{hours} h"));
+    }
+    if minutes > 0 {
+        parts.push(format!("{minutes} min"));
+    }
+    if seconds > 0.0 || parts.is_empty() {
+        parts.push(format!("{} s", crate::numbers::short(seconds)));
+    }
+    parts.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use plydrape::measure::{Name, Verdict, Worst};
+
+    fn seconds(seconds: u64) -> Duration {
+        Duration::from_secs(seconds)
+    }
+
+    fn height(value: f64) -> Verdict {
+        Verdict::of(Name::Height, Worst { value, at: String::new(), place: None }, 0.5, Some(30))
+    }
+
+    fn progress(best: &[Verdict], accepted: bool) -> Progress<'_> {
+        Progress {
+            candidates: 34,
+            most: 60,
+            decisions: 3,
+            finishing: false,
+            stage: "deciding",
+            best,
+            decided: true,
+            accepted,
+        }
+    }
+
+    /// Reports may come seldom: a minute without one has no line.
+    #[test]
+    fn a_line_is_due_once_a_minute_and_not_in_the_first() {
+        let mut lines = Lines::default();
+        let due = [0, 59, 60, 61, 119, 120, 121, 290, 299, 300].map(|s| lines.is_due(seconds(s)));
+        assert_eq!(due, [false, false, true, false, false, true, false, true, false, true]);
+    }
+
+    #[test]
+    fn a_line_says_what_is_done_and_which_limit_is_exceeded() {
+        let best = [height(0.7)];
+        let shown = line(&progress(&best, false), "candidates", seconds(125));
+        let wanted = "plydrape: 2 min, 34 candidates of at most 60, deciding; \
+                      best so far of 3 decided on: height 0.7 mm against 0.5 mm";
+        assert_eq!(shown, wanted);
+        let ranked = Progress { decided: false, decisions: 0, ..progress(&best, false) };
+        let shown = line(&ranked, "candidates", seconds(125));
+        assert!(shown.ends_with("; best so far, by its ranking: height 0.7 mm against 0.5 mm"));
+        let nothing = line(&progress(&[], false), "steps", seconds(3700));
+        assert_eq!(nothing, "plydrape: 1 h 1 min, 34 steps of at most 60, deciding");
+    }
+
+    /// What is improved where all limits are kept: the one that is nearest to not being kept.
+    #[test]
+    fn a_plan_is_called_accepted_only_once_it_was_decided_on() {
+        let best = [height(0.4)];
+        let shown = line(&progress(&best, true), "candidates", seconds(60));
+        assert!(shown.ends_with(": accepted, height 0.4 mm against 0.5 mm"), "{shown}");
+        let ranked = Progress { decided: false, ..progress(&best, false) };
+        let shown = line(&ranked, "candidates", seconds(60));
+        assert!(shown.ends_with(", by its ranking: all limits are kept"), "{shown}");
+    }
+
+    #[test]
+    fn times_are_shown_without_what_is_zero() {
+        let shown = [0.0, 0.5, 90.0, 300.0, 3600.0, 5430.0].map(Duration::from_secs_f64);
+        let wanted = ["0 s", "0.5 s", "1 min 30 s", "5 min", "1 h", "1 h 30 min 30 s"];
+        assert_eq!(shown.map(time_text), wanted);
+    }
+}
