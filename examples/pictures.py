@@ -10,8 +10,8 @@ A picture is `figure.svg` as Chromium draws it, with a small palette. Beside the
 numbers.json has the outcome of both drapes. A check compares these numbers and no bytes of
 pictures, which depend on fonts and browsers. Making pictures needs Chromium and Pillow.
 
-Where both models are compared, straight_both.png and planned_both.png show the catenaries on the
-left and the sheet on the right, at first contact and at the end.
+Where both models are compared, straight_both.png shows the catenaries on the left and the sheet on
+the right, at first contact and at the end.
 """
 
 from __future__ import annotations
@@ -60,8 +60,7 @@ def folders(results: Path, name: str) -> dict[str, Path]:
     """The folder of results behind each picture of an example."""
     found = {"straight": results / name, "planned": results / f"{name}.plan"}
     if name in COMPARED:
-        sheets = {f"{motion} sheet": Path(f"{folder}.sheet") for motion, folder in found.items()}
-        found.update(sheets)
+        found["straight catenaries"] = results / f"{name}.catenaries"
     return found
 
 
@@ -100,7 +99,7 @@ def check(results: Path) -> int:
             found = numbers(folder)
             before = kept[picture]
             for key in sorted({*found, *before}):
-                rounding = FOLDING if picture.endswith("sheet") else ROUNDING
+                rounding = ROUNDING if picture.endswith("catenaries") else FOLDING
                 if differ(before.get(key), found.get(key), rounding):
                     was, now = before.get(key), found.get(key)
                     print(f"{name}, {picture}: {key} was {was}, is {now}", file=sys.stderr)
@@ -183,9 +182,9 @@ def make(results: Path) -> None:
             kept[picture] = numbers(folder)
         for motion in ("straight", "planned"):
             draw(of[motion] / "figure.svg", EXAMPLES / name / f"{motion}.png")
-            if name in COMPARED:
-                figures = [of[motion] / "figure.svg", of[f"{motion} sheet"] / "figure.svg"]
-                compare(figures, EXAMPLES / name / f"{motion}_both.png")
+        if name in COMPARED:
+            figures = [of[key] / "figure.svg" for key in ("straight catenaries", "straight")]
+            compare(figures, EXAMPLES / name / "straight_both.png")
         (EXAMPLES / name / "numbers.json").write_text(json.dumps(kept, indent=1) + "\n")
         print(f"examples/{name}: straight.png, planned.png, numbers.json")
     draw(results / "hemisphere_net" / "shear.svg", EXAMPLES.parent / "docs/hemisphere_shear.png")

@@ -1015,7 +1015,7 @@ class Result:
 
         Example:
             >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> plydrape.simulate(scene).sheet is None
+            >>> plydrape.simulate(scene, model="catenaries").sheet is None
             True
             >>> plydrape.simulate(scene, model="sheet").sheet.converged
             True

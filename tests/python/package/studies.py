@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import shutil
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +13,23 @@ import pyarrow as pa
 from plydrape.study import Study
 
 ROOT = Path(__file__).resolve().parents[3]
-PAPER = ROOT / "examples" / "01_flat_sheared_mold" / "scene.toml"
+HOME = tempfile.TemporaryDirectory(prefix="plydrape-studies-")
+
+
+def by_catenaries(name: str) -> Path:
+    """A copy of an example whose model is the catenaries: studies drape it many times."""
+    folder = Path(HOME.name) / name
+    shutil.copytree(ROOT / "examples" / name, folder)
+    scene = folder / "scene.toml"
+    text = scene.read_text(encoding="utf-8")
+    if 'kind = "catenaries"' not in text:
+        text = text.replace("[model]\n", '[model]\nkind = "catenaries"\n')
+    scene.write_text(text, encoding="utf-8")
+    return scene
+
+
+PAPER = by_catenaries("01_flat_sheared_mold")
+by_catenaries("02_hanging_strip")
 
 # Three inputs and errors of all grippers: none of the rows is accepted, all differ.
 VARIED: dict[str, dict[str, Any]] = {

@@ -1,33 +1,23 @@
-//! What a plan must reach: every solved mold of the examples, from two heights, evaluated by draping the ply once more
-//! along the files that were written. Limits are the defaults of `[limits]`, repeated here as numbers.
+//! What a plan must reach: every solved mold of the examples, and a variant of each, judged by the sheet, draped once more
+//! along the files that were written. Limits are repeated here as numbers.
 
-use crate::common::{distance, drape, examples};
-use plydrape::draping::record::{CatenaryState, Step, Verdict};
-use plydrape::equilibrium::Status;
+use crate::common::examples;
+use crate::scaled::scaled;
+use plydrape::draping::record::Verdict;
 use plydrape::measure::Name;
 use plydrape::planner::{self, Planned};
-use plydrape::ply::Kind;
-use plydrape::scene::Scene;
+use plydrape::scene::{Motion, Scene};
+use plydrape::sheet;
 use plydrape_io::result::ResultFile;
 use plydrape_io::scene;
-use plydrape_io::{csv, plan, read, table};
+use plydrape_io::{plan, table};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// Largest slack of a span at the end, as a share of its length.
-const SLACK: f64 = 0.0005;
-/// Largest bridging gap at the end (m).
-const BRIDGING: f64 = 1e-3;
-/// Largest overstretch of an edge at any time, as a share of it.
-const OVERSTRETCH: f64 = 0.001;
-/// Largest landing error of a contact point and of a gripper (mm).
-const LANDING: [f64; 2] = [2.0, 0.5];
-/// Difference of a cell's shear at the end and when it landed (°).
-const LANDING_SHEAR: f64 = 3.0;
-/// Largest angle between landed edges and the ideal drape (°).
-const FIBRE_ANGLE: f64 = 3.0;
-/// Least share of the edges' length that lies on the mold at the end.
-const CONTACT_SHARE: f64 = 0.95;
+/// Largest height of the ply over the mold at the end, of cells of 100 mm (mm).
+const HEIGHT: f64 = 0.5;
+/// Largest position error of a landed point, and the same of a ply that is sheared on its way (mm).
+const POSITION: [f64; 2] = [1.0, 2.0];
 /// Largest tilt of a gripper at any time (°).
 const TILT: f64 = 40.0;
 /// Largest speed (m/s), acceleration (m/s²) and jerk (m/s³) of a gripper.
@@ -72,21 +62,6 @@ impl Example {
         Example { folder: self.folder.clone(), text }
     }
 
-    /// The same scene along a table of poses: no start of its own, steps cut.
-    fn along(&self, table: &Path) -> Self {
-        let not = |keys: &'static [&'static str]| {
-            move |line: &str| {
-                let key = line.split(['=', ' ']).next().unwrap_or("");
-                (!keys.contains(&key)).then(|| line.to_owned())
-            }
-        };
-        let placing = &["spacing", "height", "origin", "direction", "parallel_to_mold"];
-        let file = format!("kind = \"file\"\nfile = \"{}\"", table.display());
-        self.with_table("grippers", not(placing), "")
-            .with_table("motion", |_| None, &file)
-            .with_table("contact", not(&["stepping"]), "stepping = \"cut\"")
-    }
-
     /// The folder with the plan that `scripts/examples` has made of this very scene, if `PLYDRAPE_EXAMPLES` names one.
     fn plan_made_before(&self) -> Option<PathBuf> {
         let name = self.folder.file_name()?.to_str()?;
@@ -108,72 +83,22 @@ fn verdict<'a>(result: &'a ResultFile, name: &str) -> &'a Verdict {
     found.unwrap_or_else(|| panic!("{name} has no verdict"))
 }
 
-/// Each limit by itself, from the spans, contacts and grippers of the steps.
-fn keeps_every_limit(result: &ResultFile, what: &str) {
-    let summary = &result.summary;
-    let limiting = table::limiting(&summary.limits);
-    // samples of the motion are other steps than the plan's: a second contact may be two per cent deeper
-    let most = if what.ends_with("motion.csv") { 1.02 } else { 1.0 };
-    assert!(summary.limits.iter().all(|verdict| verdict.ratio() <= most), "{what}: {limiting:?}");
-    assert_eq!(summary.steps, summary.steps_planned, "{what}");
-    assert!(result.steps.iter().all(|step| step.solver.status == Status::Converged), "{what}");
-
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-    let edges = |step: usize| result.steps[step].catenaries.iter().filter(|c| c.kind.is_edge());
-    let last = result.steps.last().expect("steps");
-    let contacts = || last.catenaries.iter().filter_map(|line| line.contact.as_ref());
-
-    // what all segments of an edge keep of slack, as a share of the edge; segments may be as short as one likes
-    let share = |line: &CatenaryState| {
-        1e-3 * line.spans.iter().map(|span| span.slack_mm(line.length)).sum::<f64>() / line.length
-    };
-    let slack = largest(&mut edges(result.steps.len() - 1).map(share));
-    assert!(slack <= SLACK, "{what}: slack of {slack} of an edge's length");
-    // a diagonal is no fibre: its cell landed with the shear that it ends with
-    let shears = last.cells.iter().flat_map(|cell| {
-        let sign = if cell.shearing == Some(Kind::Falling) { -1.0 } else { 1.0 };
-        let end = sign * cell.shear_deg;
-        cell.landed_deg.into_iter().flatten().map(move |landed| (landed - end).abs())
-    });
-    let shear = largest(&mut shears.into_iter());
-    assert!(shear <= LANDING_SHEAR + 0.5, "{what}: landed {shear}° off in shear");
-
-    let gap = |line: &CatenaryState| line.bridging.map(|b| b.gap);
-    let gap = largest(&mut edges(result.steps.len() - 1).filter_map(gap));
-    assert!(gap <= BRIDGING, "{what}: a bridge of {gap} m");
-
-    let stretches = (0..result.steps.len())
-        .flat_map(edges)
-        .flat_map(|edge| edge.spans.iter().map(|span| edge.overstretch(span)));
-    let stretch = largest(&mut stretches.into_iter());
-    assert!(stretch <= OVERSTRETCH, "{what}: overstretch {stretch}");
-
-    let laid = edges(result.steps.len() - 1).filter_map(|line| line.contact.as_ref());
-    let errors = laid.flat_map(|contact| contact.landing_error_mm.iter().flatten());
-    let errors: Vec<f64> = errors.map(|error| error.expect("an ideal place")).collect();
-    let off = largest(&mut errors.iter().copied());
-    assert!(!errors.is_empty() && off <= LANDING[0], "{what}: landed {off} mm off");
-    let ideal = result.scene.target_grippers().expect("targets");
-    let misses = last.grippers.iter().zip(ideal).map(|(g, there)| distance(g.position, *there));
-    let miss = 1e3 * largest(&mut misses.into_iter());
-    assert!(miss <= LANDING[1], "{what}: a gripper {miss} mm off");
-
-    let angle = largest(&mut contacts().filter_map(|contact| contact.fibre_angle_deg));
-    assert!(angle <= FIBRE_ANGLE, "{what}: {angle}° off the fibres");
-    let tilts = result.steps.iter().flat_map(|step| &step.grippers).map(|g| g.tilt_deg);
-    let tilt = largest(&mut tilts.into_iter());
-    assert!(tilt <= TILT, "{what}: tilt {tilt}°");
-
-    let share = last.measures.value(Name::ContactShare).expect("a mold");
-    assert!(share >= CONTACT_SHARE, "{what}: contact {share}");
-    let close = verdict(result, "gripper_distance");
-    let least = |step: &Step| {
-        let places: Vec<_> = step.grippers.iter().map(|g| g.position).collect();
-        let pairs = (0..places.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
-        pairs.map(|(a, b)| distance(places[a], places[b])).fold(f64::INFINITY, f64::min)
-    };
-    let least = result.steps.iter().map(least).fold(f64::INFINITY, f64::min);
-    assert!(1e3 * least >= close.limit, "{what}: grippers {least} m apart");
+/// The sheet along some positions of a scene `s` times as large as an example keeps height, position and tilt, with lines every
+/// tenth of a cell.
+fn keeps_what_counts(scene: &Scene, s: f64, motion: Motion, position: f64, what: &str) {
+    let mut scene = Scene { motion, ..scene.clone() };
+    scene.settings.sheet.mesh = Some(0.1 * scene.ply.cell[0].min(scene.ply.cell[1]));
+    let tuning = sheet::Tuning::default();
+    let drape = sheet::drape(&scene, tuning, &|| false, |_| ControlFlow::Continue(()));
+    let summary = drape.expect("a sheet").summary;
+    let height = summary.height_max_mm.expect("a mold");
+    let off = summary.position_max_mm.expect("an ideal drape");
+    let tilt = summary.tilt_max_deg;
+    println!("{what}: {height:.3} mm high, {off:.3} mm off, tilt {tilt:.1}°");
+    assert!(summary.converged, "{what}: {:?}", summary.status);
+    assert!(height <= s * HEIGHT, "{what}: {height} mm high");
+    assert!(off <= s * position, "{what}: {off} mm off");
+    assert!(tilt <= TILT, "{what}: a gripper tilts by {tilt}°");
 }
 
 fn norm(a: [f64; 3]) -> f64 {
@@ -199,20 +124,20 @@ fn poses(table: &str) -> Poses {
     out
 }
 
-/// Speed, acceleration and jerk as divided differences of positions at 1 kHz: means of the true ones, so no
+/// Speed, acceleration and jerk as divided differences of positions in even times: means of the true ones, so no
 /// larger. Written numbers are exact to 1e-16 m, a third difference to 1e-6 m/s³. Quaternions are of unit length
 /// and never jump to their negative.
-fn moves_within_its_rates(table: &str, what: &str) {
-    let poses = poses(table);
+fn moves_within_its_rates(poses: &Poses, s: f64, per_second: f64, what: &str) {
     // the last sample is that of the end, off the beat
     let beat = &poses[..poses.len() - 1];
     for gripper in 0..poses[0].1.len() {
         let mut differences: Vec<[f64; 3]> = beat.iter().map(|(_, p)| p[gripper].0).collect();
-        for (order, limit) in RATES.iter().enumerate() {
-            let rate = |pair: &[[f64; 3]]| [0, 1, 2].map(|n| 1e3 * (pair[1][n] - pair[0][n]));
+        for (order, limit) in RATES.map(|rate| s * rate).iter().enumerate() {
+            let rate =
+                |pair: &[[f64; 3]]| [0, 1, 2].map(|n| per_second * (pair[1][n] - pair[0][n]));
             differences = differences.windows(2).map(rate).collect();
             let worst = differences.iter().map(|d| norm(*d)).fold(0.0, f64::max);
-            assert!(worst <= limit + 1e-6, "{what}: derivative {} is {worst}", order + 1);
+            assert!(worst <= limit * (1.0 + 1e-6), "{what}: derivative {} is {worst}", order + 1);
             assert!(worst > 0.0, "{what}: gripper {gripper} stands");
         }
         let turned: Vec<[f64; 4]> = poses.iter().map(|(_, p)| p[gripper].1).collect();
@@ -226,128 +151,118 @@ fn moves_within_its_rates(table: &str, what: &str) {
     }
 }
 
-/// From the first contact on no gripper rises off the mold by more than `rise` (m).
-fn only_comes_down(scene: &Scene, result: &ResultFile, rise: f64, what: &str) {
-    let mold = scene.mold.as_ref().expect("a mold");
-    let first = result.summary.first_contact_step.expect("contact");
-    let mut lowest = vec![f64::INFINITY; scene.ply.grid.grippers()];
-    let mut worst = (0.0, 0, 0);
-    for step in &result.steps[first - 1..] {
-        for (n, gripper) in step.grippers.iter().enumerate() {
-            let height = mold.signed_distance(gripper.position);
-            if height - lowest[n] > worst.0 {
-                worst = (height - lowest[n], step.step, n);
-            }
-            lowest[n] = lowest[n].min(height);
-        }
+/// The motion of a table, every so many samples; the last one is in it.
+fn motion(poses: &Poses, every: usize) -> Motion {
+    let last = poses.len() - 1;
+    let chosen: Vec<_> = (0..last).step_by(every.max(1)).chain([last]).map(|n| &poses[n]).collect();
+    Motion {
+        times: chosen.iter().map(|(time, _)| *time).collect(),
+        positions: chosen
+            .iter()
+            .map(|(_, g)| g.iter().map(|(place, _)| *place).collect())
+            .collect(),
     }
-    println!("{what}: a gripper rises by {:.3} mm once contact began", 1e3 * worst.0);
-    assert!(
-        worst.0 <= rise,
-        "{what}: gripper {} rises by {} m in step {}",
-        worst.2,
-        worst.0,
-        worst.1
-    );
 }
 
-/// Plans, writes the files, and drapes along what can be read from them.
-fn is_draped(example: &Example, what: &str) {
-    let scene = example.scene();
-    // from high above, and looked at with a millimetre, a flat ply lands all at once in the last step
-    let mut straight = scene.clone();
-    straight.settings.contact.stepping = plydrape::scene::Stepping::Cut;
-    straight.settings.contact.tolerance = 2e-4;
-    assert!(!drape(&straight).summary.accepted, "{what}: straight paths will do");
-
-    let made = tempfile::tempdir().unwrap();
-    let folder = example.plan_made_before().unwrap_or_else(|| {
-        let plan = planned(&scene);
-        let result = ResultFile::planned(&scene, None, &plan);
-        plan::write_all(&result, &plan.checkpoint, made.path()).unwrap();
-        made.path().to_path_buf()
+/// Plans a scene `s` times as large as an example, unless that was `made` before, and drapes along what it wrote.
+fn is_draped(scene: &Scene, s: f64, made: Option<PathBuf>, position: f64, what: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let made = made.unwrap_or_else(|| {
+        let plan = planned(scene);
+        let result = ResultFile::planned(scene, None, &plan);
+        plan::write_all(&result, &plan.checkpoint, folder.path()).unwrap();
+        folder.path().to_path_buf()
     });
-    let result = read::read(&folder.join("result.json")).unwrap();
-    keeps_every_limit(&result, what);
-    let (motion, attitudes) = result.motion().unwrap().expect("a plan");
-    let followed = example.along(&folder.join("trajectory.csv")).scene();
-    let result = drape(&followed);
-    keeps_every_limit(&result, &format!("{what}, trajectory.csv"));
-    let tolerance = scene.settings.contact.tolerance;
-    only_comes_down(&scene, &result, tolerance, what);
-
+    let table = |name: &str| poses(&std::fs::read_to_string(made.join(name)).unwrap());
+    let (steps, samples) = (table("trajectory.csv"), table("motion.csv"));
+    let along = motion(&steps, 1);
+    let targets = &scene.target.as_ref().expect("targets").grippers;
+    assert!(along.positions.last() == Some(targets), "{what}: it ends beside its target");
+    keeps_what_counts(scene, s, along, position, &format!("{what}, trajectory.csv"));
     // as it moves between the steps
-    let followed = example.along(&folder.join("motion.csv")).scene();
-    assert!(followed.motion.times != motion.times());
-    keeps_every_limit(&drape(&followed), &format!("{what}, motion.csv"));
-    let grid = scene.ply.grid;
-    let dense = csv::motion(&motion, &attitudes, grid, 1000.0).unwrap();
-    moves_within_its_rates(&dense, what);
+    let between = motion(&samples, samples.len() / (2 * steps.len()));
+    keeps_what_counts(scene, s, between, position, &format!("{what}, motion.csv"));
+    moves_within_its_rates(&samples, s, scene.plan.rate, what);
 }
 
-/// From the height of the example and from twice as high (mm).
-fn is_draped_from(example: &Example, height: usize) {
-    let title = example.scene().title;
-    for now in [height, 2 * height] {
-        let key = |height| format!("height = \"{height} mm\"");
-        let start = example.with(&key(height), &key(now));
-        is_draped(&start, &format!("{title} from {now} mm"));
-    }
+/// An example as it is shipped, planned once for all that needs its plan.
+fn example_is_draped(example: &Example, position: f64) {
+    let scene = example.scene();
+    is_draped(&scene, 1.0, example.plan_made_before(), position, &scene.title);
 }
 
-/// The paper's example with the paper's own contact, of 1 mm and once a step where it is not planned.
+/// The paper's example, and from twice as high.
 #[test]
 fn the_flat_mold_is_draped_from_two_heights() {
-    is_draped_from(&Example::of("01_flat_sheared_mold"), 75);
-}
-
-/// Contact within 0.2 mm, steps cut.
-#[test]
-fn the_flat_mold_is_draped_with_the_default_contact_too() {
-    let paper = Example::of("01_flat_sheared_mold");
-    is_draped_from(&paper.with_table("contact", |_| None, ""), 75);
+    let example = Example::of("01_flat_sheared_mold");
+    example_is_draped(&example, POSITION[1]);
+    let high = example.with("height = \"75 mm\"", "height = \"150 mm\"").scene();
+    is_draped(&high, 1.0, None, POSITION[1], "the flat mold from 150 mm");
 }
 
 #[test]
-fn a_dome_is_draped_from_two_heights() {
-    is_draped_from(&Example::of("04_dome"), 50);
+fn a_dome_and_one_of_a_tenth_are_draped() {
+    let example = Example::of("04_dome");
+    example_is_draped(&example, POSITION[0]);
+    let small = scaled(&example.scene(), 0.1);
+    is_draped(&small, 0.1, None, POSITION[0], "the dome of a tenth");
 }
 
 #[test]
-fn a_cylinder_is_draped_askew_from_two_heights() {
-    is_draped_from(&Example::of("05_cylinder"), 50);
+fn a_cylinder_is_draped_askew_to_both_sides() {
+    let example = Example::of("05_cylinder");
+    example_is_draped(&example, POSITION[0]);
+    let key = |side: &str| format!("direction = \"{side}30 deg\"");
+    let mirrored = example.with(&key(""), &key("-")).with(&key(""), &key("-")).scene();
+    is_draped(&mirrored, 1.0, None, POSITION[0], "the cylinder mirrored");
 }
 
 #[test]
-fn a_saddle_is_draped_from_two_heights() {
-    is_draped_from(&Example::of("06_saddle"), 80);
+fn a_saddle_is_draped_and_a_turned_one_too() {
+    let example = Example::of("06_saddle");
+    example_is_draped(&example, POSITION[0]);
+    let turned = example
+        .with("rotation = [0, 0, \"90 deg\"]", "rotation = [0, 0, \"125 deg\"]")
+        .with("origin = \"centred\"", "origin = \"centred\"\ndirection = \"35 deg\"")
+        .with("seed = \"middle\"", "seed = \"middle\"\ndirection = \"35 deg\"");
+    is_draped(&turned.scene(), 1.0, None, POSITION[0], "the saddle turned");
 }
 
 #[test]
-fn a_mold_of_triangles_is_draped_from_two_heights() {
-    is_draped_from(&Example::of("08_stl_mold"), 50);
+fn a_mold_of_triangles_and_one_ten_times_as_large_are_draped() {
+    let example = Example::of("08_stl_mold");
+    example_is_draped(&example, POSITION[0]);
+    let large = scaled(&example.scene(), 10.0);
+    is_draped(&large, 10.0, None, POSITION[0], "the triangles ten times as large");
 }
 
 #[test]
 fn a_shallow_doubly_curved_mold_is_draped_from_two_heights() {
-    is_draped_from(&Example::of("10_shallow"), 50);
+    let example = Example::of("10_shallow");
+    example_is_draped(&example, POSITION[0]);
+    let high = example.with("height = \"50 mm\"", "height = \"100 mm\"").scene();
+    is_draped(&high, 1.0, None, POSITION[0], "the shallow mold from 100 mm");
 }
 
-/// Through all stages of the search: the first look, evolution, refinement.
+/// Through all stages of the search: first candidates, evolution, decision. A limit that no plan keeps makes it try all.
 #[test]
 fn one_thread_and_two_write_the_same_bytes() {
-    let few = "seed = 7\nsteps = 30\nevaluations = 40";
-    let scene = Example::of("06_saddle").with_table("plan", |_| None, few).scene();
+    let few = "seed = 7\nsteps = 30\nevaluations = 24";
+    let example = Example::of("06_saddle")
+        .with("grippers = [4, 4]", "grippers = [3, 2]")
+        .with_table("limits", |_| None, "height = \"1 um\"")
+        .with_table("plan", |_| None, few);
+    let scene = example.scene();
     let [one, two] = [1, 2].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let plan = pool.install(|| planned(&scene));
-        assert!(plan.record.evaluations > 10, "{} drapes: no evolution", plan.record.evaluations);
+        assert!(plan.record.evaluations > 20, "{} drapes: no evolution", plan.record.evaluations);
         let folder = tempfile::tempdir().unwrap();
         let result = ResultFile::planned(&scene, None, &plan);
         let files = plan::write_all(&result, &plan.checkpoint, folder.path()).unwrap();
         files.iter().map(|file| std::fs::read(file).unwrap()).collect::<Vec<_>>()
     });
-    assert!(one.len() == 7 && one == two);
+    assert!(one.len() >= 7 && one == two);
 }
 
 /// A plan that is not accepted: whole, written whole, and the measure that it fails by is named.
@@ -358,7 +273,7 @@ fn is_explained(scene: &Scene) -> (ResultFile, Verdict) {
     assert_eq!(result.summary.steps, result.summary.steps_planned);
     let folder = tempfile::tempdir().unwrap();
     let files = plan::write_all(&result, &plan.checkpoint, folder.path()).unwrap();
-    assert!(files.len() == 7 && files.iter().all(|f| f.metadata().unwrap().len() > 100));
+    assert!(files.len() >= 7 && files.iter().all(|f| f.metadata().unwrap().len() > 100));
     let limiting = table::limiting(&result.summary.limits).expect("a limit").clone();
     assert!(!limiting.at.is_empty() && limiting.value.is_finite());
     (result, limiting)

@@ -81,8 +81,7 @@ fn molds_survive_the_file() {
 fn the_sheet_of_a_plan_is_kept_as_if_draped_along_it() {
     let path = common::examples().join("01_flat_sheared_mold");
     let text = std::fs::read_to_string(path.join("scene.toml")).unwrap();
-    let text = text.replace("kind = \"catenaries\"", "kind = \"sheet\"")
-        + "\n[sheet]\nmesh = \"25 mm\"\nkeep = 7\n[limits]\ntilt_rate = \"1 deg/s\"\n";
+    let text = text + "\n[sheet]\nmesh = \"25 mm\"\nkeep = 7\n[limits]\ntilt_rate = \"1 deg/s\"\n";
     let mut scene = scene::parse(&text, &path, "flat").unwrap().scene;
     (scene.plan.steps, scene.plan.evaluations) = (20, 1);
     let mut planned = planner::plan(&scene, None, &mut |_| ControlFlow::Continue(())).unwrap();

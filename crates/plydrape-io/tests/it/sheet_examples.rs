@@ -18,8 +18,7 @@ fn straight_paths_end_with_ridges_of_millimetres() {
     for (name, ridge, contact, catenaries) in expected {
         let path = examples().join(name);
         let text = std::fs::read_to_string(path.join("scene.toml")).unwrap();
-        let text = text.replace("kind = \"catenaries\"", "kind = \"sheet\"")
-            + "\n[sheet]\nmesh = \"20 mm\"\n";
+        let text = text + "\n[sheet]\nmesh = \"20 mm\"\n";
         let scene = scene::parse(&text, &path, name).unwrap().scene;
         let draped =
             drape(&scene, Tuning::default(), &|| false, |_| ControlFlow::Continue(())).unwrap();

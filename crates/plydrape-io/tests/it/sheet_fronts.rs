@@ -6,14 +6,15 @@ use plydrape::scene::{Friction, Motion, Scene};
 use plydrape::sheet::{Tuning, drape};
 use std::ops::ControlFlow;
 
-/// The dome of the examples with lines every 20 mm, rolled on from its middle by a front of curvature `a` (1/m).
+/// The dome of the examples with lines every 20 mm, rolled on from its middle by a front of curvature `a` (1/m), whose lines
+/// are not made taut: so are the fronts of the references.
 fn front(a: f64, slope: f64) -> Scene {
     let mut scene = example("04_dome");
     scene.settings.sheet.mesh = Some(0.02);
     let curvature = a * scene.ply.cell[0];
     let strategy =
         Strategy { start: [0.5; 2], ratio: 1.0, angle: 0.0, curvature, slope, pretension: 0.0 };
-    let heights = MoldHeights::new(&scene).expect("the dome is a height");
+    let heights = MoldHeights::new(&scene).expect("the dome is a height").untightened();
     let positions = trajectory(&scene, &heights, strategy).expect("the front rolls over the dome");
     scene.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };
     scene

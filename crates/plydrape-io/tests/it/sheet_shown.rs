@@ -9,9 +9,7 @@ use std::ops::ControlFlow;
 fn dome() -> (ResultFile, tempfile::TempDir) {
     let path = examples().join("04_dome");
     let text = std::fs::read_to_string(path.join("scene.toml")).unwrap();
-    let text = text
-        .replace("kind = \"catenaries\"", "kind = \"sheet\"\n[sheet]\nmesh = \"50 mm\"\nkeep = 4")
-        .replace("steps = 30", "steps = 6");
+    let text = text.replace("steps = 30", "steps = 6") + "[sheet]\nmesh = \"50 mm\"\nkeep = 4\n";
     let scene = scene::parse(&text, &path, "dome").unwrap().scene;
     let drape = simulate(&scene, |_| ControlFlow::Continue(()));
     let mut result = ResultFile::new(&scene, None, drape);

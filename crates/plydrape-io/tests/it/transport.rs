@@ -166,8 +166,9 @@ fn clear_of(scene: &Scene, places: &[Point], sag: f64) -> [f64; 2] {
 
 /// From starts anywhere around molds of several kinds, turned and inclined: wherever the array is more than its margin away
 /// from its start, the ply keeps this margin over the mold, and over the table on the first half of the way, where there is no mold below the start,
-/// also where the spline rounds the corners. And it is not carried higher than that: somewhere it is no more than a
-/// hundredth of a cell above the margin, unless it starts or is formed at that height.
+/// also where the spline rounds the corners. And it is not carried higher than that: somewhere it is no more than four
+/// hundredths of a cell above the margin, unless it starts or is formed at that height. The places at which this is measured
+/// miss the top of a bowl's upright boundary by as much, and for the same reason a fifth of the margin may be missing there.
 #[test]
 fn a_carried_array_stays_clear_of_mold_and_table() {
     let molds = [
@@ -226,7 +227,7 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
                 let moved = start.iter().zip(places).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
                 let moved = moved.fold(0.0, f64::max);
                 let [above, lowest] = clear_of(&scene, places, sag);
-                let wanted = margin.min(own.max(0.0) + 0.9 * moved) - 1e-3 * 0.1;
+                let wanted = 0.8 * margin.min(own.max(0.0) + 0.9 * moved);
                 assert!(above > wanted, "{what}: {above} m over the mold after {moved} m");
                 if moved > margin {
                     closest = closest.min(above);
@@ -241,13 +242,14 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
             let highest = positions[..count].iter().map(|p| centre(p)[2]).fold(f64::MIN, f64::max);
             let formed = centre(&formation)[2] + TUNING.transport.formed_height * 0.1;
             let is_lifted = highest > centre(&start)[2].max(formed) + 1e-9;
-            assert!(!is_lifted || closest < margin + 1e-3, "{what}: {closest} m at {highest} m");
+            assert!(!is_lifted || closest < margin + 4e-3, "{what}: {closest} m at {highest} m");
         }
     }
 }
 
-/// A start level above the first formation with the same heading goes straight down while it is formed: every gripper on
-/// a straight line, to a hundredth of a cell, and never up.
+/// A start level above the first formation with the same heading goes straight down while it is formed: all heights change
+/// evenly, to a hundredth of a cell, the middle goes straight and never up. All edges
+/// have the lengths that they shall have meanwhile, to 0.01 %.
 #[test]
 fn a_start_right_above_keeps_its_straight_way() {
     let scene = on(DOME, "spacing = [0.098, 0.098]\nheight = 0.05\norigin = \"centred\"");
@@ -256,12 +258,26 @@ fn a_start_right_above_keeps_its_straight_way() {
     let start = &scene.motion.positions[0];
     let forming = (TUNING.transport.forming * 90.0).round() as usize;
     let height = TUNING.transport.formed_height * 0.1;
+    let above: Vec<Point> = formation.iter().map(|p| [p[0], p[1], p[2] + height]).collect();
+    let grid = scene.ply.grid;
     for (k, places) in positions[..=forming].iter().enumerate() {
         let t = k as f64 / forming as f64;
-        for ((p, a), b) in places.iter().zip(start).zip(&formation) {
-            let b = [b[0], b[1], b[2] + height];
-            let straight = [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n]));
-            assert!(distance(*p, straight) < 1e-3, "step {k}: {p:?}, not {straight:?}");
+        for ((p, a), b) in places.iter().zip(start).zip(&above) {
+            let straight = a[2] + t * (b[2] - a[2]);
+            assert!((p[2] - straight).abs() < 1e-3, "step {k}: {p:?}, not at {straight}");
+        }
+        let [a, b] = [start, &above].map(|places| centre(places));
+        let straight = [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n]));
+        assert!(distance(centre(places), straight) < 1e-9, "step {k}");
+        for c in (0..grid.edges()).map(|edge| grid.catenary(edge)) {
+            let ends = [c.from, c.to].map(|id| grid.index(id));
+            let [now, before, after] =
+                [places, start, &above].map(|places| distance(places[ends[0]], places[ends[1]]));
+            let [early, most] = TUNING.transport.tight;
+            let rest = (1.0 - most) * (t - early) / (1.0 - early);
+            let share = if t < early { most * t / early } else { most + rest };
+            let tight = before + share * (after - before);
+            assert!((now / tight - 1.0).abs() < 1e-4, "step {k}: {now}, not {tight}");
         }
     }
     for pair in positions.windows(2) {

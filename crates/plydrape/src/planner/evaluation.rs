@@ -167,4 +167,28 @@ mod tests {
         assert!((evaluated(4e-4, 2, 0.0) - sound - 2.0).abs() < 1e-12);
         assert!(evaluated(4e-4, 0, 0.1) > evaluated(1e-1, 30, 0.0));
     }
+
+    /// What a fine sheet says of one plan corrects what a coarse one says of others: a height that was 0.3 mm instead of 0.24 mm
+    /// makes 0.36 mm into 0.45 mm. A second comparison counts as much as the first, no factor is beyond its bounds, and
+    /// measures far below their limits teach nothing.
+    #[test]
+    fn a_ranking_learns_from_decisions() {
+        let height = |value: f64| {
+            let worst = Worst { value, at: String::new(), place: None };
+            let limits = vec![Verdict::of(Name::Height, worst, 0.5, Some(1))];
+            Judged { limits, accepted: value <= 0.5, missing: 0.0, unsolved: 0 }
+        };
+        let mut bias = Bias::default();
+        bias.learn(&height(0.10), &height(0.14));
+        assert!(bias.is_empty(), "{bias:?}");
+        bias.learn(&height(0.24), &height(0.30));
+        let corrected = score_with(&height(0.36), &bias);
+        assert!((corrected - score(&height(0.45))).abs() < 1e-12, "{corrected}");
+        bias.learn(&height(0.3), &height(0.3));
+        assert!((bias.of(Name::Height) - 1.25_f64.sqrt()).abs() < 1e-12, "{bias:?}");
+        let mut wild = Bias::default();
+        wild.learn(&height(0.1), &height(5.0));
+        assert_eq!(wild.of(Name::Height), TUNING.evaluation.bias[1]);
+        assert_eq!(wild.of(Name::Position), 1.0);
+    }
 }

@@ -49,6 +49,13 @@ impl MoldHeights {
         let heights = heights(scene.mold.as_ref()?, &scene.target.as_ref()?.grippers)?;
         Some(MoldHeights { heights: Arc::new(heights), lines: Lines::new(scene).map(Arc::new) })
     }
+
+    /// The same for formations whose lines stay as long as the net on the lifted mold makes them: equation (17) of
+    /// `docs/theory` alone. They hang slack ahead of the front, and are there to be compared with.
+    #[must_use]
+    pub fn untightened(self) -> Self {
+        MoldHeights { lines: None, ..self }
+    }
 }
 
 impl<'a> Formation<'a> {

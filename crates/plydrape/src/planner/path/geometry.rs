@@ -3,6 +3,7 @@
 use crate::draping::reach::{closest, outside};
 use crate::draping::spans::Point;
 use crate::mold::vector::{cross, sub, unit};
+use crate::ply::Grid;
 use crate::scene::Scene;
 
 /// The largest ratio of a measure to its limit: tilt, workspace, and distance of the grippers. Above 1 no drape keeps
@@ -11,7 +12,7 @@ use crate::scene::Scene;
 pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
     let limits = &scene.limits;
     let one = |step: &Vec<Point>| {
-        let tilt = tilt(scene, step) / limits.tilt;
+        let tilt = tilt(scene.ply.grid, step) / limits.tilt;
         let workspace = limits.workspace.and_then(|box_| outside(step, box_, scene.ply.cell));
         let workspace = if workspace.is_some_and(|w| w.value > 0.0) { f64::INFINITY } else { 0.0 };
         let near = closest(step).map_or(0.0, |c| limits.gripper_distance * 1e3 / c.value);
@@ -21,8 +22,7 @@ pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
 }
 
 /// Largest angle (rad) between the vertical and the normal of the lines to neighbouring grippers.
-fn tilt(scene: &Scene, positions: &[Point]) -> f64 {
-    let grid = scene.ply.grid;
+fn tilt(grid: Grid, positions: &[Point]) -> f64 {
     let one = |n: usize| {
         let [i, j] = grid.id(n);
         let across = |at: usize, count: usize, place: &dyn Fn(usize) -> usize| {
@@ -35,4 +35,30 @@ fn tilt(scene: &Scene, positions: &[Point]) -> f64 {
         unit(cross(u, v)).map_or(0.0, |normal| normal[2].clamp(-1.0, 1.0).acos())
     };
     (0..grid.grippers()).map(one).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All grippers of a level array that is inclined by an angle tilt by this angle, whatever its heading; so does a line of
+    /// grippers that climbs by it.
+    #[test]
+    fn an_inclined_array_tilts_its_grippers_as_it_is_inclined() {
+        for (nu, nv) in [(4, 3), (2, 2), (5, 1)] {
+            let grid = Grid { nu, nv };
+            for inclination in [0.0_f64, 0.2, 0.6] {
+                let heading = 0.7 * inclination;
+                let place = |n: usize| {
+                    let [u, v] = grid.id(n).map(|k| 0.1 * k as f64);
+                    let (x, z) = (u * inclination.cos(), u * inclination.sin());
+                    let (sin, cos) = heading.sin_cos();
+                    [x * cos - v * sin, x * sin + v * cos, z]
+                };
+                let places: Vec<Point> = (0..grid.grippers()).map(place).collect();
+                let found = tilt(grid, &places);
+                assert!((found - inclination).abs() < 1e-7, "{nu} × {nv}: {found} {inclination}");
+            }
+        }
+    }
 }

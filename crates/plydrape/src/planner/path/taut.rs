@@ -152,3 +152,67 @@ impl Lines {
         out
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mold::vector::distance;
+    use crate::ply::Grid;
+
+    const GRID: Grid = Grid { nu: 4, nv: 4 };
+
+    /// Where grippers of a cell of 100 mm belong on the plane z = 0 (m), its middle at the origin.
+    fn target([i, j]: [usize; 2]) -> Point {
+        let [x, y] = [i, j].map(|k| 0.1 * (k as f64 - 1.5));
+        [x, y, 0.0]
+    }
+
+    fn lines() -> Lines {
+        let line = |n: usize| {
+            let catenary = GRID.catenary(n);
+            let ends = [catenary.from, catenary.to];
+            let [a, b] = ends.map(target);
+            let places = (0..=16).map(|k| between(a, b, f64::from(k) / 16.0)).collect();
+            Line { grippers: ends.map(|id| GRID.index(id)), length: 0.1, places }
+        };
+        Lines((0..GRID.edges()).map(line).collect())
+    }
+
+    fn radius(p: Point) -> f64 {
+        p[0].hypot(p[1])
+    }
+
+    /// Ahead of a ring the ply rises with a slope of 0.5 from where it would lie: made taut, every free line is as long as its
+    /// chord to 1e-5, with the pretension; no height has changed, and grippers on the mold have not moved.
+    #[test]
+    fn free_lines_are_as_long_as_their_chords() {
+        for (front, stretch) in [(0.0, 0.0), (0.04, 6e-4), (0.1, 0.0), (0.17, 6e-4), (0.3, 0.0)] {
+            let targets: Vec<Point> = (0..16).map(|n| target(GRID.id(n))).collect();
+            let landed: Vec<bool> = targets.iter().map(|p| radius(*p) <= front).collect();
+            let raised = |p: &Point| [p[0], p[1], 0.5 * (radius(*p) - front).max(0.0)];
+            let before: Vec<Point> = targets.iter().map(raised).collect();
+            let mut grippers = before.clone();
+            let lines = lines();
+            lines.tighten(&mut grippers, &landed, radius, front, stretch);
+            let free = lines.free(&radius, front, stretch);
+            assert_eq!(free.is_empty(), front > 0.25, "{front}");
+            for part in free {
+                let other = match part.other {
+                    End::Gripper(other) => grippers[other],
+                    End::Mold(place) => place,
+                };
+                let chord = distance(grippers[part.gripper], other);
+                let error = (chord / part.length - 1.0).abs();
+                assert!(
+                    error < 1e-5,
+                    "{front}: a line of {} m has a chord of {chord} m",
+                    part.length
+                );
+            }
+            for ((now, before), landed) in grippers.iter().zip(&before).zip(landed) {
+                assert_eq!(now[2], before[2], "{front}");
+                assert!(!landed || now == before, "{front}");
+            }
+        }
+    }
+}

@@ -22,14 +22,16 @@ pub struct Tuning {
 pub struct Transport {
     /// Distance that the ply keeps from the mold and from the table while it is carried (cells).
     pub margin: f64,
-    /// Points of a cell along each side at which this distance is measured, the farther end not counted: at the
-    /// grippers and half-way between them.
+    /// Points of a cell along each side at which this distance is measured, the farther end not counted: as close as
+    /// along the way, because the boundary of a mold may be sharp.
     pub divisions: usize,
     /// Length of the way between two places at which it is measured (cells); several in a step, because corners of the
     /// way are rounded within two steps.
     pub sampling: f64,
     /// Most places at which it is measured on a way.
     pub most_samples: usize,
+    /// How often the distance between these places is halved around the worst of them.
+    pub halvings: usize,
     /// Rounds in which the height of the carried array is raised until it is kept where corners are rounded, too.
     pub rounds: usize,
     /// Share of the margin that may be missing after these rounds.
@@ -153,9 +155,10 @@ pub struct Refinement {
 pub const TUNING: Tuning = Tuning {
     transport: Transport {
         margin: 0.1,
-        divisions: 2,
+        divisions: 5,
         sampling: 0.2,
         most_samples: 2000,
+        halvings: 6,
         rounds: 8,
         tolerance: 1e-3,
         forming_height: 1.0,

@@ -110,7 +110,7 @@ impl Extremes {
 ///
 /// Right beside a point that holds it, fabric is the steeper the finer the mesh. A gripper is a cup, and a fifth of the
 /// pitch is the size of a usual one, 40 mm of 100 mm.
-const TILT_REACH: f64 = 0.2;
+pub(in crate::sheet) const TILT_REACH: f64 = 0.2;
 
 /// Tilt (rad) of the fabric around a place: of the area vector of the cells whose middles are within `reach` (m) of it
 /// along u and v, which depends on the boundary of that patch alone and so hardly on the mesh; none without cells.

@@ -11,6 +11,8 @@ mod position;
 mod summary;
 
 pub use extremes::Extremes;
+#[cfg(test)]
+pub(super) use extremes::{TILT_REACH, tilt};
 pub use height::{Raised, raised};
 pub(super) use summary::Effort;
 pub use summary::Summary;

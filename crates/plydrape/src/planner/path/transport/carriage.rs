@@ -129,21 +129,39 @@ impl<'a> Carriage<'a> {
         let longest = controls.windows(2).map(leg).fold(0.0, f64::max);
         let parts = (longest / (transport.sampling * self.cell)).ceil() as usize;
         let parts = parts.clamp(1, (transport.most_samples / legs.max(1)).max(1));
-        let mut shortfall = f64::NEG_INFINITY;
-        for k in 0..legs {
-            for part in 1..=parts {
-                let (centre, turned) = spline(controls, k, part as f64 / parts as f64);
-                let rotation = self.turn.at(turned);
-                // a table is on the first half of the way: the mold may be lower
-                let short = if turned < 0.5 {
-                    self.clearance.shortfall(centre, &rotation)
-                } else {
-                    self.clearance.shortfall_over_mold(centre, &rotation)
-                };
-                shortfall = shortfall.max(short);
+        let (mut shortfall, mut worst) = (f64::NEG_INFINITY, 0.0);
+        let mut width = 1.0 / parts as f64;
+        for sample in 1..=legs * parts {
+            let at = sample as f64 * width;
+            let short = self.shortfall_at(controls, at);
+            if short > shortfall {
+                (shortfall, worst) = (short, at);
+            }
+        }
+        // the worst place is between two samples
+        for _ in 0..if legs > 0 { transport.halvings } else { 0 } {
+            width *= 0.5;
+            for at in [worst - width, worst + width].map(|at| at.clamp(0.0, legs as f64)) {
+                let short = self.shortfall_at(controls, at);
+                if short > shortfall {
+                    (shortfall, worst) = (short, at);
+                }
             }
         }
         shortfall
+    }
+
+    /// By how much the spline is too low at a parameter that counts legs (m).
+    fn shortfall_at(&self, controls: &[Control], at: f64) -> f64 {
+        let leg = (at as usize).min(controls.len() - 2);
+        let (centre, turned) = spline(controls, leg, at - leg as f64);
+        let rotation = self.turn.at(turned);
+        // a table is on the first half of the way: the mold may be lower
+        if turned < 0.5 {
+            self.clearance.shortfall(centre, &rotation)
+        } else {
+            self.clearance.shortfall_over_mold(centre, &rotation)
+        }
     }
 
     /// Length of the way at one height (m), of the gripper that goes farthest.

@@ -2,14 +2,20 @@
 //!
 //! Straight ways of the grippers would not do: where a cell shears, its edges turn, and half-way on straight ways they are
 //! shorter by the cosine of half the angle. So the edges between neighbouring grippers are changed, and the grippers go
-//! where they fit these edges best (least squares, by conjugate gradients on the grid).
+//! where they fit these edges best (least squares, by conjugate gradients on the grid). Edges of a curved array that turn
+//! each by themselves do not quite close; what is left is taken from them one after the other until all have their
+//! lengths (Müller et al. 2007, "Position based dynamics").
 
 use crate::draping::spans::Point;
-use crate::mold::vector::{along, between, cross, dot, norm, sub};
+use crate::mold::vector::{along, between, cross, distance, dot, norm, sub};
 use crate::ply::Grid;
 
 /// Residual at which the conjugate gradients end, as a share of the first one.
 const RESIDUAL: f64 = 1e-12;
+/// Rounds over all edges at most in which they are given their lengths.
+const ROUNDS: usize = 200;
+/// Error of a length, as a share of it, at which the rounds end: small beside the pretension of a front, some 1e-4.
+const ERROR: f64 = 1e-6;
 
 /// The array a share of the way from one shape to another (m). Its edges have the share `tight[1]` of their change of length
 /// after the share `tight[0]` of the way, because a ply that hangs slack tilts its grippers already, and what inclines it
@@ -23,14 +29,39 @@ pub fn formed(grid: Grid, from: &[Point], to: &[Point], share: f64, tight: [f64;
     };
     let straight: Vec<Point> = from.iter().zip(to).map(|(a, b)| between(*a, *b, share)).collect();
     // what the edges lack on straight ways
-    let lacks: Vec<Point> = edges(grid)
-        .map(|[a, b]| {
-            let edge = turned(sub(from[b], from[a]), sub(to[b], to[a]), share, lengthened);
-            sub(edge, sub(straight[b], straight[a]))
-        })
+    let turned: Vec<Point> = edges(grid)
+        .map(|[a, b]| turned(sub(from[b], from[a]), sub(to[b], to[a]), share, lengthened))
         .collect();
+    let pairs = edges(grid).zip(&turned);
+    let lacks: Vec<Point> =
+        pairs.map(|([a, b], edge)| sub(*edge, sub(straight[b], straight[a]))).collect();
     let corrections = fitted(grid, &lacks);
-    straight.iter().zip(corrections).map(|(p, by)| along(*p, 1.0, by)).collect()
+    let mut formed: Vec<Point> =
+        straight.iter().zip(corrections).map(|(p, by)| along(*p, 1.0, by)).collect();
+    let lengths: Vec<f64> = turned.iter().map(|edge| norm(*edge)).collect();
+    give_lengths(grid, &mut formed, &lengths);
+    formed
+}
+
+/// Moves both ends of each edge by the same way along it until all edges have their lengths (m).
+fn give_lengths(grid: Grid, places: &mut [Point], lengths: &[f64]) {
+    for _ in 0..ROUNDS {
+        let mut worst = 0.0_f64;
+        for ([a, b], length) in edges(grid).zip(lengths) {
+            let now = distance(places[a], places[b]);
+            if now <= 0.0 {
+                continue;
+            }
+            worst = worst.max((now / length - 1.0).abs());
+            let way = sub(places[b], places[a]);
+            let by = 0.5 * (length - now) / now;
+            places[a] = along(places[a], -by, way);
+            places[b] = along(places[b], by, way);
+        }
+        if worst < ERROR {
+            break;
+        }
+    }
 }
 
 /// The vector a share of the way from the direction of one to that of another, with another share of the length.
@@ -121,6 +152,24 @@ mod tests {
                 let length = distance(between[a], between[b]);
                 let expected = 0.099 + 1e-4 * f64::from(k);
                 assert!((length - expected).abs() < 1e-12, "{k}: {length} m, not {expected}");
+            }
+        }
+    }
+
+    /// A level array that becomes an inclined, curved one keeps the lengths of its edges on the way, once it is tight: the
+    /// fabric is not stretched.
+    #[test]
+    fn an_array_that_is_bent_keeps_the_lengths_of_its_edges() {
+        let from = array(|i, j| [0.098 * (i - 2.0), 0.098 * (j - 1.5), 0.1]);
+        let to = array(|i, j| {
+            let (x, y) = (0.095 * (i - 2.0), 0.095 * (j - 1.5));
+            [x, y, 0.3 * x - 1.2 * x * x + 0.8 * x * y - 0.6 * y * y]
+        });
+        for k in 4..=10 {
+            let between = formed(GRID, &from, &to, f64::from(k) / 10.0, [0.4, 1.0]);
+            for [a, b] in edges(GRID) {
+                let ratio = distance(between[a], between[b]) / distance(to[a], to[b]);
+                assert!((ratio - 1.0).abs() < 1e-5, "{k}: {ratio}");
             }
         }
     }

@@ -247,18 +247,20 @@ mod tests {
         }
     }
 
-    /// A strip of grippers keeps its normal as steep as it can: it does not turn about its own line.
+    /// A strip of grippers that climbs is made level, and keeps its normal as steep as it can: it does not turn about its own
+    /// line.
     #[test]
     fn a_strip_does_not_turn_about_itself() {
         for grid in [Grid { nu: 5, nv: 1 }, Grid { nu: 1, nv: 5 }] {
-            let line: Vec<Point> = (0..5).map(|k| [0.1 * f64::from(k), 0.0, 0.0]).collect();
-            let there = all(&rotation_about([0.0, -0.3, 0.7]), &line);
-            let turn = Turn::new(grid, &line, &there);
-            let [x, y, z] = unit(sub(there[4], there[0])).expect("a line");
-            assert!((turn.heading - y.atan2(x)).abs() < 1e-9, "{turn:?}");
+            let level: Vec<Point> = (0..5).map(|k| [0.1 * f64::from(k), 0.0, 0.0]).collect();
+            let climbing = all(&rotation_about([0.0, -0.3, 0.7]), &level);
+            let turn = Turn::new(grid, &climbing, &level);
+            let [x, y, z] = unit(sub(climbing[4], climbing[0])).expect("a line");
+            assert!((turn.heading + y.atan2(x)).abs() < 1e-9, "{turn:?}");
             // a normal of a line that climbs by an angle is no steeper than this angle allows
-            let up = turned(&turn.at(1.0), [0.0, 0.0, 1.0]);
-            assert!((up[2] - z.asin().cos()).abs() < 1e-9, "{turn:?} {up:?}");
+            let [before, after] = [0.0, 1.0].map(|t| turned(&turn.at(t), turn.normals[0]));
+            assert!((before[2] - z.asin().cos()).abs() < 1e-9, "{turn:?} {before:?}");
+            assert!((after[2] - 1.0).abs() < 1e-9, "{turn:?} {after:?}");
         }
     }
 }
