@@ -1,4 +1,4 @@
-//! `plydrape export` and `plydrape report` as a user calls them: from a result.json alone, or a refusal.
+//! `plydrape export` and `plydrape report` as a user calls them: from a result.json, with its sheet.npz, alone, or a refusal.
 
 use crate::common::{command, example, files, one_line, text};
 use std::path::{Path, PathBuf};
@@ -12,7 +12,9 @@ fn result(home: &Path, name: &str) -> PathBuf {
     simulate.output().unwrap();
     let alone = home.join("alone");
     std::fs::create_dir(&alone).unwrap();
-    std::fs::copy(run.join("result.json"), alone.join("result.json")).unwrap();
+    for name in ["result.json", "sheet.npz"].iter().filter(|name| run.join(name).exists()) {
+        std::fs::copy(run.join(name), alone.join(name)).unwrap();
+    }
     alone.join("result.json")
 }
 

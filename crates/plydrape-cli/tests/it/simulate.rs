@@ -28,6 +28,9 @@ fn result(folder: &Path) -> Value {
 
 const FILES: [&str; 5] =
     ["figure.svg", "report.html", "result.json", "steps.csv", "trajectory.csv"];
+/// The same where the ply is draped as a sheet too.
+const FILES_OF_SHEET: [&str; 6] =
+    ["figure.svg", "report.html", "result.json", "sheet.npz", "steps.csv", "trajectory.csv"];
 
 #[test]
 fn exit_code_is_the_verdict() {
@@ -38,7 +41,7 @@ fn exit_code_is_the_verdict() {
         let output = simulate(&example(name), &folder.path().join(name), &[]);
         assert_eq!(output.status.code(), Some(code), "{name}");
         let shown = text(&output.stdout);
-        let verdict = if code == 0 { "\naccepted\n" } else { "\nnot accepted: " };
+        let verdict = if code == 0 { "\naccepted\n" } else { "\nnot accepted by the sheet" };
         assert!(shown.contains(verdict), "{shown}");
         assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
     }
@@ -163,7 +166,7 @@ fn quiet_prints_nothing() {
     let output = simulate(&headline(), folder.path(), &["--quiet"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(output.stdout.is_empty() && output.stderr.is_empty());
-    assert_eq!(files(folder.path()), FILES);
+    assert_eq!(files(folder.path()), FILES_OF_SHEET);
 }
 
 #[test]
@@ -198,7 +201,7 @@ fn the_same_scene_gives_the_same_bytes() {
     for out in [&first, &second] {
         simulate(&headline(), out, &["--quiet"]);
     }
-    for name in FILES {
+    for name in FILES_OF_SHEET {
         let read = |out: &Path| std::fs::read(out.join(name)).unwrap();
         assert!(read(&first) == read(&second), "{name} differs");
     }
@@ -225,7 +228,7 @@ fn a_closed_pipe_is_no_failure() {
         let code = output.status.code();
         assert!(code == Some(0) || code == Some(1), "{arguments:?}: {code:?}");
     }
-    assert_eq!(files(Path::new(out)), FILES);
+    assert_eq!(files(Path::new(out)), FILES_OF_SHEET);
 }
 
 /// A drape of 1600 grippers and 3000 steps into the folder `out` of another one.

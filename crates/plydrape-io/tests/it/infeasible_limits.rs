@@ -152,7 +152,7 @@ fn a_hole_under_the_ply_is_named_though_every_gripper_has_a_place() {
         mesh += &format!("f {} {} {} {}\n", first, first + 1, first + 8, first + 7);
     }
     std::fs::write(folder.path().join("mold.obj"), mesh).unwrap();
-    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [0.2, 0.2]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"mesh\"\nfile = \"mold.obj\"\nunit = \"mm\"\n[target]\n";
+    let text = "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 2]\ncell = [0.2, 0.2]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"mesh\"\nfile = \"mold.obj\"\nunit = \"mm\"\n[target]\nmesh = \"10 mm\"\n";
     let found = found(folder.path(), text);
     let at = only(&found, "missing_nodes", 25.0, 0.0, None);
     assert!(at.contains("beyond the boundary of the mold, at ("), "{at}");

@@ -8,7 +8,7 @@ use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::draping::{self, Judged};
 use crate::motion::{Bounds, MotionError, TimedMotion};
-use crate::scene::{Model, Scene};
+use crate::scene::{Model, Motion, Scene};
 use crate::sheet;
 use std::ops::ControlFlow;
 
@@ -50,8 +50,16 @@ impl Decision {
         state: &SearchState,
     ) -> Result<Self, MotionError> {
         let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
-        let (sheet, drape) = draped(scene, &motion, state);
-        let score = evaluation::score(&drape);
+        let (sheet, mut drape) = draped(scene, &motion, state);
+        let mut score = evaluation::score(&drape);
+        if drape.accepted
+            && let Some(between) = between_steps(scene, &motion, state)
+        {
+            let worse = evaluation::score(&between).max(score);
+            if !between.accepted || worse > score {
+                (drape, score) = (between, worse);
+            }
+        }
         state.record(&drape, score, true);
         Ok(Decision { strategy, positions, motion, sheet, drape, score })
     }
@@ -69,6 +77,24 @@ impl Decision {
             }
         }
     }
+}
+
+/// The drape of the sheet along the motion with a step half-way between all its steps, because a good plan does not depend
+/// on where the motion is sampled; none of catenaries, or if the search was stopped.
+fn between_steps(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Option<Judged> {
+    if scene.settings.model != Model::Sheet {
+        return None;
+    }
+    let mut times = motion.times().to_vec();
+    times.extend(motion.times().windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
+    times.sort_by(f64::total_cmp);
+    let positions: Vec<Vec<Point>> = times.iter().map(|t| motion.at(*t)).collect();
+    let steps = times.len();
+    let scene = evaluation::with_motion(scene, Motion { times, positions });
+    let stop = || state.report().is_break();
+    let along = |_: &sheet::State| ControlFlow::Continue(());
+    let drape = sheet::drape(&scene, sheet::Tuning::default(), &stop, along).ok()?;
+    (drape.summary.steps == steps).then(|| evaluation::judged(&drape.summary, steps))
 }
 
 fn draped(

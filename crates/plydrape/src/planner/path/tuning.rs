@@ -199,7 +199,7 @@ pub const TUNING: Tuning = Tuning {
         ],
     },
     search: Search {
-        good: 0.9,
+        good: 0.8,
         promising: [1.4, 1.1],
         excess: 1.1,
         not_draped: 1e2,
@@ -208,7 +208,7 @@ pub const TUNING: Tuning = Tuning {
         kept: 16,
         step: 0.1,
         generation: 8,
-        patience: 1,
+        patience: 4,
         gain: 0.95,
     },
     refinement: Refinement {
