@@ -92,7 +92,7 @@ class Study:
 
         Example:
             >>> study = plydrape.study.Study.read("examples/study/study.toml")
-            >>> study.names[:2]
+            >>> study.names[1:3]
             ['ply.material.flexural_rigidity', 'grippers.height']
 
         """

