@@ -1,9 +1,9 @@
 """Equilibria, their derivatives and batches from Python, against differences and each other."""
 
+import json
 from pathlib import Path
 from typing import Literal
 
-import json
 import numpy as np
 import plydrape
 import pytest
