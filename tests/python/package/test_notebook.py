@@ -145,4 +145,4 @@ def test_the_page_lives_in_the_html_made_of_a_notebook(executed: Any, tmp_path: 
 
     alive = red("alive", html)
     dead = red("dead", html.replace('sandbox="allow-scripts', 'sandbox="'))
-    assert alive > 100 and dead < 50, (alive, dead)
+    assert alive > 500 and dead < 50, (alive, dead)
