@@ -33,8 +33,8 @@ def chromium() -> str:
 
 @pytest.fixture(scope="module")
 def result() -> plydrape.Result:
-    """The paper's example."""
-    return plydrape.simulate(plydrape.Scene.read(SCENE))
+    """The paper's example, with the catenaries that the page draws."""
+    return plydrape.simulate(plydrape.Scene.read(SCENE), model="catenaries")
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +43,8 @@ def executed() -> Any:
     book = nbformat.v4.new_notebook()  # type: ignore[no-untyped-call]
     cells = [
         "import plydrape\n"
-        f"result = plydrape.simulate(plydrape.Scene.read({str(SCENE)!r}))\n"
+        f"scene = plydrape.Scene.read({str(SCENE)!r})\n"
+        "result = plydrape.simulate(scene, model='catenaries')\n"
         "result.show()",
         "result.plot()",
         "result.plot('measures', names=['slack_mm'])",
