@@ -140,12 +140,52 @@ impl Chance {
     }
 }
 
+/// A bowl whose boundary is upright, 0.7 m about the z axis.
+const BOWL: &str = "kind = \"sphere\"\nradius = 0.7\nposition = [0, 0, 0.3]\nside = \"inside\"";
+
+/// A saddle with a square boundary, 0.3 m from the z axis.
+const SADDLE: &str = "kind = \"saddle\"\nradii = [0.6, 0.5]\nposition = [0, 0, -0.1]\nx = [-0.3, 0.3]\ny = [-0.3, 0.3]";
+
+/// Places of the boundary of one of these molds (m), one to two millimetres apart.
+fn boundary(scene: &Scene, mold: &str) -> Vec<Point> {
+    if ![BOWL, SADDLE].contains(&mold) {
+        return Vec::new();
+    }
+    let top = |x: f64, y: f64| scene.mold.as_ref().expect("a mold").highest_point([x, y]);
+    let place = |k: i32| {
+        let angle = f64::from(k) / 2400.0 * std::f64::consts::TAU;
+        let (x, y) = (angle.cos(), angle.sin());
+        if mold == BOWL {
+            return [0.7 * x, 0.7 * y, 0.3];
+        }
+        let reach = (0.3 - 1e-9) / x.abs().max(y.abs());
+        top(reach * x, reach * y).expect("the mold")
+    };
+    (0..2400).map(place).collect()
+}
+
+/// The lowest that the ply of a plane array of 4 × 3 grippers, which hangs below them by a sag, is over places of a boundary (m):
+/// the plane's height over those that lie below the array.
+fn over_boundary(places: &[Point], sag: f64, boundary: &[Point]) -> f64 {
+    let [o, a, b] = [places[0], places[3], places[8]];
+    let [(ux, uy, uz), (vx, vy, vz)] = [a, b].map(|p| (p[0] - o[0], p[1] - o[1], p[2] - o[2]));
+    let across = ux * vy - uy * vx;
+    let heights = boundary.iter().filter_map(|p| {
+        let (x, y) = (p[0] - o[0], p[1] - o[1]);
+        let (s, t) = ((x * vy - y * vx) / across, (ux * y - uy * x) / across);
+        let is_below = (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t);
+        is_below.then_some(o[2] + s * uz + t * vz - sag - p[2])
+    });
+    heights.fold(f64::INFINITY, f64::min)
+}
+
 /// The lowest that the ply of an array of 4 × 3 grippers is over the mold (m), if the mold is below it somewhere, and its
-/// lowest height: five points along each side of a cell, below which the ply hangs by the sags of its two longest edges.
-fn clear_of(scene: &Scene, places: &[Point], sag: f64) -> [f64; 2] {
+/// lowest height; and whether the mold is below all of it: five points along each side of a cell, below which the ply hangs by
+/// the sags of its two longest edges.
+fn clear_of(scene: &Scene, places: &[Point], sag: f64) -> ([f64; 2], bool) {
     let mold = scene.mold.as_ref().expect("a mold");
     let grid = scene.ply.grid;
-    let mut least = [f64::INFINITY; 2];
+    let (mut least, mut whole) = ([f64::INFINITY; 2], true);
     for a in 0..=(5 * (grid.nu - 1)) {
         for b in 0..=(5 * (grid.nv - 1)) {
             let (i, j) = ((a / 5).min(grid.nu - 2), (b / 5).min(grid.nv - 2));
@@ -156,35 +196,36 @@ fn clear_of(scene: &Scene, places: &[Point], sag: f64) -> [f64; 2] {
                     + t * ((1.0 - s) * at(i, j + 1)[n] + s * at(i + 1, j + 1)[n])
             });
             least[1] = least[1].min(p[2] - sag);
-            if let Some(top) = mold.highest_point([p[0], p[1]]) {
-                least[0] = least[0].min(p[2] - sag - top[2]);
+            match mold.highest_point([p[0], p[1]]) {
+                Some(top) => least[0] = least[0].min(p[2] - sag - top[2]),
+                None => whole = false,
             }
         }
     }
-    least
+    (least, whole)
 }
 
 /// From starts anywhere around molds of several kinds, turned and inclined: wherever the array is more than its margin away
 /// from its start, the ply keeps this margin over the mold, and over the table on the first half of the way, where there is no mold below the start,
 /// also where the spline rounds the corners. And it is not carried higher than that: somewhere it is no more than four
-/// hundredths of a cell above the margin, unless it starts or is formed at that height. The places at which this is measured
-/// miss the top of a bowl's upright boundary by as much, and for the same reason a fifth of the margin may be missing there.
+/// hundredths of a cell above the margin, unless it starts or is formed at that height. The planner measures places of the
+/// array and of its way 20 mm apart, so that a twentieth of the margin may be missing, and a seventh over the upright boundary of a
+/// bowl, which is below an inclined corner between two places of the way.
 #[test]
 fn a_carried_array_stays_clear_of_mold_and_table() {
     let molds = [
         (DOME, [0.4, 1.5]),
         ("kind = \"plane\"\nnormal = [0.2, -0.1, 1.0]\npoint = [0, 0, -0.1]", [0.0, 1.5]),
-        ("kind = \"sphere\"\nradius = 0.7\nposition = [0, 0, 0.3]\nside = \"inside\"", [0.8, 1.5]),
-        (
-            "kind = \"saddle\"\nradii = [0.6, 0.5]\nposition = [0, 0, -0.1]\nx = [-0.3, 0.3]\ny = [-0.3, 0.3]",
-            [0.5, 1.5],
-        ),
+        (BOWL, [0.8, 1.5]),
+        (SADDLE, [0.5, 1.5]),
         ("kind = \"cylinder\"\nradius = 0.5\nposition = [0, 0, -0.5]", [0.0, 1.5]),
     ];
     let mut chance = Chance(7);
     let margin = TUNING.transport.margin * 0.1;
     for (mold, distances) in molds {
         let plain = on(mold, "spacing = [0.098, 0.098]\nheight = 3.0\norigin = [0, 0]");
+        let boundary = boundary(&plain, mold);
+        let seen = if mold == BOWL { 0.85 } else { 0.95 };
         for _ in 0..8 {
             let (far, toward) = (chance.within(distances), chance.within([-3.1, 3.1]));
             let spacing = chance.within([0.096, 0.1]);
@@ -203,7 +244,7 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
                 .collect();
             let sag = 2.0 * (0.375 * spacing * (0.1 - spacing).max(0.0)).sqrt();
             // on a table at z = −0.1, or on the mold
-            let [above, lowest] = clear_of(&plain, &start, sag);
+            let ([above, lowest], _) = clear_of(&plain, &start, sag);
             let raise = if above.is_finite() { -above } else { -0.1 - lowest }
                 + chance.within([0.002, 0.2]);
             let start: Vec<Point> = start.iter().map(|p| [p[0], p[1], p[2] + raise]).collect();
@@ -220,20 +261,21 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
             way.push(mirrored);
             let spline = rounded(&way, 6);
             let mut closest = f64::INFINITY;
-            let [own, table] = clear_of(&scene, &start, sag);
+            let ([own, table], on_mold) = clear_of(&scene, &start, sag);
             let what = format!("{mold}: {far} m towards {toward}, heading {heading}");
             let [from, to] = [&start, &way[count - 1]].map(|p| centre(p));
             for places in &spline[1..=(count - 1) * 6] {
                 let moved = start.iter().zip(places).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
                 let moved = moved.fold(0.0, f64::max);
-                let [above, lowest] = clear_of(&scene, places, sag);
-                let wanted = 0.8 * margin.min(own.max(0.0) + 0.9 * moved);
+                let ([above, lowest], _) = clear_of(&scene, places, sag);
+                let above = above.min(over_boundary(places, sag, &boundary));
+                let wanted = seen * margin.min(own.max(0.0) + 0.9 * moved);
                 assert!(above > wanted, "{what}: {above} m over the mold after {moved} m");
                 if moved > margin {
                     closest = closest.min(above);
                     let gone = centre(places);
                     let gone = (gone[0] - from[0]).hypot(gone[1] - from[1]);
-                    if !own.is_finite() && gone < 0.45 * (to[0] - from[0]).hypot(to[1] - from[1]) {
+                    if !on_mold && gone < 0.45 * (to[0] - from[0]).hypot(to[1] - from[1]) {
                         assert!(lowest - table > 0.98 * margin, "{what}: {lowest} over {table}");
                         closest = closest.min(lowest - table);
                     }
@@ -242,7 +284,9 @@ fn a_carried_array_stays_clear_of_mold_and_table() {
             let highest = positions[..count].iter().map(|p| centre(p)[2]).fold(f64::MIN, f64::max);
             let formed = centre(&formation)[2] + TUNING.transport.formed_height * 0.1;
             let is_lifted = highest > centre(&start)[2].max(formed) + 1e-9;
-            assert!(!is_lifted || closest < margin + 4e-3, "{what}: {closest} m at {highest} m");
+            // the way is rounded where it leaves the start: right beside an upright boundary it is higher for that
+            let spare = if mold == BOWL && far < 1.0 { 0.04 } else { 4e-3 };
+            assert!(!is_lifted || closest < margin + spare, "{what}: {closest} m at {highest} m");
         }
     }
 }

@@ -22,9 +22,11 @@ pub struct Tuning {
 pub struct Transport {
     /// Distance that the ply keeps from the mold and from the table while it is carried (cells).
     pub margin: f64,
-    /// Points of a cell along each side at which this distance is measured, the farther end not counted: as close as
-    /// along the way, because the boundary of a mold may be sharp.
+    /// Points of a cell along each side at which this distance is measured, the farther end not counted.
     pub divisions: usize,
+    /// Halvings of the distance between two of these points that find the boundary of the mold between them, which may be
+    /// upright.
+    pub boundary_halvings: usize,
     /// Length of the way between two places at which it is measured (cells); several in a step, because corners of the
     /// way are rounded within two steps.
     pub sampling: f64,
@@ -34,6 +36,8 @@ pub struct Transport {
     pub halvings: usize,
     /// Rounds in which the height of the carried array is raised until it is kept where corners are rounded, too.
     pub rounds: usize,
+    /// How much higher than it must be the array may then be carried (cells).
+    pub spare: f64,
     /// Share of the margin that may be missing after these rounds.
     pub tolerance: f64,
     /// Height over the lowest place that is clear of the mold from which on the array is formed (cells).
@@ -156,10 +160,12 @@ pub const TUNING: Tuning = Tuning {
     transport: Transport {
         margin: 0.1,
         divisions: 5,
+        boundary_halvings: 24,
         sampling: 0.2,
         most_samples: 2000,
         halvings: 6,
         rounds: 8,
+        spare: 0.02,
         tolerance: 1e-3,
         forming_height: 1.0,
         formed_height: 0.1,

@@ -40,9 +40,9 @@ type Control = (Point, f64);
 impl<'a> Carriage<'a> {
     /// The way of the grippers of a scene from its start to where they form a shape (m).
     pub fn new(scene: &Scene, mold: &'a Mold, start: &[Point], shape: &[Point]) -> Self {
-        let clearance = Clearance::new(scene, mold, start);
-        let turn = Turn::new(scene.ply.grid, start, shape);
         let ends = [centre(start), centre(shape)];
+        let clearance = Clearance::new(scene, mold, start, ends[1]);
+        let turn = Turn::new(scene.ply.grid, start, shape);
         let array: Vec<Point> = start.iter().map(|p| sub(*p, ends[0])).collect();
         let lowest = ends[1][2] + clearance.shortfall_over_mold(ends[1], &turn.at(1.0)).max(0.0);
         let there = [ends[1][0], ends[1][1], lowest];
@@ -71,16 +71,27 @@ impl<'a> Carriage<'a> {
 
     /// The control points of the lowest way that is clear.
     fn clear_controls(&self, steps: usize) -> Vec<Control> {
-        let mut height = self.ends[0][2].max(self.lowest);
-        let mut controls = self.controls(height, steps);
+        let mut low = self.ends[0][2].max(self.lowest);
+        let mut high = low;
+        let mut controls = self.controls(high, steps);
         let enough = TUNING.transport.tolerance * TUNING.transport.margin * self.cell;
         for _ in 0..TUNING.transport.rounds {
             let shortfall = self.shortfall(&controls);
             if shortfall <= enough {
                 break;
             }
-            height += shortfall;
-            controls = self.controls(height, steps);
+            (low, high) = (high, high + shortfall);
+            controls = self.controls(high, steps);
+        }
+        // where a corner is rounded over a steep place, the last round raised it too far
+        while high - low > TUNING.transport.spare * self.cell {
+            let middle = 0.5 * (low + high);
+            let lower = self.controls(middle, steps);
+            if self.shortfall(&lower) > enough {
+                low = middle;
+            } else {
+                (high, controls) = (middle, lower);
+            }
         }
         controls
     }

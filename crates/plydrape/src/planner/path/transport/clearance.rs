@@ -3,7 +3,7 @@
 use super::turn::{Rotation, centre, turned};
 use crate::draping::spans::Point;
 use crate::mold::Mold;
-use crate::mold::vector::{along, distance, sub};
+use crate::mold::vector::{along, between, distance, norm, sub};
 use crate::planner::path::tuning::TUNING;
 use crate::planner::tuning;
 use crate::ply::Ply;
@@ -16,6 +16,8 @@ pub struct Clearance<'a> {
     /// Points of the ply at the start, from the centre of the grippers (m): the grippers, and so many between them and
     /// on the overhang.
     points: Vec<Point>,
+    /// So many of them in a line along u.
+    line: usize,
     /// Centre of the grippers at the start (m).
     start: Point,
     /// How far the ply hangs below these points (m).
@@ -26,28 +28,38 @@ pub struct Clearance<'a> {
     table: Option<f64>,
     /// How far the start is above the mold (m).
     own: f64,
+    /// Height of the highest boundary of the mold that may be below the array on its way (m).
+    boundary: f64,
 }
 
 impl<'a> Clearance<'a> {
-    /// For the array of a scene at its start.
-    pub fn new(scene: &Scene, mold: &'a Mold, start: &[Point]) -> Self {
+    /// For the array of a scene that is carried from its start to another place of its centre (m).
+    pub fn new(scene: &Scene, mold: &'a Mold, start: &[Point], end: Point) -> Self {
         let ply = &scene.ply;
         let overhang = scene.settings.sheet.overhang;
         let middle = centre(start);
-        let points = points(ply, start, overhang).into_iter().map(|p| sub(p, middle)).collect();
+        let lines = points(ply, start, overhang);
+        let line = lines.first().map_or(0, Vec::len);
+        let points: Vec<Point> = lines.into_iter().flatten().map(|p| sub(p, middle)).collect();
+        let reach = points.iter().map(|p| norm(*p)).fold(0.0, f64::max);
+        let way = [0, 1].map(|n| {
+            let [a, b] = [middle[n], end[n]];
+            [a.min(b) - reach, a.max(b) + reach]
+        });
         let mut clearance = Clearance {
             mold,
             points,
+            line,
             start: middle,
             hang: sag(ply, start).max(overhang),
             margin: TUNING.transport.margin * tuning::cell(scene),
             table: None,
             own: f64::INFINITY,
+            boundary: highest_boundary(mold, way, TUNING.transport.sampling * tuning::cell(scene)),
         };
-        let heights = || clearance.points.iter().map(|p| clearance.above(along(middle, 1.0, *p)));
-        let is_on_mold = heights().all(|height| height.is_some());
-        clearance.own = heights().flatten().fold(f64::INFINITY, f64::min);
-        if !is_on_mold {
+        let places: Vec<Point> = clearance.points.iter().map(|p| along(middle, 1.0, *p)).collect();
+        clearance.own = clearance.over_mold(&places);
+        if places.iter().any(|place| clearance.above(*place).is_none()) {
             let lowest = start.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
             clearance.table = Some(lowest - clearance.hang);
         }
@@ -69,8 +81,37 @@ impl<'a> Clearance<'a> {
     pub fn shortfall_over_mold(&self, centre: Point, rotation: &Rotation) -> f64 {
         let wanted = self.margin.min(self.own + self.moved(centre, rotation));
         let places = self.points.iter().map(|p| along(centre, 1.0, turned(rotation, *p)));
-        let heights = places.filter_map(|place| self.above(place));
-        wanted - heights.fold(f64::INFINITY, f64::min)
+        wanted - self.over_mold(&places.collect::<Vec<Point>>())
+    }
+
+    /// How far the ply with its points at places (m) is above the mold (m), also at the mold's boundary between two of
+    /// them; infinite where there is no mold.
+    fn over_mold(&self, places: &[Point]) -> f64 {
+        let heights: Vec<Option<f64>> = places.iter().map(|place| self.above(*place)).collect();
+        let mut least = heights.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+        // the lowest pairs first: where others are too high to be lower over the boundary, they are left out
+        let mut pairs = Vec::new();
+        for k in 0..places.len() {
+            let right = (k + 1) % self.line > 0;
+            let next = [right.then_some(k + 1), Some(k + self.line)];
+            for n in next.into_iter().flatten().filter(|n| *n < places.len()) {
+                let ends = match [heights[k], heights[n]] {
+                    [Some(_), None] => [places[k], places[n]],
+                    [None, Some(_)] => [places[n], places[k]],
+                    _ => continue,
+                };
+                pairs.push((ends[0][2].min(ends[1][2]) - self.hang - self.boundary, ends));
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (lowest, ends) in pairs {
+            if lowest >= least {
+                break;
+            }
+            let above = boundary(self.mold, ends).and_then(|place| self.above(place));
+            least = least.min(above.unwrap_or(f64::INFINITY));
+        }
+        least
     }
 
     /// The farthest that a point of the array has moved in plan (m).
@@ -87,8 +128,57 @@ impl<'a> Clearance<'a> {
     }
 }
 
-/// Points of an array: a few each cell, bilinear between grippers, and the same surface continued over the overhang (m).
-fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Point> {
+/// The place between one over the mold and one beside it, just over the mold's boundary (m).
+fn boundary(mold: &Mold, [mut on, mut off]: [Point; 2]) -> Option<Point> {
+    let mut found = None;
+    for _ in 0..TUNING.transport.boundary_halvings {
+        let middle = between(on, off, 0.5);
+        if mold.highest_point([middle[0], middle[1]]).is_some() {
+            on = middle;
+            found = Some(middle);
+        } else {
+            off = middle;
+        }
+    }
+    found
+}
+
+/// Height of the highest boundary of a mold within ranges of x and y, as lines so far apart meet it (m); minus infinity
+/// where they meet none.
+fn highest_boundary(mold: &Mold, ranges: [[f64; 2]; 2], pitch: f64) -> f64 {
+    let [nx, ny] = ranges.map(|[low, high]| ((high - low) / pitch).ceil().max(1.0) as usize);
+    let at = |i: usize, j: usize| {
+        let [x, y] = [(0, i, nx), (1, j, ny)].map(|(n, k, count)| {
+            let [low, high] = ranges[n];
+            low + (high - low) * k as f64 / count as f64
+        });
+        [x, y, 0.0]
+    };
+    let line = |j: usize| -> Vec<bool> {
+        (0..=nx).map(|i| mold.highest_point([at(i, j)[0], at(i, j)[1]]).is_some()).collect()
+    };
+    let lines: Vec<Vec<bool>> = (0..=ny).map(line).collect();
+    let mut highest = f64::NEG_INFINITY;
+    for j in 0..=ny {
+        for i in 0..=nx {
+            for (k, l) in [(i + 1, j), (i, j + 1)].into_iter().filter(|(k, l)| *k <= nx && *l <= ny)
+            {
+                let ends = match [lines[j][i], lines[l][k]] {
+                    [true, false] => [at(i, j), at(k, l)],
+                    [false, true] => [at(k, l), at(i, j)],
+                    _ => continue,
+                };
+                let place = boundary(mold, ends).and_then(|p| mold.highest_point([p[0], p[1]]));
+                highest = highest.max(place.map_or(f64::NEG_INFINITY, |place| place[2]));
+            }
+        }
+    }
+    highest
+}
+
+/// Points of an array, as lines along u: a few each cell, bilinear between grippers, and the same surface continued over the
+/// overhang (m).
+fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Vec<Point>> {
     let grid = ply.grid;
     let axis = |n: usize| -> Vec<f64> {
         let last = [grid.nu, grid.nv][n] - 1;
@@ -118,7 +208,7 @@ fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Point> {
         along(a, v - j as f64, sub(b, a))
     };
     let (u, v) = (axis(0), axis(1));
-    v.iter().flat_map(|v| u.iter().map(|u| at(*u, *v))).collect()
+    v.iter().map(|v| u.iter().map(|u| at(*u, *v)).collect()).collect()
 }
 
 /// The most that a cell hangs below its grippers (m): its middle hangs below the middles of two of its edges as an edge
