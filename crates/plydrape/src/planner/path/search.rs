@@ -193,7 +193,9 @@ impl Search<'_, '_> {
             lock(&found).push(candidate);
             score
         };
-        let options = CMAESOptions::new(start.to_unit().to_vec(), TUNING.search.step)
+        let fine = lock(&shared.ranking).mesh == Mesh::Own;
+        let step = TUNING.search.steps[usize::from(fine)];
+        let options = CMAESOptions::new(start.to_unit().to_vec(), step)
             .population_size(TUNING.search.generation)
             .seed(shared.scene.plan.seed.wrapping_add(before + left as u64));
         let Ok(mut evolution) = options.build(objective) else { return };

@@ -126,8 +126,9 @@ pub struct Search {
     pub decisions: usize,
     /// Candidates that are kept to be decided on.
     pub kept: usize,
-    /// First step of the evolution, in shares of each range: it explores around the best member of a family.
-    pub step: f64,
+    /// First step of the evolution, in shares of each range: of a coarse ranking, which explores around the best member of a
+    /// family, and of the one with the mesh of the scene, which mends what is left.
+    pub steps: [f64; 2],
     /// Share of the drapes after the first candidates that is ranked with the mesh of the scene, where the coarse one led to no
     /// plan that is good enough.
     pub fine: f64,
@@ -215,7 +216,7 @@ pub const TUNING: Tuning = Tuning {
         batch: 4,
         decisions: 2,
         kept: 16,
-        step: 0.1,
+        steps: [0.1, 0.05],
         fine: 0.5,
         generation: 8,
         patience: 4,
