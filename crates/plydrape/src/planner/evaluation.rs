@@ -1,7 +1,7 @@
 //! How good a plan is: the complete drape along it, and how far its worst measure is from its limit.
 //!
-//! The model of the scene decides. A sheet is draped with a coarse mesh to rank candidates, and with the scene's own to
-//! decide (`decision`).
+//! The model of the scene decides. A sheet is draped with a coarse mesh to rank candidates, with the scene's own where
+//! that ranking led to no plan, and with this one to decide (`decision`).
 
 use crate::draping::{self, Judged};
 use crate::measure::{Name, Verdict, Worth};
@@ -25,10 +25,19 @@ pub fn with_motion(scene: &Scene, motion: Motion) -> Scene {
     Scene { motion, ..with_steps_cut(scene) }
 }
 
+/// The mesh with which the sheet is draped to rank candidates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mesh {
+    /// A coarse one, ten times as fast.
+    Coarse,
+    /// That of the scene.
+    Own,
+}
+
 /// The complete drape along planned positions of grippers (m), rounded as the motion will round them, of catenaries or a
-/// coarse sheet; broken off where it needs too much or the search is stopped.
+/// sheet; broken off where it needs too much or the search is stopped.
 #[must_use]
-pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], state: &SearchState) -> Judged {
+pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], mesh: Mesh, state: &SearchState) -> Judged {
     let positions = rounded(planned);
     let times = (0..positions.len()).map(|n| n as f64).collect();
     let scene = with_motion(scene, Motion { times, positions });
@@ -37,17 +46,18 @@ pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], state: &SearchState) -> J
             let most = TUNING.evaluation.most_equilibria * planned.len();
             draping::judge(&scene, most, |_| state.report())
         }
-        Model::Sheet => coarse_sheet(scene, state),
+        Model::Sheet => ranked_sheet(scene, mesh, state),
     }
 }
 
-/// The drape of a coarse sheet.
-fn coarse_sheet(mut scene: Scene, state: &SearchState) -> Judged {
-    let Evaluation { mesh, .. } = TUNING.evaluation;
-    let (pitch, radius) = (sheet::pitch(&scene.ply), scene.settings.pad.radius);
-    let coarse = (mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));
-    let own = scene.settings.sheet.mesh.unwrap_or(0.0);
-    scene.settings.sheet.mesh = Some(own.max(coarse));
+/// The drape of a sheet with one of its meshes.
+fn ranked_sheet(mut scene: Scene, mesh: Mesh, state: &SearchState) -> Judged {
+    if mesh == Mesh::Coarse {
+        let (pitch, radius) = (sheet::pitch(&scene.ply), scene.settings.pad.radius);
+        let coarse = (TUNING.evaluation.mesh * pitch).min(sheet::coarsest_mesh(pitch, radius));
+        let own = scene.settings.sheet.mesh.unwrap_or(0.0);
+        scene.settings.sheet.mesh = Some(own.max(coarse));
+    }
     // in its own time a motion is draped once it has one
     scene.settings.sheet.time = SheetTime::QuasiStatic;
     let stop = || state.report().is_break();

@@ -1,8 +1,8 @@
 //! The search for a strategy: a few families first, then evolution of the best (CMA-ES, Hansen 2016).
 //!
 //! A candidate whose grippers alone would exceed a limit is not draped (`geometry`). The others are ranked by complete
-//! drapes, of a coarse sheet where the sheet decides, and the best are decided on with the mesh of the scene. The search
-//! ends with a plan that is accepted with a margin. Candidates are independent and run on all cores; which one is
+//! drapes, of a coarse sheet where the sheet decides, and the best are decided on with the mesh of the scene. Where half of
+//! the drapes led to no plan that is good enough, the others are ranked with the mesh of the scene, too. The search ends with a plan that is accepted with a margin. Candidates are independent and run on all cores; which one is
 //! the best does not depend on the number of cores.
 
 use super::formation::MoldHeights;
@@ -16,10 +16,10 @@ use crate::draping::spans::Point;
 use crate::motion::MotionError;
 use crate::planner::checkpoint::Checkpoint;
 use crate::planner::decision::Decision;
-use crate::planner::evaluation::{self, Bias};
+use crate::planner::evaluation::{self, Bias, Mesh};
 use crate::planner::infeasible_limits::infeasible_limits;
 use crate::planner::search_state::SearchState;
-use crate::scene::Scene;
+use crate::scene::{Model, Scene};
 use cmaes::{CMAESOptions, DVector};
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -43,8 +43,16 @@ struct Shared<'a, 'b> {
     tabulated: Cow<'a, Scene>,
     heights: MoldHeights,
     state: &'a SearchState<'b>,
-    /// How far the ranking was wrong where it was decided; it changes between generations only.
-    bias: Mutex<Bias>,
+    /// How candidates are ranked; it changes between generations only.
+    ranking: Mutex<Ranking>,
+}
+
+/// How candidates are ranked.
+#[derive(Debug, Clone)]
+struct Ranking {
+    mesh: Mesh,
+    /// How far it was wrong where it was decided.
+    bias: Bias,
 }
 
 /// A search under way.
@@ -72,8 +80,8 @@ pub fn search(
     state: &SearchState,
 ) -> Result<Option<Decision>, MotionError> {
     let Some(heights) = MoldHeights::new(scene) else { return Ok(None) };
-    let bias = Mutex::default();
-    let shared = Shared { scene, tabulated: tabulated(scene), heights, state, bias };
+    let ranking = Mutex::new(Ranking { mesh: Mesh::Coarse, bias: Bias::default() });
+    let shared = Shared { scene, tabulated: tabulated(scene), heights, state, ranking };
     let mut search = Search {
         shared: &shared,
         candidates: Vec::new(),
@@ -84,7 +92,13 @@ pub fn search(
     };
     search.first(checkpoint);
     if infeasible_limits(scene).is_empty() {
-        search.evolve(checkpoint);
+        let of_a_sheet = scene.settings.model == Model::Sheet;
+        let fine = if of_a_sheet { (TUNING.search.fine * search.left as f64) as usize } else { 0 };
+        search.evolve(checkpoint, fine);
+        if of_a_sheet && !search.is_done() {
+            search.rank_with_own_mesh();
+            search.evolve(checkpoint, 0);
+        }
     }
     // at least one is decided on, even if the search was stopped
     if search.best.is_none() {
@@ -150,8 +164,20 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Evolution about the best; a search that continues an earlier one takes other samples.
-    fn evolve(&mut self, checkpoint: Option<&Checkpoint>) {
+    /// Ranks candidates with the mesh of the scene from now on, and the best of those that wait, too.
+    fn rank_with_own_mesh(&mut self) {
+        *lock(&self.shared.ranking) = Ranking { mesh: Mesh::Own, bias: Bias::default() };
+        let mut waiting = std::mem::take(&mut self.candidates);
+        waiting.truncate(TUNING.search.batch.min(self.left));
+        let strategies: Vec<Strategy> = waiting.into_iter().map(|c| c.strategy).collect();
+        self.shared.state.begin("draping the best with the mesh of the scene");
+        self.drape(&strategies);
+        self.decide(TUNING.search.decisions);
+    }
+
+    /// Evolution about the best until no more than so many drapes are left; a search that continues an earlier one takes other
+    /// samples.
+    fn evolve(&mut self, checkpoint: Option<&Checkpoint>, left: usize) {
         let ranked = self.candidates.first().map(|first| (first.score, first.strategy));
         let decided = self.best.as_ref().and_then(|best| Some((best.score, best.strategy?)));
         let start = ranked.into_iter().chain(decided).reduce(|a, b| if b.0 < a.0 { b } else { a });
@@ -169,9 +195,9 @@ impl Search<'_, '_> {
         };
         let options = CMAESOptions::new(start.to_unit().to_vec(), TUNING.search.step)
             .population_size(TUNING.search.generation)
-            .seed(shared.scene.plan.seed.wrapping_add(before));
+            .seed(shared.scene.plan.seed.wrapping_add(before + left as u64));
         let Ok(mut evolution) = options.build(objective) else { return };
-        while !self.is_done() && self.left >= TUNING.search.generation {
+        while !self.is_done() && self.left >= left + TUNING.search.generation {
             self.left -= TUNING.search.generation;
             let ended = evolution.next_parallel().is_some();
             self.candidates.append(&mut lock(&found));
@@ -213,7 +239,7 @@ impl Search<'_, '_> {
 
     /// Decides on the best candidates that are promising, at most so many.
     fn decide(&mut self, most: usize) {
-        let known = !lock(&self.shared.bias).is_empty();
+        let known = !lock(&self.shared.ranking).bias.is_empty();
         let score = |best: &Option<Decision>| best.as_ref().map_or(f64::INFINITY, |b| b.score);
         let before = score(&self.best);
         let mut promising = TUNING.search.promising[usize::from(known)];
@@ -253,7 +279,7 @@ impl Search<'_, '_> {
                 }
                 Ok(decision) => {
                     if let Some(coarse) = candidate.drape {
-                        lock(&self.shared.bias).learn(&coarse, &decision.drape);
+                        lock(&self.shared.ranking).bias.learn(&coarse, &decision.drape);
                     }
                     let key = |d: &Decision| (!d.drape.accepted, d.score);
                     let better = |best: &Decision| key(&decision) < key(best);
@@ -264,7 +290,7 @@ impl Search<'_, '_> {
                 Err(fault) => self.fault = self.fault.take().or(Some(fault)),
             }
         }
-        let bias = lock(&self.shared.bias).clone();
+        let bias = lock(&self.shared.ranking).bias.clone();
         for candidate in &mut self.candidates {
             if let Some(drape) = &candidate.drape {
                 candidate.score = evaluation::score_with(drape, &bias);
@@ -312,8 +338,9 @@ impl Shared<'_, '_> {
             let score = TUNING.search.not_draped * excess;
             return Candidate { strategy, positions, drape: None, score };
         }
-        let drape = evaluation::drape(&self.tabulated, &positions, self.state);
-        let score = evaluation::score_with(&drape, &lock(&self.bias).clone());
+        let Ranking { mesh, bias } = lock(&self.ranking).clone();
+        let drape = evaluation::drape(&self.tabulated, &positions, mesh, self.state);
+        let score = evaluation::score_with(&drape, &bias);
         self.state.record(&drape, score, false);
         Candidate { strategy, positions, drape: Some(drape), score }
     }

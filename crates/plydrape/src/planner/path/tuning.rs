@@ -128,6 +128,9 @@ pub struct Search {
     pub kept: usize,
     /// First step of the evolution, in shares of each range: it explores around the best member of a family.
     pub step: f64,
+    /// Share of the drapes after the first candidates that is ranked with the mesh of the scene, where the coarse one led to no
+    /// plan that is good enough.
+    pub fine: f64,
     /// Candidates of a generation: whole pairs, for two cores.
     pub generation: usize,
     /// Rounds of first candidates, or generations, without a gain after which an accepted plan is good enough.
@@ -213,6 +216,7 @@ pub const TUNING: Tuning = Tuning {
         decisions: 2,
         kept: 16,
         step: 0.1,
+        fine: 0.5,
         generation: 8,
         patience: 4,
         gain: 0.95,
