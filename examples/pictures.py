@@ -65,14 +65,17 @@ def folders(results: Path, name: str) -> dict[str, Path]:
 
 
 def numbers(folder: Path) -> dict[str, object]:
-    """The outcome of a drape, six digits of each number."""
+    """The outcome of a drape, six digits of each number; of a sheet also what catenaries say."""
     summary = json.loads((folder / "result.json").read_text())["summary"]
     if summary.get("sheet") is not None:
-        return {
+        kept: dict[str, object] = {
             key: float(f"{value:.4g}") if isinstance(value, float) else value
             for key, value in summary["sheet"].items()
             if key in SHEET
         }
+        kept["catenaries_accepted"] = all(limit["ok"] for limit in summary["limits"])
+        kept["catenaries_first_contact_step"] = summary["first_contact_step"]
+        return kept
     out: dict[str, object] = {
         key: summary[key] for key in ("accepted", "steps", "first_contact_step", "first_shear_step")
     }
@@ -173,19 +176,22 @@ def compare(figures: list[Path], picture: Path) -> None:
     save(both.resize(size, Image.Resampling.LANCZOS), picture)
 
 
+def keep(results: Path, name: str) -> None:
+    """Writes the numbers of an example."""
+    kept = {picture: numbers(folder) for picture, folder in folders(results, name).items()}
+    (EXAMPLES / name / "numbers.json").write_text(json.dumps(kept, indent=1) + "\n")
+
+
 def make(results: Path) -> None:
     """Makes all pictures and the numbers beside them."""
     for name in SOLVED:
-        kept = {}
         of = folders(results, name)
-        for picture, folder in of.items():
-            kept[picture] = numbers(folder)
         for motion in ("straight", "planned"):
             draw(of[motion] / "figure.svg", EXAMPLES / name / f"{motion}.png")
         if name in COMPARED:
             figures = [of[key] / "figure.svg" for key in ("straight catenaries", "straight")]
             compare(figures, EXAMPLES / name / "straight_both.png")
-        (EXAMPLES / name / "numbers.json").write_text(json.dumps(kept, indent=1) + "\n")
+        keep(results, name)
         print(f"examples/{name}: straight.png, planned.png, numbers.json")
     draw(results / "hemisphere_net" / "shear.svg", EXAMPLES.parent / "docs/hemisphere_shear.png")
 

@@ -13,14 +13,10 @@ from __future__ import annotations
 import argparse
 import csv
 import json
-import os
 import re
-import signal
 import subprocess
 import sys
 import tempfile
-import threading
-import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -54,38 +50,23 @@ class Run:
 
 
 def run(command: list[str], timeout: float) -> Run:
-    """Runs a program, with the time and memory of that process alone."""
-    with tempfile.TemporaryFile("w+b") as out, tempfile.TemporaryFile("w+b") as error:
-        begin = time.perf_counter()
-        child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=error)
-        late = threading.Event()
-
-        def end(sign: signal.Signals) -> None:
-            late.set()
-            os.kill(child.pid, sign)
-
-        timers = [
-            threading.Timer(timeout, end, [signal.SIGTERM]),
-            threading.Timer(timeout + GRACE, end, [signal.SIGKILL]),
-        ]
-        for timer in timers:
-            timer.start()
-        try:
-            _, status, usage = os.wait4(child.pid, 0)
-        finally:
-            for timer in timers:
-                timer.cancel()
-        seconds = time.perf_counter() - begin
-        child.returncode = os.waitstatus_to_exitcode(status)
-        texts = []
-        for file in (out, error):
-            file.seek(0)
-            texts.append(file.read().decode(errors="replace"))
-    # Linux counts in KiB, macOS in bytes
-    unit = 1 if sys.platform == "darwin" else 1024
-    return Run(
-        child.returncode, late.is_set(), seconds, usage.ru_maxrss * unit / 1e6, texts[0], texts[1]
-    )
+    """Runs a program, with the time and memory of that process alone; `measure.py` says how."""
+    with tempfile.TemporaryDirectory() as folder:
+        report, out, error = (Path(folder) / name for name in ("report.json", "out", "error"))
+        measure = [sys.executable, "-I", "-S", str(Path(__file__).with_name("measure.py"))]
+        with out.open("wb") as to, error.open("wb") as errors:
+            subprocess.run(
+                [*measure, str(report), str(timeout), str(GRACE), *command],
+                stdin=subprocess.DEVNULL,
+                stdout=to,
+                stderr=errors,
+                check=False,
+            )
+        texts = [file.read_bytes().decode(errors="replace") for file in (out, error)]
+        if not report.is_file():
+            raise RuntimeError(f"{command[0]} could not be measured:\n{texts[1]}")
+        measured = json.loads(report.read_text(encoding="utf-8"))
+    return Run(**measured, out=texts[0], error=texts[1])
 
 
 def excess(limit: dict[str, Any]) -> float:

@@ -23,17 +23,26 @@ def test_the_table_has_both_motions_of_three_scenes() -> None:
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row['name']}-{row['rest'].split()[0]}")
 def test_a_row_shows_the_kept_numbers(row: re.Match[str]) -> None:
     """`examples/pictures.py --check` compares those with new drapes."""
-    motion, verdict, *figures = row["rest"].split(" | ")
-    kept = json.loads((ROOT / "examples" / row["name"] / "numbers.json").read_text())
-    lines, sheet = kept[motion], kept[f"{motion} sheet"]
-    assert verdict == ("accepted" if lines["accepted"] else "refused")
-    assert not sheet["accepted"]
+    motion, *figures = row["rest"].split(" | ")
+    kept = json.loads((ROOT / "examples" / row["name"] / "numbers.json").read_text())[motion]
+    verdicts = {True: "accepted", False: "refused"}
     assert figures == [
-        str(lines["first_contact_step"]),
-        str(sheet["first_contact_step"]),
-        f"{sheet['height_max_mm']:.1f}",
-        f"{sheet['ridge_max_mm']:.1f}",
-        f"{sheet['bridge_max_mm']:.1f}",
-        f"{100 * sheet['height_share_above_half_mm']:.0f}",
-        f"{sheet['shear_max_deg']:.0f}",
+        verdicts[kept["catenaries_accepted"]],
+        str(kept["catenaries_first_contact_step"]),
+        verdicts[kept["accepted"]],
+        str(kept["first_contact_step"]),
+        f"{kept['height_max_mm']:.2f}",
+        f"{kept['ridge_max_mm']:.2f}",
+        f"{kept['bridge_max_mm']:.2f}",
+        f"{100 * kept['height_share_above_half_mm']:.0f}",
+        f"{kept['shear_max_deg']:.0f}",
     ]
+
+
+@pytest.mark.parametrize("name", sorted({row["name"] for row in ROWS}))
+def test_the_catenaries_of_a_straight_path_say_the_same_on_their_own(name: str) -> None:
+    """They are draped beside the sheet and without it."""
+    kept = json.loads((ROOT / "examples" / name / "numbers.json").read_text())
+    alone = kept["straight catenaries"]
+    assert kept["straight"]["catenaries_accepted"] == alone["accepted"]
+    assert kept["straight"]["catenaries_first_contact_step"] == alone["first_contact_step"]
