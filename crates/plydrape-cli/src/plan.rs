@@ -240,12 +240,12 @@ fn text(
     time: Option<Duration>,
 ) -> String {
     let Printed { evaluations, decisions, .. } = printed;
-    let sheet = result.summary.sheet.is_some();
-    let tried = match (printed.method, decisions) {
-        (PlanMethod::Stepwise, _) => format!("stepwise plan of {evaluations} steps"),
-        (PlanMethod::Path, decisions) => {
-            let with = if sheet { "with the mesh of the scene" } else { "along a finished motion" };
-            format!("path plan after {evaluations} drapes, {decisions} of them {with},")
+    let tried = match printed.method {
+        PlanMethod::Stepwise => format!("stepwise plan of {evaluations} steps"),
+        PlanMethod::Path => {
+            format!(
+                "path plan after {evaluations} drapes, {decisions} of them to decide on a plan,"
+            )
         }
     };
     let ended = match (ended, time) {

@@ -1,9 +1,10 @@
 //! The search for a strategy: a few families first, then evolution of the best (CMA-ES, Hansen 2016).
 //!
 //! A candidate whose grippers alone would exceed a limit is not draped (`geometry`). The others are ranked by complete
-//! drapes, of a coarse sheet where the sheet decides, and the best are decided on with the mesh of the scene. Where half of
-//! the drapes led to no plan that is good enough, the others are ranked with the mesh of the scene, too. The search ends with a plan that is accepted with a margin. Candidates are independent and run on all cores; which one is
-//! the best does not depend on the number of cores.
+//! drapes, of a coarse sheet where the sheet decides, and the best are decided on with the mesh of the scene. Where this
+//! leads to no plan, the others are ranked with the mesh of the scene, too. The search ends with a plan that is accepted
+//! with a margin. Candidates are independent and run on all cores; which one is the best does not depend on the number of
+//! cores.
 
 use super::formation::MoldHeights;
 use super::geometry;
@@ -92,19 +93,13 @@ pub fn search(
     };
     search.first(checkpoint);
     if infeasible_limits(scene).is_empty() {
-        let of_a_sheet = scene.settings.model == Model::Sheet;
-        let fine = if of_a_sheet { (TUNING.search.fine * search.left as f64) as usize } else { 0 };
-        search.evolve(checkpoint, fine);
-        if of_a_sheet && !search.is_done() {
-            search.rank_with_own_mesh();
-            search.evolve(checkpoint, 0);
-        }
+        search.improve(checkpoint);
     }
     // at least one is decided on, even if the search was stopped
     if search.best.is_none() {
         state.finish();
         search.ensure_candidate(checkpoint);
-        search.decide_all(f64::INFINITY, 1);
+        search.decide_on_best(f64::INFINITY);
     }
     match (search.best, search.fault) {
         (None, Some(fault)) => Err(fault),
@@ -122,11 +117,11 @@ impl Search<'_, '_> {
                 self.left = self.left.saturating_sub(1);
                 self.candidates.push(self.shared.along(strategy, positions));
                 self.rank();
-                self.decide_all(f64::INFINITY, 1);
+                self.decide_on_best(f64::INFINITY);
             }
             Some((strategy, None)) => {
                 self.drape(&[strategy]);
-                self.decide_all(f64::INFINITY, 1);
+                self.decide_on_best(f64::INFINITY);
             }
             None => {
                 let mut families = Strategy::families(scene, |shape| self.shared.steepest(shape));
@@ -142,7 +137,7 @@ impl Search<'_, '_> {
                     }
                     let batch = &batch[..batch.len().min(self.left)];
                     self.drape(batch);
-                    self.decide(TUNING.search.decisions);
+                    self.decide();
                 }
             }
         }
@@ -164,15 +159,52 @@ impl Search<'_, '_> {
         }
     }
 
+    /// Evolution about the best of the first candidates.
+    fn improve(&mut self, checkpoint: Option<&Checkpoint>) {
+        if self.shared.scene.settings.model == Model::Catenaries {
+            return self.evolve(checkpoint, 0);
+        }
+        let coarse = lock(&self.shared.ranking).clone();
+        let is_accepted = |search: &Self| search.best.as_ref().is_some_and(|b| b.drape.accepted);
+        if !is_accepted(self) {
+            self.rank_with_own_mesh();
+        }
+        if self.is_done() {
+            return;
+        }
+        let score = self.best.as_ref().map_or(f64::INFINITY, |best| best.score);
+        if is_accepted(self) || score > TUNING.search.near {
+            // a plan has only to become better, or none is near: many coarse drapes
+            if lock(&self.shared.ranking).mesh == Mesh::Own {
+                self.candidates.clear();
+                *lock(&self.shared.ranking) = coarse;
+            }
+            let fine = (TUNING.search.fine * self.left as f64) as usize;
+            self.evolve(checkpoint, fine);
+            self.rank_with_own_mesh();
+        }
+        self.evolve(checkpoint, 0);
+    }
+
     /// Ranks candidates with the mesh of the scene from now on, and the best of those that wait, too.
     fn rank_with_own_mesh(&mut self) {
+        if self.is_done() {
+            return;
+        }
         *lock(&self.shared.ranking) = Ranking { mesh: Mesh::Own, bias: Bias::default() };
         let mut waiting = std::mem::take(&mut self.candidates);
         waiting.truncate(TUNING.search.batch.min(self.left));
         let strategies: Vec<Strategy> = waiting.into_iter().map(|c| c.strategy).collect();
         self.shared.state.begin("draping the best with the mesh of the scene");
         self.drape(&strategies);
-        self.decide(TUNING.search.decisions);
+        for _ in 0..strategies.len() {
+            if !self.is_done() {
+                self.decide();
+            }
+        }
+        if self.best.is_none() {
+            self.decide_on_best(f64::INFINITY);
+        }
     }
 
     /// Evolution about the best until no more than so many drapes are left; a search that continues an earlier one takes other
@@ -204,7 +236,7 @@ impl Search<'_, '_> {
             let ended = evolution.next_parallel().is_some();
             self.candidates.append(&mut lock(&found));
             self.rank();
-            self.decide(1);
+            self.decide();
             if ended {
                 break;
             }
@@ -214,9 +246,14 @@ impl Search<'_, '_> {
     /// Whether the search shall end: an accepted plan is not improved for long, unless the scene asks for it.
     fn is_done(&self) -> bool {
         let improve = self.shared.scene.plan.improve;
+        // drapes with the mesh of the scene are for those that have no plan yet
+        let patience = match lock(&self.shared.ranking).mesh {
+            Mesh::Coarse => TUNING.search.patience,
+            Mesh::Own => 0,
+        };
         let enough = |best: &Decision| {
             let good = best.score <= TUNING.search.good;
-            !improve && best.drape.accepted && (good || self.idle >= TUNING.search.patience)
+            !improve && best.drape.accepted && (good || self.idle >= patience)
         };
         self.left == 0 || self.shared.state.is_stopped() || self.best.as_ref().is_some_and(enough)
     }
@@ -239,9 +276,13 @@ impl Search<'_, '_> {
         self.candidates.truncate(TUNING.search.kept);
     }
 
-    /// Decides on the best candidates that are promising, at most so many.
-    fn decide(&mut self, most: usize) {
-        let known = !lock(&self.shared.ranking).bias.is_empty();
+    /// Decides on the best candidate if it is promising.
+    fn decide(&mut self) {
+        let known = {
+            // the error of the mesh of the scene is that of steps and time alone, another one for each plan
+            let ranking = lock(&self.shared.ranking);
+            ranking.mesh == Mesh::Coarse && !ranking.bias.is_empty()
+        };
         let score = |best: &Option<Decision>| best.as_ref().map_or(f64::INFINITY, |b| b.score);
         let before = score(&self.best);
         let mut promising = TUNING.search.promising[usize::from(known)];
@@ -249,48 +290,40 @@ impl Search<'_, '_> {
         if let Some(best) = self.best.as_ref().filter(|best| best.drape.accepted) {
             promising = promising.min(TUNING.search.gain * best.score);
         }
-        self.decide_all(promising, most);
+        self.decide_on_best(promising);
         let gained = score(&self.best) < TUNING.search.gain * before;
         let accepted = self.best.as_ref().is_some_and(|best| best.drape.accepted);
         self.idle = if accepted && !gained { self.idle + 1 } else { 0 };
     }
 
-    /// Decides on the best candidates with a score up to `promising`, at most so many.
-    fn decide_all(&mut self, promising: f64, most: usize) {
-        let count = self.candidates.iter().take_while(|c| c.score <= promising).count().min(most);
-        let ended = self.shared.state.is_stopped() && !self.shared.state.is_finishing();
-        if count == 0 || ended {
+    /// Decides on the best candidate if its score is at most `promising`.
+    fn decide_on_best(&mut self, promising: f64) {
+        let Shared { scene, state, .. } = self.shared;
+        let waits = self.candidates.first().is_some_and(|candidate| candidate.score <= promising);
+        if !waits || (state.is_stopped() && !state.is_finishing()) {
             return;
         }
-        let Shared { scene, state, .. } = self.shared;
+        let candidate = self.candidates.remove(0);
         let stage = if state.is_finishing() { "finishing the best plan" } else { "deciding" };
         let before = state.begin(stage);
-        let chosen: Vec<Candidate> = self.candidates.drain(..count).collect();
-        let decide = |candidate: Candidate| {
-            let positions = candidate.positions.clone();
-            let decision = Decision::on(scene, Some(candidate.strategy), positions, state);
-            (candidate, decision)
-        };
-        let decisions: Vec<_> = chosen.into_par_iter().map(decide).collect();
+        let positions = candidate.positions.clone();
+        let decision = Decision::on(scene, Some(candidate.strategy), positions, state);
         state.begin(before);
-        for (candidate, decision) in decisions {
-            match decision {
-                // what the end of the search broke off is decided on when it is finished
-                Ok(cut) if state.is_cut_short(&cut.drape) && !state.is_finishing() => {
-                    self.candidates.push(candidate);
-                }
-                Ok(decision) => {
-                    if let Some(coarse) = candidate.drape {
-                        lock(&self.shared.ranking).bias.learn(&coarse, &decision.drape);
-                    }
-                    let key = |d: &Decision| (!d.drape.accepted, d.score);
-                    let better = |best: &Decision| key(&decision) < key(best);
-                    if self.best.as_ref().is_none_or(better) {
-                        self.best = Some(decision);
-                    }
-                }
-                Err(fault) => self.fault = self.fault.take().or(Some(fault)),
+        match decision {
+            // what the end of the search broke off is decided on when it is finished
+            Ok(cut) if state.is_cut_short(&cut.drape) && !state.is_finishing() => {
+                self.candidates.push(candidate);
             }
+            Ok(decision) => {
+                if let Some(ranked) = candidate.drape {
+                    lock(&self.shared.ranking).bias.learn(&ranked, &decision.drape);
+                }
+                let key = |d: &Decision| (!d.drape.accepted, d.score);
+                if self.best.as_ref().is_none_or(|best| key(&decision) < key(best)) {
+                    self.best = Some(decision);
+                }
+            }
+            Err(fault) => self.fault = self.fault.take().or(Some(fault)),
         }
         let bias = lock(&self.shared.ranking).bias.clone();
         for candidate in &mut self.candidates {

@@ -122,13 +122,14 @@ pub struct Search {
     pub not_draped: f64,
     /// First candidates that are draped before the best of them is decided on: whole pairs, for two cores.
     pub batch: usize,
-    /// Candidates that are decided on at once.
-    pub decisions: usize,
     /// Candidates that are kept to be decided on.
     pub kept: usize,
     /// First step of the evolution, in shares of each range: of a coarse ranking, which explores around the best member of a
     /// family, and of the one with the mesh of the scene, which mends what is left.
     pub steps: [f64; 2],
+    /// Score of the best first candidate up to which it is near to a plan, so that all other drapes are ranked with the mesh of the
+    /// scene.
+    pub near: f64,
     /// Share of the drapes after the first candidates that is ranked with the mesh of the scene, where the coarse one led to no
     /// plan that is good enough.
     pub fine: f64,
@@ -214,12 +215,12 @@ pub const TUNING: Tuning = Tuning {
         excess: 1.1,
         not_draped: 1e2,
         batch: 4,
-        decisions: 2,
         kept: 16,
         steps: [0.1, 0.05],
+        near: 1.25,
         fine: 0.5,
         generation: 8,
-        patience: 4,
+        patience: 2,
         gain: 0.95,
     },
     refinement: Refinement {
