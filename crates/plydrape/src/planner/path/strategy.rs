@@ -1,5 +1,6 @@
 //! The parameters of a front, and the vector of them that a search varies.
 
+use super::fronts::flattest;
 use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
@@ -23,6 +24,9 @@ pub struct Strategy {
     /// Pretension: relative stretch of the net ahead of the front.
     pub pretension: f64,
 }
+
+/// Ratio of a front's axes from which on it counts as a line.
+const LINE: f64 = 100.0;
 
 /// Numbers that a search varies.
 pub const DIMENSION: usize = TUNING.front.ranges.len();
@@ -86,8 +90,8 @@ impl Strategy {
             shape(1.0, 0.0),
             shape(2.5, second),
             shape(2.5, first),
-            shape(100.0, second),
-            shape(100.0, first),
+            shape(LINE, second),
+            shape(LINE, first),
         ];
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
@@ -129,8 +133,23 @@ impl Strategy {
         families
     }
 
+    /// A line in the direction in which the mold curves least: the ply is rolled on along the other one, from its middle to
+    /// both sides.
+    #[must_use]
+    pub fn line(scene: &Scene) -> Self {
+        let [_, angle] = principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
+        Strategy { ratio: LINE, angle, ..Strategy::ring() }
+    }
+
+    /// A ring as flat as possible: all of the ply comes down nearly together.
+    #[must_use]
+    pub fn flat() -> Self {
+        Strategy { slope: flattest(), ..Strategy::ring() }
+    }
+
     /// A ring that spreads from the middle of the ply, as steep as no tilt forbids.
-    fn ring() -> Self {
+    #[must_use]
+    pub fn ring() -> Self {
         let slope = TUNING.front.steepest;
         let (start, ratio, angle) = ([0.5; 2], 1.0, 0.0);
         Strategy { start, ratio, angle, curvature: 5.0, slope, pretension: 1.2e-3 }
