@@ -145,8 +145,7 @@ impl Comparison {
     /// The best strategy: an accepted one before others, then the one that stays farthest from its limits.
     #[must_use]
     pub fn best(&self) -> Option<(StrategyName, &ComparedDrape)> {
-        let drapes =
-            self.strategies.iter().filter_map(|c| Some((c.name, c.drape.as_ref().ok()?)));
+        let drapes = self.strategies.iter().filter_map(|c| Some((c.name, c.drape.as_ref().ok()?)));
         let key = |drape: &ComparedDrape| evaluation::score(&drape.judged());
         drapes.min_by(|(_, a), (_, b)| {
             let order = b.is_accepted().cmp(&a.is_accepted());
