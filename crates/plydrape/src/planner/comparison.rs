@@ -1,24 +1,24 @@
 //! Drapes of one scene by every named strategy, side by side: which of them lay the ply down, and why the others do not.
 //!
-//! Nothing is searched. Each strategy is one motion, draped with the mesh of the scene and judged by its limits: the straight
-//! one as `simulate` drapes it, the others as a finished plan.
+//! Each strategy is draped with the mesh of the scene and judged by its limits: the straight one as `simulate` drapes it, the
+//! others as a finished plan. Rolled and from a point are the fronts that a search tries first, the best of each kind; evolution
+//! of them is left to the search.
 
-use super::decision::{Decision, PlannedSheet};
+mod drapes;
+
+use super::decision::PlannedSheet;
 use super::evaluation;
 use super::path::{Fronts, Strategy};
-use super::plan::{self, Followed, PlanError};
+use super::plan::PlanError;
 use super::search_state::{SearchState, Watcher};
-use super::stepwise::stepwise;
-use crate::draping::spans::Point;
-use crate::draping::{Drape, Judged, simulate};
+use crate::draping::{Drape, Judged};
 use crate::measure::{Subject, Verdict};
-use crate::mold::vector::between;
-use crate::motion::{Bounds, MotionError, TimedMotion};
-use crate::scene::{Model, Motion, Scene, SheetTime};
-use crate::sheet;
+use crate::motion::MotionError;
+use crate::scene::Scene;
+use drapes::{best_front, by_steps, straight};
 use rayon::prelude::*;
+use std::cmp::Ordering;
 use std::fmt::{self, Display, Formatter};
-use std::ops::ControlFlow;
 
 /// The ways to lay a ply that have a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -29,9 +29,9 @@ pub enum StrategyName {
     Straight,
     /// The array is formed over its place, nearly flat, and let down so that all cells land nearly together.
     AllAtOnce,
-    /// A line lands first and the ply is rolled on to both sides of it, as steep as the tilt of the grippers allows.
+    /// A line lands first and the ply is rolled on to both sides of it, as steeply as the tilt of the grippers allows.
     Rolled,
-    /// The middle of the ply lands first, and a ring spreads from it, as steep as the tilt of the grippers allows.
+    /// A point lands first, and a ring or an ellipse spreads from it, about as steeply as the tilt of the grippers allows.
     FromAPoint,
     /// Step by step, by the stepwise planner.
     Stepwise,
@@ -119,6 +119,13 @@ impl ComparedDrape {
         broken
     }
 
+    /// The better drape first: an accepted one before others, then the one that stays farther from its limits.
+    fn order(&self, other: &Self) -> Ordering {
+        let score = |drape: &Self| evaluation::score(&drape.judged());
+        let accepted = other.is_accepted().cmp(&self.is_accepted());
+        accepted.then_with(|| score(self).total_cmp(&score(other)))
+    }
+
     fn judged(&self) -> Judged {
         let summary = &self.drape.summary;
         let steps = summary.sheet.as_ref().map_or(summary.steps, |sheet| sheet.steps);
@@ -146,11 +153,7 @@ impl Comparison {
     #[must_use]
     pub fn best(&self) -> Option<(StrategyName, &ComparedDrape)> {
         let drapes = self.strategies.iter().filter_map(|c| Some((c.name, c.drape.as_ref().ok()?)));
-        let key = |drape: &ComparedDrape| evaluation::score(&drape.judged());
-        drapes.min_by(|(_, a), (_, b)| {
-            let order = b.is_accepted().cmp(&a.is_accepted());
-            order.then(key(a).total_cmp(&key(b)))
-        })
+        drapes.min_by(|(_, a), (_, b)| a.order(b))
     }
 }
 
@@ -166,16 +169,16 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, PlanError>
     let fronts = Fronts::new(scene).ok_or(PlanError::NoTarget)?;
     let state = SearchState::new(StrategyName::ALL.len(), watcher);
     state.begin("draping the strategies");
+    let (lines, points): (Vec<Strategy>, Vec<Strategy>) =
+        Strategy::families(scene, |shape| fronts.steepest(shape))
+            .into_iter()
+            .partition(Strategy::is_line);
     let one = |name: &StrategyName| {
         let drape = match name {
             StrategyName::Straight => straight(scene, &state),
-            StrategyName::AllAtOnce => by_front(scene, &fronts, Strategy::flat(), &state),
-            StrategyName::Rolled => {
-                by_front(scene, &fronts, steepest(&fronts, Strategy::line(scene)), &state)
-            }
-            StrategyName::FromAPoint => {
-                by_front(scene, &fronts, steepest(&fronts, Strategy::ring()), &state)
-            }
+            StrategyName::AllAtOnce => best_front(scene, &fronts, &[Strategy::flat()], &state),
+            StrategyName::Rolled => best_front(scene, &fronts, &lines, &state),
+            StrategyName::FromAPoint => best_front(scene, &fronts, &points, &state),
             StrategyName::Stepwise => by_steps(scene, &state),
         };
         let drape = drape.and_then(|drape| match state.is_stopped() {
@@ -191,89 +194,4 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, PlanError>
     };
     let strategies = StrategyName::ALL.par_iter().map(one).collect();
     Ok(Comparison { strategies, interrupted: state.is_interrupted() })
-}
-
-/// A front of this shape as steep as the tilt of the grippers allows.
-fn steepest(fronts: &Fronts, shape: Strategy) -> Strategy {
-    Strategy { slope: fronts.steepest(shape), ..shape }
-}
-
-/// The drape along the straight paths of the scene, as `simulate` drapes them.
-fn straight(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, NotDraped> {
-    let scene = Scene { motion: straight_motion(scene), ..scene.clone() };
-    let time = match (scene.settings.model, scene.settings.sheet.time) {
-        (Model::Sheet, SheetTime::Real) => scene.motion.times.last().copied().unwrap_or(0.0),
-        _ => TimedMotion::new(&scene.motion.positions, &Bounds::from(&scene.limits))?.duration(),
-    };
-    let drape = simulate(&scene, |_| state.report());
-    let stop = || state.report().is_break();
-    let along = |_: &sheet::State| ControlFlow::Continue(());
-    let sheet = match scene.settings.model {
-        // a scene without a sheet is refused before
-        Model::Sheet => sheet::drape(&scene, sheet::Tuning::default(), &stop, along).ok(),
-        Model::Catenaries => None,
-    };
-    Ok(decided(drape, sheet, time))
-}
-
-/// From the start of the scene straight to its target, in the steps and times of its motion.
-fn straight_motion(scene: &Scene) -> Motion {
-    let (Some(start), Some(target)) = (scene.motion.positions.first(), &scene.target) else {
-        return scene.motion.clone();
-    };
-    let times = match scene.motion.times.len() {
-        // a ply that is held has one step
-        0 | 1 => (0..scene.plan.steps.max(2)).map(|k| k as f64).collect(),
-        _ => scene.motion.times.clone(),
-    };
-    let last = (times.len() - 1) as f64;
-    let at = |k: usize| -> Vec<Point> {
-        let pairs = start.iter().zip(&target.grippers);
-        pairs.map(|(a, b)| between(*a, *b, k as f64 / last)).collect()
-    };
-    Motion { positions: (0..times.len()).map(at).collect(), times }
-}
-
-/// The drape along the motion of a front.
-fn by_front(
-    scene: &Scene,
-    fronts: &Fronts,
-    strategy: Strategy,
-    state: &SearchState,
-) -> Result<ComparedDrape, NotDraped> {
-    let positions = fronts.positions(strategy).unwrap_or_default();
-    planned(scene, Some(strategy), positions, Vec::new(), state)
-}
-
-/// The drape along the motion of the stepwise planner.
-fn by_steps(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, NotDraped> {
-    let plan = stepwise(scene, &mut |_| state.report());
-    let limits = plan::unreached(scene, &plan);
-    planned(scene, None, plan.positions, limits, state)
-}
-
-/// The drape along planned positions (m), finished and judged as a plan is; `own_limits` are those of its planner.
-fn planned(
-    scene: &Scene,
-    strategy: Option<Strategy>,
-    positions: Vec<Vec<Point>>,
-    own_limits: Vec<Verdict>,
-    state: &SearchState,
-) -> Result<ComparedDrape, NotDraped> {
-    if state.is_stopped() {
-        return Err(NotDraped::Interrupted);
-    }
-    let mut decision = Decision::along(scene, strategy, positions, state)?;
-    let Followed { drape, .. } = plan::follow(scene, &mut decision, own_limits, state);
-    let Decision { motion, sheet, .. } = decision;
-    Ok(decided(drape, sheet.map(|sheet| sheet.drape), motion.duration()))
-}
-
-/// A drape of which the sheet decides, if there is one.
-fn decided(mut drape: Drape, sheet: Option<sheet::Drape>, time: f64) -> ComparedDrape {
-    if let Some(sheet) = &sheet {
-        drape.summary.decide_by(sheet.summary.clone());
-    }
-    let sheet = sheet.map(|drape| PlannedSheet { drape, states: Vec::new() });
-    ComparedDrape { drape, sheet, time }
 }

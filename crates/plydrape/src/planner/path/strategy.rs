@@ -133,12 +133,10 @@ impl Strategy {
         families
     }
 
-    /// A line in the direction in which the mold curves least: the ply is rolled on along the other one, from its middle to
-    /// both sides.
+    /// Whether its front is a line, which rolls the ply on; others spread from a point.
     #[must_use]
-    pub fn line(scene: &Scene) -> Self {
-        let [_, angle] = principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
-        Strategy { ratio: LINE, angle, ..Strategy::ring() }
+    pub fn is_line(&self) -> bool {
+        self.ratio >= LINE
     }
 
     /// A ring as flat as possible: all of the ply comes down nearly together.
@@ -148,8 +146,7 @@ impl Strategy {
     }
 
     /// A ring that spreads from the middle of the ply, as steep as no tilt forbids.
-    #[must_use]
-    pub fn ring() -> Self {
+    fn ring() -> Self {
         let slope = TUNING.front.steepest;
         let (start, ratio, angle) = ([0.5; 2], 1.0, 0.0);
         Strategy { start, ratio, angle, curvature: 5.0, slope, pretension: 1.2e-3 }
