@@ -139,6 +139,8 @@ pub fn write_into(
     rows: &[Row],
     read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, OutputError> {
+    // first of all: no number that is not finite goes on
+    rows.iter().filter_map(|row| row.result.as_ref()).try_for_each(ResultFile::check_finite)?;
     let table = table(rows)?;
     let picture = figure::comparison::svg(title, rows)?;
     let [table, picture] = [&table, &picture].map(|text| text.as_bytes());

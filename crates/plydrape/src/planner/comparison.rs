@@ -98,17 +98,23 @@ impl ComparedDrape {
         self.drape.summary.accepted
     }
 
-    /// The limits that decide: those of the deciding model first, then those of the motion.
+    /// The limits that decide, each once: those of the deciding model first, then those of the motion. Of several verdicts on
+    /// one limit the worst.
     #[must_use]
     pub fn limits(&self) -> Vec<&Verdict> {
-        let all = self.drape.summary.limits.iter();
-        match &self.drape.summary.sheet {
-            None => all.collect(),
-            Some(sheet) => {
-                let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
-                sheet.limits.iter().chain(all.filter(of_motion)).collect()
+        let summary = &self.drape.summary;
+        let sheet = summary.sheet.as_ref();
+        let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
+        let others = summary.limits.iter().filter(|v| sheet.is_none() || of_motion(v));
+        let mut limits: Vec<&Verdict> = Vec::new();
+        for verdict in sheet.into_iter().flat_map(|sheet| &sheet.limits).chain(others) {
+            match limits.iter_mut().find(|limit| limit.name == verdict.name) {
+                Some(limit) if verdict.ratio() > limit.ratio() => *limit = verdict,
+                Some(_) => {}
+                None => limits.push(verdict),
             }
         }
+        limits
     }
 
     /// The limits that it breaks, the one exceeded furthest first.
