@@ -54,7 +54,7 @@ pub struct Sensitivity<'a> {
     paths: Vec<Option<Quantity>>,
     /// Slope of the ply at each gripper along u and v, where there is one.
     slopes: Vec<[Option<Quantity>; 2]>,
-    /// Whether the state has derivatives: see [`StateTangent::is_sound`]. Gradients are meaningless where not.
+    /// Whether the state has derivatives: see [`crate::equilibrium::StateTangent::is_sound`]. Gradients are meaningless where not.
     pub is_sound: bool,
 }
 
