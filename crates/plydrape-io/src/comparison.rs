@@ -1,6 +1,6 @@
 //! The files of a comparison: `comparison.csv` with all limits of all strategies, and `comparison.svg` with how each one ends.
 
-use crate::sheet::SheetDrapeError;
+use crate::sheet::{SheetDrapeError, ended};
 use crate::{Content, Folder, OutputError, ResultFile, csv, figure};
 use ::csv::Writer;
 use plydrape::measure::{Name, Verdict};
@@ -21,9 +21,11 @@ pub struct Row {
     pub accepted: bool,
     /// The time of its motion (s); none without a drape.
     pub time_s: Option<f64>,
-    /// Why there is no drape.
+    /// Whether there is no drape.
+    pub not_draped: bool,
+    /// Why there is no drape, or why it ended early or without rest.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub not_draped: Option<String>,
+    pub note: Option<String>,
     /// The limits that decide.
     pub limits: Vec<Verdict>,
     /// The limits that it breaks, the one exceeded furthest first.
@@ -48,7 +50,8 @@ impl Row {
                     strategy,
                     accepted: false,
                     time_s: None,
-                    not_draped: Some(reason.to_string()),
+                    not_draped: true,
+                    note: Some(reason.to_string()),
                     limits: Vec::new(),
                     broken: Vec::new(),
                     result: None,
@@ -62,8 +65,13 @@ impl Row {
         if let Some(sheet) = draped.sheet {
             result.keep_sheet(sheet, dir)?;
         }
-        let result = Some(result);
-        Ok(Row { strategy, accepted, time_s, not_draped: None, limits, broken, result })
+        let summary = &result.summary;
+        let ended = match &summary.sheet {
+            Some(sheet) => ended(sheet, summary.steps_planned),
+            None => summary.stopped.as_ref().map(ToString::to_string),
+        };
+        let (note, result) = (ended, Some(result));
+        Ok(Row { strategy, accepted, time_s, not_draped: false, note, limits, broken, result })
     }
 
     /// The verdict on one limit; the first, where several models judge it.
@@ -97,7 +105,7 @@ pub fn table(rows: &[Row]) -> Result<String, ::csv::Error> {
         }
     }
     let mut table = Writer::from_writer(Vec::new());
-    let mut header = ["strategy", "accepted", "t (s)", "not draped"].map(str::to_owned).to_vec();
+    let mut header = ["strategy", "accepted", "t (s)", "note"].map(str::to_owned).to_vec();
     for (name, unit) in &columns {
         let label = name.measure().label();
         header.extend([
@@ -110,8 +118,8 @@ pub fn table(rows: &[Row]) -> Result<String, ::csv::Error> {
     table.write_record(&header)?;
     for row in rows {
         let time = row.time_s.map(csv::number).unwrap_or_default();
-        let reason = row.not_draped.clone().unwrap_or_default();
-        let mut cells = vec![row.strategy.to_string(), row.accepted.to_string(), time, reason];
+        let note = row.note.clone().unwrap_or_default();
+        let mut cells = vec![row.strategy.to_string(), row.accepted.to_string(), time, note];
         for (name, _) in &columns {
             match row.limit(*name) {
                 Some(v) => cells.extend([

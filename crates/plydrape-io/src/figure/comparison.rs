@@ -99,13 +99,12 @@ impl End<'_> {
 fn head(canvas: &mut Canvas, row: &Row, [x, y]: Px) -> Result<(), OutputError> {
     let name = format!("{} — {}", row.strategy, table::verdict_on(row));
     canvas.text(&name, [x + 28.0, y + 12.0], heading(14.0))?;
-    let why = match (&row.not_draped, row.broken.first()) {
-        (Some(reason), _) => reason.clone(),
-        (None, Some(worst)) => table::measure_text(worst),
-        (None, None) => table::closest(&row.limits)
-            .map(|closest| format!("closest to its limit: {}", table::measure_text(closest)))
-            .unwrap_or_default(),
+    let closest = || {
+        let closest = table::closest(&row.limits).filter(|_| row.accepted)?;
+        Some(format!("closest to its limit: {}", table::measure_text(closest)))
     };
+    let broken = row.broken.first().map(table::measure_text);
+    let why = broken.or_else(|| row.note.clone()).or_else(closest).unwrap_or_default();
     canvas.text(&crate::shown::excerpt(&why, LONGEST), [x + 28.0, y + 30.0], plain(12.5, -1))?;
     Ok(())
 }

@@ -31,7 +31,7 @@ pub fn comparison(rows: &[Row], best: Option<StrategyName>) -> String {
     for (row, line) in rows.iter().zip(lines) {
         text += &format!("{line}\n");
         let broken = row.broken.iter().take(MOST_BROKEN).map(verdict_text);
-        for reason in row.not_draped.iter().cloned().chain(broken) {
+        for reason in broken.chain(row.note.clone()) {
             text += &shown::excerpt(&format!("  {reason}"), WIDTH);
             text.push('\n');
         }
@@ -49,9 +49,9 @@ pub fn comparison(rows: &[Row], best: Option<StrategyName>) -> String {
 
 /// The verdict on a strategy in a word.
 pub(crate) fn verdict(row: &Row) -> &'static str {
-    match (&row.not_draped, row.accepted) {
-        (Some(_), _) => "not draped",
-        (None, true) => "accepted",
-        (None, false) => "not accepted",
+    match (row.not_draped, row.accepted) {
+        (true, _) => "not draped",
+        (false, true) => "accepted",
+        (false, false) => "not accepted",
     }
 }

@@ -164,7 +164,7 @@ impl Comparison {
 }
 
 /// Drapes a scene by every named strategy. `watcher` receives the progress, a candidate being a strategy; when it breaks, the
-/// strategies that are not complete are left out. The same scene gives the same comparison on any number of threads.
+/// strategies that are not complete end with [`NotDraped::Interrupted`]. The same scene gives the same comparison on any number of threads.
 ///
 /// # Errors
 /// [`PlanError`] if the scene has no mold or target.
