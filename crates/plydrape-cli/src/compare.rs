@@ -34,8 +34,8 @@ pub fn run(results: &Results, scene: &SceneFile, interrupt: &Interrupt, quiet: b
     let compared = compare(scene, &mut |progress| search.watch(progress));
     let (took, _) = search.finish();
     let compared = compared?;
-    let best = compared.best().map(|(name, _)| name);
     let interrupted = compared.interrupted;
+    let best = compared.best().map(|(name, _)| name).filter(|_| !interrupted);
     let rows = comparison::rows(scene, compared, folder.stage())?;
     let files = comparison::write_into(folder, &scene.title, &rows, &scene.files)?;
 

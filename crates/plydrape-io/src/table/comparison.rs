@@ -42,7 +42,7 @@ pub fn comparison(rows: &[Row], best: Option<StrategyName>) -> String {
         Some(best) => {
             format!("\nbest: {best}, but none is accepted; without --compare a plan is searched\n")
         }
-        None => "\nno strategy was draped\n".into(),
+        None => "\nnot all were draped, so that none is said to be the best\n".into(),
     };
     text
 }
