@@ -33,7 +33,7 @@ Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.ht
 the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
 since, is never overwritten.
 
-With --compare nothing is searched: the ply is draped once by each of five strategies, straight (every gripper to its \
+With --compare nothing is searched: the ply is draped by each of five strategies, straight (every gripper to its \
 target), all at once (formed over its place and let down flat), rolled (a line lands first), from a point (the middle lands \
 first) and stepwise. A table says which limits each one breaks, the worst first. comparison.csv (all limits) and comparison.svg \
 (how each one ends) go to the scene's name with `.compare`. The exit code is 0 if one of them is accepted, 1 if none is.")]
