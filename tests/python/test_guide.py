@@ -41,7 +41,7 @@ def test_a_chapter_does_what_it_says(chapter: Path, tmp_path: Path) -> None:
     programs.mkdir()
     (programs / "plydrape").symlink_to(binary().resolve())
     clone = tmp_path / "plydrape"
-    made = shutil.ignore_patterns("*.results", "*.plan", "*.net")
+    made = shutil.ignore_patterns("*.results", "*.plan", "*.compare", "*.net")
     shutil.copytree(ROOT / "examples", clone / "examples", ignore=made)
 
     reader = Reader(clone, [programs, Path(sys.executable).parent])

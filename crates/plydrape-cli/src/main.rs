@@ -2,6 +2,7 @@
 
 mod argument;
 mod check;
+mod compare;
 mod complete;
 mod export;
 mod failure;

@@ -31,7 +31,12 @@ standard error once a minute.
 
 Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json to \
 the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
-since, is never overwritten.")]
+since, is never overwritten.
+
+With --compare nothing is searched: the ply is draped by each of five strategies, straight (every gripper to its \
+target), all at once (formed over its place and let down flat), rolled (a line lands first), from a point (the middle lands \
+first) and stepwise. A table says which limits each one breaks, the worst first. comparison.csv (all limits) and comparison.svg \
+(how each one ends) go to the scene's name with `.compare`. The exit code is 0 if one of them is accepted, 1 if none is.")]
 pub struct Arguments {
     #[command(flatten)]
     results: Results,
@@ -53,6 +58,10 @@ pub struct Arguments {
     /// take a little longer.
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     time: Option<String>,
+
+    /// Drape by every named strategy instead of a search, and say side by side why the losers fail.
+    #[arg(long, conflicts_with_all = ["method", "seed", "improve", "time", "earlier"])]
+    compare: bool,
 
     /// Threads of the search, one per core unless given; the plan does not depend on it.
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
@@ -125,6 +134,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     if let Some(threads) = arguments.threads {
         // the pool cannot be set a second time, and has not been set before
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    }
+    if arguments.compare {
+        return crate::compare::run(results, &scene, &interrupt, quiet);
     }
     crate::sheet::check(&scene)?;
     let folder = Folder::claim(&results.folder("plan"), "plan")?;

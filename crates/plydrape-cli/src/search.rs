@@ -39,6 +39,17 @@ impl<'a> Search<'a> {
             PlanMethod::Path => (plan.evaluations, "candidates"),
             PlanMethod::Stepwise => (plan.steps, "steps"),
         };
+        Self::of(most, unit, time, interrupt, quiet)
+    }
+
+    /// The same of at most `most` of what is counted in a `unit`.
+    pub fn of(
+        most: usize,
+        unit: &'static str,
+        time: Option<Duration>,
+        interrupt: &'a Interrupt,
+        quiet: bool,
+    ) -> Self {
         let template = format!(
             "planning {{bar:40}} {{pos}} of at most {{len}} {unit}, {{elapsed}}\n{{wide_msg}}"
         );

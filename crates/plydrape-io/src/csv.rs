@@ -128,7 +128,7 @@ fn pose(time: f64, [i, j]: GripperId, position: [f64; 3], quaternion: [f64; 4]) 
 }
 
 /// The shortest decimal that reads back to the same double.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     format!("{value:?}")
 }
 

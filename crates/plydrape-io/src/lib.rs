@@ -5,11 +5,12 @@
 //! 1. [`scene`]: a file becomes a checked scene, with [`mesh`] and [`formula`] for its mold;
 //! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
 //! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`]: everything else is made from a result;
-//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`sheet`] keeps the states of a sheet beside its result;
+//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`comparison`] for several strategies, [`sheet`] keeps the states of a sheet beside its result;
 //!    [`table`] prints for people;
 //! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
 //!    the memory.
 
+pub mod comparison;
 pub mod csv;
 mod error;
 pub mod export;

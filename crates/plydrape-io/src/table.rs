@@ -1,6 +1,10 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
+mod comparison;
 mod sheet;
+
+pub use comparison::comparison;
+pub(crate) use comparison::verdict as verdict_on;
 
 use crate::result::ResultFile;
 use crate::shown;

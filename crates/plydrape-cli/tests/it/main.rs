@@ -4,6 +4,7 @@ mod broken_scenes;
 mod check;
 mod commands;
 mod common;
+mod compare;
 mod export;
 mod net;
 mod output_streams;

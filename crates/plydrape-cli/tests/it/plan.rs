@@ -255,11 +255,12 @@ fn help_names_every_option_and_every_file() {
         "--time",
         "--threads",
         "--continue",
+        "--compare",
         "--quiet",
     ] {
         assert!(help.contains(option), "{option} in {help}");
     }
-    for file in FILES {
+    for file in FILES.into_iter().chain(["comparison.csv", "comparison.svg"]) {
         assert!(help.contains(file), "{file} in {help}");
     }
     assert!(help.contains("path") && help.contains("stepwise"), "{help}");

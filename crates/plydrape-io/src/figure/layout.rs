@@ -17,15 +17,15 @@ use plydrape::measure::Name;
 use plydrape::mold::Mold;
 
 /// Width of the sheet (picture points).
-const WIDTH: f64 = 900.0;
+pub(super) const WIDTH: f64 = 900.0;
 /// Where the panels end and the colour bar begins (picture points).
-const PANELS: f64 = 800.0;
+pub(super) const PANELS: f64 = 800.0;
 /// Most height of a box on the sheet, of one panel and of one of several (picture points).
 const HEIGHT: [f64; 2] = [430.0, 285.0];
 /// Height of the head line, of a panel's title and of the legend (picture points).
-const HEAD: f64 = 46.0;
+pub(super) const HEAD: f64 = 46.0;
 const TITLE: f64 = 20.0;
-const LEGEND: f64 = 42.0;
+pub(super) const LEGEND: f64 = 42.0;
 /// How far a curved mold is drawn beyond the ply, and at most below and above it, as shares of the width.
 const MARGIN: f64 = 0.1;
 const DEEP: f64 = 0.35;
@@ -38,7 +38,9 @@ pub(super) fn page(
     steps: &[&Step],
     sheet: Option<SheetPicture>,
 ) -> Result<String, FigureError> {
-    let stage = stage(result, steps, sheet);
+    let shown = shown(result, steps, sheet.as_ref());
+    let of_sheet = sheet.as_ref().and_then(SheetPicture::scale);
+    let stage = Stage { sheet, ..stage(result, &shown, of_sheet, steps.len()) };
     let Frame { low, high, stretch } = stage.frame;
 
     // One scale for all panels: as large as width and height allow.
@@ -68,17 +70,21 @@ pub(super) fn page(
     }
     // Lines alone carry no colour of height.
     if result.scene.ply.grid.cells() > 0 || stage.sheet.is_some() {
-        let name = match stage.is_over_mold() {
-            true => "height (mm)",
-            false if curved(result).is_some() => "gap (mm)",
-            false => "z (mm)",
-        };
         let between = [HEAD + 40.0, size[1] - LEGEND - 24.0];
-        bar(&mut canvas, name, stage.scale.times(1e3), PANELS + 24.0, between)?;
+        bar(&mut canvas, colour_name(&stage), stage.scale.times(1e3), PANELS + 24.0, between)?;
     }
     legend(&mut canvas, &stage, steps, size[1] - LEGEND / 2.0 - 4.0)?;
     canvas.finish()?;
     Ok(canvas::at_size(&text, size))
+}
+
+/// What the colours tell.
+pub(super) fn colour_name(stage: &Stage) -> &'static str {
+    match stage.is_over_mold() {
+        true => "height (mm)",
+        false if curved(stage.result).is_some() => "gap (mm)",
+        false => "z (mm)",
+    }
 }
 
 pub(super) fn heading(size: f64) -> Type {
@@ -125,18 +131,30 @@ fn caption(stage: &Stage, step: &Step) -> String {
     format!("Step {number}{what}{note}{gap}")
 }
 
-/// Box, colour scale and mold patch that hold all shown steps.
-fn stage<'a>(result: &'a ResultFile, steps: &[&Step], sheet: Option<SheetPicture>) -> Stage<'a> {
-    let shown: Vec<Point> = match &sheet {
+/// The points of some steps that a figure shows (m), of the sheet where there is one.
+pub(super) fn shown(
+    result: &ResultFile,
+    steps: &[&Step],
+    sheet: Option<&SheetPicture>,
+) -> Vec<Point> {
+    match sheet {
         Some(sheet) => {
             let places =
                 |state: &SheetState| [state.positions.to_vec(), state.grippers.to_vec()].concat();
             sheet.states.iter().flat_map(places).collect()
         }
         None => steps.iter().flat_map(|s| points(result, s)).collect(),
-    };
-    let [bottom, top] = bounds(&shown);
-    let of_sheet = sheet.as_ref().and_then(SheetPicture::scale);
+    }
+}
+
+/// Box, colour scale and mold patch that hold all shown points; `of_sheet` is the scale of a sheet, if one is shown.
+pub(super) fn stage<'a>(
+    result: &'a ResultFile,
+    shown: &[Point],
+    of_sheet: Option<Scale>,
+    panels: usize,
+) -> Stage<'a> {
+    let [bottom, top] = bounds(shown);
     let scale = of_sheet.unwrap_or_else(|| match curved(result) {
         None if top[2] - bottom[2] < 1e-5 => Scale::Even([bottom[2] - 5e-4, top[2] + 5e-4]),
         None => Scale::Even([bottom[2], top[2]]),
@@ -176,7 +194,7 @@ fn stage<'a>(result: &'a ResultFile, steps: &[&Step], sheet: Option<SheetPicture
         None => exaggeration(high[2] - low[2], across, top[2] - bottom[2]),
         Some(_) => 1.0,
     };
-    Stage { result, frame: Frame { low, high, stretch }, panels: steps.len(), scale, mold, sheet }
+    Stage { result, frame: Frame { low, high, stretch }, panels, scale, mold, sheet: None }
 }
 
 /// Lowest and highest coordinates of some points.
@@ -220,7 +238,12 @@ pub(super) fn mold_picture(
 }
 
 /// What the marks mean, in one line.
-fn legend(canvas: &mut Canvas, stage: &Stage, steps: &[&Step], y: f64) -> Result<(), FigureError> {
+pub(super) fn legend(
+    canvas: &mut Canvas,
+    stage: &Stage,
+    steps: &[&Step],
+    y: f64,
+) -> Result<(), FigureError> {
     let word = |canvas: &mut Canvas, text: &str, x: f64| canvas.text(text, [x, y], plain(12.5, -1));
     let mut x = 28.0;
     if stage.sheet.is_none() {

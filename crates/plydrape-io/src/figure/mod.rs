@@ -11,6 +11,7 @@ mod axes;
 mod bar;
 mod canvas;
 mod colour;
+pub mod comparison;
 mod layout;
 mod panel;
 mod piece;

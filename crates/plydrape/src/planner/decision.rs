@@ -49,18 +49,32 @@ impl Decision {
         positions: Vec<Vec<Point>>,
         state: &SearchState,
     ) -> Result<Self, MotionError> {
-        let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
-        let (sheet, mut drape) = draped(scene, &motion, state);
-        let mut score = evaluation::score(&drape);
-        if drape.accepted
-            && let Some(between) = between_steps(scene, &motion, state)
+        let mut decision = Self::along(scene, strategy, positions, state)?;
+        if decision.drape.accepted
+            && let Some(between) = between_steps(scene, &decision.motion, state)
         {
-            let worse = evaluation::score(&between).max(score);
-            if !between.accepted || worse > score {
-                (drape, score) = (between, worse);
+            let worse = evaluation::score(&between).max(decision.score);
+            if !between.accepted || worse > decision.score {
+                (decision.drape, decision.score) = (between, worse);
             }
         }
-        state.record(&drape, score, true);
+        state.record(&decision.drape, decision.score, true);
+        Ok(decision)
+    }
+
+    /// The same with the steps of the motion alone, not counted.
+    ///
+    /// # Errors
+    /// If the positions cannot become a motion.
+    pub fn along(
+        scene: &Scene,
+        strategy: Option<Strategy>,
+        positions: Vec<Vec<Point>>,
+        state: &SearchState,
+    ) -> Result<Self, MotionError> {
+        let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
+        let (sheet, drape) = draped(scene, &motion, state);
+        let score = evaluation::score(&drape);
         Ok(Decision { strategy, positions, motion, sheet, drape, score })
     }
 

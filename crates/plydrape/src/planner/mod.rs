@@ -8,9 +8,11 @@
 //!    the drape that decides;
 //! 6. `search_state`: progress of a search that runs; [`Checkpoint`]: its result, from which another search continues;
 //! 7. [`tuning`]: the constants that both planners share;
-//! 8. `plan`: from a scene to a motion in time and the drape along it.
+//! 8. `plan`: from a scene to a motion in time and the drape along it;
+//! 9. [`comparison`]: the strategies that have a name, side by side.
 
 mod checkpoint;
+pub mod comparison;
 mod decision;
 mod evaluation;
 pub mod infeasible_limits;

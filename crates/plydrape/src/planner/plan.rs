@@ -7,7 +7,7 @@ use super::evaluation;
 use super::infeasible_limits::infeasible_limits;
 use super::path;
 use super::search_state::{SearchState, Watcher};
-use super::stepwise::{Outcome, stepwise};
+use super::stepwise::{Outcome, Stepwise, stepwise};
 use super::tuning::TUNING;
 use crate::draping::record::PlanRecord;
 use crate::draping::{Drape, simulate};
@@ -104,28 +104,8 @@ pub fn plan(
     };
     state.finish();
 
-    let follow = |motion: &TimedMotion| {
-        let followed = evaluation::with_motion(scene, motion.steps());
-        simulate(&followed, |_| ControlFlow::Continue(()))
-    };
-    let mut drape = follow(&decision.motion);
-    // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
-    let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
-    let slowed = (TUNING.evaluation.tilt_rate_margin * fastest
-        / scene.limits.tilt_rate.to_degrees())
-    .max(1.0);
-    if slowed > 1.0 {
-        decision.slowed(scene, slowed, &state);
-        drape = follow(&decision.motion);
-    }
+    let Followed { drape, slowed } = follow(scene, &mut decision, own_limits, &state);
     let Decision { strategy, positions, motion, sheet, .. } = decision;
-    // limits that no plan can keep come first
-    let summary = &mut drape.summary;
-    let verdicts = std::mem::take(&mut summary.limits);
-    summary.judge_also(infeasible_limits(scene));
-    summary.limits.extend(verdicts);
-    let bounds = Bounds::from(&scene.limits);
-    summary.judge_also(own_limits.into_iter().chain(rates(&motion, &bounds, scene)));
     let evaluations = match scene.plan.method {
         PlanMethod::Path => state.candidates() + state.decisions(),
         PlanMethod::Stepwise => state.candidates(),
@@ -143,6 +123,45 @@ pub fn plan(
     let interrupted = state.is_interrupted();
     let decisions = state.decisions();
     Ok(Planned { drape, sheet, record, motion, attitudes, decisions, interrupted, checkpoint })
+}
+
+/// What follows from a decision.
+pub(super) struct Followed {
+    /// The drape by catenaries along its motion, with the verdicts of all limits but those of the sheet.
+    pub drape: Drape,
+    /// How many times as long the motion takes so that no gripper turns too fast.
+    pub slowed: f64,
+}
+
+/// Drapes by catenaries along the motion of a decision, which is made slower where a gripper would turn too fast.
+pub(super) fn follow(
+    scene: &Scene,
+    decision: &mut Decision,
+    own_limits: Vec<Verdict>,
+    state: &SearchState,
+) -> Followed {
+    let along = |motion: &TimedMotion| {
+        let followed = evaluation::with_motion(scene, motion.steps());
+        simulate(&followed, |_| ControlFlow::Continue(()))
+    };
+    let mut drape = along(&decision.motion);
+    // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
+    let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
+    let slowed = (TUNING.evaluation.tilt_rate_margin * fastest
+        / scene.limits.tilt_rate.to_degrees())
+    .max(1.0);
+    if slowed > 1.0 {
+        decision.slowed(scene, slowed, state);
+        drape = along(&decision.motion);
+    }
+    // limits that no plan can keep come first
+    let summary = &mut drape.summary;
+    let verdicts = std::mem::take(&mut summary.limits);
+    summary.judge_also(infeasible_limits(scene));
+    summary.limits.extend(verdicts);
+    let bounds = Bounds::from(&scene.limits);
+    summary.judge_also(own_limits.into_iter().chain(rates(&decision.motion, &bounds, scene)));
+    Followed { drape, slowed }
 }
 
 /// A decision, and limits of the planner itself.
@@ -163,7 +182,14 @@ fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, PlanError> {
         state.set_steps(done);
         state.report()
     });
-    let limits = match plan.outcome {
+    let limits = unreached(scene, &plan);
+    state.finish();
+    Ok((Decision::on(scene, None, plan.positions, state)?, limits))
+}
+
+/// The limit that a stepwise plan breaks which does not reach its target.
+pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
+    match plan.outcome {
         Outcome::OutOfSteps(error) | Outcome::OutOfReach(error) => {
             let gripper = scene.ply.grid.index(error.gripper);
             let at = Site::Gripper(gripper).label(scene.ply.grid);
@@ -175,9 +201,7 @@ fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, PlanError> {
             vec![Verdict::of(Name::Steps, worst, 0.0, Some(plan.positions.len()))]
         }
         Outcome::Arrived | Outcome::Interrupted | Outcome::NoTarget => Vec::new(),
-    };
-    state.finish();
-    Ok((Decision::on(scene, None, plan.positions, state)?, limits))
+    }
 }
 
 /// Largest speed, acceleration and jerk of the motion against their limits.

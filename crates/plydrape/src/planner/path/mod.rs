@@ -1,6 +1,7 @@
 //! Whole trajectories, evaluated by complete drapes, section 17 of `docs/theory`.
 
 mod formation;
+mod fronts;
 mod geometry;
 mod refine;
 mod search;
@@ -12,6 +13,7 @@ mod transport;
 pub mod tuning;
 
 pub use formation::{Formation, MoldHeights};
+pub(super) use fronts::Fronts;
 pub use refine::correction;
 pub(super) use search::search;
 pub use strategy::Strategy;

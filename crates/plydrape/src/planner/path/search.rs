@@ -6,11 +6,9 @@
 //! with a margin. Candidates are independent and run on all cores; which one is the best does not depend on the number of
 //! cores.
 
-use super::formation::MoldHeights;
+use super::fronts::Fronts;
 use super::geometry;
 use super::strategy::Strategy;
-use super::tabulation::tabulated;
-use super::trajectory::trajectory;
 use super::tuning::TUNING;
 use crate::draping::Judged;
 use crate::draping::spans::Point;
@@ -23,7 +21,6 @@ use crate::planner::search_state::SearchState;
 use crate::scene::{Model, Scene};
 use cmaes::{CMAESOptions, DVector};
 use rayon::prelude::*;
-use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -40,9 +37,7 @@ struct Candidate {
 /// What all candidates of a search share.
 struct Shared<'a, 'b> {
     scene: &'a Scene,
-    /// The scene with its mold as a table, where that is faster.
-    tabulated: Cow<'a, Scene>,
-    heights: MoldHeights,
+    fronts: Fronts<'a>,
     state: &'a SearchState<'b>,
     /// How candidates are ranked; it changes between generations only.
     ranking: Mutex<Ranking>,
@@ -80,9 +75,9 @@ pub fn search(
     checkpoint: Option<&Checkpoint>,
     state: &SearchState,
 ) -> Result<Option<Decision>, MotionError> {
-    let Some(heights) = MoldHeights::new(scene) else { return Ok(None) };
+    let Some(fronts) = Fronts::new(scene) else { return Ok(None) };
     let ranking = Mutex::new(Ranking { mesh: Mesh::Coarse, bias: Bias::default() });
-    let shared = Shared { scene, tabulated: tabulated(scene), heights, state, ranking };
+    let shared = Shared { scene, fronts, state, ranking };
     let mut search = Search {
         shared: &shared,
         candidates: Vec::new(),
@@ -110,7 +105,7 @@ pub fn search(
 impl Search<'_, '_> {
     /// The first candidates: families, or what an earlier search found.
     fn first(&mut self, checkpoint: Option<&Checkpoint>) {
-        let Shared { scene, state, .. } = self.shared;
+        let Shared { scene, fronts, state, .. } = self.shared;
         state.begin("draping the first candidates");
         match checkpoint.and_then(|checkpoint| checkpoint.path(scene)) {
             Some((strategy, Some(positions))) => {
@@ -124,9 +119,9 @@ impl Search<'_, '_> {
                 self.decide_on_best(f64::INFINITY);
             }
             None => {
-                let mut families = Strategy::families(scene, |shape| self.shared.steepest(shape));
+                let mut families = Strategy::families(scene, |shape| fronts.steepest(shape));
                 // what grippers alone cannot do comes last
-                let excess = |strategy: &Strategy| self.shared.excess(*strategy).max(1.0);
+                let excess = |strategy: &Strategy| fronts.excess(*strategy).max(1.0);
                 let excess: Vec<f64> = families.par_iter().map(excess).collect();
                 let mut order: Vec<usize> = (0..families.len()).collect();
                 order.sort_by(|a, b| excess[*a].total_cmp(&excess[*b]));
@@ -145,14 +140,14 @@ impl Search<'_, '_> {
 
     /// A candidate, even if the search was stopped before the first was draped.
     fn ensure_candidate(&mut self, checkpoint: Option<&Checkpoint>) {
-        let Shared { scene, tabulated, heights, .. } = self.shared;
+        let Shared { scene, fronts, .. } = self.shared;
         if !self.candidates.is_empty() || self.fault.is_some() {
             return;
         }
         let earlier = checkpoint.and_then(|checkpoint| checkpoint.path(scene));
         let families = || Strategy::families(scene, |shape| shape.slope);
         let strategies = earlier.map_or_else(families, |(strategy, _)| vec![strategy]);
-        let of = |strategy| Some((strategy, trajectory(tabulated, heights, strategy)?));
+        let of = |strategy| Some((strategy, fronts.positions(strategy)?));
         if let Some((strategy, positions)) = strategies.into_iter().find_map(of) {
             let score = f64::INFINITY;
             self.candidates.push(Candidate { strategy, positions, drape: None, score });
@@ -341,29 +336,7 @@ impl Shared<'_, '_> {
         if self.state.is_stopped() {
             return None;
         }
-        Some(self.along(strategy, trajectory(&self.tabulated, &self.heights, strategy)?))
-    }
-
-    /// [`geometry::excess`] of a strategy.
-    fn excess(&self, strategy: Strategy) -> f64 {
-        let positions = trajectory(&self.tabulated, &self.heights, strategy);
-        positions.map_or(f64::INFINITY, |positions| geometry::excess(self.scene, &positions))
-    }
-
-    /// The steepest slope of a front of this shape at which no gripper tilts too far, by bisection.
-    fn steepest(&self, shape: Strategy) -> f64 {
-        let keeps =
-            |slope: f64| self.excess(Strategy { slope, ..shape }) <= TUNING.front.tilt_share;
-        if keeps(shape.slope) {
-            return shape.slope;
-        }
-        let (mut low, mut high) = (0.0, shape.slope);
-        for _ in 0..TUNING.front.slope_rounds {
-            let middle = 0.5 * (low + high);
-            *(if keeps(middle) { &mut low } else { &mut high }) = middle;
-        }
-        // a mold as steep as the limit leaves nothing
-        low.max(TUNING.front.ranges[5][0].exp())
+        Some(self.along(strategy, self.fronts.positions(strategy)?))
     }
 
     /// The candidate with these positions (m).
@@ -374,7 +347,7 @@ impl Shared<'_, '_> {
             return Candidate { strategy, positions, drape: None, score };
         }
         let Ranking { mesh, bias } = lock(&self.ranking).clone();
-        let drape = evaluation::drape(&self.tabulated, &positions, mesh, self.state);
+        let drape = evaluation::drape(&self.fronts.tabulated, &positions, mesh, self.state);
         let score = evaluation::score_with(&drape, &bias);
         self.state.record(&drape, score, false);
         Candidate { strategy, positions, drape: Some(drape), score }

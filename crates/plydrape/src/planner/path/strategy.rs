@@ -1,5 +1,6 @@
 //! The parameters of a front, and the vector of them that a search varies.
 
+use super::fronts::flattest;
 use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
@@ -23,6 +24,9 @@ pub struct Strategy {
     /// Pretension: relative stretch of the net ahead of the front.
     pub pretension: f64,
 }
+
+/// Ratio of a front's axes from which on it counts as a line.
+const LINE: f64 = 100.0;
 
 /// Numbers that a search varies.
 pub const DIMENSION: usize = TUNING.front.ranges.len();
@@ -86,8 +90,8 @@ impl Strategy {
             shape(1.0, 0.0),
             shape(2.5, second),
             shape(2.5, first),
-            shape(100.0, second),
-            shape(100.0, first),
+            shape(LINE, second),
+            shape(LINE, first),
         ];
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
@@ -127,6 +131,18 @@ impl Strategy {
             families.drain(10..12);
         }
         families
+    }
+
+    /// Whether its front is a line, which rolls the ply on; others spread from a point.
+    #[must_use]
+    pub fn is_line(&self) -> bool {
+        self.ratio >= LINE
+    }
+
+    /// A ring as flat as possible: all of the ply comes down nearly together.
+    #[must_use]
+    pub fn flat() -> Self {
+        Strategy { slope: flattest(), ..Strategy::ring() }
     }
 
     /// A ring that spreads from the middle of the ply, as steep as no tilt forbids.

@@ -1,0 +1,203 @@
+//! Drapes of one scene by every named strategy, side by side: which of them lay the ply down, and why the others do not.
+//!
+//! Each strategy is draped with the mesh of the scene and judged by its limits: the straight one as `simulate` drapes it, the
+//! others as a finished plan. Rolled and from a point are the fronts that a search tries first, the best of each kind; evolution
+//! of them is left to the search.
+
+mod drapes;
+
+use super::decision::PlannedSheet;
+use super::evaluation;
+use super::path::{Fronts, Strategy};
+use super::plan::PlanError;
+use super::search_state::{SearchState, Watcher};
+use crate::draping::{Drape, Judged};
+use crate::measure::{Subject, Verdict};
+use crate::motion::MotionError;
+use crate::scene::Scene;
+use drapes::{best_front, by_steps, straight};
+use rayon::prelude::*;
+use std::cmp::Ordering;
+use std::fmt::{self, Display, Formatter};
+
+/// The ways to lay a ply that have a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum StrategyName {
+    /// Every gripper straight from its start to its target.
+    Straight,
+    /// The array is formed over its place, nearly flat, and let down so that all cells land nearly together.
+    AllAtOnce,
+    /// A line lands first and the ply is rolled on to both sides of it, as steeply as the tilt of the grippers allows.
+    Rolled,
+    /// A point lands first, and a ring or an ellipse spreads from it, about as steeply as the tilt of the grippers allows.
+    FromAPoint,
+    /// Step by step, by the stepwise planner.
+    Stepwise,
+}
+
+impl StrategyName {
+    /// Every strategy, in the order in which they are shown.
+    pub const ALL: [StrategyName; 5] = [
+        StrategyName::Straight,
+        StrategyName::AllAtOnce,
+        StrategyName::Rolled,
+        StrategyName::FromAPoint,
+        StrategyName::Stepwise,
+    ];
+}
+
+impl Display for StrategyName {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.pad(match self {
+            StrategyName::Straight => "straight",
+            StrategyName::AllAtOnce => "all at once",
+            StrategyName::Rolled => "rolled",
+            StrategyName::FromAPoint => "from a point",
+            StrategyName::Stepwise => "stepwise",
+        })
+    }
+}
+
+/// Why there is no drape by a strategy.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotDraped {
+    /// Its positions cannot become a motion.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The comparison was ended before its drape was complete.
+    #[error("interrupted before its drape was complete")]
+    Interrupted,
+}
+
+/// One strategy of a comparison.
+#[derive(Debug, Clone)]
+pub struct Compared {
+    /// The strategy.
+    pub name: StrategyName,
+    /// The drape along its motion.
+    pub drape: Result<ComparedDrape, NotDraped>,
+}
+
+/// The drape by one strategy.
+#[derive(Debug, Clone)]
+pub struct ComparedDrape {
+    /// The drape by catenaries, with the verdict of the model that decides.
+    pub drape: Drape,
+    /// The drape by the sheet with its last state, where the sheet decides.
+    pub sheet: Option<PlannedSheet>,
+    /// The shortest time of the motion (s) within the limits of the grippers; in real time, the time in which it was draped.
+    pub time: f64,
+}
+
+impl ComparedDrape {
+    /// Whether it keeps all limits.
+    #[must_use]
+    pub fn is_accepted(&self) -> bool {
+        self.drape.summary.accepted
+    }
+
+    /// The limits that decide, each once: those of the deciding model first, then those of the motion. Of several verdicts on
+    /// one limit the worst.
+    #[must_use]
+    pub fn limits(&self) -> Vec<&Verdict> {
+        let summary = &self.drape.summary;
+        let sheet = summary.sheet.as_ref();
+        let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
+        let others = summary.limits.iter().filter(|v| sheet.is_none() || of_motion(v));
+        let mut limits: Vec<&Verdict> = Vec::new();
+        for verdict in sheet.into_iter().flat_map(|sheet| &sheet.limits).chain(others) {
+            match limits.iter_mut().find(|limit| limit.name == verdict.name) {
+                Some(limit) if verdict.ratio() > limit.ratio() => *limit = verdict,
+                Some(_) => {}
+                None => limits.push(verdict),
+            }
+        }
+        limits
+    }
+
+    /// The limits that it breaks, the one exceeded furthest first.
+    #[must_use]
+    pub fn broken(&self) -> Vec<&Verdict> {
+        let mut broken: Vec<&Verdict> = self.limits().into_iter().filter(|v| !v.ok).collect();
+        broken.sort_by(|a, b| b.ratio().total_cmp(&a.ratio()));
+        broken
+    }
+
+    /// The better drape first: an accepted one before others, then the one that stays farther from its limits.
+    fn order(&self, other: &Self) -> Ordering {
+        let score = |drape: &Self| evaluation::score(&drape.judged());
+        let accepted = other.is_accepted().cmp(&self.is_accepted());
+        accepted.then_with(|| score(self).total_cmp(&score(other)))
+    }
+
+    fn judged(&self) -> Judged {
+        let summary = &self.drape.summary;
+        let steps = summary.sheet.as_ref().map_or(summary.steps, |sheet| sheet.steps);
+        let converged = summary.sheet.as_ref().is_none_or(|sheet| sheet.converged);
+        Judged {
+            limits: self.limits().into_iter().cloned().collect(),
+            accepted: summary.accepted,
+            missing: 1.0 - steps as f64 / summary.steps_planned.max(1) as f64,
+            unsolved: usize::from(!converged),
+        }
+    }
+}
+
+/// The strategies of a scene side by side.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// Each of [`StrategyName::ALL`], in that order.
+    pub strategies: Vec<Compared>,
+    /// Whether the watcher ended it.
+    pub interrupted: bool,
+}
+
+impl Comparison {
+    /// The best strategy: an accepted one before others, then the one that stays farthest from its limits.
+    #[must_use]
+    pub fn best(&self) -> Option<(StrategyName, &ComparedDrape)> {
+        let drapes = self.strategies.iter().filter_map(|c| Some((c.name, c.drape.as_ref().ok()?)));
+        drapes.min_by(|(_, a), (_, b)| a.order(b))
+    }
+}
+
+/// Drapes a scene by every named strategy. `watcher` receives the progress, a candidate being a strategy; when it breaks, the
+/// strategies that are not complete end with [`NotDraped::Interrupted`]. The same scene gives the same comparison on any number of threads.
+///
+/// # Errors
+/// [`PlanError`] if the scene has no mold or target.
+pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, PlanError> {
+    if scene.mold.is_none() {
+        return Err(PlanError::NoMold);
+    }
+    let fronts = Fronts::new(scene).ok_or(PlanError::NoTarget)?;
+    let state = SearchState::new(StrategyName::ALL.len(), watcher);
+    state.begin("draping the strategies");
+    let (lines, points): (Vec<Strategy>, Vec<Strategy>) =
+        Strategy::families(scene, |shape| fronts.steepest(shape))
+            .into_iter()
+            .partition(Strategy::is_line);
+    let one = |name: &StrategyName| {
+        let drape = match name {
+            StrategyName::Straight => straight(scene, &state),
+            StrategyName::AllAtOnce => best_front(scene, &fronts, &[Strategy::flat()], &state),
+            StrategyName::Rolled => best_front(scene, &fronts, &lines, &state),
+            StrategyName::FromAPoint => best_front(scene, &fronts, &points, &state),
+            StrategyName::Stepwise => by_steps(scene, &state),
+        };
+        let drape = drape.and_then(|drape| match state.is_stopped() {
+            true => Err(NotDraped::Interrupted),
+            false => Ok(drape),
+        });
+        if let Ok(drape) = &drape {
+            let judged = drape.judged();
+            state.record(&judged, evaluation::score(&judged), true);
+            state.set_steps(state.decisions());
+        }
+        Compared { name: *name, drape }
+    };
+    let strategies = StrategyName::ALL.par_iter().map(one).collect();
+    Ok(Comparison { strategies, interrupted: state.is_interrupted() })
+}
