@@ -78,7 +78,8 @@ fn an_accepted_plan_is_only_replaced_by_an_accepted_one() {
     };
     let planned = planner::plan(&scene, None, watcher).unwrap();
     assert!(accepted.is_sorted() && accepted.last() == Some(&true));
-    assert!(planned.drape.summary.accepted && !planned.interrupted);
+    let sheet = planned.sheet.as_ref().expect("the sheet decides");
+    assert!(sheet.drape.summary.accepted && !planned.interrupted);
     let ranked = planned.record.evaluations - planned.decisions;
     assert!((32..=40).contains(&ranked), "{ranked}");
 }
