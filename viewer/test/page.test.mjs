@@ -441,6 +441,10 @@ async function limitsLead(report, page) {
     return;
   }
   await page.keyboard.press("Home");
+  // those of the model that does not decide are folded up
+  await page.evaluate(() => {
+    for (const folded of document.querySelectorAll("details")) folded.open = true;
+  });
   const button = page.locator(".limits tbody tr").nth(row).locator("button");
   await button.focus();
   await page.keyboard.press("Enter");
