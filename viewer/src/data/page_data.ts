@@ -99,6 +99,8 @@ export interface SheetData {
   tension: Block;
   grippers: Block;
   normals: Block;
+  /** What the numbers of `forces` count (N). */
+  force_unit: number;
   /** Of the sheet on the pads. */
   forces: Block;
 }
@@ -227,6 +229,7 @@ function checkSheet(data: PageData, sheet: SheetData): void {
     !known ||
     !corners ||
     !pads ||
+    !(sheet.force_unit > 0) ||
     sheet.places.count !== nodes ||
     sheet.states.length !== data.steps.length
   ) {

@@ -120,7 +120,7 @@ export class SheetStates {
   /** Force of the sheet on a pad (N). */
   force(state: number, gripper: number): Place {
     const forces = this.forces.at(state);
-    return [0, 1, 2].map((c) => forces[3 * gripper + c]! * 1e-6) as Place;
+    return [0, 1, 2].map((c) => forces[3 * gripper + c]! * this.data.force_unit) as Place;
   }
 
   /** Largest force on a pad in a state (N). */

@@ -1,7 +1,7 @@
 //! What the page shows of the sheet: its cells over the steps, what colours tell of them, forces, its limits.
 //!
 //! Lengths are packed in micrometres, shear in hundredths of a degree, strain in millionths, tension in mN/m, forces in
-//! micronewtons. States are read one at a time.
+//! a unit of their own, because a yarn that cannot stretch pulls with thousands of newtons. States are read one at a time.
 
 use super::block::Block;
 use super::geometry::{hundredths, micrometres};
@@ -46,6 +46,8 @@ pub(super) struct Sheet<'a> {
     tension: Block,
     grippers: Block,
     normals: Block,
+    /// What the numbers of `forces` count (N).
+    force_unit: f64,
     forces: Block,
 }
 
@@ -90,7 +92,8 @@ struct Packed {
     tension: Vec<i32>,
     grippers: Vec<i32>,
     normals: Vec<i32>,
-    forces: Vec<i32>,
+    /// In newtons.
+    forces: Vec<f64>,
 }
 
 impl Packed {
@@ -109,7 +112,13 @@ impl Packed {
         self.grippers.extend(state.grippers.iter().flat_map(micrometres));
         let normals = state.pad_rotation.iter().flat_map(normal);
         self.normals.extend(normals.map(|c| (c * 1e4).round() as i32));
-        self.forces.extend(state.pad_forces.iter().flatten().map(|f| (f * 1e6).round() as i32));
+        self.forces.extend(state.pad_forces.as_flattened());
+    }
+
+    /// A micronewton, or more where the largest force would not fit (N).
+    fn force_unit(&self) -> f64 {
+        let most = self.forces.iter().fold(0.0, |most: f64, f| most.max(f.abs()));
+        (most / f64::from(i32::MAX)).max(1e-6)
     }
 }
 
@@ -134,6 +143,8 @@ pub(super) fn sheet<'a>(
     let block = |components, values: &[i32]| Block::new(count, components, values);
     let known = packed.height.iter().any(|h| *h != UNKNOWN);
     let mesh = file.mesh();
+    let force_unit = packed.force_unit();
+    let forces: Vec<i32> = packed.forces.iter().map(|f| (f / force_unit).round() as i32).collect();
     let places: Vec<i32> = mesh.places.iter().flatten().map(|c| (c * 1e6).round() as i32).collect();
     Ok(Sheet {
         accepted: summary.accepted,
@@ -153,7 +164,8 @@ pub(super) fn sheet<'a>(
         tension: block(1, &packed.tension),
         grippers: block(3, &packed.grippers),
         normals: block(3, &packed.normals),
-        forces: block(3, &packed.forces),
+        force_unit,
+        forces: block(3, &forces),
     })
 }
 
