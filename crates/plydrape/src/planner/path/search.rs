@@ -47,7 +47,8 @@ struct Shared<'a, 'b> {
 #[derive(Debug, Clone)]
 struct Ranking {
     mesh: Mesh,
-    /// How far it was wrong where it was decided.
+    /// How far the coarse mesh was wrong where it was decided. What the mesh of the scene says differs from a decision by the
+    /// steps and the time alone, by another factor for each plan: there is nothing to learn from it.
     bias: Bias,
 }
 
@@ -273,11 +274,7 @@ impl Search<'_, '_> {
 
     /// Decides on the best candidate if it is promising.
     fn decide(&mut self) {
-        let known = {
-            // the error of the mesh of the scene is that of steps and time alone, another one for each plan
-            let ranking = lock(&self.shared.ranking);
-            ranking.mesh == Mesh::Coarse && !ranking.bias.is_empty()
-        };
+        let known = !lock(&self.shared.ranking).bias.is_empty();
         let score = |best: &Option<Decision>| best.as_ref().map_or(f64::INFINITY, |b| b.score);
         let before = score(&self.best);
         let mut promising = TUNING.search.promising[usize::from(known)];
@@ -310,9 +307,11 @@ impl Search<'_, '_> {
                 self.candidates.push(candidate);
             }
             Ok(decision) => {
-                if let Some(ranked) = candidate.drape {
-                    lock(&self.shared.ranking).bias.learn(&ranked, &decision.drape);
+                let mut ranking = lock(&self.shared.ranking);
+                if let (Mesh::Coarse, Some(ranked)) = (ranking.mesh, candidate.drape) {
+                    ranking.bias.learn(&ranked, &decision.drape);
                 }
+                drop(ranking);
                 let key = |d: &Decision| (!d.drape.accepted, d.score);
                 if self.best.as_ref().is_none_or(|best| key(&decision) < key(best)) {
                     self.best = Some(decision);
