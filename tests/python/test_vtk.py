@@ -263,7 +263,7 @@ def test_the_mold_is_the_ball_of_the_scene(drape: Exported) -> None:
 
 
 def test_a_strip_has_neither_surface_nor_mold(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """A strip between two grippers at rest is a series of one step, of two parts."""
+    """A strip between two grippers that do not move is a series of one step, of two parts."""
     text = SCENE.replace("[4, 3]", "[2, 1]").split("[mold]")[0]
     text += '[grippers]\nspacing = ["98 mm", "98 mm"]\nheight = 0\n[motion]\nkind = "hold"\n'
     result = made("simulate", tmp_path_factory.mktemp("strip"), text)

@@ -355,20 +355,18 @@ fn whole_newton_steps_cross_the_folds_that_stop_a_line_search() {
     }
 }
 
-/// The figures of section 9 of `docs/theory/equilibrium.md`: how many of 25 000 random hanging nets are solved by each rule.
-/// Run it with `cargo nextest run --cargo-profile checked --run-ignored only -E 'test(count_of_solved)' --no-capture`.
+/// Of 25 000 random hanging nets 42 are not solved under least forces and none under balanced moments (section 9 of
+/// `docs/theory/equilibrium.md`): the first tenth of them has no larger share.
 #[test]
-#[ignore = "takes minutes"]
-fn count_of_solved_random_hanging_nets() {
-    for rule in RULES {
-        let mut unsolved = Vec::new();
-        for seed in 0..25_000 {
-            let (ply, positions, settings) = random_net(seed, rule);
-            let outcome = Solver::new(&ply, &settings).solve(&positions, &free(&ply));
-            if outcome.status != Status::Converged {
-                unsolved.push((seed, outcome.status));
-            }
-        }
-        println!("{rule:?}: {} of 25 000 are not solved: {unsolved:?}", unsolved.len());
+fn few_random_hanging_nets_are_not_solved() {
+    for (rule, most) in RULES.into_iter().zip([5, 0]) {
+        let unsolved: Vec<_> = (0..2_500)
+            .map(|seed| {
+                let (ply, positions, settings) = random_net(seed, rule);
+                (seed, Solver::new(&ply, &settings).solve(&positions, &free(&ply)).status)
+            })
+            .filter(|(_, status)| *status != Status::Converged)
+            .collect();
+        assert!(unsolved.len() <= most, "{rule:?}: {unsolved:?}");
     }
 }

@@ -110,8 +110,8 @@ fn any_ply() -> impl Strategy<Value = Ply> {
                     let (sin, cos) = f64::sin_cos(shear);
                     let r = |k: usize| random[3 * n + k];
                     let at = [i + j * sin + 5e-4 * r(0), j * cos + 5e-4 * r(1)];
-                    let ground = mold.highest_point(at).expect("the mold is everywhere");
-                    [at[0], at[1], ground[2] + 0.008 + 0.005 * r(2)]
+                    let surface = mold.highest_point(at).expect("the mold is everywhere");
+                    [at[0], at[1], surface[2] + 0.008 + 0.005 * r(2)]
                 })
                 .collect();
             let grid = scene.ply.grid;
@@ -121,7 +121,7 @@ fn any_ply() -> impl Strategy<Value = Ply> {
                     let ends = [c.from, c.to].map(|g| positions[grid.index(g)]);
                     let edge = scene.ply.flat_length(c.kind);
                     let chord = (0..3).map(|k| (ends[1][k] - ends[0][k]).powi(2)).sum::<f64>();
-                    // a diagonal lands with the length that its shear has given it
+                    // a diagonal lands with the length that its shear gives it
                     let length = if c.kind.is_edge() { edge } else { 1.01 * chord.sqrt() };
                     in_contact(&mold, ends, length, touches[n])
                 })
@@ -428,11 +428,11 @@ fn a_target_out_of_reach_is_reported_with_the_way_that_is_missing() {
     let targets = &scene.target.as_ref().expect("a target").grippers;
     let way = |n: usize| distance(scene.motion.positions[0][n], targets[n]);
     let farthest = (0..8).max_by(|a, b| way(*a).total_cmp(&way(*b))).expect("grippers");
-    let Outcome::OutOfReach(stray) = plan.outcome else {
+    let Outcome::OutOfReach(error) = plan.outcome else {
         panic!("{:?}", plan.outcome);
     };
-    assert_eq!(stray.gripper, scene.ply.grid.id(farthest));
-    assert!((stray.distance - (way(farthest) - 0.01)).abs() < 1e-12, "{stray:?}");
+    assert_eq!(error.gripper, scene.ply.grid.id(farthest));
+    assert!((error.distance - (way(farthest) - 0.01)).abs() < 1e-12, "{error:?}");
     assert!(plan.positions.len() <= 11);
 }
 
@@ -440,13 +440,13 @@ fn a_target_out_of_reach_is_reported_with_the_way_that_is_missing() {
 #[test]
 fn a_plan_without_a_target_or_broken_off_says_so() {
     let mut scene = cut("01_flat_sheared_mold");
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     let broken = stepwise(&scene, &mut |step| {
-        told.push(step);
+        reported.push(step);
         if step == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     assert_eq!(broken.outcome, Outcome::Interrupted);
-    assert_eq!((broken.positions.len(), told), (5, vec![1, 2, 3, 4, 5]));
+    assert_eq!((broken.positions.len(), reported), (5, vec![1, 2, 3, 4, 5]));
     scene.target = None;
     let none = plan(&scene);
     assert_eq!(none.outcome, Outcome::NoTarget);

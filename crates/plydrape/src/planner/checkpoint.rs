@@ -21,8 +21,7 @@ pub struct Checkpoint {
     pub evaluations: usize,
     /// The best strategy; none for a plan of the stepwise planner.
     pub strategy: Option<Strategy>,
-    /// Positions (m) of all grippers in each step of the best plan: those of its strategy, with single grippers
-    /// refined.
+    /// Positions (m) of all grippers in each step of the best plan, those of its strategy over the mold of that search.
     positions: Positions,
 }
 

@@ -62,16 +62,21 @@ pub fn best_front(
     strategies: &[Strategy],
     state: &SearchState,
 ) -> Result<ComparedDrape, NotDraped> {
-    let rank = |strategy: &Strategy| (score(fronts, *strategy, state), *strategy);
-    let mut ranked: Vec<(f64, Strategy)> = match strategies {
-        [one] => vec![(0.0, *one)],
-        more => more.par_iter().map(rank).collect(),
+    let ranked = |strategy: &Strategy| {
+        let positions = fronts.positions(*strategy)?;
+        let score = match strategies {
+            [_] => 0.0,
+            _ => fronts
+                .rank(&positions, Mesh::Coarse, state)
+                .map_or_else(|score| score, |drape| evaluation::score(&drape)),
+        };
+        Some((score, *strategy, positions))
     };
+    let mut ranked: Vec<_> = strategies.par_iter().filter_map(ranked).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut best: Result<ComparedDrape, NotDraped> = Err(NotDraped::Interrupted);
-    for (_, strategy) in ranked.iter().take(TUNING.search.batch) {
-        let positions = fronts.positions(*strategy).unwrap_or_default();
-        let drape = planned(scene, Some(*strategy), positions, Vec::new(), state);
+    for (_, strategy, positions) in ranked.into_iter().take(TUNING.search.batch) {
+        let drape = planned(scene, Some(strategy), positions, Vec::new(), state);
         let better = match (&best, &drape) {
             (Err(_), _) => true,
             (Ok(_), Err(_)) => false,
@@ -85,15 +90,6 @@ pub fn best_front(
         }
     }
     best
-}
-
-/// The score of the drape by a front as a search ranks it.
-fn score(fronts: &Fronts, strategy: Strategy, state: &SearchState) -> f64 {
-    let excess = fronts.excess(strategy);
-    let draped = fronts.positions(strategy).filter(|_| excess <= TUNING.search.excess);
-    draped.map_or(TUNING.search.not_draped * excess, |positions| {
-        evaluation::score(&evaluation::drape(&fronts.tabulated, &positions, Mesh::Coarse, state))
-    })
 }
 
 /// The drape along the motion of the stepwise planner.

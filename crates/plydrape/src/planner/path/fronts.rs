@@ -1,4 +1,4 @@
-//! What all fronts over one mold share, and how steep they may be.
+//! What all fronts over one mold share: their positions, how they are ranked, and how steep they may be.
 
 use super::formation::MoldHeights;
 use super::geometry;
@@ -6,7 +6,10 @@ use super::strategy::Strategy;
 use super::tabulation::tabulated;
 use super::trajectory::trajectory;
 use super::tuning::TUNING;
+use crate::draping::Judged;
 use crate::draping::spans::Point;
+use crate::planner::evaluation::{self, Mesh};
+use crate::planner::search_state::SearchState;
 use crate::scene::Scene;
 use std::borrow::Cow;
 
@@ -14,7 +17,7 @@ use std::borrow::Cow;
 pub struct Fronts<'a> {
     scene: &'a Scene,
     /// The scene with its mold as a table, where that is faster.
-    pub tabulated: Cow<'a, Scene>,
+    tabulated: Cow<'a, Scene>,
     heights: MoldHeights,
 }
 
@@ -37,6 +40,24 @@ impl<'a> Fronts<'a> {
     pub fn excess(&self, strategy: Strategy) -> f64 {
         let positions = self.positions(strategy);
         positions.map_or(f64::INFINITY, |positions| geometry::excess(self.scene, &positions))
+    }
+
+    /// The drape along positions of grippers (m) with a mesh, by which candidates are ranked. One whose grippers alone exceed a
+    /// limit too far is not draped.
+    ///
+    /// # Errors
+    /// The score of one that is not draped: worse than that of any drape.
+    pub fn rank(
+        &self,
+        positions: &[Vec<Point>],
+        mesh: Mesh,
+        state: &SearchState,
+    ) -> Result<Judged, f64> {
+        let excess = geometry::excess(self.scene, positions);
+        if excess > TUNING.search.excess {
+            return Err(TUNING.search.not_draped * excess);
+        }
+        Ok(evaluation::drape(&self.tabulated, positions, mesh, state))
     }
 
     /// The steepest slope of a front of this shape at which no gripper tilts too far, by bisection.

@@ -3,7 +3,6 @@
 mod formation;
 mod fronts;
 mod geometry;
-mod refine;
 mod search;
 mod strategy;
 mod tabulation;
@@ -14,7 +13,6 @@ pub mod tuning;
 
 pub use formation::{Formation, MoldHeights};
 pub(super) use fronts::Fronts;
-pub use refine::correction;
 pub(super) use search::search;
 pub use strategy::Strategy;
 pub use trajectory::trajectory;

@@ -7,7 +7,6 @@
 //! cores.
 
 use super::fronts::Fronts;
-use super::geometry;
 use super::strategy::Strategy;
 use super::tuning::TUNING;
 use crate::draping::Judged;
@@ -340,13 +339,11 @@ impl Shared<'_, '_> {
 
     /// The candidate with these positions (m).
     fn along(&self, strategy: Strategy, positions: Vec<Vec<Point>>) -> Candidate {
-        let excess = geometry::excess(self.scene, &positions);
-        if excess > TUNING.search.excess {
-            let score = TUNING.search.not_draped * excess;
-            return Candidate { strategy, positions, drape: None, score };
-        }
         let Ranking { mesh, bias } = lock(&self.ranking).clone();
-        let drape = evaluation::drape(&self.fronts.tabulated, &positions, mesh, self.state);
+        let drape = match self.fronts.rank(&positions, mesh, self.state) {
+            Ok(drape) => drape,
+            Err(score) => return Candidate { strategy, positions, drape: None, score },
+        };
         let score = evaluation::score_with(&drape, &bias);
         self.state.record(&drape, score, false);
         Candidate { strategy, positions, drape: Some(drape), score }

@@ -102,9 +102,13 @@ impl Strategy {
         let loose = |of: Strategy| Strategy { curvature: 3.0, pretension: 0.0, ..of };
         let tauter = |of: Strategy| Strategy { pretension: 2.0 * of.pretension, ..of };
         let softer = |of: Strategy| Strategy { pretension: 0.5 * of.pretension, ..of };
-        let beside =
-            |of: Strategy| Strategy { start: [grid.nu, grid.nv].map(middle_of_cell), ..of };
-        let mut families = vec![
+        // where a cell is in the middle, both starts are one
+        let cell = [grid.nu, grid.nv].map(middle_of_cell);
+        let beside: &[Strategy] = match cell == ring.start {
+            true => &[],
+            false => &[Strategy { start: cell, ..softer(ring) }, Strategy { start: cell, ..ring }],
+        };
+        let rings_and_ellipses = [
             ring,
             flatter(0.8, ring),
             softer(ring),
@@ -115,8 +119,8 @@ impl Strategy {
             first_ellipse,
             loose(ring),
             flatter(0.8, tauter(ring)),
-            beside(softer(ring)),
-            beside(ring),
+        ];
+        let others = [
             second_line,
             first_line,
             loose(second_ellipse),
@@ -126,11 +130,7 @@ impl Strategy {
             loose(second_line),
             loose(first_line),
         ];
-        // where a cell is in the middle, both starts are one
-        if [grid.nu, grid.nv].map(middle_of_cell) == [0.5; 2] {
-            families.drain(10..12);
-        }
-        families
+        [&rings_and_ellipses, beside, &others].concat()
     }
 
     /// Whether its front is a line, which rolls the ply on; others spread from a point.

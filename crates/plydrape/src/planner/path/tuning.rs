@@ -13,8 +13,6 @@ pub struct Tuning {
     pub front: Front,
     /// The search for the best front.
     pub search: Search,
-    /// Corrections of single grippers by gradients.
-    pub refinement: Refinement,
 }
 
 /// Constants of the way from the start to the first formation of a front.
@@ -141,25 +139,6 @@ pub struct Search {
     pub gain: f64,
 }
 
-/// Constants of the refinement by gradients.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Refinement {
-    /// B-splines of each gripper's correction: as smooth as the path.
-    pub splines: usize,
-    /// Fabric ahead of a contact end whose position error is reduced, as a share of the span.
-    pub ahead: f64,
-    /// Height below which a span is about to come into contact (cells).
-    pub near: f64,
-    /// Share of the overstretch limit that the correction may use; it is linear and the drape is not.
-    pub stretch_share: f64,
-    /// Stretch of a taut span, as a share of its edge; what exceeds it is reduced. 1e-4, the pretension of the families.
-    pub taut: f64,
-    /// Weight of the correction itself beside the position errors.
-    pub correction_weight: f64,
-    /// Weight of the correction of a gripper that stands on the mold.
-    pub standing_weight: f64,
-}
-
 /// The constants in use.
 pub const TUNING: Tuning = Tuning {
     transport: Transport {
@@ -222,14 +201,5 @@ pub const TUNING: Tuning = Tuning {
         generation: 8,
         patience: 2,
         gain: 0.95,
-    },
-    refinement: Refinement {
-        splines: 5,
-        ahead: 0.1,
-        near: 0.05,
-        stretch_share: 0.5,
-        taut: 1e-4,
-        correction_weight: 1e-2,
-        standing_weight: 1e2,
     },
 };
