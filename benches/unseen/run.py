@@ -78,14 +78,19 @@ def excess(limit: dict[str, Any]) -> float:
 
 
 def worst(printed: dict[str, Any]) -> dict[str, Any]:
-    """The limit that is exceeded most, of the sheet before others; the closest one if none is."""
+    """The limit that is exceeded most, of the sheet first; the closest one of an accepted plan.
+
+    An accepted plan may exceed limits of the catenaries, which do not decide.
+    """
     sheet = (printed.get("sheet") or {}).get("limits") or []
+    if printed.get("accepted"):
+        known = [limit for limit in sheet if limit["value"] is not None]
+        return max(known, key=excess, default={})
     for limits in (sheet, printed.get("limits") or []):
         exceeded = [limit for limit in limits if not limit["ok"]]
         if exceeded:
             return max(exceeded, key=excess)
-    known = [limit for limit in sheet if limit["value"] is not None]
-    return max(known, key=excess) if known and printed.get("accepted") else {}
+    return {}
 
 
 def row_of(scene: dict[str, str], done: Run) -> dict[str, str]:

@@ -11,6 +11,7 @@ use crate::motion::{Bounds, MotionError, TimedMotion};
 use crate::scene::{Model, Motion, Scene};
 use crate::sheet;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The drape of the sheet along a planned motion.
 #[derive(Debug, Clone)]
@@ -49,9 +50,23 @@ impl Decision {
         positions: Vec<Vec<Point>>,
         state: &SearchState,
     ) -> Result<Self, MotionError> {
-        let mut decision = Self::along(scene, strategy, positions, state)?;
+        let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
+        // both at once, because most of a drape runs on one core; the second counts only where the first is accepted
+        let refused = AtomicBool::new(false);
+        let (mut decision, between) = rayon::join(
+            || {
+                let decision = Self::along(scene, strategy, positions, motion.clone(), state);
+                refused.store(!decision.drape.accepted, Ordering::Relaxed);
+                decision
+            },
+            || {
+                between_steps(scene, &motion, &|| {
+                    refused.load(Ordering::Relaxed) || state.report().is_break()
+                })
+            },
+        );
         if decision.drape.accepted
-            && let Some(between) = between_steps(scene, &decision.motion, state)
+            && let Some(between) = between
         {
             let worse = evaluation::score(&between).max(decision.score);
             if !between.accepted || worse > decision.score {
@@ -62,20 +77,17 @@ impl Decision {
         Ok(decision)
     }
 
-    /// The same with the steps of the motion alone, not counted.
-    ///
-    /// # Errors
-    /// If the positions cannot become a motion.
+    /// The same of a motion with its steps alone, not counted.
     pub fn along(
         scene: &Scene,
         strategy: Option<Strategy>,
         positions: Vec<Vec<Point>>,
+        motion: TimedMotion,
         state: &SearchState,
-    ) -> Result<Self, MotionError> {
-        let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
+    ) -> Self {
         let (sheet, drape) = draped(scene, &motion, state);
         let score = evaluation::score(&drape);
-        Ok(Decision { strategy, positions, motion, sheet, drape, score })
+        Decision { strategy, positions, motion, sheet, drape, score }
     }
 
     /// The same in another time.
@@ -94,8 +106,12 @@ impl Decision {
 }
 
 /// The drape of the sheet along the motion with a step half-way between all its steps, because a good plan does not depend
-/// on where the motion is sampled; none of catenaries, or if the search was stopped.
-fn between_steps(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Option<Judged> {
+/// on where the motion is sampled; none of catenaries, or if it was stopped.
+fn between_steps(
+    scene: &Scene,
+    motion: &TimedMotion,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Option<Judged> {
     if scene.settings.model != Model::Sheet {
         return None;
     }
@@ -105,9 +121,8 @@ fn between_steps(scene: &Scene, motion: &TimedMotion, state: &SearchState) -> Op
     let positions: Vec<Vec<Point>> = times.iter().map(|t| motion.at(*t)).collect();
     let steps = times.len();
     let scene = evaluation::with_motion(scene, Motion { times, positions });
-    let stop = || state.report().is_break();
     let along = |_: &sheet::State| ControlFlow::Continue(());
-    let drape = sheet::drape(&scene, sheet::Tuning::default(), &stop, along).ok()?;
+    let drape = sheet::drape(&scene, sheet::Tuning::default(), stop, along).ok()?;
     (drape.summary.steps == steps).then(|| evaluation::judged(&drape.summary, steps))
 }
 

@@ -110,7 +110,8 @@ fn planned(
     if state.is_stopped() {
         return Err(NotDraped::Interrupted);
     }
-    let mut decision = Decision::along(scene, strategy, positions, state)?;
+    let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
+    let mut decision = Decision::along(scene, strategy, positions, motion, state);
     let Followed { drape, .. } = plan::follow(scene, &mut decision, own_limits, state);
     let Decision { motion, sheet, .. } = decision;
     Ok(decided(drape, sheet.map(|sheet| sheet.drape), motion.duration()))
