@@ -62,6 +62,23 @@ fn a_range_is_the_border_of_the_mold_and_a_grid_has_its_own() {
     assert_eq!(grid, Some([[0.0, 0.4], [0.0, 0.4]]));
 }
 
+/// Beside a bowl and lower than its boundary the closest point may be on the lower side of its wall. The mold is below that wall
+/// alone, so such a place is outside of it; a place below the wall is inside, and one above it is not.
+#[test]
+fn beside_a_bowl_and_below_its_boundary_there_is_no_mold() {
+    let bowl =
+        mold("kind = \"formula\"\nz = \"0.7*(x^2 + y^2)\"\nx = [-0.5, 0.5]\ny = [-0.5, 0.5]");
+    for [x, y, z] in [[0.6, 0.0, 0.1], [0.0, -0.55, 0.15], [0.51, 0.2, 0.05], [-0.7, 0.6, 0.0]] {
+        let closest = bowl.closest_point([x, y, z]);
+        assert!(z < 0.7 * (x * x + y * y) && closest.beyond, "{closest:?}");
+        // nothing of the mold is nearer than the side of its range
+        let to_side = [x, y].map(|c| (c.abs() - 0.5).max(0.0));
+        assert!(closest.distance >= to_side[0].hypot(to_side[1]), "{closest:?}");
+    }
+    assert!(bowl.closest_point([0.45, 0.0, 0.1]).distance < 0.0);
+    assert!(bowl.closest_point([0.45, 0.0, 0.2]).distance > 0.0);
+}
+
 #[test]
 fn rows_of_a_height_grid_come_in_any_order() {
     let folder = tempfile::tempdir().unwrap();

@@ -138,7 +138,13 @@ impl Graph {
             .domain
             .is_some_and(|range| (0..2).any(|n| xy[n] <= range[n][0] || xy[n] >= range[n][1]));
         let far = distance(p, point);
-        let beyond = on_boundary && far - above.abs() > TUNING.aside_of_domain * far;
+        let aside = on_boundary && far - above.abs() > TUNING.aside_of_domain * far;
+        // beside the mold and lower than its boundary, the closest point may be on the lower side of the graph: the mold is
+        // below the graph, and there is none below a point of it that is not in the domain
+        let past = |n: usize, range: [[f64; 2]; 2]| {
+            (range[n][0] - p[n]).max(p[n] - range[n][1]) > TUNING.aside_of_domain * sizes(xy, p)
+        };
+        let beyond = aside || above < 0.0 && self.domain.is_some_and(|r| past(0, r) || past(1, r));
         ClosestPoint {
             point: self.pose.place(point),
             normal: self.pose.turn(normal),

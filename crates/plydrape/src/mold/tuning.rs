@@ -21,8 +21,8 @@ pub(super) struct Tuning {
     /// Determinant of the Hessian of the squared distance, as a share of that without the curvature of the mold, below
     /// which the step is taken without it.
     pub positive: f64,
-    /// Share of the distance by which a point may lie off to the side of the boundary of a height field and still count
-    /// as over it.
+    /// Share of the distance, or of the coordinates, by which a point may lie off to the side of the boundary of a height field
+    /// and still count as over it.
     pub aside_of_domain: f64,
     /// Relative step below which a coordinate has converged to rounding.
     pub rounding: f64,

@@ -87,6 +87,9 @@ pub struct ComparedDrape {
     pub drape: Drape,
     /// The drape by the sheet with its last state, where the sheet decides.
     pub sheet: Option<PlannedSheet>,
+    /// How the model that decides judges it. A planned motion is draped as a search decides on it: with a step half-way between all
+    /// steps, too, and the worse drape counts.
+    judged: Judged,
     /// The shortest time of the motion (s) within the limits of the grippers; in real time, the time in which it was draped.
     pub time: f64,
 }
@@ -95,19 +98,17 @@ impl ComparedDrape {
     /// Whether it keeps all limits.
     #[must_use]
     pub fn is_accepted(&self) -> bool {
-        self.drape.summary.accepted
+        self.judged.accepted && self.drape.summary.accepted
     }
 
     /// The limits that decide, each once: those of the deciding model first, then those of the motion. Of several verdicts on
     /// one limit the worst.
     #[must_use]
     pub fn limits(&self) -> Vec<&Verdict> {
-        let summary = &self.drape.summary;
-        let sheet = summary.sheet.as_ref();
         let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
-        let others = summary.limits.iter().filter(|v| sheet.is_none() || of_motion(v));
+        let of_motion = self.drape.summary.limits.iter().filter(of_motion);
         let mut limits: Vec<&Verdict> = Vec::new();
-        for verdict in sheet.into_iter().flat_map(|sheet| &sheet.limits).chain(others) {
+        for verdict in self.judged.limits.iter().chain(of_motion) {
             match limits.iter_mut().find(|limit| limit.name == verdict.name) {
                 Some(limit) if verdict.ratio() > limit.ratio() => *limit = verdict,
                 Some(_) => {}
@@ -127,21 +128,19 @@ impl ComparedDrape {
 
     /// The better drape first: an accepted one before others, then the one that stays farther from its limits.
     fn order(&self, other: &Self) -> Ordering {
-        let score = |drape: &Self| evaluation::score(&drape.judged());
         let accepted = other.is_accepted().cmp(&self.is_accepted());
-        accepted.then_with(|| score(self).total_cmp(&score(other)))
+        accepted.then_with(|| self.score().total_cmp(&other.score()))
     }
 
-    fn judged(&self) -> Judged {
-        let summary = &self.drape.summary;
-        let steps = summary.sheet.as_ref().map_or(summary.steps, |sheet| sheet.steps);
-        let converged = summary.sheet.as_ref().is_none_or(|sheet| sheet.converged);
-        Judged {
-            limits: self.limits().into_iter().cloned().collect(),
-            accepted: summary.accepted,
-            missing: 1.0 - steps as f64 / summary.steps_planned.max(1) as f64,
-            unsolved: usize::from(!converged),
-        }
+    /// [`evaluation::score`] with the limits of the motion.
+    fn score(&self) -> f64 {
+        evaluation::score(&self.with_motion())
+    }
+
+    /// The judgement with the limits of the motion.
+    fn with_motion(&self) -> Judged {
+        let limits = self.limits().into_iter().cloned().collect();
+        Judged { limits, accepted: self.is_accepted(), ..self.judged }
     }
 }
 
@@ -192,8 +191,7 @@ pub fn compare(scene: &Scene, watcher: Watcher) -> Result<Comparison, PlanError>
             false => Ok(drape),
         });
         if let Ok(drape) = &drape {
-            let judged = drape.judged();
-            state.record(&judged, evaluation::score(&judged), true);
+            state.record(&drape.with_motion(), drape.score(), true);
             state.set_steps(state.decisions());
         }
         Compared { name: *name, drape }

@@ -50,14 +50,29 @@ impl Decision {
         positions: Vec<Vec<Point>>,
         state: &SearchState,
     ) -> Result<Self, MotionError> {
+        let decision = Self::uncounted(scene, strategy, positions, state)?;
+        state.record(&decision.drape, decision.score, true);
+        Ok(decision)
+    }
+
+    /// The same, not counted among the decisions of a search.
+    ///
+    /// # Errors
+    /// If the positions cannot become a motion.
+    pub fn uncounted(
+        scene: &Scene,
+        strategy: Option<Strategy>,
+        positions: Vec<Vec<Point>>,
+        state: &SearchState,
+    ) -> Result<Self, MotionError> {
         let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
         // both at once, because most of a drape runs on one core; the second counts only where the first is accepted
         let refused = AtomicBool::new(false);
-        let (mut decision, between) = rayon::join(
+        let ((sheet, mut drape), between) = rayon::join(
             || {
-                let decision = Self::along(scene, strategy, positions, motion.clone(), state);
-                refused.store(!decision.drape.accepted, Ordering::Relaxed);
-                decision
+                let (sheet, drape) = draped(scene, &motion, state);
+                refused.store(!drape.accepted, Ordering::Relaxed);
+                (sheet, drape)
             },
             || {
                 between_steps(scene, &motion, &|| {
@@ -65,29 +80,16 @@ impl Decision {
                 })
             },
         );
-        if decision.drape.accepted
+        let mut score = evaluation::score(&drape);
+        if drape.accepted
             && let Some(between) = between
         {
-            let worse = evaluation::score(&between).max(decision.score);
-            if !between.accepted || worse > decision.score {
-                (decision.drape, decision.score) = (between, worse);
+            let worse = evaluation::score(&between).max(score);
+            if !between.accepted || worse > score {
+                (drape, score) = (between, worse);
             }
         }
-        state.record(&decision.drape, decision.score, true);
-        Ok(decision)
-    }
-
-    /// The same of a motion with its steps alone, not counted.
-    pub fn along(
-        scene: &Scene,
-        strategy: Option<Strategy>,
-        positions: Vec<Vec<Point>>,
-        motion: TimedMotion,
-        state: &SearchState,
-    ) -> Self {
-        let (sheet, drape) = draped(scene, &motion, state);
-        let score = evaluation::score(&drape);
-        Decision { strategy, positions, motion, sheet, drape, score }
+        Ok(Decision { strategy, positions, motion, sheet, drape, score })
     }
 
     /// The same in another time.

@@ -12,7 +12,8 @@ use serde::Deserialize;
 pub(in crate::scene) struct PlanTable {
     /// The planner, "path" unless given.
     pub method: Option<MethodKey>,
-    /// Steps of the planned motion, 90 unless given, step 1 being the start; of "stepwise" the most it may take.
+    /// Steps of the planned motion, step 1 being the start; of "stepwise" the most it may take. Unless given 90, or as many as
+    /// keep the positions of all grippers in all steps below fifty million.
     pub steps: Option<Located<Count>>,
     /// Farthest that a gripper may move in one step (m). Without it "path" is free, and "stepwise" takes a share
     /// of its way.

@@ -1,8 +1,9 @@
 //! The drape of a scene by each strategy of a comparison.
 
 use super::{ComparedDrape, NotDraped};
+use crate::draping::record::Summary;
 use crate::draping::spans::Point;
-use crate::draping::{Drape, simulate};
+use crate::draping::{Drape, Judged, simulate};
 use crate::measure::Verdict;
 use crate::mold::vector::between;
 use crate::motion::{Bounds, TimedMotion};
@@ -33,7 +34,12 @@ pub fn straight(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, Not
         Model::Sheet => sheet::drape(&scene, sheet::Tuning::default(), &stop, along).ok(),
         Model::Catenaries => None,
     };
-    Ok(decided(drape, sheet, time))
+    let steps = scene.motion.positions.len();
+    let judged = |drape: sheet::Drape| {
+        let judged = evaluation::judged(&drape.summary, steps);
+        (drape, judged)
+    };
+    Ok(decided(drape, sheet.map(judged), time))
 }
 
 /// From the start of the scene straight to its target, in the steps and times of its motion.
@@ -110,18 +116,26 @@ fn planned(
     if state.is_stopped() {
         return Err(NotDraped::Interrupted);
     }
-    let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
-    let mut decision = Decision::along(scene, strategy, positions, motion, state);
+    let mut decision = Decision::uncounted(scene, strategy, positions, state)?;
     let Followed { drape, .. } = plan::follow(scene, &mut decision, own_limits, state);
-    let Decision { motion, sheet, .. } = decision;
-    Ok(decided(drape, sheet.map(|sheet| sheet.drape), motion.duration()))
+    let Decision { motion, sheet, drape: judged, .. } = decision;
+    let sheet = sheet.map(|sheet| (sheet.drape, judged));
+    Ok(decided(drape, sheet, motion.duration()))
 }
 
-/// A drape of which the sheet decides, if there is one.
-fn decided(mut drape: Drape, sheet: Option<sheet::Drape>, time: f64) -> ComparedDrape {
-    if let Some(sheet) = &sheet {
-        drape.summary.decide_by(sheet.summary.clone());
-    }
-    let sheet = sheet.map(|drape| PlannedSheet { drape, states: Vec::new() });
-    ComparedDrape { drape, sheet, time }
+/// A drape of which the sheet decides, if there is one, as it is judged.
+fn decided(mut drape: Drape, sheet: Option<(sheet::Drape, Judged)>, time: f64) -> ComparedDrape {
+    let summary = &mut drape.summary;
+    let (sheet, judged) = match sheet {
+        Some((drape, judged)) => {
+            summary.decide_by(drape.summary.clone());
+            (Some(PlannedSheet { drape, states: Vec::new() }), judged)
+        }
+        None => {
+            let Summary { limits, accepted, .. } = summary.clone();
+            let missing = 1.0 - summary.steps as f64 / summary.steps_planned.max(1) as f64;
+            (None, Judged { limits, accepted, missing, unsolved: 0 })
+        }
+    };
+    ComparedDrape { drape, sheet, judged, time }
 }
