@@ -1,7 +1,7 @@
 //! Drapes of one scene by every named strategy, side by side: which of them lay the ply down, and why the others do not.
 //!
 //! Each strategy is draped with the mesh of the scene and judged by its limits: the straight one as `simulate` drapes it, the
-//! others as a finished plan. Rolled and from a point are the fronts that a search tries first, the best of each kind; evolution
+//! others as a search decides on a plan. Rolled and from a point are the fronts that a search tries first, the best of each kind; evolution
 //! of them is left to the search.
 
 mod drapes;

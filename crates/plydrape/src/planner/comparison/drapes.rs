@@ -105,7 +105,7 @@ pub fn by_steps(scene: &Scene, state: &SearchState) -> Result<ComparedDrape, Not
     planned(scene, None, plan.positions, limits, state)
 }
 
-/// The drape along planned positions (m), finished and judged as a plan is; `own_limits` are those of its planner.
+/// The drape along planned positions (m), judged as a search decides on a plan; `own_limits` are those of its planner.
 fn planned(
     scene: &Scene,
     strategy: Option<Strategy>,
