@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
 # Before NumPy is loaded: many small solves are slower on several threads.
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
+
+# A shell that runs the tests in the background ignores Ctrl-C for them, and so would all that they start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Files whose tests share what takes long to make, such as equilibria that the oracle has solved.
 TOGETHER = {
