@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
-# A shell that runs the tests in the background ignores Ctrl-C for them, and so would all that they start.
+# A shell that runs the tests in the background ignores Ctrl-C for them and all that they start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Files whose tests share what takes long to make, such as equilibria that the oracle has solved.
