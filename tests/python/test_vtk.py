@@ -51,15 +51,15 @@ def named(data: Any) -> dict[str, Any]:
 
 
 def read(path: Path) -> Poly:
-    """A file by ParaView's reader, which must have nothing to complain about."""
-    complaints: list[str] = []
+    """A file by ParaView's reader, which must report neither errors nor warnings."""
+    messages: list[str] = []
     reader = vtkXMLPolyDataReader()
     for event in [vtkCommand.ErrorEvent, vtkCommand.WarningEvent]:
-        reader.AddObserver(event, lambda _, what: complaints.append(what))
+        reader.AddObserver(event, lambda _, what: messages.append(what))
     reader.SetFileName(str(path))
     assert reader.CanReadFile(str(path)) == 1
     reader.Update()
-    assert complaints == [] and reader.GetErrorCode() == 0
+    assert messages == [] and reader.GetErrorCode() == 0
     data = reader.GetOutput()
     return Poly(
         vtk_to_numpy(data.GetPoints().GetData()),

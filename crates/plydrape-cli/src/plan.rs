@@ -29,8 +29,8 @@ plan found is written even if it is not accepted. Ctrl-C or SIGTERM ends the sea
 plan so far and writes it; a second one ends that too. Without a terminal, how far the search is stands on \
 standard error once a minute.
 
-Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json to \
-the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
+Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html and plan.json, and sheet.npz \
+where the sheet decides, to the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
 since, is never overwritten.
 
 With --compare nothing is searched: the ply is draped by each of five strategies, straight (every gripper to its \
@@ -59,7 +59,7 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     time: Option<String>,
 
-    /// Drape by every named strategy instead of a search, and say side by side why the losers fail.
+    /// Drape by every named strategy instead of a search, and say side by side why the others fail.
     #[arg(long, conflicts_with_all = ["method", "seed", "improve", "time", "earlier"])]
     compare: bool,
 

@@ -45,7 +45,7 @@ def test_a_notebook_runs(name: str) -> None:
     settings = {"metadata": {"path": str(FOLDER)}}
     nbclient.NotebookClient(book, timeout=120, kernel_name="python3", resources=settings).execute()
     outputs = [output for cell in book.cells for output in cell.get("outputs", [])]
-    complaints = [output.text for output in outputs if output.get("name") == "stderr"]
-    assert not complaints
+    warnings = [output.text for output in outputs if output.get("name") == "stderr"]
+    assert not warnings
     kinds = {kind for output in outputs for kind in output.get("data", {})}
     assert "image/png" in kinds

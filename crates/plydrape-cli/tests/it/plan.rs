@@ -260,7 +260,7 @@ fn help_names_every_option_and_every_file() {
     ] {
         assert!(help.contains(option), "{option} in {help}");
     }
-    for file in FILES.into_iter().chain(["comparison.csv", "comparison.svg"]) {
+    for file in FILES.into_iter().chain(["sheet.npz", "comparison.csv", "comparison.svg"]) {
         assert!(help.contains(file), "{file} in {help}");
     }
     assert!(help.contains("path") && help.contains("stepwise"), "{help}");
