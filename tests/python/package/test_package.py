@@ -45,7 +45,7 @@ def test_a_plan_is_improved_until_its_time_is_over() -> None:
     """A search that shall improve its plan takes more drapes; without time it is whole too."""
     text = EXAMPLE.read_text(encoding="utf-8")
     assert "[plan]" not in text
-    scene = plydrape.Scene.parse(text + "\n[plan]\nevaluations = 40\n", base=EXAMPLE.parent)
+    scene = plydrape.Scene.parse(text + "\n[plan]\nevaluations = 20\n", base=EXAMPLE.parent)
     first = plydrape.plan(scene)
     improved = plydrape.plan(scene, improve=True)
     assert first.accepted and improved.accepted
