@@ -66,29 +66,7 @@ impl Decision {
         state: &SearchState,
     ) -> Result<Self, MotionError> {
         let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
-        // both at once, because most of a drape runs on one core; the second counts only where the first is accepted
-        let refused = AtomicBool::new(false);
-        let ((sheet, mut drape), between) = rayon::join(
-            || {
-                let (sheet, drape) = draped(scene, &motion, state);
-                refused.store(!drape.accepted, Ordering::Relaxed);
-                (sheet, drape)
-            },
-            || {
-                between_steps(scene, &motion, &|| {
-                    refused.load(Ordering::Relaxed) || state.report().is_break()
-                })
-            },
-        );
-        let mut score = evaluation::score(&drape);
-        if drape.accepted
-            && let Some(between) = between
-        {
-            let worse = evaluation::score(&between).max(score);
-            if !between.accepted || worse > score {
-                (drape, score) = (between, worse);
-            }
-        }
+        let (sheet, drape, score) = decided(scene, &motion, state);
         Ok(Decision { strategy, positions, motion, sheet, drape, score })
     }
 
@@ -96,8 +74,7 @@ impl Decision {
     pub fn slowed(&mut self, scene: &Scene, factor: f64, state: &SearchState) {
         self.motion = self.motion.slowed(factor);
         if scene.settings.sheet.time == crate::scene::SheetTime::Real {
-            (self.sheet, self.drape) = draped(scene, &self.motion, state);
-            self.score = evaluation::score(&self.drape);
+            (self.sheet, self.drape, self.score) = decided(scene, &self.motion, state);
             state.record(&self.drape, self.score, true);
         } else if let Some(sheet) = &mut self.sheet {
             for state in sheet.states.iter_mut().chain([&mut sheet.drape.last]) {
@@ -107,13 +84,50 @@ impl Decision {
     }
 }
 
+/// The drape along a motion, its limits and failures, and its score. The drape with a step half-way between all steps counts
+/// where it is the worse.
+fn decided(
+    scene: &Scene,
+    motion: &TimedMotion,
+    state: &SearchState,
+) -> (Option<PlannedSheet>, Judged, f64) {
+    // both at once, because most of a drape runs on one core; the second counts only where the first is accepted
+    let refused = AtomicBool::new(false);
+    let ((mut sheet, mut drape), between) = rayon::join(
+        || {
+            let (sheet, drape) = draped(scene, motion, state);
+            refused.store(!drape.accepted, Ordering::Relaxed);
+            (sheet, drape)
+        },
+        || {
+            between_steps(scene, motion, &|| {
+                refused.load(Ordering::Relaxed) || state.report().is_break()
+            })
+        },
+    );
+    let mut score = evaluation::score(&drape);
+    if drape.accepted
+        && let Some(between) = between
+    {
+        if let Some(sheet) = &mut sheet {
+            sheet.drape.summary.judge_between(&between);
+        }
+        let judged = evaluation::judged(&between, between.steps);
+        let worse = evaluation::score(&judged).max(score);
+        if !judged.accepted || worse > score {
+            (drape, score) = (judged, worse);
+        }
+    }
+    (sheet, drape, score)
+}
+
 /// The drape of the sheet along the motion with a step half-way between all its steps, because a good plan does not depend
 /// on where the motion is sampled; none of catenaries, or if it was stopped.
 fn between_steps(
     scene: &Scene,
     motion: &TimedMotion,
     stop: &(dyn Fn() -> bool + Sync),
-) -> Option<Judged> {
+) -> Option<sheet::Summary> {
     if scene.settings.model != Model::Sheet {
         return None;
     }
@@ -125,7 +139,7 @@ fn between_steps(
     let scene = evaluation::with_motion(scene, Motion { times, positions });
     let along = |_: &sheet::State| ControlFlow::Continue(());
     let drape = sheet::drape(&scene, sheet::Tuning::default(), stop, along).ok()?;
-    (drape.summary.steps == steps).then(|| evaluation::judged(&drape.summary, steps))
+    (drape.summary.steps == steps).then_some(drape.summary)
 }
 
 fn draped(

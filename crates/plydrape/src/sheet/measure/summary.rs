@@ -187,10 +187,98 @@ impl Summary {
             limits,
         }
     }
+
+    /// Judges by another drape too, along the same motion with a step half-way between all its steps: a limit that it does
+    /// not keep is not kept, and its verdict says so. What is measured stays as it is.
+    pub(crate) fn judge_between(&mut self, between: &Summary) {
+        for verdict in &mut self.limits {
+            let other = between.limits.iter().find(|other| other.name == verdict.name);
+            if let Some(other) = other.filter(|other| verdict.ok && !other.ok) {
+                *verdict = Verdict {
+                    // the steps of the motion are the odd ones of the other drape
+                    step: other.step.map(|step| step / 2 + 1),
+                    at: format!("{}, with steps half-way between all steps", other.at),
+                    ..other.clone()
+                };
+            }
+        }
+        if self.converged && !between.converged {
+            (self.status, self.converged) = (between.status, false);
+        }
+        self.accepted &= between.accepted;
+    }
 }
 
 /// Where a value is, as a label.
 pub(super) fn label(place: &Place) -> String {
     let [u, v] = place.uv.map(|c| c * 1e3);
     format!("fabric point ({u:.1}, {v:.1}) mm")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::{Name, Worst};
+
+    /// A converged drape of five steps, or of nine with the steps between, whose height is judged.
+    fn judged(steps: usize, height: f64) -> Summary {
+        let worst = Worst { value: height, at: "fabric point (1.0, 2.0) mm".into(), place: None };
+        let limits = vec![
+            Verdict::of(Name::Height, worst.clone(), 0.5, Some(steps)),
+            Verdict::of(Name::Position, worst, 2.0, Some(steps)),
+        ];
+        Summary {
+            accepted: limits.iter().all(|verdict| verdict.ok),
+            status: Status::Converged,
+            converged: true,
+            nodes: 4,
+            steps,
+            height_max_mm: Some(height),
+            height_rms_mm: None,
+            height_share_above_half_mm: None,
+            ridge_max_mm: None,
+            bridge_max_mm: None,
+            out_of_plane_deg: None,
+            fibre_angle_deg: None,
+            position_max_mm: None,
+            position_rms_mm: None,
+            strain_max: 0.0,
+            shear_max_deg: 0.0,
+            gripper_force_max_n: 0.0,
+            gripper_pull_max_n: 0.0,
+            tilt_max_deg: 0.0,
+            fold_max_deg: 0.0,
+            penetration_mm: None,
+            first_contact_step: None,
+            first_contact_uv_mm: None,
+            energy_j: 0.0,
+            kinetic_energy_j: 0.0,
+            time_steps: 1,
+            solves: 1,
+            smallest_step: 1.0,
+            limits,
+        }
+    }
+
+    /// What is refused with steps between the steps is not accepted, by that limit alone; what it measured stays.
+    #[test]
+    fn a_drape_that_depends_on_its_steps_is_refused_by_the_limit_that_it_breaks() {
+        let mut summary = judged(5, 0.4);
+        summary.judge_between(&judged(9, 0.7));
+        assert!(!summary.accepted && summary.height_max_mm == Some(0.4));
+        let [height, position] = &summary.limits[..] else { panic!("two limits") };
+        assert!(!height.ok && height.value == 0.7 && height.step == Some(5));
+        assert!(height.at.ends_with("mm, with steps half-way between all steps"), "{}", height.at);
+        assert!(position.ok && position.value == 0.4);
+
+        let mut moves = judged(9, 0.4);
+        (moves.status, moves.converged, moves.accepted) = (Status::NotAtRest, false, false);
+        let mut summary = judged(5, 0.4);
+        summary.judge_between(&moves);
+        assert!(!summary.accepted && summary.status == Status::NotAtRest);
+
+        let mut summary = judged(5, 0.4);
+        summary.judge_between(&judged(9, 0.45));
+        assert_eq!(summary, judged(5, 0.4));
+    }
 }
