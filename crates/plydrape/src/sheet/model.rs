@@ -147,6 +147,7 @@ impl Sheet {
         positive("the mesh", mesh)?;
         not_negative("the pad radius", radius)?;
         not_negative("the overhang", overhang)?;
+        positive("the length factor of the ply", ply.length_factor)?;
         not_negative("the tack", settings.contact.tack)?;
         if let Friction::Coulomb(mu) = settings.contact.friction {
             not_negative("the friction", mu)?;
@@ -182,7 +183,8 @@ impl Sheet {
         };
         // a single line stands for a strip one cell wide
         let width = if b > 0.0 { b } else { a };
-        let fabric = Fabric::rectangle([along(grid.nu, a), along(grid.nv, b)], width);
+        let fabric = Fabric::rectangle([along(grid.nu, a), along(grid.nv, b)], width)
+            .enlarged(ply.length_factor);
 
         let (areal_mass, rigidity) = match material.section {
             // a line is a strip one cell wide
@@ -226,9 +228,11 @@ impl Sheet {
     /// The nodes that each gripper holds, with their distance from its middle in the fabric (m); its own point first.
     #[must_use]
     pub fn held(&self) -> Vec<Vec<(usize, [f64; 2])>> {
+        let longer = self.fabric.length_factor;
         let one = |gripper: &Gripper| {
-            let reach = gripper.radius * (1.0 + 1e-9);
-            let off = |place: &[f64; 2]| [place[0] - gripper.place[0], place[1] - gripper.place[1]];
+            // a fabric that is larger is held by a pad that is: it holds the same nodes, and does not stretch them
+            let reach = longer * gripper.radius * (1.0 + 1e-9);
+            let off = |place: &[f64; 2]| [0, 1].map(|n| longer * (place[n] - gripper.place[n]));
             let near = self.fabric.places.iter().map(off).enumerate();
             let own = self.fabric.node_at(gripper.place);
             let mut held: Vec<_> =
