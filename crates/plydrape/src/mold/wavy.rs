@@ -16,6 +16,7 @@ const COUNT: usize = 6;
 
 /// A sum of sine waves over the plan, of one length and height.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Waves {
     /// Height of each wave above its middle (m).
     pub amplitude: f64,
