@@ -286,6 +286,7 @@ fn frame(grid: Grid) -> ResultFile {
                 jerk: 10.0,
                 duration: None,
             },
+            errors: None,
         },
         plan: None,
         sheet_states: None,
