@@ -259,6 +259,12 @@ impl Solver {
         }
     }
 
+    /// The ply.
+    #[must_use]
+    pub(crate) fn ply(&self) -> &Ply {
+        &self.ply
+    }
+
     /// The grid of grippers.
     pub(super) fn grid(&self) -> Grid {
         self.ply.grid
