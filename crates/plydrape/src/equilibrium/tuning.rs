@@ -110,6 +110,13 @@ pub struct Tuning {
     pub mount_contraction: f64,
     /// Cells to each side of a gripper within which the first matrix knows what it does to the ply.
     pub mount_reach: usize,
+    /// Share of an array by which its pads are first drawn together where a line that does not stretch would be taut.
+    pub mount_draw: f64,
+    /// Share of the mounts' stiffness from which their continuation starts.
+    pub mount_soft: f64,
+    /// Share of the length tolerance above which a length is met anew where mounts are balanced. 1e-4: the force of a taut
+    /// line is its axial stiffness times the error of its length.
+    pub mount_length_margin: f64,
     /// Distance that a mount without stiffness yields before the fabric slides, as a share of a cell's shorter side.
     /// 1e-6: a tenth of a micrometre of 100 mm.
     pub rigid_yield: f64,
@@ -164,6 +171,9 @@ impl Default for Tuning {
             mount_overshoot: 0.5,
             mount_contraction: 0.1,
             mount_reach: 1,
+            mount_draw: 1e-3,
+            mount_soft: 1e-4,
+            mount_length_margin: 1e-4,
             rigid_yield: 1e-6,
             refinements: 30,
         }

@@ -52,6 +52,12 @@ impl MountLaw {
             .then_some(MountLaw { stiffness: [lateral, lateral, axial_stiffness], slip_force })
     }
 
+    /// The same mounts with so many times their stiffness.
+    pub(super) fn scaled(self, factor: f64) -> MountLaw {
+        let stiffness = self.stiffness.map(|stiffness| stiffness.map(|k| factor * k));
+        MountLaw { stiffness, ..self }
+    }
+
     /// Whether an axis yields.
     #[must_use]
     pub fn yields(&self, axis: usize) -> bool {

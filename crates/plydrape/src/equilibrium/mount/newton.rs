@@ -191,7 +191,10 @@ pub(super) fn solve(
     let tuning = *solver.tuning();
     let mut search =
         Search { mounts, solver, commanded, contacts, tuning, unknowns, iterations: 0 };
-    let (trial, is_balanced) = search.run();
+    let (mut trial, mut is_balanced) = search.run();
+    if !is_balanced {
+        (trial, is_balanced) = search.stiffen(trial);
+    }
     let iterations = search.iterations;
     search.mounts.balance = trial.balance;
     let mut equilibrium = Equilibrium { iterations, ..trial.equilibrium };
@@ -213,7 +216,6 @@ impl Search<'_> {
             self.mounts.matrix.take().filter(|matrix| matrix.unknowns == self.unknowns);
         let mut is_fresh = false;
         for _ in 0..self.tuning.mount_iterations {
-            if std::env::var("DBG").is_ok() { eprintln!("   it {:?} left {:.3e} largest {:.3e} eq {:?} matrix {:?}", self.iterations, at.left(), at.balance.largest, at.equilibrium.length_residual, matrix.as_ref().map(|m| m.reach)); }
             if at.left() <= self.tuning.mount_tolerance {
                 self.mounts.matrix = matrix;
                 return (at, true);
@@ -259,35 +261,70 @@ impl Search<'_> {
         (at, balanced)
     }
 
+    /// By continuation in the stiffness of the mounts: soft ones let the ply hang, and their state leads to that of stiffer
+    /// ones. `failed` is what the direct search ended with.
+    fn stiffen(&mut self, failed: Trial) -> (Trial, bool) {
+        let law = self.mounts.law;
+        let Tuning { mount_soft, mut growth, smallest_growth, .. } = self.tuning;
+        let (mut done, mut next) = (0.0, mount_soft);
+        while growth > smallest_growth {
+            let before = self.mounts.balance.clone();
+            self.mounts.law = law.scaled(next);
+            let (trial, is_balanced) = self.run();
+            self.mounts.law = law;
+            if !is_balanced {
+                self.mounts.balance = before;
+                growth = growth.sqrt();
+                if done == 0.0 {
+                    break;
+                }
+            } else if next >= 1.0 {
+                return (trial, true);
+            } else {
+                self.mounts.balance = trial.balance;
+                done = next;
+            }
+            next = f64::min(growth * done, 1.0);
+        }
+        let offset = failed.balance.offset.clone();
+        (self.evaluate(&offset).unwrap_or_else(|trial| trial), false)
+    }
+
     /// Cells of the array's longer side.
     fn widest(&self) -> usize {
         let grid = self.solver.ply().grid;
         grid.nu.max(grid.nv)
     }
 
-    /// Where the search starts: with the offsets of the last balance; else with its pads; else with pads drawn together
-    /// until no line that does not stretch is taut.
+    /// Where the search starts: with the pads of the last balance, moved as the grippers have moved on average; else with
+    /// its offsets; else with pads drawn together until no line that does not stretch is taut.
     fn start(&mut self) -> Result<Trial, Trial> {
-        let offsets = self.mounts.balance.offset.clone();
-        let pads = self.mounts.balance.pads.clone();
-        let first = self.evaluate(&offsets);
-        if first.is_ok() {
-            return first;
-        }
-        if pads.len() == offsets.len() {
-            let same: Vec<_> = (pads.iter().zip(self.commanded))
-                .map(|(pad, commanded)| [0, 1, 2].map(|n| pad[n] - commanded[n]))
+        let last = self.mounts.balance.clone();
+        let count = self.commanded.len() as f64;
+        let mean = |part: &dyn Fn(usize, usize) -> f64| {
+            [0, 1, 2].map(|axis| {
+                (0..self.commanded.len()).map(|n| part(n, axis)).sum::<f64>() / count
+            })
+        };
+        if last.pads.len() == self.commanded.len() {
+            let way = mean(&|n, axis| {
+                self.commanded[n][axis] - (last.pads[n][axis] - last.offset[n][axis])
+            });
+            let behind: Vec<_> = (last.pads.iter().zip(self.commanded))
+                .map(|(pad, place)| [0, 1, 2].map(|n| pad[n] + way[n] - place[n]))
                 .collect();
-            if let Ok(trial) = self.evaluate(&same) {
+            if let Ok(trial) = self.evaluate(&behind) {
                 return Ok(trial);
             }
         }
-        let count = self.commanded.len() as f64;
-        let middle =
-            [0, 1, 2].map(|n| self.commanded.iter().map(|place| place[n]).sum::<f64>() / count);
-        let mut share = 1e-3;
+        let first = self.evaluate(&last.offset);
+        if first.is_ok() {
+            return first;
+        }
+        let middle = mean(&|n, axis| self.commanded[n][axis]);
+        let mut share = self.tuning.mount_draw;
         while share < 0.5 {
-            let drawn: Vec<_> = (self.commanded.iter().zip(&offsets))
+            let drawn: Vec<_> = (self.commanded.iter().zip(&last.offset))
                 .map(|(p, d)| [0, 1, 2].map(|n| d[n] + share * (middle[n] - p[n])))
                 .collect();
             if let Ok(trial) = self.evaluate(&drawn) {
