@@ -18,10 +18,14 @@ pub struct Load {
 /// The loads of all grippers, in the order of [`crate::ply::Grid::index`].
 ///
 /// A span between two grippers pulls with its forces. Where the mold holds a segment at its other end, the tension is an
-/// artefact of the axial stiffness; half of its weight counts.
+/// artefact of the axial stiffness; half of its weight counts. Mounts that yield bound such a tension, and their forces count.
 #[must_use]
 pub fn loads(scene: &Scene, snapshot: &Snapshot) -> Vec<Load> {
     let (ply, grid) = (&scene.ply, scene.ply.grid);
+    if let Some(mounts) = &snapshot.mounts {
+        let load = |[x, y, z]: &[f64; 3]| Load { vertical: -z, pull: [*x, *y] };
+        return mounts.force.iter().map(load).collect();
+    }
     let mut out = vec![Load::default(); grid.grippers()];
     for span in snapshot.shape.spans.iter().filter(|span| span.catenary < grid.edges()) {
         let c = grid.catenary(span.catenary);

@@ -22,6 +22,7 @@ mod report;
 pub mod sampling;
 mod snapshot;
 pub mod spans;
+mod standing;
 mod stepping;
 mod stop;
 mod tuning;

@@ -146,7 +146,10 @@ mod tests {
                 let (low, high) = (moved(-h), moved(h));
                 for n in 0..3 {
                     let difference = (low[n] - high[n]) / (2.0 * h);
-                    assert!((at.stiffness[n][axis] - difference).abs() < 1e-3, "{offset:?} {n} {axis}");
+                    assert!(
+                        (at.stiffness[n][axis] - difference).abs() < 1e-3,
+                        "{offset:?} {n} {axis}"
+                    );
                 }
             }
         }

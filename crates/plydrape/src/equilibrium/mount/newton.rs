@@ -302,9 +302,8 @@ impl Search<'_> {
         let last = self.mounts.balance.clone();
         let count = self.commanded.len() as f64;
         let mean = |part: &dyn Fn(usize, usize) -> f64| {
-            [0, 1, 2].map(|axis| {
-                (0..self.commanded.len()).map(|n| part(n, axis)).sum::<f64>() / count
-            })
+            [0, 1, 2]
+                .map(|axis| (0..self.commanded.len()).map(|n| part(n, axis)).sum::<f64>() / count)
         };
         if last.pads.len() == self.commanded.len() {
             let way = mean(&|n, axis| {

@@ -156,9 +156,8 @@ fn rigid_grippers_are_the_limit_of_stiff_mounts() {
         let off = |stiffness: f64| {
             let pad = pads(Some(stiffness), Some(2.0 * stiffness));
             let solved = balanced(&ply, &settings(slopes, pad), &commanded);
-            let difference = |n: usize| {
-                (solved.solver.force(n).unwrap() - rigid.force(n).unwrap()).abs()
-            };
+            let difference =
+                |n: usize| (solved.solver.force(n).unwrap() - rigid.force(n).unwrap()).abs();
             (0..elements).map(difference).fold(0.0, f64::max)
         };
         let [coarse, middle, fine] = [1e6, 1e7, 1e8].map(off);
@@ -231,12 +230,8 @@ fn a_cell_that_resists_shear_pulls_at_its_pads() {
 #[test]
 fn derivatives_with_mounts_agree_with_central_differences() {
     let slipping = PadSettings { slip_force: Some(0.3), ..pads(Some(2e3), Some(5e3)) };
-    let all = [
-        pads(Some(2e3), Some(5e3)),
-        pads(Some(200.0), None),
-        pads(None, Some(500.0)),
-        slipping,
-    ];
+    let all =
+        [pads(Some(2e3), Some(5e3)), pads(Some(200.0), None), pads(None, Some(500.0)), slipping];
     for slopes in RULES {
         for (case, pad) in all.into_iter().enumerate() {
             let ply = ply(3, 2);
@@ -380,9 +375,11 @@ fn a_scaled_ply_on_scaled_mounts_is_in_the_scaled_state() {
         (balanced(&small, &first, &commanded), balanced(&large, &second, &larger));
     for n in 0..commanded.len() {
         for axis in 0..3 {
-            let (a, b) = (first.mounts.balance.offset[n][axis], second.mounts.balance.offset[n][axis]);
+            let (a, b) =
+                (first.mounts.balance.offset[n][axis], second.mounts.balance.offset[n][axis]);
             assert!((length * a - b).abs() < 1e-9 * length * 0.1, "{n}: {a} {b}");
-            let (a, b) = (first.mounts.gripper_force(n)[axis], second.mounts.gripper_force(n)[axis]);
+            let (a, b) =
+                (first.mounts.gripper_force(n)[axis], second.mounts.gripper_force(n)[axis]);
             assert!((force * a - b).abs() < 1e-7 * force, "{n}: {a} {b}");
         }
     }
