@@ -15,6 +15,8 @@ mod judged;
 pub(crate) mod landing;
 pub(crate) mod load;
 pub(crate) mod misfit;
+#[cfg(test)]
+mod mount_tests;
 pub(crate) mod reach;
 pub mod record;
 mod report;
