@@ -106,6 +106,10 @@ pub struct Tuning {
     /// Share of a step's first work that may be left to do in the other direction at its end. A half, so that a step over
     /// the place where a slack line becomes taut is cut.
     pub mount_overshoot: f64,
+    /// Share to which a step is cut that is too long, until one is short enough; then by halves of its logarithm.
+    pub mount_cut: f64,
+    /// Width of that search, as a share of the step, at which what is left is a jump of the forces.
+    pub mount_jump: f64,
     /// Factor by which a step must lower the unbalanced force for its matrix to be used again.
     pub mount_contraction: f64,
     /// Cells to each side of a gripper within which the first matrix knows what it does to the ply.
@@ -169,6 +173,8 @@ impl Default for Tuning {
             mount_iterations: 60,
             mount_trials: 40,
             mount_overshoot: 0.5,
+            mount_cut: 0.1,
+            mount_jump: 1e-3,
             mount_contraction: 0.1,
             mount_reach: 1,
             mount_draw: 1e-3,

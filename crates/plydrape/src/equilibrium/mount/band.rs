@@ -27,8 +27,14 @@ impl Band {
         }
     }
 
+    /// Sum of the sizes of the entries of each row.
+    pub fn row_sums(&self) -> Vec<f64> {
+        let rows = self.entries.chunks(2 * self.half + 1);
+        rows.map(|row| row.iter().map(|x| x.abs()).sum()).collect()
+    }
+
     /// Largest entry of the diagonal.
-    pub fn largest_diagonal(&self) -> f64 {
+    fn largest_diagonal(&self) -> f64 {
         (0..self.size).map(|n| self.entries[self.place(n, n)].abs()).fold(0.0, f64::max)
     }
 

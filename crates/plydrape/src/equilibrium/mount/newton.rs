@@ -117,7 +117,7 @@ impl Matrix {
                 members.iter().for_each(|n| direction.grippers[*n][axis] = 0.0);
             }
         }
-        let band = positive(band, unknowns.list.len(), held.solver.tuning())?;
+        let band = positive(band, held.solver.tuning())?;
         Some(Matrix { band, unknowns: unknowns.clone(), reach })
     }
 
@@ -127,13 +127,14 @@ impl Matrix {
     }
 }
 
-/// The factors of a matrix, its diagonal raised as far as it must be; none where no shift helps.
-fn positive(band: Band, size: usize, tuning: &Tuning) -> Option<Band> {
-    let largest = band.largest_diagonal();
+/// The factors of a matrix, its diagonal raised as far as it must be, row by row in proportion to what stands there; none
+/// where that does not help.
+fn positive(band: Band, tuning: &Tuning) -> Option<Band> {
+    let rows = band.row_sums();
     let mut shift = 0.0;
     loop {
         let mut factors = band.clone();
-        (0..size).for_each(|n| factors.add(n, n, shift * largest));
+        rows.iter().enumerate().for_each(|(n, sum)| factors.add(n, n, shift * sum));
         if factors.factorize() {
             return Some(factors);
         }
@@ -334,21 +335,14 @@ impl Search<'_> {
         first
     }
 
-    /// The pads after a step: the whole one, or as far as the forces along it go on pulling. None if no length of it is any
-    /// good; a matrix that is not fresh must lower the unbalanced force.
+    /// The pads after a step: the whole one where the forces along it go on pulling, else as far as where their work turns
+    /// round. None if no length of it is any good; a matrix that is not fresh must lower the unbalanced force at once.
     fn step(&mut self, from: &Trial, step: &[f64], is_fresh: bool) -> Option<Trial> {
         let first = from.work(step);
-        let Tuning { mount_contraction, mount_overshoot, .. } = self.tuning;
-        let good = |trial: &Trial| {
-            if !is_fresh {
-                return trial.size() < from.size();
-            }
-            trial.size() <= mount_contraction * from.size()
-                || trial.work(step) >= -mount_overshoot * first
-        };
-        let trials = if is_fresh { self.tuning.mount_trials } else { 1 };
-        let mut share = 1.0;
-        for trial in 0..trials {
+        let Tuning { mount_contraction, mount_overshoot, mount_trials, .. } = self.tuning;
+        let (mut low, mut high, mut share) = (0.0, f64::INFINITY, 1.0);
+        let mut best = None;
+        for _ in 0..mount_trials {
             let mut offset = from.balance.offset.clone();
             for ((gripper, axis), p) in self.unknowns.list.iter().zip(step) {
                 offset[*gripper][*axis] += share * p;
@@ -356,18 +350,34 @@ impl Search<'_> {
             if offset == from.balance.offset {
                 break;
             }
-            let found = self.evaluate(&offset);
-            match found {
-                Ok(found) if good(&found) => return Some(found),
-                // where the work turns round: by secant and by halves in turn
-                Ok(found) if trial % 2 == 0 => {
-                    let end = found.work(step);
-                    share *= (first / (first - end)).clamp(0.05, 0.5);
-                }
-                _ => share *= 0.5,
+            let trial = self.evaluate(&offset).ok();
+            if !is_fresh {
+                return trial.filter(|trial| trial.size() < from.size());
             }
+            let (work, size) = trial
+                .as_ref()
+                .map_or((f64::NEG_INFINITY, f64::INFINITY), |t| (t.work(step), t.size()));
+            if size <= mount_contraction * from.size() || work.abs() <= mount_overshoot * first {
+                return trial;
+            }
+            if work > 0.0 {
+                // the forces go on pulling: a longer step, where one has been too long
+                (low, best) = (share, trial);
+                if high.is_infinite() {
+                    break;
+                }
+            } else {
+                high = share;
+            }
+            // the last trial that is good enough is kept where what is left is a jump
+            if best.is_some() && high - low <= self.tuning.mount_jump * high {
+                break;
+            }
+            share = if low > 0.0 { (low * high).sqrt() } else { self.tuning.mount_cut * high };
         }
-        None
+        // the solver is left where the pads are
+        let offset = best?.balance.offset;
+        self.evaluate(&offset).ok()
     }
 
     /// Puts the pads at offsets (m) and solves the ply there; the error is a place where the ply has no equilibrium, or a
