@@ -22,6 +22,7 @@ fn ply(nu: usize, nv: usize) -> Ply {
             locking_angle: None,
         },
         warp: Along::U,
+        length_factor: 1.0,
     }
 }
 
