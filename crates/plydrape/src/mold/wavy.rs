@@ -180,8 +180,7 @@ impl Wavy {
         let bend = |a: [f64; 3], b: [f64; 3]| {
             -(xx * a[0] * b[0] + xy * (a[0] * b[1] + a[1] * b[0]) + yy * a[1] * b[1])
         };
-        let form =
-            [plain.principal[0] + bend(s, s), bend(s, t), plain.principal[1] + bend(t, t)];
+        let form = [plain.principal[0] + bend(s, s), bend(s, t), plain.principal[1] + bend(t, t)];
         let normal = self.level(&closest, closest.normal).normal;
         let first = unit(along(s, -dot(s, normal), normal)).unwrap_or(s);
         let second = cross(normal, first);

@@ -109,6 +109,7 @@ fn a_drape_out_of_all_range_ends_and_is_not_accepted() {
                     settings: settings(),
                     limits: limits(),
                     plan: plydrape::scene::Plan::default(),
+                    errors: None,
                 };
                 let drape = draping::simulate(&scene, |_| std::ops::ControlFlow::Continue(()));
                 assert!(!drape.summary.accepted, "{mold:?} {value} {who:?}");

@@ -43,7 +43,7 @@ impl Band {
         let least = f64::EPSILON * self.largest_diagonal();
         for pivot in 0..self.size {
             let diagonal = self.entries[self.place(pivot, pivot)];
-            if !(diagonal > least) {
+            if diagonal.is_nan() || diagonal <= least {
                 return false;
             }
             let end = (pivot + self.half + 1).min(self.size);

@@ -139,7 +139,7 @@ fn positive(band: Band, tuning: &Tuning) -> Option<Band> {
             return Some(factors);
         }
         shift = if shift == 0.0 { tuning.first_shift } else { tuning.shift_growth * shift };
-        if !(shift <= tuning.largest_shift) {
+        if shift > tuning.largest_shift {
             return None;
         }
     }
@@ -210,7 +210,7 @@ impl Search<'_> {
     fn run(&mut self) -> (Trial, bool) {
         let mut at = match self.start() {
             Ok(trial) => trial,
-            Err(trial) => return (trial, false),
+            Err(trial) => return (*trial, false),
         };
         let mut reach = self.tuning.mount_reach;
         let mut matrix =
@@ -288,7 +288,7 @@ impl Search<'_> {
             next = f64::min(growth * done, 1.0);
         }
         let offset = failed.balance.offset.clone();
-        (self.evaluate(&offset).unwrap_or_else(|trial| trial), false)
+        (self.evaluate(&offset).unwrap_or_else(|trial| *trial), false)
     }
 
     /// Cells of the array's longer side.
@@ -299,7 +299,7 @@ impl Search<'_> {
 
     /// Where the search starts: with the pads of the last balance, moved as the grippers have moved on average; else with
     /// its offsets; else with pads drawn together until no line that does not stretch is taut.
-    fn start(&mut self) -> Result<Trial, Trial> {
+    fn start(&mut self) -> Result<Trial, Box<Trial>> {
         let last = self.mounts.balance.clone();
         let count = self.commanded.len() as f64;
         let mean = |part: &dyn Fn(usize, usize) -> f64| {
@@ -382,7 +382,7 @@ impl Search<'_> {
 
     /// Puts the pads at offsets (m) and solves the ply there; the error is a place where the ply has no equilibrium, or a
     /// taut line no force.
-    fn evaluate(&mut self, offsets: &[[f64; 3]]) -> Result<Trial, Trial> {
+    fn evaluate(&mut self, offsets: &[[f64; 3]]) -> Result<Trial, Box<Trial>> {
         let mut offset = offsets.to_vec();
         let mut pads = self.commanded.to_vec();
         for n in 0..pads.len() {
@@ -416,6 +416,6 @@ impl Search<'_> {
             .collect();
         let balance = Balance { offset, pads, ply, reactions, largest };
         let trial = Trial { balance, equilibrium, residual };
-        if is_known { Ok(trial) } else { Err(trial) }
+        if is_known { Ok(trial) } else { Err(Box::new(trial)) }
     }
 }

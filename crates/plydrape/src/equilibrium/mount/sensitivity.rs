@@ -71,7 +71,7 @@ impl MountedLinearization<'_> {
             }
             left = self.unbalanced(&moving, direction);
             let now = largest(&left);
-            if !(now < remaining) {
+            if now.is_nan() || now >= remaining {
                 moving = before;
                 break;
             }
