@@ -209,6 +209,7 @@ fn gripper(grid: Grid, k: usize, at: &[[f64; 3]]) -> Gripper {
         tilt_deg: u.hypot(v).atan().to_degrees(),
         quaternion: q.map(|c| c / norm),
         target_distance_mm: None,
+        mount: None,
     }
 }
 
@@ -278,6 +279,7 @@ fn frame(grid: Grid) -> ResultFile {
                 force: None,
                 gripper_load: 10.0,
                 gripper_pull: None,
+                grip_safety: 1.5,
                 contact_share: 0.9,
                 gripper_distance: 0.05,
                 workspace: None,

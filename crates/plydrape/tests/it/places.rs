@@ -151,6 +151,7 @@ fn limits() -> plydrape::scene::Limits {
         force: None,
         gripper_load: wide,
         gripper_pull: None,
+        grip_safety: 1.5,
         contact_share: 0.0,
         gripper_distance: 0.001,
         workspace: None,
