@@ -38,7 +38,7 @@ DrapeBot, Horizon 2020 grant 101006732, periodic report 2, 2022-07 to 2023-12, c
 const DRAPEBOT_CATENARIES: &str = "as position, for the contact points of the catenaries";
 /// What the manual says.
 const PLY_ANGLE: &str = "\"typical repair tolerance for ply alignment\" of ±3°: US Army TM 1-1500-204-23-11, General \
-Aircraft Maintenance, Sheet Metal Shop, section 5-7 e (1); read in a web copy that has lost the signs ± and °";
+Aircraft Maintenance, Sheet Metal Shop, paragraph 5-6 e (1); read in a web copy that has lost the signs ± and °";
 /// Its angle, taken out of the plane too.
 const OUT_OF_PLANE: &str =
     "a choice of this program: the same angle out of the plane of the ply; no source gives it";

@@ -2,7 +2,7 @@
 //!
 //! | plane | source | angle | loss of strength | of what |
 //! |---|---|---|---|---|
-//! | in the ply | US Army TM 1-1500-204-23-11, 5-7 e (1) | 5° | 20 % | a ply that is turned, stated in a repair manual without its tests |
+//! | in the ply | US Army TM 1-1500-204-23-11, 5-6 e (1) | 5° | 20 % | a ply that is turned, stated in a repair manual without its tests |
 //! | | | 10° | up to 50 % | |
 //! | out of it | Adams and Hyer 1993 | not given | up to 36 % | compression tests of T300/P1700 carbon/polysulfone cross-ply, one wavy layer |
 //!
@@ -62,7 +62,7 @@ impl Published {
             plane: Plane::InPlane,
             says: "a published repair manual says that a ply turned by 5° can lose 20 % of its strength, by 10° as much as 50 %",
             range: "it names neither the load nor the laminate, and no tests",
-            source: "US Army TM 1-1500-204-23-11, General Aircraft Maintenance, Sheet Metal Shop, section 5-7 e (1)",
+            source: "US Army TM 1-1500-204-23-11, General Aircraft Maintenance, Sheet Metal Shop, paragraph 5-6 e (1)",
             losses: &[(degrees(5.0), 0.2), (degrees(10.0), 0.5)],
             most: 0.5,
         },
