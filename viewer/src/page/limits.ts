@@ -108,7 +108,7 @@ function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTabl
     make("td", { class: "number" }, limit.step === null ? "–" : String(limit.step)),
     make("td", { class: "where", title: limit.where }, limit.where),
   ];
-  if (limit.note !== null) cells[0]!.append(make("span", { class: "note" }, limit.note));
+  if (limit.note !== null) cells[0]!.append(make("span", { class: "other-units" }, limit.note));
   const tr = make("tr", { class: limit.ok ? "pass" : "fail" }, ...cells);
   if (index < 0) return tr;
   const button = make(
@@ -141,10 +141,7 @@ export function showStrength(data: PageData): void {
   if (notes.length === 0) return;
   const list = make("dl");
   for (const { angles, text, source } of notes) {
-    list.append(
-      make("dt", {}, angles),
-      make("dd", {}, text, make("span", { class: "source" }, source)),
-    );
+    list.append(make("dt", {}, angles), make("dd", {}, text, make("span", { class: "source" }, source)));
   }
   byId("limits").append(
     make(
