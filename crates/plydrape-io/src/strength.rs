@@ -81,11 +81,11 @@ fn place(published: &Published, angle: f64) -> Option<String> {
             format!("{shown} is between these angles: {} to {}.", percent(low), percent(high))
         }
         Loss::Below(least, _) => format!(
-            "{shown} is below {}, the smallest angle that it gives: it says nothing of it.",
+            "{shown} is below {}, the smallest angle that it gives, so it says nothing about it.",
             degrees(least.to_degrees())
         ),
         Loss::Beyond(most, _) => format!(
-            "{shown} is beyond {}, the largest angle that it gives: it says nothing of it.",
+            "{shown} is beyond {}, the largest angle that it gives, so it says nothing about it.",
             degrees(most.to_degrees())
         ),
         Loss::NoAngle(_) => {
@@ -144,7 +144,7 @@ mod tests {
             note.text.clone()
         };
         assert!(text(2.1).ends_with(
-            "2.1° is below 5°, the smallest angle that it gives: it says nothing of it."
+            "2.1° is below 5°, the smallest angle that it gives, so it says nothing about it."
         ));
         assert!(text(7.0).ends_with("7° is between these angles: 20 % to 50 %."), "{}", text(7.0));
         assert!(text(12.0).contains("12° is beyond 10°"));

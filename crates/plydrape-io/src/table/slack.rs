@@ -14,7 +14,7 @@ pub(crate) fn slack_in_words(summary: &Summary) -> Option<String> {
     let mut said = Vec::new();
     if let (None, Some(angle)) = (judged(Name::SlackAngle), value(Name::SlackAngle)) {
         let (angle, limit) = (significant(angle), significant(limit_as_angle(ratio)));
-        said.push(format!("a fibre angle of {angle}° (the limit one of {limit}°)"));
+        said.push(format!("a fibre angle of {angle}° (allowed {limit}°)"));
     }
     if let (None, Some(height)) = (judged(Name::Wrinkle), value(Name::Wrinkle)) {
         said.push(format!("a wrinkle {} mm high", significant(height)));
@@ -47,7 +47,7 @@ mod tests {
         summary.last = last.into_iter().collect();
         assert_eq!(
             slack_in_words(&summary).as_deref(),
-            Some("a fibre angle of 8.103° (the limit one of 2.562°), a wrinkle 2.7 mm high")
+            Some("a fibre angle of 8.103° (allowed 2.562°), a wrinkle 2.7 mm high")
         );
         summary.limits.push(verdict(Name::SlackAngle, 8.10285, 3.0));
         assert_eq!(slack_in_words(&summary).as_deref(), Some("a wrinkle 2.7 mm high"));
