@@ -191,11 +191,23 @@ pub struct PadSettings {
     pub lateral_stiffness: Option<f64>,
     /// Stiffness of the mount across the ply (N/m); none if rigid.
     pub axial_stiffness: Option<f64>,
+    /// Largest load along the ply that a pad holds before the fabric slides under it (N); none if it never slides.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub slip_force: Option<f64>,
+    /// Largest load across the ply that a pad holds (N); none if it holds any.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub holding_force: Option<f64>,
 }
 
 impl Default for PadSettings {
     fn default() -> Self {
-        PadSettings { radius: 0.0, lateral_stiffness: None, axial_stiffness: None }
+        PadSettings {
+            radius: 0.0,
+            lateral_stiffness: None,
+            axial_stiffness: None,
+            slip_force: None,
+            holding_force: None,
+        }
     }
 }
 

@@ -66,6 +66,10 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     if !(sound && axial_stiffness > 0.0 && gravity > 0.0 && contact.tolerance > 0.0) {
         return Some("mass, stiffness, gravity and contact tolerance must be above zero".into());
     }
+    let mounts = [pad.lateral_stiffness, pad.axial_stiffness, pad.slip_force, pad.holding_force];
+    if !mounts.iter().flatten().all(|value| *value > 0.0) {
+        return Some("what mounts and pads bear must be above zero".into());
+    }
     if !(max_tilt > 0.0 && max_tilt < std::f64::consts::FRAC_PI_2) {
         return Some(format!("there is no largest tilt of {max_tilt} rad"));
     }
