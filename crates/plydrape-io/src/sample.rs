@@ -241,6 +241,7 @@ fn frame(grid: Grid) -> ResultFile {
                     locking_angle: None,
                 },
                 warp: Direction::U,
+                length_factor: 1.0,
             },
             mold: None,
             target: None,

@@ -78,7 +78,7 @@ impl Jacobian {
     #[getter]
     fn shear(&self) -> Array<f64> {
         self.block(&[self.stretched.len()], |column| {
-            let [a, b] = self.ply.cell;
+            let [a, b] = self.ply.fabric_cell();
             let [along_u, along_v, _] = self.directions[column].length;
             let paths = &self.tangents[column].paths;
             let rate = |(path, change): (&Option<f64>, &f64)| match path {

@@ -104,7 +104,8 @@ impl Mold {
         Ok(Mold(mold::Mold::Mesh(Arc::new(mesh))))
     }
 
-    /// Its kind: "plane", "cylinder", "sphere", "torus", "graph" or "mesh".
+    /// Its kind: "plane", "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
+    /// of a scene laid waves on it.
     #[getter]
     fn kind(&self) -> &'static str {
         match &self.0 {
@@ -114,6 +115,7 @@ impl Mold {
             mold::Mold::Torus(_) => "torus",
             mold::Mold::Graph(_) => "graph",
             mold::Mold::Mesh(_) => "mesh",
+            mold::Mold::Wavy(_) => "wavy",
         }
     }
 

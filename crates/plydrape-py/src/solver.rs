@@ -179,5 +179,5 @@ impl Solver {
 /// Shear angle of each cell (rad), 0 where no diagonal is stretched.
 pub fn shear_angles(ply: &ply::Ply, solver: &equilibrium::Solver) -> Vec<f64> {
     let stretched = solver.problem().shearing.iter();
-    stretched.map(|s| s.map_or(0.0, |(path, _)| shear::angle(ply.cell, path))).collect()
+    stretched.map(|s| s.map_or(0.0, |(path, _)| shear::angle(ply.fabric_cell(), path))).collect()
 }

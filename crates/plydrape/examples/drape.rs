@@ -34,6 +34,7 @@ fn main() {
             locking_angle: None,
         },
         warp: Direction::U,
+        length_factor: 1.0,
     };
     // 2 mm closer than the fabric and 75 mm up at the start, sheared by 20 degrees on the mold at the end
     let start = grid(ply.grid, 0.098, 0.0, 0.075);
@@ -57,6 +58,7 @@ fn main() {
         target: Some(Target { grippers: end.clone(), drape: None }),
         settings,
         plan: Plan::default(),
+        errors: None,
     };
 
     let drape = simulate(&scene, |_| ControlFlow::Continue(()));

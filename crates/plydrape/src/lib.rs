@@ -47,7 +47,8 @@
 //! 6. [`draping`]: the motion step by step, with contact;
 //! 7. [`measure`]: what is measured of a step, limits, and the verdict;
 //! 8. [`motion`]: positions step by step become smooth in time, within limits of speed, acceleration, jerk;
-//! 9. [`planner`]: gripper trajectories, and limits that no trajectory can keep.
+//! 9. [`planner`]: gripper trajectories, and limits that no trajectory can keep;
+//! 10. [`errors`]: how far a real cell may be from its scene, and the scene of one such cell.
 //!
 //! SI units throughout, z up, gravity along −z. This crate reads and writes no files; with the feature `serde` its types
 //! can be written by serde.
@@ -55,6 +56,7 @@
 pub mod catenary;
 pub mod draping;
 pub mod equilibrium;
+pub mod errors;
 pub mod material;
 pub mod measure;
 pub mod mold;
@@ -68,6 +70,7 @@ pub mod sheet;
 
 pub use draping::{Drape, simulate};
 pub use equilibrium::Solver;
+pub use errors::Errors;
 pub use material::Material;
 pub use mold::Mold;
 pub use planner::{Planned, plan};

@@ -2,6 +2,7 @@
 //!
 //! What reads a scene from a file, and refuses it with the place of a fault, is the crate `plydrape-io`.
 
+use crate::errors::Errors;
 use crate::mold::Mold;
 use crate::net::Net;
 use crate::ply::Ply;
@@ -27,6 +28,8 @@ pub struct Scene {
     pub limits: Limits,
     /// How a motion is planned, where none is followed.
     pub plan: Plan,
+    /// How far a real cell may be from this scene, if that is known.
+    pub errors: Option<Errors>,
 }
 
 /// How gripper trajectories are planned.

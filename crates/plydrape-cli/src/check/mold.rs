@@ -62,6 +62,8 @@ pub(super) fn mold(scene: &SceneFile) -> Vec<Line> {
             Some(report) => return mesh(report),
             None => "mesh".into(),
         },
+        // no scene file makes one
+        Mold::Wavy(_) => "waves on a mold".into(),
     };
     vec![("mold", text)]
 }

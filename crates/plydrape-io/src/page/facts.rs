@@ -108,6 +108,7 @@ fn mold(mold: &Mold) -> String {
             Surface::Front(_) => "a mold raised ahead of a front".into(),
         },
         Mold::Mesh(mesh) => format!("mesh of {} triangles", mesh.triangles().len()),
+        Mold::Wavy(wavy) => format!("{} with waves on it", self::mold(&wavy.mold)),
     }
 }
 

@@ -52,6 +52,8 @@ impl<'a> Record<'a> {
                 vertices: mesh.vertices().into(),
                 triangles: mesh.triangles().into(),
             },
+            // refused before
+            Mold::Wavy(_) => return None,
         })
     }
 
@@ -83,8 +85,14 @@ impl<'a> Record<'a> {
     }
 }
 
-/// Writes a mold, if there is one.
+/// Why a wavy mold is not written.
+const WAVY: &str = "the mold has the waves of one draw of the scene's errors, which no result file holds: write the result of the scene itself, or draw without waviness";
+
+/// Writes a mold, if there is one. A wavy one is refused: its drape must not be read as that of the plain mold.
 pub fn serialize<S: Serializer>(mold: &Option<Mold>, to: S) -> Result<S::Ok, S::Error> {
+    if let Some(Mold::Wavy(_)) = mold {
+        return Err(serde::ser::Error::custom(WAVY));
+    }
     mold.as_ref().and_then(Record::of).serialize(to)
 }
 

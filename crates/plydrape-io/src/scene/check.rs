@@ -59,7 +59,7 @@ pub(super) fn scene(
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
     let title = title(file.title.as_ref(), document, base)?;
     Ok(SceneFile {
-        scene: Scene { title, ply, mold, motion, target, settings, limits, plan },
+        scene: Scene { title, ply, mold, motion, target, settings, limits, plan, errors: None },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,
@@ -106,6 +106,7 @@ pub(super) fn ply(table: &PlyTable, document: &Document, base: &Path) -> Result<
         cell: [a.size(document)?, b.size(document)?],
         material: material::material(&table.material, document, base)?,
         warp: table.warp.map_or(Direction::U, Direction::from),
+        length_factor: 1.0,
     })
 }
 

@@ -48,6 +48,7 @@ pub fn paper_ply(nu: usize, nv: usize) -> Ply {
             locking_angle: None,
         },
         warp: Direction::U,
+        length_factor: 1.0,
     }
 }
 

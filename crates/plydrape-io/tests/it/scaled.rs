@@ -125,6 +125,7 @@ fn scaled_mold(mold: &Mold, s: f64) -> Mold {
             let (mesh, _) = Mesh::of_triangles(vertices, mesh.triangles()).expect("a scaled mesh");
             return Mold::Mesh(Arc::new(mesh));
         }
+        Mold::Wavy(_) => panic!("no scene file has a mold with waves"),
     }
     mold
 }

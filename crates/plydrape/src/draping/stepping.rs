@@ -239,7 +239,7 @@ impl<'a> Draping<'a> {
             CellShear { angle: shear::angle(sides, path), path, falling }.signed()
         });
         let sign = if grid.catenary(catenary).kind == Kind::Rising { 1.0 } else { -1.0 };
-        Some(Diagonal { sides: self.scene.ply.cell, shear, sign })
+        Some(Diagonal { sides: self.scene.ply.fabric_cell(), shear, sign })
     }
 
     /// Updates the contact of every span once; true if it has changed.

@@ -18,6 +18,7 @@ mod saddle;
 mod section;
 mod tuning;
 pub mod vector;
+mod wavy;
 
 pub use formula::Formula;
 pub use front_surface::{FrontSurface, Rise};
@@ -30,6 +31,7 @@ pub use pose::Pose;
 pub use round::{Cylinder, Face, Sphere, Torus};
 pub use saddle::Saddle;
 pub use vector::distance;
+pub use wavy::{Wave, Waves, Wavy};
 
 use section::{Until, trace};
 use std::sync::Arc;
@@ -51,6 +53,8 @@ pub enum Mold {
     Graph(Graph),
     /// Triangles.
     Mesh(Arc<Mesh>),
+    /// Any of these with waves on it; made by [`crate::errors::Draw::apply`] only.
+    Wavy(Arc<Wavy>),
 }
 
 /// What lies closest to a point.
@@ -175,6 +179,7 @@ impl Mold {
             Mold::Torus(torus) => torus.closest_point(p),
             Mold::Graph(graph) => graph.closest_point(p),
             Mold::Mesh(mesh) => mesh.closest_point(p),
+            Mold::Wavy(wavy) => wavy.closest_point(p),
         }
     }
 
@@ -187,6 +192,7 @@ impl Mold {
             Mold::Mesh(_) if closest.distance.abs() > TUNING.direction * norm(p) => {
                 sub(p, closest.point).map(|c| c / closest.distance)
             }
+            Mold::Wavy(wavy) => wavy.distance_gradient(p),
             _ => closest.normal,
         }
     }
@@ -211,6 +217,7 @@ impl Mold {
             Mold::Sphere(sphere) => sphere.separation(p),
             Mold::Torus(torus) => torus.separation(p),
             Mold::Mesh(mesh) => mesh.separation(p, most),
+            Mold::Wavy(wavy) => wavy.separation(p),
             Mold::Graph(graph) => {
                 let ClosestPoint { distance, beyond, .. } = graph.closest_point(p);
                 Separation { distance, beyond }
@@ -223,6 +230,7 @@ impl Mold {
     pub fn steepness(&self) -> Steepness {
         match self {
             Mold::Graph(graph) => graph.steepness(),
+            Mold::Wavy(wavy) => wavy.mold.steepness(),
             _ => Steepness::default(),
         }
     }
@@ -234,6 +242,7 @@ impl Mold {
     pub fn clear(&self, p: [f64; 3], apart: Separation, bound: Steepness) -> f64 {
         match self {
             Mold::Graph(graph) => graph.clear(p, apart, bound),
+            Mold::Wavy(wavy) => wavy.clear(p, apart, bound),
             _ if apart.beyond => 0.0,
             _ => apart.distance.max(0.0),
         }
@@ -255,6 +264,7 @@ impl Mold {
             Mold::Torus(torus) => torus.curvatures(p),
             Mold::Graph(graph) => graph.curvatures(self.closest_point(p).point),
             Mold::Mesh(mesh) => mesh.curvatures(p),
+            Mold::Wavy(wavy) => wavy.curvatures(p),
         }
     }
 
@@ -317,6 +327,7 @@ impl Mold {
             }
             Mold::Graph(graph) => return graph.highest_point([x, y]),
             Mold::Mesh(mesh) => return mesh.highest_point([x, y]),
+            Mold::Wavy(wavy) => return wavy.highest_point([x, y]),
             Mold::Cylinder(cylinder) => (cylinder.pose.position, None),
             Mold::Sphere(sphere) => (sphere.pose.position, Some(sphere.radius)),
             Mold::Torus(torus) => {
@@ -370,6 +381,7 @@ impl Mold {
                 let sag = 0.5 * (length * length - chord * chord).max(0.0).sqrt();
                 da.min(db) - sag
             }
+            Mold::Wavy(wavy) => wavy.mold.clearance(a, b, length) - wavy.waves.most(),
             // no two points are farther apart in their distances than along the curve
             _ => 0.5 * (da + db - length),
         }

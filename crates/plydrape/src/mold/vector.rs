@@ -49,6 +49,20 @@ pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     (length > 1e-12).then(|| a.map(|x| x / length))
 }
 
+/// `v` turned about `w` by its length (rad), after Rodrigues.
+#[must_use]
+pub fn turned(w: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+    let angle = norm(w);
+    if angle == 0.0 {
+        return v;
+    }
+    let axis = w.map(|x| x / angle);
+    // 1 − cos φ = 2 sin² φ/2 keeps its digits at small angles
+    let (sin, versine) = (angle.sin(), 2.0 * (0.5 * angle).sin().powi(2));
+    let across = cross(axis, v);
+    along(along(v, sin, across), versine, cross(axis, across))
+}
+
 /// Two unit vectors at right angles to each other and to a normal.
 pub(super) fn tangents(normal: [f64; 3]) -> [[f64; 3]; 2] {
     let axis = if normal[0].abs() < 0.8 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };

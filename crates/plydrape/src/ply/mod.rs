@@ -27,6 +27,22 @@ pub struct Ply {
     pub material: Material,
     /// The grid direction along which the warp runs.
     pub warp: Direction,
+    /// Length of the fabric that is really there between two of its points over what their fabric coordinates say: 1,
+    /// unless an error of the length is examined. Fabric coordinates are those of the nominal ply all the same.
+    #[cfg_attr(feature = "serde", serde(default = "nominal", skip_serializing_if = "is_nominal"))]
+    pub length_factor: f64,
+}
+
+/// The length factor of a ply without an error.
+#[cfg(feature = "serde")]
+fn nominal() -> f64 {
+    1.0
+}
+
+/// Whether a length factor need not be written.
+#[cfg(feature = "serde")]
+fn is_nominal(factor: &f64) -> bool {
+    *factor == 1.0
 }
 
 /// A direction of the gripper grid.
@@ -41,10 +57,16 @@ pub enum Direction {
 }
 
 impl Ply {
+    /// Length of the fabric along the sides of a cell (m): those of [`Self::cell`] times [`Self::length_factor`].
+    #[must_use]
+    pub fn fabric_cell(&self) -> [f64; 2] {
+        self.cell.map(|side| side * self.length_factor)
+    }
+
     /// Fabric length of a catenary in the flat ply (m): a, b, or √(a²+b²) for a diagonal.
     #[must_use]
     pub fn flat_length(&self, kind: Kind) -> f64 {
-        let [a, b] = self.cell;
+        let [a, b] = self.fabric_cell();
         match kind {
             Kind::EdgeU => a,
             Kind::EdgeV => b,
@@ -58,7 +80,7 @@ impl Ply {
     pub fn sides(&self, cell: usize, contacts: &[Option<ContactSegment>]) -> [f64; 2] {
         let first = self.grid.edges() + 2 * cell;
         let landed = contacts[first..first + 2].iter().flatten().find_map(|contact| contact.landed);
-        self.cell.map(|side| landed.map_or(1.0, |landed| landed.scale) * side)
+        self.fabric_cell().map(|side| landed.map_or(1.0, |landed| landed.scale) * side)
     }
 
     /// Mass per length and flexural rigidity of a catenary.
@@ -74,7 +96,7 @@ impl Ply {
                     Direction::U => (warp_rigidity, weft_rigidity),
                     Direction::V => (weft_rigidity, warp_rigidity),
                 };
-                let [a, b] = self.cell;
+                let [a, b] = self.fabric_cell();
                 let (width, rigidity) = match kind {
                     Kind::EdgeU => (b, along_u),
                     Kind::EdgeV => (a, along_v),

@@ -54,6 +54,8 @@ pub struct Fabric {
     pub bends: Vec<Bend>,
     /// Coordinates of the lines (m): `lines[0]` those at constant u, `lines[1]` those at constant v.
     pub lines: [Vec<f64>; 2],
+    /// Length in the flat over the difference of fabric coordinates, [`crate::Ply::length_factor`].
+    pub length_factor: f64,
 }
 
 impl Fabric {
@@ -106,7 +108,29 @@ impl Fabric {
                 cells.push(Cell { nodes, area });
             }
         }
-        Fabric { places, areas, segments, cells, bends, lines }
+        Fabric { places, areas, segments, cells, bends, lines, length_factor: 1.0 }
+    }
+
+    /// The same lines on a fabric that is larger by a factor along u and v alike: fabric coordinates stay, and lengths,
+    /// widths, spacings and areas in the flat grow.
+    #[must_use]
+    pub fn enlarged(mut self, factor: f64) -> Self {
+        self.length_factor *= factor;
+        for segment in &mut self.segments {
+            segment.length *= factor;
+            segment.width *= factor;
+        }
+        for bend in &mut self.bends {
+            bend.spacing = bend.spacing.map(|spacing| spacing * factor);
+            bend.width *= factor;
+        }
+        for area in &mut self.areas {
+            *area *= factor * factor;
+        }
+        for cell in &mut self.cells {
+            cell.area *= factor * factor;
+        }
+        self
     }
 
     /// The nodes of each line in order, lines along u first.

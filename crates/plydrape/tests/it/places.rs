@@ -15,7 +15,13 @@ fn ply() -> Ply {
         tension: None,
         locking_angle: None,
     };
-    Ply { grid: Grid { nu: 3, nv: 2 }, cell: [0.1, 0.1], material, warp: Direction::U }
+    Ply {
+        grid: Grid { nu: 3, nv: 2 },
+        cell: [0.1, 0.1],
+        material,
+        warp: Direction::U,
+        length_factor: 1.0,
+    }
 }
 
 fn level() -> Vec<[f64; 3]> {

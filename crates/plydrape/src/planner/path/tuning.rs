@@ -95,14 +95,21 @@ pub struct Front {
     pub finer: usize,
     /// Steepest slope that is tried first: steeper ones make the ply fold at the front.
     pub steepest: f64,
+    /// The same for grippers on mounts.
+    pub steepest_on_mounts: f64,
     /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
     /// and tilts those at its boundary more.
     pub tilt_share: f64,
     /// Rounds in which that slope is found.
     pub slope_rounds: usize,
-    /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension. Ratios go up to
-    /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 3, slopes from 0.02 to 1.
-    pub ranges: [[f64; 2]; 7],
+    /// Share of the load that a gripper may carry with which one on a mount may press.
+    pub press: f64,
+    /// Distance to its place from which on a gripper on a mount presses (cells).
+    pub press_reach: f64,
+    /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension, press. Ratios go up to
+    /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 8, slopes from 0.02 to 1. The last one counts where
+    /// grippers can press alone.
+    pub ranges: [[f64; 2]; 8],
 }
 
 /// Constants of the search.
@@ -176,16 +183,20 @@ pub const TUNING: Tuning = Tuning {
         beyond: 0.02,
         finer: 4,
         steepest: 0.6,
+        steepest_on_mounts: 0.85,
         tilt_share: 0.95,
         slope_rounds: 6,
+        press: 0.5,
+        press_reach: 0.3,
         ranges: [
             [0.0, 1.0],
             [0.0, 1.0],
             [0.0, 5.0],
             [-FRAC_PI_2, FRAC_PI_2],
-            [-1.6 - LN_10, 3.4 - LN_10],
+            [-1.6 - LN_10, 4.4 - LN_10],
             [-4.0, 0.0],
             [0.0, 2.5e-3],
+            [0.0, 1.0],
         ],
     },
     search: Search {

@@ -40,7 +40,8 @@ pub fn raised(fabric: &Fabric, mold: &Mold, x: &[[f64; 3]], clear: f64) -> Vec<O
                 let run = &chain[first - 1..=last + 1];
                 let (mut length, mut way) = (0.0, 0.0);
                 for pair in run.windows(2) {
-                    length += flat_distance(fabric.places[pair[0]], fabric.places[pair[1]]);
+                    let flat = flat_distance(fabric.places[pair[0]], fabric.places[pair[1]]);
+                    length += fabric.length_factor * flat;
                     way += distance(closest[pair[0]].point, closest[pair[1]].point);
                 }
                 let share = (length - way) / length;

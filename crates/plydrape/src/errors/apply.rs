@@ -1,0 +1,181 @@
+//! The scene of one real cell.
+//!
+//! The commanded motion p_i(t) of gripper i becomes the motion of the fabric point that the scene calls the gripper's, in this order:
+//!
+//! 1. gripper: p + a_i + s_i (p(t) − p(0)), the shift a_i and the shares s_i along the axes;
+//! 2. tool frame: turned about the mean of all grippers of the step, then shifted;
+//! 3. mold: moved by the inverse of the mold's motion about the middle of the target;
+//! 4. pick-up: less δ_u e_u + δ_v e_v, because the gripper holds the fabric point δ away from where it should. δ is the offset, and
+//!    the yaw times the distance from the middle of the array at a right angle. e_u and e_v are the unit chords between neighbours.
+//!
+//! The motion is moved and not the mold, because the ideal drape belongs to the mold: positions are judged against it
+//! where the mold really is. Seen from the mold, gravity would be inclined by the mold's tilt; that is neglected, because it
+//! changes the weight across the ply by the square of the tilt and puts a share of the weight along it that is as
+//! small as the tilt. Limits stay as they are, those of the workspace too.
+
+use super::draw::{Draw, MaterialError, PickUpError, RigidError};
+use crate::material::{Material, Section, ShearCurve};
+use crate::mold::vector::{along, sub, turned, unit};
+use crate::mold::{Mold, Wavy};
+use crate::ply::Ply;
+use crate::scene::{Motion, Scene};
+use std::sync::Arc;
+
+/// Least share of a nominal value of the ply that an error leaves of it: a normal law has no bound, and a ply without
+/// mass or with a negative rigidity is none.
+const LEAST_SHARE: f64 = 0.1;
+
+impl Draw {
+    /// The same scene as the real cell would run it, with the same commanded motion; it has no `errors` any more.
+    ///
+    /// Masses, rigidities, shear forces and lengths never fall below a tenth of the nominal ones. Grippers beyond those
+    /// that were drawn have no error of their own.
+    #[must_use]
+    pub fn apply(&self, scene: &Scene) -> Scene {
+        Scene {
+            ply: self.ply(&scene.ply),
+            mold: scene.mold.as_ref().map(|mold| self.mold(mold)),
+            motion: self.motion(scene),
+            errors: None,
+            ..scene.clone()
+        }
+    }
+
+    fn ply(&self, ply: &Ply) -> Ply {
+        let material = self.material.apply(&ply.material);
+        let length_factor = ply.length_factor * share(self.material.length);
+        Ply { material, length_factor, ..ply.clone() }
+    }
+
+    fn mold(&self, mold: &Mold) -> Mold {
+        match self.mold.waves.filter(|waves| waves.amplitude != 0.0) {
+            Some(waves) => Mold::Wavy(Arc::new(Wavy { mold: mold.clone(), waves })),
+            None => mold.clone(),
+        }
+    }
+
+    fn motion(&self, scene: &Scene) -> Motion {
+        let Motion { times, positions } = &scene.motion;
+        let landed = match &scene.target {
+            Some(target) => Some(&target.grippers),
+            None => positions.last(),
+        };
+        let middle = landed.map_or([0.0; 3], |grippers| mean(grippers));
+        let start = positions.first();
+        let real = |step: &Vec<[f64; 3]>| {
+            let mut at = step.clone();
+            for (n, (p, error)) in at.iter_mut().zip(&self.grippers).enumerate() {
+                for axis in 0..3 {
+                    let way = start.map_or(0.0, |start| step[n][axis] - start[n][axis]);
+                    p[axis] += error.position[axis] + error.stroke[axis] * way;
+                }
+            }
+            self.frame.apply(&mut at);
+            self.mold.motion.inverse(&mut at, middle);
+            self.pick_up.apply(&scene.ply, &mut at);
+            at
+        };
+        Motion { times: times.clone(), positions: positions.iter().map(real).collect() }
+    }
+}
+
+/// What is left of a nominal value, as a share, by a relative error.
+fn share(error: f64) -> f64 {
+    (1.0 + error).max(LEAST_SHARE)
+}
+
+/// The mean of points (m).
+fn mean(points: &[[f64; 3]]) -> [f64; 3] {
+    [0, 1, 2].map(|n| points.iter().map(|p| p[n]).sum::<f64>() / points.len().max(1) as f64)
+}
+
+impl RigidError {
+    /// Turns points (m) about their mean, then shifts them.
+    fn apply(&self, points: &mut [[f64; 3]]) {
+        if *self == RigidError::default() {
+            return;
+        }
+        let middle = mean(points);
+        for p in points {
+            let q = turned(self.turn, sub(*p, middle));
+            *p = [0, 1, 2].map(|n| middle[n] + q[n] + self.shift[n]);
+        }
+    }
+
+    /// Undoes a turn of the mold about `middle` (m) and a shift after it.
+    fn inverse(&self, points: &mut [[f64; 3]], middle: [f64; 3]) {
+        if *self == RigidError::default() {
+            return;
+        }
+        let back = self.turn.map(|x| -x);
+        for p in points {
+            let q = [0, 1, 2].map(|n| p[n] - self.shift[n] - middle[n]);
+            *p = along(middle, 1.0, turned(back, q));
+        }
+    }
+}
+
+impl PickUpError {
+    /// Moves the fabric points that the grippers should hold, off the grippers at `points` (m).
+    fn apply(&self, ply: &Ply, points: &mut [[f64; 3]]) {
+        if *self == PickUpError::default() {
+            return;
+        }
+        let grid = ply.grid;
+        let at = points.to_vec();
+        for (n, p) in points.iter_mut().enumerate() {
+            let id = grid.id(n);
+            let off = [(0, grid.nu), (1, grid.nv)]
+                .map(|(axis, count)| ply.cell[axis] * (id[axis] as f64 - 0.5 * (count - 1) as f64));
+            let delta =
+                [self.offset[0] - self.yaw * off[1], self.offset[1] + self.yaw * off[0]];
+            let [u, v] = chords(ply, &at, id);
+            *p = along(along(*p, -delta[0], u), -delta[1], v);
+        }
+    }
+}
+
+/// Unit chords along u and v between the neighbours of a gripper, from itself at a border; across a single row the
+/// horizontal direction at a right angle to it.
+fn chords(ply: &Ply, at: &[[f64; 3]], id: [usize; 2]) -> [[f64; 3]; 2] {
+    let grid = ply.grid;
+    let chord = |axis: usize, count: usize| {
+        let [mut before, mut after] = [id; 2];
+        before[axis] = id[axis].saturating_sub(1);
+        after[axis] = (id[axis] + 1).min(count - 1);
+        unit(sub(at[grid.index(after)], at[grid.index(before)]))
+    };
+    let u = chord(0, grid.nu).unwrap_or([1.0, 0.0, 0.0]);
+    let across = || unit([-u[1], u[0], 0.0]).unwrap_or([0.0, 1.0, 0.0]);
+    let v = if grid.nv > 1 { chord(1, grid.nv) } else { None };
+    [u, v.unwrap_or_else(across)]
+}
+
+impl MaterialError {
+    /// The material with these errors.
+    fn apply(&self, material: &Material) -> Material {
+        let [mass_share, bending, shear] = [self.areal_mass, self.bending, self.shear].map(share);
+        let section = match material.section {
+            Section::Line { mass, flexural_rigidity } => Section::Line {
+                mass: mass_share * mass,
+                flexural_rigidity: bending * flexural_rigidity,
+            },
+            Section::Areal { mass, warp_rigidity, weft_rigidity } => Section::Areal {
+                mass: mass_share * mass,
+                warp_rigidity: bending * warp_rigidity,
+                weft_rigidity: bending * weft_rigidity,
+            },
+        };
+        let times = |values: &[f64]| values.iter().map(|x| shear * x).collect();
+        let curve = |curve: &ShearCurve| match curve {
+            ShearCurve::Table { angle, force } => {
+                ShearCurve::Table { angle: angle.clone(), force: times(force) }
+            }
+            ShearCurve::Polynomial { coefficients } => {
+                ShearCurve::Polynomial { coefficients: times(coefficients) }
+            }
+        };
+        let shear_curve = material.shear_curve.as_ref().map(curve);
+        Material { section, shear_curve, ..material.clone() }
+    }
+}

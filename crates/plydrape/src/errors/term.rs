@@ -1,0 +1,46 @@
+//! One term of an error budget: how far one number may be off.
+
+/// How far a number may be off: a standard deviation or a bound, in the unit of the number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Term {
+    /// Standard deviation of a normal law about zero.
+    Deviation(f64),
+    /// Largest size; every value between plus and minus the bound is as likely.
+    Bound(f64),
+}
+
+impl Term {
+    /// No error.
+    pub const NONE: Term = Term::Bound(0.0);
+
+    /// The same law with all errors larger by a factor.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        match self {
+            Term::Deviation(deviation) => Term::Deviation(factor * deviation),
+            Term::Bound(bound) => Term::Bound(factor * bound),
+        }
+    }
+
+    /// The standard deviation or the bound.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        match self {
+            Term::Deviation(value) | Term::Bound(value) => value,
+        }
+    }
+
+    /// Whether there is no error.
+    #[must_use]
+    pub fn is_zero(self) -> bool {
+        self.value() == 0.0
+    }
+}
+
+impl Default for Term {
+    fn default() -> Self {
+        Term::NONE
+    }
+}
