@@ -260,7 +260,10 @@ fn frame(grid: Grid) -> ResultFile {
                 ..Settings::default()
             },
             limits: Limits {
+                preset: None,
                 slack_ratio: 0.005,
+                slack_angle: None,
+                wrinkle: None,
                 bridging: 0.001,
                 overstretch: 0.01,
                 landing_contact: 0.002,
@@ -317,6 +320,8 @@ fn frame(grid: Grid) -> ResultFile {
             }],
             equilibria: 30,
             sheet: None,
+            sample: None,
+            stands: None,
         },
     }
 }

@@ -6,6 +6,7 @@ use crate::errors::Errors;
 use crate::mold::Mold;
 use crate::net::Net;
 use crate::ply::Ply;
+use crate::preset::Preset;
 use std::sync::Arc;
 
 /// A scene: everything that one drape needs.
@@ -307,8 +308,14 @@ pub enum ContactEnd {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
+    /// The preset that they come from, but for those that the scene sets itself.
+    pub preset: Option<Preset>,
     /// Slack of a catenary, all its free segments, as a share of its length.
     pub slack_ratio: f64,
+    /// The same slack ε as a fibre angle 2√ε (rad).
+    pub slack_angle: Option<f64>,
+    /// Height of the ruck that the slack of a segment makes (m).
+    pub wrinkle: Option<f64>,
     /// Bridging gap (m).
     pub bridging: f64,
     /// Chord beyond the free length, as a share of the whole edge.
@@ -387,7 +394,10 @@ impl Limits {
     #[must_use]
     pub fn of(ply: &Ply, settings: &Settings) -> Self {
         Limits {
+            preset: None,
             slack_ratio: 0.0005,
+            slack_angle: None,
+            wrinkle: None,
             bridging: 1e-3,
             overstretch: 0.001,
             landing_contact: 2e-3,

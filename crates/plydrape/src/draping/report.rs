@@ -181,6 +181,8 @@ impl<'a> Report<'a> {
             limits,
             equilibria: self.steps.iter().map(|step| step.solver.equilibria).sum(),
             sheet: None,
+            sample: None,
+            stands: None,
         }
     }
 }

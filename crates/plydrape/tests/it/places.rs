@@ -132,7 +132,10 @@ fn settings() -> plydrape::scene::Settings {
 fn limits() -> plydrape::scene::Limits {
     let wide = 1e9;
     plydrape::scene::Limits {
+        preset: None,
         slack_ratio: wide,
+        slack_angle: None,
+        wrinkle: None,
         bridging: wide,
         overstretch: 0.001,
         landing_contact: wide,

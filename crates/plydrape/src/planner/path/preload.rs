@@ -11,10 +11,10 @@
 use super::strategy::Strategy;
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
-use crate::mold::vector::{along, sub, unit};
 use crate::mold::distance;
-use crate::ply::Grid;
+use crate::mold::vector::{along, sub, unit};
 use crate::planner::tuning;
+use crate::ply::Grid;
 use crate::scene::Scene;
 
 /// The preload of a strategy's grippers; none of rigid ones.

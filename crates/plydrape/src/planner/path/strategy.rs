@@ -183,7 +183,16 @@ impl Strategy {
     fn ring() -> Self {
         let slope = TUNING.front.steepest;
         let (start, ratio, angle) = ([0.5; 2], 1.0, 0.0);
-        Strategy { start, ratio, angle, curvature: 5.0, slope, pretension: 1.2e-3, press: 0.0, pull: 0.0 }
+        Strategy {
+            start,
+            ratio,
+            angle,
+            curvature: 5.0,
+            slope,
+            pretension: 1.2e-3,
+            press: 0.0,
+            pull: 0.0,
+        }
     }
 }
 
