@@ -93,8 +93,7 @@ impl Loads {
 impl Load {
     /// A share of the way to another.
     fn towards(&self, other: &Load, share: f64) -> Load {
-        let mix =
-            |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|c| (1.0 - share) * a[c] + share * b[c]);
+        let mix = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|c| (1.0 - share) * a[c] + share * b[c]);
         Load { force: mix(self.force, other.force), preload: mix(self.preload, other.preload) }
     }
 }
@@ -114,8 +113,9 @@ fn of_sheet(result: &ResultFile, yields: bool) -> Result<(Vec<f64>, Vec<Vec<Load
         let held = recorded.or_else(|| motion.as_ref().map(|(motion, _)| motion.at(state.time)));
         let Some(held) = held else { break };
         let pads = state.pad_forces.iter().zip(state.grippers.iter()).zip(&held);
-        let load = |((force, pad), held): ((&[f64; 3], &[f64; 3]), &[f64; 3])| {
-            Load { force: *force, preload: if yields { sub(*held, *pad) } else { [0.0; 3] } }
+        let load = |((force, pad), held): ((&[f64; 3], &[f64; 3]), &[f64; 3])| Load {
+            force: *force,
+            preload: if yields { sub(*held, *pad) } else { [0.0; 3] },
         };
         times.push(state.time);
         steps.push(pads.map(load).collect());
@@ -134,3 +134,7 @@ fn of_catenaries(result: &ResultFile) -> (Vec<f64>, Vec<Vec<Load>>) {
     });
     known.unzip()
 }
+
+#[cfg(test)]
+#[path = "loads_tests.rs"]
+mod tests;
