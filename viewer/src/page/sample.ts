@@ -157,7 +157,7 @@ function write(x: number, y: number, text: string, from: string): SVGElement {
 /** A line about the highest place, which shows it on the ply. */
 function highest(state: State, motion: Motion, sample: SampleData): HTMLElement {
   const { height_mm, uv_mm, line, gripper } = sample.highest!;
-  const text = `line ${line}, near ${gripper} (u ${short(uv_mm[0])}, v ${short(uv_mm[1])} mm)`;
+  const text = `on the line from ${line}, near ${gripper} (u ${short(uv_mm[0])}, v ${short(uv_mm[1])} mm)`;
   const size = `Highest place: ${withUnit(short(height_mm), "mm")} is kept by ${sample.share} of the cells, `;
   const pointer = pointerOf(motion);
   if (pointer === null) return make("p", {}, size + text);
@@ -177,7 +177,7 @@ function pointerOf(motion: Motion): Pointer | null {
   const node = sample?.highest?.node ?? null;
   if (sample === null || at === null || node === null || motion.sheet!.data.spread === null) return null;
   const { height_mm, line, gripper } = sample.highest!;
-  const label = `Highest: ${withUnit(short(height_mm), "mm")}\n${sample.share} of the cells keep it\nline ${line}, near ${gripper}`;
+  const label = `Highest: ${withUnit(short(height_mm), "mm")}\n${sample.share} of the cells keep it\nline from ${line}\nnear ${gripper}`;
   return { index, place: motion.sheet!.node(at, node), label };
 }
 

@@ -90,3 +90,89 @@ pub(super) fn stands(result: &ResultFile) -> Option<String> {
         (false, true) => format!("stands errors of {least}{of_position}: {times}, {tried}"),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+    use plydrape::errors::{self, Errors};
+
+    /// A result with a sample of four cells, of which one has no end.
+    fn sampled() -> ResultFile {
+        let mut result = sample::draped(4, 2, 3);
+        let cell = |accepted, height_mm| CellVerdict { accepted, height_mm, ratio: 1.0 };
+        let highest = errors::Highest {
+            height_mm: 0.4,
+            uv_mm: [290.0, 12.0],
+            line: "gripper [3, 0] to gripper [3, 1]".into(),
+            gripper: "gripper [3, 0]".into(),
+        };
+        result.summary.sample = Some(SampleVerdict {
+            errors: Errors { share: 0.75, samples: 4, ..Errors::default() },
+            needed: 3,
+            ok: true,
+            limits: result.summary.limits.clone(),
+            cells: vec![
+                cell(true, Some(0.1)),
+                cell(true, Some(0.2)),
+                cell(false, None),
+                cell(true, Some(0.3)),
+            ],
+            highest: Some(highest),
+            spread_mm: vec![0.0, 0.1, 0.4],
+        });
+        result
+    }
+
+    /// Three nodes along u.
+    fn mesh() -> SheetMesh<'static> {
+        SheetMesh {
+            places: vec![[0.0, 0.0], [0.15, 0.0], [0.3, 0.0]].into(),
+            areas: vec![0.01; 3].into(),
+            segments: vec![[0, 1], [1, 2]].into(),
+            cells: Vec::new().into(),
+            grippers: 2,
+        }
+    }
+
+    /// Counts, the share in words, and the node nearest to the highest place; without a sheet there is none to show.
+    #[test]
+    fn a_sample_is_told_with_the_node_of_its_highest_place() {
+        let result = sampled();
+        let told = sample(&result, Some(&mesh())).unwrap();
+        assert_eq!((told.accepted, told.needed, told.share.as_str()), (3, 3, "75 %"));
+        assert_eq!(told.cells.len(), 4);
+        assert_eq!(told.height_limit, Some(0.5));
+        assert_eq!(told.highest.unwrap().node, Some(2));
+        assert_eq!(sample(&result, None).unwrap().highest.unwrap().node, None);
+        assert!(sample(&sample::draped(4, 2, 3), None).is_none());
+    }
+
+    /// The size in the unit and by the law that the errors have; a factor where position has no error.
+    #[test]
+    fn what_a_motion_stands_is_said_by_its_law() {
+        let mut result = sampled();
+        assert_eq!(stands(&result), None);
+        let mut said = |factor, at_least, position, errors| {
+            result.summary.stands = Some(Stands { factor, at_least, position, tried: 16 });
+            result.scene.errors = errors;
+            stands(&result).unwrap()
+        };
+        assert_eq!(
+            said(1.4, false, Term::Deviation(2.8e-4), None),
+            "stands errors of 0.28 mm (standard deviation) of each gripper's position, by 16 drapes each"
+        );
+        assert_eq!(
+            said(16.0, true, Term::Bound(2e-3), Some(Errors::default())),
+            "stands errors of at least ±\u{202f}2 mm of each gripper's position: 16 times the errors of the scene, by 16 drapes each"
+        );
+        assert_eq!(
+            said(2.0, false, Term::NONE, Some(Errors::default())),
+            "stands 2 times the errors of the scene, by 16 drapes each"
+        );
+        assert_eq!(
+            said(0.0, false, Term::NONE, None),
+            "stands none of the errors that were tried, by 16 drapes each"
+        );
+    }
+}
