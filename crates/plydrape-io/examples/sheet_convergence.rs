@@ -84,6 +84,7 @@ fn front(a: f64, slope: f64) -> Scene {
         slope,
         pretension: 0.0,
         press: 0.0,
+        pull: 0.0,
     };
     let heights = MoldHeights::new(&scene).expect("the dome is a height").untightened();
     let positions = trajectory(&scene, &heights, strategy).expect("the front rolls over the dome");

@@ -209,6 +209,7 @@ fn gripper(grid: Grid, k: usize, at: &[[f64; 3]]) -> Gripper {
         tilt_deg: u.hypot(v).atan().to_degrees(),
         quaternion: q.map(|c| c / norm),
         target_distance_mm: None,
+        mount: None,
     }
 }
 
@@ -281,6 +282,7 @@ fn frame(grid: Grid) -> ResultFile {
                 force: None,
                 gripper_load: 10.0,
                 gripper_pull: None,
+                grip_safety: 1.5,
                 contact_share: 0.9,
                 gripper_distance: 0.05,
                 workspace: None,
@@ -289,6 +291,7 @@ fn frame(grid: Grid) -> ResultFile {
                 jerk: 10.0,
                 duration: None,
             },
+            errors: None,
         },
         plan: None,
         sheet_states: None,
@@ -317,6 +320,8 @@ fn frame(grid: Grid) -> ResultFile {
             }],
             equilibria: 30,
             sheet: None,
+            sample: None,
+            stands: None,
         },
     }
 }

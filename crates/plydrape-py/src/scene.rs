@@ -1,10 +1,12 @@
 //! `plydrape.Scene`.
 
 use crate::arrays::{Array, Block, List, list, steps};
+use crate::json::Json;
 use crate::mold::Mold;
 use crate::net::Net;
 use crate::ply::Ply;
 use crate::{error, table};
+use plydrape::errors::{Draw, Errors};
 use plydrape::scene::Motion;
 use plydrape_io::scene::{self, SceneFile};
 use plydrape_io::{shown, size};
@@ -32,6 +34,7 @@ use toml::map::Map;
 ///     contact: How contact is found.
 ///     limits: What an accepted drape keeps to.
 ///     plan: How a motion is planned.
+///     errors: How far a real cell may be from the scene.
 ///     title: Name for reports.
 ///     base: Folder of files that the tables name.
 ///
@@ -62,6 +65,7 @@ impl Scene {
         motion: "dict[str, typing.Any] | None" = None, model: "dict[str, typing.Any] | None" = None,
         sheet: "dict[str, typing.Any] | None" = None, contact: "dict[str, typing.Any] | None" = None,
         limits: "dict[str, typing.Any] | None" = None, plan: "dict[str, typing.Any] | None" = None,
+        errors: "dict[str, typing.Any] | None" = None,
         title = None, base = PathBuf::new()
     ))]
     #[expect(clippy::too_many_arguments, reason = "the tables of a scene file")]
@@ -77,6 +81,7 @@ impl Scene {
         contact: Table<'_, '_>,
         limits: Table<'_, '_>,
         plan: Table<'_, '_>,
+        errors: Table<'_, '_>,
         title: Option<String>,
         base: PathBuf,
     ) -> PyResult<Self> {
@@ -107,6 +112,7 @@ impl Scene {
             ("contact", contact),
             ("limits", limits),
             ("plan", plan),
+            ("errors", errors),
         ];
         for (name, dict) in others {
             if let Some(dict) = dict {
@@ -262,6 +268,78 @@ impl Scene {
         Ok(scene.into())
     }
 
+    /// How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term either
+    /// `{"deviation": …}` or `{"bound": …}`.
+    ///
+    /// Example:
+    ///     >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+    ///     >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+    ///     >>> gripper = dict(position=dict(deviation="0.1 mm"))
+    ///     >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(gripper=gripper))
+    ///     >>> scene.errors["gripper"]["position"]
+    ///     {'deviation': 0.0001}
+    #[getter]
+    fn errors(&self) -> PyResult<Option<Json>> {
+        self.0.errors.as_ref().map(Json::of).transpose()
+    }
+
+    /// The error of every quantity in one sample of the scene's `errors`, in SI units.
+    ///
+    /// It depends on the seed of the errors and the number of the sample only.
+    ///
+    /// Args:
+    ///     sample: Its number, from 0.
+    ///     factor: How many times as large all errors are.
+    ///
+    /// Raises:
+    ///     ValueError: If the scene has no errors, or the factor is not finite.
+    ///
+    /// Example:
+    ///     >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+    ///     >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+    ///     >>> frame = dict(position=dict(bound="1 mm"))
+    ///     >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
+    ///     >>> all(abs(shift) <= 0.001 for shift in scene.draw(0)["frame"]["shift"])
+    ///     True
+    #[pyo3(signature = (sample, factor = 1.0))]
+    fn draw(&self, sample: usize, factor: f64) -> PyResult<Json> {
+        Json::of(&self.drawn(sample, factor)?)
+    }
+
+    /// The scene of one real cell: the same commands, with every error that `draw` gives for the sample.
+    ///
+    /// It has no `errors` of its own any more, and no `text`, as no scene file says it. Positions are those of the
+    /// fabric points that the scene calls the grippers'.
+    ///
+    /// Args:
+    ///     sample: Its number, from 0.
+    ///     factor: How many times as large all errors are.
+    ///
+    /// Raises:
+    ///     ValueError: If the scene has no errors, the factor is not finite, or neighbours would stand (all but)
+    ///         straight above each other.
+    ///
+    /// Example:
+    ///     >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+    ///     >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+    ///     >>> frame = dict(position=dict(bound="1 mm"))
+    ///     >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
+    ///     >>> real = scene.with_errors(0)
+    ///     >>> bool(abs(real.positions - scene.positions).max() <= 0.001), real.errors
+    ///     (True, None)
+    #[pyo3(signature = (sample, factor = 1.0))]
+    fn with_errors(&self, py: Python<'_>, sample: usize, factor: f64) -> PyResult<Scene> {
+        let draw = self.drawn(sample, factor)?;
+        let real = py.detach(|| draw.apply(&self.0.scene));
+        let fault = real.ply.check_motion(&real.motion);
+        fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
+        let mut scene = (*self.0).clone();
+        scene.scene = real;
+        scene.input = None;
+        scene.plan_refusal = None;
+        Ok(scene.into())
+    }
+
     fn __repr__(&self) -> String {
         let grid = self.0.ply.grid;
         let steps = self.0.motion.positions.len();
@@ -269,6 +347,23 @@ impl Scene {
             "<plydrape.Scene {:?}, {} × {} grippers, {steps} steps>",
             self.0.title, grid.nu, grid.nv
         )
+    }
+}
+
+impl Scene {
+    /// A sample of the errors, all of them larger by a factor.
+    fn drawn(&self, sample: usize, factor: f64) -> PyResult<Draw> {
+        let errors: Errors = self.0.errors.ok_or_else(|| {
+            PyValueError::new_err(
+                "the scene has no errors: give it `errors`, as in errors=dict(gripper=dict(position=dict(deviation=\"0.1 mm\")))",
+            )
+        })?;
+        if !factor.is_finite() {
+            return Err(PyValueError::new_err(format!(
+                "factor is {factor}: a finite number is wanted"
+            )));
+        }
+        Ok(errors.draw(sample, self.0.ply.grid.grippers()).scaled(factor))
     }
 }
 

@@ -352,6 +352,12 @@ pub struct Limits {
     pub gripper_load: f64,
     /// Horizontal pull (pretension) at one gripper (N).
     pub gripper_pull: Option<f64>,
+    /// By how much the slip force and the holding force of a pad must exceed its loads.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default = "usual_grip_safety", skip_serializing_if = "is_usual_grip_safety")
+    )]
+    pub grip_safety: f64,
     /// Share of the ply's edges that lies on the mold.
     pub contact_share: f64,
     /// Smallest distance between grippers (m).
@@ -366,6 +372,20 @@ pub struct Limits {
     pub jerk: f64,
     /// Longest time that a motion may take (s).
     pub duration: Option<f64>,
+}
+
+/// Safety of pads against slip and loss, unless a scene sets another: usual for vacuum cups that are moved slowly.
+const GRIP_SAFETY: f64 = 1.5;
+
+#[cfg(feature = "serde")]
+fn usual_grip_safety() -> f64 {
+    GRIP_SAFETY
+}
+
+#[cfg(feature = "serde")]
+/// The usual safety is not written, so that files of scenes without pads' forces stay as they are.
+fn is_usual_grip_safety(value: &f64) -> bool {
+    *value == GRIP_SAFETY
 }
 
 impl Limits {
@@ -398,6 +418,7 @@ impl Limits {
             // a vacuum cup of 30 mm holds more, and slips sideways at 4 to 10 N
             gripper_load: 10.0,
             gripper_pull: None,
+            grip_safety: GRIP_SAFETY,
             contact_share: 0.95,
             gripper_distance: 0.5 * ply.cell[0].min(ply.cell[1]),
             workspace: None,

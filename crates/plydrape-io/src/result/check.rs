@@ -123,7 +123,8 @@ fn of_steps(result: &ResultFile) -> Option<String> {
                     gripper.id
                 ));
             }
-            far("a gripper", &gripper.position)
+            let mount = gripper.mount.and_then(|mount| far("a mount", &mount.commanded));
+            far("a gripper", &gripper.position).or(mount)
         });
         let catenary = || step.catenaries.iter().find_map(of_catenary);
         gripper.or_else(catenary).map(|what| format!("in step {number}, {what}"))

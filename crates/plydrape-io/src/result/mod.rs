@@ -13,6 +13,7 @@ mod step;
 use crate::sheet::{self, SheetDrape, SheetDrapeError, SheetKept};
 use plydrape::draping::record::{PlanRecord, Step, Summary, Verdict};
 use plydrape::draping::{Drape, curves};
+use plydrape::errors::Errors;
 use plydrape::mold::Mold;
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
 use plydrape::planner::{Planned, PlannedSheet};
@@ -64,6 +65,9 @@ pub struct SceneEcho {
     pub settings: Settings,
     /// Limits of an accepted drape.
     pub limits: Limits,
+    /// How far a real cell may be from the scene, if it says so.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub errors: Option<Errors>,
 }
 
 impl SceneEcho {
@@ -78,6 +82,7 @@ impl SceneEcho {
             target: scene.target.clone(),
             settings: scene.settings,
             limits: scene.limits,
+            errors: scene.errors,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! From the keys of a file to a scene that makes sense.
 
 use super::error::{Document, SceneError};
+use super::errors::errors;
 use super::file::{GrippersTable, MotionKind, PlyTable, SceneKeys};
 use super::limits::limits;
 use super::located::{Count, Located, Whole};
@@ -54,12 +55,16 @@ pub(super) fn scene(
     let limits = limits(&file.limits, &ply, &settings, document)?;
     let sheets = sheet::fits(file, &ply, &settings, motion.positions.len(), document)?;
     let plan = plan(&file.plan, ply.grid, document)?;
+    let errors = match &file.errors {
+        Some(table) => Some(errors(table, &ply, mold.is_some(), document)?),
+        None => None,
+    };
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(&file.ply.grippers.span, |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
     let title = title(file.title.as_ref(), document, base)?;
     Ok(SceneFile {
-        scene: Scene { title, ply, mold, motion, target, settings, limits, plan, errors: None },
+        scene: Scene { title, ply, mold, motion, target, settings, limits, plan, errors },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,

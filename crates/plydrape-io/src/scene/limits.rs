@@ -20,6 +20,9 @@ const ACCELERATIONS: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest jerk of a gripper (m/s³).
 const JERKS: [f64; 2] = [1e-6, 1e7];
 
+/// Smallest and largest safety of the pads.
+const GRIP_SAFETIES: [f64; 2] = [1.0, 100.0];
+
 /// Checks the table `[limits]`; what it does not say is that of its preset, or else as in [`Limits::of`].
 pub(super) fn limits(
     table: &LimitsTable,
@@ -79,6 +82,10 @@ pub(super) fn limits(
         force: force(&table.force)?,
         gripper_load: force(&table.gripper_load)?.unwrap_or(usual.gripper_load),
         gripper_pull: force(&table.gripper_pull)?,
+        grip_safety: match &table.grip_safety {
+            Some(safety) => safety.within_for(document, GRIP_SAFETIES, "the safety of a pad")?,
+            None => usual.grip_safety,
+        },
         contact_share: share(table.contact_share.as_ref(), usual.contact_share, document)?,
         gripper_distance: match &table.gripper_distance {
             Some(distance) => distance.size(document)?,

@@ -6,7 +6,7 @@
 //! 1. `read`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
 //! 3. `check` with `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`,
-//!    `sheet`, `plan`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
+//!    `sheet`, `plan`, `errors`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
 //! `argument` lends the reader of stage 2 to values on the command line.
 
@@ -17,6 +17,7 @@ mod csv;
 mod curve;
 mod diagnostic;
 mod error;
+mod errors;
 mod file;
 mod heading;
 mod ideal;

@@ -75,8 +75,8 @@ fn count(
     Err(document.error(written.span.clone(), fault, help))
 }
 
-/// The seed of the search.
-fn number(seed: &Located<Seed>, document: &Document) -> Result<u64, SceneError> {
+/// The seed of a search or of a sample.
+pub(super) fn number(seed: &Located<Seed>, document: &Document) -> Result<u64, SceneError> {
     let Whole(value) = seed.value;
     u64::try_from(value).map_err(|_| {
         document.error(

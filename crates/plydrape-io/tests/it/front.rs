@@ -14,6 +14,7 @@ const RING: Strategy = Strategy {
     slope: 0.4,
     pretension: 1e-4,
     press: 0.0,
+    pull: 0.0,
 };
 
 /// Slopes and curvatures of the lifted mold are the central differences of its height and slopes, for a turned

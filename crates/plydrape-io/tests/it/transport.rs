@@ -18,6 +18,7 @@ const RING: Strategy = Strategy {
     slope: 0.4,
     pretension: 1e-4,
     press: 0.0,
+    pull: 0.0,
 };
 
 fn scene(text: &str) -> Scene {

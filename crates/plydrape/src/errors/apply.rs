@@ -127,8 +127,7 @@ impl PickUpError {
             let id = grid.id(n);
             let off = [(0, grid.nu), (1, grid.nv)]
                 .map(|(axis, count)| ply.cell[axis] * (id[axis] as f64 - 0.5 * (count - 1) as f64));
-            let delta =
-                [self.offset[0] - self.yaw * off[1], self.offset[1] + self.yaw * off[0]];
+            let delta = [self.offset[0] - self.yaw * off[1], self.offset[1] + self.yaw * off[0]];
             let [u, v] = chords(ply, &at, id);
             *p = along(along(*p, -delta[0], u), -delta[1], v);
         }

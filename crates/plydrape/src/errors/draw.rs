@@ -13,6 +13,7 @@ use std::f64::consts::TAU;
 
 /// One cell out of all that are possible: the value of every error.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Draw {
     /// Of the tool frame.
     pub frame: RigidError,
@@ -28,6 +29,7 @@ pub struct Draw {
 
 /// A small rigid motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RigidError {
     /// Shift (m).
     pub shift: [f64; 3],
@@ -37,6 +39,7 @@ pub struct RigidError {
 
 /// The error of one gripper.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GripperError {
     /// Constant shift (m).
     pub position: [f64; 3],
@@ -46,6 +49,7 @@ pub struct GripperError {
 
 /// The error of where the grippers hold the ply.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PickUpError {
     /// Shift of the array over the fabric along u and v (m).
     pub offset: [f64; 2],
@@ -55,6 +59,7 @@ pub struct PickUpError {
 
 /// The error of the ply, shares of the nominal values.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MaterialError {
     /// Of the mass.
     pub areal_mass: f64,
@@ -68,6 +73,7 @@ pub struct MaterialError {
 
 /// The error of the mold.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MoldError {
     /// Its shift, and its turn about the middle of the target.
     pub motion: RigidError,

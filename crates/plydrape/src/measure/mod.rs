@@ -241,6 +241,9 @@ measures! {
     out_of_plane: OutOfPlane,
     position: Position,
     gripper_force: GripperForce,
+    slip: Slip,
+    slip_length: SlipLength,
+    holding: Holding,
 }
 
 impl Name {

@@ -1,7 +1,7 @@
 //! The result of a search, from which another search continues.
 
 use super::PlanError;
-use super::path::{Strategy, press};
+use super::path::{Strategy, preload};
 use crate::ply::Grid;
 use crate::scene::Scene;
 
@@ -41,7 +41,7 @@ impl Checkpoint {
     /// The strategy from which to continue, and its positions if they lead from the scene's start to its target.
     pub(super) fn path(&self, scene: &Scene) -> Option<(Strategy, Option<Positions>)> {
         let (strategy, start) = (self.strategy?, scene.motion.positions.first()?);
-        let last = press::ends(scene, strategy.press);
+        let last = preload::ends(scene, &strategy);
         let ends = [self.positions.first(), self.positions.last()] == [Some(start), Some(&last)];
         let steps = self.positions.len() == scene.plan.steps;
         Some((strategy, (ends && steps).then(|| self.positions.clone())))

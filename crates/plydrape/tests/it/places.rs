@@ -109,6 +109,7 @@ fn a_drape_out_of_all_range_ends_and_is_not_accepted() {
                     settings: settings(),
                     limits: limits(),
                     plan: plydrape::scene::Plan::default(),
+                    errors: None,
                 };
                 let drape = draping::simulate(&scene, |_| std::ops::ControlFlow::Continue(()));
                 assert!(!drape.summary.accepted, "{mold:?} {value} {who:?}");
@@ -153,6 +154,7 @@ fn limits() -> plydrape::scene::Limits {
         force: None,
         gripper_load: wide,
         gripper_pull: None,
+        grip_safety: 1.5,
         contact_share: 0.0,
         gripper_distance: 0.001,
         workspace: None,

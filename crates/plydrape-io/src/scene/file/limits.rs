@@ -59,6 +59,8 @@ pub(in crate::scene) struct LimitsTable {
     pub gripper_load: Option<Quantity<Force>>,
     /// Pull in the plane of the ply at one gripper (N); none unless given. A vacuum cup of 30 mm slips at 4 to 10 N.
     pub gripper_pull: Option<Quantity<Force>>,
+    /// By how much the grippers' `slip_force` and `holding_force` must exceed the loads, 1.5 unless given.
+    pub grip_safety: Option<Quantity<Ratio>>,
     /// Share of the ply's edges on the mold at the end, 0.95 unless given.
     pub contact_share: Option<Quantity<Ratio>>,
     /// Smallest distance between any two grippers (m), half the shorter side of a cell unless given.

@@ -3,12 +3,14 @@
 //! These types say what is a key and what is not; [`super::check`] says what makes sense. Their
 //! comments are the descriptions of the JSON Schema.
 
+mod errors;
 mod limits;
 mod mold;
 mod plan;
 mod sheet;
 mod target;
 
+pub(super) use errors::{ErrorsTable, MoldErrorsTable, Term};
 pub(super) use limits::LimitsTable;
 pub(super) use mold::{MoldKind, MoldTable, SideKey};
 pub(super) use plan::{MethodKey, PlanTable};
@@ -59,6 +61,8 @@ pub(super) struct SceneKeys {
     /// How `plydrape plan` looks for the motion.
     #[serde(default)]
     pub plan: PlanTable,
+    /// How far a real cell may be from this scene.
+    pub errors: Option<ErrorsTable>,
 }
 
 /// What hangs between the grippers.

@@ -7,8 +7,8 @@
 //! cores.
 
 use super::fronts::Fronts;
-use super::press;
-use super::strategy::Strategy;
+use super::preload;
+use super::strategy::{MOUNTED, Strategy};
 use super::tuning::TUNING;
 use crate::draping::Judged;
 use crate::draping::spans::Point;
@@ -224,8 +224,8 @@ impl Search<'_, '_> {
         let fine = lock(&shared.ranking).mesh == Mesh::Own;
         let step = TUNING.search.steps[usize::from(fine)];
         let mut unit = start.to_unit().to_vec();
-        if !press::can_press(shared.scene) {
-            unit.pop();
+        if !preload::on_mounts(shared.scene) {
+            unit.truncate(unit.len() - MOUNTED);
         }
         let options = CMAESOptions::new(unit, step)
             .population_size(TUNING.search.generation)

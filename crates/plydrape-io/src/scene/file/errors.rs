@@ -1,0 +1,140 @@
+//! The keys of the table `[errors]`.
+
+use crate::scene::located::{Count, Located, Seed};
+use crate::scene::quantity::{Angle, Length, Measure, Quantity, Ratio, Unchecked};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+use std::borrow::Cow;
+
+/// How far a real cell may be from this scene. Every term is a table of one key: `deviation` is the standard deviation of a
+/// normal law, `bound` the largest size, every value below it being as likely. A term that is left out has no error.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Errors")]
+pub(in crate::scene) struct ErrorsTable {
+    /// Seed of the draws, 0 unless given: the same seed, the same cells.
+    pub seed: Option<Located<Seed>>,
+    /// Cells that are drawn, 64 unless given.
+    pub samples: Option<Located<Count>>,
+    /// Share of the cells that must keep the limits, 95 % unless given.
+    pub share: Option<Quantity<Ratio>>,
+    /// Of the tool frame, common to all grippers.
+    #[serde(default)]
+    pub frame: FrameErrorsTable,
+    /// Of each gripper by itself.
+    #[serde(default)]
+    pub gripper: GripperErrorsTable,
+    /// Of where the grippers hold the ply.
+    #[serde(default)]
+    pub pick_up: PickUpErrorsTable,
+    /// Of the ply, shares of its nominal values.
+    #[serde(default)]
+    pub material: MaterialErrorsTable,
+    /// Of the mold.
+    pub mold: Option<Located<MoldErrorsTable>>,
+}
+
+/// Errors of the tool frame, common to all grippers.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Errors of the tool frame")]
+pub(in crate::scene) struct FrameErrorsTable {
+    /// Shift along each of x, y and z (m).
+    pub position: Option<Term<Length>>,
+    /// Turn about each of x, y and z through the middle of the array (rad).
+    pub angle: Option<Term<Angle>>,
+}
+
+/// Errors of each gripper by itself.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Errors of a gripper")]
+pub(in crate::scene) struct GripperErrorsTable {
+    /// Constant shift along each of x, y and z (m).
+    pub position: Option<Term<Length>>,
+    /// Shift along each axis as a share of the way gone along it since the start.
+    pub stroke: Option<Term<Ratio>>,
+}
+
+/// Errors of where the grippers hold the ply.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Errors of the pick-up")]
+pub(in crate::scene) struct PickUpErrorsTable {
+    /// Shift of the array over the fabric along u and along v (m).
+    pub offset: Option<Term<Length>>,
+    /// Turn of the array on the fabric about its middle (rad).
+    pub yaw: Option<Term<Angle>>,
+}
+
+/// Errors of the ply, each a share of the nominal value.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Errors of the material")]
+pub(in crate::scene) struct MaterialErrorsTable {
+    /// Of the mass per area, or per length.
+    pub areal_mass: Option<Term<Ratio>>,
+    /// Of the bending rigidities, warp and weft alike.
+    pub bending: Option<Term<Ratio>>,
+    /// Of the shear force at every shear angle.
+    pub shear: Option<Term<Ratio>>,
+    /// Of the length of fabric between the grippers.
+    pub length: Option<Term<Ratio>>,
+}
+
+/// Errors of the mold.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Errors of the mold")]
+pub(in crate::scene) struct MoldErrorsTable {
+    /// Shift along each of x, y and z (m).
+    pub offset: Option<Term<Length>>,
+    /// Turn about x and about y through the middle of the target (rad).
+    pub tilt: Option<Term<Angle>>,
+    /// Height of smooth random waves on its surface (m): the root of its mean square, or what no point exceeds.
+    pub waviness: Option<Term<Length>>,
+    /// Length of these waves (m); needed where there is waviness.
+    pub wavelength: Option<Quantity<Length>>,
+}
+
+/// One term, with its place.
+pub(in crate::scene) type Term<M> = Located<TermTable<M>>;
+
+/// How far a number may be off: one of both keys.
+#[derive(Debug, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    bound = "M: Measure",
+    expecting = "a table of one key, `deviation` or `bound`"
+)]
+pub(in crate::scene) struct TermTable<M> {
+    /// Standard deviation of a normal law.
+    pub deviation: Option<Quantity<M>>,
+    /// Largest size.
+    pub bound: Option<Quantity<M>>,
+}
+
+impl<M: Measure> JsonSchema for TermTable<M> {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        format!("error of {}", M::NAME).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut key = |description: &str| {
+            let mut schema = Unchecked::<M>::json_schema(generator);
+            schema.insert("description".into(), description.into());
+            schema
+        };
+        let deviation = key("Standard deviation of a normal law.");
+        let bound = key("Largest size; every value below it is as likely.");
+        json_schema!({
+            "type": "object",
+            "properties": { "deviation": deviation, "bound": bound },
+            "additionalProperties": false,
+            "minProperties": 1,
+            "maxProperties": 1
+        })
+    }
+}
