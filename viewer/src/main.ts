@@ -10,7 +10,7 @@ import { handle, type FullHandle, type Handle } from "./page/handle";
 import { linkHover } from "./page/hover";
 import { linkKeyboard } from "./page/keyboard";
 import { linkLegend } from "./page/legend";
-import { showLimits, showVerdict } from "./page/limits";
+import { showLimits, showStrength, showVerdict } from "./page/limits";
 import { Player } from "./page/player";
 import { linkPrint } from "./page/print";
 import { showFacts } from "./page/scene_facts";
@@ -56,6 +56,7 @@ async function open(): Promise<void> {
   linkLegend(state, motion);
   linkTimeline(state, player, motion);
   showLimits(state, data);
+  showStrength(data);
   const charts = new Charts(state, data);
   showFacts(data);
   if (scene !== null) linkHover(state, motion, scene);

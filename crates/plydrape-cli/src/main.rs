@@ -6,6 +6,7 @@ mod compare;
 mod complete;
 mod export;
 mod failure;
+mod limits;
 mod net;
 mod new;
 mod numbers;
@@ -57,6 +58,7 @@ enum Command {
     Export(export::Arguments),
     Span(span::Arguments),
     New(new::Arguments),
+    Limits(limits::Arguments),
     Schema(schema::Arguments),
     Completions(complete::Completions),
     Man(complete::Man),
@@ -74,6 +76,7 @@ fn main() -> ExitCode {
         Command::Export(arguments) => export::run(&arguments, quiet),
         Command::Span(arguments) => span::run(&arguments),
         Command::New(arguments) => new::run(&arguments, quiet),
+        Command::Limits(arguments) => limits::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),
         Command::Completions(arguments) => complete::completions(&arguments),
         Command::Man(arguments) => complete::man(&arguments),

@@ -6,7 +6,7 @@
 //! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
 //! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`]: everything else is made from a result;
 //! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`comparison`] for several strategies, [`sheet`] keeps the states of a sheet beside its result;
-//!    [`table`] prints for people;
+//!    [`table`] prints for people, [`strength`] says what is published of fibre angles;
 //! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
 //!    the memory.
 
@@ -33,6 +33,7 @@ pub mod scene;
 pub mod sheet;
 pub mod shown;
 pub mod size;
+pub mod strength;
 pub mod surface;
 pub mod table;
 pub mod vtk;

@@ -209,6 +209,7 @@ fn gripper(grid: Grid, k: usize, at: &[[f64; 3]]) -> Gripper {
         tilt_deg: u.hypot(v).atan().to_degrees(),
         quaternion: q.map(|c| c / norm),
         target_distance_mm: None,
+        mount: None,
     }
 }
 
@@ -259,7 +260,10 @@ fn frame(grid: Grid) -> ResultFile {
                 ..Settings::default()
             },
             limits: Limits {
+                preset: None,
                 slack_ratio: 0.005,
+                slack_angle: None,
+                wrinkle: None,
                 bridging: 0.001,
                 overstretch: 0.01,
                 landing_contact: 0.002,
@@ -278,6 +282,7 @@ fn frame(grid: Grid) -> ResultFile {
                 force: None,
                 gripper_load: 10.0,
                 gripper_pull: None,
+                grip_safety: 1.5,
                 contact_share: 0.9,
                 gripper_distance: 0.05,
                 workspace: None,
@@ -315,6 +320,8 @@ fn frame(grid: Grid) -> ResultFile {
             }],
             equilibria: 30,
             sheet: None,
+            sample: None,
+            stands: None,
         },
     }
 }

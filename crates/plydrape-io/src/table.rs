@@ -2,9 +2,11 @@
 
 mod comparison;
 mod sheet;
+mod slack;
 
 pub use comparison::comparison;
 pub(crate) use comparison::verdict as verdict_on;
+pub(crate) use slack::slack_in_words;
 
 use crate::result::ResultFile;
 use crate::shown;
@@ -21,8 +23,17 @@ const MOST_ROWS: usize = 40;
 const WIDTH: usize = 99;
 
 /// Columns after the step, with their units.
-const COLUMNS: [&str; 7] =
-    ["contact %", "slack mm", "overstr. %", "shear °", "tilt °", "force N", "landing mm"];
+const COLUMNS: [&str; 9] = [
+    "contact %",
+    "slack mm",
+    "slack °",
+    "wrinkle mm",
+    "overstr. %",
+    "shear °",
+    "tilt °",
+    "force N",
+    "landing mm",
+];
 
 /// One row a step: worst values and the share in contact.
 ///
@@ -58,6 +69,8 @@ fn row(step: &Step) -> Vec<String> {
         step.step.to_string(),
         shown(Name::ContactShare, 1),
         shown(Name::Slack, 2),
+        shown(Name::SlackAngle, 2),
+        shown(Name::Wrinkle, 2),
         shown(Name::Overstretch, 3),
         shown(Name::Shear, 2),
         shown(Name::Tilt, 2),
@@ -166,6 +179,9 @@ fn limits(limits: &[Verdict]) -> String {
 /// The limits of the catenaries, and where their drape ended early.
 fn catenaries(summary: &Summary) -> String {
     let mut text = limits(&summary.limits);
+    if let Some(words) = slack_in_words(summary) {
+        let _ = writeln!(text, "slack at the end is {words}");
+    }
     if let Some(reason) = &summary.stopped {
         let _ = writeln!(text, "stopped: {reason}");
     }

@@ -42,7 +42,7 @@
 //! 1. [`mold`], [`catenary`]: the surface, and one span of ply;
 //! 2. [`net`]: the ideal drape, where every point of the fabric should end on the mold;
 //! 3. [`material`], [`ply`]: grippers, edges, diagonals and shear;
-//! 4. [`scene`]: everything that one drape needs;
+//! 4. [`scene`], [`preset`]: everything that one drape needs, and named sets of limits;
 //! 5. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
 //! 6. [`draping`]: the motion step by step, with contact;
 //! 7. [`measure`]: what is measured of a step, limits, and the verdict;
@@ -64,6 +64,7 @@ pub mod motion;
 pub mod net;
 pub mod planner;
 pub mod ply;
+pub mod preset;
 pub mod scene;
 pub mod sheet;
 

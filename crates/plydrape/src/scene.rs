@@ -6,6 +6,7 @@ use crate::errors::Errors;
 use crate::mold::Mold;
 use crate::net::Net;
 use crate::ply::Ply;
+use crate::preset::Preset;
 use std::sync::Arc;
 
 /// A scene: everything that one drape needs.
@@ -193,11 +194,23 @@ pub struct PadSettings {
     pub lateral_stiffness: Option<f64>,
     /// Stiffness of the mount across the ply (N/m); none if rigid.
     pub axial_stiffness: Option<f64>,
+    /// Largest load along the ply that a pad holds before the fabric slides under it (N); none if it never slides.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub slip_force: Option<f64>,
+    /// Largest load across the ply that a pad holds (N); none if it holds any.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub holding_force: Option<f64>,
 }
 
 impl Default for PadSettings {
     fn default() -> Self {
-        PadSettings { radius: 0.0, lateral_stiffness: None, axial_stiffness: None }
+        PadSettings {
+            radius: 0.0,
+            lateral_stiffness: None,
+            axial_stiffness: None,
+            slip_force: None,
+            holding_force: None,
+        }
     }
 }
 
@@ -295,8 +308,14 @@ pub enum ContactEnd {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
+    /// The preset that they come from, but for those that the scene sets itself.
+    pub preset: Option<Preset>,
     /// Slack of a catenary, all its free segments, as a share of its length.
     pub slack_ratio: f64,
+    /// The same slack ε as a fibre angle 2√ε (rad).
+    pub slack_angle: Option<f64>,
+    /// Height of the ruck that the slack of a segment makes (m).
+    pub wrinkle: Option<f64>,
     /// Bridging gap (m).
     pub bridging: f64,
     /// Chord beyond the free length, as a share of the whole edge.
@@ -333,6 +352,12 @@ pub struct Limits {
     pub gripper_load: f64,
     /// Horizontal pull (pretension) at one gripper (N).
     pub gripper_pull: Option<f64>,
+    /// By how much the slip force and the holding force of a pad must exceed its loads.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default = "usual_grip_safety", skip_serializing_if = "is_usual_grip_safety")
+    )]
+    pub grip_safety: f64,
     /// Share of the ply's edges that lies on the mold.
     pub contact_share: f64,
     /// Smallest distance between grippers (m).
@@ -349,13 +374,30 @@ pub struct Limits {
     pub duration: Option<f64>,
 }
 
+/// Safety of pads against slip and loss, unless a scene sets another: usual for vacuum cups that are moved slowly.
+const GRIP_SAFETY: f64 = 1.5;
+
+#[cfg(feature = "serde")]
+fn usual_grip_safety() -> f64 {
+    GRIP_SAFETY
+}
+
+#[cfg(feature = "serde")]
+/// The usual safety is not written, so that files of scenes without pads' forces stay as they are.
+fn is_usual_grip_safety(value: &f64) -> bool {
+    *value == GRIP_SAFETY
+}
+
 impl Limits {
     /// The limits of a ply that a scene starts from; the tilt and the penetration that it allows are those of its
     /// settings.
     #[must_use]
     pub fn of(ply: &Ply, settings: &Settings) -> Self {
         Limits {
+            preset: None,
             slack_ratio: 0.0005,
+            slack_angle: None,
+            wrinkle: None,
             bridging: 1e-3,
             overstretch: 0.001,
             landing_contact: 2e-3,
@@ -376,6 +418,7 @@ impl Limits {
             // a vacuum cup of 30 mm holds more, and slips sideways at 4 to 10 N
             gripper_load: 10.0,
             gripper_pull: None,
+            grip_safety: GRIP_SAFETY,
             contact_share: 0.95,
             gripper_distance: 0.5 * ply.cell[0].min(ply.cell[1]),
             workspace: None,

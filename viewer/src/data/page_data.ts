@@ -21,6 +21,8 @@ export interface Block {
 /** One line of the table of limits. */
 export interface Limit {
   name: string;
+  /** The same in other units, where it is slack. */
+  note: string | null;
   value: number;
   limit: number;
   unit: string;
@@ -34,6 +36,13 @@ export interface Limit {
   place: Place | null;
   /** Key of the measure that it limits, where there is one. */
   measure: string | null;
+}
+
+/** What a source says of the strength that the angles at the end cost. */
+export interface StrengthNote {
+  angles: string;
+  text: string;
+  source: string;
 }
 
 /** One quantity with a value in every step: a column of steps.csv. */
@@ -122,6 +131,8 @@ export interface PageData {
   grid: [number, number];
   divisions: number;
   limits: Limit[];
+  /** What published data say of such angles, for information, and what they are not. */
+  strength: { notes: StrengthNote[]; warning: string };
   measures: Measure[];
   fields: Field[];
   geometry: Geometry;
@@ -153,6 +164,9 @@ export function readPageData(text: string): PageData {
   }
   for (const key of LISTS) {
     if (!Array.isArray(found[key])) throw new BrokenData(`the list “${key}” is missing in its data`);
+  }
+  if (!Array.isArray(found.strength?.notes)) {
+    throw new BrokenData("what is published of strength is missing in its data");
   }
   checkLengths(data);
   checkGeometry(data);

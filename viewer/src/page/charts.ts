@@ -12,7 +12,17 @@ import { byId, make, themeColour } from "./dom";
 import type { State } from "./state";
 
 /** What a reader looks for first; then come measures with a limit, then the others, both in the order given. */
-const FIRST = ["slack_mm", "gap_mm", "shear_deg", "tilt_deg", "penetration_mm", "overstretch", "force_n"];
+const FIRST = [
+  "slack_mm",
+  "slack_angle_deg",
+  "wrinkle_mm",
+  "gap_mm",
+  "shear_deg",
+  "tilt_deg",
+  "penetration_mm",
+  "overstretch",
+  "force_n",
+];
 const HEIGHT = 104;
 /** Least time between two moves of the markers (ms). */
 const PAUSE = 90;

@@ -108,6 +108,7 @@ function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTabl
     make("td", { class: "number" }, limit.step === null ? "–" : String(limit.step)),
     make("td", { class: "where", title: limit.where }, limit.where),
   ];
+  if (limit.note !== null) cells[0]!.append(make("span", { class: "other-units" }, limit.note));
   const tr = make("tr", { class: limit.ok ? "pass" : "fail" }, ...cells);
   if (index < 0) return tr;
   const button = make(
@@ -132,6 +133,25 @@ function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTabl
     if (now.index !== index) tr.removeAttribute("aria-current");
   });
   return tr;
+}
+
+/** What published data say of the angles that were found: information below the limits. */
+export function showStrength(data: PageData): void {
+  const { notes, warning } = data.strength;
+  if (notes.length === 0) return;
+  const list = make("dl");
+  for (const { angles, text, source } of notes) {
+    list.append(make("dt", {}, angles), make("dd", {}, text, make("span", { class: "source" }, source)));
+  }
+  byId("limits").append(
+    make(
+      "details",
+      { class: "strength" },
+      make("summary", {}, "Strength: what is published of such fibre angles"),
+      list,
+      make("p", { class: "quiet" }, warning),
+    ),
+  );
 }
 
 /** Index of a step, or of the one nearest to it if it was left out; -1 for none. */

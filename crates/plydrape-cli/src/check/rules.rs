@@ -2,6 +2,7 @@
 
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};
+use plydrape::measure::angle_of_slack;
 use plydrape::scene::{ContactEnd, Limits, Model, PlanMethod, Scene, SlopeRule, Stepping};
 
 /// Rules of the model, contact and limits.
@@ -43,8 +44,8 @@ pub(super) fn rules(scene: &Scene) -> [Line; 7] {
         (
             "limits",
             format!(
-                "slack {} %, bridging {} mm, overstretch {} %, strain {} %, force {}",
-                short(limits.slack_ratio * 100.0),
+                "{}, bridging {} mm, overstretch {} %, strain {} %, force {}",
+                slack(scene),
                 millimetres(limits.bridging),
                 short(limits.overstretch * 100.0),
                 short(limits.strain * 100.0),
@@ -82,6 +83,26 @@ pub(super) fn rules(scene: &Scene) -> [Line; 7] {
         ),
         ("", reach(limits)),
     ]
+}
+
+/// The limits of slack in all units, and the preset that limits come from.
+fn slack(scene: &Scene) -> String {
+    let limits = &scene.limits;
+    let angle = limits.slack_angle.unwrap_or(angle_of_slack(limits.slack_ratio));
+    let preset = limits.preset.map(|preset| format!("preset {}; ", preset.name()));
+    let wrinkle = limits.wrinkle.map(|height| format!(", {} mm high", millimetres(height)));
+    format!(
+        "{}slack {} % (as fibre angle {} deg{})",
+        preset.unwrap_or_default(),
+        short(limits.slack_ratio * 100.0),
+        rounded(angle),
+        wrinkle.unwrap_or_default(),
+    )
+}
+
+/// An angle in degrees, with two digits after the point at most.
+fn rounded(angle: f64) -> String {
+    short((angle.to_degrees() * 100.0).round() / 100.0)
 }
 
 /// Where grippers may be and how fast they may move.

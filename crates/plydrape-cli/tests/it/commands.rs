@@ -67,6 +67,33 @@ fn schema_completions_and_manual_go_to_standard_output() {
     assert!(manual.contains("a limit of the scene is exceeded"));
 }
 
+/// Every figure with a source below it, in the words in which a scene says it: read back, it is the preset's own.
+#[test]
+fn presets_are_listed_with_a_source_for_each_figure() {
+    use plydrape::preset::Preset;
+    let text = String::from_utf8(plydrape(&["limits"]).stdout).unwrap();
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    for preset in Preset::ALL {
+        let rest = text.split_once(&format!("{}: ", preset.name())).unwrap().1;
+        let part = rest.split("\n\n").next().unwrap();
+        let lines: Vec<&str> = part.lines().collect();
+        let figures: Vec<&str> =
+            part.lines().filter(|line| line.contains(" = ")).map(str::trim).collect();
+        assert_eq!(figures.len(), preset.figures().len(), "{part}");
+        for (line, figure) in figures.iter().zip(preset.figures()) {
+            let said = line.split('"').nth(1).unwrap();
+            let (number, unit) = said.split_once(' ').unwrap();
+            let factor = if unit == "mm" { 1e-3 } else { 1_f64.to_radians() };
+            let value: f64 = number.parse().unwrap();
+            assert!((value * factor / figure.value - 1.0).abs() < 1e-12, "{line}");
+            assert!(line.starts_with(figure.name.measure().name()), "{line}");
+            let below = lines.iter().position(|other| other.trim() == *line).unwrap() + 1;
+            assert!(lines[below].starts_with("    "), "{part}");
+        }
+    }
+    assert!(text.contains("no prediction for your laminate"), "{text}");
+}
+
 /// The reader has seen enough: no panic, no message.
 #[test]
 fn a_closed_pipe_is_no_failure() {

@@ -11,6 +11,8 @@ mod sheet;
 
 use super::OutputError;
 use crate::result::ResultFile;
+use crate::strength;
+use crate::table::slack_in_words;
 use facts::{Fact, facts};
 use geometry::{Detail, Geometry, Ranges};
 use plydrape::draping::record::{Step, Worst};
@@ -42,6 +44,8 @@ struct Page<'a> {
     grid: [usize; 2],
     divisions: usize,
     limits: Vec<Limit<'a>>,
+    /// What published data say of the angles at the end.
+    strength: Strength,
     measures: Vec<Course<'a>>,
     fields: Vec<Field>,
     geometry: Geometry,
@@ -50,10 +54,20 @@ struct Page<'a> {
     left_out: Vec<String>,
 }
 
+/// What published data say, for information.
+#[derive(Serialize)]
+struct Strength {
+    notes: Vec<strength::Note>,
+    /// What it is and is not.
+    warning: &'static str,
+}
+
 /// A limit and how it was kept.
 #[derive(Serialize)]
 struct Limit<'a> {
     name: String,
+    /// The same in other units, where it is slack.
+    note: Option<String>,
     value: f64,
     limit: f64,
     unit: &'a str,
@@ -165,6 +179,7 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
         grid: [scene.ply.grid.nu, scene.ply.grid.nv],
         divisions: detail.intervals,
         limits: limits(result),
+        strength: Strength { notes: strength::notes(summary), warning: strength::INFORMATION },
         measures: courses(result, &shown),
         fields: fields(result, &ranges),
         geometry,
@@ -177,7 +192,8 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
 fn limits(result: &ResultFile) -> Vec<Limit<'_>> {
     let limits = result.summary.limits.iter().map(|verdict| {
         let course = has_course(result, verdict.name).then(|| verdict.name.measure().key());
-        limit(verdict, course)
+        let note = (verdict.name == Name::SlackRatio).then(|| slack_in_words(&result.summary));
+        Limit { note: note.flatten(), ..limit(verdict, course) }
     });
     limits.collect()
 }
@@ -186,6 +202,7 @@ fn limits(result: &ResultFile) -> Vec<Limit<'_>> {
 fn limit<'a>(verdict: &'a Verdict, measure: Option<&'static str>) -> Limit<'a> {
     Limit {
         name: verdict.name.title(),
+        note: None,
         value: verdict.value,
         limit: verdict.limit,
         unit: &verdict.unit,

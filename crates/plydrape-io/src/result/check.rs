@@ -72,6 +72,10 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     if !(sound && axial_stiffness > 0.0 && gravity > 0.0 && contact.tolerance > 0.0) {
         return Some("mass, stiffness, gravity and contact tolerance must be above zero".into());
     }
+    let mounts = [pad.lateral_stiffness, pad.axial_stiffness, pad.slip_force, pad.holding_force];
+    if !mounts.iter().flatten().all(|value| *value > 0.0) {
+        return Some("what mounts and pads bear must be above zero".into());
+    }
     if !(max_tilt > 0.0 && max_tilt < std::f64::consts::FRAC_PI_2) {
         return Some(format!("there is no largest tilt of {max_tilt} rad"));
     }
@@ -125,7 +129,8 @@ fn of_steps(result: &ResultFile) -> Option<String> {
                     gripper.id
                 ));
             }
-            far("a gripper", &gripper.position)
+            let mount = gripper.mount.and_then(|mount| far("a mount", &mount.commanded));
+            far("a gripper", &gripper.position).or(mount)
         });
         let catenary = || step.catenaries.iter().find_map(of_catenary);
         gripper.or_else(catenary).map(|what| format!("in step {number}, {what}"))

@@ -2,7 +2,7 @@
 
 use super::contact::{ContactColumns, Known};
 use plydrape::draping::record::{
-    Bridge, CatenaryState, Cell, Gripper, Hold, Measures, Solver, SpanState, Step,
+    Bridge, CatenaryState, Cell, Gripper, Hold, Measures, Mount, Solver, SpanState, Step,
 };
 use plydrape::ply::{Grid, Kind};
 use serde::{Deserialize, Serialize};
@@ -34,6 +34,42 @@ struct GripperColumns {
     quaternion: Vec<[f64; 4]>,
     /// None where no gripper has a target.
     target_distance_mm: Option<Vec<f64>>,
+    /// Left out where all mounts are rigid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    mounts: Option<MountColumns>,
+}
+
+/// The mounts of the grippers.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MountColumns {
+    commanded: Vec<[f64; 3]>,
+    #[serde(rename = "force_N")]
+    force: Vec<[f64; 3]>,
+    slip: Vec<[f64; 2]>,
+    on_mold: Vec<bool>,
+}
+
+impl MountColumns {
+    /// Those of grippers that all have one.
+    fn of(grippers: &[Gripper]) -> Option<MountColumns> {
+        let mounts: Vec<Mount> = grippers.iter().map(|g| g.mount).collect::<Option<_>>()?;
+        (!mounts.is_empty()).then(|| MountColumns {
+            commanded: mounts.iter().map(|m| m.commanded).collect(),
+            force: mounts.iter().map(|m| m.force).collect(),
+            slip: mounts.iter().map(|m| m.slip).collect(),
+            on_mold: mounts.iter().map(|m| m.on_mold).collect(),
+        })
+    }
+
+    fn mount(&self, n: usize) -> Mount {
+        Mount {
+            commanded: self.commanded[n],
+            force: self.force[n],
+            slip: self.slip[n],
+            on_mold: self.on_mold[n],
+        }
+    }
 }
 
 /// Set lengths of all catenaries, and the diagonals that shear.
@@ -112,6 +148,7 @@ impl StepColumns {
                 tilt_deg: grippers.iter().map(|g| g.tilt_deg).collect(),
                 quaternion: grippers.iter().map(|g| g.quaternion).collect(),
                 target_distance_mm: target,
+                mounts: MountColumns::of(grippers),
             },
             catenaries: CatenaryColumns {
                 length: step.catenaries.iter().map(|line| line.length).collect(),
@@ -164,6 +201,10 @@ impl GripperColumns {
             targets.map_or(grid.grippers(), Vec::len),
         ];
         alike("grippers", grid.grippers(), &found)?;
+        if let Some(MountColumns { commanded, force, slip, on_mold }) = &self.mounts {
+            let found = [commanded.len(), force.len(), slip.len(), on_mold.len()];
+            alike("mounts", grid.grippers(), &found)?;
+        }
         let gripper = |n: usize| Gripper {
             id: grid.id(n),
             position: self.position[n],
@@ -172,6 +213,7 @@ impl GripperColumns {
             tilt_deg: self.tilt_deg[n],
             quaternion: self.quaternion[n],
             target_distance_mm: targets.map(|targets| targets[n]),
+            mount: self.mounts.as_ref().map(|mounts| mounts.mount(n)),
         };
         Ok((0..grid.grippers()).map(gripper).collect())
     }

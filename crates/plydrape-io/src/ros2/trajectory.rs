@@ -43,7 +43,7 @@ fn steps(steps: &[Step]) -> Result<Vec<MultiDofJointTrajectoryPoint>, Ros2Error>
     let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
     let points = steps.iter().zip(clock(&times)?).map(|(step, time)| {
         let transform = |g: &Gripper| Transform {
-            translation: g.position.into(),
+            translation: g.commanded().into(),
             rotation: g.quaternion.into(),
         };
         MultiDofJointTrajectoryPoint {

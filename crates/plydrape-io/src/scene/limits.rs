@@ -6,7 +6,9 @@ use super::heading::coordinates;
 use super::located::Fixed;
 use super::motion::DURATIONS;
 use super::quantity::{Angle, AngularRate, Force, Length, Measure, Quantity, Ratio};
-use plydrape::ply::Ply;
+use plydrape::measure::slack_of_angle;
+use plydrape::ply::{Kind, Ply};
+use plydrape::preset::Preset;
 use plydrape::scene::{Limits, Settings};
 
 /// Smallest and largest angular rate of a ball joint (rad/s).
@@ -18,14 +20,20 @@ const ACCELERATIONS: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest jerk of a gripper (m/s³).
 const JERKS: [f64; 2] = [1e-6, 1e7];
 
-/// Checks the table `[limits]`; what it does not say is as in [`Limits::of`].
+/// Smallest and largest safety of the pads.
+const GRIP_SAFETIES: [f64; 2] = [1.0, 100.0];
+
+/// Checks the table `[limits]`; what it does not say is that of its preset, or else as in [`Limits::of`].
 pub(super) fn limits(
     table: &LimitsTable,
     ply: &Ply,
     settings: &Settings,
     document: &Document,
 ) -> Result<Limits, SceneError> {
-    let usual = Limits::of(ply, settings);
+    let usual = match &table.preset {
+        Some(preset) => Preset::from(preset.value).over(Limits::of(ply, settings)),
+        None => Limits::of(ply, settings),
+    };
     let angle = |key: &Option<Quantity<Angle>>, default: f64| match key {
         Some(angle) => acute(angle, document),
         None => Ok(default),
@@ -38,8 +46,18 @@ pub(super) fn limits(
         Some(value) => value.not_negative(document),
         None => Ok(default),
     };
+    let slack_angle = match &table.slack_angle {
+        Some(angle) => Some(acute(angle, document)?),
+        None => usual.slack_angle,
+    };
+    // an angle is the same limit in another unit, and a default in the first one must not stand over it
+    let slack_ratio =
+        table.slack_angle.as_ref().and(slack_angle).map_or(usual.slack_ratio, slack_of_angle);
     Ok(Limits {
-        slack_ratio: share(table.slack_ratio.as_ref(), usual.slack_ratio, document)?,
+        preset: usual.preset,
+        slack_ratio: share(table.slack_ratio.as_ref(), slack_ratio, document)?,
+        slack_angle,
+        wrinkle: wrinkle(table, usual.wrinkle, ply, document)?,
         bridging: length(&table.bridging, usual.bridging)?,
         overstretch: share(table.overstretch.as_ref(), usual.overstretch, document)?,
         landing_contact: length(&table.landing_contact, usual.landing_contact)?,
@@ -64,6 +82,10 @@ pub(super) fn limits(
         force: force(&table.force)?,
         gripper_load: force(&table.gripper_load)?.unwrap_or(usual.gripper_load),
         gripper_pull: force(&table.gripper_pull)?,
+        grip_safety: match &table.grip_safety {
+            Some(safety) => safety.within_for(document, GRIP_SAFETIES, "the safety of a pad")?,
+            None => usual.grip_safety,
+        },
         contact_share: share(table.contact_share.as_ref(), usual.contact_share, document)?,
         gripper_distance: match &table.gripper_distance {
             Some(distance) => distance.size(document)?,
@@ -86,6 +108,31 @@ pub(super) fn limits(
             None => None,
         },
     })
+}
+
+/// Height of the ruck of a slack (m); refused where edges of the ply have no rigidity, because their slack has no height.
+fn wrinkle(
+    table: &LimitsTable,
+    usual: Option<f64>,
+    ply: &Ply,
+    document: &Document,
+) -> Result<Option<f64>, SceneError> {
+    let height = match &table.wrinkle {
+        Some(height) => Some(height.not_negative(document)?),
+        None => usual,
+    };
+    let said = table.wrinkle.as_ref().map(|height| &height.span);
+    let said = said.or(table.preset.as_ref().map(|preset| &preset.span));
+    let edges: &[Kind] = if ply.grid.nv > 1 { &[Kind::EdgeU, Kind::EdgeV] } else { &[Kind::EdgeU] };
+    let limp = edges.iter().any(|kind| ply.line(*kind).flexural_rigidity <= 0.0);
+    match (height, said) {
+        (Some(_), Some(span)) if limp => Err(document.error(
+            span.clone(),
+            "the slack of a ply without bending rigidity has no height: it crumples",
+            "give a `slack_angle` or a `slack_ratio` instead, or the material its rigidity",
+        )),
+        _ => Ok(height),
+    }
 }
 
 /// Angular rate of a ball joint (rad/s).

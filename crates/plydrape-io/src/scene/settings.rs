@@ -7,7 +7,7 @@ use super::file::{
 };
 use super::limits::acute;
 use super::located::{Located, Whole};
-use super::quantity::{Quantity, Stiffness};
+use super::quantity::{Force, Quantity, Stiffness};
 use plydrape::ply::Ply;
 use plydrape::scene::{
     ContactEnd, ContactSettings, Friction, Model, PadSettings, Settings, SheetSettings, SheetTime,
@@ -20,6 +20,8 @@ const AXIAL_STIFFNESS: [f64; 2] = [1.0, 1e12];
 const GRAVITY: [f64; 2] = [1e-3, 1e3];
 /// Smallest and largest stiffness of a gripper's mount (N/m).
 const MOUNTS: [f64; 2] = [1e-3, 1e9];
+/// Smallest and largest force that a pad holds (N).
+const PAD_FORCES: [f64; 2] = [1e-6, 1e9];
 /// Fewest and most states that a sheet keeps.
 const KEPT: [usize; 2] = [2, 100_000];
 
@@ -155,6 +157,9 @@ fn pad(table: &GrippersTable, document: &Document) -> Result<PadSettings, SceneE
     let mount = |key: Option<&Quantity<Stiffness>>| {
         key.map(|key| key.within_for(document, MOUNTS, "a gripper's mount")).transpose()
     };
+    let force = |key: &Option<Quantity<Force>>| {
+        key.as_ref().map(|key| key.within_for(document, PAD_FORCES, "a pad")).transpose()
+    };
     Ok(PadSettings {
         radius: match &table.pad_radius {
             Some(radius) => radius.size_or_zero(document)?,
@@ -162,5 +167,7 @@ fn pad(table: &GrippersTable, document: &Document) -> Result<PadSettings, SceneE
         },
         lateral_stiffness: mount(table.stiffness.as_ref().and_then(|keys| keys.lateral.as_ref()))?,
         axial_stiffness: mount(table.stiffness.as_ref().and_then(|keys| keys.axial.as_ref()))?,
+        slip_force: force(&table.slip_force)?,
+        holding_force: force(&table.holding_force)?,
     })
 }

@@ -13,6 +13,8 @@ const RING: Strategy = Strategy {
     curvature: 0.4,
     slope: 0.4,
     pretension: 1e-4,
+    press: 0.0,
+    pull: 0.0,
 };
 
 /// Slopes and curvatures of the lifted mold are the central differences of its height and slopes, for a turned

@@ -25,6 +25,7 @@ mod scenes;
 mod sheet_examples;
 mod sheet_fronts;
 mod sheet_shown;
+mod slack_limits;
 mod solve_status;
 mod stepwise;
 mod transport;

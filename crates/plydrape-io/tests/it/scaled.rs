@@ -60,6 +60,7 @@ pub fn scaled(scene: &Scene, s: f64) -> Scene {
     for force in [&mut limits.gripper_force, &mut limits.force, &mut limits.gripper_pull] {
         *force = force.map(|force| s * force);
     }
+    limits.wrinkle = limits.wrinkle.map(|height| s * height);
     limits.workspace = limits.workspace.map(|sides| sides.map(|side| side.map(|x| s * x)));
     out
 }

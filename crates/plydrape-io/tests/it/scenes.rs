@@ -256,7 +256,8 @@ fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
 
     let given = scene(
         &format!("{paper}\noverhang = \"30 mm\""),
-        "pad_radius = \"1.5 cm\"\nstiffness = { lateral = \"2 N/mm\" }",
+        "pad_radius = \"1.5 cm\"\nstiffness = { lateral = \"2 N/mm\" }\n\
+         slip_force = \"6 N\"\nholding_force = 15",
         "[model]\nkind = \"sheet\"\n[sheet]\nmesh = \"12.5 mm\"\ntime = \"real\"\nkeep = 40\n\
          [contact]\nfriction = 0.3\ntack = \"0.09 kPa\"\n\
          [limits]\nheight = \"1 mm\"\nout_of_plane = \"2 deg\"\nposition = \"3 mm\"\ngripper_force = \"8 N\"",
@@ -265,7 +266,13 @@ fn the_keys_of_the_sheet_are_read_in_si_or_have_their_defaults() {
     let sheet =
         SheetSettings { mesh: Some(0.0125), overhang: 0.03, time: SheetTime::Real, keep: 40 };
     assert_eq!((settings.model, settings.sheet), (Model::Sheet, sheet));
-    let pad = PadSettings { radius: 0.015, lateral_stiffness: Some(2e3), axial_stiffness: None };
+    let pad = PadSettings {
+        radius: 0.015,
+        lateral_stiffness: Some(2e3),
+        axial_stiffness: None,
+        slip_force: Some(6.0),
+        holding_force: Some(15.0),
+    };
     assert_eq!(settings.pad, pad);
     assert_eq!((settings.contact.friction, settings.contact.tack), (Friction::Coulomb(0.3), 90.0));
     assert_eq!((limits.height, limits.position, limits.gripper_force), (1e-3, 3e-3, Some(8.0)));

@@ -12,8 +12,16 @@ fn front(a: f64, slope: f64) -> Scene {
     let mut scene = example("04_dome");
     scene.settings.sheet.mesh = Some(0.02);
     let curvature = a * scene.ply.cell[0];
-    let strategy =
-        Strategy { start: [0.5; 2], ratio: 1.0, angle: 0.0, curvature, slope, pretension: 0.0 };
+    let strategy = Strategy {
+        start: [0.5; 2],
+        ratio: 1.0,
+        angle: 0.0,
+        curvature,
+        slope,
+        pretension: 0.0,
+        press: 0.0,
+        pull: 0.0,
+    };
     let heights = MoldHeights::new(&scene).expect("the dome is a height").untightened();
     let positions = trajectory(&scene, &heights, strategy).expect("the front rolls over the dome");
     scene.motion = Motion { times: (0..positions.len()).map(|n| n as f64).collect(), positions };

@@ -17,6 +17,8 @@ const RING: Strategy = Strategy {
     curvature: 0.4,
     slope: 0.4,
     pretension: 1e-4,
+    press: 0.0,
+    pull: 0.0,
 };
 
 fn scene(text: &str) -> Scene {

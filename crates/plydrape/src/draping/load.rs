@@ -4,7 +4,6 @@
 //! a strip one cell wide, one on its boundary for half a strip. So the loads of a hanging ply add up to its weight.
 
 use super::Snapshot;
-use crate::ply::{Kind, Ply};
 use crate::scene::Scene;
 
 /// Forces of the ply on a gripper (N).
@@ -16,27 +15,21 @@ pub struct Load {
     pub pull: [f64; 2],
 }
 
-/// Share of an edge's forces that is the ply's.
-fn tributary(ply: &Ply, edge: usize) -> f64 {
-    let (grid, c) = (ply.grid, ply.grid.catenary(edge));
-    let (line, lines) =
-        if c.kind == Kind::EdgeU { (c.from[1], grid.nv) } else { (c.from[0], grid.nu) };
-    let families = if grid.nv > 1 { 2.0 } else { 1.0 };
-    let boundary = lines > 1 && (line == 0 || line + 1 == lines);
-    if boundary { 0.5 / families } else { 1.0 / families }
-}
-
 /// The loads of all grippers, in the order of [`crate::ply::Grid::index`].
 ///
 /// A span between two grippers pulls with its forces. Where the mold holds a segment at its other end, the tension is an
-/// artefact of the axial stiffness; half of its weight counts.
+/// artefact of the axial stiffness; half of its weight counts. Mounts that yield bound such a tension, and their forces count.
 #[must_use]
 pub fn loads(scene: &Scene, snapshot: &Snapshot) -> Vec<Load> {
     let (ply, grid) = (&scene.ply, scene.ply.grid);
+    if let Some(mounts) = &snapshot.mounts {
+        let load = |[x, y, z]: &[f64; 3]| Load { vertical: -z, pull: [*x, *y] };
+        return mounts.force.iter().map(load).collect();
+    }
     let mut out = vec![Load::default(); grid.grippers()];
     for span in snapshot.shape.spans.iter().filter(|span| span.catenary < grid.edges()) {
         let c = grid.catenary(span.catenary);
-        let share = tributary(ply, span.catenary);
+        let share = ply.tributary(span.catenary);
         let grippers = [c.from, c.to].map(|g| grid.index(g));
         let half_weight = 0.5 * ply.line(c.kind).mass * scene.settings.gravity * span.length;
         if snapshot.contacts[span.catenary].is_some() {

@@ -15,6 +15,8 @@ mod judged;
 pub(crate) mod landing;
 pub(crate) mod load;
 pub(crate) mod misfit;
+#[cfg(test)]
+mod mount_tests;
 pub(crate) mod reach;
 pub mod record;
 mod report;
@@ -22,6 +24,7 @@ mod report;
 pub mod sampling;
 mod snapshot;
 pub mod spans;
+mod standing;
 mod stepping;
 mod stop;
 mod tuning;

@@ -3,7 +3,7 @@
 use super::landing::Landing;
 use super::misfit::{LyingSegment, Misfit};
 use super::record::{
-    CatenaryId, CatenaryState, Cell, ContactState, Gripper, Hold, Solver as SolverRecord,
+    CatenaryId, CatenaryState, Cell, ContactState, Gripper, Hold, Mount, Solver as SolverRecord,
     SpanState, Step, Summary,
 };
 use super::spans::FreeSpan;
@@ -50,6 +50,12 @@ impl<'a> Report<'a> {
                 tilt_deg: attitude.tilt.to_degrees(),
                 quaternion: attitude.quaternion,
                 target_distance_mm: target,
+                mount: snapshot.mounts.as_ref().map(|mounts| Mount {
+                    commanded: mounts.commanded[n],
+                    force: mounts.force[n],
+                    slip: mounts.slip[n],
+                    on_mold: mounts.standing[n],
+                }),
             });
         }
         let equilibrium = snapshot.solved;
@@ -175,6 +181,8 @@ impl<'a> Report<'a> {
             limits,
             equilibria: self.steps.iter().map(|step| step.solver.equilibria).sum(),
             sheet: None,
+            sample: None,
+            stands: None,
         }
     }
 }

@@ -5,10 +5,12 @@ use super::contact::{self, Diagonal};
 use super::gap::GapSamples;
 use super::report::Report;
 use super::sampling::GapCache;
+use super::snapshot::MountState;
 use super::spans::{FreeSpan, Point, Shape, shape};
+use super::standing::Ground;
 use super::tuning::TUNING;
 use super::{CellShear, ContactStatus, Drape, Snapshot};
-use crate::equilibrium::{Equilibrium, Solver, Status};
+use crate::equilibrium::{Equilibrium, MountedSolver, Solver, Status};
 use crate::ply::{ContactSegment, Grid, Kind, shear};
 use crate::scene::{Scene, Stepping};
 use std::ops::ControlFlow;
@@ -20,7 +22,9 @@ pub(crate) struct Draping<'a> {
     scene: &'a Scene,
     /// The solver, as it was left by the last move.
     pub(crate) solver: Solver,
-    /// Where the grippers are (m).
+    /// The mounts of the grippers, where they yield.
+    pub(crate) mounts: Option<MountedSolver>,
+    /// Where the grippers are (m): where the robot holds their mounts.
     pub(crate) positions: Vec<Point>,
     /// Contact segment of each catenary.
     pub(crate) contacts: Vec<Option<ContactSegment>>,
@@ -43,6 +47,7 @@ impl<'a> Draping<'a> {
         Draping {
             scene,
             solver: Solver::new(&scene.ply, &scene.settings),
+            mounts: MountedSolver::new(&scene.ply, &scene.settings),
             positions: scene.motion.positions[0].clone(),
             contacts: vec![None; count],
             bridges: vec![None; count],
@@ -78,13 +83,37 @@ impl<'a> Draping<'a> {
     /// Solves the equilibrium at gripper positions.
     fn solve(&mut self, positions: &[Point]) -> Shape {
         let start = Instant::now();
-        let equilibrium: Equilibrium = self.solver.solve(positions, &self.contacts);
+        let equilibrium: Equilibrium = match &mut self.mounts {
+            None => self.solver.solve(positions, &self.contacts),
+            Some(mounts) => {
+                if let Some(ground) = ground(self.scene, &self.contacts) {
+                    ground.lead(mounts, positions);
+                }
+                mounts.solve(&mut self.solver, positions, &self.contacts)
+            }
+        };
         self.solving += start.elapsed();
         self.equilibria += 1;
         if equilibrium.status != Status::Converged {
             self.unsolved.get_or_insert(equilibrium);
         }
-        shape(&self.scene.ply, &self.solver, equilibrium, positions, &self.contacts)
+        let pads = self.mounts.as_ref().map_or(positions, MountedSolver::pads);
+        shape(&self.scene.ply, &self.solver, equilibrium, pads, &self.contacts)
+    }
+
+    /// Where the fabric is held (m): the pads, or the grippers themselves where their mounts are rigid.
+    pub(crate) fn pads(&self) -> &[Point] {
+        self.mounts.as_ref().map_or(&self.positions, MountedSolver::pads)
+    }
+
+    /// Lets pads come to stand on the mold, and at first lifts off those that do no longer; whether any did.
+    fn update_pads(&mut self, lift: bool) -> bool {
+        let (Some(mounts), Some(ground)) = (&mut self.mounts, ground(self.scene, &self.contacts))
+        else {
+            return false;
+        };
+        // what is lifted off may come down elsewhere in a later round
+        (lift && ground.lift(mounts)) || ground.land(mounts)
     }
 
     /// Moves the grippers to the positions of a step, counted from 0.
@@ -95,7 +124,8 @@ impl<'a> Draping<'a> {
         Snapshot {
             step: step + 1,
             time: self.scene.motion.times[step],
-            positions: goal.clone(),
+            positions: self.pads().to_vec(),
+            mounts: self.mounts.as_ref().map(|mounts| MountState::of(mounts, goal)),
             contacts: self.contacts.clone(),
             bridges: self.bridges.clone(),
             deepest: self.deepest,
@@ -133,11 +163,17 @@ impl<'a> Draping<'a> {
     /// As in the paper: one equilibrium, the contact evaluated once; solved anew where it has changed.
     fn arrive(&mut self, goal: &[Point]) -> Shape {
         let mut shape = self.solve(goal);
+        for round in 0..2 {
+            if self.update_pads(round == 0) {
+                shape = self.solve(goal);
+            }
+        }
         let mut gaps = self.gaps(&shape);
         if self.update_contact(&shape, &gaps) {
             shape = self.solve(goal);
             gaps = self.gaps(&shape);
         }
+        self.keep_slide();
         self.note_depth(&shape, &gaps);
         shape
     }
@@ -161,9 +197,13 @@ impl<'a> Draping<'a> {
             let mut shape = self.solve(&place);
             let mut gaps = self.gaps(&shape);
             let deep = self.deep(&shape, &gaps).filter(|_| start != *goal);
-            if deep.is_some() && part > TUNING.smallest_cut {
+            let is_deep = deep.is_some() || (self.pad_is_deep() && start != *goal);
+            if is_deep && part > TUNING.smallest_cut {
                 // the grippers do not go to this position, so how it was solved does not count
                 self.unsolved = unsolved;
+                if let Some(mounts) = &mut self.mounts {
+                    mounts.drop_last();
+                }
                 part *= 0.5;
                 continue;
             }
@@ -173,7 +213,8 @@ impl<'a> Draping<'a> {
                 self.note_depth(&shape, &gaps);
             }
             let mut rounds = 0;
-            while self.update_contact(&shape, &gaps) {
+            // pads first: a span that touches runs from a gripper that stands on the mold
+            while self.update_pads(rounds == 0) || self.update_contact(&shape, &gaps) {
                 shape = self.solve(&place);
                 gaps = self.gaps(&shape);
                 rounds += 1;
@@ -182,12 +223,26 @@ impl<'a> Draping<'a> {
                     break;
                 }
             }
+            self.keep_slide();
             if next >= 1.0 || self.equilibria > self.most {
                 self.note_depth(&shape, &gaps);
                 return shape;
             }
             (done, part) = (next, f64::min(2.0 * part, 1.0 - next));
         }
+    }
+
+    /// Keeps what the fabric has slid under the pads where the grippers have come to.
+    fn keep_slide(&mut self) {
+        if let Some(mounts) = &mut self.mounts {
+            mounts.keep();
+        }
+    }
+
+    /// Whether a pad in the air is deeper below the mold than the tolerance.
+    fn pad_is_deep(&self) -> bool {
+        let ground = ground(self.scene, &self.contacts);
+        self.mounts.as_ref().zip(ground).is_some_and(|(mounts, ground)| ground.is_deep(mounts))
     }
 
     /// Gap samples of every span; none without a mold.
@@ -275,4 +330,14 @@ impl<'a> Draping<'a> {
         }
         changed
     }
+}
+
+/// What pads on mounts that yield can stand on; none without a mold.
+fn ground<'a>(scene: &'a Scene, contacts: &'a [Option<ContactSegment>]) -> Option<Ground<'a>> {
+    Some(Ground {
+        mold: scene.mold.as_ref()?,
+        tolerance: scene.settings.contact.tolerance,
+        grid: scene.ply.grid,
+        contacts,
+    })
 }

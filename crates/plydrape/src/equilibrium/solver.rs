@@ -6,6 +6,7 @@
 
 use super::min_force::MinForce;
 use super::moment_balance::MomentBalance;
+use super::mount::MountLaw;
 use super::newton::{Newton, StepLength};
 use super::problem::{Circumstances, End, Factors, Problem, heading};
 use super::rule::Rule;
@@ -66,7 +67,10 @@ impl Solver {
     /// A solver for a ply under the rules of a scene, without earlier solutions.
     #[must_use]
     pub fn new(ply: &Ply, settings: &Settings) -> Solver {
-        let tuning = Tuning::default();
+        let mut tuning = Tuning::default();
+        if MountLaw::new(ply, &settings.pad, &tuning).is_some() {
+            tuning.length_margin = tuning.mount_length_margin;
+        }
         Solver {
             ply: ply.clone(),
             settings: *settings,
@@ -257,6 +261,12 @@ impl Solver {
             free,
             constrained: *constrained,
         }
+    }
+
+    /// The ply.
+    #[must_use]
+    pub(crate) fn ply(&self) -> &Ply {
+        &self.ply
     }
 
     /// The grid of grippers.

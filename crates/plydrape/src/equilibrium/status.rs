@@ -13,6 +13,8 @@ pub enum Status {
     IterationLimit,
     /// No force was found that gives a span its length.
     LengthNotMet,
+    /// The forces of the ply and those of the grippers' mounts could not be balanced.
+    MountsNotBalanced,
 }
 
 impl Status {
@@ -24,6 +26,7 @@ impl Status {
             Status::Stalled => "stalled",
             Status::IterationLimit => "iteration-limit",
             Status::LengthNotMet => "length-not-met",
+            Status::MountsNotBalanced => "mounts-not-balanced",
         }
     }
 }

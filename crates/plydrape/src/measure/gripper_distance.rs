@@ -27,6 +27,6 @@ impl Measure for GripperDistance {
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {
-        closest(&state.snapshot.positions)
+        closest(state.snapshot.commanded())
     }
 }

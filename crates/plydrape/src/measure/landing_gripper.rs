@@ -35,7 +35,9 @@ pub(super) fn landed_gripper(state: &State, standing: bool) -> Option<Found> {
     let (scene, mut most) = (state.scene, Most::default());
     let tolerance = scene.settings.contact.tolerance;
     for (n, target) in scene.target.as_ref()?.grippers.iter().enumerate() {
-        let place = state.snapshot.positions[n];
+        // a motion is judged by where the robot is, a landing by where the fabric is
+        let at = if standing { &state.snapshot.positions } else { state.snapshot.commanded() };
+        let place = at[n];
         let stands =
             |place| scene.mold.as_ref().is_some_and(|m| m.signed_distance(place) <= tolerance);
         if !standing || stands(place) {

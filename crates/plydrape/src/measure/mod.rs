@@ -5,13 +5,14 @@
 //! the search, tables, the page, CSV and Python take all of that from here; [`Name`] lists them.
 //!
 //! `state` holds what several measures share in one step, `verdict` turns values into verdicts, `record` is
-//! what a result file keeps of them.
+//! what a result file keeps of them. `strength` is what published data say of an angle, for information.
 
 mod found;
 mod record;
 #[cfg(feature = "serde")]
 mod serial;
 mod state;
+mod strength;
 mod tuning;
 mod unit;
 mod verdict;
@@ -19,8 +20,10 @@ mod verdict;
 pub(crate) use found::Most;
 pub use found::{Found, Site};
 pub use record::{ByName, Measures, Numbers, Worst};
+pub use slack_angle::{angle_of_slack, slack_of_angle};
 pub(crate) use state::Before;
 pub use state::State;
+pub use strength::{Loss, Plane, Published};
 use tuning::TUNING;
 pub use unit::Unit;
 pub use verdict::Verdict;
@@ -210,6 +213,7 @@ measures! {
     workspace: Workspace,
     slack: Slack,
     slack_ratio: SlackRatio,
+    slack_angle: SlackAngle,
     wrinkle: Wrinkle,
     wrinkle_angle: WrinkleAngle,
     diagonal_slack: DiagonalSlack,
@@ -237,6 +241,9 @@ measures! {
     out_of_plane: OutOfPlane,
     position: Position,
     gripper_force: GripperForce,
+    slip: Slip,
+    slip_length: SlipLength,
+    holding: Holding,
 }
 
 impl Name {

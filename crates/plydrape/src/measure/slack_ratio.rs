@@ -21,6 +21,12 @@ impl Measure for SlackRatio {
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {
+        loosest_edge(state)
+    }
+}
+
+/// The edge with the largest slack ratio, and that ratio.
+pub fn loosest_edge(state: &State) -> Option<Found> {
         let mut sums = vec![(0.0, 0.0, [0.0; 3]); state.edges()];
         for m in state.edge_misfits() {
             let (sum, largest, place) = &mut sums[m.catenary];
@@ -34,5 +40,4 @@ impl Measure for SlackRatio {
             most.meet(sum, Site::Catenary(n), place);
         }
         most.found()
-    }
 }

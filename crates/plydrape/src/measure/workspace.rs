@@ -21,6 +21,6 @@ impl Measure for Workspace {
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {
-        outside(&state.snapshot.positions, state.scene.limits.workspace?, state.scene.ply.cell)
+        outside(state.snapshot.commanded(), state.scene.limits.workspace?, state.scene.ply.cell)
     }
 }

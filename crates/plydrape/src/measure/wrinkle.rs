@@ -1,14 +1,25 @@
 //! Wrinkle height: how high the ruck stands that the slack of a segment makes on the mold (`ply/ruck.rs`).
+//!
+//! Its limit is one of slack as a height. A ply without rigidity crumples and has no height, so scenes refuse such a limit there.
 
-use super::{Description, Found, Measure, Most, Site, State, Unit};
+use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
 use crate::ply::Ruck;
+use crate::scene::Scene;
 
 /// Wrinkle height; see the head of this file.
 pub struct Wrinkle;
 
 impl Measure for Wrinkle {
     fn description(&self) -> Description {
-        Description::new("wrinkle", "wrinkle_mm", "wrinkle height", Unit::MILLIMETRE)
+        Description {
+            scope: Scope::End,
+            ..Description::new("wrinkle", "wrinkle_mm", "wrinkle height", Unit::MILLIMETRE)
+        }
+    }
+
+    fn limit(&self, scene: &Scene) -> Option<f64> {
+        let limit = scene.limits.wrinkle.map(|height| height * 1e3);
+        limit.filter(|_| scene.mold.is_some() && scene.target.is_some())
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {

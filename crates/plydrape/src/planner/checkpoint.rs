@@ -1,7 +1,7 @@
 //! The result of a search, from which another search continues.
 
 use super::PlanError;
-use super::path::Strategy;
+use super::path::{Strategy, preload};
 use crate::ply::Grid;
 use crate::scene::Scene;
 
@@ -40,10 +40,11 @@ impl Checkpoint {
 
     /// The strategy from which to continue, and its positions if they lead from the scene's start to its target.
     pub(super) fn path(&self, scene: &Scene) -> Option<(Strategy, Option<Positions>)> {
-        let (start, target) = (scene.motion.positions.first()?, &scene.target.as_ref()?.grippers);
-        let ends = [self.positions.first(), self.positions.last()] == [Some(start), Some(target)];
+        let (strategy, start) = (self.strategy?, scene.motion.positions.first()?);
+        let last = preload::ends(scene, &strategy);
+        let ends = [self.positions.first(), self.positions.last()] == [Some(start), Some(&last)];
         let steps = self.positions.len() == scene.plan.steps;
-        Some((self.strategy?, (ends && steps).then(|| self.positions.clone())))
+        Some((strategy, (ends && steps).then(|| self.positions.clone())))
     }
 
     /// Refuses a checkpoint of another ply.

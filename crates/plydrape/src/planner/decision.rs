@@ -118,6 +118,17 @@ fn decided(
             (drape, score) = (judged, worse);
         }
     }
+    if drape.accepted && scene.settings.model == Model::Sheet {
+        let scene = evaluation::with_motion(scene, motion.steps());
+        drape = evaluation::with_errors(&scene, drape, |cell| {
+            let stop = || state.report().is_break();
+            let along = |_: &sheet::State| ControlFlow::Continue(());
+            let drape = sheet::drape(&cell, sheet::Tuning::default(), &stop, along).ok()?;
+            let ended = drape.summary.status != sheet::Status::Interrupted;
+            ended.then(|| evaluation::judged(&drape.summary, motion.times().len()))
+        });
+        score = evaluation::score(&drape);
+    }
     (sheet, drape, score)
 }
 

@@ -4,11 +4,13 @@
 //! that ranking led to no plan, and with this one to decide (`decision`).
 
 use crate::draping::{self, Judged};
+use crate::errors::Errors;
 use crate::measure::{Name, Verdict, Worth};
 use crate::planner::search_state::SearchState;
 use crate::planner::tuning::{Evaluation, TUNING};
 use crate::scene::{Model, Motion, Scene, SheetTime, Stepping};
 use crate::sheet;
+use rayon::prelude::*;
 use std::ops::ControlFlow;
 
 /// A scene as plans are evaluated in it: with steps cut where the ply would penetrate the mold.
@@ -46,8 +48,46 @@ pub fn drape(scene: &Scene, planned: &[Vec<[f64; 3]>], mesh: Mesh, state: &Searc
             let most = TUNING.evaluation.most_equilibria * planned.len();
             draping::judge(&scene, most, |_| state.report())
         }
-        Model::Sheet => ranked_sheet(scene, mesh, state),
+        Model::Sheet => {
+            let nominal = ranked_sheet(scene.clone(), mesh, state);
+            with_errors(&scene, nominal, |cell| Some(ranked_sheet(cell, mesh, state)))
+        }
     }
+}
+
+/// The drape of a scene and those of a few cells with its errors as one: of each limit the worst. `drape` drapes a cell, none
+/// if it was stopped. A drape that is far from a plan is as it is.
+///
+/// The cells are none of the sample by which the plan is judged in the end, so that this judges what was not planned for.
+pub fn with_errors(
+    scene: &Scene,
+    mut worst: Judged,
+    drape: impl Fn(Scene) -> Option<Judged> + Sync,
+) -> Judged {
+    let Some(errors) = scene.errors.filter(|errors| !errors.is_zero() && errors.samples > 0) else {
+        return worst;
+    };
+    if score(&worst) > TUNING.evaluation.far {
+        return worst;
+    }
+    let planned = Errors { seed: !errors.seed, ..errors };
+    let grippers = scene.ply.grid.grippers();
+    let cell = |sample: usize| drape(planned.draw(sample, grippers).apply(scene));
+    let cells: Vec<Judged> =
+        (0..TUNING.evaluation.cells).into_par_iter().filter_map(cell).collect();
+    for cell in cells {
+        for verdict in cell.limits {
+            match worst.limits.iter_mut().find(|other| other.name == verdict.name) {
+                Some(other) if verdict.ratio() > other.ratio() => *other = verdict,
+                Some(_) => {}
+                None => worst.limits.push(verdict),
+            }
+        }
+        worst.accepted &= cell.accepted;
+        worst.missing = worst.missing.max(cell.missing);
+        worst.unsolved += cell.unsolved;
+    }
+    worst
 }
 
 /// The drape of a sheet with one of its meshes.

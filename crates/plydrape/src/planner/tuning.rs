@@ -35,6 +35,11 @@ pub struct Evaluation {
     pub compared_share: f64,
     /// Least and largest factor between both that is believed.
     pub bias: [f64; 2],
+    /// Cells with errors that are draped beside the one without, where the scene has errors: few, since a whole sample judges in
+    /// the end.
+    pub cells: usize,
+    /// Score without errors from which on those are not draped.
+    pub far: f64,
     /// Equilibria a step on the average from which on a drape is broken off; good drapes take two or three.
     pub most_equilibria: usize,
     /// Score of a drape that was broken off, per share of the steps that are missing: worse than that of any other.
@@ -79,6 +84,8 @@ pub const TUNING: Tuning = Tuning {
         counted_share: 0.9,
         compared_share: 0.3,
         bias: [0.5, 2.0],
+        cells: 3,
+        far: 3.0,
         most_equilibria: 12,
         missing_weight: 1e3,
         tilt_rate_margin: 1.5,

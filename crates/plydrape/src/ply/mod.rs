@@ -83,6 +83,20 @@ impl Ply {
         self.fabric_cell().map(|side| landed.map_or(1.0, |landed| landed.scale) * side)
     }
 
+    /// Share of an edge's forces that is the ply's.
+    ///
+    /// Each family of edges has the weight of the whole ply, so where there are two families each counts half. A line
+    /// inside the ply stands for a strip one cell wide, one on its boundary for half a strip.
+    #[must_use]
+    pub(crate) fn tributary(&self, edge: usize) -> f64 {
+        let (grid, c) = (self.grid, self.grid.catenary(edge));
+        let (line, lines) =
+            if c.kind == Kind::EdgeU { (c.from[1], grid.nv) } else { (c.from[0], grid.nu) };
+        let families = if grid.nv > 1 { 2.0 } else { 1.0 };
+        let boundary = lines > 1 && (line == 0 || line + 1 == lines);
+        if boundary { 0.5 / families } else { 1.0 / families }
+    }
+
     /// Mass per length and flexural rigidity of a catenary.
     ///
     /// With areal properties each catenary stands for a strip one cell wide: `b` for the lines along

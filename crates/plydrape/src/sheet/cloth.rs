@@ -196,7 +196,7 @@ impl<'a> Cloth<'a> {
         let mounts = self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held);
         let mount = |((g, pad), nodes): Held| {
             let at = if nodes.len() == 1 { x[nodes[0].0] } else { pad.position };
-            let off = sub(at, pad.target);
+            let off = sub(sub(at, pad.target), pad.slip);
             g.mount.map_or(0.0, |k| (0..3).map(|n| 0.5 * k[n] * off[n] * off[n]).sum())
         };
         weight
@@ -239,6 +239,14 @@ impl<'a> Cloth<'a> {
         }
         for (v, (x, before)) in self.now.v.iter_mut().zip(self.now.x.iter().zip(&self.before.x)) {
             *v = [0, 1, 2].map(|n| (x[n] - before[n]) / dt);
+        }
+        for ((gripper, nodes), pad) in
+            self.sheet.grippers.iter().zip(&self.held).zip(&mut self.now.pads)
+        {
+            let at = if nodes.len() == 1 { self.now.x[nodes[0].0] } else { pad.position };
+            if let Some(hold) = gripper.hold(pad, at) {
+                add(&mut pad.slip, 1.0, hold.slides);
+            }
         }
         let most = self.tuning.lying_movement * self.sheet.mesh;
         for (quiet, (x, before)) in self.quiet.iter_mut().zip(self.now.x.iter().zip(&self.before.x))
@@ -408,10 +416,10 @@ impl<'a> Cloth<'a> {
         }
         for ((gripper, pad), nodes) in self.sheet.grippers.iter().zip(&now.pads).zip(&self.held) {
             // a pin on a spring is a free node
-            if let (Some(k), [(node, _)]) = (gripper.mount, nodes.as_slice()) {
-                let off = sub(now.x[*node], pad.target);
-                add(&mut system.gradient[*node], 1.0, [0, 1, 2].map(|n| k[n] * off[n]));
-                system.stiffen(*node, &diagonal(k));
+            let [(node, _)] = nodes.as_slice() else { continue };
+            if let Some(hold) = gripper.hold(pad, now.x[*node]) {
+                add(&mut system.gradient[*node], 1.0, hold.force);
+                system.stiffen(*node, &hold.stiffness);
             }
         }
     }
@@ -462,10 +470,9 @@ impl<'a> Cloth<'a> {
         {
             let Some((node, _)) = nodes.first() else { continue };
             let Carrier::Pad { turn, shift, .. } = self.system.carrier(*node) else { continue };
-            if let (Some(k), Some(shift)) = (gripper.mount, shift) {
-                self.system.stiffen_block(shift as usize, &diagonal(k));
-                let off = sub(pad.position, pad.target);
-                self.own.push((shift, [0, 1, 2].map(|n| k[n] * off[n])));
+            if let (Some(hold), Some(shift)) = (gripper.hold(pad, pad.position), shift) {
+                self.system.stiffen_block(shift as usize, &hold.stiffness);
+                self.own.push((shift, hold.force));
             }
             // nodes on one line leave a turn about it free, which a small stiffness holds
             let least = self.tuning.turn_stiffness * weight;
@@ -548,10 +555,10 @@ impl<'a> Cloth<'a> {
     /// Force of the ply on each gripper (N).
     pub fn forces(&mut self) -> Vec<[f64; 3]> {
         self.evaluate();
-        let gripper = |((gripper, pad), nodes): Held| match (gripper.mount, nodes.as_slice()) {
-            (Some(k), [(node, _)]) => {
-                let off = sub(self.now.x[*node], pad.target);
-                [0, 1, 2].map(|n| k[n] * off[n])
+        let gripper = |((gripper, pad), nodes): Held| match nodes.as_slice() {
+            [(node, _)] if gripper.mount.is_some() => {
+                let hold = gripper.hold(pad, self.now.x[*node]);
+                hold.map_or([0.0; 3], |hold| hold.force)
             }
             _ => {
                 nodes.iter().fold([0.0; 3], |sum, (node, _)| sub(sum, self.system.gradient[*node]))

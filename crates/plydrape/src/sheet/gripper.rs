@@ -1,7 +1,8 @@
 //! A gripper of the sheet: the fabric point that it holds, its pad, its mount, and where it is.
 
-use super::matrix3::{IDENTITY, Matrix3, orthonormal, product, rotation, times};
+use super::matrix3::{IDENTITY, Matrix3, orthonormal, outer, plus, product, rotation, times};
 use crate::draping::attitude::quaternion;
+use crate::mold::vector::{along, cross, dot, norm, sub};
 
 /// A gripper.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,8 +13,52 @@ pub struct Gripper {
     pub radius: f64,
     /// Stiffness of its mount along x, y and z (N/m); none if rigid.
     pub mount: Option<[f64; 3]>,
+    /// Largest load along the ply that its pad holds (N); beyond it the fabric slides. None if it never does.
+    pub slip_force: Option<f64>,
     /// Largest tilt of its pad (rad).
     pub max_tilt: f64,
+}
+
+/// What a mount does to the fabric that it holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hold {
+    /// Force of the ply on the mount (N).
+    pub force: [f64; 3],
+    /// Its derivative to the place of the fabric (N/m); of fabric that slides, its symmetric positive part.
+    pub stiffness: Matrix3,
+    /// By how much the fabric slides more than before (m).
+    pub slides: [f64; 3],
+}
+
+impl Gripper {
+    /// What its mount does where the fabric that it holds is at a place (m); none of a rigid one.
+    ///
+    /// The mount is a spring. What it pulls along the pad is at most the slip force: beyond it the fabric slides under the
+    /// pad, by as much as leaves the slip force in the spring.
+    pub fn hold(&self, pad: &Pad, at: [f64; 3]) -> Option<Hold> {
+        let k = self.mount?;
+        let spring = |off: [f64; 3]| [0, 1, 2].map(|n| k[n] * off[n]);
+        let force = spring(sub(sub(at, pad.target), pad.slip));
+        let stiffness = [[k[0], 0.0, 0.0], [0.0, k[1], 0.0], [0.0, 0.0, k[2]]];
+        let normal = pad.normal();
+        let load = along(force, -dot(force, normal), normal);
+        let size = norm(load);
+        let Some(most) = self.slip_force.filter(|most| size > *most) else {
+            return Some(Hold { force, stiffness, slides: [0.0; 3] });
+        };
+        let way = load.map(|c| c / size);
+        let aside = cross(normal, way);
+        let [along_way, along_aside] = [way, aside].map(|unit| dot(spring(unit), unit));
+        // along the way the force stays, aside it only turns
+        let stiffness = plus(&stiffness, -along_way, &outer(way, way));
+        let stiffness = plus(&stiffness, -along_aside * (1.0 - most / size), &outer(aside, aside));
+        let beyond = size - most;
+        Some(Hold {
+            force: along(force, -beyond, way),
+            stiffness,
+            slides: way.map(|c| c * beyond / along_way),
+        })
+    }
 }
 
 /// A gripper's pad in space.
@@ -23,6 +68,8 @@ pub struct Pad {
     pub position: [f64; 3],
     /// Where the robot holds the mount (m); the same if it is rigid.
     pub target: [f64; 3],
+    /// How far the fabric has slid under it (m).
+    pub slip: [f64; 3],
     /// Its turn: the rows of u, v and normal are the columns of this matrix.
     pub turn: Matrix3,
 }
@@ -30,7 +77,7 @@ pub struct Pad {
 impl Pad {
     /// At a place, not turned.
     pub fn new(position: [f64; 3]) -> Self {
-        Pad { position, target: position, turn: IDENTITY }
+        Pad { position, target: position, slip: [0.0; 3], turn: IDENTITY }
     }
 
     /// The arm of a fabric point `off` (m) from the pad's middle.

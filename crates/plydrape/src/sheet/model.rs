@@ -5,7 +5,7 @@ use super::gripper::Gripper;
 use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
 use crate::ply::{Direction, Ply};
-use crate::scene::{Friction, Scene};
+use crate::scene::{Friction, PadSettings, Scene};
 
 /// A ply as a sheet.
 #[derive(Debug, Clone, PartialEq)]
@@ -201,16 +201,12 @@ impl Sheet {
         for rigidity in rigidity {
             not_negative("the bending rigidity", rigidity)?;
         }
-        // a mount that is rigid along some axes only is far stiffer there than the ply
-        let stiffest = 1e3 * tension.tension(0.0)[2];
-        let mount = (mount != [None; 2]).then(|| {
-            let [lateral, axial] = mount.map(|k| k.unwrap_or(stiffest));
-            [lateral, lateral, axial]
-        });
+        let mount = mount_stiffness(&settings.pad, 1e3 * tension.tension(0.0)[2], pitch);
         let gripper = |n: usize| {
             let [i, j] = grid.id(n);
             let place = [i as f64 * a, j as f64 * b];
-            Gripper { place, radius, mount, max_tilt: settings.max_tilt }
+            let (slip_force, max_tilt) = (settings.pad.slip_force, settings.max_tilt);
+            Gripper { place, radius, mount, slip_force, max_tilt }
         };
         let sheet = Sheet {
             fabric,
@@ -246,6 +242,19 @@ impl Sheet {
         };
         self.grippers.iter().map(one).collect()
     }
+}
+
+/// Stiffness of a mount along x, y and z (N/m); none if it is rigid and holds whatever pulls.
+///
+/// One that is rigid along some axes only has the stiffness `stiffest` (N/m) there, far more than the ply. Where the fabric
+/// can slide under the pad of a rigid one, it gives by a ten-thousandth of the pitch (m) before it does.
+fn mount_stiffness(pad: &PadSettings, stiffest: f64, pitch: f64) -> Option<[f64; 3]> {
+    let PadSettings { lateral_stiffness: lateral, axial_stiffness: axial, slip_force, .. } = *pad;
+    let lateral = lateral.or(slip_force.map(|force| force / (1e-4 * pitch)));
+    (lateral.is_some() || axial.is_some()).then(|| {
+        let [lateral, axial] = [lateral, axial].map(|k| k.unwrap_or(stiffest));
+        [lateral, lateral, axial]
+    })
 }
 
 /// The largest mesh (m) that puts a line of nodes between pads of a radius on grippers a pitch apart (m): half of the fabric

@@ -132,7 +132,10 @@ fn settings() -> plydrape::scene::Settings {
 fn limits() -> plydrape::scene::Limits {
     let wide = 1e9;
     plydrape::scene::Limits {
+        preset: None,
         slack_ratio: wide,
+        slack_angle: None,
+        wrinkle: None,
         bridging: wide,
         overstretch: 0.001,
         landing_contact: wide,
@@ -151,6 +154,7 @@ fn limits() -> plydrape::scene::Limits {
         force: None,
         gripper_load: wide,
         gripper_pull: None,
+        grip_safety: 1.5,
         contact_share: 0.0,
         gripper_distance: 0.001,
         workspace: None,

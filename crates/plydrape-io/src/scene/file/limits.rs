@@ -1,9 +1,10 @@
 //! The keys of the table `[limits]`.
 
-use crate::scene::located::Fixed;
+use crate::scene::located::{Fixed, Located};
 use crate::scene::quantity::{
     Acceleration, Angle, AngularRate, Force, Jerk, Length, Quantity, Ratio, Speed, Time,
 };
+use plydrape::preset::Preset;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -12,8 +13,16 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Limits")]
 pub(in crate::scene) struct LimitsTable {
+    /// A named set of limits, none unless given; the other keys here stand over it. `plydrape limits` lists them with
+    /// the source of each figure.
+    pub preset: Option<Located<PresetKey>>,
     /// Slack of a catenary, all its segments, as a share of its length, 0.0005 unless given.
     pub slack_ratio: Option<Quantity<Ratio>>,
+    /// The same slack as a fibre angle (rad), 2√ε of the share ε; none unless given. Without a `slack_ratio` of its own
+    /// the scene has the one of this angle.
+    pub slack_angle: Option<Quantity<Angle>>,
+    /// The slack of a segment as the height of the ruck that it makes (m); none unless given.
+    pub wrinkle: Option<Quantity<Length>>,
     /// Bridging gap (m), 1 mm unless given.
     pub bridging: Option<Quantity<Length>>,
     /// Chord beyond the free length as a share of the edge, 0.001 unless given.
@@ -50,6 +59,8 @@ pub(in crate::scene) struct LimitsTable {
     pub gripper_load: Option<Quantity<Force>>,
     /// Pull in the plane of the ply at one gripper (N); none unless given. A vacuum cup of 30 mm slips at 4 to 10 N.
     pub gripper_pull: Option<Quantity<Force>>,
+    /// By how much the grippers' `slip_force` and `holding_force` must exceed the loads, 1.5 unless given.
+    pub grip_safety: Option<Quantity<Ratio>>,
     /// Share of the ply's edges on the mold at the end, 0.95 unless given.
     pub contact_share: Option<Quantity<Ratio>>,
     /// Smallest distance between any two grippers (m), half the shorter side of a cell unless given.
@@ -64,4 +75,28 @@ pub(in crate::scene) struct LimitsTable {
     pub jerk: Option<Quantity<Jerk>>,
     /// Longest time that the motion may take (s), given or planned; none unless given.
     pub duration: Option<Quantity<Time>>,
+}
+
+/// A named set of limits.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[schemars(rename = "Preset")]
+pub(in crate::scene) enum PresetKey {
+    /// Position 2 mm and fibre angle 3 deg, which the project DrapeBot gives for draping.
+    #[serde(rename = "drapebot")]
+    DrapeBot,
+    /// Nothing higher over the mold than 0.5 mm.
+    LowWrinkle,
+    /// Angles of 3 deg in the plane of the ply and out of it.
+    PlyAngle,
+}
+
+impl From<PresetKey> for Preset {
+    fn from(key: PresetKey) -> Self {
+        match key {
+            PresetKey::DrapeBot => Preset::DrapeBot,
+            PresetKey::LowWrinkle => Preset::LowWrinkle,
+            PresetKey::PlyAngle => Preset::PlyAngle,
+        }
+    }
 }

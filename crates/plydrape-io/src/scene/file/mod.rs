@@ -171,6 +171,10 @@ pub(super) struct GrippersTable {
     pub pad_radius: Option<Quantity<Length>>,
     /// How far the mounts of the pads yield; rigid unless given.
     pub stiffness: Option<MountTable>,
+    /// Largest load along the ply that a pad holds before the fabric slides under it (N); never unless given.
+    pub slip_force: Option<Quantity<Force>>,
+    /// Largest load across the ply that a pad holds (N); any unless given.
+    pub holding_force: Option<Quantity<Force>>,
 }
 
 /// How the grippers move. `plydrape plan` finds a motion of its own and takes only the start from here: the

@@ -58,7 +58,7 @@ pub struct Step {
 pub struct Gripper {
     /// Grid indices.
     pub id: GripperId,
-    /// Position (m).
+    /// Where it holds the fabric (m).
     pub position: [f64; 3],
     /// Slope of the ply along u, where there is one.
     pub slope_u: Option<f64>,
@@ -70,9 +70,38 @@ pub struct Gripper {
     pub quaternion: [f64; 4],
     /// Distance from where the ideal drape puts it (mm), where that is known.
     pub target_distance_mm: Option<f64>,
+    /// Its mount; none where all mounts are rigid.
+    pub mount: Option<Mount>,
+}
+
+/// The mount of a gripper in one step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mount {
+    /// Where the robot holds it (m).
+    pub commanded: [f64; 3],
+    /// Force on the gripper (N): of its mount along the axes that yield, of the ply along rigid ones.
+    pub force: [f64; 3],
+    /// How far the fabric has slid under the pad since the start, along x and y (m).
+    pub slip: [f64; 2],
+    /// The pad stands on the mold, which carries the rest of what presses it down.
+    pub on_mold: bool,
+}
+
+impl Mount {
+    /// Distance that the fabric has slid (mm).
+    #[must_use]
+    pub fn slip_mm(&self) -> f64 {
+        1e3 * self.slip[0].hypot(self.slip[1])
+    }
 }
 
 impl Gripper {
+    /// Where the robot holds it (m): its position, or where its mount is.
+    #[must_use]
+    pub fn commanded(&self) -> [f64; 3] {
+        self.mount.map_or(self.position, |mount| mount.commanded)
+    }
+
     /// Unit normal of the ply there: the z axis of the orientation.
     #[must_use]
     pub fn normal(&self) -> [f64; 3] {

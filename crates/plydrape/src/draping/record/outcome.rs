@@ -1,5 +1,6 @@
 //! How a drape came out: worst values of every step, limits, the verdict.
 
+use crate::errors::{SampleVerdict, Stands};
 use crate::measure::{Numbers, Subject, Verdict};
 use crate::ply::{GripperId, Kind};
 use crate::sheet;
@@ -53,6 +54,12 @@ pub struct Summary {
     /// The outcome of the same drape by the sheet, which then decides; none where the catenaries decide.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub sheet: Option<sheet::measure::Summary>,
+    /// The verdict over a sample of cells with the errors of the scene; none where the scene has none.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub sample: Option<SampleVerdict>,
+    /// The largest errors that the motion stands; none where it was not asked for.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub stands: Option<Stands>,
 }
 
 impl Summary {

@@ -3,6 +3,7 @@
 mod formation;
 mod fronts;
 mod geometry;
+pub mod preload;
 mod search;
 mod strategy;
 mod tabulation;

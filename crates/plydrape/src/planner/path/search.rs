@@ -7,7 +7,8 @@
 //! cores.
 
 use super::fronts::Fronts;
-use super::strategy::Strategy;
+use super::preload;
+use super::strategy::{MOUNTED, Strategy};
 use super::tuning::TUNING;
 use crate::draping::Judged;
 use crate::draping::spans::Point;
@@ -222,7 +223,11 @@ impl Search<'_, '_> {
         };
         let fine = lock(&shared.ranking).mesh == Mesh::Own;
         let step = TUNING.search.steps[usize::from(fine)];
-        let options = CMAESOptions::new(start.to_unit().to_vec(), step)
+        let mut unit = start.to_unit().to_vec();
+        if !preload::on_mounts(shared.scene) {
+            unit.truncate(unit.len() - MOUNTED);
+        }
+        let options = CMAESOptions::new(unit, step)
             .population_size(TUNING.search.generation)
             .seed(shared.scene.plan.seed.wrapping_add(before + left as u64));
         let Ok(mut evolution) = options.build(objective) else { return };

@@ -1,6 +1,7 @@
 //! The parameters of a front, and the vector of them that a search varies.
 
 use super::fronts::flattest;
+use super::preload;
 use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
@@ -23,16 +24,31 @@ pub struct Strategy {
     pub slope: f64,
     /// Pretension: relative stretch of the net ahead of the front.
     pub pretension: f64,
+    /// Load with which grippers on mounts press when they land, as a share of the largest; without meaning for rigid ones.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
+    pub press: f64,
+    /// Pull with which grippers on mounts hold the free ply taut, as a share of the largest; without meaning for rigid ones.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
+    pub pull: f64,
+}
+
+#[cfg(feature = "serde")]
+/// Whether there is none, which is not written.
+fn is_zero(share: &f64) -> bool {
+    *share == 0.0
 }
 
 /// Ratio of a front's axes from which on it counts as a line.
 const LINE: f64 = 100.0;
 
-/// Numbers that a search varies.
+/// Of these, how many count for grippers on mounts alone.
+pub const MOUNTED: usize = 2;
+
+/// Numbers that a search varies at most.
 pub const DIMENSION: usize = TUNING.front.ranges.len();
 
 impl Strategy {
-    /// As a point whose every coordinate goes from 0 to 1.
+    /// As a point whose every coordinate goes from 0 to 1; the last two, [`MOUNTED`], count for grippers on mounts alone.
     #[must_use]
     pub fn to_unit(&self) -> [f64; DIMENSION] {
         let values = [
@@ -43,6 +59,8 @@ impl Strategy {
             self.curvature.ln(),
             self.slope.ln(),
             self.pretension,
+            self.press,
+            self.pull,
         ];
         let mut unit = [0.0; DIMENSION];
         for n in 0..DIMENSION {
@@ -52,7 +70,8 @@ impl Strategy {
         unit
     }
 
-    /// From such a point; a coordinate beyond 0 or 1 is reflected there, so that the score of a search has no wall.
+    /// From such a point, or one without the last two; a coordinate beyond 0 or 1 is reflected there, so that the score of a
+    /// search has no wall.
     #[must_use]
     pub fn of_unit(unit: &[f64]) -> Self {
         let value = |n: usize| {
@@ -67,14 +86,16 @@ impl Strategy {
             curvature: value(4).exp(),
             slope: value(5).exp(),
             pretension: value(6),
+            press: if unit.len() == DIMENSION { value(7) } else { 0.0 },
+            pull: if unit.len() == DIMENSION { value(8) } else { 0.0 },
         }
     }
 
     /// Whether all numbers are in their range of definition.
     #[must_use]
     pub fn is_sound(&self) -> bool {
-        let Strategy { start, ratio, angle, curvature, slope, pretension } = *self;
-        let numbers = [start[0], start[1], ratio, angle, curvature, slope, pretension];
+        let Strategy { start, ratio, angle, curvature, slope, pretension, press, pull } = *self;
+        let numbers = [start[0], start[1], ratio, angle, curvature, slope, pretension, press, pull];
         numbers.iter().all(|n| n.is_finite()) && ratio > 0.0 && curvature > 0.0 && slope > 0.0
     }
 
@@ -93,8 +114,13 @@ impl Strategy {
             shape(LINE, second),
             shape(LINE, first),
         ];
+        let on_mounts = preload::on_mounts(scene);
+        let shapes = if on_mounts { shapes.map(Strategy::preloaded) } else { shapes };
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
+        if on_mounts {
+            return shapes;
+        }
         let [ring, second_ellipse, first_ellipse, second_line, first_line] = shapes[..] else {
             return shapes;
         };
@@ -133,6 +159,14 @@ impl Strategy {
         [&rings_and_ellipses, beside, &others].concat()
     }
 
+    /// The same for grippers on mounts: steeper and sharper, because those give where the ply is pulled too far.
+    fn preloaded(self) -> Self {
+        let front = TUNING.front;
+        let curvature = front.ranges[4][1].exp();
+        let (pretension, slope) = (front.ranges[6][1], front.steepest_on_mounts);
+        Strategy { curvature, slope, pretension, press: 0.5, pull: 0.65, ..self }
+    }
+
     /// Whether its front is a line, which rolls the ply on; others spread from a point.
     #[must_use]
     pub fn is_line(&self) -> bool {
@@ -149,7 +183,16 @@ impl Strategy {
     fn ring() -> Self {
         let slope = TUNING.front.steepest;
         let (start, ratio, angle) = ([0.5; 2], 1.0, 0.0);
-        Strategy { start, ratio, angle, curvature: 5.0, slope, pretension: 1.2e-3 }
+        Strategy {
+            start,
+            ratio,
+            angle,
+            curvature: 5.0,
+            slope,
+            pretension: 1.2e-3,
+            press: 0.0,
+            pull: 0.0,
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! From a strategy to the positions of every step: transport, and the front that passes over the mold.
 
 use super::formation::{Formation, MoldHeights};
+use super::preload::commanded;
 use super::strategy::Strategy;
 use super::transport::transport;
 use super::tuning::TUNING;
@@ -9,8 +10,8 @@ use crate::mold::vector;
 use crate::motion::farthest;
 use crate::scene::Scene;
 
-/// Positions (m) of `scene.plan.steps` steps: the first is the scene's start, the last the target. None without a
-/// mold or a target.
+/// Positions (m) of `scene.plan.steps` steps: the first is the scene's start, the last the target, beyond which
+/// grippers on mounts are commanded. None without a mold or a target.
 #[must_use]
 pub fn trajectory(
     scene: &Scene,
@@ -42,6 +43,7 @@ fn positions(
     let reach = formation.reach() * (1.0 + TUNING.front.beyond);
     out.extend((0..roll).map(|k| formation.grippers(reach * k as f64 / roll as f64)));
     out.push(target.clone());
+    commanded(scene, &strategy, &mut out);
     Some(out)
 }
 

@@ -11,6 +11,8 @@ pub struct Tuning {
     pub transport: Transport,
     /// Fronts and the trajectories that they give.
     pub front: Front,
+    /// Preload of grippers on mounts.
+    pub preload: Preload,
     /// The search for the best front.
     pub search: Search,
 }
@@ -95,14 +97,36 @@ pub struct Front {
     pub finer: usize,
     /// Steepest slope that is tried first: steeper ones make the ply fold at the front.
     pub steepest: f64,
+    /// The same for grippers on mounts.
+    pub steepest_on_mounts: f64,
     /// Ratio to the limit of the tilt, by the grippers alone, up to which slopes are raised: the ply hangs between them
     /// and tilts those at its boundary more.
     pub tilt_share: f64,
     /// Rounds in which that slope is found.
     pub slope_rounds: usize,
-    /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension. Ratios go up to
-    /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 3, slopes from 0.02 to 1.
-    pub ranges: [[f64; 2]; 7],
+    /// Ranges of [`super::Strategy`]: start, ln ratio, angle, ln curvature, ln slope, pretension, press, pull. Ratios go up to
+    /// e⁵, which is a line on any ply; curvatures per cell from 0.02 to 8, slopes from 0.02 to 1. The last two count for
+    /// grippers on mounts alone.
+    pub ranges: [[f64; 2]; 9],
+}
+
+/// Constants of the preload of grippers on mounts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Preload {
+    /// Largest pull of a line inside the ply, as a share of the load that a gripper may carry.
+    pub pull: f64,
+    /// Pull of a line along the border of the ply, as a multiple of that of a line inside: it alone keeps the border straight.
+    pub border: f64,
+    /// Distance of a gripper to its place from which on its pull is given up (cells).
+    pub release: f64,
+    /// Share of the pull that is left at its place, because an error of the gripper makes its lines slack there first.
+    pub kept: f64,
+    /// Share of the steps in which the pull comes up.
+    pub growing: f64,
+    /// Largest load with which a gripper presses, as a share of the one that it may carry.
+    pub press: f64,
+    /// Distance of a gripper to its place from which on it presses (cells).
+    pub press_reach: f64,
 }
 
 /// Constants of the search.
@@ -176,6 +200,7 @@ pub const TUNING: Tuning = Tuning {
         beyond: 0.02,
         finer: 4,
         steepest: 0.6,
+        steepest_on_mounts: 0.85,
         tilt_share: 0.95,
         slope_rounds: 6,
         ranges: [
@@ -183,10 +208,21 @@ pub const TUNING: Tuning = Tuning {
             [0.0, 1.0],
             [0.0, 5.0],
             [-FRAC_PI_2, FRAC_PI_2],
-            [-1.6 - LN_10, 3.4 - LN_10],
+            [-1.6 - LN_10, 4.4 - LN_10],
             [-4.0, 0.0],
             [0.0, 2.5e-3],
+            [0.0, 1.0],
+            [0.0, 1.0],
         ],
+    },
+    preload: Preload {
+        pull: 0.15,
+        border: 3.0,
+        release: 0.4,
+        kept: 0.7,
+        growing: 0.1,
+        press: 0.5,
+        press_reach: 0.3,
     },
     search: Search {
         good: 0.8,

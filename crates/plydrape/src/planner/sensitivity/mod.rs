@@ -6,10 +6,9 @@
 //! as negligible, wherever the state is differentiable: not where a diagonal just begins to shear, a slope just reaches its
 //! limit, or a point just comes into contact.
 //!
-//! `coloring` has the groups, `state` the derivatives of the state as sparse rows, `span` the quantities of one span,
+//! `state` has the derivatives of the state as sparse rows, `span` the quantities of one span,
 //! `contact` those of a span and the mold, `gripper` those of grippers and cells, `outcome` those of the end of a drape.
 
-mod coloring;
 mod contact;
 mod gripper;
 mod outcome;

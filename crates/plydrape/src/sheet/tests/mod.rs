@@ -2,6 +2,7 @@
 
 mod derivatives;
 mod hanging;
+mod mounts;
 mod on_mold;
 mod random;
 
@@ -26,6 +27,7 @@ fn sheet(lines: [Vec<f64>; 2], held: &[[f64; 2]]) -> Sheet {
         place: *place,
         radius: 0.0,
         mount: None,
+        slip_force: None,
         max_tilt: 40_f64.to_radians(),
     };
     let pitch = 0.1;

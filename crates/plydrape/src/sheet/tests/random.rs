@@ -63,6 +63,7 @@ fn scene(seed: u64) -> Scene {
         radius: r.one(&[0.0, 0.0, 0.01, 0.04]),
         lateral_stiffness: r.one(&[None, Some(2e3)]),
         axial_stiffness: r.one(&[None, Some(5e3), Some(1.0)]),
+        ..PadSettings::default()
     };
     let mu = r.between(0.0, 1.5);
     settings.contact.friction =

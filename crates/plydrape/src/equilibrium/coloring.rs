@@ -8,7 +8,7 @@ use crate::ply::{Grid, GripperId};
 
 /// Groups of grippers, each a stride apart along u and v.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Coloring {
+pub struct Coloring {
     grid: Grid,
     reach: usize,
 }

@@ -1,0 +1,80 @@
+//! `plydrape limits`: the presets of limits, each figure with its source, and what is published of fibre angles.
+
+use crate::failure::Done;
+use crate::numbers::short;
+use plydrape::preset::Preset;
+use plydrape_io::strength;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// List the presets of `[limits]`, each figure with its source.
+///
+/// `preset = "NAME"` in the table `[limits]` of a scene sets them; other keys there stand over it.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {}
+
+/// Widest line.
+const WIDTH: usize = 99;
+
+/// Prints the presets.
+pub fn run(_: &Arguments) -> Done {
+    let mut out = io::stdout().lock();
+    out.write_all(text().as_bytes())?;
+    out.flush()?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn text() -> String {
+    let mut text = String::new();
+    for preset in Preset::ALL {
+        let _ = writeln!(text, "{}: {}", preset.name(), preset.about());
+        for figure in preset.figures() {
+            let measure = figure.name.measure();
+            let (value, unit) = shown(figure.value, measure.unit().recorded);
+            let _ = writeln!(text, "  {} = \"{value} {unit}\"", measure.name());
+            text += &wrapped(figure.source, "    ");
+        }
+        text.push('\n');
+    }
+    text += &wrapped(
+        "A preset is a set of numbers, no standard: a drape that keeps it has not been shown to keep one.",
+        "",
+    );
+    text += "\nStrength that fibre angles cost, as published:\n";
+    for note in strength::published() {
+        text += &wrapped(&format!("{}: {}", note.angles, note.text), "  ");
+        text += &wrapped(&note.source, "    ");
+    }
+    text += &wrapped(strength::INFORMATION, "  ");
+    text
+}
+
+/// A limit (SI) in the unit that its measure is recorded in, and that unit.
+fn shown(value: f64, unit: &'static str) -> (String, &'static str) {
+    let value = match unit {
+        "mm" => value * 1e3,
+        "deg" => value.to_degrees(),
+        _ => value,
+    };
+    (short(value), unit)
+}
+
+/// Whole words in lines that are indented.
+fn wrapped(text: &str, indent: &str) -> String {
+    let mut out = String::new();
+    let mut line = indent.to_string();
+    for word in text.split_whitespace() {
+        let full = line.chars().count() + 1 + word.chars().count() > WIDTH;
+        if full && line.trim() != "" {
+            let _ = writeln!(out, "{line}");
+            line = indent.to_string();
+        }
+        if line.trim() != "" {
+            line.push(' ');
+        }
+        line += word;
+    }
+    let _ = writeln!(out, "{line}");
+    out
+}

@@ -1,0 +1,57 @@
+//! The slack at the end in the currencies of an engineer: as an angle of the fibres and as the height of a wrinkle.
+
+use super::significant;
+use plydrape::draping::record::{Summary, Verdict};
+use plydrape::measure::{Name, angle_of_slack};
+
+/// The worst slack of the catenaries at the end in words, each currency once: those that have a limit of their own have a row of
+/// their own. None without slack, or where slack is not judged.
+#[must_use]
+pub(crate) fn slack_in_words(summary: &Summary) -> Option<String> {
+    let judged = |name: Name| summary.limits.iter().find(|verdict| verdict.name == name);
+    let value = |name: Name| summary.last.value(name).filter(|value| *value > 0.0);
+    let ratio = judged(Name::SlackRatio)?;
+    let mut said = Vec::new();
+    if let (None, Some(angle)) = (judged(Name::SlackAngle), value(Name::SlackAngle)) {
+        let (angle, limit) = (significant(angle), significant(limit_as_angle(ratio)));
+        said.push(format!("a fibre angle of {angle}° (allowed {limit}°)"));
+    }
+    if let (None, Some(height)) = (judged(Name::Wrinkle), value(Name::Wrinkle)) {
+        said.push(format!("a wrinkle {} mm high", significant(height)));
+    }
+    (!said.is_empty()).then(|| said.join(", "))
+}
+
+/// The limit of a slack ratio as a fibre angle (°).
+fn limit_as_angle(ratio: &Verdict) -> f64 {
+    angle_of_slack(ratio.limit / Name::SlackRatio.measure().unit().factor).to_degrees()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+    use plydrape::measure::Worst;
+
+    /// 2√0.005 is 8.1°, 2√0.0005 2.6°; what has a row of its own in the table of limits is not said twice.
+    #[test]
+    fn slack_is_said_once_in_each_currency() {
+        let mut summary = sample::draped(4, 2, 3).summary;
+        let verdict = |name: Name, value: f64, limit: f64| {
+            Verdict::of(name, Worst { value, at: String::new(), place: None }, limit, None)
+        };
+        assert_eq!(slack_in_words(&summary), None);
+        summary.limits.push(verdict(Name::SlackRatio, 0.005, 0.0005));
+        assert_eq!(slack_in_words(&summary), None);
+        let last = [(Name::SlackAngle, Some(8.10285)), (Name::Wrinkle, Some(2.7))];
+        summary.last = last.into_iter().collect();
+        assert_eq!(
+            slack_in_words(&summary).as_deref(),
+            Some("a fibre angle of 8.103° (allowed 2.562°), a wrinkle 2.7 mm high")
+        );
+        summary.limits.push(verdict(Name::SlackAngle, 8.10285, 3.0));
+        assert_eq!(slack_in_words(&summary).as_deref(), Some("a wrinkle 2.7 mm high"));
+        summary.limits.push(verdict(Name::Wrinkle, 2.7, 0.5));
+        assert_eq!(slack_in_words(&summary), None);
+    }
+}

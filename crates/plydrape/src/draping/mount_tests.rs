@@ -1,0 +1,196 @@
+//! Drapes with grippers on mounts that yield.
+
+use super::standing::Ground;
+use super::{Drape, Draping, simulate};
+use crate::equilibrium::{MountedSolver, Solver, Status};
+use crate::material::{Material, Section};
+use crate::measure::Name;
+use crate::mold::{Mold, Plane};
+use crate::ply::{Direction, Grid, Ply};
+use crate::scene::{Limits, Model, Motion, PadSettings, Plan, Scene, Settings};
+use std::ops::ControlFlow;
+
+fn plane() -> Mold {
+    Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] })
+}
+
+/// A ply that is lowered onto the plane z = 0 in steps, its grippers at a spacing (m) that grows to another.
+fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2]) -> Scene {
+    let material = Material {
+        name: "krogh2018".into(),
+        source: "Krogh et al. 2018, Table 1".into(),
+        section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
+        shear_curve: None,
+        tension: None,
+        locking_angle: None,
+    };
+    let ply = Ply { grid, cell: [0.1; 2], material, warp: Direction::U, length_factor: 1.0 };
+    let settings = Settings { model: Model::Catenaries, pad, ..Settings::default() };
+    let limits = Limits::of(&ply, &settings);
+    let share = |step: usize| step as f64 / (heights.len() - 1).max(1) as f64;
+    let place = |n: usize, step: usize| {
+        let spacing = first + share(step) * (last - first);
+        let middle = [grid.nu, grid.nv].map(|count| 0.5 * (count - 1) as f64);
+        let [i, j] = grid.id(n);
+        [spacing * (i as f64 - middle[0]), spacing * (j as f64 - middle[1]), heights[step]]
+    };
+    let positions = |step| (0..grid.grippers()).map(|n| place(n, step)).collect();
+    Scene {
+        title: "mounts".into(),
+        motion: Motion {
+            times: (0..heights.len()).map(|n| n as f64).collect(),
+            positions: (0..heights.len()).map(positions).collect(),
+        },
+        ply,
+        mold: Some(plane()),
+        target: None,
+        settings,
+        limits,
+        plan: Plan::default(),
+        errors: None,
+    }
+}
+
+fn draped(scene: &Scene) -> Drape {
+    let drape = simulate(scene, |_| ControlFlow::Continue(()));
+    for step in &drape.steps {
+        assert!(step.solver.found(), "step {}: {:?}", step.step, step.solver);
+    }
+    drape
+}
+
+fn mounts(lateral: Option<f64>, axial: Option<f64>) -> PadSettings {
+    PadSettings { lateral_stiffness: lateral, axial_stiffness: axial, ..PadSettings::default() }
+}
+
+/// From 40 mm down to a last height (m).
+fn down(last: f64, steps: usize) -> Vec<f64> {
+    (0..steps).map(|n| 0.04 + (last - 0.04) * n as f64 / (steps - 1) as f64).collect()
+}
+
+/// Grippers that go on for 3 mm below the mold leave their pads on it: the mounts yield by that and press with k times it.
+#[test]
+fn the_mold_carries_what_presses_a_pad_down() {
+    for grid in [Grid { nu: 3, nv: 1 }, Grid { nu: 3, nv: 3 }] {
+        let pad = mounts(None, Some(5e3));
+        let drape = draped(&scene(grid, pad, &down(-3e-3, 25), [0.098, 0.0999]));
+        let last = &drape.steps[24];
+        for gripper in &last.grippers {
+            let mount = gripper.mount.unwrap();
+            assert!(mount.on_mold && gripper.position[2].abs() < 1e-9, "{gripper:?}");
+            assert!((mount.force[2] - 15.0).abs() < 1e-6, "{mount:?}");
+            assert!((mount.commanded[2] + 3e-3).abs() < 1e-15);
+        }
+        assert_eq!(last.measures.value(Name::Penetration), Some(0.0));
+    }
+}
+
+/// In the air the mounts of each step hold the ply's weight; the pads hang as much lower as it takes.
+#[test]
+fn pads_in_the_air_hang_by_their_load_over_the_stiffness() {
+    let pad = mounts(None, Some(500.0));
+    let drape = draped(&scene(Grid { nu: 4, nv: 3 }, pad, &[0.05, 0.045], [0.098, 0.098]));
+    for step in &drape.steps {
+        let mut sum = 0.0;
+        for gripper in &step.grippers {
+            let mount = gripper.mount.unwrap();
+            let hang = mount.commanded[2] - gripper.position[2];
+            assert!((500.0 * hang + mount.force[2]).abs() < 1e-9);
+            sum -= mount.force[2];
+        }
+        // six cells of 0.1 m by 0.1 m of 3.143 kg/m²; the lines count by their chords, 2 % less
+        let weight = 3.143 * 0.06 * 9.81;
+        assert!((sum - weight).abs() < 0.03 * weight, "{sum} {weight}");
+        let load = step.measures.value(Name::GripperLoad).unwrap();
+        let most = step.grippers.iter().map(|g| -g.mount.unwrap().force[2]).fold(0.0, f64::max);
+        assert_eq!(load, most);
+    }
+}
+
+/// A pad that stands stays where it touched while the robot moves sideways, and the mold lets it go where it would have
+/// to pull.
+#[test]
+fn a_pad_sticks_where_it_touched_and_is_lifted_off_where_the_mold_would_pull() {
+    let grid = Grid { nu: 2, nv: 1 };
+    let scene = scene(grid, mounts(Some(2e3), Some(5e3)), &[0.05], [0.098, 0.098]);
+    let mut solver = Solver::new(&scene.ply, &scene.settings);
+    let mut mounts = MountedSolver::new(&scene.ply, &scene.settings).unwrap();
+    let contacts = vec![None];
+    let mold = plane();
+    let ground = Ground { mold: &mold, tolerance: 2e-4, grid, contacts: &contacts };
+    // the ply itself is let through the mold here: only the pads are on it
+    let mut at = |mounts: &mut MountedSolver, x: f64, z: f64| {
+        let places = [[-0.049, 0.0, 0.01], [0.049 + x, 0.0, z]];
+        let found = mounts.solve(&mut solver, &places, &contacts);
+        assert_eq!(found.status, Status::Converged);
+    };
+    at(&mut mounts, 0.0, -1e-3);
+    assert!(ground.land(&mut mounts));
+    at(&mut mounts, 0.0, -1e-3);
+    let place = mounts.pads()[1];
+    assert!(place[2].abs() < 1e-12 && mounts.standing()[0].is_none());
+    assert!(!ground.land(&mut mounts) && !ground.lift(&mut mounts));
+    at(&mut mounts, 1e-3, -2e-3);
+    assert_eq!(mounts.pads()[1], place);
+    assert!(!ground.lift(&mut mounts));
+    at(&mut mounts, 1e-3, 2e-3);
+    assert!(ground.lift(&mut mounts) && mounts.standing()[1].is_none());
+    at(&mut mounts, 1e-3, 2e-3);
+    assert!(mounts.pads()[1][2] > 1e-3 && !ground.land(&mut mounts));
+}
+
+/// The whole drape with ever stiffer mounts tends to that of rigid grippers.
+#[test]
+fn a_drape_on_stiff_mounts_is_that_of_rigid_grippers() {
+    let grid = Grid { nu: 3, nv: 3 };
+    let heights = down(0.012, 8);
+    let rigid = draped(&scene(grid, PadSettings::default(), &heights, [0.098, 0.0985]));
+    assert!(rigid.steps.iter().all(|step| step.grippers.iter().all(|g| g.mount.is_none())));
+    let off = |stiffness: f64| {
+        let pad = mounts(Some(stiffness), Some(stiffness));
+        let drape = draped(&scene(grid, pad, &heights, [0.098, 0.0985]));
+        let pairs = drape.steps.iter().zip(&rigid.steps);
+        let lines = pairs.flat_map(|(a, b)| a.catenaries.iter().zip(&b.catenaries));
+        let spans = lines.flat_map(|(a, b)| a.spans.iter().zip(&b.spans));
+        spans.map(|(a, b)| (a.force.unwrap() - b.force.unwrap()).abs()).fold(0.0, f64::max)
+    };
+    let (coarse, fine) = (off(1e6), off(1e7));
+    assert!((coarse / fine - 10.0).abs() < 0.5, "{coarse} {fine}");
+}
+
+/// Grippers that go 3 % too far apart: the fabric slides under the outer pads at exactly the slip force, which the step
+/// reports with the slide; and at the end it has not slid back.
+#[test]
+fn a_drape_reports_where_the_fabric_slid_and_how_far() {
+    let pad = PadSettings { slip_force: Some(2.0), ..mounts(Some(2e3), None) };
+    let spacings = [0.098, 0.103];
+    let scene = scene(Grid { nu: 3, nv: 1 }, pad, &[0.05; 11], spacings);
+    let drape = draped(&scene);
+    let value = |step: usize, name: Name| drape.steps[step].measures.value(name).unwrap();
+    assert!(value(0, Name::Slip) < 1.0 && value(0, Name::SlipLength) == 0.0);
+    assert!((value(10, Name::Slip) - 2.0).abs() < 1e-9);
+    let slid: Vec<f64> = (0..11).map(|step| value(step, Name::SlipLength)).collect();
+    assert!(slid.is_sorted());
+    // 3 mm too far on each side: the spring yields by 1 mm, and the line sags by w²L³/24H² = 0.1 mm
+    assert!((slid[10] - 2.1).abs() < 0.02, "{slid:?}");
+    let verdict = drape.summary.limits.iter().find(|verdict| verdict.name == Name::Slip).unwrap();
+    assert!(!verdict.ok && verdict.at.starts_with("gripper ["), "{verdict:?}");
+    assert!((verdict.limit - 2.0 / 1.5).abs() < 1e-12);
+}
+
+/// A drape with mounts is the same however its first moves were made: a draping that is cloned goes on alike.
+#[test]
+fn a_cloned_drape_goes_on_alike() {
+    let pad = PadSettings { slip_force: Some(2.0), ..mounts(Some(2e3), Some(5e3)) };
+    let scene = scene(Grid { nu: 3, nv: 2 }, pad, &down(0.0, 12), [0.098, 0.1]);
+    let mut first = Draping::new(&scene);
+    for positions in &scene.motion.positions[..6] {
+        first.move_to(positions);
+    }
+    let mut second = first.clone();
+    for positions in &scene.motion.positions[6..] {
+        first.move_to(positions);
+        second.move_to(positions);
+        assert_eq!(first.pads(), second.pads());
+    }
+}

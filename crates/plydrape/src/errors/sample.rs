@@ -1,0 +1,315 @@
+//! The verdict over a sample of cells: complete drapes, each of a cell with errors of its own.
+
+use super::{Draw, Errors, Term};
+use crate::draping::{self, Judged};
+use crate::measure::{Site, Verdict};
+use crate::ply::Grid;
+use crate::scene::{Model, Scene};
+use crate::sheet;
+use rayon::prelude::*;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Most factors of the errors that are tried, and the least.
+const FACTORS: [f64; 2] = [1.0 / 64.0, 16.0];
+/// Bisections of the factor, each by its root: three leave 9 %.
+const BISECTIONS: usize = 3;
+/// Drapes at most by which a factor is tried.
+const TRIED: usize = 16;
+
+/// Whether a drape goes on, and how far a sample has come.
+pub struct Watch<'a> {
+    /// Asked before each time step whether to end.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+    /// Told how many of so many drapes are done.
+    pub done: &'a (dyn Fn(usize, usize) + Sync),
+}
+
+/// The verdict over a sample of cells.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct SampleVerdict {
+    /// The errors of the cells.
+    pub errors: Errors,
+    /// How many cells must keep every limit.
+    pub needed: usize,
+    /// Whether so many do.
+    pub ok: bool,
+    /// Every limit, judged by the value that the share of the cells keeps which must keep it.
+    pub limits: Vec<Verdict>,
+    /// Each cell's drape.
+    pub cells: Vec<CellVerdict>,
+    /// Where the sheet is highest by the height that the share of the cells keeps there; none of catenaries.
+    pub highest: Option<Highest>,
+    /// Height (mm) at each node of the sheet that the share of the cells keeps; empty of catenaries.
+    pub spread_mm: Vec<f64>,
+}
+
+/// The drape of one cell.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct CellVerdict {
+    /// Whether it keeps every limit.
+    pub accepted: bool,
+    /// The largest height of its sheet at the end (mm); none of catenaries and of a drape without an end.
+    pub height_mm: Option<f64>,
+    /// The largest ratio of a measure to its limit; above 1 it is not kept.
+    pub ratio: f64,
+}
+
+/// The highest place of a sample.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Highest {
+    /// Height (mm).
+    pub height_mm: f64,
+    /// Fabric coordinates (mm).
+    pub uv_mm: [f64; 2],
+    /// The nearest line of grippers, from its first to its last.
+    pub line: String,
+    /// The nearest gripper.
+    pub gripper: String,
+}
+
+/// The largest errors that a plan stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Stands {
+    /// The largest common factor of all errors at which the plan is still accepted, found within 9 %; 0 if it is not at the
+    /// least one that was tried.
+    pub factor: f64,
+    /// Whether it is the largest one that was tried, so that the plan may stand more.
+    pub at_least: bool,
+    /// The error of each gripper's position along each axis at this factor.
+    pub position: Term,
+    /// Drapes by which each factor was tried.
+    pub tried: usize,
+}
+
+/// One drape of a sample.
+struct Drape {
+    judged: Judged,
+    /// Height of each node at the end (m); beyond the boundary of the mold 0. Empty of catenaries.
+    heights: Vec<f64>,
+    places: Vec<[f64; 2]>,
+}
+
+impl Errors {
+    /// How many of so many cells must keep the limits.
+    #[must_use]
+    pub fn needed(&self, samples: usize) -> usize {
+        ((self.share * samples as f64).ceil() as usize).clamp(usize::from(samples > 0), samples)
+    }
+
+    /// Those of which "a plan stands so much" is said where a scene has none: of each gripper's position, a thousandth of the
+    /// grippers' pitch along each axis.
+    #[must_use]
+    pub fn of_grippers(scene: &Scene) -> Errors {
+        let mut errors = Errors::default();
+        errors.gripper.position = Term::Deviation(1e-3 * sheet::pitch(&scene.ply));
+        errors
+    }
+
+    /// The verdict over the sample of a scene along its motion; none if it was stopped.
+    #[must_use]
+    pub fn judge(&self, scene: &Scene, watch: &Watch) -> Option<SampleVerdict> {
+        let done = AtomicUsize::new(0);
+        let one = |sample: usize| {
+            let drape = draped(&self.cell(scene, sample, 1.0), watch.stop);
+            (watch.done)(done.fetch_add(1, Ordering::Relaxed) + 1, self.samples);
+            drape
+        };
+        let drapes: Vec<Drape> = (0..self.samples).into_par_iter().filter_map(one).collect();
+        if drapes.len() < self.samples || drapes.is_empty() {
+            return None;
+        }
+        let needed = self.needed(drapes.len());
+        let cells: Vec<CellVerdict> = drapes.iter().map(cell_verdict).collect();
+        let spread = spread(&drapes, needed);
+        Some(SampleVerdict {
+            errors: *self,
+            needed,
+            ok: cells.iter().filter(|cell| cell.accepted).count() >= needed,
+            limits: limits(&drapes, needed),
+            highest: highest(scene, &drapes[0].places, &spread),
+            spread_mm: spread.iter().map(|height| height * 1e3).collect(),
+            cells,
+        })
+    }
+
+    /// The largest common factor of all errors at which a scene along its motion is still accepted; none if it was stopped.
+    #[must_use]
+    pub fn stands(&self, scene: &Scene, watch: &Watch) -> Option<Stands> {
+        let tried = self.samples.clamp(1, TRIED);
+        let mut order: Vec<usize> = (0..tried).collect();
+        let mut holds = |factor: f64| self.hold(scene, factor, &mut order, watch);
+        let [least, most] = FACTORS;
+        let (mut low, mut high) = (0.0, 1.0);
+        if holds(1.0)? {
+            (low, high) = (1.0, 2.0);
+            while high <= most && holds(high)? {
+                (low, high) = (high, 2.0 * high);
+            }
+        } else {
+            while low == 0.0 && high > least {
+                if holds(0.5 * high)? {
+                    low = 0.5 * high;
+                } else {
+                    high *= 0.5;
+                }
+            }
+        }
+        let at_least = low >= most;
+        if low > 0.0 && !at_least {
+            for _ in 0..BISECTIONS {
+                let middle = (low * high).sqrt();
+                *(if holds(middle)? { &mut low } else { &mut high }) = middle;
+            }
+        }
+        let position = self.gripper.position.scaled(low);
+        Some(Stands { factor: low, at_least, position, tried })
+    }
+
+    /// Whether enough of the cells in `order` keep the limits with all errors larger by a factor. Those that do not come first
+    /// in the order from then on, because they will not with larger ones either.
+    fn hold(
+        &self,
+        scene: &Scene,
+        factor: f64,
+        order: &mut Vec<usize>,
+        watch: &Watch,
+    ) -> Option<bool> {
+        let spare = order.len() - self.needed(order.len());
+        let mut failed: Vec<usize> = Vec::new();
+        for pair in order.chunks(2) {
+            let keeps = |sample: &usize| {
+                let drape = draped(&self.cell(scene, *sample, factor), watch.stop)?;
+                Some((*sample, drape.judged.accepted))
+            };
+            let found: Option<Vec<(usize, bool)>> = pair.par_iter().map(keeps).collect();
+            failed.extend(found?.into_iter().filter(|(_, keeps)| !keeps).map(|(sample, _)| sample));
+            if failed.len() > spare {
+                break;
+            }
+        }
+        order.sort_by_key(|sample| (!failed.contains(sample), *sample));
+        Some(failed.len() <= spare)
+    }
+
+    /// The scene of a cell with all errors larger by a factor.
+    fn cell(&self, scene: &Scene, sample: usize, factor: f64) -> Scene {
+        let draw: Draw = self.draw(sample, scene.ply.grid.grippers());
+        draw.scaled(factor).apply(scene)
+    }
+}
+
+impl SampleVerdict {
+    /// Cells that keep every limit.
+    #[must_use]
+    pub fn accepted(&self) -> usize {
+        self.cells.iter().filter(|cell| cell.accepted).count()
+    }
+
+    /// Largest height (mm) that the share of the cells keeps which must keep the limits; none of catenaries.
+    #[must_use]
+    pub fn height_mm(&self) -> Option<f64> {
+        let mut heights: Vec<f64> = self.cells.iter().filter_map(|cell| cell.height_mm).collect();
+        heights.sort_by(f64::total_cmp);
+        // a drape without an end has no height: it counts as the highest
+        heights.get(self.needed.max(1) - 1).copied()
+    }
+}
+
+/// A drape by the model that decides; none if it was stopped.
+fn draped(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Option<Drape> {
+    let steps = scene.motion.positions.len();
+    if scene.settings.model == Model::Catenaries {
+        let go = |_: usize| if stop() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let judged = draping::judge(scene, usize::MAX, go);
+        return (!stop()).then(|| Drape { judged, heights: Vec::new(), places: Vec::new() });
+    }
+    let along = |_: &sheet::State| ControlFlow::Continue(());
+    let drape = sheet::drape(scene, sheet::Tuning::default(), &|| stop(), along).ok()?;
+    let summary = &drape.summary;
+    if summary.status == sheet::Status::Interrupted {
+        return None;
+    }
+    let judged = Judged {
+        limits: summary.limits.clone(),
+        accepted: summary.accepted && summary.steps == steps,
+        missing: 1.0 - summary.steps as f64 / steps.max(1) as f64,
+        unsolved: usize::from(!summary.converged),
+    };
+    let lies_on = |node: usize| {
+        let mold = drape.sheet.mold.as_ref();
+        mold.is_some_and(|mold| !mold.closest_point(drape.last.positions[node]).beyond)
+    };
+    let heights = drape.last.heights.iter().enumerate();
+    let heights = heights.map(|(n, height)| if lies_on(n) { height.max(0.0) } else { 0.0 });
+    Some(Drape { judged, heights: heights.collect(), places: drape.sheet.fabric.places.clone() })
+}
+
+fn cell_verdict(drape: &Drape) -> CellVerdict {
+    let Judged { accepted, limits, missing, .. } = &drape.judged;
+    let highest = drape.heights.iter().copied().reduce(f64::max);
+    CellVerdict {
+        accepted: *accepted,
+        height_mm: highest.filter(|_| *missing == 0.0).map(|height| height * 1e3),
+        ratio: limits.iter().map(Verdict::ratio).fold(0.0, f64::max),
+    }
+}
+
+/// Every limit, judged by the drape of which so many keep it as well or better.
+fn limits(drapes: &[Drape], needed: usize) -> Vec<Verdict> {
+    let mut names: Vec<_> = Vec::new();
+    for verdict in drapes.iter().flat_map(|drape| &drape.judged.limits) {
+        if !names.contains(&verdict.name) {
+            names.push(verdict.name);
+        }
+    }
+    let one = |name| {
+        let of =
+            drapes.iter().flat_map(|drape| drape.judged.limits.iter().find(|v| v.name == name));
+        let mut found: Vec<&Verdict> = of.collect();
+        found.sort_by(|a, b| a.ratio().total_cmp(&b.ratio()));
+        found.get(needed.min(found.len()).max(1) - 1).map(|verdict| (*verdict).clone())
+    };
+    names.into_iter().filter_map(one).collect()
+}
+
+/// Height (m) at each node that so many drapes keep.
+fn spread(drapes: &[Drape], needed: usize) -> Vec<f64> {
+    let nodes = drapes.iter().map(|drape| drape.heights.len()).min().unwrap_or(0);
+    let one = |node: usize| {
+        let mut heights: Vec<f64> = drapes.iter().map(|drape| drape.heights[node]).collect();
+        heights.sort_by(f64::total_cmp);
+        heights[needed.max(1) - 1]
+    };
+    (0..nodes).map(one).collect()
+}
+
+/// The highest node, with the line of grippers and the gripper that are nearest in the fabric.
+fn highest(scene: &Scene, places: &[[f64; 2]], spread: &[f64]) -> Option<Highest> {
+    let (node, height) = spread.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+    let (place, ply) = (places[node], &scene.ply);
+    let Grid { nu, nv } = ply.grid;
+    let nearest = |axis: usize, count: usize| {
+        let at = if ply.cell[axis] > 0.0 { place[axis] / ply.cell[axis] } else { 0.0 };
+        let n = at.round().clamp(0.0, (count - 1) as f64);
+        (n as usize, (at - n).abs() * ply.cell[axis])
+    };
+    let ((i, off_u), (j, off_v)) = (nearest(0, nu), nearest(1, nv));
+    let label = |id| Site::Gripper(ply.grid.index(id)).label(ply.grid);
+    let ends = if off_v <= off_u { [[0, j], [nu - 1, j]] } else { [[i, 0], [i, nv - 1]] };
+    let [from, to] = ends.map(label);
+    Some(Highest {
+        height_mm: height * 1e3,
+        uv_mm: place.map(|c| c * 1e3),
+        line: format!("{from} to {to}"),
+        gripper: label([i, j]),
+    })
+}

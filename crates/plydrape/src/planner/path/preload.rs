@@ -1,0 +1,125 @@
+//! Preload of grippers on mounts: where they are commanded beyond the places where the ply shall be.
+//!
+//! While the ply is free, the grippers pull it taut, so that an error of their places makes no line slack: each is commanded
+//! beyond its place by what the pull of its lines does to its mount. The lines along the ply's border, which have fabric on
+//! one side alone, are pulled harder. The pull is given up in part as a gripper comes to its place.
+//!
+//! As they land, they press: a line of grippers hangs higher than the middles of the cells beside it, which land first and
+//! catch the fabric that crosses the line. A mount gives, so its gripper can be commanded to come down earlier and deeper
+//! than a rigid one: the line lands with its surroundings, and an error of height does not leave the gripper above the mold.
+
+use super::strategy::Strategy;
+use super::tuning::TUNING;
+use crate::draping::spans::Point;
+use crate::mold::distance;
+use crate::mold::vector::{along, sub, unit};
+use crate::planner::tuning;
+use crate::ply::Grid;
+use crate::scene::Scene;
+
+/// The preload of a strategy's grippers; none of rigid ones.
+pub struct Preload<'a> {
+    scene: &'a Scene,
+    targets: &'a [Point],
+    /// How far a mount gives along x, y and z (m/N).
+    compliance: [f64; 3],
+    /// Pull of a line inside the ply (N).
+    pull: f64,
+    /// Load with which a gripper presses (N).
+    press: f64,
+}
+
+/// Whether the grippers of a scene are on mounts that give.
+#[must_use]
+pub fn on_mounts(scene: &Scene) -> bool {
+    let pad = &scene.settings.pad;
+    pad.lateral_stiffness.is_some() || pad.axial_stiffness.is_some()
+}
+
+impl<'a> Preload<'a> {
+    /// The preload of a strategy.
+    #[must_use]
+    pub fn new(scene: &'a Scene, strategy: &Strategy) -> Option<Self> {
+        let target = scene.target.as_ref().filter(|_| on_mounts(scene))?;
+        let pad = &scene.settings.pad;
+        let gives = |stiffness: Option<f64>| stiffness.map_or(0.0, |k| 1.0 / k);
+        let [lateral, axial] = [pad.lateral_stiffness, pad.axial_stiffness].map(gives);
+        let load = scene.limits.gripper_load;
+        Some(Preload {
+            scene,
+            targets: &target.grippers,
+            compliance: [lateral, lateral, axial],
+            pull: strategy.pull * TUNING.preload.pull * load,
+            press: strategy.press * TUNING.preload.press * load,
+        })
+    }
+
+    /// Where the grippers are commanded (m) whose places are to be `places` (m) in a step; `grown` is the share of the pull that
+    /// has come up since the start.
+    #[must_use]
+    pub fn commanded(&self, places: &[Point], grown: f64) -> Vec<Point> {
+        let cell = tuning::cell(self.scene);
+        let one = |(n, place): (usize, &Point)| {
+            let away = distance(*place, self.targets[n]) / cell;
+            let free = smooth(away / TUNING.preload.release);
+            let held = TUNING.preload.kept + (1.0 - TUNING.preload.kept) * free;
+            let pressed = self.press * (1.0 - smooth(away / TUNING.preload.press_reach));
+            let pull = self.lines(places, n).map(|c| c * grown * held * self.pull);
+            let mold = self.scene.mold.as_ref();
+            let normal = mold.map_or([0.0, 0.0, 1.0], |mold| mold.normal(self.targets[n]));
+            [0, 1, 2].map(|c| place[c] - self.compliance[c] * (pull[c] + pressed * normal[c]))
+        };
+        places.iter().enumerate().map(one).collect()
+    }
+
+    /// What lines of unit pull do to a gripper.
+    fn lines(&self, places: &[Point], gripper: usize) -> Point {
+        let grid: Grid = self.scene.ply.grid;
+        let [i, j] = grid.id(gripper);
+        let mut sum = [0.0; 3];
+        let mut add = |id: [usize; 2], border: bool| {
+            let way = unit(sub(places[grid.index(id)], places[gripper])).unwrap_or([0.0; 3]);
+            let pull = if border { TUNING.preload.border } else { 1.0 };
+            sum = along(sum, pull, way);
+        };
+        let (on_u, on_v) = (j == 0 || j + 1 == grid.nv, i == 0 || i + 1 == grid.nu);
+        if i > 0 {
+            add([i - 1, j], on_u);
+        }
+        if i + 1 < grid.nu {
+            add([i + 1, j], on_u);
+        }
+        if j > 0 {
+            add([i, j - 1], on_v);
+        }
+        if j + 1 < grid.nv {
+            add([i, j + 1], on_v);
+        }
+        sum
+    }
+}
+
+/// The same for all steps (m) of a motion, whose first one stays: the pull comes up in the first of them.
+pub fn commanded(scene: &Scene, strategy: &Strategy, steps: &mut [Vec<Point>]) {
+    let Some(preload) = Preload::new(scene, strategy) else { return };
+    let growing = (TUNING.preload.growing * steps.len() as f64).max(1.0);
+    for (n, step) in steps.iter_mut().enumerate() {
+        *step = preload.commanded(step, smooth(n as f64 / growing));
+    }
+}
+
+/// Where the grippers are commanded at the end (m).
+#[must_use]
+pub fn ends(scene: &Scene, strategy: &Strategy) -> Vec<Point> {
+    let targets = scene.target.as_ref().map(|target| target.grippers.clone()).unwrap_or_default();
+    match Preload::new(scene, strategy) {
+        Some(preload) => preload.commanded(&targets, 1.0),
+        None => targets,
+    }
+}
+
+/// From 0 to 1 without a kink where it begins and where it ends.
+fn smooth(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
