@@ -119,7 +119,11 @@ impl Strategy {
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         if on_mounts {
-            return shapes;
+            let looser = |of: &Strategy| Strategy { pull: 0.4 * of.pull, ..*of };
+            let flatter = |of: &Strategy| Strategy { slope: 0.8 * of.slope, ..*of };
+            let [looser, flatter] = [&looser as &dyn Fn(&Strategy) -> Strategy, &flatter]
+                .map(|change| shapes.iter().map(change).collect::<Vec<_>>());
+            return [shapes, looser, flatter].concat();
         }
         let [ring, second_ellipse, first_ellipse, second_line, first_line] = shapes[..] else {
             return shapes;
@@ -164,7 +168,7 @@ impl Strategy {
         let front = TUNING.front;
         let curvature = front.ranges[4][1].exp();
         let (pretension, slope) = (front.ranges[6][1], front.steepest_on_mounts);
-        Strategy { curvature, slope, pretension, press: 0.5, pull: 0.65, ..self }
+        Strategy { curvature, slope, pretension, press: 0.5, pull: 0.4, ..self }
     }
 
     /// Whether its front is a line, which rolls the ply on; others spread from a point.
