@@ -79,7 +79,8 @@ fn a_gripper_presses_with_its_share_of_the_load() {
 /// A line over a hollow would be kept off the mold: in a bowl all pull is given up at the end, on a dome it is not.
 #[test]
 fn lines_over_a_hollow_are_given_up() {
-    let bowl = "kind = \"sphere\"\nradius = \"0.8 m\"\nposition = [0, 0, \"0.8 m\"]\ninside = true";
+    let bowl =
+        "kind = \"sphere\"\nradius = \"0.8 m\"\nposition = [0, 0, \"0.8 m\"]\nside = \"inside\"";
     let dome = "kind = \"sphere\"\nradius = \"0.8 m\"\nposition = [0, 0, \"-0.8 m\"]";
     let [bowl, dome] = [bowl, dome].map(on_mounts);
     let largest = |scene: &Scene| {

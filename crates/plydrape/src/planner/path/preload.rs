@@ -30,18 +30,11 @@ pub struct Preload<'a> {
     press: f64,
 }
 
-/// Whether the grippers of a scene are on mounts that give.
-#[must_use]
-pub fn on_mounts(scene: &Scene) -> bool {
-    let pad = &scene.settings.pad;
-    pad.lateral_stiffness.is_some() || pad.axial_stiffness.is_some()
-}
-
 impl<'a> Preload<'a> {
     /// The preload of a strategy.
     #[must_use]
     pub fn new(scene: &'a Scene, strategy: &Strategy) -> Option<Self> {
-        let target = scene.target.as_ref().filter(|_| on_mounts(scene))?;
+        let target = scene.target.as_ref().filter(|_| scene.settings.pad.gives())?;
         let pad = &scene.settings.pad;
         let gives = |stiffness: Option<f64>| stiffness.map_or(0.0, |k| 1.0 / k);
         let [lateral, axial] = [pad.lateral_stiffness, pad.axial_stiffness].map(gives);

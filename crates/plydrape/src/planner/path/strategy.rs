@@ -1,7 +1,6 @@
 //! The parameters of a front, and the vector of them that a search varies.
 
 use super::fronts::flattest;
-use super::preload;
 use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
@@ -114,7 +113,7 @@ impl Strategy {
             shape(LINE, second),
             shape(LINE, first),
         ];
-        let on_mounts = preload::on_mounts(scene);
+        let on_mounts = scene.settings.pad.gives();
         let shapes = if on_mounts { shapes.map(Strategy::preloaded) } else { shapes };
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
