@@ -130,7 +130,7 @@ class Study:
 
     @property
     def terms(self) -> tuple[str, ...]:
-        """Terms of the scene's [errors] that scenarios have; plans are nominal and have none."""
+        """Terms of the scene's [errors] that scenarios have; plans are of no one cell."""
         if self.command == "plan":
             return ()
         return errors.terms(self.tables, (x.key for x in self.inputs))
