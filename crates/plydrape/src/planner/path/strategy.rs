@@ -47,7 +47,7 @@ pub const MOUNTED: usize = 2;
 pub const DIMENSION: usize = TUNING.front.ranges.len();
 
 impl Strategy {
-    /// As a point whose every coordinate goes from 0 to 1; the last two, [`MOUNTED`], count for grippers on mounts alone.
+    /// As a point whose every coordinate goes from 0 to 1; the last two count for grippers on mounts alone.
     #[must_use]
     pub fn to_unit(&self) -> [f64; DIMENSION] {
         let values = [
@@ -120,9 +120,14 @@ impl Strategy {
         if on_mounts {
             let looser = |of: &Strategy| Strategy { pull: 0.4 * of.pull, ..*of };
             let flatter = |of: &Strategy| Strategy { slope: 0.8 * of.slope, ..*of };
-            let [looser, flatter] = [&looser as &dyn Fn(&Strategy) -> Strategy, &flatter]
-                .map(|change| shapes.iter().map(change).collect::<Vec<_>>());
-            return [shapes, looser, flatter].concat();
+            // pads that come down pressed and pulled stick where they would keep a ply over a hollow taut
+            let softer = |of: &Strategy| Strategy { press: 0.1, pretension: 0.0, ..*of };
+            let changed: [Vec<Strategy>; 3] = [
+                shapes.iter().map(softer).collect(),
+                shapes.iter().map(looser).collect(),
+                shapes.iter().map(flatter).collect(),
+            ];
+            return [shapes, changed.concat()].concat();
         }
         let [ring, second_ellipse, first_ellipse, second_line, first_line] = shapes[..] else {
             return shapes;
