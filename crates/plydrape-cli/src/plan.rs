@@ -187,9 +187,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         drape: outcome::Printed::of(&result, planned.drape.solving, took),
     };
     results.print(quiet, &printed, &text(&result, &printed, (ended, broken_off), time), &files)?;
-    let interrupted = ended == Some(Ended::Interrupted)
-        || broken_off.is_some()
-        || result.summary.interrupted();
+    let interrupted =
+        ended == Some(Ended::Interrupted) || broken_off.is_some() || result.summary.interrupted();
     Ok(exit_code(&result, interrupted))
 }
 

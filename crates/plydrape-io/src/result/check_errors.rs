@@ -26,7 +26,10 @@ fn of_sample(sample: &SampleVerdict, nodes: usize, result: &ResultFile) -> Optio
         return Some(format!("{} of {needed} cells of its sample are accepted", sample.accepted()));
     }
     if ![0, nodes].contains(&sample.spread_mm.len()) {
-        return Some(format!("the heights of its sample are {} of {nodes}", sample.spread_mm.len()));
+        return Some(format!(
+            "the heights of its sample are {} of {nodes}",
+            sample.spread_mm.len()
+        ));
     }
     let mut named = sample.limits.iter().filter_map(|verdict| verdict.step);
     let steps = result.summary.steps_planned;

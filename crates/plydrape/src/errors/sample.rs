@@ -104,7 +104,9 @@ impl Errors {
     /// How many of so many cells must keep the limits.
     #[must_use]
     pub fn needed(&self, samples: usize) -> usize {
-        ((self.share * samples as f64).ceil() as usize).clamp(usize::from(samples > 0), samples)
+        // a share that is a whole number of cells but for rounding is that number
+        ((self.share * samples as f64 * (1.0 - 1e-12)).ceil() as usize)
+            .clamp(usize::from(samples > 0), samples)
     }
 
     /// Those of which "a plan stands so much" is said where a scene has none: of each gripper's position, a thousandth of the
