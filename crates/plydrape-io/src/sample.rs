@@ -367,6 +367,7 @@ pub(super) fn sheet_summary() -> sheet::measure::Summary {
         shear_max_deg: 20.0,
         gripper_force_max_n: 0.5,
         gripper_pull_max_n: 0.4,
+        slip_max_mm: None,
         tilt_max_deg: 10.0,
         fold_max_deg: 5.0,
         penetration_mm: Some(0.01),

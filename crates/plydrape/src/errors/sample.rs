@@ -186,13 +186,7 @@ impl Errors {
 
     /// Whether enough of the cells in `order` keep the limits with all errors larger by a factor. Those that do not come first
     /// in the order from then on, because they will not with larger ones either.
-    fn hold(
-        &self,
-        scene: &Scene,
-        factor: f64,
-        order: &mut Vec<usize>,
-        watch: &Watch,
-    ) -> Option<bool> {
+    fn hold(&self, scene: &Scene, factor: f64, order: &mut [usize], watch: &Watch) -> Option<bool> {
         let spare = order.len() - self.needed(order.len());
         let mut failed: Vec<usize> = Vec::new();
         for pair in order.chunks(2) {
