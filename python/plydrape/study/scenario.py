@@ -185,7 +185,7 @@ class Task:
     def measured(self, scene: plydrape.Scene, units: dict[str, str]) -> Line:
         """Drapes, or plans, and reads off the measures."""
         if self.command == "plan":
-            plan = plydrape.plan(scene)
+            plan = plydrape.plan(scene, without_errors=scene.errors is None)
             row = {"evaluations": int(plan.evaluations), "duration": float(plan.duration)}
             units["duration"] = "s"
             return row | measures(plan.result, units)

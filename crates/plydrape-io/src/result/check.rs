@@ -167,7 +167,7 @@ fn of_summary(result: &ResultFile) -> Option<String> {
     {
         return Some(format!("its summary names step {step} of {steps}"));
     }
-    if let Some(what) = of_sheet(result) {
+    if let Some(what) = of_sheet(result).or_else(|| super::check_errors::fault(result)) {
         return Some(what);
     }
     let known = |[i, j]: GripperId| i < grid.nu && j < grid.nv;
