@@ -441,7 +441,8 @@ class Mold:
     @property
     def kind(self, /) -> str:
         """
-        Its kind: plane, "cylinder", "sphere", "torus", "graph" or "mesh".
+        Its kind: plane, "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
+        of a scene laid waves on it.
         """
     def patch(
         self,
@@ -1134,6 +1135,7 @@ class Scene:
         contact: How contact is found.
         limits: What an accepted drape keeps to.
         plan: How a motion is planned.
+        errors: How far a real cell may be from the scene.
         title: Name for reports.
         base: Folder of files that the tables name.
 
@@ -1164,10 +1166,48 @@ class Scene:
         contact: dict[str, typing.Any] | None = None,
         limits: dict[str, typing.Any] | None = None,
         plan: dict[str, typing.Any] | None = None,
+        errors: dict[str, typing.Any] | None = None,
         title: str | None = None,
         base: str | PathLike[str] = ...,
     ) -> Scene: ...
     def __repr__(self, /) -> str: ...
+    def draw(
+        self, /, sample: SupportsIndex, factor: SupportsFloat | SupportsIndex = 1.0
+    ) -> dict[str, Any]:
+        """
+        The error of every quantity in one sample of the scene's `errors`, in SI units.
+
+        It depends on the seed of the errors and the number of the sample only.
+
+        Args:
+            sample: Its number, from 0.
+            factor: How many times as large all errors are.
+
+        Raises:
+            ValueError: If the scene has no errors, or the factor is not finite.
+
+        Example:
+            >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+            >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+            >>> frame = dict(position=dict(bound="1 mm"))
+            >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
+            >>> all(abs(shift) <= 0.001 for shift in scene.draw(0)["frame"]["shift"])
+            True
+        """
+    @property
+    def errors(self, /) -> dict[str, Any] | None:
+        """
+        How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term either
+        `{"deviation": …}` or `{"bound": …}`.
+
+        Example:
+            >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+            >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+            >>> gripper = dict(position=dict(deviation="0.1 mm"))
+            >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(gripper=gripper))
+            >>> scene.errors["gripper"]["position"]
+            {'deviation': 0.0001}
+        """
     @property
     def mold(self, /) -> Mold | None:
         """
@@ -1245,6 +1285,32 @@ class Scene:
     def title(self, /) -> str:
         """
         Its name for reports.
+        """
+    def with_errors(
+        self, /, sample: SupportsIndex, factor: SupportsFloat | SupportsIndex = 1.0
+    ) -> Scene:
+        """
+        The scene of one real cell: the same commands, with every error that `draw` gives for the sample.
+
+        It has no `errors` of its own any more, and no `text`, as no scene file says it. Positions are those of the
+        fabric points that the scene calls the grippers'.
+
+        Args:
+            sample: Its number, from 0.
+            factor: How many times as large all errors are.
+
+        Raises:
+            ValueError: If the scene has no errors, the factor is not finite, or neighbours would stand (all but)
+                straight above each other.
+
+        Example:
+            >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+            >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+            >>> frame = dict(position=dict(bound="1 mm"))
+            >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
+            >>> real = scene.with_errors(0)
+            >>> bool(abs(real.positions - scene.positions).max() <= 0.001), real.errors
+            (True, None)
         """
     def with_motion(
         self, /, times: ArrayLike, positions: ArrayLike, *, title: str | None = None

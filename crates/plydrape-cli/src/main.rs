@@ -4,6 +4,7 @@ mod argument;
 mod check;
 mod compare;
 mod complete;
+mod errors;
 mod export;
 mod failure;
 mod limits;

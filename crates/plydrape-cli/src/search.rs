@@ -101,13 +101,13 @@ impl<'a> Search<'a> {
 
 /// The plain lines of a search: one a minute, none within the first.
 #[derive(Debug, Default)]
-struct Lines {
+pub struct Lines {
     minutes: u64,
 }
 
 impl Lines {
     /// Whether the next line is due.
-    fn is_due(&mut self, elapsed: Duration) -> bool {
+    pub fn is_due(&mut self, elapsed: Duration) -> bool {
         let minutes = elapsed.as_secs() / 60;
         let due = minutes > self.minutes;
         self.minutes = minutes;

@@ -1,11 +1,13 @@
 //! `plydrape simulate`: drapes the ply of a scene along its motion, and says how it went.
 
+use crate::errors::{self, BrokenOff};
 use crate::failure::Done;
 use crate::outcome::{Printed, exit_code};
 use crate::results::Results;
 use crate::sheet::drape_sheet;
 use crate::watch::{Interrupt, bar};
 use clap::ValueEnum;
+use plydrape::errors::Robustness;
 use plydrape_io::{Folder, NAMES, ResultFile, table, write_into};
 
 /// Drape the ply along the trajectories of a scene; table of steps, verdict, files.
@@ -14,7 +16,10 @@ use plydrape_io::{Folder, NAMES, ResultFile, table, write_into};
 Writes result.json, steps.csv, trajectory.csv, figure.svg and report.html, and sheet.npz where the model \
 is the sheet, to the scene's name with `.results`; report.html is a page for any browser. A file in the \
 folder that plydrape did not write, or that was edited since, is never overwritten. \
-Ctrl-C ends after the step under way and writes the steps done.")]
+Ctrl-C ends after the step under way and writes the steps done.
+
+With [errors] in the scene, a sample of complete drapes of cells that are off by them is judged too, 64 unless set there, and the \
+verdict says which errors the motion stands.")]
 pub struct Arguments {
     #[command(flatten)]
     results: Results,
@@ -22,6 +27,10 @@ pub struct Arguments {
     /// The model that decides, instead of the scene's; the catenaries are always draped.
     #[arg(long)]
     model: Option<Model>,
+
+    /// Judge the drape without the errors of the scene.
+    #[arg(long)]
+    without_errors: bool,
 }
 
 /// The model of the ply that decides.
@@ -64,9 +73,15 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let solving = drape.solving;
     let mut result = ResultFile::new(&scene, scene.input.clone(), drape);
     let took = drape_sheet(&mut result, &scene, sheet, folder.stage(), &interrupt, quiet)?;
+    let broken_off = if arguments.without_errors {
+        None
+    } else {
+        errors::judge(&mut result, &Robustness::of_simulated(&scene), &interrupt, quiet)
+    };
     let files = write_into(folder, &result, &[], &scene.files)?;
     let (title, steps) = (&result.scene.title, table::steps_table(&result));
-    let text = format!("{title}\n\n{steps}\n{}", table::verdict(&result));
+    let mut text = format!("{title}\n\n{steps}\n{}", table::verdict(&result));
+    text += broken_off.map_or("", BrokenOff::text);
     results.print(quiet, &Printed::of(&result, solving, took), &text, &files)?;
-    Ok(exit_code(&result, result.summary.interrupted()))
+    Ok(exit_code(&result, broken_off.is_some() || result.summary.interrupted()))
 }

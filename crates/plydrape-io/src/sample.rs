@@ -5,6 +5,7 @@ use crate::result::{ResultFile, SceneEcho};
 use plydrape::draping::ContactStatus;
 use plydrape::draping::record::*;
 use plydrape::equilibrium::Status;
+use plydrape::errors::{CellVerdict, Errors, Highest, SampleVerdict};
 use plydrape::material::{Material, Section};
 use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
@@ -366,6 +367,7 @@ pub(super) fn sheet_summary() -> sheet::measure::Summary {
         shear_max_deg: 20.0,
         gripper_force_max_n: 0.5,
         gripper_pull_max_n: 0.4,
+        slip_max_mm: None,
         tilt_max_deg: 10.0,
         fold_max_deg: 5.0,
         penetration_mm: Some(0.01),
@@ -378,4 +380,35 @@ pub(super) fn sheet_summary() -> sheet::measure::Summary {
         smallest_step: 0.5,
         limits: Vec::new(),
     }
+}
+
+/// A sample of four cells, two of which are accepted and three needed.
+pub(super) fn sample_verdict() -> SampleVerdict {
+    let cell = |height: f64| CellVerdict {
+        accepted: height <= 0.5,
+        height_mm: Some(height),
+        ratio: 2.0 * height,
+    };
+    let [from, to] = ["gripper [0,1]", "gripper [3,1]"];
+    SampleVerdict {
+        errors: Errors { samples: 4, share: 0.75, ..errors() },
+        needed: 3,
+        ok: false,
+        limits: Vec::new(),
+        cells: [0.3, 0.7, 0.4, 0.6].map(cell).to_vec(),
+        highest: Some(Highest {
+            height_mm: 0.6,
+            uv_mm: [300.0, 90.0],
+            line: format!("{from} to {to}"),
+            gripper: to.into(),
+        }),
+        spread_mm: vec![0.1; 9],
+    }
+}
+
+/// Of the grippers' positions.
+fn errors() -> Errors {
+    let mut errors = Errors::default();
+    errors.gripper.position = plydrape::errors::Term::Deviation(1e-4);
+    errors
 }

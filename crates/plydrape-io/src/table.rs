@@ -1,6 +1,7 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
 mod comparison;
+mod errors;
 mod sheet;
 mod slack;
 
@@ -12,6 +13,7 @@ use crate::result::ResultFile;
 use crate::shown;
 use plydrape::draping::record::{Step, Summary, Verdict};
 use plydrape::equilibrium::Status;
+use plydrape::errors::SampleVerdict;
 use plydrape::measure::Name;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -133,37 +135,47 @@ fn failed_solves(result: &ResultFile) -> String {
 }
 
 /// The table of limits and one line: accepted, or not and why. Where the sheet was draped too, its limits are in a table of their
-/// own behind, and its line says that it decides.
+/// own behind, and its line says that it decides. What drapes with errors say is in lines below.
 #[must_use]
 pub fn verdict(result: &ResultFile) -> String {
-    let summary = &result.summary;
-    match &summary.sheet {
+    let (summary, sample) = (&result.summary, result.summary.sample.as_ref());
+    let text = match &summary.sheet {
         None => {
-            let (accepted, worst) = (summary.accepted, limiting(&summary.limits));
-            catenaries(summary) + &line(if accepted { "accepted" } else { "not accepted" }, worst)
+            let text = match (summary.accepted_without_errors(), summary.accepted) {
+                (true, true) => "accepted",
+                (true, false) => "accepted without errors",
+                (false, _) => "not accepted",
+            };
+            catenaries(summary, sample) + &line(text, limiting(&summary.limits))
         }
         Some(sheet) => {
             let text = match summary.catenaries_accepted() {
                 true => "accepted by the catenaries",
                 false => "not accepted by the catenaries",
             };
-            catenaries(summary)
+            catenaries(summary, None)
                 + &line(text, limiting(&summary.limits))
                 + "\n"
                 + &sheet::verdict(summary, sheet)
         }
-    }
+    };
+    text + &errors::errors(result)
 }
 
-/// Every limit in a row.
-fn limits(limits: &[Verdict]) -> String {
+/// Every limit in a row; of a sample with a column of what its share of the cells keeps.
+fn limits(limits: &[Verdict], sample: Option<&SampleVerdict>) -> String {
     if limits.is_empty() {
         return String::new();
     }
     let titles = ["limit", "worst", "allowed", "unit", "", "step", "at"];
     let mut rows = vec![titles.map(str::to_owned).to_vec()];
+    rows[0].splice(3..3, sample.map(errors::share));
+    let kept = |sample: &SampleVerdict, name: Name| {
+        let verdict = sample.limits.iter().find(|verdict| verdict.name == name);
+        verdict.map_or_else(|| "–".into(), |verdict| significant(verdict.value))
+    };
     rows.extend(limits.iter().map(|v| {
-        vec![
+        let mut row = vec![
             v.name.title(),
             significant(v.value),
             significant(v.limit),
@@ -171,14 +183,19 @@ fn limits(limits: &[Verdict]) -> String {
             if v.ok { "pass" } else { "FAIL" }.into(),
             v.step.map_or_else(|| "–".into(), |step| step.to_string()),
             v.at.clone(),
-        ]
+        ];
+        row.splice(3..3, sample.map(|sample| kept(sample, v.name)));
+        row
     }));
-    aligned(&rows, &[0, 3, 4, 6])
+    match sample {
+        Some(_) => aligned(&rows, &[0, 4, 5, 7]),
+        None => aligned(&rows, &[0, 3, 4, 6]),
+    }
 }
 
 /// The limits of the catenaries, and where their drape ended early.
-fn catenaries(summary: &Summary) -> String {
-    let mut text = limits(&summary.limits);
+fn catenaries(summary: &Summary, sample: Option<&SampleVerdict>) -> String {
+    let mut text = limits(&summary.limits, sample);
     if let Some(words) = slack_in_words(summary) {
         let _ = writeln!(text, "slack at the end is {words}");
     }

@@ -9,6 +9,7 @@ use crate::solver::{Solver, shear_angles};
 use crate::work::run;
 use plydrape::draping;
 use plydrape::equilibrium::Status;
+use plydrape::errors::{self, Robustness};
 use plydrape::ply::Grid;
 use plydrape_io::ResultFile;
 use plydrape_io::scene::SceneFile;
@@ -70,6 +71,11 @@ pub fn simulate_all(
             let mut result = ResultFile::new(scene, scene.input.clone(), drape);
             let stop = || watch.flow().is_break();
             result.drape_sheet(scene, &std::env::temp_dir(), &stop, |_| {})?;
+            let robustness = Robustness::of_simulated(scene);
+            let watched = errors::Watch { stop: &stop, done: &|_, _| {} };
+            if robustness.judge_sample(&mut result.summary, &watched) {
+                robustness.judge_stands(&mut result.summary, &watched);
+            }
             let _ = watch.count(1, scenes.len(), "draping");
             Ok(Result(Arc::new(result)))
         };

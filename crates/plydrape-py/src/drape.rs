@@ -6,6 +6,7 @@ use crate::result::Result;
 use crate::scene::{Scene, blocks};
 use crate::work::{Watch, run};
 use plydrape::draping;
+use plydrape::errors::{self, Robustness};
 use plydrape::planner::{self, Checkpoint, Planned};
 use plydrape::scene::{Model, PlanMethod};
 use plydrape_io::ResultFile;
@@ -21,11 +22,12 @@ use std::time::{Duration, Instant};
 
 /// Drapes the ply of a scene along its motion, as `plydrape simulate` does.
 ///
-/// Other threads of Python run on meanwhile, and Ctrl-C ends it.
+/// Other threads of Python run on meanwhile, and Ctrl-C ends it. A scene with errors is judged by a sample of its cells too.
 ///
 /// Args:
 ///     scene: The scene.
 ///     model: The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
+///     without_errors: Whether the errors of the scene are left out.
 ///     progress: Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
 ///
 /// Returns:
@@ -45,13 +47,14 @@ use std::time::{Duration, Instant};
 ///     <plydrape.Sheet of 341 nodes, 30 states, not accepted>
 #[pyfunction]
 #[pyo3(signature = (
-    scene, *, model: "typing.Literal['sheet', 'catenaries'] | None" = None,
+    scene, *, model: "typing.Literal['sheet', 'catenaries'] | None" = None, without_errors = false,
     progress: "typing.Callable[[int, int, str], object] | None" = None
 ))]
 pub fn simulate(
     py: Python<'_>,
     scene: &Bound<'_, Scene>,
     model: Option<&str>,
+    without_errors: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Result> {
     let scene = for_model(&scene.get().0, model)?;
@@ -60,6 +63,9 @@ pub fn simulate(
         let drape = draping::simulate(&scene, |done| watch.tell(done, steps, "draping"));
         let mut result = ResultFile::new(&scene, scene.input.clone(), drape);
         drape_sheet(&mut result, &scene, watch)?;
+        if !without_errors {
+            judge_errors(&mut result, &Robustness::of_simulated(&scene), watch);
+        }
         Ok(result)
     })?;
     result.map(|result| Result(Arc::new(result))).map_err(|fault| error::sheet(&fault))
@@ -97,6 +103,17 @@ fn drape_sheet(
     result.drape_sheet(scene, &std::env::temp_dir(), &stop, told).map(drop)
 }
 
+/// Judges a result with errors, until the work shall end.
+pub fn judge_errors(result: &mut ResultFile, robustness: &Robustness, watch: &Watch) {
+    let told = |done, most| {
+        let _ = watch.tell(done, most, "draping with errors");
+    };
+    let watch = errors::Watch { stop: &|| watch.flow().is_break(), done: &told };
+    if robustness.judge_sample(&mut result.summary, &watch) {
+        robustness.judge_stands(&mut result.summary, &watch);
+    }
+}
+
 /// Finds a motion that lays the ply of a scene on its mold, as `plydrape plan` does.
 ///
 /// Where the scene's model is the sheet, the sheet decides on the plan; the catenaries are draped along it too.
@@ -104,6 +121,9 @@ fn drape_sheet(
 /// The search ends with a plan that keeps all limits with a margin. Other threads of Python run on meanwhile. Ctrl-C raises
 /// KeyboardInterrupt at once; to stop early and keep the best so far, give the search a `time`, or fewer `evaluations`
 /// in the scene's `plan`.
+///
+/// The plan is then judged with errors: by a sample of cells where the scene has `errors`, and by the errors that it stands. That takes
+/// some hundred drapes, which `time` does not bound.
 ///
 /// Args:
 ///     scene: The scene, with mold and target.
@@ -114,6 +134,7 @@ fn drape_sheet(
 ///     time: Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
 ///         drape that decides on that plan may take a little longer.
 ///     checkpoint: Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
+///     without_errors: Whether the plan is judged without errors.
 ///     progress: Called with (candidates draped, most, what is done), some 50 times a second.
 ///
 /// Returns:
@@ -126,13 +147,13 @@ fn drape_sheet(
 ///
 /// Example:
 ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> plan = plydrape.plan(scene)
+///     >>> plan = plydrape.plan(scene, without_errors=True)
 ///     >>> plan.method, plan.result.accepted
 ///     ('path', True)
 #[pyfunction]
 #[pyo3(signature = (
     scene, *, method: "typing.Literal['path', 'stepwise'] | None" = None, seed = None, improve = None,
-    time: "float | str | None" = None, checkpoint = None,
+    time: "float | str | None" = None, checkpoint = None, without_errors = false,
     progress: "typing.Callable[[int, int, str], object] | None" = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -144,6 +165,7 @@ pub fn plan(
     improve: Option<bool>,
     time: Option<Time>,
     checkpoint: Option<&str>,
+    without_errors: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
     let mut scene = (*scene.get().0).clone();
@@ -181,6 +203,10 @@ pub fn plan(
         let mut result = ResultFile::planned(&scene, scene.input.clone(), &planned);
         let keep = |sheet| result.keep_sheet(sheet, &std::env::temp_dir());
         let kept = planned.sheet.take().map(keep).transpose();
+        if !without_errors {
+            let robustness = Robustness::of_planned(&scene, planned.motion.steps());
+            judge_errors(&mut result, &robustness, watch);
+        }
         Ok(kept.map(|_| Plan { planned: Arc::new(planned), result: Arc::new(result) }))
     })?;
     planned.map_err(|fault| error::plan(&fault))?.map_err(|fault| error::sheet(&fault))
@@ -214,7 +240,7 @@ impl Time {
 ///
 /// Example:
 ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> plan = plydrape.plan(scene)
+///     >>> plan = plydrape.plan(scene, without_errors=True)
 ///     >>> plan.accepted, plan.positions.shape[1:]
 ///     (True, (8, 3))
 #[pyclass(frozen, module = "plydrape")]
@@ -259,7 +285,7 @@ impl Plan {
         self.planned.interrupted
     }
 
-    /// Whether every limit is kept, by the model that decides.
+    /// Whether every limit is kept, by the model that decides, and in enough cells of the sample where the scene has errors.
     #[getter]
     fn accepted(&self) -> bool {
         self.result.summary.accepted
@@ -294,7 +320,7 @@ impl Plan {
     ///
     /// Example:
     ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> plan = plydrape.plan(scene)
+    ///     >>> plan = plydrape.plan(scene, without_errors=True)
     ///     >>> motion = plan.motion(np.linspace(0, plan.duration, 101))
     ///     >>> speeds = np.linalg.norm(motion["velocities"], axis=2)
     ///     >>> bool(speeds.max() < 0.25), bool(speeds[[0, -1]].max() < 1e-9)
@@ -329,7 +355,7 @@ impl Plan {
     /// Example:
     ///     >>> import tempfile
     ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> plan = plydrape.plan(scene)
+    ///     >>> plan = plydrape.plan(scene, without_errors=True)
     ///     >>> with tempfile.TemporaryDirectory() as folder:
     ///     ...     sorted(path.name for path in plan.write(folder))
     ///     ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]

@@ -16,6 +16,7 @@ mod net;
 mod outcome;
 mod ply;
 mod result;
+mod sample;
 mod scene;
 mod sheet;
 mod solver;
@@ -49,6 +50,8 @@ mod _plydrape {
     use crate::ply::{Material, Ply};
     #[pymodule_export]
     use crate::result::Result;
+    #[pymodule_export]
+    use crate::sample::Sample;
     #[pymodule_export]
     use crate::scene::{Scene, materials};
     #[pymodule_export]

@@ -5,10 +5,12 @@ use crate::error;
 use crate::json::Json;
 use crate::mold::{Mold, triangles};
 use crate::net::Net;
+use crate::sample::Sample;
 use crate::sheet::Sheet;
 use crate::surface::Surface;
 use plydrape::draping::record::{CatenaryState, Step};
 use plydrape::equilibrium::Status;
+use plydrape::errors::Term;
 use plydrape::measure::{Name, Scope};
 use plydrape_io::mold_patch::mold_patch;
 use plydrape_io::{ResultFile, export, figure, folder, page, read, surface};
@@ -146,7 +148,8 @@ impl Result {
         self.0.scene.target.as_ref().and_then(|target| target.drape.clone()).map(Net)
     }
 
-    /// Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries.
+    /// Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries; and in enough
+    /// cells of the sample, if there is one.
     #[getter]
     fn accepted(&self) -> bool {
         self.0.summary.accepted
@@ -176,6 +179,35 @@ impl Result {
     #[getter]
     fn sheet(&self, py: Python<'_>) -> PyResult<Option<Sheet>> {
         py.detach(|| Sheet::of(&self.0))
+    }
+
+    /// The verdict over a sample of cells with the errors of the scene; None where the scene has none.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    ///     >>> plydrape.simulate(scene).sample is None
+    ///     True
+    #[getter]
+    fn sample(&self) -> Option<Sample> {
+        self.0.summary.sample.clone().map(Sample)
+    }
+
+    /// The largest common factor of all errors at which the motion is still accepted: a dict with factor, at_least (whether it
+    /// is the largest that was tried), position and tried (drapes a factor). None where it was not asked for.
+    #[getter]
+    fn stands(&self) -> PyResult<Option<Json>> {
+        self.0.summary.stands.as_ref().map(Json::of).transpose()
+    }
+
+    /// The error of each gripper's position along each axis that the motion stands (mm), a standard deviation or a bound, as in
+    /// the errors of the scene; a standard deviation where it has none. None where it was not asked for, or where grippers have
+    /// no such error.
+    #[getter]
+    fn stands_mm(&self) -> Option<f64> {
+        let position = self.0.scene.errors.map(|errors| errors.gripper.position);
+        let stands = self.0.summary.stands.as_ref()?;
+        let other = position.is_some_and(Term::is_zero) && stands.position.is_zero();
+        (!other).then(|| 1e3 * stands.position.value())
     }
 
     /// The outcome: the `summary` of result.json.

@@ -202,6 +202,14 @@ pub struct PadSettings {
     pub holding_force: Option<f64>,
 }
 
+impl PadSettings {
+    /// Whether its mount gives, along the ply or across it.
+    #[must_use]
+    pub fn gives(&self) -> bool {
+        self.lateral_stiffness.is_some() || self.axial_stiffness.is_some()
+    }
+}
+
 impl Default for PadSettings {
     fn default() -> Self {
         PadSettings {

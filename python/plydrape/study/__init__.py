@@ -6,7 +6,7 @@ gives one row a scenario: its inputs, its measures, its version and any error.
 
     definition.py   what a study file says, checked       (parameters.py, source.py,
                                                            varied.py, keys.py, law.py)
-    sample.py       the inputs of every scenario          (placement.py)
+    sample.py       the inputs of every scenario          (placement.py, errors.py)
     scenario.py     one scenario: its scene, its drape, its row
     chunks.py       chunks of scenarios to workers        (local.py, worker.py, cluster.py)
     folder.py       what is done stands on the disk       (table.py)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import plydrape
 
-from . import parameters, sample, source
+from . import errors, parameters, sample, source
 from .error import StudyError
 from .keys import Value, nearest, put
 from .labels import shown
@@ -124,8 +124,16 @@ class Study:
 
     @property
     def names(self) -> list[str]:
-        """Names of the columns of inputs: the varied keys, and two of placement errors."""
-        return [x.key for x in self.inputs] + list(COLUMNS if self.placement else ())
+        """Names of the columns of inputs: the varied keys, and those of errors."""
+        inputs = [x.key for x in self.inputs]
+        return inputs + list(COLUMNS if self.placement else ()) + errors.names(self.terms)
+
+    @property
+    def terms(self) -> tuple[str, ...]:
+        """Terms of the scene's [errors] that scenarios have; plans are of no one cell."""
+        if self.command == "plan":
+            return ()
+        return errors.terms(self.tables, (x.key for x in self.inputs))
 
     @cached_property
     def values(self) -> list[Row]:
@@ -142,6 +150,7 @@ class Study:
             inputs=self.inputs,
             placement=self.placement,
             motion=self.motion,
+            terms=self.terms,
             seed=self.seed,
             version=plydrape.__version__,
         )
@@ -241,7 +250,14 @@ def _checked(table: Mapping[str, Any], base: Path, file: Path | None) -> Study:
     # What varies.
     laws = inputs(varied, tables, command, sampling)
     errs = placement(varied, command, sampling)
-    if not laws and errs is None:
+    real = command != "plan" and "errors" in tables
+    if real and sampling == "grid":
+        raise StudyError(
+            "the scene's `errors` have no grid: they are drawn",
+            help='use sampling = "latin-hypercube", or leave [errors] out of the scene',
+            key="sampling",
+        )
+    if not laws and errs is None and not real:
         raise StudyError("`vary` names nothing that varies", help=VARY, key="vary")
     samples = parameters.scenarios(table, sampling, laws)
     study = Study(

@@ -29,6 +29,7 @@ SCENE = (
     "contact",
     "limits",
     "plan",
+    "errors",
 )
 # The numbers of a scene that are whole.
 WHOLE = {
@@ -39,6 +40,8 @@ WHOLE = {
     "plan.evaluations",
     "plan.seed",
     "sheet.keep",
+    "errors.seed",
+    "errors.samples",
 }
 # What has no effect on a command, and why.
 IDLE = {

@@ -18,6 +18,7 @@ import numpy as np
 
 import plydrape
 
+from . import errors as cell
 from .error import StudyError
 from .keys import SCENE, Tables, Value, put
 from .labels import BY_KEY, is_least
@@ -77,6 +78,7 @@ class Task:
     inputs: tuple[Input, ...]
     placement: Placement | None
     motion: Motion | None
+    terms: tuple[str, ...]
     seed: int
     version: str
 
@@ -112,7 +114,12 @@ class Task:
                 units.update(
                     dict.fromkeys(self.placement.columns(errors), self.placement.unit or "m")
                 )
-            row.update(self.measured(self.moved(scene, errors), units))
+            moved = self.moved(scene, errors)
+            if self.real(moved):
+                row.update(cell.columns(self.terms, moved.draw(scenario)))
+                units.update(cell.units(self.terms))
+                moved = moved.with_errors(scenario)
+            row.update(self.measured(moved, units))
         except (KeyboardInterrupt, SystemExit):
             raise
         except BaseException as error:  # A panic of the extension is no Exception.
@@ -139,7 +146,12 @@ class Task:
 
         """
         scene = self.with_values(values)
-        return self.moved(scene, self.errors(scenario, scene))
+        moved = self.moved(scene, self.errors(scenario, scene))
+        return moved.with_errors(scenario) if self.real(moved) else moved
+
+    def real(self, scene: plydrape.Scene) -> bool:
+        """Whether the scenario is draped in a real cell and not in the nominal one."""
+        return self.command != "plan" and scene.errors is not None
 
     def with_values(self, values: Sequence[Value]) -> plydrape.Scene:
         """The scene with its varied numbers, along its own motion."""
@@ -173,7 +185,7 @@ class Task:
     def measured(self, scene: plydrape.Scene, units: dict[str, str]) -> Line:
         """Drapes, or plans, and reads off the measures."""
         if self.command == "plan":
-            plan = plydrape.plan(scene)
+            plan = plydrape.plan(scene, without_errors=scene.errors is None)
             row = {"evaluations": int(plan.evaluations), "duration": float(plan.duration)}
             units["duration"] = "s"
             return row | measures(plan.result, units)

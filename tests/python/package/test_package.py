@@ -33,9 +33,9 @@ def test_a_drape_is_the_command_lines(tmp_path: Path) -> None:
 def test_a_plan_is_the_command_lines(tmp_path: Path) -> None:
     """Same scene and seed, same plan."""
     folder = str(tmp_path / "cli")
-    cli = [str(binary()), "plan", str(EXAMPLE), "-o", folder, "--quiet", "--seed", "3"]
+    cli = [str(binary()), "plan", str(EXAMPLE), "-o", folder, "--quiet", "--seed", "3", "--without-errors"]
     subprocess.run(cli, check=True)
-    plan = plydrape.plan(plydrape.Scene.read(EXAMPLE), seed=3)
+    plan = plydrape.plan(plydrape.Scene.read(EXAMPLE), seed=3, without_errors=True)
     assert plan.accepted
     for file in plan.write(tmp_path / "python"):
         assert file.read_bytes() == (tmp_path / "cli" / file.name).read_bytes(), file.name
@@ -46,14 +46,14 @@ def test_a_plan_is_improved_until_its_time_is_over() -> None:
     text = EXAMPLE.read_text(encoding="utf-8")
     assert "[plan]" not in text
     scene = plydrape.Scene.parse(text + "\n[plan]\nevaluations = 20\n", base=EXAMPLE.parent)
-    first = plydrape.plan(scene)
-    improved = plydrape.plan(scene, improve=True)
+    first = plydrape.plan(scene, without_errors=True)
+    improved = plydrape.plan(scene, improve=True, without_errors=True)
     assert first.accepted and improved.accepted
     assert improved.evaluations - improved.decisions > first.evaluations - first.decisions > 0
     assert not improved.time_over
-    short = plydrape.plan(scene, improve=True, time="1 ms")
+    short = plydrape.plan(scene, improve=True, time="1 ms", without_errors=True)
     assert short.time_over and short.evaluations < first.evaluations
-    assert plydrape.plan(scene, time=0.001).time_over
+    assert plydrape.plan(scene, time=0.001, without_errors=True).time_over
     for refused in (0, -1.0, float("nan"), "5 mm", "soon", "0 s"):
         with pytest.raises(ValueError, match="time"):
             plydrape.plan(scene, time=refused)
@@ -62,8 +62,8 @@ def test_a_plan_is_improved_until_its_time_is_over() -> None:
 def test_a_search_goes_on_from_its_memory() -> None:
     """The second search begins where the first one ended: it is no worse."""
     scene = plydrape.Scene.read(EXAMPLE)
-    first = plydrape.plan(scene)
-    second = plydrape.plan(scene, checkpoint=first.checkpoint)
+    first = plydrape.plan(scene, without_errors=True)
+    second = plydrape.plan(scene, checkpoint=first.checkpoint, without_errors=True)
     assert second.accepted
     with pytest.raises(ValueError, match=r"plan\.json"):
         plydrape.plan(scene, checkpoint="{}")

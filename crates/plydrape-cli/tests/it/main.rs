@@ -5,6 +5,7 @@ mod check;
 mod commands;
 mod common;
 mod compare;
+mod errors;
 mod export;
 mod net;
 mod output_streams;

@@ -29,6 +29,8 @@ const ROUNDING: f64 = 1e-12;
 const MOST_GRIPPERS: usize = 1000;
 /// Smallest and largest fabric length of a cell (m), as in scenes.
 const CELLS: [f64; 2] = [1e-6, 1e4];
+/// Smallest and largest length factor of a ply: an error of its length leaves a tenth at least.
+const LENGTH_FACTORS: [f64; 2] = [0.1, 10.0];
 
 /// What is impossible in the scene's ply.
 pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
@@ -39,6 +41,10 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     let [a, b] = scene.ply.cell;
     if ![a, b].iter().all(|side| (CELLS[0]..=CELLS[1]).contains(side)) {
         return Some(format!("there is no cell of {a} × {b} m"));
+    }
+    let longer = scene.ply.length_factor;
+    if !(LENGTH_FACTORS[0]..=LENGTH_FACTORS[1]).contains(&longer) {
+        return Some(format!("there is no fabric {longer} times as long as it should be"));
     }
     if let Some(c) = shown::control(&scene.title) {
         return Some(format!("its title holds the control character {}", c.escape_unicode()));
@@ -161,7 +167,7 @@ fn of_summary(result: &ResultFile) -> Option<String> {
     {
         return Some(format!("its summary names step {step} of {steps}"));
     }
-    if let Some(what) = of_sheet(result) {
+    if let Some(what) = of_sheet(result).or_else(|| super::check_errors::fault(result)) {
         return Some(what);
     }
     let known = |[i, j]: GripperId| i < grid.nu && j < grid.nv;

@@ -4,6 +4,7 @@
 //! from it. What a [`ResultFile`] is in memory has the physics' own types; as a file it has columns, see [`document`].
 
 mod check;
+mod check_errors;
 mod contact;
 pub mod document;
 mod mold;

@@ -1,6 +1,7 @@
 use super::*;
 use crate::sample;
 use crate::sheet::SheetSeal;
+use plydrape::errors::Stands;
 use plydrape::material::TensionLaw;
 use plydrape::measure::Verdict;
 use plydrape::scene::Friction;
@@ -193,4 +194,47 @@ fn what_others_wrote_is_foreign() {
     }
     assert!(matches!(parse(&[0xff, 0xfe, 0x00], Path::new("x")), Err(ReadError::Foreign { .. })));
     assert!(matches!(super::read(Path::new("no/such.json")), Err(ReadError::Unreadable { .. })));
+}
+
+/// What drapes with errors say of a sheet of nine nodes is read as it was written; what contradicts itself, the scene or the
+/// sheet is refused even where the check sum was made anew.
+#[test]
+fn the_sample_of_a_result_fits_its_scene() {
+    let checksum = "crc32:0123abcd".to_string();
+    let seal = SheetSeal { file: "sheet.npz".into(), length: 17, checksum };
+    let changed = |change: fn(&mut ResultFile)| {
+        let mut result = sample::draped(3, 2, 3);
+        result.summary.decide_by(sample::sheet_summary());
+        result.sheet_states = Some(SheetKept::read(seal.clone(), "folder".into()));
+        let verdict = sample::sample_verdict();
+        result.scene.errors = Some(verdict.errors);
+        result.summary.accepted = verdict.ok;
+        let position = verdict.errors.gripper.position.scaled(0.5);
+        let stands = Stands { factor: 0.5, at_least: false, position, tried: 4 };
+        (result.summary.sample, result.summary.stands) = (Some(verdict), Some(stands));
+        change(&mut result);
+        result
+    };
+    let whole = changed(|_| {});
+    let found = read(&ResultFile::text(&whole).unwrap()).unwrap().summary;
+    assert_eq!((found.sample, found.stands), (whole.summary.sample, whole.summary.stands));
+
+    let spoilt: [fn(&mut ResultFile); 8] = [
+        |r| r.summary.accepted = true,
+        |r| r.scene.errors = None,
+        |r| r.summary.sample.as_mut().unwrap().ok = true,
+        |r| r.summary.sample.as_mut().unwrap().needed = 2,
+        |r| r.summary.sample.as_mut().unwrap().cells.truncate(3),
+        |r| r.summary.sample.as_mut().unwrap().spread_mm.truncate(8),
+        |r| r.summary.stands.as_mut().unwrap().factor = -0.5,
+        |r| {
+            let limits = &mut r.summary.sample.as_mut().unwrap().limits;
+            limits.extend(r.summary.limits.first().cloned());
+            limits[0].step = Some(4);
+        },
+    ];
+    for (n, spoil) in spoilt.into_iter().enumerate() {
+        let refused = read(&ResultFile::text(&changed(spoil)).unwrap());
+        assert!(matches!(refused, Err(ReadError::Changed { .. })), "{n}");
+    }
 }

@@ -10,14 +10,16 @@ use plydrape::sheet;
 /// The table of the sheet's limits, what else it says of the ply, and the verdict that counts.
 pub(super) fn verdict(summary: &Summary, sheet: &sheet::measure::Summary) -> String {
     let mut text = format!("the whole ply as a sheet of {} nodes:\n", sheet.nodes);
-    text += &limits(&sheet.limits);
+    text += &limits(&sheet.limits, summary.sample.as_ref());
     let planned = summary.steps_planned;
     for said in [heights(sheet), landing(sheet), ended(sheet, planned)].into_iter().flatten() {
         text += &shown::excerpt(&said, WIDTH);
         text.push('\n');
     }
-    if summary.accepted {
-        return text + "accepted by the sheet, which decides\n";
+    match (summary.accepted_without_errors(), summary.accepted) {
+        (true, true) => return text + "accepted by the sheet, which decides\n",
+        (true, false) => return text + "accepted by the sheet, which decides, without errors\n",
+        (false, _) => {}
     }
     text += "not accepted by the sheet, which decides\n";
     match worst(summary, sheet) {

@@ -18,6 +18,7 @@ mod molds_in_scenes;
 mod motion;
 mod net;
 mod plans;
+mod preload;
 mod reach;
 mod results;
 mod scaled;

@@ -2,6 +2,7 @@
 
 use crate::common;
 use plydrape::draping::simulate;
+use plydrape::errors::{Errors, GripperErrors, MoldErrors, Term};
 use plydrape::planner;
 use plydrape::scene::{Motion, Scene};
 use plydrape_io::scene::{self, SceneFile};
@@ -61,6 +62,31 @@ fn all_outputs_can_be_made_from_the_file_alone() {
         assert_eq!(pages[0], pages[1], "{what}");
         assert_eq!(back.scene.input, scene.input, "{what}");
     }
+}
+
+/// A result says the errors of its scene and nothing of them where there are none; a mold with the waves of one draw is refused
+/// in words and not written as a plain one.
+#[test]
+fn a_result_says_the_errors_of_its_scene_and_holds_no_waves() {
+    let mut scene = common::example("01_flat_sheared_mold");
+    let plain =
+        ResultFile::new(&scene, None, simulate(&short(&scene), |_| ControlFlow::Continue(())));
+    let text = plain.text().unwrap();
+    assert!(!text.contains("\"errors\"") && !text.contains("length_factor"));
+
+    let term = Term::Deviation(1e-4);
+    let mold = MoldErrors { waviness: term, wavelength: 0.15, ..MoldErrors::default() };
+    let gripper = GripperErrors { position: term, ..GripperErrors::default() };
+    let errors = Errors { seed: 7, gripper, mold, ..Errors::default() };
+    scene.errors = Some(errors);
+    let result =
+        ResultFile::new(&scene, None, simulate(&short(&scene), |_| ControlFlow::Continue(())));
+    assert_eq!(again(&result).scene.errors, Some(errors));
+
+    let real = errors.draw(0, scene.ply.grid.grippers()).apply(&short(&scene));
+    let result = ResultFile::new(&real, None, simulate(&real, |_| ControlFlow::Continue(())));
+    let refused = result.text().unwrap_err().to_string();
+    assert!(refused.contains("waves of one draw") && refused.contains("waviness"), "{refused}");
 }
 
 /// A mold from a result file is the mold that was draped on: the same feet under the same points.

@@ -8,19 +8,24 @@
 //! 1. `term`: a standard deviation or a bound;
 //! 2. `draw`: the values of one sample, each from its own place in a stream of random numbers;
 //! 3. `apply`: the scene with these values;
-//! 4. `sample`: the verdict over complete drapes of many cells, and the largest errors that a plan stands.
+//! 4. `sample`: the verdict over complete drapes of many cells, and the largest errors that a plan stands;
+//! 5. `robustness`: which of both a finished drape is judged with.
 //!
 //! Errors are constant over one drape. All values of a sample are linear in the terms, so that [`Draw::scaled`] is the same
 //! cell with all errors larger by a factor.
 
 mod apply;
 mod draw;
+mod robustness;
 mod sample;
+#[cfg(test)]
+mod sample_tests;
 mod term;
 #[cfg(test)]
 mod tests;
 
 pub use draw::{Draw, GripperError, MaterialError, MoldError, PickUpError, RigidError};
+pub use robustness::Robustness;
 pub use sample::{CellVerdict, Highest, SampleVerdict, Stands, Watch};
 pub use term::Term;
 
@@ -128,6 +133,12 @@ impl Default for Errors {
 }
 
 impl Errors {
+    /// Whether cells are drawn that differ from the scene.
+    #[must_use]
+    pub fn is_drawn(&self) -> bool {
+        self.samples > 0 && !self.is_zero()
+    }
+
     /// Whether no term has an error.
     #[must_use]
     pub fn is_zero(&self) -> bool {

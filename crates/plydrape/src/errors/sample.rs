@@ -3,19 +3,21 @@
 use super::{Draw, Errors, Term};
 use crate::draping::{self, Judged};
 use crate::measure::{Site, Verdict};
-use crate::ply::Grid;
+use crate::ply::{Grid, Ply};
 use crate::scene::{Model, Scene};
 use crate::sheet;
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Most factors of the errors that are tried, and the least.
+/// The least factor of the errors that is tried, and the most.
 const FACTORS: [f64; 2] = [1.0 / 64.0, 16.0];
 /// Bisections of the factor, each by its root: three leave 9 %.
 const BISECTIONS: usize = 3;
 /// Drapes at most by which a factor is tried.
 const TRIED: usize = 16;
+/// What a measure that is no number has for a ratio, so that a file can hold it.
+const LARGEST_RATIO: f64 = 1e6;
 
 /// Whether a drape goes on, and how far a sample has come.
 pub struct Watch<'a> {
@@ -42,7 +44,7 @@ pub struct SampleVerdict {
     pub cells: Vec<CellVerdict>,
     /// Where the sheet is highest by the height that the share of the cells keeps there; none of catenaries.
     pub highest: Option<Highest>,
-    /// Height (mm) at each node of the sheet that the share of the cells keeps; empty of catenaries.
+    /// Height (mm) at each node of the sheet that the share of the cells keeps, in four digits; empty of catenaries.
     pub spread_mm: Vec<f64>,
 }
 
@@ -55,7 +57,7 @@ pub struct CellVerdict {
     pub accepted: bool,
     /// The largest height of its sheet at the end (mm); none of catenaries and of a drape without an end.
     pub height_mm: Option<f64>,
-    /// The largest ratio of a measure to its limit; above 1 it is not kept.
+    /// The largest ratio of a measure to its limit; above 1 it is not kept. A measure that is no number has 1e6.
     pub ratio: f64,
 }
 
@@ -86,7 +88,7 @@ pub struct Stands {
     pub at_least: bool,
     /// The error of each gripper's position along each axis at this factor.
     pub position: Term,
-    /// Drapes by which each factor was tried.
+    /// Drapes by which each factor was tried; 0 where the plan is not accepted without errors, so that none was.
     pub tried: usize,
 }
 
@@ -102,15 +104,23 @@ impl Errors {
     /// How many of so many cells must keep the limits.
     #[must_use]
     pub fn needed(&self, samples: usize) -> usize {
-        ((self.share * samples as f64).ceil() as usize).clamp(usize::from(samples > 0), samples)
+        // a share that is a whole number of cells but for rounding is that number
+        ((self.share * samples as f64 * (1.0 - 1e-12)).ceil() as usize)
+            .clamp(usize::from(samples > 0), samples)
     }
 
     /// Those of which "a plan stands so much" is said where a scene has none: of each gripper's position, a thousandth of the
     /// grippers' pitch along each axis.
     #[must_use]
     pub fn of_grippers(scene: &Scene) -> Errors {
+        Errors::of_array(&scene.ply)
+    }
+
+    /// The same of the grippers that hold a ply.
+    #[must_use]
+    pub fn of_array(ply: &Ply) -> Errors {
         let mut errors = Errors::default();
-        errors.gripper.position = Term::Deviation(1e-3 * sheet::pitch(&scene.ply));
+        errors.gripper.position = Term::Deviation(1e-3 * sheet::pitch(ply));
         errors
     }
 
@@ -136,7 +146,7 @@ impl Errors {
             ok: cells.iter().filter(|cell| cell.accepted).count() >= needed,
             limits: limits(&drapes, needed),
             highest: highest(scene, &drapes[0].places, &spread),
-            spread_mm: spread.iter().map(|height| height * 1e3).collect(),
+            spread_mm: spread.iter().map(|height| in_digits(height * 1e3)).collect(),
             cells,
         })
     }
@@ -176,13 +186,7 @@ impl Errors {
 
     /// Whether enough of the cells in `order` keep the limits with all errors larger by a factor. Those that do not come first
     /// in the order from then on, because they will not with larger ones either.
-    fn hold(
-        &self,
-        scene: &Scene,
-        factor: f64,
-        order: &mut Vec<usize>,
-        watch: &Watch,
-    ) -> Option<bool> {
+    fn hold(&self, scene: &Scene, factor: f64, order: &mut [usize], watch: &Watch) -> Option<bool> {
         let spare = order.len() - self.needed(order.len());
         let mut failed: Vec<usize> = Vec::new();
         for pair in order.chunks(2) {
@@ -204,6 +208,18 @@ impl Errors {
     fn cell(&self, scene: &Scene, sample: usize, factor: f64) -> Scene {
         let draw: Draw = self.draw(sample, scene.ply.grid.grippers());
         draw.scaled(factor).apply(scene)
+    }
+}
+
+impl Stands {
+    /// The least factor that is tried.
+    pub const LEAST: f64 = FACTORS[0];
+
+    /// Of a plan that is not accepted without errors.
+    #[must_use]
+    pub fn nothing(errors: &Errors) -> Self {
+        let position = errors.gripper.position.scaled(0.0);
+        Stands { factor: 0.0, at_least: false, position, tried: 0 }
     }
 }
 
@@ -233,7 +249,11 @@ fn draped(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Option<Drape> {
         return (!stop()).then(|| Drape { judged, heights: Vec::new(), places: Vec::new() });
     }
     let along = |_: &sheet::State| ControlFlow::Continue(());
-    let drape = sheet::drape(scene, sheet::Tuning::default(), &|| stop(), along).ok()?;
+    let Ok(drape) = sheet::drape(scene, sheet::Tuning::default(), &|| stop(), along) else {
+        // the errors have left no sheet that could be draped
+        let judged = Judged { limits: Vec::new(), accepted: false, missing: 1.0, unsolved: 1 };
+        return Some(Drape { judged, heights: Vec::new(), places: Vec::new() });
+    };
     let summary = &drape.summary;
     if summary.status == sheet::Status::Interrupted {
         return None;
@@ -259,7 +279,7 @@ fn cell_verdict(drape: &Drape) -> CellVerdict {
     CellVerdict {
         accepted: *accepted,
         height_mm: highest.filter(|_| *missing == 0.0).map(|height| height * 1e3),
-        ratio: limits.iter().map(Verdict::ratio).fold(0.0, f64::max),
+        ratio: limits.iter().map(Verdict::ratio).fold(0.0, f64::max).min(LARGEST_RATIO),
     }
 }
 
@@ -290,6 +310,11 @@ fn spread(drapes: &[Drape], needed: usize) -> Vec<f64> {
         heights[needed.max(1) - 1]
     };
     (0..nodes).map(one).collect()
+}
+
+/// A number in four digits, which is enough for a picture and short in a file.
+fn in_digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// The highest node, with the line of grippers and the gripper that are nearest in the fabric.

@@ -36,7 +36,7 @@ fn budget() -> Errors {
 }
 
 /// `nu` × `nv` grippers over a level array that comes down in three steps, each turned and shrunk a little.
-fn scene(nu: usize, nv: usize) -> Scene {
+pub(super) fn scene(nu: usize, nv: usize) -> Scene {
     let grid = Grid { nu, nv };
     let material = Material {
         name: "paper".into(),

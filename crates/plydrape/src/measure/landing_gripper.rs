@@ -1,4 +1,7 @@
 //! Landing of grippers: how far a gripper ends from where the ideal drape puts it.
+//!
+//! It is a limit of rigid grippers alone. Those on mounts are commanded beyond their places on purpose, and the landing of
+//! the ply says where they have brought it.
 
 use super::{Description, Found, Measure, Most, Scope, Site, State, Subject, Unit};
 use crate::mold::distance;
@@ -22,7 +25,8 @@ impl Measure for LandingGripper {
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
-        scene.target.as_ref().map(|_| scene.limits.landing_gripper * 1e3)
+        let target = scene.target.as_ref().filter(|_| !scene.settings.pad.gives());
+        target.map(|_| scene.limits.landing_gripper * 1e3)
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {

@@ -24,7 +24,7 @@ pub struct CatenaryId {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Summary {
-    /// Every limit holds, by the model that decides.
+    /// Every limit holds, by the model that decides, and in as many cells of the sample as must keep them.
     pub accepted: bool,
     /// Steps done.
     pub steps: usize,
@@ -87,6 +87,15 @@ impl Summary {
     pub fn motion_accepted(&self) -> bool {
         let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
         self.limits.iter().filter(of_motion).all(|verdict| verdict.ok)
+    }
+
+    /// Whether every limit holds by the model that decides, whatever a sample of cells with errors says.
+    #[must_use]
+    pub fn accepted_without_errors(&self) -> bool {
+        match &self.sheet {
+            Some(sheet) => sheet.accepted && self.motion_accepted(),
+            None => self.catenaries_accepted(),
+        }
     }
 
     /// Lets the sheet decide: the drape is accepted if all limits of the sheet and of the motion hold.

@@ -2,17 +2,19 @@
 //!
 //! While the ply is free, the grippers pull it taut, so that an error of their places makes no line slack: each is commanded
 //! beyond its place by what the pull of its lines does to its mount. The lines along the ply's border, which have fabric on
-//! one side alone, are pulled harder. The pull is given up in part as a gripper comes to its place.
+//! one side alone, are pulled harder. The pull is given up as a gripper comes to its place: of a line over a hollow, which it
+//! would keep off the mold, wholly, of others in part.
 //!
 //! As they land, they press: a line of grippers hangs higher than the middles of the cells beside it, which land first and
 //! catch the fabric that crosses the line. A mount gives, so its gripper can be commanded to come down earlier and deeper
 //! than a rigid one: the line lands with its surroundings, and an error of height does not leave the gripper above the mold.
+//! Over a hollow grippers do not press: a pad that sticks early keeps its lines from the length that the hollow needs.
 
 use super::strategy::Strategy;
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::mold::distance;
-use crate::mold::vector::{along, sub, unit};
+use crate::mold::vector::{along, between, sub, unit};
 use crate::planner::tuning;
 use crate::ply::Grid;
 use crate::scene::Scene;
@@ -29,18 +31,11 @@ pub struct Preload<'a> {
     press: f64,
 }
 
-/// Whether the grippers of a scene are on mounts that give.
-#[must_use]
-pub fn on_mounts(scene: &Scene) -> bool {
-    let pad = &scene.settings.pad;
-    pad.lateral_stiffness.is_some() || pad.axial_stiffness.is_some()
-}
-
 impl<'a> Preload<'a> {
     /// The preload of a strategy.
     #[must_use]
     pub fn new(scene: &'a Scene, strategy: &Strategy) -> Option<Self> {
-        let target = scene.target.as_ref().filter(|_| on_mounts(scene))?;
+        let target = scene.target.as_ref().filter(|_| scene.settings.pad.gives())?;
         let pad = &scene.settings.pad;
         let gives = |stiffness: Option<f64>| stiffness.map_or(0.0, |k| 1.0 / k);
         let [lateral, axial] = [pad.lateral_stiffness, pad.axial_stiffness].map(gives);
@@ -62,9 +57,11 @@ impl<'a> Preload<'a> {
         let one = |(n, place): (usize, &Point)| {
             let away = distance(*place, self.targets[n]) / cell;
             let free = smooth(away / TUNING.preload.release);
-            let held = TUNING.preload.kept + (1.0 - TUNING.preload.kept) * free;
-            let pressed = self.press * (1.0 - smooth(away / TUNING.preload.press_reach));
-            let pull = self.lines(places, n).map(|c| c * grown * held * self.pull);
+            let (lines, over_hollow) = self.lines(places, n, free);
+            let pull = lines.map(|c| c * grown * self.pull);
+            // a pad that is pressed down early sticks before its lines have the length that a hollow needs
+            let press = if over_hollow { 0.0 } else { self.press };
+            let pressed = press * (1.0 - smooth(away / TUNING.preload.press_reach));
             let mold = self.scene.mold.as_ref();
             let normal = mold.map_or([0.0, 0.0, 1.0], |mold| mold.normal(self.targets[n]));
             [0, 1, 2].map(|c| place[c] - self.compliance[c] * (pull[c] + pressed * normal[c]))
@@ -72,15 +69,27 @@ impl<'a> Preload<'a> {
         places.iter().enumerate().map(one).collect()
     }
 
-    /// What lines of unit pull do to a gripper.
-    fn lines(&self, places: &[Point], gripper: usize) -> Point {
+    /// Whether the line between the places of two grippers on the mold bridges a hollow.
+    fn is_over_hollow(&self, a: usize, b: usize) -> bool {
+        let middle = between(self.targets[a], self.targets[b], 0.5);
+        let least = TUNING.preload.hollow * distance(self.targets[a], self.targets[b]);
+        self.scene.mold.as_ref().is_some_and(|mold| mold.signed_distance(middle) > least)
+    }
+
+    /// What lines of unit pull do to a gripper, of whose pull a share `free` is not yet given up; and whether one of them
+    /// bridges a hollow.
+    fn lines(&self, places: &[Point], gripper: usize, free: f64) -> (Point, bool) {
         let grid: Grid = self.scene.ply.grid;
         let [i, j] = grid.id(gripper);
-        let mut sum = [0.0; 3];
+        let (mut sum, mut over_hollow) = ([0.0; 3], false);
         let mut add = |id: [usize; 2], border: bool| {
-            let way = unit(sub(places[grid.index(id)], places[gripper])).unwrap_or([0.0; 3]);
+            let other = grid.index(id);
+            let way = unit(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
+            let hollow = self.is_over_hollow(gripper, other);
+            over_hollow |= hollow;
+            let kept = if hollow { 0.0 } else { TUNING.preload.kept };
             let pull = if border { TUNING.preload.border } else { 1.0 };
-            sum = along(sum, pull, way);
+            sum = along(sum, pull * (kept + (1.0 - kept) * free), way);
         };
         let (on_u, on_v) = (j == 0 || j + 1 == grid.nv, i == 0 || i + 1 == grid.nu);
         if i > 0 {
@@ -95,7 +104,7 @@ impl<'a> Preload<'a> {
         if j + 1 < grid.nv {
             add([i, j + 1], on_v);
         }
-        sum
+        (sum, over_hollow)
     }
 }
 

@@ -7,7 +7,6 @@
 //! cores.
 
 use super::fronts::Fronts;
-use super::preload;
 use super::strategy::{MOUNTED, Strategy};
 use super::tuning::TUNING;
 use crate::draping::Judged;
@@ -224,7 +223,7 @@ impl Search<'_, '_> {
         let fine = lock(&shared.ranking).mesh == Mesh::Own;
         let step = TUNING.search.steps[usize::from(fine)];
         let mut unit = start.to_unit().to_vec();
-        if !preload::on_mounts(shared.scene) {
+        if !shared.scene.settings.pad.gives() {
             unit.truncate(unit.len() - MOUNTED);
         }
         let options = CMAESOptions::new(unit, step)

@@ -1,7 +1,6 @@
 //! The parameters of a front, and the vector of them that a search varies.
 
 use super::fronts::flattest;
-use super::preload;
 use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
@@ -48,7 +47,7 @@ pub const MOUNTED: usize = 2;
 pub const DIMENSION: usize = TUNING.front.ranges.len();
 
 impl Strategy {
-    /// As a point whose every coordinate goes from 0 to 1; the last two, [`MOUNTED`], count for grippers on mounts alone.
+    /// As a point whose every coordinate goes from 0 to 1; the last two count for grippers on mounts alone.
     #[must_use]
     pub fn to_unit(&self) -> [f64; DIMENSION] {
         let values = [
@@ -114,12 +113,21 @@ impl Strategy {
             shape(LINE, second),
             shape(LINE, first),
         ];
-        let on_mounts = preload::on_mounts(scene);
+        let on_mounts = scene.settings.pad.gives();
         let shapes = if on_mounts { shapes.map(Strategy::preloaded) } else { shapes };
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         if on_mounts {
-            return shapes;
+            let looser = |of: &Strategy| Strategy { pull: 0.4 * of.pull, ..*of };
+            let flatter = |of: &Strategy| Strategy { slope: 0.8 * of.slope, ..*of };
+            // what is stretched when it lands bridges a hollow
+            let softer = |of: &Strategy| Strategy { pretension: 0.25 * of.pretension, ..*of };
+            let changed: [Vec<Strategy>; 3] = [
+                shapes.iter().map(softer).collect(),
+                shapes.iter().map(looser).collect(),
+                shapes.iter().map(flatter).collect(),
+            ];
+            return [shapes, changed.concat()].concat();
         }
         let [ring, second_ellipse, first_ellipse, second_line, first_line] = shapes[..] else {
             return shapes;
@@ -164,7 +172,7 @@ impl Strategy {
         let front = TUNING.front;
         let curvature = front.ranges[4][1].exp();
         let (pretension, slope) = (front.ranges[6][1], front.steepest_on_mounts);
-        Strategy { curvature, slope, pretension, press: 0.5, pull: 0.65, ..self }
+        Strategy { curvature, slope, pretension, press: 0.5, pull: 0.4, ..self }
     }
 
     /// Whether its front is a line, which rolls the ply on; others spread from a point.

@@ -119,7 +119,10 @@ pub struct Preload {
     pub border: f64,
     /// Distance of a gripper to its place from which on its pull is given up (cells).
     pub release: f64,
-    /// Share of the pull that is left at its place, because an error of the gripper makes its lines slack there first.
+    /// Height over the mold of the middle of a line between two grippers' places above which it bridges a hollow (of its
+    /// length).
+    pub hollow: f64,
+    /// Share of the pull that is left at its place of a line over no hollow, because an error of the gripper makes its lines slack there first.
     pub kept: f64,
     /// Share of the steps in which the pull comes up.
     pub growing: f64,
@@ -216,9 +219,10 @@ pub const TUNING: Tuning = Tuning {
         ],
     },
     preload: Preload {
-        pull: 0.15,
-        border: 3.0,
+        pull: 0.25,
+        border: 2.5,
         release: 0.4,
+        hollow: 1e-3,
         kept: 0.7,
         growing: 0.1,
         press: 0.5,

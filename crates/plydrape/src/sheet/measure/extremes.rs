@@ -6,7 +6,7 @@ use super::super::state::State;
 use super::super::stretch::strain;
 use super::{Most, Place, middle};
 use crate::mold::Mold;
-use crate::mold::vector::{cross, dot, norm, sub, unit};
+use crate::mold::vector::{along, cross, dot, norm, sub, unit};
 
 /// Extremes over the steps that were seen.
 #[derive(Debug, Clone, Default)]
@@ -15,6 +15,9 @@ pub struct Extremes {
     pub(super) shear: Most,
     pub(super) force: Most,
     pub(super) lateral: Most,
+    pub(super) along: Most,
+    pub(super) across: Most,
+    pub(super) slide: Most,
     pub(super) tilt: Most,
     pub(super) depth: Most,
     pub(super) fold: Most,
@@ -53,6 +56,12 @@ impl Extremes {
             let at = pad.position;
             self.force.meet(norm(*force), gripper.place, at, step);
             self.lateral.meet(force[0].hypot(force[1]), gripper.place, at, step);
+            // what draws the ply off the pad, and along it; what presses the pad on the mold holds the ply
+            let normal = pad.normal();
+            let off = -dot(*force, normal);
+            self.across.meet(off.max(0.0), gripper.place, at, step);
+            self.along.meet(norm(along(*force, off, normal)), gripper.place, at, step);
+            self.slide.meet(norm(pad.slip), gripper.place, at, step);
             let tilt = match gripper.radius {
                 0.0 => tilt(fabric, x, gripper.place, reach).unwrap_or(0.0),
                 _ => pad.tilt(),

@@ -29,6 +29,10 @@ pub(super) fn limits(scene: &Scene, extremes: &Extremes, ends: &Ends) -> Vec<Ver
     judge(Name::Strain, extremes.strain, 1.0, Some(limits.strain));
     judge(Name::Shear, extremes.shear, degree, Some(limits.shear));
     judge(Name::GripperForce, extremes.force, 1.0, limits.gripper_force);
+    let pad = &scene.settings.pad;
+    let safe = |force: Option<f64>| force.map(|force| force / limits.grip_safety);
+    judge(Name::Slip, extremes.along, 1.0, safe(pad.slip_force));
+    judge(Name::Holding, extremes.across, 1.0, safe(pad.holding_force));
     judge(Name::Tilt, extremes.tilt, degree, Some(limits.tilt));
     judge(Name::Penetration, extremes.depth, 1e-3, Some(limits.penetration));
     out

@@ -56,6 +56,9 @@ pub struct Summary {
     pub gripper_force_max_n: f64,
     /// Its largest horizontal part (N).
     pub gripper_pull_max_n: f64,
+    /// How far fabric has slid under a pad at most (mm); none where pads hold whatever pulls.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub slip_max_mm: Option<f64>,
     /// Largest tilt of a pad, or of the ply at a gripper without one, in any step (°).
     pub tilt_max_deg: f64,
     /// Sharpest turn between neighbouring segments in the air in any step (°).
@@ -174,6 +177,8 @@ impl Summary {
             shear_max_deg: degrees(extremes.shear).unwrap_or(0.0),
             gripper_force_max_n: value(extremes.force, 1.0).unwrap_or(0.0),
             gripper_pull_max_n: value(extremes.lateral, 1.0).unwrap_or(0.0),
+            slip_max_mm: value(extremes.slide, 1e-3)
+                .filter(|_| scene.settings.pad.slip_force.is_some()),
             tilt_max_deg: degrees(extremes.tilt).unwrap_or(0.0),
             fold_max_deg: degrees(extremes.fold).unwrap_or(0.0),
             penetration_mm: value(extremes.depth, 1e-3),
@@ -246,6 +251,7 @@ mod tests {
             shear_max_deg: 0.0,
             gripper_force_max_n: 0.0,
             gripper_pull_max_n: 0.0,
+            slip_max_mm: None,
             tilt_max_deg: 0.0,
             fold_max_deg: 0.0,
             penetration_mm: None,

@@ -1,0 +1,114 @@
+//! Grippers on mounts are commanded beyond their places: the pull that holds the ply taut, the press as it lands, and what a
+//! plan stands with them.
+
+use crate::common::{distance, example, examples};
+use plydrape::errors::{Errors, Watch};
+use plydrape::planner;
+use plydrape::planner::path::Strategy;
+use plydrape::planner::path::preload::{Preload, ends};
+use plydrape::scene::{Scene, Stepping};
+use plydrape_io::scene;
+use std::ops::ControlFlow;
+
+/// 4 × 3 grippers on mounts of 2 N/mm and 5 N/mm over a mold.
+fn on_mounts(mold: &str) -> Scene {
+    let text = format!(
+        "[ply]\ngrippers = [4, 3]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n[mold]\n{mold}\n\
+         [grippers]\nspacing = [\"98 mm\", \"98 mm\"]\nheight = \"50 mm\"\norigin = \"centred\"\n\
+         stiffness = {{ lateral = \"2 N/mm\", axial = \"5 N/mm\" }}\n\
+         [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 10\n"
+    );
+    scene::parse(&text, &examples(), "scene.toml").unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+fn strategy(press: f64, pull: f64) -> Strategy {
+    Strategy { press, pull, ..Strategy::flat() }
+}
+
+fn targets(scene: &Scene) -> Vec<[f64; 3]> {
+    scene.target.as_ref().expect("a target").grippers.clone()
+}
+
+/// On a flat array the pulls of free lines balance each other inside: an inner gripper is commanded to its place, one in the
+/// middle of a border outwards alone, and all forces together and their moment about the middle are zero.
+#[test]
+fn pulls_of_a_flat_array_are_in_balance() {
+    let scene = on_mounts("kind = \"plane\"");
+    let strategy = strategy(0.0, 0.8);
+    let preload = Preload::new(&scene, &strategy).expect("mounts");
+    let raised: Vec<[f64; 3]> = targets(&scene).iter().map(|[x, y, z]| [*x, *y, z + 0.2]).collect();
+    let commanded = preload.commanded(&raised, 1.0);
+    let grid = scene.ply.grid;
+    let off = |id: [usize; 2]| {
+        let n = grid.index(id);
+        [0, 1, 2].map(|c| commanded[n][c] - raised[n][c])
+    };
+    for id in [[1, 1], [2, 1]] {
+        assert!(off(id).iter().all(|c| c.abs() < 1e-12), "{:?}", off(id));
+    }
+    let [x, y, z] = off([0, 1]);
+    assert!(x < -1e-4 && y.abs() < 1e-12 && z.abs() < 1e-12, "{:?}", off([0, 1]));
+    let corner = off([3, 2]);
+    assert!(corner[0] > 2.0 * -x && (corner[0] - corner[1]).abs() < 1e-12, "{corner:?}");
+    let (mut sum, mut moment) = ([0.0; 3], 0.0);
+    let middle = [0, 1].map(|c| raised.iter().map(|p| p[c]).sum::<f64>() / raised.len() as f64);
+    for (a, b) in commanded.iter().zip(&raised) {
+        let force = [0, 1, 2].map(|c| 2e3 * (a[c] - b[c]));
+        (0..3).for_each(|c| sum[c] += force[c]);
+        moment += (b[0] - middle[0]) * force[1] - (b[1] - middle[1]) * force[0];
+    }
+    assert!(sum.iter().all(|c| c.abs() < 1e-9) && moment.abs() < 1e-9, "{sum:?} {moment}");
+}
+
+/// At its place on a flat mold a gripper is commanded lower by what presses its mount with its share of the load, and a mount
+/// that is stiffer by half as much.
+#[test]
+fn a_gripper_presses_with_its_share_of_the_load() {
+    let mut scene = on_mounts("kind = \"plane\"");
+    let strategy = strategy(1.0, 0.0);
+    let depth = |scene: &Scene| targets(scene)[0][2] - ends(scene, &strategy)[0][2];
+    let soft = depth(&scene);
+    scene.settings.pad.axial_stiffness = Some(1e4);
+    let stiff = depth(&scene);
+    assert!(soft > 0.0 && (soft / stiff - 2.0).abs() < 1e-9, "{soft} {stiff}");
+    assert!(5e3 * soft <= scene.limits.gripper_load, "{soft}");
+    scene.settings.pad.axial_stiffness = None;
+    assert_eq!(depth(&scene), 0.0, "a rigid axis is not commanded beyond");
+}
+
+/// A line over a hollow would be kept off the mold: in a bowl all pull is given up at the end, on a dome it is not.
+#[test]
+fn lines_over_a_hollow_are_given_up() {
+    let bowl =
+        "kind = \"sphere\"\nradius = \"0.8 m\"\nposition = [0, 0, \"0.8 m\"]\nside = \"inside\"";
+    let dome = "kind = \"sphere\"\nradius = \"0.8 m\"\nposition = [0, 0, \"-0.8 m\"]";
+    let [bowl, dome] = [bowl, dome].map(on_mounts);
+    let largest = |scene: &Scene| {
+        let ends = ends(scene, &strategy(0.0, 1.0));
+        let off = ends.iter().zip(targets(scene)).map(|(a, b)| distance(*a, b));
+        off.fold(0.0, f64::max)
+    };
+    assert!(largest(&bowl) < 1e-12, "{}", largest(&bowl));
+    assert!(largest(&dome) > 1e-3, "{}", largest(&dome));
+}
+
+/// The paper's example, planned for mounts of 2 N/mm, stands errors ten times as large as a plan for rigid grippers.
+#[test]
+fn mounts_stand_ten_times_the_errors_of_rigid_grippers() {
+    let rigid = example("01_flat_sheared_mold");
+    let mut mounted = rigid.clone();
+    mounted.settings.pad.lateral_stiffness = Some(2e3);
+    mounted.settings.pad.axial_stiffness = Some(2e3);
+    let stands = |scene: &Scene| {
+        let go = &mut |_: &planner::Progress| ControlFlow::Continue(());
+        let planned = planner::plan(scene, None, go).expect("a plan");
+        let mut scene = scene.clone();
+        scene.motion = planned.motion.steps();
+        scene.settings.contact.stepping = Stepping::Cut;
+        let errors = Errors { samples: 4, ..Errors::of_grippers(&scene) };
+        let watch = Watch { stop: &|| false, done: &|_, _| {} };
+        errors.stands(&scene, &watch).expect("not stopped").factor
+    };
+    let [rigid, mounted] = [&rigid, &mounted].map(stands);
+    assert!(mounted > 10.0 * rigid, "rigid {rigid}, on mounts {mounted}");
+}
