@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -28,6 +29,7 @@ TOPICS = {
     "/plydrape/ply": MARKERS,
 }
 LATCHED = ["/plydrape/trajectory", "/plydrape/mold"]
+MOUNTS = 'stiffness = { lateral = "2 N/mm", axial = "5 N/mm" }\n'
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,14 @@ def either(request: pytest.FixtureRequest) -> Exported:
     """One after the other."""
     found: Exported = request.getfixturevalue(request.param)
     return found
+
+
+@pytest.fixture(scope="module")
+def mounted(tmp_path_factory: pytest.TempPathFactory) -> Exported:
+    """A drape of grippers on mounts, whose loads are known."""
+    home = tmp_path_factory.mktemp("mounted")
+    result = made("simulate", home, SCENE.replace("[target]", MOUNTS + "[target]"))
+    return Exported(result, result.export("ros2"))
 
 
 def table(export: Exported) -> tuple[Numbers, Numbers]:
@@ -177,6 +187,38 @@ def test_another_encoder_writes_the_same_bytes(planned: Exported, distribution: 
             message = store.deserialize_cdr(raw, connection.msgtype)
             again = bytes(store.serialize_cdr(message, connection.msgtype))
             assert again == bytes(raw), connection.topic
+
+
+def test_loads_are_those_of_the_table_and_of_the_springs(mounted: Exported) -> None:
+    """One sliding joint a gripper and axis: effort is the load (N), position the preload (m), of stiffness k: F = -k p.
+
+    1e-6 N is the balance of ply and mounts.
+    """
+    [(time, message)] = mounted.decoded("/plydrape/loads")
+    assert time == 0 and message.header.frame_id == "mold"
+    ids = mounted.result.ids
+    assert message.joint_names == [f"gripper_{i}_{j}_{axis}" for i, j in ids for axis in "xyz"]
+    with (mounted.result.folder / "trajectory.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    for name, unit, factor in [("load", "N", 1.0), ("preload", "mm", 1e-3)]:
+        columns = [f"{name} {axis} ({unit})" for axis in "xyz"]
+        wanted = np.array([[float(row[column]) for column in columns] for row in rows])
+        found = [p.effort if name == "load" else p.positions for p in message.points]
+        assert np.allclose(np.array(found).reshape(-1, 3), factor * wanted, rtol=1e-14, atol=0)
+    stiffness = np.tile([2e3, 2e3, 5e3], len(ids))
+    for point in message.points:
+        assert np.abs(point.effort + stiffness * point.positions).max() < 1e-6
+        assert np.abs(point.effort).max() > 0.01
+    text = (mounted.folder / "loads.yaml").read_text()
+    written = yaml.load(text, yaml.CSafeLoader)
+    assert written["points"][3]["effort"] == message.points[3].effort.tolist()
+    assert text.startswith(
+        "# lateral_stiffness_n_per_mm: 2.0\n# axial_stiffness_n_per_mm: 5.0\nheader:"
+    )
+    with mounted.bag.open("rb") as file:
+        [noted] = make_reader(file).iter_metadata()
+    assert noted.name == "plydrape_mounts"
+    assert noted.metadata["axial_stiffness_n_per_mm"] == "5.0"
 
 
 def test_late_subscribers_get_what_is_sent_once(planned: Exported) -> None:

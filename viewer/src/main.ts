@@ -13,6 +13,7 @@ import { linkLegend } from "./page/legend";
 import { showLimits, showStrength, showVerdict } from "./page/limits";
 import { Player } from "./page/player";
 import { linkPrint } from "./page/print";
+import { showSample, showStands } from "./page/sample";
 import { showFacts } from "./page/scene_facts";
 import { State } from "./page/state";
 import { applyTheme, linkTheme, systemIsDark } from "./page/theme";
@@ -30,6 +31,7 @@ async function open(): Promise<void> {
   const data = readPageData(byId("plydrape-data").textContent);
   byId("title").textContent = data.title;
   showVerdict(data);
+  showStands(data.stands);
   const motion = await Motion.unpack(data);
   const model = data.sheet === null ? "catenaries" : "sheet";
   const state = new State(
@@ -57,6 +59,7 @@ async function open(): Promise<void> {
   linkTimeline(state, player, motion);
   showLimits(state, data);
   showStrength(data);
+  showSample(state, motion);
   const charts = new Charts(state, data);
   showFacts(data);
   if (scene !== null) linkHover(state, motion, scene);

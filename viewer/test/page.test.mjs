@@ -7,6 +7,7 @@ import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { availableParallelism, loadavg, tmpdir } from "node:os";
 import { join } from "node:path";
+import { deflateSync } from "node:zlib";
 import { after, before, describe, test } from "node:test";
 import { CHROMIUM, openReport, startBrowser } from "../browser.mjs";
 import { distance, findReports, readColumns, readResult } from "./reports.mjs";
@@ -54,6 +55,12 @@ describe("results page", { skip: missing ?? false }, () => {
   test("views look from elsewhere, and the list of keys opens", () => viewsDiffer(reports[0]));
   test("damaged data gives one sentence", () => damagedDataIsSaid(reports[0]));
   test("a drape with fewer steps than planned says why", () => fewerStepsAreSaid(reports[0]));
+  const sheet = reports.find((report) => hasSheet(report));
+  test(
+    "a sample shows how many cells keep the limits, how high they are, and where",
+    { skip: sheet ? false : "no page of a sheet" },
+    () => sampleIsShown(sheet),
+  );
   test("without WebGL everything else works", () => worksWithoutWebgl(reports[0]));
 
   const large = reports.find(({ name }) => name === "large");
@@ -85,6 +92,7 @@ function shows(report, first) {
   });
   after(() => opened?.context.close());
   test("opens without a complaint and asks for nothing", () => opens(report, opened));
+  test("shows nothing of a sample that the result does not have", () => saysNoSample(opened.page));
   if (hasSheet(report)) {
     test("the sheet has the nodes, heights and forces of its states", () => sheetShows(report, opened.page));
   }
@@ -231,7 +239,7 @@ async function sheetShows(report, page) {
     sheet.limits.map(({ value, ok }) => ({ value, ok })),
   );
   assert.deepEqual(data.sheet.landing, sheet.landing);
-  for (const [step, { nodes, heights, forces, grippers }] of Object.entries(sheet.states)) {
+  for (const [step, { nodes, heights, forces, turns, grippers }] of Object.entries(sheet.states)) {
     await page.evaluate((number) => window.plydrape.goto(Number(number)), step);
     const shown = await page.evaluate((count) => {
       return Array.from({ length: count }, (_, k) => window.plydrape.node(k));
@@ -241,8 +249,17 @@ async function sheetShows(report, page) {
       assert.ok(off <= MICROMETRE, `step ${step}: node ${k} is off by ${off} m`);
     });
     const most = Math.max(...forces.map((force) => Math.hypot(...force)));
+    // the arrows are the loads along and across the ply
+    const parts = forces.flatMap((force, k) => {
+      const [x, y, z, w] = turns[k];
+      const normal = [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)];
+      const up = force.reduce((sum, f, c) => sum + f * normal[c], 0);
+      return [Math.hypot(...force.map((f, c) => f - up * normal[c])), Math.abs(up)];
+    });
+    const longest = Math.max(...parts);
     const note = await page.locator("#force-scale").innerText();
-    assert.ok(Math.abs(parseFloat(note.split("arrow")[1]) / most - 1) < 1e-3, `${note} is not ${most} N`);
+    const said = parseFloat(note.split("arrow")[1]);
+    assert.ok(Math.abs(said / longest - 1) < 1e-3, `${note} is not ${longest} N`);
 
     if (Number(step) !== data.steps.at(-1)) continue;
     // from above the node that is highest over the mold, and the gripper with the largest force
@@ -358,7 +375,7 @@ async function playsThrough(report) {
 
 async function coloursHaveLegends(page) {
   const colours = await page.evaluate(() => window.plydrape.colours);
-  const all = ["over_mold", "height", "gap", "shear", "strain", "direction", "landing"];
+  const all = ["over_mold", "spread", "height", "gap", "shear", "strain", "direction", "landing"];
   const order = all.filter((key) => colours.includes(key));
   const titles = new Set();
   for (const [k, colour] of order.entries()) {
@@ -436,8 +453,8 @@ async function limitsLead(report, page) {
   // those of the model that decides come first
   const motion = data.limits.filter((limit) => limit.motion);
   const deciding = data.sheet === null ? data.limits : [...data.sheet.limits, ...motion];
-  const given =
-    data.sheet === null ? deciding : [...deciding, ...data.limits.filter((limit) => !limit.motion)];
+  const other = data.sheet === null ? [] : data.limits.filter((limit) => !limit.motion);
+  const given = [...deciding, ...other, ...(data.sample?.limits ?? [])];
   assert.equal(await page.locator(".limits tbody tr").count(), given.length);
   if (result !== null) {
     assert.deepEqual(
@@ -654,6 +671,119 @@ async function fewerStepsAreSaid(report) {
     assert.deepEqual(complaints, []);
     await context.close();
   }
+}
+
+/** No empty boxes. */
+async function saysNoSample(page) {
+  const { sample, stands } = await pageData(page);
+  assert.equal(await page.locator("#sample").isVisible(), sample !== null);
+  assert.equal(await page.locator("#stands").isVisible(), stands !== null);
+}
+
+/** Integers of one step as the page gets them (block.ts goes back). */
+function packed(values) {
+  const folded = values.map((value, n) => {
+    const change = value - (n > 0 ? values[n - 1] : 0);
+    return ((change << 1) ^ (change >> 31)) >>> 0;
+  });
+  const planes = [0, 8, 16, 24].flatMap((shift) => folded.map((value) => (value >>> shift) & 255));
+  const data = deflateSync(Buffer.from(planes)).toString("base64");
+  return { steps: 1, count: values.length, components: 1, data };
+}
+
+/** A made-up sample of 64 cells, of which one has no end and one is too high, on the page of a sheet. */
+async function sampleIsShown(report) {
+  const [head, data, tail] = parts(report);
+  const page0 = JSON.parse(data);
+  const limit = 0.5;
+  const cells = Array.from({ length: 64 }, (_, k) => ({
+    accepted: k > 1,
+    height_mm: k === 0 ? null : k === 1 ? 0.71 : 0.1 + 0.006 * k,
+    ratio: k > 1 ? 0.9 : 1.4,
+  }));
+  const nodes = page0.sheet.landing.length;
+  const node = Math.floor(nodes / 3);
+  const spread = Array.from({ length: nodes }, (_, k) => (k === node ? 460 : 20 + (k % 200)));
+  const field = {
+    ...page0.sheet.fields[0],
+    key: "spread",
+    label: "height that 95 % of the cells keep at the end",
+  };
+  const named = {
+    height_mm: 0.46,
+    uv_mm: [50, 25],
+    line: "gripper [0, 0] to gripper [2, 0]",
+    gripper: "gripper [1, 0]",
+    node,
+  };
+  const limits = page0.sheet.limits.slice(0, 2);
+  const sample = {
+    accepted: 62,
+    needed: 61,
+    ok: true,
+    share: "95 %",
+    cells,
+    height_limit: limit,
+    limits,
+    highest: named,
+  };
+  const kept = (list) => list.map((one) => ({ ...one, ok: true }));
+  const changed = {
+    ...page0,
+    accepted: true,
+    limits: kept(page0.limits),
+    sample,
+    stands: "stands errors of 0.28 mm (standard deviation) of each gripper's position, by 16 drapes each",
+    sheet: {
+      ...page0.sheet,
+      accepted: true,
+      limits: kept(page0.sheet.limits),
+      spread: packed(spread),
+      fields: [page0.sheet.fields[0], field, ...page0.sheet.fields.slice(1)],
+    },
+  };
+  const file = join(scratch, "sample.html");
+  writeFileSync(file, head + JSON.stringify(changed).replaceAll("<", "\\u003c") + tail);
+  const { page, context, complaints } = await openReport(browser, file);
+  assert.match(await page.locator("#verdict").innerText(), /all \d+ limits are kept, in 62 of 64 cells/);
+  assert.match(await page.locator("#stands").innerText(), /^Stands errors of 0\.28 mm/);
+  const text = await page.locator("#sample").innerText();
+  assert.match(text, /Accepted in 62 of 64 cells/);
+  assert.match(text, /61 must be \(95 %\)/);
+  assert.match(text, /One cell has no end/);
+
+  // every cell with a height is in one bar, and those beyond the limit stand beyond its line
+  const bars = await page.evaluate(() => {
+    const number = (element, name) => Number(element.getAttribute(name));
+    const line = number(document.querySelector("#sample line.limit"), "x1");
+    const rects = [...document.querySelectorAll("#sample rect")];
+    return rects.map((rect) => ({
+      kept: rect.classList.contains("kept"),
+      cells: number(rect, "data-cells"),
+      beyond: number(rect, "x") >= line,
+    }));
+  });
+  const sum = (kept, beyond) =>
+    bars.filter((bar) => bar.kept === kept && bar.beyond === beyond).reduce((all, bar) => all + bar.cells, 0);
+  assert.deepEqual([sum(true, false), sum(true, true), sum(false, false), sum(false, true)], [62, 0, 0, 1]);
+
+  // its colours are about the end, where the highest place is marked and named
+  await page.keyboard.press("Home");
+  await page.keyboard.press("2");
+  assert.equal(await page.evaluate(() => window.plydrape.colour), "spread");
+  const pointed = () => page.evaluate(() => ({ at: window.plydrape.pointer, step: window.plydrape.step }));
+  await eventually(async () => assert.notEqual((await pointed()).at, null));
+  const { at, step } = await pointed();
+  assert.equal(step, page0.steps.at(-1));
+  assert.deepEqual(at.place, await page.evaluate((k) => window.plydrape.node(k), node));
+  for (const part of ["0.46", "95 %", named.line, named.gripper])
+    assert.ok(at.label.includes(part), at.label);
+  await page.keyboard.press("1");
+  await eventually(async () => assert.equal((await pointed()).at, null));
+  await page.locator("#sample button.link").click();
+  assert.deepEqual((await pointed()).at.place, at.place);
+  assert.deepEqual(complaints, []);
+  await context.close();
 }
 
 async function damagedDataIsSaid(report) {

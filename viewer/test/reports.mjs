@@ -41,6 +41,7 @@ if result.sheet is not None:
                 "nodes": result.sheet.positions[k].tolist(),
                 "heights": result.sheet.heights[k].tolist(),
                 "forces": result.sheet.pad_forces[k].tolist(),
+                "turns": result.sheet.pad_quaternions[k].tolist(),
                 "grippers": result.sheet.grippers[k].tolist(),
             }
             for k in {0, last // 2, last}

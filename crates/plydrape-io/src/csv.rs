@@ -2,8 +2,12 @@
 //!
 //! Numbers are in the shortest form that reads back to the same double. A measure without a meaning in
 //! a step leaves its cells empty.
+//!
+//! Beside the poses stand the expected loads of the ply on the grippers where they are known, and where mounts yield their
+//! preload and stiffness, see [`super::loads`].
 
 use super::OutputError;
+use super::loads::{Load, Loads, Stiffness};
 use crate::result::ResultFile;
 use ::csv::{Error, Writer};
 use plydrape::draping::record::Step;
@@ -55,40 +59,36 @@ fn header_of(name: Name) -> String {
     format!("{} ({})", measure.label(), measure.unit().recorded)
 }
 
-/// One row a gripper and step: time (s), gripper `i-j`, position (m), orientation (x, y, z, w).
+/// One row a gripper and step: time (s), gripper `i-j`, where the robot holds it (m), orientation (x, y, z, w), and the load
+/// on it where that is known.
 ///
 /// # Errors
-/// If the table cannot be formed; memory apart there is no known case.
-pub fn trajectory(result: &ResultFile) -> Result<String, Error> {
-    let mut table = Writer::from_writer(Vec::new());
-    table.write_record(POSE)?;
+/// [`OutputError`] if the states of the sheet cannot be read.
+pub fn trajectory(result: &ResultFile) -> Result<String, OutputError> {
+    let loads = Loads::of(result)?;
+    let mut table = Poses::new(loads.as_ref())?;
     for step in &result.steps {
-        for gripper in &step.grippers {
-            table.write_record(pose(
-                step.time,
-                gripper.id,
-                gripper.position,
-                gripper.quaternion,
-            ))?;
-        }
+        let poses = step.grippers.iter().map(|g| (g.id, g.commanded(), g.quaternion));
+        table.add(step.time, poses)?;
     }
-    text(table)
+    Ok(text(table.table)?)
 }
 
-/// The table of [`motion`] for a plan at its rate; none of a simulated drape.
+/// The table of [`motion`] for a plan at its rate, with the loads where they are known; none of a simulated drape.
 ///
 /// # Errors
-/// As [`motion`], if plan and steps do not belong together.
+/// As [`motion`], if plan and steps do not belong together, or [`OutputError`] if the states of the sheet cannot be read.
 pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError> {
     match (&result.plan, result.motion()?) {
         (Some(plan), Some((timed, attitudes))) => {
-            motion(&timed, &attitudes, result.scene.ply.grid, plan.rate).map(Some)
+            let (grid, loads) = (result.scene.ply.grid, Loads::of(result)?);
+            sampled(&timed, &attitudes, grid, plan.rate, loads.as_ref()).map(Some)
         }
         _ => Ok(None),
     }
 }
 
-/// The table of [`trajectory`] for a timed motion, sampled at a rate (Hz), the last sample at its end.
+/// The table of [`trajectory`] for a timed motion without loads, sampled at a rate (Hz), the last sample at its end.
 ///
 /// A scene can follow it: `[motion]`, `kind = "file"`.
 ///
@@ -101,29 +101,91 @@ pub fn motion(
     grid: Grid,
     rate: f64,
 ) -> Result<String, OutputError> {
+    sampled(motion, attitudes, grid, rate, None)
+}
+
+fn sampled(
+    motion: &TimedMotion,
+    attitudes: &Attitudes,
+    grid: Grid,
+    rate: f64,
+    loads: Option<&Loads>,
+) -> Result<String, OutputError> {
     for found in [motion.grippers(), attitudes.grippers()] {
         if found != grid.grippers() {
             return Err(MotionError::Grippers { found, expected: grid.grippers() }.into());
         }
     }
-    let mut table = Writer::from_writer(Vec::new());
-    table.write_record(POSE)?;
+    let mut table = Poses::new(loads)?;
     for time in motion.samples(rate)? {
-        let poses = motion.at(time).into_iter().zip(attitudes.at(time));
-        for (gripper, (position, quaternion)) in poses.enumerate() {
-            table.write_record(pose(time, grid.id(gripper), position, quaternion))?;
-        }
+        let poses = motion.at(time).into_iter().zip(attitudes.at(time)).enumerate();
+        table.add(time, poses.map(|(n, (place, quaternion))| (grid.id(n), place, quaternion)))?;
     }
-    Ok(text(table)?)
+    Ok(text(table.table)?)
 }
 
 /// The columns of a gripper's pose at a time.
 const POSE: [&str; 9] = ["t (s)", "gripper", "x (m)", "y (m)", "z (m)", "qx", "qy", "qz", "qw"];
+/// Those of the load on it.
+const LOAD: [&str; 3] = ["load x (N)", "load y (N)", "load z (N)"];
+/// Those of its mount. The stiffness is the same in every row, because a comment above the header stops most readers.
+const MOUNT: [&str; 5] = [
+    "preload x (mm)",
+    "preload y (mm)",
+    "preload z (mm)",
+    "lateral stiffness (N/mm)",
+    "axial stiffness (N/mm)",
+];
 
-fn pose(time: f64, [i, j]: GripperId, position: [f64; 3], quaternion: [f64; 4]) -> Vec<String> {
-    let mut row = vec![number(time), format!("{i}-{j}")];
-    row.extend(position.map(number));
-    row.extend(quaternion.map(number));
+/// A table of poses under way, with the loads beside them.
+struct Poses<'a> {
+    table: Writer<Vec<u8>>,
+    loads: Option<&'a Loads>,
+}
+
+impl<'a> Poses<'a> {
+    fn new(loads: Option<&'a Loads>) -> Result<Self, Error> {
+        let mut header = POSE.to_vec();
+        if let Some(loads) = loads {
+            header.extend(LOAD);
+            header.extend(loads.mounts.iter().flat_map(|_| MOUNT));
+        }
+        let mut table = Writer::from_writer(Vec::new());
+        table.write_record(header)?;
+        Ok(Poses { table, loads })
+    }
+
+    /// Adds a row for the pose of each gripper at a time (s).
+    fn add(
+        &mut self,
+        time: f64,
+        poses: impl Iterator<Item = (GripperId, [f64; 3], [f64; 4])>,
+    ) -> Result<(), Error> {
+        let known = self.loads.and_then(|loads| loads.at(time));
+        for (n, ([i, j], position, quaternion)) in poses.enumerate() {
+            let mut row = vec![number(time), format!("{i}-{j}")];
+            row.extend(position.map(number));
+            row.extend(quaternion.map(number));
+            if let Some(loads) = self.loads {
+                row.extend(load_row(known.as_ref().map(|all| &all[n]), loads.mounts.as_ref()));
+            }
+            self.table.write_record(&row)?;
+        }
+        Ok(())
+    }
+}
+
+/// The fields of a load, empty where none is known, and of the mount, if it yields.
+fn load_row(load: Option<&Load>, mount: Option<&Stiffness>) -> Vec<String> {
+    let fields = |vector: Option<[f64; 3]>| match vector {
+        Some(vector) => vector.map(number),
+        None => Default::default(),
+    };
+    let mut row = fields(load.map(|load| load.force)).to_vec();
+    if let Some(Stiffness { lateral, axial }) = mount {
+        row.extend(fields(load.map(|load| load.preload.map(|c| c * 1e3))));
+        row.extend([lateral, axial].map(|k| k.map(number).unwrap_or_default()));
+    }
     row
 }
 

@@ -21,6 +21,7 @@ pub mod formula;
 pub mod inp;
 pub mod input;
 pub mod json;
+mod loads;
 mod manifest;
 pub mod mesh;
 pub mod mold_patch;

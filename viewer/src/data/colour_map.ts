@@ -22,7 +22,7 @@ function hex(text: string): Rgb[] {
 }
 
 /** Colour modes that tell lengths, or the order of landing. */
-const LENGTHS = ["height", "gap", "over_mold", "landing"];
+const LENGTHS = ["height", "gap", "over_mold", "spread", "landing"];
 
 /** The map that a colour mode is shown with. */
 export function mapOf(field: Field): Rgb[] {

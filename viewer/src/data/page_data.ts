@@ -6,7 +6,8 @@
  */
 
 export type Place = [number, number, number];
-export type FieldKey = "height" | "gap" | "shear" | "direction" | "over_mold" | "strain" | "landing";
+export type FieldKey =
+  "height" | "gap" | "shear" | "direction" | "over_mold" | "spread" | "strain" | "landing";
 /** The two models of the ply. */
 export type Model = "sheet" | "catenaries";
 
@@ -112,6 +113,33 @@ export interface SheetData {
   force_unit: number;
   /** Of the sheet on the pads. */
   forces: Block;
+  /** The largest loads that a gripper may have (N): along the ply, off the pad, and as a whole. */
+  allowed: { along: number | null; across: number | null; whole: number | null };
+  /** Thousandths of them that the loads use, along the ply and across it; -1 without a limit. */
+  used: Block;
+  /** Height at the end that the needed share of the cells of the sample keeps at each node; one step. */
+  spread: Block | null;
+}
+
+/** The verdict over a sample of cells, each with errors of its own. */
+export interface SampleData {
+  /** Cells that keep every limit, and how many must. */
+  accepted: number;
+  needed: number;
+  ok: boolean;
+  /** The share of the cells that must, as text. */
+  share: string;
+  /** Largest height of each at the end (mm); null of catenaries and without an end. */
+  cells: { accepted: boolean; height_mm: number | null; ratio: number }[];
+  height_limit: number | null;
+  limits: Limit[];
+  highest: {
+    height_mm: number;
+    uv_mm: [number, number];
+    line: string;
+    gripper: string;
+    node: number | null;
+  } | null;
 }
 
 export interface PageData {
@@ -138,6 +166,9 @@ export interface PageData {
   geometry: Geometry;
   /** The sheet, which decides, if it was draped. */
   sheet: SheetData | null;
+  sample: SampleData | null;
+  /** The largest errors that the motion stands, in words. */
+  stands: string | null;
   left_out: string[];
 }
 
@@ -171,6 +202,7 @@ export function readPageData(text: string): PageData {
   checkLengths(data);
   checkGeometry(data);
   if (data.sheet !== null) checkSheet(data, data.sheet);
+  if (data.sample !== null) checkSample(data.sample);
   return data;
 }
 
@@ -218,6 +250,12 @@ function checkGeometry(data: PageData): void {
   }
 }
 
+function checkSample(sample: Partial<SampleData> | undefined): void {
+  if (!Array.isArray(sample?.cells) || !Array.isArray(sample.limits)) {
+    throw new BrokenData("the cells of its sample are missing");
+  }
+}
+
 function checkSheet(data: PageData, sheet: SheetData): void {
   const nodes = sheet.landing.length;
   const cells = sheet.cells.length / 4;
@@ -231,6 +269,7 @@ function checkSheet(data: PageData, sheet: SheetData): void {
     [sheet.tension, cells],
     [sheet.forces, sheet.grippers.count],
     [sheet.normals, sheet.grippers.count],
+    [sheet.used, sheet.grippers.count],
   ];
   const fit = expected.every(
     ([block, of]) => block === null || (block.count === of && block.steps === count),
@@ -245,6 +284,7 @@ function checkSheet(data: PageData, sheet: SheetData): void {
     !pads ||
     !(sheet.force_unit > 0) ||
     sheet.places.count !== nodes ||
+    (sheet.spread !== null && sheet.spread.count !== nodes) ||
     sheet.states.length !== data.steps.length
   ) {
     throw new BrokenData("the states of its sheet do not fit each other");

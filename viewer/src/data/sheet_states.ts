@@ -26,6 +26,8 @@ export class SheetStates {
     readonly grippers: Frames,
     readonly normals: Frames,
     readonly forces: Frames,
+    private readonly used: Frames,
+    private readonly spread: Int32Array | null,
   ) {
     this.around = data.landing.map(() => []);
     data.cells.forEach((node, k) => this.around[node]!.push(k >> 2));
@@ -46,6 +48,8 @@ export class SheetStates {
       await unpack(data.grippers, "pads"),
       await unpack(data.normals, "normals of the pads"),
       await unpack(data.forces, "forces"),
+      await unpack(data.used, "margins of the grippers"),
+      data.spread === null ? null : (await unpack(data.spread, "heights of the sample")).values,
     );
   }
 
@@ -67,6 +71,8 @@ export class SheetStates {
     switch (field.key) {
       case "over_mold":
         return this.overMold(state, item);
+      case "spread":
+        return this.spreadAt(item);
       case "height":
         return this.positions.at(state)[3 * item + 2]! / 1000;
       case "shear":
@@ -102,6 +108,11 @@ export class SheetStates {
     return height === UNKNOWN ? null : height / 1000;
   }
 
+  /** Height of a node at the end that the needed share of the cells of the sample keeps (mm). */
+  spreadAt(node: number): number | null {
+    return this.spread === null ? null : this.spread[node]! / 1000;
+  }
+
   touches(state: number, node: number): boolean {
     return this.contact.at(state)[node] !== 0;
   }
@@ -123,10 +134,32 @@ export class SheetStates {
     return [0, 1, 2].map((c) => forces[3 * gripper + c]! * this.data.force_unit) as Place;
   }
 
-  /** Largest force on a pad in a state (N). */
-  mostForce(state: number): number {
+  /** The force on a pad (N), parted: along the ply, and across it, which is along the normal of the pad. */
+  loads(state: number, gripper: number): [along: Place, across: Place] {
+    const force = this.force(state, gripper);
+    const normal = this.normals.at(state).subarray(3 * gripper, 3 * gripper + 3);
+    const size = Math.hypot(...normal);
+    const unit = [0, 1, 2].map((c) => (size > 0 ? normal[c]! / size : Number(c === 2)));
+    const up = force.reduce((sum, f, c) => sum + f * unit[c]!, 0);
+    return [
+      [0, 1, 2].map((c) => force[c]! - up * unit[c]!) as Place,
+      [0, 1, 2].map((c) => up * unit[c]!) as Place,
+    ];
+  }
+
+  /** Shares of what a gripper holds that the loads on it use, along the ply and across it; null without a limit. */
+  shares(state: number, gripper: number): [along: number | null, across: number | null] {
+    const used = this.used.at(state);
+    const share = (c: number) => (used[2 * gripper + c]! < 0 ? null : used[2 * gripper + c]! / 1000);
+    return [share(0), share(1)];
+  }
+
+  /** Largest load along or across the ply in a state (N): what the longest arrow stands for. */
+  mostLoad(state: number): number {
     let most = 0;
-    for (let k = 0; k < this.forces.count; k++) most = Math.max(most, Math.hypot(...this.force(state, k)));
+    for (let k = 0; k < this.forces.count; k++) {
+      most = Math.max(most, ...this.loads(state, k).map((load) => Math.hypot(...load)));
+    }
     return most;
   }
 

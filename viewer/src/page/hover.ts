@@ -2,7 +2,7 @@
 
 import type { Motion } from "../data/motion";
 import { short, withUnit } from "../data/number";
-import type { SheetStates } from "../data/sheet_states";
+import type { Place } from "../data/page_data";
 import type { Scene3d } from "../scene/scene3d";
 import type { Found } from "../scene/sheet_picture";
 import { byId, make } from "./dom";
@@ -28,7 +28,7 @@ export function linkHover(state: State, motion: Motion, scene: Scene3d): void {
       mouse === null || model !== "sheet" || playing || at === null ? null : picture.under(scene.eye, mouse);
     plate.hidden = found === null;
     if (found === null || mouse === null || at === null) return;
-    const lines = found.kind === "node" ? ofNode(sheet, at, found) : ofGripper(motion, at, found);
+    const lines = found.kind === "node" ? ofNode(motion, at, found) : ofGripper(motion, at, found);
     plate.replaceChildren(...lines.map((line, k) => make(k === 0 ? "b" : "span", {}, line)));
     const [x, y] = mouse;
     const left = x + AWAY + plate.offsetWidth > view.clientWidth ? x - AWAY - plate.offsetWidth : x + AWAY;
@@ -58,13 +58,18 @@ export function linkHover(state: State, motion: Motion, scene: Scene3d): void {
   });
 }
 
-function ofNode(sheet: SheetStates, state: number, { number }: Found): string[] {
+function ofNode(motion: Motion, state: number, { number }: Found): string[] {
+  const sheet = motion.sheet!;
+  const { sample } = motion.data;
   const [u, v] = [0, 1].map((c) => short(sheet.places[2 * number + c]! / 1000));
   const height = sheet.overMold(state, number);
   const shear = sheet.shearAt(state, number);
   const yarn = sheet.yarnAt(state, number);
   const lines = [`u ${u!}, v ${v!} mm`];
   if (height !== null) lines.push(`${withUnit(short(round(height)), "mm")} over the mold`);
+  const spread = sheet.spreadAt(number);
+  if (spread !== null && sample !== null)
+    lines.push(`${withUnit(short(round(spread)), "mm")} at the end kept by ${sample.share} of the cells`);
   if (sheet.touches(state, number)) lines.push("touches the mold");
   if (sheet.data.landing[number]! > 0) lines.push(`lands in step ${String(sheet.data.landing[number])}`);
   if (shear !== null) lines.push(`shear ${withUnit(short(shear), "°")}`);
@@ -75,12 +80,21 @@ function ofNode(sheet: SheetStates, state: number, { number }: Found): string[] 
 
 function ofGripper(motion: Motion, state: number, { number }: Found): string[] {
   const [nu] = motion.data.grid;
-  const force = motion.sheet!.force(state, number);
-  const level = Math.hypot(force[0], force[1]);
+  const sheet = motion.sheet!;
+  const force = sheet.force(state, number);
+  const [along, across] = sheet.loads(state, number);
+  const { allowed } = sheet.data;
+  const newtons = (load: Place) => withUnit(short(Math.hypot(...load)), "N");
+  const of = (limit: number | null) => (limit === null ? "" : `, ${withUnit(short(limit), "N")} allowed`);
+  const normals = sheet.normals.at(state);
+  const up = across.reduce((sum, f, c) => sum + f * normals[3 * number + c]!, 0);
   return [
     `gripper [${String(number % nu)}, ${String(Math.floor(number / nu))}]`,
-    `force ${withUnit(short(Math.hypot(...force)), "N")}`,
-    `${withUnit(short(level), "N")} level, ${withUnit(short(force[2]), "N")} upwards`,
+    `force ${newtons(force)}${of(allowed.whole)}`,
+    `${newtons(along)} along the ply${of(allowed.along)}`,
+    up > 0
+      ? `${newtons(across)} presses the pad`
+      : `${newtons(across)} draws off the pad${of(allowed.across)}`,
   ];
 }
 

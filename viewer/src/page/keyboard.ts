@@ -11,7 +11,7 @@ const HELP: [string, string][] = [
   ["← →", "step back, step on"],
   ["Home, End", "first step, last step"],
   ["Space", "play, pause"],
-  ["1 – 4", "the colours in their order"],
+  ["1 – 5", "the colours in their order"],
   ["C", "sheet or catenaries"],
   ["T F S I", "view from top, front, side, iso"],
   ["0", "fit into the picture"],

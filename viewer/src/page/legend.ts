@@ -3,6 +3,7 @@
 import { gradient, mapOf, shareOf } from "../data/colour_map";
 import { bracketed, full, short, ticks, ticksOfOrders, withUnit } from "../data/number";
 import type { Motion } from "../data/motion";
+import { USES } from "../scene/forces";
 import { fieldsOf, type Field } from "../data/page_data";
 import { byId, make } from "./dom";
 import type { Choice, State } from "./state";
@@ -59,7 +60,16 @@ function showForceScale(motion: Motion, now: Choice): void {
   const state = motion.sheet?.stateOf(now.index) ?? null;
   const shown = now.model === "sheet" && now.forces && state !== null;
   note.hidden = !shown;
-  if (shown) note.textContent = `longest arrow ${withUnit(short(motion.sheet!.mostForce(state)), "N")}`;
+  if (!shown) return;
+  const uses = USES.map(({ colour, text }) => {
+    const swatch = make("i", { class: "swatch", "aria-hidden": "true" });
+    swatch.style.background = `var(--${colour})`;
+    return make("span", {}, swatch, text);
+  });
+  note.replaceChildren(
+    make("b", {}, `longest arrow ${withUnit(short(motion.sheet!.mostLoad(state)), "N")}`),
+    ...uses,
+  );
 }
 
 /** The ends of a scale of orders stand for everything beyond them too. */

@@ -12,7 +12,17 @@ function verdict(data: PageData): string {
   const failed = limits.filter((limit) => !limit.ok).length;
   const count = limits.length;
   const by = data.sheet === null ? "" : " by the sheet";
-  if (data.accepted) return `Accepted${by}: ${count === 0 ? "no limit is set" : `${all(count)} kept`}`;
+  const cells =
+    data.sample === null
+      ? ""
+      : `${String(data.sample.accepted)} of ${String(data.sample.cells.length)} cells`;
+  if (data.accepted) {
+    const kept = count === 0 ? "no limit is set" : `${all(count)} kept`;
+    return `Accepted${by}: ${kept}${cells === "" ? "" : `, in ${cells}`}`;
+  }
+  if (failed === 0 && data.sample?.ok === false) {
+    return `Not accepted${by}: ${cells} keep all limits, ${String(data.sample.needed)} must`;
+  }
   if (failed === 0) return `Not accepted${by}`;
   return `Not accepted${by}: ${failed} of ${count} ${count === 1 ? "limit" : "limits"} exceeded`;
 }
@@ -47,7 +57,7 @@ export function showVerdict(data: PageData): void {
 }
 
 /** A tick or a cross; the word beside it says the same. */
-function sign(ok: boolean): HTMLElement {
+export function sign(ok: boolean): HTMLElement {
   return make("span", { class: "sign", "aria-hidden": "true" }, ok ? "✓" : "✗");
 }
 
@@ -55,7 +65,7 @@ export function showLimits(state: State, data: PageData): void {
   const section = byId("limits");
   if (data.sheet === null) {
     if (data.limits.length === 0) section.append(make("p", { class: "quiet" }, "The scene sets no limits."));
-    else section.append(table(state, data, "catenaries", data.limits));
+    else section.append(limitsTable(state, data, "catenaries", data.limits));
     return;
   }
   const own = data.limits.filter((limit) => !limit.motion);
@@ -63,17 +73,17 @@ export function showLimits(state: State, data: PageData): void {
   const word = failed === 0 ? `${all(own.length)} kept` : `${failed} of ${own.length} exceeded`;
   section.append(
     make("h3", {}, "Of the sheet, which decides"),
-    table(state, data, "sheet", deciding(data)),
+    limitsTable(state, data, "sheet", deciding(data)),
     make(
       "details",
       {},
       make("summary", {}, `Of the catenaries, which do not decide: ${word}`),
-      table(state, data, "catenaries", own),
+      limitsTable(state, data, "catenaries", own),
     ),
   );
 }
 
-function table(state: State, data: PageData, model: Model, limits: Limit[]): HTMLElement {
+export function limitsTable(state: State, data: PageData, model: Model, limits: Limit[]): HTMLElement {
   const heads: [string, string][] = [
     ["Limit", ""],
     ["", ""],

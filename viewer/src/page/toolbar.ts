@@ -7,6 +7,7 @@ import type { State } from "./state";
 
 const MODES: [FieldKey, string][] = [
   ["over_mold", "Height over mold"],
+  ["spread", "Spread"],
   ["height", "Height"],
   ["gap", "Gap"],
   ["shear", "Shear"],

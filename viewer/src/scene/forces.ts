@@ -1,7 +1,8 @@
 /**
- * Forces of the sheet on the pads: arrows from the middle of each pad, in front of everything.
+ * Loads of the sheet on the grippers: arrows from the middle of each pad, in front of everything, one along the ply and one
+ * across it, each in the colour of how much of what the gripper holds it uses.
  *
- * The longest arrow of each step has the same length, so that small forces of the air and large ones of the end can both be
+ * The longest arrow of each step has the same length, so that small loads of the air and large ones of the end can both be
  * read; the legend says what it stands for.
  */
 
@@ -13,13 +14,22 @@ import { Lines } from "./lines";
 /** Length and half width of an arrow's head, as shares of the longest arrow. */
 const HEAD = 0.22;
 const HALF = 0.09;
-/** Forces below this share of the largest are not drawn. */
+/** Loads below this share of the largest are not drawn. */
 const LEAST = 0.02;
+/** Width of an arrow (CSS pixels). */
+const WIDTH = 2.4;
+
+/** How much of what a gripper holds is used: the colours of the arrows, with their names in the style sheet. */
+export const USES = [
+  { upTo: 0.5, colour: "load-low", text: "up to half of the limit" },
+  { upTo: 1, colour: "load-near", text: "half to all of it" },
+  { upTo: Infinity, colour: "load-beyond", text: "beyond the limit" },
+] as const;
 
 export class Forces {
   readonly group = new Group();
-  private readonly shafts: Lines;
-  private readonly heads: Lines;
+  /** Of each use its arrows. */
+  private readonly arrows: Arrows[];
 
   /** `longest` is the length of the longest arrow (m); `pull` how far the arrows are pulled towards the eye (m). */
   constructor(
@@ -27,44 +37,74 @@ export class Forces {
     private readonly longest: number,
     pull: number,
   ) {
-    const { count } = sheet.grippers;
-    this.shafts = new Lines(new Array<number>(count).fill(2), 2.4, -pull);
-    this.heads = new Lines(new Array<number>(2 * count).fill(3), 2.4, -pull);
-    this.group.add(this.shafts.mesh, this.heads.mesh);
+    this.arrows = USES.map(() => new Arrows(2 * sheet.grippers.count, longest, pull));
+    for (const { shafts, heads } of this.arrows) this.group.add(shafts.mesh, heads.mesh);
   }
 
-  ink(colour: string): void {
-    this.shafts.ink(colour);
-    this.heads.ink(colour);
+  /** Takes the colours of the uses, in their order. */
+  ink(colours: string[]): void {
+    this.arrows.forEach((arrows, n) => {
+      arrows.shafts.ink(colours[n]!);
+      arrows.heads.ink(colours[n]!);
+    });
   }
 
   set order(order: number) {
-    this.shafts.mesh.renderOrder = this.heads.mesh.renderOrder = order;
+    for (const { shafts, heads } of this.arrows) shafts.mesh.renderOrder = heads.mesh.renderOrder = order;
   }
 
   moveTo(state: number): void {
-    const most = this.sheet.mostForce(state);
+    const most = this.sheet.mostLoad(state);
     const pads = this.sheet.grippers.at(state);
     for (let k = 0; k < this.sheet.grippers.count; k++) {
-      const force = this.sheet.force(state, k);
-      const size = Math.hypot(...force);
-      const length = size < LEAST * most || most === 0 ? 0 : (this.longest * size) / most;
-      const along = force.map((f) => (size > 0 ? f / size : 0));
       const from = [0, 1, 2].map((c) => pads[3 * k + c]! * MICRO);
-      const to = from.map((x, c) => x + length * along[c]!);
-      this.shafts.points.set([...from, ...to], 6 * k);
-      // two heads square to each other, so that one is seen from every side
-      const level = Math.hypot(along[0]!, along[1]!);
-      const side = level > 1e-6 ? [-along[1]! / level, along[0]! / level, 0] : [1, 0, 0];
-      const other = [1, 2, 0].map((a, c) => along[a]! * side[(c + 2) % 3]! - along[(c + 2) % 3]! * side[a]!);
-      const head = Math.min(HEAD * this.longest, 0.5 * length);
-      [side, other].forEach((across, n) => {
-        const barb = (sign: number) =>
-          to.map((x, c) => x - head * along[c]! + (sign * head * HALF * across[c]!) / HEAD);
-        const points = length > 0 ? [...barb(1), ...to, ...barb(-1)] : [...from, ...from, ...from];
-        this.heads.points.set(points, 9 * (2 * k + n));
+      const shares = this.sheet.shares(state, k);
+      this.sheet.loads(state, k).forEach((load, n) => {
+        const size = Math.hypot(...load);
+        const shown = most > 0 && size >= LEAST * most;
+        const use = USES.findIndex(({ upTo }) => (shares[n] ?? 0) <= upTo);
+        const way = load.map((c) => (shown ? (this.longest * c) / most : 0));
+        this.arrows.forEach((arrows, of) => arrows.put(2 * k + n, from, of === use ? way : [0, 0, 0]));
       });
     }
+    for (const arrows of this.arrows) arrows.changed();
+  }
+}
+
+/** Arrows of one colour. */
+class Arrows {
+  readonly shafts: Lines;
+  readonly heads: Lines;
+
+  constructor(
+    count: number,
+    private readonly longest: number,
+    pull: number,
+  ) {
+    this.shafts = new Lines(new Array<number>(count).fill(2), WIDTH, -pull);
+    this.heads = new Lines(new Array<number>(2 * count).fill(3), WIDTH, -pull);
+  }
+
+  /** Puts one of them at a place (m); one without a length is not seen. */
+  put(number: number, from: number[], way: number[]): void {
+    const length = Math.hypot(...way);
+    const along = way.map((c) => (length > 0 ? c / length : 0));
+    const to = from.map((x, c) => x + way[c]!);
+    this.shafts.points.set([...from, ...to], 6 * number);
+    // two heads square to each other, so that one is seen from every side
+    const level = Math.hypot(along[0]!, along[1]!);
+    const side = level > 1e-6 ? [-along[1]! / level, along[0]! / level, 0] : [1, 0, 0];
+    const other = [1, 2, 0].map((a, c) => along[a]! * side[(c + 2) % 3]! - along[(c + 2) % 3]! * side[a]!);
+    const head = Math.min(HEAD * this.longest, 0.5 * length);
+    [side, other].forEach((across, n) => {
+      const barb = (sign: number) =>
+        to.map((x, c) => x - head * along[c]! + (sign * head * HALF * across[c]!) / HEAD);
+      const points = length > 0 ? [...barb(1), ...to, ...barb(-1)] : [...from, ...from, ...from];
+      this.heads.points.set(points, 9 * (2 * number + n));
+    });
+  }
+
+  changed(): void {
     this.shafts.changed();
     this.heads.changed();
   }

@@ -12,6 +12,7 @@ import { AxesBox } from "./axes_box";
 import { Eye } from "./camera";
 import { Catenaries } from "./catenaries";
 import { Contacts } from "./contacts";
+import { USES } from "./forces";
 import { Grippers } from "./grippers";
 import { pixelRatio, resolution } from "./lines";
 import { Mold } from "./mold";
@@ -142,7 +143,7 @@ export class Scene3d {
   ink(): void {
     this.catenaries.ink(themeColour("red"));
     this.contacts.ink(themeColour("red"));
-    this.sheet?.ink(themeColour("accent"));
+    this.sheet?.ink(USES.map(({ colour }) => themeColour(colour)));
     this.grippers.ink(themeColour("disc"), themeColour("disc-rim"));
     this.mold?.ink(themeColour("mold"), themeColour("mold-line"));
     this.box.ink(themeColour("box-line"));

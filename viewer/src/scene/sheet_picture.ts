@@ -36,8 +36,9 @@ export class SheetPicture {
     this.group.add(this.surface.mesh, this.forces.group);
   }
 
-  ink(colour: string): void {
-    this.forces.ink(colour);
+  /** Takes the colours of the arrows. */
+  ink(colours: string[]): void {
+    this.forces.ink(colours);
   }
 
   /** Moves to a step of the page; without a state there is nothing to see. */

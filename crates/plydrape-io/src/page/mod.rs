@@ -7,6 +7,8 @@
 mod block;
 mod facts;
 mod geometry;
+mod margin;
+mod sample;
 mod sheet;
 
 use super::OutputError;
@@ -17,6 +19,7 @@ use facts::{Fact, facts};
 use geometry::{Detail, Geometry, Ranges};
 use plydrape::draping::record::{Step, Worst};
 use plydrape::measure::{Name, Sense, Subject, Verdict};
+use sample::{Sample, sample, stands};
 use serde::Serialize;
 use sheet::{Sheet, Shown, sheet};
 
@@ -51,6 +54,10 @@ struct Page<'a> {
     geometry: Geometry,
     /// The ply as a sheet, which decides, if it was draped.
     sheet: Option<Sheet<'a>>,
+    /// The verdict over a sample of cells, if there is one.
+    sample: Option<Sample<'a>>,
+    /// The largest errors that the motion stands, in words.
+    stands: Option<String>,
     left_out: Vec<String>,
 }
 
@@ -100,7 +107,7 @@ struct Course<'a> {
 #[derive(Serialize)]
 struct Field {
     key: &'static str,
-    label: &'static str,
+    label: String,
     unit: &'static str,
     on: &'static str,
     /// `even`, or `orders` where equal ratios are equally far apart; what lies beyond the ends has their colours.
@@ -114,19 +121,19 @@ impl Field {
     /// Equal differences are equally far apart.
     fn even(
         key: &'static str,
-        label: &'static str,
+        label: impl Into<String>,
         unit: &'static str,
         on: &'static str,
         [low, high]: [f64; 2],
         limit: Option<f64>,
     ) -> Self {
-        Field { key, label, unit, on, scale: "even", low, high, limit }
+        Field { key, label: label.into(), unit, on, scale: "even", low, high, limit }
     }
 
     /// Equal ratios are equally far apart; both ends are positive.
     fn orders(
         key: &'static str,
-        label: &'static str,
+        label: impl Into<String>,
         unit: &'static str,
         on: &'static str,
         ends: [f64; 2],
@@ -160,6 +167,7 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
     let shown: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
     let steps: Vec<usize> = shown.iter().map(|step| step.step).collect();
     let (geometry, ranges) = Geometry::of(result, &detail);
+    let sample = sample(result, kept.as_ref().map(Shown::mesh));
     let sheet = match (kept, &summary.sheet) {
         (Some(kept), Some(outcome)) => Some(sheet(result, outcome, kept, &steps)?),
         _ => None,
@@ -184,6 +192,8 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
         fields: fields(result, &ranges),
         geometry,
         sheet,
+        sample,
+        stands: stands(result),
         left_out: detail.left_out(result.steps.len()),
     })
 }

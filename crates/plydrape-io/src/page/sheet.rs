@@ -5,10 +5,13 @@
 
 use super::block::Block;
 use super::geometry::{hundredths, micrometres};
+use super::margin::Allowed;
+use super::sample::share;
 use super::{Field, Limit, limit};
 use crate::OutputError;
 use crate::result::ResultFile;
-use crate::sheet::{SheetSides, SheetState, SheetStates, ended, normal};
+use crate::sheet::{SheetMesh, SheetSides, SheetState, SheetStates, ended, normal};
+use plydrape::errors::SampleVerdict;
 use plydrape::sheet::measure::Summary;
 use serde::Serialize;
 
@@ -49,6 +52,12 @@ pub(super) struct Sheet<'a> {
     /// What the numbers of `forces` count (N).
     force_unit: f64,
     forces: Block,
+    /// The largest loads that a gripper may have.
+    allowed: Allowed,
+    /// Thousandths of them that the loads use, along the ply and across it; -1 without a limit.
+    used: Block,
+    /// Height at each node at the end that the needed share of the sample's cells keeps; one step.
+    spread: Option<Block>,
 }
 
 /// The file of the states, and which of them the page shows, each behind its step.
@@ -74,6 +83,11 @@ impl Shown {
         Ok(Some(Shown { file, states }))
     }
 
+    /// What is the same in all states.
+    pub fn mesh(&self) -> &SheetMesh<'static> {
+        self.file.mesh()
+    }
+
     /// Whether a step has a state, or the sheet ended before it.
     pub fn has(&self, step: usize) -> bool {
         let last = self.states.last().map_or(0, |(step, _)| *step);
@@ -94,10 +108,11 @@ struct Packed {
     normals: Vec<i32>,
     /// In newtons.
     forces: Vec<f64>,
+    used: Vec<i32>,
 }
 
 impl Packed {
-    fn push(&mut self, state: &SheetState, sides: &SheetSides) {
+    fn push(&mut self, state: &SheetState, sides: &SheetSides, allowed: &Allowed) {
         self.positions.extend(state.positions.iter().flat_map(micrometres));
         self.height.extend(state.height.iter().map(|h| match h.is_finite() {
             true => (h * 1e6).round() as i32,
@@ -113,6 +128,8 @@ impl Packed {
         let normals = state.pad_rotation.iter().flat_map(normal);
         self.normals.extend(normals.map(|c| (c * 1e4).round() as i32));
         self.forces.extend(state.pad_forces.as_flattened());
+        let loads = state.pad_forces.iter().zip(state.pad_rotation.iter());
+        self.used.extend(loads.flat_map(|(force, turn)| allowed.used(force, turn)));
     }
 
     /// A micronewton, or more where the largest force would not fit (N).
@@ -133,10 +150,11 @@ pub(super) fn sheet<'a>(
     steps: &[usize],
 ) -> Result<Sheet<'a>, OutputError> {
     let sides = SheetSides::new(file.mesh());
+    let allowed = Allowed::of(&result.scene.settings, &result.scene.limits);
     let mut packed = Packed::default();
     for (_, n) in &states {
         if let Some(state) = file.state(*n)? {
-            packed.push(&state, &sides);
+            packed.push(&state, &sides, &allowed);
         }
     }
     let count = states.len();
@@ -145,6 +163,11 @@ pub(super) fn sheet<'a>(
     let mesh = file.mesh();
     let force_unit = packed.force_unit();
     let forces: Vec<i32> = packed.forces.iter().map(|f| (f / force_unit).round() as i32).collect();
+    let sample = spread(result, mesh);
+    let heights = sample.map(|verdict| {
+        let heights = verdict.spread_mm.iter().map(|height| (height * 1e3).round() as i32);
+        Block::new(1, 1, &heights.collect::<Vec<_>>())
+    });
     let places: Vec<i32> = mesh.places.iter().flatten().map(|c| (c * 1e6).round() as i32).collect();
     Ok(Sheet {
         accepted: summary.accepted,
@@ -152,7 +175,7 @@ pub(super) fn sheet<'a>(
         nodes: summary.nodes,
         states: steps.iter().map(|step| states.iter().position(|(with, _)| with == step)).collect(),
         limits: summary.limits.iter().map(|verdict| limit(verdict, None)).collect(),
-        fields: fields(result, &packed, file.landing_step(), known),
+        fields: fields(result, &packed, file.landing_step(), known, sample),
         cells: mesh.cells.as_flattened().to_vec(),
         landing: file.landing_step().to_vec(),
         places: Block::new(1, 2, &places),
@@ -166,17 +189,37 @@ pub(super) fn sheet<'a>(
         normals: block(3, &packed.normals),
         force_unit,
         forces: block(3, &forces),
+        allowed,
+        used: block(2, &packed.used),
+        spread: heights,
     })
 }
 
+/// The sample of a result whose heights are at the nodes of the sheet.
+fn spread<'a>(result: &'a ResultFile, mesh: &SheetMesh) -> Option<&'a SampleVerdict> {
+    let sample = result.summary.sample.as_ref();
+    sample.filter(|sample| sample.spread_mm.len() == mesh.places.len())
+}
+
 /// What colours can tell of the sheet.
-fn fields(result: &ResultFile, packed: &Packed, landing: &[u32], known: bool) -> Vec<Field> {
+fn fields(
+    result: &ResultFile,
+    packed: &Packed,
+    landing: &[u32],
+    known: bool,
+    sample: Option<&SampleVerdict>,
+) -> Vec<Field> {
     let limits = &result.scene.limits;
     let mut out = Vec::new();
     if known {
         let limit = result.scene.target.is_some().then_some(limits.height * 1e3);
         let label = "height over the mold";
         out.push(Field::orders("over_mold", label, "mm", "vertex", HEIGHTS, limit));
+        if let Some(sample) = sample {
+            let label = format!("height that {} of the cells keep at the end", share(sample));
+            let limit = result.scene.target.is_some().then_some(limits.height * 1e3);
+            out.push(Field::orders("spread", label, "mm", "vertex", HEIGHTS, limit));
+        }
     } else {
         let heights = packed.positions.iter().skip(2).step_by(3).map(|z| f64::from(*z) / 1e3);
         out.push(Field::even("height", "height", "mm", "vertex", ends(heights), None));

@@ -3,7 +3,7 @@
 //! Times in it count from the start of the drape, so that the same result gives the same bytes.
 
 use super::{Ros2Error, cdr, schema::Schema};
-use mcap::records::MessageHeader;
+use mcap::records::{MessageHeader, Metadata};
 use mcap::{WriteOptions, Writer};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -73,6 +73,16 @@ impl Bag {
         };
         channel.messages += 1;
         Ok(self.writer.write_to_known_channel(&header, &cdr::bytes(message)?)?)
+    }
+
+    /// Adds a record of names and values.
+    pub fn note<const N: usize>(
+        &mut self,
+        name: &str,
+        values: [(&str, String); N],
+    ) -> Result<(), Ros2Error> {
+        let metadata = values.map(|(name, value)| (name.to_owned(), value)).into();
+        Ok(self.writer.write_metadata(&Metadata { name: name.to_owned(), metadata })?)
     }
 
     /// The whole file.

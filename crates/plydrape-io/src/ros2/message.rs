@@ -78,6 +78,24 @@ pub(super) struct MultiDofJointTrajectoryPoint {
     pub time_from_start: Duration,
 }
 
+/// `trajectory_msgs/msg/JointTrajectory`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct JointTrajectory {
+    pub header: Header,
+    pub joint_names: Vec<String>,
+    pub points: Vec<JointTrajectoryPoint>,
+}
+
+/// `trajectory_msgs/msg/JointTrajectoryPoint`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct JointTrajectoryPoint {
+    pub positions: Vec<f64>,
+    pub velocities: Vec<f64>,
+    pub accelerations: Vec<f64>,
+    pub effort: Vec<f64>,
+    pub time_from_start: Duration,
+}
+
 /// `std_msgs/msg/ColorRGBA`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub(super) struct ColorRgba {

@@ -2,11 +2,14 @@
 //!
 //! - `trajectory.yaml`: one `trajectory_msgs/msg/MultiDOFJointTrajectory`, in the block style that
 //!   `ros2 topic echo` prints and `ros2 topic pub` reads;
+//! - `loads.yaml`, where they are known: the expected loads on the grippers at the same times, and the preload of their
+//!   mounts, as one `trajectory_msgs/msg/JointTrajectory`;
 //! - `trajectory.mcap`: a bag that `ros2 bag play` and viewers open, with the topics
 //!
 //! | topic | message | when |
 //! |---|---|---|
 //! | [`TRAJECTORY`] | the same trajectory | once, at the start |
+//! | [`LOADS`] | the same loads | once, at the start, if they are known |
 //! | [`MOLD`] | `visualization_msgs/msg/MarkerArray`, the mold | once, at the start, if there is a mold |
 //! | [`PLY`] | `visualization_msgs/msg/MarkerArray`: surface, catenaries, contact, grippers | every step, at its time |
 //!
@@ -17,6 +20,7 @@
 mod bag;
 mod cdr;
 mod error;
+mod loads;
 mod markers;
 mod message;
 mod schema;
@@ -26,6 +30,7 @@ mod turning;
 
 pub use error::Ros2Error;
 
+use super::loads::Loads;
 use super::{OutputError, finite};
 use crate::result::ResultFile;
 use bag::Bag;
@@ -34,15 +39,19 @@ use bag::Bag;
 pub const FRAME: &str = "mold";
 /// Topic of the grippers' trajectory.
 pub const TRAJECTORY: &str = "/plydrape/trajectory";
+/// Topic of the expected loads.
+pub const LOADS: &str = "/plydrape/loads";
+/// Name of the bag's record of the mounts' stiffness.
+pub const MOUNTS: &str = "plydrape_mounts";
 /// Topic of the mold's marker.
 pub const MOLD: &str = "/plydrape/mold";
 /// Topic of the ply's markers.
 pub const PLY: &str = "/plydrape/ply";
 
-/// `trajectory.yaml` and `trajectory.mcap`: names and contents. Same result, same bytes.
+/// `trajectory.yaml`, `trajectory.mcap`, and where loads are known `loads.yaml`: names and contents. Same result, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if a number is not finite, or a time is none that ROS 2 can say.
+/// [`OutputError`] if a number is not finite, a time is none that ROS 2 can say, or the states of the sheet cannot be read.
 pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError> {
     let trajectory = trajectory::trajectory(result)?;
     finite::check(&trajectory)?;
@@ -50,6 +59,19 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
 
     let mut bag = Bag::new()?;
     bag.latched(TRAJECTORY, schema::TRAJECTORY, &trajectory)?;
+    let known = Loads::of(result)?;
+    let mut more = Vec::new();
+    if let Some(known) = &known {
+        let loads = loads::loads(result, known, &trajectory)?;
+        finite::check(&loads)?;
+        bag.latched(LOADS, schema::LOADS, &loads)?;
+        let mut text = String::new();
+        if let Some(mounts) = known.mounts {
+            text = loads::head(mounts);
+            bag.note(MOUNTS, loads::stiffness(mounts))?;
+        }
+        more.push(("loads.yaml".into(), (text + &self::yaml(&loads)?).into_bytes()));
+    }
     if let Some(mold) = markers::mold(result) {
         bag.latched(MOLD, schema::MARKERS, &mold)?;
     }
@@ -60,10 +82,12 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
         finite::check(&ply)?;
         bag.write(PLY, time::nanoseconds(step.step, step.time)?, &ply)?;
     }
-    Ok(vec![
+    let mut files = vec![
         ("trajectory.yaml".into(), yaml.into_bytes()),
         ("trajectory.mcap".into(), bag.finish()?),
-    ])
+    ];
+    files.extend(more);
+    Ok(files)
 }
 
 /// A message as `ros2 topic echo` prints it.

@@ -57,6 +57,35 @@ uint32 nanosec
 ",
 };
 
+/// Positions and efforts of joints.
+pub(super) const LOADS: Schema = Schema {
+    name: "trajectory_msgs/msg/JointTrajectory",
+    text: "\
+std_msgs/Header header
+string[] joint_names
+trajectory_msgs/JointTrajectoryPoint[] points
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+================================================================================
+MSG: trajectory_msgs/JointTrajectoryPoint
+float64[] positions
+float64[] velocities
+float64[] accelerations
+float64[] effort
+builtin_interfaces/Duration time_from_start
+================================================================================
+MSG: builtin_interfaces/Duration
+int32 sec
+uint32 nanosec
+",
+};
+
 /// Shapes to look at.
 pub(super) const MARKERS: Schema = Schema {
     name: "visualization_msgs/msg/MarkerArray",

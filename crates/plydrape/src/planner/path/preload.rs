@@ -8,6 +8,7 @@
 //! As they land, they press: a line of grippers hangs higher than the middles of the cells beside it, which land first and
 //! catch the fabric that crosses the line. A mount gives, so its gripper can be commanded to come down earlier and deeper
 //! than a rigid one: the line lands with its surroundings, and an error of height does not leave the gripper above the mold.
+//! Over a hollow grippers do not press: a pad that sticks early keeps its lines from the length that the hollow needs.
 
 use super::strategy::Strategy;
 use super::tuning::TUNING;
@@ -56,8 +57,11 @@ impl<'a> Preload<'a> {
         let one = |(n, place): (usize, &Point)| {
             let away = distance(*place, self.targets[n]) / cell;
             let free = smooth(away / TUNING.preload.release);
-            let pressed = self.press * (1.0 - smooth(away / TUNING.preload.press_reach));
-            let pull = self.lines(places, n, free).map(|c| c * grown * self.pull);
+            let (lines, over_hollow) = self.lines(places, n, free);
+            let pull = lines.map(|c| c * grown * self.pull);
+            // a pad that is pressed down early sticks before its lines have the length that a hollow needs
+            let press = if over_hollow { 0.0 } else { self.press };
+            let pressed = press * (1.0 - smooth(away / TUNING.preload.press_reach));
             let mold = self.scene.mold.as_ref();
             let normal = mold.map_or([0.0, 0.0, 1.0], |mold| mold.normal(self.targets[n]));
             [0, 1, 2].map(|c| place[c] - self.compliance[c] * (pull[c] + pressed * normal[c]))
@@ -72,15 +76,18 @@ impl<'a> Preload<'a> {
         self.scene.mold.as_ref().is_some_and(|mold| mold.signed_distance(middle) > least)
     }
 
-    /// What lines of unit pull do to a gripper, of whose pull a share `free` is not yet given up.
-    fn lines(&self, places: &[Point], gripper: usize, free: f64) -> Point {
+    /// What lines of unit pull do to a gripper, of whose pull a share `free` is not yet given up; and whether one of them
+    /// bridges a hollow.
+    fn lines(&self, places: &[Point], gripper: usize, free: f64) -> (Point, bool) {
         let grid: Grid = self.scene.ply.grid;
         let [i, j] = grid.id(gripper);
-        let mut sum = [0.0; 3];
+        let (mut sum, mut over_hollow) = ([0.0; 3], false);
         let mut add = |id: [usize; 2], border: bool| {
             let other = grid.index(id);
             let way = unit(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
-            let kept = if self.is_over_hollow(gripper, other) { 0.0 } else { TUNING.preload.kept };
+            let hollow = self.is_over_hollow(gripper, other);
+            over_hollow |= hollow;
+            let kept = if hollow { 0.0 } else { TUNING.preload.kept };
             let pull = if border { TUNING.preload.border } else { 1.0 };
             sum = along(sum, pull * (kept + (1.0 - kept) * free), way);
         };
@@ -97,7 +104,7 @@ impl<'a> Preload<'a> {
         if j + 1 < grid.nv {
             add([i, j + 1], on_v);
         }
-        sum
+        (sum, over_hollow)
     }
 }
 

@@ -120,8 +120,8 @@ impl Strategy {
         if on_mounts {
             let looser = |of: &Strategy| Strategy { pull: 0.4 * of.pull, ..*of };
             let flatter = |of: &Strategy| Strategy { slope: 0.8 * of.slope, ..*of };
-            // pads that come down pressed and pulled stick where they would keep a ply over a hollow taut
-            let softer = |of: &Strategy| Strategy { press: 0.1, pretension: 0.0, ..*of };
+            // what is stretched when it lands bridges a hollow
+            let softer = |of: &Strategy| Strategy { pretension: 0.25 * of.pretension, ..*of };
             let changed: [Vec<Strategy>; 3] = [
                 shapes.iter().map(softer).collect(),
                 shapes.iter().map(looser).collect(),

@@ -1,0 +1,177 @@
+use super::*;
+use crate::{csv, scene};
+use plydrape::draping::record::PlanRecord;
+use plydrape::draping::simulate;
+use plydrape::scene::{Model, PlanMethod, Scene};
+use plydrape::sheet::{self, State, Tuning};
+use std::collections::HashMap;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// Stiffness of the mounts along x, y and z (N/m).
+const STIFFNESS: [f64; 3] = [2e3, 2e3, 5e3];
+
+/// A ply of 3 × 3 grippers over a dome, in six steps, with more keys of its grippers and its sheet.
+fn dome(grippers: &str, keep: usize) -> Scene {
+    let text = format!(
+        "[ply]\ngrippers = [3, 3]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
+        [mold]\nkind = \"sphere\"\nradius = 0.6\nposition = [0, 0, -0.6]\n\
+        [grippers]\nspacing = [0.098, 0.098]\nheight = 0.04\norigin = \"centred\"\n{grippers}\n\
+        [target]\nseed = \"middle\"\n[motion]\nkind = \"straight\"\nsteps = 6\n\
+        [model]\nkind = \"sheet\"\n[sheet]\nmesh = 0.05\nkeep = {keep}\n"
+    );
+    scene::parse(&text, Path::new("."), "dome").unwrap_or_else(|fault| panic!("{fault}")).scene
+}
+
+const MOUNTS: &str = "stiffness = { lateral = \"2 N/mm\", axial = \"5 N/mm\" }";
+
+/// The result of a scene by the model that it names, with its states in a folder that lives as long.
+fn draped(scene: &Scene) -> (ResultFile, tempfile::TempDir) {
+    let dir = tempfile::tempdir().unwrap();
+    let mut result = ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())));
+    result.drape_sheet(scene, dir.path(), &|| false, |_| {}).unwrap();
+    (result, dir)
+}
+
+/// All states of the sheet of a scene.
+fn states(scene: &Scene) -> Vec<State> {
+    let mut seen = Vec::new();
+    let see = |state: &State| {
+        seen.push(state.clone());
+        ControlFlow::Continue(())
+    };
+    sheet::drape(scene, Tuning::default(), &|| false, see).unwrap();
+    seen
+}
+
+/// The rows of a table, by the names of its columns; an empty field is none.
+fn rows(text: &str) -> Vec<HashMap<String, Option<f64>>> {
+    let mut reader = ::csv::Reader::from_reader(text.as_bytes());
+    reader
+        .deserialize()
+        .map(|row| {
+            let row: HashMap<String, String> = row.unwrap();
+            row.into_iter().map(|(name, field)| (name, field.parse().ok())).collect()
+        })
+        .collect()
+}
+
+/// Three columns of a row.
+fn vector(row: &HashMap<String, Option<f64>>, name: &str, unit: &str) -> [f64; 3] {
+    ["x", "y", "z"].map(|c| row[&format!("{name} {c} ({unit})")].expect("a number"))
+}
+
+/// F = −k (p + s) with the stiffness of the same row; 1e-9 N is rounding of forces of newtons.
+fn is_spring(row: &HashMap<String, Option<f64>>, slip: [f64; 3]) {
+    let (load, preload) = (vector(row, "load", "N"), vector(row, "preload", "mm"));
+    let [lateral, axial] =
+        ["lateral", "axial"].map(|k| row[&format!("{k} stiffness (N/mm)")].unwrap());
+    for (c, k) in [lateral, lateral, axial].into_iter().enumerate() {
+        assert!((k * 1e3 - STIFFNESS[c]).abs() < 1e-9);
+        let expected = -k * (preload[c] + 1e3 * slip[c]);
+        assert!((load[c] - expected).abs() < 1e-9, "axis {c}: {} N, {expected} N", load[c]);
+    }
+}
+
+/// At every step the loads are the forces of the state, and the springs of the mounts give them, also where fabric has slid.
+#[test]
+fn loads_at_the_steps_are_the_forces_of_the_states_and_of_the_springs() {
+    let scene = dome(&format!("{MOUNTS}\nslip_force = \"0.3 N\""), 60);
+    let (result, _dir) = draped(&scene);
+    let (states, rows) = (states(&scene), rows(&csv::trajectory(&result).unwrap()));
+    assert_eq!((states.len(), rows.len()), (6, 54));
+    for (n, row) in rows.iter().enumerate() {
+        let (state, gripper) = (&states[n / 9], n % 9);
+        assert_eq!(row["t (s)"], Some(state.time));
+        assert_eq!(vector(row, "load", "N"), state.forces[gripper]);
+        let pad = &state.pads[gripper];
+        assert_eq!(["x (m)", "y (m)", "z (m)"].map(|c| row[c].unwrap()), pad.target);
+        is_spring(row, pad.slip);
+    }
+    let slid = states[5].pads.iter().filter(|pad| pad.slip != [0.0; 3]).count();
+    assert!(slid > 0, "no fabric has slid, so that nothing was tried");
+}
+
+/// Between two states that were kept, loads and preload lie on a line; after the last one that there is, nothing is known.
+#[test]
+fn loads_go_on_linearly_between_kept_states() {
+    let (result, _dir) = draped(&dome(MOUNTS, 2));
+    let loads = Loads::of(&result).unwrap().unwrap();
+    assert_eq!(loads.times.len(), 2);
+    let [start, end] = [0, 5].map(|n| result.steps[n].time);
+    let [first, last] = [start, end].map(|t| loads.at(t).unwrap());
+    assert!(first == loads.steps[0] && last == loads.steps[1] && first != last);
+    let third = loads.at(start + 0.3 * (end - start)).unwrap();
+    for ((a, b), found) in first.iter().zip(&last).zip(&third) {
+        for c in 0..3 {
+            let line = |a: f64, b: f64| a + 0.3 * (b - a);
+            assert!((found.force[c] - line(a.force[c], b.force[c])).abs() < 1e-12);
+            assert!((found.preload[c] - line(a.preload[c], b.preload[c])).abs() < 1e-15);
+        }
+    }
+    assert_eq!(loads.at(end + 1e-3), None);
+}
+
+/// A plan's motion: at each of its samples the springs give the loads, the last ones are those of the last state, and a scene
+/// follows the table as without these columns.
+#[test]
+fn motion_csv_has_the_loads_of_the_springs_at_every_sample() {
+    let mut scene = dome(MOUNTS, 60);
+    let path = scene.motion.positions.clone();
+    let (method, rate) = (PlanMethod::Path, 20.0);
+    let record = PlanRecord { method, evaluations: 1, rate, slowed: 1.0, path };
+    let motion = record.motion(&scene.limits).unwrap();
+    scene.motion.times = motion.times().to_vec();
+    let (mut result, dir) = draped(&scene);
+    result.plan = Some(record);
+    let table = csv::planned_motion(&result).unwrap().expect("a plan");
+    let rows = rows(&table);
+    for row in &rows {
+        is_spring(row, [0.0; 3]);
+    }
+    let mut file = result.sheet_states.as_ref().unwrap().open().unwrap();
+    let last = file.state(5).unwrap().unwrap();
+    for (row, force) in rows[rows.len() - 9..].iter().zip(last.pad_forces.iter()) {
+        assert_eq!(vector(row, "load", "N"), *force);
+    }
+
+    std::fs::write(dir.path().join("motion.csv"), &table).unwrap();
+    let text = "[ply]\ngrippers = [3, 3]\ncell = [0.12, 0.12]\nmaterial = \"krogh2018\"\n\
+        [motion]\nkind = \"file\"\nfile = \"motion.csv\"\n[model]\nkind = \"catenaries\"\n";
+    let follows = scene::parse(text, dir.path(), "scene").unwrap_or_else(|e| panic!("{e}")).scene;
+    assert_eq!(follows.motion, motion.sampled(rate).unwrap());
+}
+
+/// Where the catenaries decide, their mounts do; 1e-6 N is the balance of their forces.
+#[test]
+fn catenaries_on_mounts_have_the_loads_of_their_springs() {
+    let mut scene = dome(MOUNTS, 60);
+    scene.settings.model = Model::Catenaries;
+    let (result, _dir) = draped(&scene);
+    let rows = rows(&csv::trajectory(&result).unwrap());
+    for (n, row) in rows.iter().enumerate() {
+        let gripper = &result.steps[n / 9].grippers[n % 9];
+        let mount = gripper.mount.unwrap();
+        assert_eq!(vector(row, "load", "N"), mount.force);
+        let [load, preload] = [vector(row, "load", "N"), vector(row, "preload", "mm")];
+        for c in 0..3 {
+            let expected = -1e-3 * STIFFNESS[c] * preload[c];
+            assert!((load[c] - expected).abs() < 1e-6, "{} N, {expected} N", load[c]);
+        }
+    }
+}
+
+/// Rigid grippers have no preload: of a sheet there are the loads alone, of catenaries not even these.
+#[test]
+fn rigid_grippers_have_loads_of_the_sheet_alone() {
+    let mut scene = dome("", 2);
+    let header = |result: &ResultFile| {
+        csv::trajectory(result).unwrap().lines().next().map(str::to_owned).unwrap()
+    };
+    let (result, _dir) = draped(&scene);
+    let pose = "t (s),gripper,x (m),y (m),z (m),qx,qy,qz,qw";
+    assert_eq!(header(&result), format!("{pose},load x (N),load y (N),load z (N)"));
+    scene.settings.model = Model::Catenaries;
+    let (result, _dir) = draped(&scene);
+    assert_eq!(header(&result), pose);
+}

@@ -1,0 +1,178 @@
+//! What the page shows of the verdict over a sample of cells, and of the largest errors that a motion stands.
+
+use super::facts::shown;
+use super::{Limit, limit};
+use crate::result::ResultFile;
+use crate::sheet::SheetMesh;
+use plydrape::errors::{CellVerdict, SampleVerdict, Stands, Term};
+use plydrape::mold::distance;
+use serde::Serialize;
+
+/// The verdict over a sample.
+#[derive(Serialize)]
+pub(super) struct Sample<'a> {
+    /// Cells that keep every limit, and how many must.
+    accepted: usize,
+    needed: usize,
+    ok: bool,
+    /// The share of the cells that must, in words.
+    share: String,
+    cells: &'a [CellVerdict],
+    /// Limit of the heights (mm), where they are judged.
+    height_limit: Option<f64>,
+    limits: Vec<Limit<'a>>,
+    highest: Option<Highest<'a>>,
+}
+
+/// The highest place of the sample.
+#[derive(Serialize)]
+struct Highest<'a> {
+    height_mm: f64,
+    uv_mm: [f64; 2],
+    line: &'a str,
+    gripper: &'a str,
+    /// The node of the sheet there.
+    node: Option<usize>,
+}
+
+/// That of a result, if it has one; `mesh` is that of the sheet.
+pub(super) fn sample<'a>(result: &'a ResultFile, mesh: Option<&SheetMesh>) -> Option<Sample<'a>> {
+    let verdict = result.summary.sample.as_ref()?;
+    let target = result.scene.target.is_some();
+    let highest = verdict.highest.as_ref().map(|highest| Highest {
+        height_mm: highest.height_mm,
+        uv_mm: highest.uv_mm,
+        line: &highest.line,
+        gripper: &highest.gripper,
+        node: mesh.and_then(|mesh| nearest(mesh, highest.uv_mm.map(|c| c * 1e-3))),
+    });
+    Some(Sample {
+        accepted: verdict.accepted(),
+        needed: verdict.needed,
+        ok: verdict.ok,
+        share: share(verdict),
+        cells: &verdict.cells,
+        height_limit: target.then_some(result.scene.limits.height * 1e3),
+        limits: verdict.limits.iter().map(|verdict| limit(verdict, None)).collect(),
+        highest,
+    })
+}
+
+/// The share of the cells that must keep the limits.
+pub(super) fn share(verdict: &SampleVerdict) -> String {
+    format!("{} %", shown(verdict.errors.share * 1e2))
+}
+
+/// The node nearest to a place in the fabric (m).
+fn nearest(mesh: &SheetMesh, [u, v]: [f64; 2]) -> Option<usize> {
+    let away = |place: &[f64; 2]| distance([place[0], place[1], 0.0], [u, v, 0.0]);
+    let places = mesh.places.iter().enumerate();
+    places.min_by(|a, b| away(a.1).total_cmp(&away(b.1))).map(|(node, _)| node)
+}
+
+/// The largest errors that the motion stands, in words; none where it was not asked for.
+pub(super) fn stands(result: &ResultFile) -> Option<String> {
+    let Stands { factor, at_least, position, tried } = result.summary.stands?;
+    let tried = format!("by {tried} drapes each");
+    if factor == 0.0 {
+        return Some(format!("stands none of the errors that were tried, {tried}"));
+    }
+    let least = if at_least { "at least " } else { "" };
+    let size = shown(position.value() * 1e3);
+    let of_position = match position {
+        Term::Deviation(_) => format!("{size} mm (standard deviation) of each gripper's position"),
+        Term::Bound(_) => format!("±\u{202f}{size} mm of each gripper's position"),
+    };
+    let times = format!("{} times the errors of the scene", shown(factor));
+    Some(match (position.is_zero(), result.scene.errors.is_some()) {
+        (true, _) => format!("stands {least}{times}, {tried}"),
+        (false, false) => format!("stands errors of {least}{of_position}, {tried}"),
+        (false, true) => format!("stands errors of {least}{of_position}: {times}, {tried}"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample;
+    use plydrape::errors::{self, Errors};
+
+    /// A result with a sample of four cells, of which one has no end.
+    fn sampled() -> ResultFile {
+        let mut result = sample::draped(4, 2, 3);
+        let cell = |accepted, height_mm| CellVerdict { accepted, height_mm, ratio: 1.0 };
+        let highest = errors::Highest {
+            height_mm: 0.4,
+            uv_mm: [290.0, 12.0],
+            line: "gripper [3, 0] to gripper [3, 1]".into(),
+            gripper: "gripper [3, 0]".into(),
+        };
+        result.summary.sample = Some(SampleVerdict {
+            errors: Errors { share: 0.75, samples: 4, ..Errors::default() },
+            needed: 3,
+            ok: true,
+            limits: result.summary.limits.clone(),
+            cells: vec![
+                cell(true, Some(0.1)),
+                cell(true, Some(0.2)),
+                cell(false, None),
+                cell(true, Some(0.3)),
+            ],
+            highest: Some(highest),
+            spread_mm: vec![0.0, 0.1, 0.4],
+        });
+        result
+    }
+
+    /// Three nodes along u.
+    fn mesh() -> SheetMesh<'static> {
+        SheetMesh {
+            places: vec![[0.0, 0.0], [0.15, 0.0], [0.3, 0.0]].into(),
+            areas: vec![0.01; 3].into(),
+            segments: vec![[0, 1], [1, 2]].into(),
+            cells: Vec::new().into(),
+            grippers: 2,
+        }
+    }
+
+    /// Counts, the share in words, and the node nearest to the highest place; without a sheet there is none to show.
+    #[test]
+    fn a_sample_is_told_with_the_node_of_its_highest_place() {
+        let result = sampled();
+        let told = sample(&result, Some(&mesh())).unwrap();
+        assert_eq!((told.accepted, told.needed, told.share.as_str()), (3, 3, "75 %"));
+        assert_eq!(told.cells.len(), 4);
+        assert_eq!(told.height_limit, Some(0.5));
+        assert_eq!(told.highest.unwrap().node, Some(2));
+        assert_eq!(sample(&result, None).unwrap().highest.unwrap().node, None);
+        assert!(sample(&sample::draped(4, 2, 3), None).is_none());
+    }
+
+    /// The size in the unit and by the law that the errors have; a factor where position has no error.
+    #[test]
+    fn what_a_motion_stands_is_said_by_its_law() {
+        let mut result = sampled();
+        assert_eq!(stands(&result), None);
+        let mut said = |factor, at_least, position, errors| {
+            result.summary.stands = Some(Stands { factor, at_least, position, tried: 16 });
+            result.scene.errors = errors;
+            stands(&result).unwrap()
+        };
+        assert_eq!(
+            said(1.4, false, Term::Deviation(2.8e-4), None),
+            "stands errors of 0.28 mm (standard deviation) of each gripper's position, by 16 drapes each"
+        );
+        assert_eq!(
+            said(16.0, true, Term::Bound(2e-3), Some(Errors::default())),
+            "stands errors of at least ±\u{202f}2 mm of each gripper's position: 16 times the errors of the scene, by 16 drapes each"
+        );
+        assert_eq!(
+            said(2.0, false, Term::NONE, Some(Errors::default())),
+            "stands 2 times the errors of the scene, by 16 drapes each"
+        );
+        assert_eq!(
+            said(0.0, false, Term::NONE, None),
+            "stands none of the errors that were tried, by 16 drapes each"
+        );
+    }
+}
