@@ -73,6 +73,9 @@ fn nearest(mesh: &SheetMesh, [u, v]: [f64; 2]) -> Option<usize> {
 /// The largest errors that the motion stands, in words; none where it was not asked for.
 pub(super) fn stands(result: &ResultFile) -> Option<String> {
     let Stands { factor, at_least, position, tried } = result.summary.stands?;
+    if tried == 0 {
+        return Some("stands no errors: it is not accepted without any".into());
+    }
     let tried = format!("by {tried} drapes each");
     if factor == 0.0 {
         return Some(format!("stands none of the errors that were tried, {tried}"));
@@ -174,5 +177,8 @@ mod tests {
             said(0.0, false, Term::NONE, None),
             "stands none of the errors that were tried, by 16 drapes each"
         );
+        result.summary.stands = Some(Stands::nothing(&Errors::default()));
+        let nothing = "stands no errors: it is not accepted without any";
+        assert_eq!(stands(&result).as_deref(), Some(nothing));
     }
 }
