@@ -33,6 +33,7 @@ __all__ = [
     "Plan",
     "Ply",
     "Result",
+    "Sample",
     "Scene",
     "Sheet",
     "Solver",
@@ -610,7 +611,7 @@ class Plan:
 
     Example:
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> plan = plydrape.plan(scene)
+        >>> plan = plydrape.plan(scene, without_errors=True)
         >>> plan.accepted, plan.positions.shape[1:]
         (True, (8, 3))
     """
@@ -618,7 +619,7 @@ class Plan:
     @property
     def accepted(self, /) -> bool:
         """
-        Whether every limit is kept, by the model that decides.
+        Whether every limit is kept, by the model that decides, and in enough cells of the sample where the scene has errors.
         """
     @property
     def checkpoint(self, /) -> str:
@@ -658,7 +659,7 @@ class Plan:
 
         Example:
             >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> plan = plydrape.plan(scene)
+            >>> plan = plydrape.plan(scene, without_errors=True)
             >>> motion = plan.motion(np.linspace(0, plan.duration, 101))
             >>> speeds = np.linalg.norm(motion["velocities"], axis=2)
             >>> bool(speeds.max() < 0.25), bool(speeds[[0, -1]].max() < 1e-9)
@@ -695,7 +696,7 @@ class Plan:
         Example:
             >>> import tempfile
             >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> plan = plydrape.plan(scene)
+            >>> plan = plydrape.plan(scene, without_errors=True)
             >>> with tempfile.TemporaryDirectory() as folder:
             ...     sorted(path.name for path in plan.write(folder))
             ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
@@ -784,7 +785,8 @@ class Result:
     @property
     def accepted(self, /) -> bool:
         """
-        Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries.
+        Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries; and in enough
+        cells of the sample, if there is one.
         """
     @property
     def cell(self, /) -> tuple[float, float]:
@@ -978,6 +980,16 @@ class Result:
             ...     result.report(pathlib.Path(folder) / "page.html").name
             'page.html'
         """
+    @property
+    def sample(self, /) -> Sample | None:
+        """
+        The verdict over a sample of cells with the errors of the scene; None where the scene has none.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> plydrape.simulate(scene).sample is None
+            True
+        """
     def scene3d(self, /, step: SupportsIndex = ..., **options: typing.Any) -> pyvista.Plotter:
         """
         A scene of PyVista: see `plydrape.view`. Needs `plydrape[plot]`.
@@ -1037,6 +1049,19 @@ class Result:
     def slack_mm(self, /) -> NDArray[float64]:
         """
         Slack of each catenary (mm), shape (steps, catenaries): all of its free segments.
+        """
+    @property
+    def stands(self, /) -> dict[str, Any] | None:
+        """
+        The largest common factor of all errors at which the motion is still accepted: a dict with factor, at_least (whether it
+        is the largest that was tried), position and tried (drapes a factor). None where it was not asked for.
+        """
+    @property
+    def stands_mm(self, /) -> float | None:
+        """
+        The error of each gripper's position along each axis that the motion stands (mm), a standard deviation or a bound, as in
+        the errors of the scene; a standard deviation where it has none. None where it was not asked for, or where grippers have
+        no such error.
         """
     @property
     def summary(self, /) -> dict[str, Any]:
@@ -1114,6 +1139,79 @@ class Result:
             >>> with tempfile.TemporaryDirectory() as folder:
             ...     sorted(path.name for path in result.write(folder))
             ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
+        """
+
+@final
+class Sample:
+    """
+    The verdict over a sample of cells, each with errors of its own: complete drapes along the same motion.
+
+    Example:
+        >>> tables = dict(
+        ...     ply=dict(grippers=[2, 2], cell=["100 mm", "100 mm"], material="krogh2018"),
+        ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
+        ...     model=dict(kind="catenaries"),
+        ... )
+        >>> errors = dict(samples=8, gripper=dict(position=dict(bound="0.1 mm")))
+        >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=errors)
+        >>> plydrape.simulate(scene).sample
+        <plydrape.Sample of 8 cells, 8 accepted, accepted>
+    """
+    def __len__(self, /) -> int: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def accepted(self, /) -> int:
+        """
+        How many cells keep every limit.
+        """
+    @property
+    def height_mm(self, /) -> float | None:
+        """
+        The largest height (mm) that the share of the cells keeps which must keep the limits; None of catenaries, or where
+        fewer drapes have an end.
+        """
+    @property
+    def heights_mm(self, /) -> NDArray[float64]:
+        """
+        The largest height of each cell's sheet at the end (mm), shape (cells,); nan where its drape has no end, and of
+        catenaries.
+        """
+    @property
+    def highest(self, /) -> dict[str, Any] | None:
+        """
+        Where the sheet is highest by the height that the share of the cells keeps there: a dict with height_mm, uv_mm, line and
+        gripper. None of catenaries.
+        """
+    @property
+    def kept(self, /) -> NDArray[bool_]:
+        """
+        Whether each cell keeps every limit, shape (cells,).
+        """
+    @property
+    def limits(self, /) -> list[dict[str, Any]]:
+        """
+        Every limit, judged by the value that the share of the cells keeps: dicts as `Result.limits`.
+        """
+    @property
+    def needed(self, /) -> int:
+        """
+        How many cells must keep every limit.
+        """
+    @property
+    def ok(self, /) -> bool:
+        """
+        Whether so many do.
+        """
+    @property
+    def ratios(self, /) -> NDArray[float64]:
+        """
+        The largest ratio of a measure to its limit in each cell, shape (cells,): above 1 it is not kept.
+        """
+    @property
+    def spread_mm(self, /) -> NDArray[float64]:
+        """
+        The height at each node of the sheet that the share of the cells keeps (mm), shape (nodes,), in four digits; empty of
+        catenaries.
         """
 
 @final
@@ -1705,6 +1803,7 @@ def plan(
     improve: bool | None = None,
     time: float | str | None = None,
     checkpoint: str | None = None,
+    without_errors: bool = False,
     progress: typing.Callable[[int, int, str], object] | None = None,
 ) -> Plan:
     """
@@ -1716,6 +1815,9 @@ def plan(
     KeyboardInterrupt at once; to stop early and keep the best so far, give the search a `time`, or fewer `evaluations`
     in the scene's `plan`.
 
+    The plan is then judged with errors: by a sample of cells where the scene has `errors`, and by the errors that it stands. That takes
+    some hundred drapes, which `time` does not bound.
+
     Args:
         scene: The scene, with mold and target.
         method: "path" or "stepwise", instead of the scene's.
@@ -1725,6 +1827,7 @@ def plan(
         time: Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
             drape that decides on that plan may take a little longer.
         checkpoint: Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
+        without_errors: Whether the plan is judged without errors.
         progress: Called with (candidates draped, most, what is done), some 50 times a second.
 
     Returns:
@@ -1737,7 +1840,7 @@ def plan(
 
     Example:
         >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> plan = plydrape.plan(scene)
+        >>> plan = plydrape.plan(scene, without_errors=True)
         >>> plan.method, plan.result.accepted
         ('path', True)
     """
@@ -1746,16 +1849,18 @@ def simulate(
     scene: Scene,
     *,
     model: typing.Literal["sheet", "catenaries"] | None = None,
+    without_errors: bool = False,
     progress: typing.Callable[[int, int, str], object] | None = None,
 ) -> Result:
     """
     Drapes the ply of a scene along its motion, as `plydrape simulate` does.
 
-    Other threads of Python run on meanwhile, and Ctrl-C ends it.
+    Other threads of Python run on meanwhile, and Ctrl-C ends it. A scene with errors is judged by a sample of its cells too.
 
     Args:
         scene: The scene.
         model: The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
+        without_errors: Whether the errors of the scene are left out.
         progress: Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
 
     Returns:

@@ -33,7 +33,17 @@ def test_a_drape_is_the_command_lines(tmp_path: Path) -> None:
 def test_a_plan_is_the_command_lines(tmp_path: Path) -> None:
     """Same scene and seed, same plan."""
     folder = str(tmp_path / "cli")
-    cli = [str(binary()), "plan", str(EXAMPLE), "-o", folder, "--quiet", "--seed", "3", "--without-errors"]
+    cli = [
+        str(binary()),
+        "plan",
+        str(EXAMPLE),
+        "-o",
+        folder,
+        "--quiet",
+        "--seed",
+        "3",
+        "--without-errors",
+    ]
     subprocess.run(cli, check=True)
     plan = plydrape.plan(plydrape.Scene.read(EXAMPLE), seed=3, without_errors=True)
     assert plan.accepted

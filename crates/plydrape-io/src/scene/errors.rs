@@ -2,7 +2,7 @@
 
 use super::error::{Document, SceneError};
 use super::file::{ErrorsTable, MoldErrorsTable, Term};
-use super::located::{Count, Located, Whole};
+use super::located::{CountOrNone, Located, Whole};
 use super::quantity::{Angle, Length, Measure, Quantity, Ratio};
 use crate::shown::millimetres;
 use plydrape::errors::{
@@ -131,19 +131,17 @@ impl Reader<'_> {
         self.term(written, [self.shift; 2], &most)
     }
 
-    fn samples(&self, written: &Located<Count>) -> Result<usize, SceneError> {
+    fn samples(&self, written: &Located<CountOrNone>) -> Result<usize, SceneError> {
         let Whole(value) = written.value;
         match usize::try_from(value) {
-            Ok(value) if (1..=MOST_SAMPLES).contains(&value) => Ok(value),
+            Ok(value) if value <= MOST_SAMPLES => Ok(value),
             _ => Err(self.document.error(
                 written.span.clone(),
                 match value {
                     1.. => format!("{value} cells are too many for a sample"),
                     _ => format!("{value} cells are no sample"),
                 },
-                format!(
-                    "1 to {MOST_SAMPLES} cells are possible; without errors leave out [errors]"
-                ),
+                format!("1 to {MOST_SAMPLES} cells are possible; 0 leaves all errors out"),
             )),
         }
     }

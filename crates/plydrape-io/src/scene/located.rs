@@ -42,6 +42,9 @@ pub(super) type Count = Whole<1>;
 /// The seed of a random search.
 pub(super) type Seed = Whole<0>;
 
+/// How many there are of what may be missing.
+pub(super) type CountOrNone = Whole<0>;
+
 impl<'de, const LEAST: u8> Deserialize<'de> for Whole<LEAST> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Number;

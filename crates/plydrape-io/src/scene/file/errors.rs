@@ -1,6 +1,6 @@
 //! The keys of the table `[errors]`.
 
-use crate::scene::located::{Count, Located, Seed};
+use crate::scene::located::{CountOrNone, Located, Seed};
 use crate::scene::quantity::{Angle, Length, Measure, Quantity, Ratio, Unchecked};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -14,8 +14,8 @@ use std::borrow::Cow;
 pub(in crate::scene) struct ErrorsTable {
     /// Seed of the draws, 0 unless given: the same seed, the same cells.
     pub seed: Option<Located<Seed>>,
-    /// Cells that are drawn, 64 unless given.
-    pub samples: Option<Located<Count>>,
+    /// Cells that are drawn, 64 unless given; with 0 nothing is judged with errors.
+    pub samples: Option<Located<CountOrNone>>,
     /// Share of the cells that must keep the limits, 95 % unless given.
     pub share: Option<Quantity<Ratio>>,
     /// Of the tool frame, common to all grippers.

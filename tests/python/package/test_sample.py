@@ -1,0 +1,103 @@
+"""Drapes with errors: the sample of a scene and what a motion stands, as Python sees them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import plydrape
+
+SCENE: dict[str, Any] = {
+    "ply": {"grippers": [4, 2], "cell": ["100 mm", "100 mm"], "material": "krogh2018"},
+    "mold": {"kind": "plane"},
+    "grippers": {"spacing": ["98 mm", "98 mm"], "height": "75 mm"},
+    "target": {"shear": "10 deg"},
+    "motion": {"kind": "straight", "steps": 6},
+    "sheet": {"mesh": "50 mm"},
+}
+ERRORS: dict[str, Any] = {
+    "samples": 5,
+    "share": "60 %",
+    "gripper": {"position": {"bound": "0.5 mm"}},
+}
+# every drape that ends is accepted: what is judged here are the numbers
+LOOSE: dict[str, Any] = {
+    "height": "1 m",
+    "out_of_plane": "89 deg",
+    "position": "1 m",
+    "strain": 1,
+    "fibre_angle": "89 deg",
+}
+
+
+def scene(**tables: Any) -> plydrape.Scene:
+    """The scene with more tables."""
+    return plydrape.Scene(**{**SCENE, **tables})
+
+
+def test_a_sample_is_the_drapes_of_its_cells(tmp_path: Path) -> None:
+    """Each height is that of the cell's own scene; the sample's is the third of five, 60 %."""
+    judged = scene(errors=ERRORS)
+    result = plydrape.simulate(judged)
+    sample = result.sample
+    assert sample is not None and len(sample) == 5 and sample.needed == 3
+    cells = [plydrape.simulate(judged.with_errors(n)) for n in range(5)]
+    heights = [cell.summary["sheet"]["height_max_mm"] for cell in cells]
+    np.testing.assert_allclose(sample.heights_mm, heights, rtol=1e-12)
+    assert sample.kept.tolist() == [cell.accepted for cell in cells]
+    assert sample.accepted == sum(cell.accepted for cell in cells)
+    assert sample.height_mm == np.sort(sample.heights_mm)[2]
+    assert (sample.ratios > 1).tolist() == [not kept for kept in sample.kept]
+
+    # at each node the third of the five heights, in four digits
+    ends = [cell.sheet.heights[-1] for cell in cells]
+    third = np.sort(1e3 * np.maximum(ends, 0), axis=0)[2]
+    assert sample.spread_mm.shape == third.shape
+    on_mold = third > 1e-3
+    np.testing.assert_allclose(sample.spread_mm[on_mold], third[on_mold], rtol=1e-3)
+    highest = sample.highest
+    assert highest is not None and highest["gripper"].startswith("gripper [")
+    np.testing.assert_allclose(highest["height_mm"], sample.spread_mm.max(), rtol=1e-3)
+
+    result.write(tmp_path)
+    again = plydrape.Result.read(tmp_path / "result.json")
+    assert again.summary == result.summary and again.sample is not None
+    np.testing.assert_array_equal(again.sample.spread_mm, sample.spread_mm)
+
+
+def test_what_a_motion_stands_is_in_millimetres() -> None:
+    """The bound of the scene times the factor; none without errors, none of other errors."""
+    result = plydrape.simulate(scene(errors=ERRORS, limits=LOOSE))
+    stands = result.stands
+    assert stands is not None and result.stands_mm is not None
+    if stands["tried"]:
+        np.testing.assert_allclose(result.stands_mm, 0.5 * stands["factor"], rtol=1e-12)
+    assert plydrape.simulate(scene(limits=LOOSE)).stands is None
+    left_out = plydrape.simulate(scene(errors=ERRORS), without_errors=True)
+    assert left_out.sample is None and left_out.stands is None and left_out.stands_mm is None
+    frame = {"samples": 2, "frame": {"position": {"bound": "0.1 mm"}}}
+    other = plydrape.simulate(scene(errors=frame, limits=LOOSE))
+    assert other.stands is not None and other.stands_mm is None
+    off = plydrape.simulate(scene(errors={**ERRORS, "samples": 0}))
+    assert off.sample is None and off.stands is None
+
+
+def test_a_plan_is_accepted_only_with_its_sample() -> None:
+    """A plan that keeps its limits loses its verdict with grippers that are off by 20 mm."""
+    tables: dict[str, Any] = {
+        "ply": {"grippers": [2, 2], "cell": ["100 mm", "100 mm"], "material": "krogh2018"},
+        "grippers": {"spacing": ["98 mm", "98 mm"], "height": "75 mm"},
+        "target": {"origin": ["0 mm", "0 mm"]},
+        "model": {"kind": "catenaries"},
+        "plan": {"steps": 12, "evaluations": 30},
+    }
+    far = {"samples": 4, "gripper": {"position": {"bound": "20 mm"}}}
+    plan = plydrape.plan(scene(errors=far, **tables))
+    assert plan.result.sample is not None and not plan.result.sample.ok
+    assert not plan.accepted and not plan.result.accepted
+    without = plydrape.plan(scene(errors=far, **tables), without_errors=True)
+    assert without.accepted and without.result.sample is None
+    plain = plydrape.plan(scene(**tables))
+    assert plain.accepted and plain.result.sample is None
+    assert plain.result.stands_mm is not None and plain.result.stands_mm > 0
