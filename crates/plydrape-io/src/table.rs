@@ -7,6 +7,7 @@ mod slack;
 
 pub use comparison::comparison;
 pub(crate) use comparison::verdict as verdict_on;
+pub(crate) use errors::{share, stands_in_words};
 pub(crate) use slack::slack_in_words;
 
 use crate::result::ResultFile;

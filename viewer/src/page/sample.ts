@@ -46,7 +46,8 @@ export function showSample(state: State, motion: Motion): void {
     const cells = missing === 1 ? "One cell has" : `${String(missing)} cells have`;
     section.append(make("p", { class: "quiet" }, `${cells} no end, and so no height.`));
   }
-  if (sample.highest !== null) section.append(highest(state, motion, sample));
+  const pointer = pointerOf(motion);
+  if (sample.highest !== null) section.append(highest(state, sample, pointer));
   if (sample.limits.length > 0) {
     section.append(
       make(
@@ -57,7 +58,7 @@ export function showSample(state: State, motion: Motion): void {
       ),
     );
   }
-  followColour(state, motion);
+  if (pointer !== null) followColour(state, pointer);
 }
 
 /** Cells by the largest height of their sheets. */
@@ -155,11 +156,10 @@ function write(x: number, y: number, text: string, from: string): SVGElement {
 }
 
 /** A line about the highest place, which shows it on the ply. */
-function highest(state: State, motion: Motion, sample: SampleData): HTMLElement {
+function highest(state: State, sample: SampleData, pointer: Pointer | null): HTMLElement {
   const { height_mm, uv_mm, line, gripper } = sample.highest!;
   const text = `on the line from ${line}, near ${gripper} (u ${short(uv_mm[0])}, v ${short(uv_mm[1])} mm)`;
   const size = `Highest place: ${withUnit(short(height_mm), "mm")} is kept by ${sample.share} of the cells, `;
-  const pointer = pointerOf(motion);
   if (pointer === null) return make("p", {}, size + text);
   const button = make("button", { type: "button", class: "link" }, text);
   button.addEventListener("click", () => {
@@ -182,9 +182,7 @@ function pointerOf(motion: Motion): Pointer | null {
 }
 
 /** The colours of the spread are about the end: choosing them goes there and marks the highest place. */
-function followColour(state: State, motion: Motion): void {
-  const pointer = pointerOf(motion);
-  if (pointer === null) return;
+function followColour(state: State, pointer: Pointer): void {
   const spread = (choice: Choice) => choice.model === "sheet" && choice.colour === "spread";
   state.listen((now, before) => {
     if (now === before || spread(now) === spread(before)) return;

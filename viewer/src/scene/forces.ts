@@ -21,9 +21,9 @@ const WIDTH = 2.4;
 
 /** How much of what a gripper holds is used: the colours of the arrows, with their names in the style sheet. */
 export const USES = [
-  { upTo: 0.5, colour: "load-low", text: "up to half of the limit" },
-  { upTo: 1, colour: "load-near", text: "half to all of it" },
-  { upTo: Infinity, colour: "load-beyond", text: "beyond the limit" },
+  { upTo: 0.5, colour: "load-low", text: "to half the limit" },
+  { upTo: 1, colour: "load-near", text: "to the limit" },
+  { upTo: Infinity, colour: "load-beyond", text: "beyond it" },
 ] as const;
 
 export class Forces {

@@ -113,7 +113,7 @@ fn mold(mold: &Mold) -> String {
 }
 
 /// Four digits, no zeros behind them.
-pub(super) fn shown(value: f64) -> String {
+fn shown(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     format!("{rounded}")
 }

@@ -1,10 +1,10 @@
 //! What the page shows of the verdict over a sample of cells, and of the largest errors that a motion stands.
 
-use super::facts::shown;
 use super::{Limit, limit};
 use crate::result::ResultFile;
 use crate::sheet::SheetMesh;
-use plydrape::errors::{CellVerdict, SampleVerdict, Stands, Term};
+use crate::table::{share, stands_in_words};
+use plydrape::errors::CellVerdict;
 use plydrape::mold::distance;
 use serde::Serialize;
 
@@ -58,11 +58,6 @@ pub(super) fn sample<'a>(result: &'a ResultFile, mesh: Option<&SheetMesh>) -> Op
     })
 }
 
-/// The share of the cells that must keep the limits.
-pub(super) fn share(verdict: &SampleVerdict) -> String {
-    format!("{} %", shown(verdict.errors.share * 1e2))
-}
-
 /// The node nearest to a place in the fabric (m).
 fn nearest(mesh: &SheetMesh, [u, v]: [f64; 2]) -> Option<usize> {
     let away = |place: &[f64; 2]| distance([place[0], place[1], 0.0], [u, v, 0.0]);
@@ -72,33 +67,14 @@ fn nearest(mesh: &SheetMesh, [u, v]: [f64; 2]) -> Option<usize> {
 
 /// The largest errors that the motion stands, in words; none where it was not asked for.
 pub(super) fn stands(result: &ResultFile) -> Option<String> {
-    let Stands { factor, at_least, position, tried } = result.summary.stands?;
-    if tried == 0 {
-        return Some("stands no errors: it is not accepted without any".into());
-    }
-    let tried = format!("by {tried} drapes each");
-    if factor == 0.0 {
-        return Some(format!("stands none of the errors that were tried, {tried}"));
-    }
-    let least = if at_least { "at least " } else { "" };
-    let size = shown(position.value() * 1e3);
-    let of_position = match position {
-        Term::Deviation(_) => format!("{size} mm (standard deviation) of each gripper's position"),
-        Term::Bound(_) => format!("±\u{202f}{size} mm of each gripper's position"),
-    };
-    let times = format!("{} times the errors of the scene", shown(factor));
-    Some(match (position.is_zero(), result.scene.errors.is_some()) {
-        (true, _) => format!("stands {least}{times}, {tried}"),
-        (false, false) => format!("stands errors of {least}{of_position}, {tried}"),
-        (false, true) => format!("stands errors of {least}{of_position}: {times}, {tried}"),
-    })
+    result.summary.stands.as_ref().map(|stands| stands_in_words(result, stands))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::sample;
-    use plydrape::errors::{self, Errors};
+    use plydrape::errors::{self, Errors, SampleVerdict};
 
     /// A result with a sample of four cells, of which one has no end.
     fn sampled() -> ResultFile {
@@ -149,36 +125,5 @@ mod tests {
         assert_eq!(told.highest.unwrap().node, Some(2));
         assert_eq!(sample(&result, None).unwrap().highest.unwrap().node, None);
         assert!(sample(&sample::draped(4, 2, 3), None).is_none());
-    }
-
-    /// The size in the unit and by the law that the errors have; a factor where position has no error.
-    #[test]
-    fn what_a_motion_stands_is_said_by_its_law() {
-        let mut result = sampled();
-        assert_eq!(stands(&result), None);
-        let mut said = |factor, at_least, position, errors| {
-            result.summary.stands = Some(Stands { factor, at_least, position, tried: 16 });
-            result.scene.errors = errors;
-            stands(&result).unwrap()
-        };
-        assert_eq!(
-            said(1.4, false, Term::Deviation(2.8e-4), None),
-            "stands errors of 0.28 mm (standard deviation) of each gripper's position, by 16 drapes each"
-        );
-        assert_eq!(
-            said(16.0, true, Term::Bound(2e-3), Some(Errors::default())),
-            "stands errors of at least ±\u{202f}2 mm of each gripper's position: 16 times the errors of the scene, by 16 drapes each"
-        );
-        assert_eq!(
-            said(2.0, false, Term::NONE, Some(Errors::default())),
-            "stands 2 times the errors of the scene, by 16 drapes each"
-        );
-        assert_eq!(
-            said(0.0, false, Term::NONE, None),
-            "stands none of the errors that were tried, by 16 drapes each"
-        );
-        result.summary.stands = Some(Stands::nothing(&Errors::default()));
-        let nothing = "stands no errors: it is not accepted without any";
-        assert_eq!(stands(&result).as_deref(), Some(nothing));
     }
 }

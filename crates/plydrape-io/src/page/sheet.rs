@@ -6,11 +6,11 @@
 use super::block::Block;
 use super::geometry::{hundredths, micrometres};
 use super::margin::Allowed;
-use super::sample::share;
 use super::{Field, Limit, limit};
 use crate::OutputError;
 use crate::result::ResultFile;
 use crate::sheet::{SheetMesh, SheetSides, SheetState, SheetStates, ended, normal};
+use crate::table::share;
 use plydrape::errors::SampleVerdict;
 use plydrape::sheet::measure::Summary;
 use serde::Serialize;

@@ -54,7 +54,7 @@ fn sample_in_words(sample: &SampleVerdict, accepted_without: bool) -> Vec<String
 }
 
 /// The share of the cells that must keep the limits, as in `95 %`.
-pub(super) fn share(sample: &SampleVerdict) -> String {
+pub(crate) fn share(sample: &SampleVerdict) -> String {
     format!("{} %", significant(100.0 * sample.errors.share))
 }
 
