@@ -242,6 +242,9 @@ impl SampleVerdict {
 
 /// A drape by the model that decides; none if it was stopped.
 fn draped(scene: &Scene, stop: &(dyn Fn() -> bool + Sync)) -> Option<Drape> {
+    if stop() {
+        return None;
+    }
     let steps = scene.motion.positions.len();
     if scene.settings.model == Model::Catenaries {
         let go = |_: usize| if stop() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
