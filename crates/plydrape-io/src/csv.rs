@@ -4,7 +4,7 @@
 //! a step leaves its cells empty.
 //!
 //! Beside the poses stand the expected loads of the ply on the grippers where they are known, and where mounts yield their
-//! preload and stiffness, see [`super::loads`].
+//! preload and stiffness, see `loads.rs`.
 
 use super::OutputError;
 use super::loads::{Load, Loads, Stiffness};
