@@ -54,7 +54,8 @@ class SolveError(PlydrapeError, ArithmeticError):
     """An equilibrium that was not found.
 
     Attributes:
-        status: How the solve ended: `stalled`, `iteration-limit`, `length-not-met` or `mounts-not-balanced`.
+        status: How the solve ended: `stalled`, `iteration-limit`, `length-not-met` or
+            `mounts-not-balanced`.
         iterations: Iterations on the slopes.
         residual: What is left of the rule of the slopes, scaled to a slope.
 

@@ -190,7 +190,9 @@ def test_another_encoder_writes_the_same_bytes(planned: Exported, distribution: 
 
 
 def test_loads_are_those_of_the_table_and_of_the_springs(mounted: Exported) -> None:
-    """One sliding joint a gripper and axis: effort is the load (N), position the preload (m), of stiffness k: F = -k p.
+    """One sliding joint a gripper and axis: effort is the load (N), position the preload (m).
+
+    Of stiffness k: F = -k p.
 
     1e-6 N is the balance of ply and mounts.
     """
