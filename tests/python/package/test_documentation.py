@@ -34,7 +34,8 @@ def nouns(module: ModuleType) -> Iterator[tuple[str, Any]]:
             continue
         yield f"{module.__name__}.{name}", value
         if inspect.isclass(value):
-            for key in vars(value):
+            # a compiled class lists its properties in any order
+            for key in sorted(vars(value)):
                 part = inspect.getattr_static(value, key)
                 # what a field means is said by its class
                 if not key.startswith("_") and (callable(part) or hasattr(part, "__get__")):
