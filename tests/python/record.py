@@ -39,6 +39,8 @@ def steps(content: Entry) -> list[Entry]:
         grippers = dict(columns["grippers"])
         if grippers["target_distance_mm"] is None:
             grippers["target_distance_mm"] = [None] * (nu * nv)
+        if "mounts" in grippers:
+            grippers["mounts"] = rows(grippers["mounts"])
         step["grippers"] = [
             {"id": [n % nu, n // nu], **gripper} for n, gripper in enumerate(rows(grippers))
         ]

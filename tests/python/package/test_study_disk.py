@@ -44,7 +44,7 @@ def test_a_file_that_cannot_be_written_ends_with_2_and_the_study_goes_on(tmp_pat
     assert sorted(p.name for p in results.rglob("*")) == [".lock", "rows", "study.json"]
 
     # Enough for a part of a single scenario.
-    code, said = command(path, 50_000)
+    code, said = command(path, 55_000)
     assert code == 2 and "cannot be written: File too large" in said
     kept = {p.name: p.stat().st_mtime_ns for p in results.glob("rows/*")}
     assert kept and not list(results.rglob("*.tmp"))

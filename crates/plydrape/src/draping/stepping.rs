@@ -10,7 +10,7 @@ use super::spans::{FreeSpan, Point, Shape, shape};
 use super::standing::Ground;
 use super::tuning::TUNING;
 use super::{CellShear, ContactStatus, Drape, Snapshot};
-use crate::equilibrium::{Equilibrium, MountedSolver, Solver, Status};
+use crate::equilibrium::{Continuation, Equilibrium, MountedSolver, Solver, Status};
 use crate::ply::{ContactSegment, Grid, Kind, shear};
 use crate::scene::{Scene, Stepping};
 use std::ops::ControlFlow;
@@ -80,8 +80,8 @@ impl<'a> Draping<'a> {
         (Drape { steps, summary, solving: self.solving }, last)
     }
 
-    /// Solves the equilibrium at gripper positions.
-    fn solve(&mut self, positions: &[Point]) -> Shape {
+    /// Solves the equilibrium at gripper positions; where mounts are hard to balance, by all means or only by a direct search.
+    fn solve(&mut self, positions: &[Point], continuation: Continuation) -> Shape {
         let start = Instant::now();
         let equilibrium: Equilibrium = match &mut self.mounts {
             None => self.solver.solve(positions, &self.contacts),
@@ -89,7 +89,7 @@ impl<'a> Draping<'a> {
                 if let Some(ground) = ground(self.scene, &self.contacts) {
                     ground.lead(mounts, positions);
                 }
-                mounts.solve(&mut self.solver, positions, &self.contacts)
+                mounts.solve(&mut self.solver, positions, &self.contacts, continuation)
             }
         };
         self.solving += start.elapsed();
@@ -162,15 +162,15 @@ impl<'a> Draping<'a> {
 
     /// As in the paper: one equilibrium, the contact evaluated once; solved anew where it has changed.
     fn arrive(&mut self, goal: &[Point]) -> Shape {
-        let mut shape = self.solve(goal);
+        let mut shape = self.solve(goal, Continuation::IfNeeded);
         for round in 0..2 {
             if self.update_pads(round == 0) {
-                shape = self.solve(goal);
+                shape = self.solve(goal, Continuation::IfNeeded);
             }
         }
         let mut gaps = self.gaps(&shape);
         if self.update_contact(&shape, &gaps) {
-            shape = self.solve(goal);
+            shape = self.solve(goal, Continuation::IfNeeded);
             gaps = self.gaps(&shape);
         }
         self.keep_slide();
@@ -178,8 +178,8 @@ impl<'a> Draping<'a> {
         shape
     }
 
-    /// Cuts the move where the ply would penetrate the mold deeper than the tolerance, and follows the contact at each
-    /// position until it no longer changes.
+    /// Cuts the move where the ply would penetrate the mold deeper than the tolerance, or where mounts find no balance, and
+    /// follows the contact at each position until it no longer changes.
     fn cut_to(&mut self, goal: &[Point]) -> Shape {
         let start = self.positions.clone();
         let at = |fraction: f64| -> Vec<Point> {
@@ -193,35 +193,54 @@ impl<'a> Draping<'a> {
         loop {
             let next = f64::min(done + part, 1.0);
             let place = if next >= 1.0 { goal.to_vec() } else { at(next) };
-            let unsolved = self.unsolved;
-            let mut shape = self.solve(&place);
+            let before = self.unsolved;
+            let kept = self.mounts.clone().map(|mounts| Kept {
+                mounts,
+                solver: self.solver.clone(),
+                contacts: self.contacts.clone(),
+            });
+            let may_cut = start != *goal && part > TUNING.smallest_cut;
+            // a step that could not be followed is not tried any harder
+            let is_followed = before.is_none();
+            let continuation = match !may_cut && is_followed {
+                true => Continuation::IfNeeded,
+                false => Continuation::Never,
+            };
+            let mut shape = self.solve(&place, continuation);
             let mut gaps = self.gaps(&shape);
             let deep = self.deep(&shape, &gaps).filter(|_| start != *goal);
             let is_deep = deep.is_some() || (self.pad_is_deep() && start != *goal);
-            if is_deep && part > TUNING.smallest_cut {
-                // the grippers do not go to this position, so how it was solved does not count
-                self.unsolved = unsolved;
-                if let Some(mounts) = &mut self.mounts {
-                    mounts.drop_last();
-                }
-                part *= 0.5;
-                continue;
-            }
+            let mut is_cut = is_deep && may_cut;
             // a fibre that jumps so far penetrates the mold, which has a limit; a diagonal is no fibre
-            if deep.is_some_and(|catenary| catenary < self.scene.ply.grid.edges()) {
+            if !is_cut && deep.is_some_and(|catenary| catenary < self.scene.ply.grid.edges()) {
                 self.contact_status = ContactStatus::CutLimit;
                 self.note_depth(&shape, &gaps);
             }
             let mut rounds = 0;
+            let is_lost =
+                |shape: &Shape| may_cut && shape.equilibrium.status == Status::MountsNotBalanced;
+            is_cut |= is_lost(&shape);
             // pads first: a span that touches runs from a gripper that stands on the mold
-            while self.update_pads(rounds == 0) || self.update_contact(&shape, &gaps) {
-                shape = self.solve(&place);
+            while !is_cut && (self.update_pads(rounds == 0) || self.update_contact(&shape, &gaps)) {
+                shape = self.solve(&place, continuation);
                 gaps = self.gaps(&shape);
+                is_cut = is_lost(&shape);
                 rounds += 1;
                 if rounds == TUNING.contact_rounds {
                     self.contact_status = ContactStatus::RoundLimit;
                     break;
                 }
+            }
+            if is_cut {
+                // the grippers do not go to this position, so how it was solved does not count
+                self.unsolved = before;
+                if let Some(kept) = kept {
+                    self.mounts = Some(kept.mounts);
+                    self.solver = kept.solver;
+                    self.contacts = kept.contacts;
+                }
+                part *= 0.5;
+                continue;
             }
             self.keep_slide();
             if next >= 1.0 || self.equilibria > self.most {
@@ -330,6 +349,13 @@ impl<'a> Draping<'a> {
         }
         changed
     }
+}
+
+/// Where pads, ply and contact are before the grippers move on.
+struct Kept {
+    mounts: MountedSolver,
+    solver: Solver,
+    contacts: Vec<Option<ContactSegment>>,
 }
 
 /// What pads on mounts that yield can stand on; none without a mold.

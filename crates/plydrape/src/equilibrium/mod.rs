@@ -34,7 +34,9 @@ mod warm_start;
 
 pub(crate) use coloring::Coloring;
 pub use direction::{Direction, Property};
-pub use mount::{MountLaw, MountReaction, MountedLinearization, MountedSolver, Standing};
+pub use mount::{
+    Continuation, MountLaw, MountReaction, MountedLinearization, MountedSolver, Standing,
+};
 pub use problem::{
     Constraint, Element, End, PlaneSlope, Problem, SharedSlope, Side, SlopeSource, Stretched,
     heading, neighbours,

@@ -3,14 +3,14 @@
 //! A span pulls at its ends with its horizontal force and with its vertical end forces: with w the weight per length, c the
 //! chord and M = EI z'' the end moments, `V₀ = (H h + M₀ − M₁)/ℓ − w c/2` and `V₁ = V₀ + w c`. Each edge counts with its
 //! tributary share, so that the loads of a hanging ply add up to its weight. Diagonals are no fibres; what a cell's shear
-//! takes pulls along its stretched diagonal ([`crate::ply::shear::force`]).
+//! takes acts along both of its diagonals.
 
 use super::super::direction::Direction;
 use super::super::sensitivity::StateTangent;
 use super::super::solver::Solver;
 use crate::catenary::{Profile, SpanState};
-use crate::mold::vector::{sub, unit};
-use crate::ply::{Catenary, ContactSegment, Grid, Kind, shear};
+use crate::mold::vector::{dot, sub, unit};
+use crate::ply::{Catenary, ContactSegment, Grid, shear};
 
 /// A point in space (m), or a force (N).
 type Vector = [f64; 3];
@@ -91,14 +91,15 @@ impl<'a> Held<'a> {
             );
         }
         for cell in 0..self.grid().cells() {
-            let Some(pull) = self.shear_pull(cell) else { continue };
-            if !pull.force.is_finite() {
-                return None;
-            }
-            for segment in pull.segments(self) {
-                let (direction, pulls) = segment;
-                let force = direction.map(|c| c * pull.force);
-                put(pulls, [force, force]);
+            let Some(resistance) = self.shear_resistance(cell) else { continue };
+            for (n, diagonal) in resistance.diagonals.iter().enumerate() {
+                let force = resistance.force(n);
+                if !force.is_finite() {
+                    return None;
+                }
+                for (direction, pulls) in self.pulling(diagonal.catenary) {
+                    put(pulls, [direction.map(|c| c * force); 2]);
+                }
             }
         }
         Some((out, largest))
@@ -151,7 +152,7 @@ impl<'a> Held<'a> {
             }
         }
         for cell in 0..self.grid().cells() {
-            self.shear_change(cell, direction, tangent, &mut put);
+            self.shear_change(cell, direction, &mut put);
         }
     }
 
@@ -170,79 +171,123 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// The force in the stretched diagonal of a cell, where its material resists shear.
-    fn shear_pull(&self, cell: usize) -> Option<ShearPull> {
+    /// What a cell does against its shear, where its material resists.
+    fn shear_resistance(&self, cell: usize) -> Option<ShearResistance> {
         let curve = self.solver.ply().material.shear_curve.as_ref()?;
-        let (path, falling) = self.solver.problem().shearing[cell]?;
+        let diagonals = [0, 1].map(|n| {
+            let catenary = self.grid().edges() + 2 * cell + n;
+            let lying = self.contacts[catenary].as_ref().map_or(0.0, |contact| {
+                contact.line.length() + contact.excess_length[0] + contact.excess_length[1]
+            });
+            let free: f64 = self.lines(catenary).map(|(line, _)| length(line)).sum();
+            Diagonal { catenary, path: free + lying, lying }
+        });
         let sides = self.solver.ply().sides(cell, self.contacts);
-        let angle = shear::angle(sides, path);
-        let (per_length, slope) = curve.force(angle);
-        let catenary = self.grid().edges() + 2 * cell + usize::from(falling);
-        debug_assert!(!falling || self.grid().catenary(catenary).kind == Kind::Falling);
-        let force = shear::force(angle, path, per_length);
-        Some(ShearPull { catenary, force, sides, path, angle, per_length, slope })
+        let angle = shear::difference_angle(sides, diagonals.each_ref().map(|d| d.path));
+        let (size, slope) = curve.force(angle);
+        Some(ShearResistance { diagonals, sides, angle, per_length: size.copysign(angle), slope })
+    }
+
+    /// The straight lines of a diagonal, and the pads at their ends: from gripper to gripper, or from each one to the end of
+    /// the contact.
+    fn lines(&self, catenary: usize) -> impl Iterator<Item = (Vector, [Option<Pull>; 2])> {
+        let count = if self.contacts[catenary].is_some() { 2 } else { 1 };
+        (0..count).map(move |segment| {
+            let (ends, pulls) = self.ends(catenary, segment);
+            (sub(ends[1], ends[0]), pulls)
+        })
+    }
+
+    /// The directions in which a diagonal pulls, and the pads at which it does.
+    fn pulling(&self, catenary: usize) -> impl Iterator<Item = (Vector, [Option<Pull>; 2])> {
+        self.lines(catenary).filter_map(|(line, pulls)| Some((unit(line)?, pulls)))
     }
 
     fn shear_change(
         &self,
         cell: usize,
         direction: &Direction,
-        tangent: &StateTangent,
         put: &mut impl FnMut(usize, usize, Vector),
     ) {
-        let Some(pull) = self.shear_pull(cell) else { return };
-        let [along_u, along_v, _] = direction.length;
-        let ([a, b], d_path) = (pull.sides, tangent.paths[cell]);
-        let d_angle =
-            shear::angle_tangent(pull.sides, pull.path, [a * along_u, b * along_v, d_path]);
-        let (sine, cosine) = pull.angle.sin_cos();
-        let d_force = (pull.slope * d_angle * pull.path + pull.per_length * d_path) / cosine
-            + pull.force * sine / cosine * d_angle;
-        for segment in 0..2 {
-            if segment == 1 && self.contacts[pull.catenary].is_none() {
-                break;
-            }
-            let (ends, pulls) = self.ends(pull.catenary, segment);
-            let line = sub(ends[1], ends[0]);
-            let Some(towards) = unit(line) else { continue };
-            let length = line.iter().map(|c| c * c).sum::<f64>().sqrt();
-            let velocity = |end: usize| {
-                let pull = pulls[end].as_ref();
-                pull.map_or([0.0; 3], |pull| direction.grippers[pull.gripper])
+        let Some(resistance) = self.shear_resistance(cell) else { return };
+        let moving = |pulls: &[Option<Pull>; 2]| {
+            let velocity = |pull: &Option<Pull>| {
+                pull.as_ref().map_or([0.0; 3], |pull| direction.grippers[pull.gripper])
             };
-            let moving = sub(velocity(1), velocity(0));
-            let ahead: f64 = (0..3).map(|n| moving[n] * towards[n]).sum();
-            let change = [0, 1, 2].map(|n| {
-                d_force * towards[n] + pull.force * (moving[n] - ahead * towards[n]) / length
-            });
-            for end in pulls.iter().flatten() {
-                put(pull.catenary, end.gripper, change.map(|c| end.sign * c));
+            sub(velocity(&pulls[1]), velocity(&pulls[0]))
+        };
+        let [along_u, along_v, along_diagonals] = direction.length;
+        let d_paths = resistance.diagonals.each_ref().map(|diagonal| {
+            let ahead = |(towards, pulls): (Vector, _)| dot(moving(&pulls), towards);
+            let free: f64 = self.pulling(diagonal.catenary).map(ahead).sum();
+            free + along_diagonals * diagonal.lying
+        });
+        let [a, b] = resistance.sides;
+        let d_angle = resistance.angle_change([a * along_u, b * along_v], d_paths);
+        for (n, diagonal) in resistance.diagonals.iter().enumerate() {
+            let force = resistance.force(n);
+            let d_force = resistance.force_change(n, d_angle, d_paths[n]);
+            for (line, pulls) in self.lines(diagonal.catenary) {
+                let Some(towards) = unit(line) else { continue };
+                let moving = moving(&pulls);
+                let ahead = dot(moving, towards);
+                let change = [0, 1, 2].map(|n| {
+                    d_force * towards[n] + force * (moving[n] - ahead * towards[n]) / length(line)
+                });
+                for end in pulls.iter().flatten() {
+                    put(diagonal.catenary, end.gripper, change.map(|c| end.sign * c));
+                }
             }
         }
     }
 }
 
-/// The force along the stretched diagonal of a cell.
-struct ShearPull {
+fn length(line: Vector) -> f64 {
+    dot(line, line).sqrt()
+}
+
+/// A diagonal of a cell: rising or falling.
+struct Diagonal {
     catenary: usize,
-    /// The force (N).
-    force: f64,
-    sides: [f64; 2],
+    /// Length (m) of its taut path, and of the part of it that lies on the mold.
     path: f64,
+    lying: f64,
+}
+
+/// What a cell does against its shear: τ(γ) with sin γ = (d₁² − d₂²)/4ab from both diagonals d₁, d₂. The one pulls its pads
+/// together, the other one pushes them apart.
+struct ShearResistance {
+    /// The rising diagonal, and the falling one.
+    diagonals: [Diagonal; 2],
+    sides: [f64; 2],
+    /// Shear angle γ (rad), positive where the rising diagonal is the longer one.
     angle: f64,
-    /// Shear force per length (N/m) and its derivative to the angle.
+    /// Shear force τ per length (N/m) of the sign of the angle, and its derivative to the angle.
     per_length: f64,
     slope: f64,
 }
 
-impl ShearPull {
-    /// The directions in which it pulls at its pads: from gripper to gripper, or from each one to the end of the contact.
-    fn segments(&self, held: &Held) -> Vec<(Vector, [Option<Pull>; 2])> {
-        let count = if held.contacts[self.catenary].is_some() { 2 } else { 1 };
-        let one = |segment: usize| {
-            let (ends, pulls) = held.ends(self.catenary, segment);
-            Some((unit(sub(ends[1], ends[0]))?, pulls))
-        };
-        (0..count).filter_map(one).collect()
+impl ShearResistance {
+    /// Tension (N) in a diagonal: ∂(ab ∫τ dγ)/∂d = ±τ d/(2 cos γ). Infinite where the cell has folded.
+    fn force(&self, diagonal: usize) -> f64 {
+        let sign = 1.0 - 2.0 * diagonal as f64;
+        sign * self.per_length * self.diagonals[diagonal].path / (2.0 * self.angle.cos())
+    }
+
+    /// How that tension changes with the shear angle and the diagonal.
+    fn force_change(&self, diagonal: usize, d_angle: f64, d_path: f64) -> f64 {
+        let sign = 1.0 - 2.0 * diagonal as f64;
+        let (sine, cosine) = self.angle.sin_cos();
+        let path = self.diagonals[diagonal].path;
+        let change = self.slope * d_angle * path + self.per_length * d_path;
+        (sign * change / 2.0 + self.force(diagonal) * sine * d_angle) / cosine
+    }
+
+    /// How the shear angle changes with the sides and the diagonals.
+    fn angle_change(&self, [da, db]: [f64; 2], d_paths: [f64; 2]) -> f64 {
+        let ([a, b], [rising, falling]) = (self.sides, self.diagonals.each_ref().map(|d| d.path));
+        let (sine, cosine) = self.angle.sin_cos();
+        let change = (rising * d_paths[0] - falling * d_paths[1]) / (2.0 * a * b);
+        (change - sine * (da / a + db / b)) / cosine
     }
 }

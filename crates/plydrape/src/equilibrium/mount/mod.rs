@@ -26,6 +26,15 @@ use crate::ply::{ContactSegment, Ply};
 use crate::scene::Settings;
 use newton::Matrix;
 
+/// Whether a balance that is not found from the last one is searched for by continuation in the stiffness of the mounts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Continuation {
+    /// No: the grippers can be moved less far instead.
+    Never,
+    /// Yes.
+    IfNeeded,
+}
+
 /// Finds equilibria of a ply and the mounts of its grippers, one after the other.
 ///
 /// What the fabric has slid under the pads before a solve counts in it; [`MountedSolver::keep`] keeps what it has slid since.
@@ -38,8 +47,6 @@ pub struct MountedSolver {
     standing: Vec<Option<Standing>>,
     /// The last balance, from which the next search starts.
     balance: Balance,
-    /// The balance that was kept last.
-    kept: Balance,
     matrix: Option<Matrix>,
 }
 
@@ -69,7 +76,6 @@ impl MountedSolver {
             law,
             slip: vec![[0.0; 2]; count],
             standing: vec![None; count],
-            kept: balance.clone(),
             balance,
             matrix: None,
         })
@@ -84,8 +90,9 @@ impl MountedSolver {
         solver: &mut Solver,
         commanded: &[[f64; 3]],
         contacts: &[Option<ContactSegment>],
+        continuation: Continuation,
     ) -> Equilibrium {
-        newton::solve(self, solver, commanded, contacts)
+        newton::solve(self, solver, commanded, contacts, continuation)
     }
 
     /// Keeps the slide of the last solve: the next ones start from it.
@@ -93,12 +100,6 @@ impl MountedSolver {
         for (slip, reaction) in self.slip.iter_mut().zip(&self.balance.reactions) {
             *slip = reaction.slip;
         }
-        self.kept.clone_from(&self.balance);
-    }
-
-    /// Drops the last solve: the next one starts from what was kept.
-    pub fn drop_last(&mut self) {
-        self.balance.clone_from(&self.kept);
     }
 
     /// The mounts.

@@ -12,7 +12,7 @@ use super::super::status::{Equilibrium, Status};
 use super::super::tuning::Tuning;
 use super::band::Band;
 use super::force::Held;
-use super::{Balance, MountedSolver};
+use super::{Balance, Continuation, MountedSolver};
 use crate::ply::{ContactSegment, Grid};
 
 /// The stiffness of ply and mounts, factorized, and which unknowns its rows are.
@@ -187,13 +187,14 @@ pub(super) fn solve(
     solver: &mut Solver,
     commanded: &[[f64; 3]],
     contacts: &[Option<ContactSegment>],
+    continuation: Continuation,
 ) -> Equilibrium {
     let unknowns = Unknowns::of(mounts, solver.ply().grid);
     let tuning = *solver.tuning();
     let mut search =
         Search { mounts, solver, commanded, contacts, tuning, unknowns, iterations: 0 };
     let (mut trial, mut is_balanced) = search.run();
-    if !is_balanced {
+    if !is_balanced && continuation == Continuation::IfNeeded {
         (trial, is_balanced) = search.stiffen(trial);
     }
     let iterations = search.iterations;
