@@ -92,8 +92,8 @@ class Study:
 
         Example:
             >>> study = plydrape.study.Study.read("examples/study/study.toml")
-            >>> study.names[1:3]
-            ['ply.material.flexural_rigidity', 'grippers.height']
+            >>> study.names
+            ['grippers.stiffness.lateral']
 
         """
         path = Path(path)
@@ -165,7 +165,7 @@ class Study:
         Example:
             >>> study = plydrape.study.Study.read("examples/study/study.toml")
             >>> study.scene(0).ply.grippers
-            (4, 2)
+            (3, 3)
 
         """
         return self.task.scene(range(len(self))[scenario], self.values[scenario])

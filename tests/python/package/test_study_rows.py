@@ -165,3 +165,25 @@ def test_margins_are_what_is_left_of_a_limit() -> None:
             assert row[f"margin_{key}"] == pytest.approx(sign * (1 - value / limit))
             assert row[f"ok_{key}"] == (row[f"margin_{key}"] >= 0)
         assert row["accepted"] == all(v for k, v in row.items() if k.startswith("ok_"))
+
+
+def test_a_plan_on_mounts_is_followed_where_the_robot_holds_them(tmp_path: Path) -> None:
+    """Not where the pads are: the mounts between them would give way once more."""
+    scene = plydrape.Scene(
+        ply={"grippers": [2, 2], "cell": ["100 mm", "100 mm"], "material": "krogh2018"},
+        grippers={
+            "spacing": ["98 mm", "98 mm"],
+            "height": "75 mm",
+            "stiffness": {"lateral": "0.1 N/mm", "axial": "0.1 N/mm"},
+        },
+        motion={"kind": "hold"},
+        model={"kind": "catenaries"},
+    )
+    result = plydrape.simulate(scene)
+    result.write(str(tmp_path / "held"))
+    table = {"scene": scene, "command": "follow", "plan": str(tmp_path / "held"), "samples": 1}
+    vary = {"ply.material.mass": {"relative": [1, 1.01]}}
+    motion = Study.of(table | {"vary": vary}).motion
+    assert motion is not None
+    assert abs(result.positions - scene.positions).max() > 1e-5
+    np.testing.assert_allclose(motion.positions, scene.positions, atol=1e-12)
