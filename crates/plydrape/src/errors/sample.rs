@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The least factor of the errors that is tried, and the most.
-const FACTORS: [f64; 2] = [1.0 / 64.0, 16.0];
-/// Bisections of the factor, each by its root: three leave 9 %.
-const BISECTIONS: usize = 3;
+/// Factors of the errors that are tried to each one of twice the size: what is found is known within 9 %.
+const PER_OCTAVE: i32 = 8;
+/// The least factor that is tried, and the most, in octaves: 1/64 and 16.
+const OCTAVES: [i32; 2] = [-6, 4];
 /// Drapes at most by which a factor is tried.
 const TRIED: usize = 16;
 /// What a measure that is no number has for a ratio, so that a file can hold it.
@@ -152,56 +152,32 @@ impl Errors {
     }
 
     /// The largest common factor of all errors at which a scene along its motion is still accepted; none if it was stopped.
+    ///
+    /// Only the cells that decide are followed to the factor from which on they fail: all others are draped once, with the errors
+    /// that those before them still stand.
     #[must_use]
     pub fn stands(&self, scene: &Scene, watch: &Watch) -> Option<Stands> {
         let tried = self.samples.clamp(1, TRIED);
-        let mut order: Vec<usize> = (0..tried).collect();
-        let mut holds = |factor: f64| self.hold(scene, factor, &mut order, watch);
-        let [least, most] = FACTORS;
-        let (mut low, mut high) = (0.0, 1.0);
-        if holds(1.0)? {
-            (low, high) = (1.0, 2.0);
-            while high <= most && holds(high)? {
-                (low, high) = (high, 2.0 * high);
-            }
-        } else {
-            while low == 0.0 && high > least {
-                if holds(0.5 * high)? {
-                    low = 0.5 * high;
-                } else {
-                    high *= 0.5;
-                }
-            }
-        }
-        let at_least = low >= most;
-        if low > 0.0 && !at_least {
-            for _ in 0..BISECTIONS {
-                let middle = (low * high).sqrt();
-                *(if holds(middle)? { &mut low } else { &mut high }) = middle;
-            }
-        }
-        let position = self.gripper.position.scaled(low);
-        Some(Stands { factor: low, at_least, position, tried })
-    }
-
-    /// Whether enough of the cells in `order` keep the limits with all errors larger by a factor. Those that do not come first
-    /// in the order from then on, because they will not with larger ones either.
-    fn hold(&self, scene: &Scene, factor: f64, order: &mut [usize], watch: &Watch) -> Option<bool> {
-        let spare = order.len() - self.needed(order.len());
-        let mut failed: Vec<usize> = Vec::new();
-        for pair in order.chunks(2) {
-            let keeps = |sample: &usize| {
-                let drape = draped(&self.cell(scene, *sample, factor), watch.stop)?;
-                Some((*sample, drape.judged.accepted))
+        // so many of the cells may fail, so the next worse one decides
+        let spare = tried - self.needed(tried);
+        let mut worst: Vec<i32> = Vec::new();
+        for pair in (0..tried).collect::<Vec<_>>().chunks(2) {
+            let most = worst.get(spare).copied();
+            let one = |sample: &usize| {
+                let keeps = |place: i32| {
+                    let drape = draped(&self.cell(scene, *sample, factor(place)), watch.stop)?;
+                    Some(drape.judged.accepted)
+                };
+                largest(most, keeps)
             };
-            let found: Option<Vec<(usize, bool)>> = pair.par_iter().map(keeps).collect();
-            failed.extend(found?.into_iter().filter(|(_, keeps)| !keeps).map(|(sample, _)| sample));
-            if failed.len() > spare {
-                break;
-            }
+            let found: Option<Vec<i32>> = pair.par_iter().map(one).collect();
+            worst.extend(found?);
+            worst.sort_unstable();
         }
-        order.sort_by_key(|sample| (!failed.contains(sample), *sample));
-        Some(failed.len() <= spare)
+        let place = worst[spare];
+        let factor = if place < PLACES[0] { 0.0 } else { factor(place) };
+        let position = self.gripper.position.scaled(factor);
+        Some(Stands { factor, at_least: place == PLACES[1], position, tried })
     }
 
     /// The scene of a cell with all errors larger by a factor.
@@ -213,7 +189,7 @@ impl Errors {
 
 impl Stands {
     /// The least factor that is tried.
-    pub const LEAST: f64 = FACTORS[0];
+    pub const LEAST: f64 = 1.0 / (1u64 << -OCTAVES[0]) as f64;
 
     /// Of a plan that is not accepted without errors.
     #[must_use]
@@ -238,6 +214,46 @@ impl SampleVerdict {
         // a drape without an end has no height: it counts as the highest
         heights.get(self.needed.max(1) - 1).copied()
     }
+}
+
+/// The first and the last place among the factors that are tried.
+const PLACES: [i32; 2] = [OCTAVES[0] * PER_OCTAVE, OCTAVES[1] * PER_OCTAVE];
+
+/// The factor of a place.
+fn factor(place: i32) -> f64 {
+    (f64::from(place) / f64::from(PER_OCTAVE)).exp2()
+}
+
+/// The last place at which a cell keeps its limits, one before the first if it keeps them nowhere; no search beyond `most`, if
+/// given. None if it was stopped.
+fn largest(most: Option<i32>, keeps: impl Fn(i32) -> Option<bool>) -> Option<i32> {
+    let [first, last] = PLACES;
+    let start = most.unwrap_or(0);
+    if start < first {
+        return Some(start);
+    }
+    let (mut low, mut high) = (first - 1, last + 1);
+    if keeps(start)? {
+        low = start;
+        // as far as it need be known
+        high = most.map_or(high, |most| most + 1);
+    } else {
+        high = start;
+    }
+    // octave by octave, then by halves
+    while high - low > 1 {
+        let next = match (low < first, high > last) {
+            (true, _) => (high - PER_OCTAVE).max(first),
+            (_, true) => (low + PER_OCTAVE).min(last),
+            _ => i32::midpoint(low, high),
+        };
+        if keeps(next)? {
+            low = next;
+        } else {
+            high = next;
+        }
+    }
+    Some(low)
 }
 
 /// A drape by the model that decides; none if it was stopped.
