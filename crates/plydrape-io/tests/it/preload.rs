@@ -3,7 +3,7 @@
 
 use crate::common::{distance, example, examples};
 use plydrape::equilibrium::Status;
-use plydrape::errors::{Errors, Watch};
+use plydrape::errors::{Errors, Term, Watch};
 use plydrape::planner;
 use plydrape::planner::path::Strategy;
 use plydrape::planner::path::preload::{Preload, ends};
@@ -119,6 +119,26 @@ fn catenaries_and_sheet_load_the_mounts_of_a_taut_array_alike() {
         let off = (a[0] - b[0]).hypot(a[1] - b[1]);
         assert!(off < 0.08 * most, "{n}: {a:?} N {b:?} N of {most} N");
     }
+}
+
+/// Errors of 1 mm change the pull of a line between two mounts of 2 N/mm by 1.41 N (standard deviation), and three times that is
+/// more than the largest pull, 2.5 N of a load of 10 N; those of 0.3 mm ask for 1.27 N of it, and those of 0.1 mm for less
+/// than is pulled without errors.
+#[test]
+fn the_first_members_pull_against_the_errors_of_the_scene() {
+    let pull = |deviation: Option<f64>| {
+        let mut scene = on_mounts("kind = \"plane\"");
+        scene.errors = deviation.map(|deviation| {
+            let mut errors = Errors::default();
+            errors.gripper.position = Term::Deviation(deviation);
+            errors
+        });
+        Strategy::families(&scene, |shape| shape.slope)[0].pull
+    };
+    assert_eq!([pull(None), pull(Some(1e-4))], [0.4, 0.4]);
+    let middle = pull(Some(3e-4));
+    assert!((middle - 3.0 * 2e3 * 3e-4 / 2.0_f64.sqrt() / 2.5).abs() < 1e-12, "{middle}");
+    assert_eq!(pull(Some(1e-3)), 1.0);
 }
 
 /// The paper's example, planned for mounts of 2 N/mm, stands errors ten times as large as a plan for rigid grippers.

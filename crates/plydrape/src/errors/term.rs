@@ -32,6 +32,15 @@ impl Term {
         }
     }
 
+    /// The standard deviation; that of a bound is the bound over √3.
+    #[must_use]
+    pub fn deviation(self) -> f64 {
+        match self {
+            Term::Deviation(deviation) => deviation,
+            Term::Bound(bound) => bound / 3.0_f64.sqrt(),
+        }
+    }
+
     /// Whether there is no error.
     #[must_use]
     pub fn is_zero(self) -> bool {

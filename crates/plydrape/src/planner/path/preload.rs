@@ -18,6 +18,7 @@ use crate::mold::vector::{along, between, sub, unit};
 use crate::planner::tuning;
 use crate::ply::Grid;
 use crate::scene::Scene;
+use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// The preload of a strategy's grippers; none of rigid ones.
 pub struct Preload<'a> {
@@ -27,8 +28,23 @@ pub struct Preload<'a> {
     compliance: [f64; 3],
     /// Pull of a line inside the ply (N).
     pull: f64,
+    /// Pull of a line along the border, as a multiple of it.
+    border: f64,
+    /// Share of the pull that is left at a gripper's place of a line over no hollow.
+    kept: f64,
     /// Load with which a gripper presses (N).
     press: f64,
+}
+
+/// Pull of a line and press of a gripper (N) at which errors of the grippers make hardly a line slack and leave hardly a pad above
+/// the mold. An error of two grippers changes the pull of the line between them, on two mounts in series, by k (e₁ − e₂)/2, whose
+/// deviation is kσ/√2; an error of height changes the load with which a pad presses by that of one mount, kσ.
+pub(super) fn against_errors(scene: &Scene) -> [f64; 2] {
+    let deviation = scene.errors.map_or(0.0, |errors| errors.gripper.position.deviation());
+    let pad = &scene.settings.pad;
+    let [lateral, axial] = [pad.lateral_stiffness, pad.axial_stiffness]
+        .map(|k| TUNING.preload.deviations * deviation * k.unwrap_or(0.0));
+    [lateral * FRAC_1_SQRT_2, axial]
 }
 
 impl<'a> Preload<'a> {
@@ -40,11 +56,20 @@ impl<'a> Preload<'a> {
         let gives = |stiffness: Option<f64>| stiffness.map_or(0.0, |k| 1.0 / k);
         let [lateral, axial] = [pad.lateral_stiffness, pad.axial_stiffness].map(gives);
         let load = scene.limits.gripper_load;
+        let pull = strategy.pull * TUNING.preload.pull * load;
+        // a corner bears two lines of the border, and what its error adds to them
+        let [needed, _] = against_errors(scene);
+        let spare = load / SQRT_2 - needed;
+        let border =
+            if pull > 0.0 { (spare / pull).clamp(1.0, TUNING.preload.border) } else { 1.0 };
+        let kept = if pull > 0.0 { (needed / pull).clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
         Some(Preload {
             scene,
             targets: &target.grippers,
             compliance: [lateral, lateral, axial],
-            pull: strategy.pull * TUNING.preload.pull * load,
+            pull,
+            border,
+            kept,
             press: strategy.press * TUNING.preload.press * load,
         })
     }
@@ -87,8 +112,8 @@ impl<'a> Preload<'a> {
             let way = unit(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
             let hollow = self.is_over_hollow(gripper, other);
             over_hollow |= hollow;
-            let kept = if hollow { 0.0 } else { TUNING.preload.kept };
-            let pull = if border { TUNING.preload.border } else { 1.0 };
+            let kept = if hollow { 0.0 } else { self.kept };
+            let pull = if border { self.border } else { 1.0 };
             sum = along(sum, pull * (kept + (1.0 - kept) * free), way);
         };
         let (on_u, on_v) = (j == 0 || j + 1 == grid.nv, i == 0 || i + 1 == grid.nu);

@@ -1,6 +1,7 @@
 //! The parameters of a front, and the vector of them that a search varies.
 
 use super::fronts::flattest;
+use super::preload::against_errors;
 use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::scene::Scene;
@@ -114,7 +115,7 @@ impl Strategy {
             shape(LINE, first),
         ];
         let on_mounts = scene.settings.pad.gives();
-        let shapes = if on_mounts { shapes.map(Strategy::preloaded) } else { shapes };
+        let shapes = if on_mounts { shapes.map(|shape| shape.preloaded(scene)) } else { shapes };
         let steep = |shape: &Strategy| Strategy { slope: steepest(*shape), ..*shape };
         let shapes: Vec<Strategy> = shapes.par_iter().map(steep).collect();
         if on_mounts {
@@ -167,12 +168,17 @@ impl Strategy {
         [&rings_and_ellipses, beside, &others].concat()
     }
 
-    /// The same for grippers on mounts: steeper and sharper, because those give where the ply is pulled too far.
-    fn preloaded(self) -> Self {
+    /// The same for grippers on mounts: steeper and sharper, because those give where the ply is pulled too far; and pulled and
+    /// pressed at least as hard as the errors of the grippers need.
+    fn preloaded(self, scene: &Scene) -> Self {
         let front = TUNING.front;
         let curvature = front.ranges[4][1].exp();
         let (pretension, slope) = (front.ranges[6][1], front.steepest_on_mounts);
-        Strategy { curvature, slope, pretension, press: 0.5, pull: 0.4, ..self }
+        let load = scene.limits.gripper_load;
+        let [pull, press] = against_errors(scene).map(|force| force / load);
+        let pull = (pull / TUNING.preload.pull).clamp(0.4, 1.0);
+        let press = (press / TUNING.preload.press).clamp(0.5, 1.0);
+        Strategy { curvature, slope, pretension, press, pull, ..self }
     }
 
     /// Whether its front is a line, which rolls the ply on; others spread from a point.

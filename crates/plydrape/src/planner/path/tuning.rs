@@ -130,6 +130,9 @@ pub struct Preload {
     pub press: f64,
     /// Distance of a gripper to its place from which on it presses (cells).
     pub press_reach: f64,
+    /// Deviations of the grippers' errors against which the first members pull and press: three, because one line of a few dozen
+    /// that goes slack makes a ridge.
+    pub deviations: f64,
 }
 
 /// Constants of the search.
@@ -227,6 +230,7 @@ pub const TUNING: Tuning = Tuning {
         growing: 0.1,
         press: 0.5,
         press_reach: 0.3,
+        deviations: 3.0,
     },
     search: Search {
         good: 0.8,
