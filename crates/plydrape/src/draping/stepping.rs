@@ -217,8 +217,10 @@ impl<'a> Draping<'a> {
                 self.note_depth(&shape, &gaps);
             }
             let mut rounds = 0;
-            let is_lost =
-                |shape: &Shape| may_cut && shape.equilibrium.status == Status::MountsNotBalanced;
+            let is_lost = |shape: &Shape| {
+                let is_lost = shape.equilibrium.status == Status::MountsNotBalanced;
+                is_lost && may_cut && is_followed
+            };
             is_cut |= is_lost(&shape);
             // pads first: a span that touches runs from a gripper that stands on the mold
             while !is_cut && (self.update_pads(rounds == 0) || self.update_contact(&shape, &gaps)) {
@@ -226,7 +228,7 @@ impl<'a> Draping<'a> {
                 gaps = self.gaps(&shape);
                 is_cut = is_lost(&shape);
                 rounds += 1;
-                if rounds == TUNING.contact_rounds {
+                if rounds == TUNING.contact_rounds && !is_cut {
                     self.contact_status = ContactStatus::RoundLimit;
                     break;
                 }
