@@ -167,7 +167,7 @@ impl Surroundings<'_> {
                     grippers.span.clone(),
                     format!("the start is given twice: by `{key}` and by the motion's file"),
                     format!(
-                        "remove `{key}`; beside a motion file [grippers] may hold `max_tilt`, `pad_radius` and `stiffness` only"
+                        "remove `{key}`: beside a motion file [grippers] says what they are, as in `stiffness`, not where they start"
                     ),
                 ));
             }
