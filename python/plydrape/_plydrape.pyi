@@ -1816,7 +1816,7 @@ def plan(
     in the scene's `plan`.
 
     The plan is then judged with errors: by a sample of cells where the scene has `errors`, and by the errors that it stands. That takes
-    some hundred drapes, which `time` does not bound.
+    those of the sample and some forty drapes more, which `time` does not bound.
 
     Args:
         scene: The scene, with mold and target.
