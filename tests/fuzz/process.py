@@ -59,6 +59,8 @@ class Program:
         surroundings = {
             "PATH": os.environ.get("PATH", ""),
             "NO_COLOR": "1",
+            # a bound on files would leave half of a compiled module for every later process
+            "PYTHONDONTWRITEBYTECODE": "1",
             "RUST_BACKTRACE": "0",
             "PLYDRAPE_PYTHON": self.python,
             "RAYON_NUM_THREADS": "2",
