@@ -2,6 +2,7 @@
 
 mod contact_segment;
 mod grid;
+mod outline;
 mod places;
 mod ruck;
 pub mod shear;
@@ -9,6 +10,7 @@ mod tuning;
 
 pub use contact_segment::{ContactSegment, LandedCell};
 pub use grid::{Catenary, Grid, GripperId, Kind};
+pub use outline::{Outline, OutlineError, Ring, RingId};
 pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
 pub use ruck::Ruck;
 

@@ -1,0 +1,464 @@
+//! The boundary of a ply in the flat: a polygon, with holes.
+//!
+//! A curved boundary is a polygon that follows it; what reads it says how closely. Places are fabric coordinates (m).
+
+/// A closed polygon; its first point is not repeated at its end (m).
+pub type Ring = Vec<[f64; 2]>;
+
+/// A ply's boundary in the flat. The boundary runs counterclockwise, holes run clockwise.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Outline {
+    boundary: Ring,
+    holes: Vec<Ring>,
+}
+
+/// Which ring of an outline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RingId {
+    /// Its boundary.
+    Boundary,
+    /// A hole, counted from 0.
+    Hole(usize),
+}
+
+impl std::fmt::Display for RingId {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            RingId::Boundary => write!(f, "the boundary"),
+            RingId::Hole(n) => write!(f, "hole {}", n + 1),
+        }
+    }
+}
+
+/// Why rings are no outline of a ply.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutlineError {
+    /// Fewer than three points.
+    #[error(
+        "{ring} has {points} different points: a closed line that bounds an area needs three or more"
+    )]
+    TooFew {
+        /// The ring.
+        ring: RingId,
+        /// Its points.
+        points: usize,
+    },
+    /// A coordinate that is no number.
+    #[error("{ring} has no finite number for point {point}, counted from 1")]
+    NotFinite {
+        /// The ring.
+        ring: RingId,
+        /// The point, counted from 1.
+        point: usize,
+    },
+    /// Two of its lines meet other than end to end.
+    #[error("{} at ({:.3}, {:.3}) mm", crossing(*.a, *.b), at[0] * 1e3, at[1] * 1e3)]
+    Crosses {
+        /// One ring.
+        a: RingId,
+        /// The other, or the same.
+        b: RingId,
+        /// Where (m).
+        at: [f64; 2],
+    },
+    /// No area to speak of.
+    #[error("{ring} bounds no area")]
+    Flat {
+        /// The ring.
+        ring: RingId,
+    },
+    /// A hole that is not in the ply.
+    #[error("hole {} at ({:.3}, {:.3}) mm is not inside the boundary, or lies inside another hole", hole + 1, at[0] * 1e3, at[1] * 1e3)]
+    HoleOutside {
+        /// The hole, counted from 0.
+        hole: usize,
+        /// A point of it (m).
+        at: [f64; 2],
+    },
+}
+
+fn crossing(a: RingId, b: RingId) -> String {
+    if a == b {
+        format!("{a} crosses or touches itself")
+    } else {
+        format!("{a} and {b} cross or touch")
+    }
+}
+
+impl Outline {
+    /// An outline from its boundary and its holes, each in either sense (m).
+    ///
+    /// # Errors
+    /// [`OutlineError`] for rings that cross, bound nothing, or holes that are not in the ply.
+    pub fn new(boundary: Ring, holes: Vec<Ring>) -> Result<Self, OutlineError> {
+        let rings = std::iter::once(boundary).chain(holes).enumerate();
+        let mut rings: Vec<Ring> =
+            rings.map(|(n, ring)| checked(ring, id(n))).collect::<Result<_, _>>()?;
+        check_crossings(&rings)?;
+        for (n, ring) in rings.iter().enumerate() {
+            let [low, high] = bounds(ring);
+            let size = (high[0] - low[0]).max(high[1] - low[1]);
+            if area(ring).abs() <= 1e-9 * size * size {
+                return Err(OutlineError::Flat { ring: id(n) });
+            }
+        }
+        let holes = rings.split_off(1);
+        let boundary = rings.swap_remove(0);
+        for (hole, ring) in holes.iter().enumerate() {
+            let others = holes.iter().enumerate().filter(|(other, _)| *other != hole);
+            let apart = others.into_iter().all(|(_, other)| !is_inside(other, ring[0]));
+            if !is_inside(&boundary, ring[0]) || !apart {
+                return Err(OutlineError::HoleOutside { hole, at: ring[0] });
+            }
+        }
+        let wound = |ring: Ring, sense: f64| {
+            if area(&ring) * sense > 0.0 { ring } else { ring.into_iter().rev().collect() }
+        };
+        Ok(Outline {
+            boundary: wound(boundary, 1.0),
+            holes: holes.into_iter().map(|hole| wound(hole, -1.0)).collect(),
+        })
+    }
+
+    /// A rectangle between two of its corners (m).
+    ///
+    /// # Errors
+    /// [`OutlineError`] if it bounds nothing.
+    pub fn rectangle([a, b]: [f64; 2], [c, d]: [f64; 2]) -> Result<Self, OutlineError> {
+        Outline::new(vec![[a, b], [c, b], [c, d], [a, d]], Vec::new())
+    }
+
+    /// Its boundary (m), counterclockwise.
+    #[must_use]
+    pub fn boundary(&self) -> &[[f64; 2]] {
+        &self.boundary
+    }
+
+    /// Its holes (m), each clockwise.
+    #[must_use]
+    pub fn holes(&self) -> &[Ring] {
+        &self.holes
+    }
+
+    /// Its boundary and its holes (m).
+    pub fn rings(&self) -> impl Iterator<Item = &[[f64; 2]]> {
+        std::iter::once(&self.boundary).chain(&self.holes).map(Vec::as_slice)
+    }
+
+    /// All of its lines, end to end around each ring; what they bound is to their left (m).
+    pub fn lines(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
+        self.rings().flat_map(lines)
+    }
+
+    /// Area without the holes (m²).
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.rings().map(area).sum()
+    }
+
+    /// Its lowest and highest coordinates (m).
+    #[must_use]
+    pub fn bounds(&self) -> [[f64; 2]; 2] {
+        bounds(&self.boundary)
+    }
+
+    /// The same outline with all of its points moved by a map that keeps senses, as turns and shifts do.
+    #[must_use]
+    pub fn moved(&self, map: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
+        let of = |ring: &Ring| ring.iter().map(|p| map(*p)).collect();
+        Outline { boundary: of(&self.boundary), holes: self.holes.iter().map(of).collect() }
+    }
+
+    /// Whether a point (m) is in the ply, and not in a hole.
+    #[must_use]
+    pub fn contains(&self, point: [f64; 2]) -> bool {
+        // even and odd: holes count once more
+        self.rings().filter(|ring| is_inside(ring, point)).count() % 2 == 1
+    }
+
+    /// How far inside the boundary and outside the holes a point is (m); negative off the ply.
+    #[must_use]
+    pub fn depth(&self, point: [f64; 2]) -> f64 {
+        let away = self.lines().map(|line| away(line, point)).fold(f64::INFINITY, f64::min);
+        if self.contains(point) { away } else { -away }
+    }
+
+    /// Area of the ply in a rectangle between two corners (m²): the lowest and the highest coordinates.
+    #[must_use]
+    pub fn area_in(&self, low: [f64; 2], high: [f64; 2]) -> f64 {
+        let clipped = |ring| area(&clip(ring, low, high));
+        self.rings().map(clipped).sum::<f64>().max(0.0)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Outline {
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Rings {
+            boundary: Ring,
+            holes: Vec<Ring>,
+        }
+        let Rings { boundary, holes } = Rings::deserialize(from)?;
+        Outline::new(boundary, holes).map_err(serde::de::Error::custom)
+    }
+}
+
+/// The lines of a ring, end to end (m).
+fn lines(ring: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
+    (0..ring.len()).map(|n| [ring[n], ring[(n + 1) % ring.len()]])
+}
+
+/// Area of a ring (m²), negative of a clockwise one.
+fn area(ring: &[[f64; 2]]) -> f64 {
+    let Some(&origin) = ring.first() else { return 0.0 };
+    // from its own corner, so that a ring far from the origin keeps its digits
+    0.5 * lines(ring).map(|[a, b]| cross(sub(a, origin), sub(b, origin))).sum::<f64>()
+}
+
+fn bounds(ring: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for point in ring {
+        for n in 0..2 {
+            bounds[0][n] = bounds[0][n].min(point[n]);
+            bounds[1][n] = bounds[1][n].max(point[n]);
+        }
+    }
+    bounds
+}
+
+fn is_inside(ring: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
+    let crosses = |[a, b]: &[[f64; 2]; 2]| {
+        (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1])
+    };
+    lines(ring).filter(crosses).count() % 2 == 1
+}
+
+/// Distance of a point from a line between two ends (m).
+fn away([a, b]: [[f64; 2]; 2], point: [f64; 2]) -> f64 {
+    let (way, to) = (sub(b, a), sub(point, a));
+    let t = (dot(way, to) / dot(way, way)).clamp(0.0, 1.0);
+    let off = [to[0] - t * way[0], to[1] - t * way[1]];
+    off[0].hypot(off[1])
+}
+
+/// A ring cut to a rectangle (Sutherland and Hodgman 1974); parts of it are joined by lines along the sides, which bound no
+/// area.
+fn clip(ring: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> Ring {
+    let mut out = ring.to_vec();
+    for axis in 0..2 {
+        for (limit, sense) in [(low[axis], 1.0), (high[axis], -1.0)] {
+            let inside = |p: &[f64; 2]| sense * (p[axis] - limit) >= 0.0;
+            let from = std::mem::take(&mut out);
+            for [a, b] in lines(&from) {
+                if inside(&a) {
+                    out.push(a);
+                }
+                if inside(&a) != inside(&b) {
+                    let t = (limit - a[axis]) / (b[axis] - a[axis]);
+                    let mut cut = [0, 1].map(|n| a[n] + t * (b[n] - a[n]));
+                    cut[axis] = limit;
+                    out.push(cut);
+                }
+            }
+        }
+    }
+    out
+}
+
+/// A ring of different points.
+fn checked(mut ring: Ring, id: RingId) -> Result<Ring, OutlineError> {
+    if let Some(point) = ring.iter().position(|p| !p.iter().all(|c| c.is_finite())) {
+        return Err(OutlineError::NotFinite { ring: id, point: point + 1 });
+    }
+    let [low, high] = bounds(&ring);
+    let size = (high[0] - low[0]).max(high[1] - low[1]);
+    let same = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= 1e-9 * size;
+    ring.dedup_by(|b, a| same(*a, *b));
+    while ring.len() > 1 && same(ring[0], ring[ring.len() - 1]) {
+        ring.pop();
+    }
+    if ring.len() < 3 {
+        return Err(OutlineError::TooFew { ring: id, points: ring.len() });
+    }
+    Ok(ring)
+}
+
+/// Refuses lines that meet other than end to end; lines are taken in the order of their lowest x.
+fn check_crossings(rings: &[Ring]) -> Result<(), OutlineError> {
+    struct Line {
+        ring: usize,
+        place: usize,
+        ends: [[f64; 2]; 2],
+    }
+    let of = |(ring, points): (usize, &Ring)| -> Vec<Line> {
+        let number = |(place, ends)| Line { ring, place, ends };
+        lines(points).enumerate().map(number).collect()
+    };
+    let mut all: Vec<Line> = rings.iter().enumerate().flat_map(of).collect();
+    let span = |line: &Line| {
+        let [a, b] = line.ends;
+        [a[0].min(b[0]), a[0].max(b[0])]
+    };
+    all.sort_by(|a, b| span(a)[0].total_cmp(&span(b)[0]));
+    for (n, a) in all.iter().enumerate() {
+        for b in all[n + 1..].iter().take_while(|b| span(b)[0] <= span(a)[1]) {
+            let count = rings[a.ring].len();
+            let next = |p: usize, q: usize| (p + 1) % count == q;
+            let neighbours = a.ring == b.ring && (next(a.place, b.place) || next(b.place, a.place));
+            let met = if neighbours { folded_back(a.ends, b.ends) } else { meet(a.ends, b.ends) };
+            if let Some(at) = met {
+                let [first, second] = [a.ring.min(b.ring), a.ring.max(b.ring)].map(id);
+                return Err(OutlineError::Crosses { a: first, b: second, at });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The ring at a place of the boundary and the holes after it.
+fn id(ring: usize) -> RingId {
+    ring.checked_sub(1).map_or(RingId::Boundary, RingId::Hole)
+}
+
+/// Where two lines that share no end meet or touch; none where they do not.
+fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
+    let (p, q) = (sub(b, a), sub(d, c));
+    let sides =
+        [cross(p, sub(c, a)), cross(p, sub(d, a)), cross(q, sub(a, c)), cross(q, sub(b, c))];
+    let within = |a: [f64; 2], b: [f64; 2], p: [f64; 2]| {
+        (0..2).all(|n| p[n] >= a[n].min(b[n]) && p[n] <= a[n].max(b[n]))
+    };
+    for (side, point, ends) in
+        [(sides[0], c, [a, b]), (sides[1], d, [a, b]), (sides[2], a, [c, d]), (sides[3], b, [c, d])]
+    {
+        if side == 0.0 && within(ends[0], ends[1], point) {
+            return Some(point);
+        }
+    }
+    let apart = |s: f64, t: f64| (s > 0.0) == (t > 0.0);
+    if apart(sides[0], sides[1]) || apart(sides[2], sides[3]) {
+        return None;
+    }
+    let t = sides[0] / (sides[0] - sides[1]);
+    Some([0, 1].map(|n| c[n] + t * q[n]))
+}
+
+/// The common end of two neighbouring lines of a ring of which one goes back along the other.
+fn folded_back([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
+    let (p, q, at) = if b == c { (sub(b, a), sub(d, c), b) } else { (sub(d, c), sub(b, a), d) };
+    let back = dot(p, q) < 0.0 && cross(p, q).abs() <= 1e-12 * p[0].hypot(p[1]) * q[0].hypot(q[1]);
+    back.then_some(at)
+}
+
+fn sub(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A star around (0.3, −0.2) m with these radii (m), which never crosses itself.
+    fn star(radii: &[f64]) -> Ring {
+        let point = |(n, r): (usize, &f64)| {
+            let (sin, cos) = (std::f64::consts::TAU * n as f64 / radii.len() as f64).sin_cos();
+            [0.3 + r * cos, -0.2 + r * sin]
+        };
+        radii.iter().enumerate().map(point).collect()
+    }
+
+    proptest! {
+        /// However an outline is cut into a grid of rectangles, their areas add up to its own, holes left out; and no
+        /// rectangle holds more than its own.
+        #[test]
+        fn rectangles_share_all_of_the_area(
+            outer in prop::collection::vec(0.5..1.0f64, 3..30),
+            inner in prop::collection::vec(0.05..0.2f64, 3..20),
+            x in 0.05..0.3f64, y in 0.05..0.3f64,
+        ) {
+            // the inner star is inside a triangle of circumradius 0.5
+            let outline = Outline::new(star(&outer), vec![star(&inner)]).unwrap();
+            let expected = area(&star(&outer)) - area(&star(&inner));
+            prop_assert!((outline.area() - expected).abs() < 1e-12);
+            let [low, high] = outline.bounds();
+            let mut sum = 0.0;
+            for i in 0..((high[0] - low[0]) / x).ceil() as usize {
+                for j in 0..((high[1] - low[1]) / y).ceil() as usize {
+                    let corner = [low[0] + i as f64 * x, low[1] + j as f64 * y];
+                    let part = outline.area_in(corner, [corner[0] + x, corner[1] + y]);
+                    prop_assert!(part <= x * y * (1.0 + 1e-12));
+                    sum += part;
+                }
+            }
+            prop_assert!((sum - expected).abs() < 1e-12, "{} {}", sum, expected);
+        }
+
+        /// A point is inside exactly if its depth is positive, and a circle of that depth around it meets no boundary.
+        #[test]
+        fn depth_is_the_distance_to_the_boundary(
+            outer in prop::collection::vec(0.5..1.0f64, 3..30), x in -1.0..1.6f64, y in -1.4..1.0f64,
+        ) {
+            let hole = star(&[0.1; 8]);
+            let outline = Outline::new(star(&outer), vec![hole]).unwrap();
+            let depth = outline.depth([x, y]);
+            prop_assert_eq!(depth > 0.0, outline.contains([x, y]));
+            for n in 0..40 {
+                let (sin, cos) = (std::f64::consts::TAU * f64::from(n) / 40.0).sin_cos();
+                let near = [x + 0.999 * depth.abs() * cos, y + 0.999 * depth.abs() * sin];
+                prop_assert_eq!(outline.contains(near), depth > 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn rings_are_wound_so_that_the_ply_is_on_their_left() {
+        let square = vec![[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
+        let hole = vec![[0.4, 0.4], [0.6, 0.4], [0.5, 0.6]];
+        let outline = Outline::new(square, vec![hole]).unwrap();
+        assert!(area(outline.boundary()) == 1.0 && area(&outline.holes()[0]) < 0.0);
+        assert_eq!(outline.boundary().len(), 4, "a last point at the first is no point of its own");
+        assert!(!outline.contains([0.5, 0.5]) && outline.contains([0.1, 0.5]));
+    }
+
+    #[test]
+    fn what_is_no_outline_is_refused_with_its_place() {
+        let refused = |boundary: &[[f64; 2]], holes: &[&[[f64; 2]]]| {
+            let holes = holes.iter().map(|hole| hole.to_vec()).collect();
+            Outline::new(boundary.to_vec(), holes).unwrap_err().to_string()
+        };
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let bow = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+        assert_eq!(
+            refused(&bow, &[]),
+            "the boundary crosses or touches itself at (500.000, 500.000) mm"
+        );
+        let pinched = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0], [0.5, 1.0]];
+        assert!(refused(&pinched, &[]).contains("(1000.000, 0.000) mm"));
+        assert!(refused(&square[..2], &[]).contains("has 2 different points"));
+        let back = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]];
+        assert!(refused(&back, &[]).contains("touches itself at (2000.000, 2000.000)"));
+        let sliver = [[0.0, 0.0], [1.0, 0.0], [0.5, 1e-10]];
+        assert!(refused(&sliver, &[]).contains("bounds no area"));
+        assert!(refused(&[[0.0, 0.0], [f64::NAN, 1.0], [2.0, 0.0]], &[]).contains("point 2"));
+        let beside: &[[f64; 2]] = &[[2.0, 2.0], [2.1, 2.0], [2.0, 2.1]];
+        assert!(refused(&square, &[beside]).starts_with("hole 1 at (2000.000, 2000.000) mm"));
+        let across: &[[f64; 2]] = &[[0.5, 0.5], [1.5, 0.5], [0.5, 0.6]];
+        assert!(refused(&square, &[across]).starts_with("the boundary and hole 1 cross"));
+        let hole: &[[f64; 2]] = &[[0.2, 0.2], [0.8, 0.2], [0.5, 0.8]];
+        let inner: &[[f64; 2]] = &[[0.45, 0.4], [0.55, 0.4], [0.5, 0.5]];
+        assert!(refused(&square, &[hole, inner]).starts_with("hole 2 at"));
+    }
+}
