@@ -22,6 +22,7 @@ fn hemisphere(generators: Generators, edges: EdgeRule) -> Layup {
     Layup {
         nodes: [24, 24],
         mesh: [d, d],
+        origin: [0.0; 2],
         seed: [11, 11],
         place: [-d / 2.0, -d / 2.0, (1.0 - d * d / 2.0).sqrt()],
         heading: 0.0,
@@ -37,6 +38,7 @@ fn fine(side: usize) -> Layup {
     Layup {
         nodes: [side, side],
         mesh: [d, d],
+        origin: [0.0; 2],
         seed: [side / 2, side / 2],
         place: [0.0, 0.0, 0.6],
         ..hemisphere(Generators::Geodesic, EdgeRule::Along)

@@ -13,7 +13,7 @@ use ::csv::{Error, Writer};
 use plydrape::draping::record::Step;
 use plydrape::measure::{Name, Scope};
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
-use plydrape::ply::{Grid, GripperId};
+use plydrape::ply::{GripperId, Ply};
 
 /// One row a step: time (s), every measure and where it is, share in contact, how the solver ended.
 ///
@@ -81,8 +81,8 @@ pub fn trajectory(result: &ResultFile) -> Result<String, OutputError> {
 pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError> {
     match (&result.plan, result.motion()?) {
         (Some(plan), Some((timed, attitudes))) => {
-            let (grid, loads) = (result.scene.ply.grid, Loads::of(result)?);
-            sampled(&timed, &attitudes, grid, plan.rate, loads.as_ref()).map(Some)
+            let (ply, loads) = (&result.scene.ply, Loads::of(result)?);
+            sampled(&timed, &attitudes, ply, plan.rate, loads.as_ref()).map(Some)
         }
         _ => Ok(None),
     }
@@ -93,33 +93,33 @@ pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError
 /// A scene can follow it: `[motion]`, `kind = "file"`.
 ///
 /// # Errors
-/// [`OutputError::Motion`] if motion, attitudes and grid differ in grippers, or the rate gives no or too
+/// [`OutputError::Motion`] if motion, attitudes and ply differ in grippers, or the rate gives no or too
 /// many samples.
 pub fn motion(
     motion: &TimedMotion,
     attitudes: &Attitudes,
-    grid: Grid,
+    ply: &Ply,
     rate: f64,
 ) -> Result<String, OutputError> {
-    sampled(motion, attitudes, grid, rate, None)
+    sampled(motion, attitudes, ply, rate, None)
 }
 
 fn sampled(
     motion: &TimedMotion,
     attitudes: &Attitudes,
-    grid: Grid,
+    ply: &Ply,
     rate: f64,
     loads: Option<&Loads>,
 ) -> Result<String, OutputError> {
     for found in [motion.grippers(), attitudes.grippers()] {
-        if found != grid.grippers() {
-            return Err(MotionError::Grippers { found, expected: grid.grippers() }.into());
+        if found != ply.grippers() {
+            return Err(MotionError::Grippers { found, expected: ply.grippers() }.into());
         }
     }
     let mut table = Poses::new(loads)?;
     for time in motion.samples(rate)? {
         let poses = motion.at(time).into_iter().zip(attitudes.at(time)).enumerate();
-        table.add(time, poses.map(|(n, (place, quaternion))| (grid.id(n), place, quaternion)))?;
+        table.add(time, poses.map(|(n, (place, quaternion))| (ply.id(n), place, quaternion)))?;
     }
     Ok(text(table.table)?)
 }

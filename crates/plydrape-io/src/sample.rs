@@ -244,6 +244,7 @@ fn frame(grid: Grid) -> ResultFile {
                 },
                 warp: Direction::U,
                 length_factor: 1.0,
+                cut: None,
             },
             mold: None,
             target: None,

@@ -1,5 +1,6 @@
 //! Text for a terminal: control characters, which would move the cursor or change its colours, are shown by their number.
 
+use plydrape::ply::{Direction, Grid, Ply};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -88,4 +89,34 @@ mod tests {
         assert_eq!(excerpt("µµµ", 2), "µµ…");
         assert_eq!(excerpt("µµ\nµ", 2), "µµ…");
     }
+}
+
+/// What a ply is and how it is held, in a line.
+#[must_use]
+pub fn ply(ply: &Ply) -> String {
+    let [a, b] = ply.cell.map(millimetres);
+    let Some(cut) = &ply.cut else {
+        let warp = match ply.warp {
+            Direction::U => "u",
+            Direction::V => "v",
+        };
+        let Grid { nu, nv } = ply.grid;
+        return format!("{nu} × {nv} grippers, cells of {a} × {b} mm, warp along {warp}");
+    };
+    let drawn = cut.outline.moved(|uv| cut.drawn(uv));
+    let [low, high] = drawn.bounds();
+    let [width, height] = [0, 1].map(|n| millimetres(high[n] - low[n]));
+    let holes = match drawn.holes().len() {
+        0 => String::new(),
+        1 => " with a hole".into(),
+        holes => format!(" with {holes} holes"),
+    };
+    let across = if ply.warp == Direction::V { 90.0 } else { 0.0 };
+    let warp = (cut.angle.to_degrees() + across).rem_euclid(180.0);
+    let held = match ply.grid {
+        Grid::NONE => format!("{} cups, {a} × {b} mm apart", ply.grippers()),
+        Grid { nu, nv } => format!("{nu} × {nv} cups, {a} × {b} mm apart"),
+    };
+    let warp = millimetres(warp * 1e-3);
+    format!("cut to {width} × {height} mm{holes}, held by {held}, warp at {warp}° in the drawing")
 }

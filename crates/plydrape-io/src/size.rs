@@ -158,7 +158,7 @@ pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), Si
     let cores = std::thread::available_parallelism().map_or(1, usize::from) as f64;
     let (program, cores) = match plan.method {
         PlanMethod::Path => (0.0, cores),
-        PlanMethod::Stepwise => (PROGRAM * ply.grid.grippers() as f64, 0.0),
+        PlanMethod::Stepwise => (PROGRAM * ply.grippers() as f64, 0.0),
     };
     let of_sheets = sheets.map_or(0.0, |PlanSheets { nodes, coarse_nodes, keep }| {
         of_sheet(nodes, keep.min(plan.steps)) + cores * of_sheet(coarse_nodes, 0)
@@ -177,7 +177,7 @@ pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), Si
 /// # Errors
 /// As [`check`].
 pub fn derivatives(ply: &Ply) -> Result<(), SizeError> {
-    let grippers = ply.grid.grippers();
+    let grippers = ply.grippers();
     let (rows, columns) = (ply.grid.catenaries(), 3 * grippers);
     check(DERIVATIVE * rows as f64 * columns as f64, || {
         format!("derivatives of {rows} catenaries to {columns} coordinates of {grippers} grippers")
@@ -185,12 +185,12 @@ pub fn derivatives(ply: &Ply) -> Result<(), SizeError> {
 }
 
 fn of_steps(ply: &Ply, steps: usize) -> f64 {
-    let (grippers, catenaries) = (ply.grid.grippers() as f64, ply.grid.catenaries() as f64);
+    let (grippers, catenaries) = (ply.grippers() as f64, ply.grid.catenaries() as f64);
     (GRIPPER * grippers + CATENARY * catenaries) * steps as f64
 }
 
 fn steps(what: &str, ply: &Ply, steps: usize) -> String {
-    let (grippers, catenaries) = (ply.grid.grippers(), ply.grid.catenaries());
+    let (grippers, catenaries) = (ply.grippers(), ply.grid.catenaries());
     let steps = match steps {
         1 => "a single step".to_owned(),
         steps => format!("{steps} steps"),

@@ -50,12 +50,13 @@ impl Surface {
         intervals: usize,
     ) -> Self {
         let (grid, n) = (result.scene.ply.grid, intervals.max(1));
-        let size = [(grid.nu - 1) * n + 1, (grid.nv - 1) * n + 1];
+        let size = [grid.nu, grid.nv].map(|grippers| grippers.saturating_sub(1) * n + 1);
+        let size = if grid == Grid::NONE { [0; 2] } else { size };
         let lines = lines(result, step, curves, n);
         let mut vertices = vec![[0.0; 3]; size[0] * size[1]];
         let mut put = |i: usize, j: usize, p: Point| vertices[j * size[0] + i] = p;
-        for j in 0..grid.nv - 1 {
-            for i in 0..grid.nu - 1 {
+        for j in 0..grid.nv.saturating_sub(1) {
+            for i in 0..grid.nu.saturating_sub(1) {
                 for (k, p) in cell(grid, &lines, [i, j], n).into_iter().enumerate() {
                     put(i * n + k % (n + 1), j * n + k / (n + 1), p);
                 }

@@ -200,7 +200,7 @@ pub fn equilibria(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Equilibria> {
     let (fresh, ply) = (solver.fresh(), solver.ply());
-    let positions = steps(&positions, "positions", ply.grid.grippers())?;
+    let positions = steps(&positions, "positions", ply.grippers())?;
     for (n, places) in positions.iter().enumerate() {
         let fault = ply.check_places(places);
         fault.map_err(|fault| PyValueError::new_err(format!("positions[{n}]: {fault}")))?;

@@ -57,7 +57,7 @@ pub fn outcome(
 ) -> PyResult<Outcome> {
     let scene = Arc::clone(&scene.get().0);
     size::derivatives(&scene.ply).map_err(|fault| error::too_large(&fault))?;
-    let (steps, grippers) = (scene.motion.positions.len(), scene.ply.grid.grippers());
+    let (steps, grippers) = (scene.motion.positions.len(), scene.ply.grippers());
     let found = run(py, progress, move |watch| {
         let found = sensitivity::outcome(&scene, |done| watch.tell(done, steps, "draping"))?;
         let result = ResultFile::new(&scene, scene.input.clone(), found.drape.clone());

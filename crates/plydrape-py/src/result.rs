@@ -56,7 +56,7 @@ impl Result {
         &self,
         find: impl Fn(&plydrape::draping::record::Gripper) -> [f64; N],
     ) -> Array<f64> {
-        let shape = [self.0.steps.len(), self.0.scene.ply.grid.grippers(), N];
+        let shape = [self.0.steps.len(), self.0.scene.ply.grippers(), N];
         let axes = if N == 1 { 2 } else { 3 };
         Array::rows(&shape[..axes], self.0.steps.iter().flat_map(|s| &s.grippers).map(find))
     }

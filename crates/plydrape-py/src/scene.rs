@@ -212,7 +212,7 @@ impl Scene {
     /// Positions of the grippers in each step (m), shape (steps, grippers, 3), i running fastest.
     #[getter]
     fn positions(&self) -> Array<f64> {
-        blocks(&self.0.motion.positions, self.0.ply.grid.grippers())
+        blocks(&self.0.motion.positions, self.0.ply.grippers())
     }
 
     /// Where the ideal drape puts the grippers (m), shape (grippers, 3), if the ply is to be draped.
@@ -247,7 +247,7 @@ impl Scene {
         title: Option<String>,
     ) -> PyResult<Scene> {
         let times = list(&times, "times")?;
-        let positions = steps(&positions, "positions", self.0.ply.grid.grippers())?;
+        let positions = steps(&positions, "positions", self.0.ply.grippers())?;
         let motion = Motion { times, positions };
         let fault = self.0.ply.check_motion(&motion);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
@@ -363,7 +363,7 @@ impl Scene {
                 "factor is {factor}: a finite number is wanted"
             )));
         }
-        Ok(errors.draw(sample, self.0.ply.grid.grippers()).scaled(factor))
+        Ok(errors.draw(sample, self.0.ply.grippers()).scaled(factor))
     }
 }
 

@@ -7,9 +7,8 @@ mod warnings;
 mod way;
 
 use crate::failure::Done;
-use crate::numbers::{degrees, millimetres, short};
+use crate::numbers::{degrees, short};
 use plydrape::material::{Material, Section, ShearCurve, TensionLaw};
-use plydrape::ply::Direction;
 use plydrape_io::scene::SceneFile;
 use plydrape_io::shown;
 use std::io::{self, Write};
@@ -51,20 +50,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
 fn summary(scene: &SceneFile) -> Vec<Line> {
     let ply = &scene.ply;
     let mut lines = vec![
-        (
-            "ply",
-            format!(
-                "{} × {} grippers, cells of {} × {} mm, warp along {}",
-                ply.grid.nu,
-                ply.grid.nv,
-                millimetres(ply.cell[0]),
-                millimetres(ply.cell[1]),
-                match ply.warp {
-                    Direction::U => "u",
-                    Direction::V => "v",
-                }
-            ),
-        ),
+        ("ply", shown::ply(ply)),
         ("material", material(&ply.material)),
         ("", ply.material.source.clone()),
     ];

@@ -23,7 +23,8 @@ pub(super) fn warnings(scene: &Scene) -> Vec<String> {
 /// A way many times longer than the ply.
 fn far(scene: &Scene) -> Option<String> {
     let ply = &scene.ply;
-    let sides = [0, 1].map(|n| ply.cell[n] * ([ply.grid.nu, ply.grid.nv][n] - 1) as f64);
+    let [low, high] = ply.bounds(0.0);
+    let sides = [0, 1].map(|n| high[n] - low[n]);
     let diagonal = sides[0].hypot(sides[1]);
     let ([i, j], way) = longest(scene).filter(|(_, way)| *way > FAR * diagonal)?;
     let (to, keys) = match scene.target {
@@ -93,7 +94,7 @@ fn below(scene: &Scene) -> Vec<String> {
     };
     let mut out = Vec::new();
     let name = |gripper: usize| {
-        let [i, j] = scene.ply.grid.id(gripper);
+        let [i, j] = scene.ply.id(gripper);
         format!("gripper [{i}, {j}]")
     };
     let mm = |depth: f64| millimetres(rounded(depth));
@@ -123,7 +124,7 @@ fn below(scene: &Scene) -> Vec<String> {
 /// Where the motion is deepest: step, gripper, depth (m).
 fn dip(scene: &Scene, mold: &Mold) -> Option<(usize, usize, f64)> {
     let steps = &scene.motion.positions;
-    let stride = (steps.len() * scene.ply.grid.grippers()).div_ceil(LOOKS).max(1);
+    let stride = (steps.len() * scene.ply.grippers()).div_ceil(LOOKS).max(1);
     let looks = (0..steps.len()).step_by(stride).chain(steps.len().checked_sub(1));
     let depths = looks.filter_map(|step| {
         deepest(mold, &steps[step]).map(|(gripper, depth)| (step, gripper, depth))

@@ -48,7 +48,7 @@ pub(super) fn longest(scene: &Scene) -> Option<(GripperId, f64)> {
     };
     let ways = start(scene).iter().zip(end(scene)).map(way).enumerate();
     let (gripper, way) = ways.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (way > 0.0).then(|| (scene.ply.grid.id(gripper), way))
+    (way > 0.0).then(|| (scene.ply.id(gripper), way))
 }
 
 /// The box around some places and its middle.

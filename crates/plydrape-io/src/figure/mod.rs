@@ -28,6 +28,7 @@ pub(super) use panel::{colour_value, gripper_radius};
 use crate::OutputError;
 use crate::result::ResultFile;
 use plydrape::draping::record::Step;
+use plydrape::ply::Grid;
 use plydrape::sheet::is_kept;
 use sheet::SheetPicture;
 
@@ -132,7 +133,9 @@ fn drawn(
     let grid = result.scene.ply.grid;
     for step in &shown {
         let found = step.grippers.len();
-        if found != grid.grippers() || grid.nu < 2 || grid.nv < 1 {
+        let none = grid == Grid::NONE;
+        let small = grid.nu < 2 || grid.nv < 1;
+        if found != result.scene.ply.grippers() || small && !none {
             let (step, nu, nv) = (step.step, grid.nu, grid.nv);
             return Err(FigureError::Grippers { step, found, nu, nv });
         }

@@ -14,6 +14,7 @@ use crate::result::ResultFile;
 use crate::surface;
 use plydrape::draping::record::Step;
 use plydrape::mold::Mold;
+use plydrape::ply::Grid;
 
 /// Radius of a gripper as a share of the shorter side of a cell.
 const GRIPPER: f64 = 0.12;
@@ -98,7 +99,7 @@ pub(crate) fn colour_value(result: &ResultFile, p: Point) -> f64 {
 /// Radius of a gripper's disc (m).
 pub(crate) fn gripper_radius(result: &ResultFile) -> f64 {
     let [a, b] = result.scene.ply.cell;
-    let side = if result.scene.ply.grid.nv > 1 { a.min(b) } else { a };
+    let side = if result.scene.ply.grid.nv != 1 { a.min(b) } else { a };
     GRIPPER * side
 }
 
@@ -151,20 +152,15 @@ impl Stage<'_> {
         else {
             return Vec::new();
         };
-        let grid = self.result.scene.ply.grid;
-        let border = (0..grid.edges()).map(|k| grid.catenary(k)).filter(|edge| {
-            let ([i, j], [k, m]) = (edge.from, edge.to);
-            let along_u = j == m && (j == 0 || j + 1 == grid.nv);
-            let along_v = i == k && (i == 0 || i + 1 == grid.nu);
-            along_u || along_v
-        });
+        let border = self.result.scene.ply.neighbours().into_iter().filter(|pair| pair.border);
         let side = |(a, b): (Point, Point)| match mold.path(a, b) {
             Some(line) => surface::stations(&line.points, 12),
             None => vec![a, b],
         };
         border
-            .filter_map(|e| {
-                target.get(grid.index(e.from)).copied().zip(target.get(grid.index(e.to)).copied())
+            .filter_map(|pair| {
+                let [a, b] = pair.grippers.map(|n| target.get(n).copied());
+                a.zip(b)
             })
             .map(side)
             .collect()
@@ -178,6 +174,14 @@ impl Stage<'_> {
         canvas.polygon(&patch.map(|p| view.at(p)), MOLD)?;
         if let Some(target) = self.result.scene.target_grippers() {
             let grid = self.result.scene.ply.grid;
+            if grid == Grid::NONE {
+                for pair in self.result.scene.ply.neighbours().iter().filter(|pair| pair.border) {
+                    let ends = pair.grippers.map(|n| target.get(n).map(|p| view.at(*p)));
+                    let ends: Vec<Px> = ends.into_iter().flatten().collect();
+                    canvas.line(&ends, TARGET, 1.2)?;
+                }
+                return Ok(());
+            }
             let (nu, nv) = (grid.nu - 1, grid.nv - 1);
             let corners = [[0, 0], [nu, 0], [nu, nv], [0, nv], [0, 0]];
             let path: Vec<Px> = corners
@@ -199,7 +203,7 @@ impl Stage<'_> {
     /// The longer side of a cell (m); of a strip, its length.
     fn cell_length(&self) -> f64 {
         let [a, b] = self.result.scene.ply.cell;
-        if self.result.scene.ply.grid.nv > 1 { a.max(b) } else { a }
+        if self.result.scene.ply.grid.nv != 1 { a.max(b) } else { a }
     }
 
     /// How many catenaries are drawn; edges come first.

@@ -40,6 +40,11 @@ pub enum InpError {
     /// There is nothing to move the grippers by.
     #[error("the result has no steps, so there is no motion to write: simulate the scene again")]
     NoSteps,
+    /// The ply is no rectangle between its grippers.
+    #[error(
+        "the deck has shells between the grippers of a rectangle, and this ply is cut to an outline: take `vtk` for its sheet"
+    )]
+    Cut,
     /// The flat ply cannot be laid between the first gripper positions.
     #[error(
         "the grippers of step 1 stand on one line or in one point, so the flat ply has no place among them: spread them in the scene and simulate it again"
@@ -55,6 +60,9 @@ pub enum InpError {
 pub fn text(result: &ResultFile) -> Result<String, OutputError> {
     result.check_finite()?;
     let scene = &result.scene;
+    if scene.ply.cut.is_some() {
+        return Err(InpError::Cut.into());
+    }
     let first = result.steps.first().ok_or(InpError::NoSteps)?;
     let (flat, places): (Vec<_>, Vec<_>) =
         first.grippers.iter().map(|g| (fabric(g.id, scene.ply.cell), g.position)).unzip();

@@ -17,6 +17,7 @@ fn draped(mold: &Mold, count: usize, mesh: f64, place: [f64; 3]) -> Net {
     let layup = Layup {
         nodes: [count, count],
         mesh: [mesh; 2],
+        origin: [0.0; 2],
         seed: [count / 2; 2],
         place,
         heading: 0.3,

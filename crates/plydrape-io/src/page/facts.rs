@@ -3,7 +3,6 @@
 use crate::result::ResultFile;
 use plydrape::material::Section;
 use plydrape::mold::{Face, Mold, Surface};
-use plydrape::ply::Direction;
 use plydrape::scene::{PlanMethod, SlopeRule};
 use serde::Serialize;
 
@@ -17,13 +16,6 @@ pub(super) struct Fact {
 /// Ply, material, mold, motion and model of a result.
 pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
     let scene = &result.scene;
-    let mm = |length: f64| shown(length * 1e3);
-    let [a, b] = scene.ply.cell;
-    let warp = match scene.ply.warp {
-        Direction::U => "u",
-        Direction::V => "v",
-    };
-    let grid = scene.ply.grid;
     let motion = match (&result.plan, result.steps.last()) {
         (Some(plan), last) => format!(
             "planned by {}, {} drapes tried; {} s",
@@ -46,16 +38,7 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
     };
     let fact = |label, value| Fact { label, value };
     vec![
-        fact(
-            "Ply",
-            format!(
-                "{} × {} grippers, cells {} mm × {} mm, warp along {warp}",
-                grid.nu,
-                grid.nv,
-                mm(a),
-                mm(b)
-            ),
-        ),
+        fact("Ply", crate::shown::ply(&scene.ply)),
         fact("Material", material(result)),
         fact("Mold", scene.mold.as_ref().map_or("none".into(), mold)),
         fact("Motion", motion),

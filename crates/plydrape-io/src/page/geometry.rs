@@ -38,7 +38,8 @@ impl Detail {
     /// The finest that keeps the page small.
     pub fn of(result: &ResultFile) -> Self {
         let (grid, all) = (result.scene.ply.grid, result.steps.len());
-        let surface = |n: usize| ((grid.nu - 1) * n + 1) * ((grid.nv - 1) * n + 1);
+        let surface =
+            |n: usize| (grid.nu.saturating_sub(1) * n + 1) * (grid.nv.saturating_sub(1) * n + 1);
         let across = |n: usize| 2 * grid.cells() * (n + 1);
         let fits = |points: usize, steps: usize| points.saturating_mul(steps) <= MOST_POINTS;
         let whole = |n: &usize| fits(surface(*n) + across(*n), all);

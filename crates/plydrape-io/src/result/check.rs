@@ -5,7 +5,7 @@ use crate::json::JsonError;
 use crate::shown;
 use plydrape::draping::record::CatenaryState;
 use plydrape::material::{Section, TensionLaw};
-use plydrape::ply::{FARTHEST, Grid, GripperId, is_near};
+use plydrape::ply::{FARTHEST, Grid, GripperId, Ply, is_near};
 use plydrape::scene::{Friction, Settings};
 
 /// What is impossible in a result, in words: a file whose check sum was made anew may hold anything, and everything made of
@@ -27,6 +27,8 @@ const LARGEST_NUMBER: f64 = 1e30;
 const ROUNDING: f64 = 1e-12;
 /// Most grippers along a side, as in scenes.
 const MOST_GRIPPERS: usize = 1000;
+/// Most grippers that are no array along the yarns: those of a whole array.
+const MOST_HELD: usize = MOST_GRIPPERS * MOST_GRIPPERS;
 /// Smallest and largest fabric length of a cell (m), as in scenes.
 const CELLS: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest length factor of a ply: an error of its length leaves a tenth at least.
@@ -35,7 +37,11 @@ const LENGTH_FACTORS: [f64; 2] = [0.1, 10.0];
 /// What is impossible in the scene's ply.
 pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     let Grid { nu, nv } = scene.ply.grid;
-    if !(2..=MOST_GRIPPERS).contains(&nu) || !(1..=MOST_GRIPPERS).contains(&nv) {
+    if let Some(what) = of_cut(&scene.ply) {
+        return Some(what);
+    }
+    let held = scene.ply.cut.as_ref().is_some_and(|cut| !cut.held.is_empty());
+    if !held && (!(2..=MOST_GRIPPERS).contains(&nu) || !(1..=MOST_GRIPPERS).contains(&nv)) {
         return Some(format!("there is no ply of {nu} × {nv} grippers"));
     }
     let [a, b] = scene.ply.cell;
@@ -80,12 +86,29 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
         return Some(format!("there is no largest tilt of {max_tilt} rad"));
     }
     let target = &scene.target.as_ref()?.grippers;
-    match (target.len(), scene.ply.grid.grippers()) {
+    match (target.len(), scene.ply.grippers()) {
         (found, count) if found != count => {
             Some(format!("its target has {found} grippers, not {count}"))
         }
         _ => target.iter().find_map(|place| far("a target", place)),
     }
+}
+
+/// What is impossible in how the ply is cut.
+fn of_cut(ply: &Ply) -> Option<String> {
+    let cut = ply.cut.as_ref()?;
+    let numbers = [cut.angle, cut.turn].into_iter().chain(cut.origin);
+    if !numbers.into_iter().all(|x| x.abs() <= FARTHEST) {
+        return Some("the place of its drawing is none".into());
+    }
+    if cut.held.is_empty() {
+        return None;
+    }
+    if ply.grid != Grid::NONE || cut.held.len() > MOST_HELD {
+        return Some("its grippers are both an array along the yarns and none".into());
+    }
+    let off = cut.held.iter().find(|held| !held.place.iter().all(|x| x.abs() <= FARTHEST));
+    off.map(|held| format!("gripper {:?} holds no point of the ply", held.id))
 }
 
 fn of_net(scene: &SceneEcho) -> Option<String> {
@@ -154,7 +177,8 @@ fn of_catenary(line: &CatenaryState) -> Option<String> {
 }
 
 fn of_summary(result: &ResultFile) -> Option<String> {
-    let (summary, grid, steps) = (&result.summary, result.scene.ply.grid, result.steps.len());
+    let (summary, steps) = (&result.summary, result.steps.len());
+    let grid = result.scene.ply.grid;
     if summary.steps != steps || summary.steps_planned < steps {
         return Some(format!(
             "its summary has {} of {} steps",

@@ -245,7 +245,8 @@ fn reason(error: &serde_json::Error) -> String {
 
 /// The result that a file in a folder describes, and the check sum that it names.
 fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, String), String> {
-    let grid = read.scene.ply.grid;
+    let ply = read.scene.ply.clone();
+    let grid = ply.grid;
     if let Some(what) = super::check::of_ply(&read.scene) {
         return Err(what);
     }
@@ -254,7 +255,7 @@ fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, Stri
     }
     let mut known = Vec::new();
     let step = |(columns, number): (StepColumns, usize)| {
-        columns.step(grid, &mut known).map_err(|what| format!("in step {number}, {what}"))
+        columns.step(&ply, &mut known).map_err(|what| format!("in step {number}, {what}"))
     };
     let result = ResultFile {
         program: read.program.into_owned(),

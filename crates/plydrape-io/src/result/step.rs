@@ -4,7 +4,7 @@ use super::contact::{ContactColumns, Known};
 use plydrape::draping::record::{
     Bridge, CatenaryState, Cell, Gripper, Hold, Measures, Mount, Solver, SpanState, Step,
 };
-use plydrape::ply::{Grid, Kind};
+use plydrape::ply::{Grid, Kind, Ply};
 use serde::{Deserialize, Serialize};
 
 /// The ply in one step.
@@ -167,8 +167,8 @@ impl StepColumns {
     }
 
     /// The step again, or what is impossible in it.
-    pub(super) fn step(self, grid: Grid, known: &mut Known) -> Result<Step, String> {
-        let mut catenaries = self.catenaries.lines(grid)?;
+    pub(super) fn step(self, ply: &Ply, known: &mut Known) -> Result<Step, String> {
+        let mut catenaries = self.catenaries.lines(ply.grid)?;
         self.spans.fill(&mut catenaries)?;
         self.contact.fill(known, &mut catenaries)?;
         let BridgeColumns { catenary, place, gap, width } = self.bridging;
@@ -180,17 +180,17 @@ impl StepColumns {
         Ok(Step {
             step: self.step,
             time: self.time,
-            grippers: self.grippers.list(grid)?,
+            grippers: self.grippers.list(ply)?,
             solver: self.solver,
             catenaries,
-            cells: self.cells.list(grid)?,
+            cells: self.cells.list(ply.grid)?,
             measures: self.measures,
         })
     }
 }
 
 impl GripperColumns {
-    fn list(self, grid: Grid) -> Result<Vec<Gripper>, String> {
+    fn list(self, ply: &Ply) -> Result<Vec<Gripper>, String> {
         let targets = self.target_distance_mm.as_ref();
         let found = [
             self.position.len(),
@@ -198,15 +198,15 @@ impl GripperColumns {
             self.slope_v.len(),
             self.tilt_deg.len(),
             self.quaternion.len(),
-            targets.map_or(grid.grippers(), Vec::len),
+            targets.map_or(ply.grippers(), Vec::len),
         ];
-        alike("grippers", grid.grippers(), &found)?;
+        alike("grippers", ply.grippers(), &found)?;
         if let Some(MountColumns { commanded, force, slip, on_mold }) = &self.mounts {
             let found = [commanded.len(), force.len(), slip.len(), on_mold.len()];
-            alike("mounts", grid.grippers(), &found)?;
+            alike("mounts", ply.grippers(), &found)?;
         }
         let gripper = |n: usize| Gripper {
-            id: grid.id(n),
+            id: ply.id(n),
             position: self.position[n],
             slope_u: self.slope_u[n],
             slope_v: self.slope_v[n],
@@ -215,7 +215,7 @@ impl GripperColumns {
             target_distance_mm: targets.map(|targets| targets[n]),
             mount: self.mounts.as_ref().map(|mounts| mounts.mount(n)),
         };
-        Ok((0..grid.grippers()).map(gripper).collect())
+        Ok((0..ply.grippers()).map(gripper).collect())
     }
 }
 

@@ -13,27 +13,28 @@ use crate::OutputError;
 use crate::result::ResultFile;
 use plydrape::draping::record::{Gripper, Step};
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
-use plydrape::ply::Grid;
 
 /// The trajectory of a result.
 ///
 /// # Errors
 /// [`OutputError`] if a time is none that ROS 2 can say, or the plan is not one of this result.
 pub(super) fn trajectory(result: &ResultFile) -> Result<MultiDofJointTrajectory, OutputError> {
-    let grid = result.scene.ply.grid;
+    let ply = &result.scene.ply;
     let points = match (&result.plan, result.motion()?) {
-        (Some(plan), Some((motion, attitudes))) => samples(&motion, &attitudes, grid, plan.rate)?,
+        (Some(plan), Some((motion, attitudes))) => {
+            samples(&motion, &attitudes, ply.grippers(), plan.rate)?
+        }
         _ => steps(&result.steps)?,
     };
     // a time of 0: begin when the message is received
     let header = Header { frame_id: FRAME.into(), ..Header::default() };
     let joint = |k| {
-        let [i, j] = grid.id(k);
+        let [i, j] = ply.id(k);
         format!("gripper_{i}_{j}")
     };
     Ok(MultiDofJointTrajectory {
         header,
-        joint_names: (0..grid.grippers()).map(joint).collect(),
+        joint_names: (0..ply.grippers()).map(joint).collect(),
         points,
     })
 }
@@ -60,12 +61,12 @@ fn steps(steps: &[Step]) -> Result<Vec<MultiDofJointTrajectoryPoint>, Ros2Error>
 fn samples(
     motion: &TimedMotion,
     attitudes: &Attitudes,
-    grid: Grid,
+    grippers: usize,
     rate: f64,
 ) -> Result<Vec<MultiDofJointTrajectoryPoint>, OutputError> {
     for found in [motion.grippers(), attitudes.grippers()] {
-        if found != grid.grippers() {
-            return Err(MotionError::Grippers { found, expected: grid.grippers() }.into());
+        if found != grippers {
+            return Err(MotionError::Grippers { found, expected: grippers }.into());
         }
     }
     let times = motion.samples(rate)?;
@@ -80,7 +81,7 @@ fn samples(
             }
             false => [[0.0; 3]; 2],
         };
-        let turning: Vec<_> = (0..grid.grippers()).map(turning).collect();
+        let turning: Vec<_> = (0..grippers).map(turning).collect();
         let transform = |(place, quaternion): ([f64; 3], &[f64; 4])| Transform {
             translation: place.into(),
             rotation: (*quaternion).into(),

@@ -1,15 +1,16 @@
 //! From the keys of a file to a scene that makes sense.
 
+use super::drawing::WarpChoice;
 use super::error::{Document, SceneError};
 use super::errors::errors;
 use super::file::{GrippersTable, MotionKind, PlyTable, SceneKeys};
 use super::limits::limits;
-use super::located::{Count, Located, Whole};
+use super::located::{Count, Fixed, Located, Whole};
 use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::settings::settings;
 use super::trajectory::trajectory;
-use super::{SceneFile, material, mold, named, sheet, start, target};
+use super::{SceneFile, cut, material, mold, named, sheet, start, target};
 use crate::shown;
 use crate::size::{self, SizeError};
 use plydrape::mold::Mold;
@@ -28,7 +29,8 @@ pub(super) fn scene(
     document: &Document,
     base: &Path,
 ) -> Result<SceneFile, SceneError> {
-    let ply = ply(&file.ply, document, base)?;
+    let grippers = file.grippers.as_ref().map(|table| &table.value);
+    let ply = ply(&file.ply, grippers, document, base)?;
     let (mold, mesh) = match &file.mold {
         Some(table) => {
             let (mold, report) = mold::mold(&table.value, &ply, document, base)?;
@@ -45,22 +47,22 @@ pub(super) fn scene(
         base,
     };
     // too many grippers for a single step are refused before a net is draped for them
-    places.fits(&file.ply.grippers.span, 1)?;
+    places.fits(file.grippers_span(), 1)?;
     let target = match &file.target {
         Some(table) => Some(target::target(table, &ply, mold.as_ref(), document, base)?),
         None => None,
     };
     let motion = places.motion(file, target.as_ref())?;
-    places.fits(&file.ply.grippers.span, motion.positions.len())?;
+    places.fits(file.grippers_span(), motion.positions.len())?;
     let limits = limits(&file.limits, &ply, &settings, document)?;
     let sheets = sheet::fits(file, &ply, &settings, motion.positions.len(), document)?;
-    let plan = plan(&file.plan, ply.grid, document)?;
+    let plan = plan(&file.plan, ply.grippers(), document)?;
     let errors = match &file.errors {
         Some(table) => Some(errors(table, &ply, mold.is_some(), document)?),
         None => None,
     };
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
-    let steps = file.plan.steps.as_ref().map_or(&file.ply.grippers.span, |steps| &steps.span);
+    let steps = file.plan.steps.as_ref().map_or(file.grippers_span(), |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
     let title = title(file.title.as_ref(), document, base)?;
     Ok(SceneFile {
@@ -101,18 +103,66 @@ pub(super) fn line(text: &Located<String>, document: &Document) -> Result<String
     }
 }
 
-pub(super) fn ply(table: &PlyTable, document: &Document, base: &Path) -> Result<Ply, SceneError> {
-    let [nu, nv] = &table.grippers.value.0;
-    let grid =
-        Grid { nu: gripper_count(nu, 2, "u", document)?, nv: gripper_count(nv, 1, "v", document)? };
-    let [a, b] = &table.cell.0;
+/// The ply; `grippers` is the table that says how large their pads are.
+pub(super) fn ply(
+    ply: &Located<PlyTable>,
+    grippers: Option<&GrippersTable>,
+    document: &Document,
+    base: &Path,
+) -> Result<Ply, SceneError> {
+    let table = &ply.value;
+    let material = material::material(&table.material, document, base)?;
+    if cut::is_cut(table) {
+        let radius = match grippers.and_then(|grippers| grippers.pad_radius.as_ref()) {
+            Some(radius) => radius.size_or_zero(document)?,
+            None => 0.0,
+        };
+        let cut::Shape { grid, cell, warp, cut } = cut::shape(ply, radius, document, base)?;
+        return Ok(Ply { grid, cell, material, warp, length_factor: 1.0, cut: Some(cut) });
+    }
+    let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
+    let warp = match &table.warp {
+        None | Some(Located { value: WarpChoice::U, .. }) => Direction::U,
+        Some(Located { value: WarpChoice::V, .. }) => Direction::V,
+        Some(Located { value: WarpChoice::Angle(_), span }) => {
+            return Err(document.error(
+                span.clone(),
+                "the warp of a ply that ends at its grippers runs along u or along v",
+                "write \"u\" or \"v\"; or give the ply its `size` or its `outline`, and then the angle from the drawing's x axis to the warp",
+            ));
+        }
+    };
     Ok(Ply {
-        grid,
+        grid: grid(ply, document)?,
         cell: [a.size(document)?, b.size(document)?],
-        material: material::material(&table.material, document, base)?,
-        warp: table.warp.map_or(Direction::U, Direction::from),
+        material,
+        warp,
         length_factor: 1.0,
+        cut: None,
     })
+}
+
+/// Grippers along u and v.
+pub(super) fn grid(ply: &Located<PlyTable>, document: &Document) -> Result<Grid, SceneError> {
+    let Some(Located { value: Fixed([nu, nv]), .. }) = &ply.value.grippers else {
+        return Err(missing("grippers", ply, document));
+    };
+    Ok(Grid { nu: gripper_count(nu, 2, "u", document)?, nv: gripper_count(nv, 1, "v", document)? })
+}
+
+/// A key that the table of the ply lacks.
+pub(super) fn missing(key: &str, ply: &Located<PlyTable>, document: &Document) -> SceneError {
+    let text = document.text.get(ply.span.clone()).unwrap_or_default();
+    let header = text.find('\n').unwrap_or(text.len());
+    let help = match key {
+        "grippers" => "give their number along u and v, as in grippers = [4, 2]",
+        _ => "give the fabric between neighbouring grippers, as in cell = [\"100 mm\", \"100 mm\"]",
+    };
+    document.error(
+        ply.span.start..ply.span.start + header,
+        format!("`{key}` is missing in [ply]"),
+        help,
+    )
 }
 
 fn gripper_count(
@@ -176,14 +226,14 @@ impl Surroundings<'_> {
             return Ok(motion);
         }
         let start = match (&file.grippers, target.and_then(|target| target.drape.as_ref())) {
-            (None, Some(net)) => start::above(net, &file.ply.grippers.span, self),
+            (None, Some(net)) => start::above(net, file.grippers_span(), self),
             (Some(table), Some(net)) if start::is_open(&table.value) => {
                 start::above(net, &table.span, self)
             }
             (Some(table), _) => start::start(table, self, target)?,
             (None, None) => {
                 return Err(document.error(
-                    file.ply.grippers.span.clone(),
+                    file.grippers_span().clone(),
                     "the scene does not say where the grippers start",
                     "add [grippers] with spacing = [\"98 mm\", \"98 mm\"] and height = \"75 mm\", or with `positions`; or a [target] to start above",
                 ));

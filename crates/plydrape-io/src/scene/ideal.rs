@@ -32,7 +32,8 @@ pub(super) fn ideal_drape(
     document: &Document,
     base: &Path,
 ) -> Result<IdealDrape, SceneError> {
-    let ply = ply(&file.ply, document, base)?;
+    let grippers = file.grippers.as_ref().map(|table| &table.value);
+    let ply = ply(&file.ply, grippers, document, base)?;
     let Some(table) = &file.mold else {
         return Err(document.error_anywhere(
             "the scene has no [mold] to lay the ply on",

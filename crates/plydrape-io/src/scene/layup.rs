@@ -7,10 +7,11 @@ use super::choice::Place;
 use super::error::{Document, SceneError};
 use super::file::{EdgesKey, GeneratorsKey, TargetTable};
 use super::heading::{coordinates, heading};
+use super::located::Located;
 use super::quantity::{Angle, Length, Quantity, rounded};
 use plydrape::mold::Mold;
 use plydrape::net::{EdgeRule, Generators, Layup};
-use plydrape::ply::Ply;
+use plydrape::ply::{Cut, Ply};
 use std::ops::Range;
 
 /// Widest mesh on a curved mold unless given, as a share of the shorter side of a cell.
@@ -56,15 +57,15 @@ pub(super) fn layup(
             "give an `origin` that lies on the mold as seen from above: the seed is put there",
         ));
     };
-    let seed = Seed::read(keys, ply, document)?;
-    let divisions = match &keys.mesh {
-        Some(width) => given_divisions(width, ply, &seed, document)?,
-        None => own_divisions(ply, mold, &seed, document)?,
+    let Nodes { nodes, mesh, origin, seed } = match &ply.cut {
+        Some(cut) => nodes_of_cut(keys, ply, cut, mold, document)?,
+        None => nodes_of_cells(keys, ply, mold, document)?,
     };
     Ok(Layup {
-        nodes: nodes(ply, divisions),
-        mesh: [0, 1].map(|n| ply.cell[n] / divisions[n] as f64),
-        seed: [0, 1].map(|n| (seed.cells[n] * divisions[n] as f64).round() as usize),
+        nodes,
+        mesh,
+        origin,
+        seed,
         place,
         heading,
         shear,
@@ -76,6 +77,107 @@ pub(super) fn layup(
             Some(EdgesKey::Chord) => EdgeRule::Chord,
             Some(EdgesKey::Along) | None => EdgeRule::Along,
         },
+    })
+}
+
+/// The nodes of a net.
+struct Nodes {
+    /// Their number along u and v.
+    nodes: [usize; 2],
+    /// Mesh widths (m).
+    mesh: [f64; 2],
+    /// Fabric coordinates of the first (m).
+    origin: [f64; 2],
+    /// The seed.
+    seed: [usize; 2],
+}
+
+/// Nodes of which grippers hold some.
+fn nodes_of_cells(
+    keys: &TargetTable,
+    ply: &Ply,
+    mold: &Mold,
+    document: &Document,
+) -> Result<Nodes, SceneError> {
+    let seed = Seed::read(keys, ply, document)?;
+    let divisions = match &keys.mesh {
+        Some(width) => given_divisions(width, ply, &seed, document)?,
+        None => own_divisions(ply, mold, &seed, document)?,
+    };
+    Ok(Nodes {
+        nodes: nodes(ply, divisions),
+        mesh: [0, 1].map(|n| ply.cell[n] / divisions[n] as f64),
+        origin: [0.0; 2],
+        seed: [0, 1].map(|n| (seed.cells[n] * divisions[n] as f64).round() as usize),
+    })
+}
+
+/// Nodes that cover all of a ply that is cut, from its seed outwards; grippers hold what is between them.
+fn nodes_of_cut(
+    keys: &TargetTable,
+    ply: &Ply,
+    cut: &Cut,
+    mold: &Mold,
+    document: &Document,
+) -> Result<Nodes, SceneError> {
+    let [low, high] = cut.outline.bounds();
+    let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
+    let seed = match &keys.seed {
+        None | Some(Located { value: Place::Keyword(_), .. }) => middle,
+        Some(Located { value: Place::At(point), span }) => {
+            let uv = cut.fabric(coordinates(point, document)?);
+            if !(0..2).all(|n| (low[n]..=high[n]).contains(&uv[n])) {
+                return Err(document.error(
+                    span.clone(),
+                    "the seed is no point of the ply",
+                    "give a point [x, y] of the drawing on the ply; seed = \"middle\" is its middle",
+                ));
+            }
+            uv
+        }
+    };
+    let side = ply.cell[0].min(ply.cell[1]);
+    let size = (high[0] - low[0]).max(high[1] - low[1]);
+    let count = |mesh: f64| {
+        [0, 1].map(|n| {
+            // a rounding error beyond a node is none
+            let steps = |length: f64| (length / mesh * (1.0 - WHOLE)).ceil().max(0.0) as usize;
+            [steps(seed[n] - low[n]), steps(high[n] - seed[n])]
+        })
+    };
+    let number = |mesh: f64| {
+        let [[a, b], [c, d]] = count(mesh);
+        (a + b + 1).saturating_mul(c + d + 1)
+    };
+    let mesh = match &keys.mesh {
+        Some(width) => {
+            let mesh = width.size(document)?;
+            if size / mesh > MOST_NODES as f64 || number(mesh) > MOST_NODES {
+                return Err(document.error(
+                    width.span.clone(),
+                    format!(
+                        "{} makes a net of more than {MOST_NODES} nodes",
+                        document.quoted(&width.span)
+                    ),
+                    format!("give a wider mesh; the ply is {} mm long", round(size * 1e3)),
+                ));
+            }
+            mesh
+        }
+        None => {
+            let mut mesh = if matches!(mold, Mold::Plane(_)) { side } else { MESH * side };
+            while number(mesh) > MOST_NODES {
+                mesh *= 1.25;
+            }
+            mesh
+        }
+    };
+    let count = count(mesh);
+    Ok(Nodes {
+        nodes: count.map(|[before, after]| (before + after + 1).max(2)),
+        mesh: [mesh; 2],
+        origin: [0, 1].map(|n| seed[n] - count[n][0] as f64 * mesh),
+        seed: count.map(|[before, _]| before),
     })
 }
 

@@ -123,7 +123,8 @@ fn wrinkle(
     };
     let said = table.wrinkle.as_ref().map(|height| &height.span);
     let said = said.or(table.preset.as_ref().map(|preset| &preset.span));
-    let edges: &[Kind] = if ply.grid.nv > 1 { &[Kind::EdgeU, Kind::EdgeV] } else { &[Kind::EdgeU] };
+    let edges: &[Kind] =
+        if ply.grid.nv != 1 { &[Kind::EdgeU, Kind::EdgeV] } else { &[Kind::EdgeU] };
     let limp = edges.iter().any(|kind| ply.line(*kind).flexural_rigidity <= 0.0);
     match (height, said) {
         (Some(_), Some(span)) if limp => Err(document.error(

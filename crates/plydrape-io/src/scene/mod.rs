@@ -5,7 +5,7 @@
 //!
 //! 1. `read`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
-//! 3. `check` with `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`,
+//! 3. `check` with `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`,
 //!    `sheet`, `plan`, `errors`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
 //! `argument` lends the reader of stage 2 to values on the command line.
@@ -15,7 +15,10 @@ mod check;
 mod choice;
 mod csv;
 mod curve;
+mod cut;
 mod diagnostic;
+mod drawing;
+mod dxf;
 mod error;
 mod errors;
 mod file;
@@ -113,7 +116,8 @@ pub fn parse(text: &str, base: &Path, name: &str) -> Result<SceneFile, SceneErro
 /// The first fault found, with its place and a remedy.
 pub fn parse_ply(text: &str, base: &Path, name: &str) -> Result<Ply, SceneError> {
     let document = error::Document::new(name, text);
-    check::ply(&keys(&document)?.ply, &document, base)
+    let keys = keys(&document)?;
+    check::ply(&keys.ply, keys.grippers.as_ref().map(|table| &table.value), &document, base)
 }
 
 /// As [`parse`], on a mold that a program has made; the text has no `[mold]` then.

@@ -6,7 +6,7 @@ use super::located::{Count, Located, Whole};
 use super::places::Places;
 use plydrape::mold::vector;
 use plydrape::motion::{MOST_POSITIONS, MOST_STEPS};
-use plydrape::ply::{Grid, Ply};
+use plydrape::ply::Ply;
 use plydrape::scene::{Motion, Target};
 
 /// Steps of a straight motion unless given, as in Krogh et al. 2018.
@@ -49,7 +49,7 @@ pub(super) fn motion(
 
     // Step 1 is the start, the last step the target.
     let steps = match keys.and_then(|k| k.steps.as_ref()) {
-        Some(steps) => step_count(steps, ply.grid, document)?,
+        Some(steps) => step_count(steps, ply.grippers(), document)?,
         None => STEPS,
     };
     let last = (steps - 1) as f64;
@@ -104,17 +104,17 @@ fn hold(
 
 fn step_count(
     steps: &Located<Count>,
-    grid: Grid,
+    grippers: usize,
     document: &Document,
 ) -> Result<usize, SceneError> {
     let Whole(written) = steps.value;
-    let most = MOST_STEPS.min(MOST_POSITIONS / grid.grippers());
+    let most = MOST_STEPS.min(MOST_POSITIONS / grippers);
     match usize::try_from(written) {
         Ok(count) if (2..=most).contains(&count) => Ok(count),
         Ok(count) if count > most => Err(document.error(
             steps.span.clone(),
             format!("{count} steps are too many"),
-            format!("{most} steps or fewer are possible with {} grippers", grid.grippers()),
+            format!("{most} steps or fewer are possible with {} grippers", grippers),
         )),
         _ => Err(document.error(
             steps.span.clone(),

@@ -7,7 +7,7 @@ use super::located::Located;
 use super::quantity::rounded;
 use super::read;
 use super::units::Dimension;
-use plydrape::ply::{Grid, GripperId, Kind, PlaceError, Ply};
+use plydrape::ply::{Grid, GripperId, PlaceError, Ply};
 use std::ops::Range;
 use std::path::Path;
 
@@ -46,15 +46,15 @@ impl Places {
     /// Reads the key `positions`.
     pub fn read(
         positions: &Located<Positions>,
-        grid: Grid,
+        ply: &Ply,
         scene: &Document,
         base: &Path,
     ) -> Result<Self, SceneError> {
         match &positions.value {
-            Positions::Table(rows) => from_table(rows, &positions.span, grid, scene),
+            Positions::Table(rows) => from_table(rows, &positions.span, ply, scene),
             Positions::File(name) => {
                 let document = csv_file(name, &positions.span, scene, base)?;
-                from_csv(document, grid)
+                from_csv(document, ply)
             }
         }
     }
@@ -70,16 +70,19 @@ impl Places {
 
     /// Refuses neighbours further apart than the ply between them.
     pub fn check_reach(&self, ply: &Ply) -> Result<(), SceneError> {
-        for_neighbours(ply, |kind, a, b| {
-            let length = ply.flat_length(kind);
-            let (from, to) = self.pair(ply.grid, a, b);
+        // a line across the yarns may be longer than flat: the ply shears
+        let fibres = ply.neighbours().into_iter().filter(|pair| pair.fibre.is_some());
+        fibres.into_iter().try_for_each(|pair| {
+            let [[u, v], [p, q]] = pair.grippers.map(|n| ply.place(n));
+            let length = ply.length_factor * (p - u).hypot(q - v);
+            let [from, to] = pair.grippers.map(|n| self.points[n]);
             let distance = norm([to[0] - from[0], to[1] - from[1], to[2] - from[2]]);
-            // A diagonal may be longer than flat: its cell shears.
-            if !kind.is_edge() || distance <= length * (1.0 + TAUT) {
+            if distance <= length * (1.0 + TAUT) {
                 return Ok(());
             }
+            let [a, b] = pair.grippers.map(|n| ply.id(n));
             Err(self.error(
-                ply.grid.index(b),
+                pair.grippers[1],
                 format!(
                     "grippers {a:?} and {b:?} are {:.2} mm apart at the start; the ply between them is {:.2} mm",
                     distance * 1e3,
@@ -94,7 +97,7 @@ impl Places {
     pub fn check_run(&self, ply: &Ply, when: &str) -> Result<(), SceneError> {
         ply.check_places(&self.points).map_err(|fault| match fault {
             PlaceError::Steep { a, b, run, length, .. } => self.error(
-                ply.grid.index(b),
+                ply.index(b).unwrap_or(0),
                 format!(
                     "grippers {a:?} and {b:?} are only {:.3} mm apart in plan {when}; the ply between them is {:.2} mm",
                     run * 1e3,
@@ -103,27 +106,13 @@ impl Places {
                 "move them apart: a span needs a horizontal distance of 1 % of its fabric or more",
             ),
             PlaceError::Far { gripper, position, .. } => self.error(
-                ply.grid.index(gripper),
+                ply.index(gripper).unwrap_or(0),
                 format!("gripper {gripper:?} is at {position:?} m {when}, out of all scale"),
                 "coordinates are finite numbers: is the unit right?",
             ),
             other => self.document.error_anywhere(other.to_string(), "give every gripper one position"),
         })
     }
-
-    fn pair(&self, grid: Grid, a: GripperId, b: GripperId) -> ([f64; 3], [f64; 3]) {
-        (self.points[grid.index(a)], self.points[grid.index(b)])
-    }
-}
-
-fn for_neighbours(
-    ply: &Ply,
-    check: impl Fn(Kind, GripperId, GripperId) -> Result<(), SceneError>,
-) -> Result<(), SceneError> {
-    (0..ply.grid.catenaries()).try_for_each(|index| {
-        let catenary = ply.grid.catenary(index);
-        check(catenary.kind, catenary.from, catenary.to)
-    })
 }
 
 fn norm([x, y, z]: [f64; 3]) -> f64 {
@@ -149,9 +138,17 @@ pub(super) fn csv_file(
 fn from_table(
     rows: &[PositionsRow],
     span: &Range<usize>,
-    grid: Grid,
+    ply: &Ply,
     scene: &Document,
 ) -> Result<Places, SceneError> {
+    let grid = ply.grid;
+    if grid == Grid::NONE {
+        return Err(scene.error(
+            span.clone(),
+            "a table of positions has rows and columns, and the cups that hold this ply are no whole array along its yarns",
+            "give the positions as a CSV file with the columns i, j, x, y, z, or `spacing` and `height`",
+        ));
+    }
     let help = format!(
         "give a row for every gripper along v ({}), each with a position [x, y, z] for every gripper along u ({})",
         grid.nv, grid.nu
@@ -185,14 +182,14 @@ fn from_table(
     Ok(places)
 }
 
-fn from_csv(document: Document, grid: Grid) -> Result<Places, SceneError> {
-    let mut points = vec![None; grid.grippers()];
-    let mut spans = vec![0..0; grid.grippers()];
+fn from_csv(document: Document, ply: &Ply) -> Result<Places, SceneError> {
+    let mut points = vec![None; ply.grippers()];
+    let mut spans = vec![0..0; ply.grippers()];
     let header = {
         let csv = Csv::new(&document, &COLUMNS)?;
         for row in csv.rows() {
             let gripper = [row.whole(0)?, row.whole(1)?];
-            let index = in_grid(gripper, grid).map_err(|(m, h)| row.fault(0, m, h))?;
+            let index = index(gripper, ply).map_err(|(m, h)| row.fault(0, m, h))?;
             if points[index].is_some() {
                 return Err(row.fault(
                     0,
@@ -208,17 +205,28 @@ fn from_csv(document: Document, grid: Grid) -> Result<Places, SceneError> {
     if let Some(missing) = points.iter().position(Option::is_none) {
         return Err(document.error(
             header,
-            format!("gripper {:?} has no row", grid.id(missing)),
-            format!("give every one of the {} grippers one row", grid.grippers()),
+            format!("gripper {:?} has no row", ply.id(missing)),
+            format!("give every one of the {} grippers one row", ply.grippers()),
         ));
     }
     Ok(Places { points: points.into_iter().flatten().collect(), document, spans, height: None })
 }
 
 /// The index of a gripper, or why there is none with such an id.
-pub(super) fn in_grid(gripper: GripperId, grid: Grid) -> Result<usize, (String, String)> {
-    if gripper[0] < grid.nu && gripper[1] < grid.nv {
-        return Ok(grid.index(gripper));
+pub(super) fn index(gripper: GripperId, ply: &Ply) -> Result<usize, (String, String)> {
+    if let Some(index) = ply.index(gripper) {
+        return Ok(index);
+    }
+    let grid = ply.grid;
+    if grid == Grid::NONE {
+        let message = format!("no gripper {gripper:?} holds the ply");
+        let last = ply.grippers() - 1;
+        let (first, last) = (ply.id(0), ply.id(last));
+        let help = format!(
+            "{} cups hold it, from {first:?} to {last:?}; `plydrape check` shows them",
+            ply.grippers()
+        );
+        return Err((message, help));
     }
     Err((
         format!("there is no gripper {gripper:?}"),

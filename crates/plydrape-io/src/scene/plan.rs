@@ -4,7 +4,6 @@ use super::error::{Document, SceneError};
 use super::file::{MethodKey, PlanTable};
 use super::located::{Count, Located, Seed, Whole};
 use plydrape::motion::MOST_POSITIONS;
-use plydrape::ply::Grid;
 use plydrape::scene::{Plan, PlanMethod};
 
 /// Most steps of a plan: each is solved in every drape that the search tries.
@@ -15,9 +14,13 @@ const MOST_EVALUATIONS: usize = 1_000_000;
 const RATES: [f64; 2] = [0.1, 1e4];
 
 /// Checks the table `[plan]`.
-pub(super) fn plan(table: &PlanTable, grid: Grid, document: &Document) -> Result<Plan, SceneError> {
+pub(super) fn plan(
+    table: &PlanTable,
+    grippers: usize,
+    document: &Document,
+) -> Result<Plan, SceneError> {
     let default = Plan::default();
-    let most_steps = MOST_STEPS.min(MOST_POSITIONS / grid.grippers());
+    let most_steps = MOST_STEPS.min(MOST_POSITIONS / grippers);
     Ok(Plan {
         method: match table.method {
             Some(MethodKey::Path) => PlanMethod::Path,

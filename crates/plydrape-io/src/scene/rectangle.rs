@@ -2,7 +2,7 @@
 
 use plydrape::mold::Plane;
 use plydrape::mold::vector::{along, cross};
-use plydrape::ply::Grid;
+use plydrape::ply::{Grid, Ply};
 
 /// A rectangle in a plane, spread along u and v from a corner.
 pub(super) struct Rectangle {
@@ -28,15 +28,28 @@ impl Rectangle {
         Rectangle { origin: [x, y, z], along_u, along_v: cross(plane.normal, along_u) }
     }
 
-    /// Places (m) of all grippers, `spacing` (m) apart along u and v, in the order of [`Grid::index`].
-    pub fn grippers(&self, grid: Grid, spacing: [f64; 2]) -> Vec<[f64; 3]> {
-        (0..grid.grippers())
-            .map(|index| {
-                let [i, j] = grid.id(index);
-                let in_row = along(self.origin, i as f64 * spacing[0], self.along_u);
-                along(in_row, j as f64 * spacing[1], self.along_v)
-            })
-            .collect()
+    /// Places (m) of all grippers of a ply, neighbours in its array closer to each other than in the fabric by these shares
+    /// along u and v, from the first gripper at the corner.
+    pub fn grippers(&self, ply: &Ply, spacing: [f64; 2]) -> Vec<[f64; 3]> {
+        let (sin, cos) = ply.cut.as_ref().map_or(0.0, |cut| cut.turn).sin_cos();
+        let place = |index: usize| {
+            let [u, v] = match ply.grid {
+                Grid::NONE => {
+                    // along the rows and columns of the array, and back
+                    let [u, v] = ply.place(index);
+                    let share = [0, 1].map(|n| spacing[n] / ply.cell[n]);
+                    let (row, column) = (cos * u + sin * v, cos * v - sin * u);
+                    let (row, column) = (share[0] * row, share[1] * column);
+                    [cos * row - sin * column, sin * row + cos * column]
+                }
+                grid => {
+                    let [i, j] = grid.id(index);
+                    [i as f64 * spacing[0], j as f64 * spacing[1]]
+                }
+            };
+            along(along(self.origin, u, self.along_u), v, self.along_v)
+        };
+        (0..ply.grippers()).map(place).collect()
     }
 }
 

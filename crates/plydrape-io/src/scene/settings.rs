@@ -42,7 +42,7 @@ pub(super) fn settings(
         None => usual.gravity,
     };
     let grippers = file.grippers.as_ref().map(|table| &table.value);
-    let overhang = match &file.ply.overhang {
+    let overhang = match &file.ply.value.overhang {
         Some(overhang) => overhang.size_or_zero(document)?,
         None => usual.sheet.overhang,
     };

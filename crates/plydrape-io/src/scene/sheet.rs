@@ -26,14 +26,14 @@ pub(super) fn fits(
     if settings.model != Model::Sheet {
         return Ok(None);
     }
-    stiffness(&file.ply.material.span, &ply.material, document)?;
+    stiffness(&file.ply.value.material.span, &ply.material, document)?;
     let around = Around { file, ply, settings, document };
     around.pads()?;
     let mesh = around.mesh()?;
     let states = settings.sheet.keep.min(steps);
     let nodes = around.nodes(mesh);
     size::sheet(nodes, states).map_err(|fault| {
-        let span = around.mesh_span().unwrap_or_else(|| file.ply.grippers.span.clone());
+        let span = around.mesh_span().unwrap_or_else(|| file.grippers_span().clone());
         document.error(
             span,
             fault.to_string(),
@@ -123,7 +123,8 @@ impl Around<'_> {
                 ),
             ));
         }
-        if radius > overhang * (1.0 + ROUNDING) {
+        // cups of a ply that is cut are on it, or hold nothing
+        if self.ply.cut.is_none() && radius > overhang * (1.0 + ROUNDING) {
             return Err(self.document.error(
                 span,
                 format!(
@@ -146,7 +147,7 @@ impl Around<'_> {
         }
         let between = format!("{} mm of fabric between neighbouring pads", millimetres(2.0 * most));
         let Some(span) = self.mesh_span() else {
-            let span = self.pad_span().unwrap_or_else(|| self.file.ply.grippers.span.clone());
+            let span = self.pad_span().unwrap_or_else(|| self.file.grippers_span().clone());
             return Err(self.document.error(
                 span,
                 format!(
@@ -172,6 +173,11 @@ impl Around<'_> {
     /// How many nodes a mesh has: its lines meet boundary, pads and grippers; one row of grippers is on a single line.
     fn nodes(&self, mesh: f64) -> f64 {
         let radius = self.settings.pad.radius;
+        if self.ply.cut.is_some() {
+            let [low, high] = self.ply.bounds(0.0);
+            let grippers = 3.0 * (self.ply.grippers() as f64).sqrt();
+            return [0, 1].map(|n| (high[n] - low[n]) / mesh + grippers).iter().product();
+        }
         let lines = |length: f64| {
             if length > 0.0 { (length / mesh * (1.0 - ROUNDING)).ceil() } else { 0.0 }
         };

@@ -11,7 +11,7 @@ use super::quantity::{Length, Quantity};
 use super::rectangle::Rectangle;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::Net;
-use plydrape::ply::Grid;
+use plydrape::ply::{Grid, Ply, directions};
 use plydrape::scene::Target;
 use std::ops::Range;
 
@@ -38,7 +38,7 @@ pub(super) fn start(
                     format!("remove `{key}`: positions say all"),
                 ));
             }
-            Places::read(positions, ply.grid, document, base)
+            Places::read(positions, ply, document, base)
         }
         (Some(positions), ..) => Err(document.error(
             positions.span.clone(),
@@ -72,8 +72,8 @@ pub(super) fn above(net: &Net, span: &Range<usize>, around: &Surroundings) -> Pl
     let level = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
     let spacing = ply.cell.map(|side| CLOSER * side);
     let spread = |corner| Rectangle::on(&level, corner, net.layup.heading);
-    let (here, there) = (middle(&spread([0.0; 2]).grippers(ply.grid, spacing)), middle(&ends));
-    let mut points = spread([0, 1].map(|n| there[n] - here[n])).grippers(ply.grid, spacing);
+    let (here, there) = (middle(&spread([0.0; 2]).grippers(ply, spacing)), middle(&ends));
+    let mut points = spread([0, 1].map(|n| there[n] - here[n])).grippers(ply, spacing);
     for point in &mut points {
         point[2] = top + CLEAR * ply.cell[0].min(ply.cell[1]);
     }
@@ -107,12 +107,12 @@ fn rectangle(
     let plane = ground(keys, around)?;
     let direction = match (&keys.direction, target.filter(|_| is_centred(keys))) {
         (Some(direction), _) => heading(direction, document)?,
-        (None, Some(target)) => heading_of(&target.grippers, ply.grid),
+        (None, Some(target)) => heading_of(&target.grippers, ply),
         (None, None) => 0.0,
     };
     // gripper [0, 0] as far from the middle as without a shift
     let shift = |[x, y]: [f64; 2]| {
-        let unmoved = Rectangle::on(&plane, [0.0; 2], direction).grippers(ply.grid, distances);
+        let unmoved = Rectangle::on(&plane, [0.0; 2], direction).grippers(ply, distances);
         let here = middle(&unmoved);
         [x - here[0], y - here[1]]
     };
@@ -138,7 +138,7 @@ fn rectangle(
             }
         },
     };
-    let mut points = Rectangle::on(&plane, origin, direction).grippers(ply.grid, distances);
+    let mut points = Rectangle::on(&plane, origin, direction).grippers(ply, distances);
     for point in &mut points {
         for (coordinate, n) in point.iter_mut().zip(plane.normal) {
             *coordinate += lift * n;
@@ -183,7 +183,14 @@ fn middle(points: &[[f64; 3]]) -> [f64; 2] {
 }
 
 /// Mean heading of the lines of grippers along u (rad).
-fn heading_of(points: &[[f64; 3]], grid: Grid) -> f64 {
+fn heading_of(points: &[[f64; 3]], ply: &Ply) -> f64 {
+    if ply.grid == Grid::NONE {
+        let [u, v] = directions(ply, points);
+        // across a single line u is at a right angle to v
+        let along = u.or(v.map(|[x, y, z]| [y, -x, z])).unwrap_or([1.0, 0.0, 0.0]);
+        return along[1].atan2(along[0]);
+    }
+    let grid = ply.grid;
     let across = |n: usize| -> f64 {
         (0..grid.nv)
             .map(|j| points[grid.index([grid.nu - 1, j])][n] - points[grid.index([0, j])][n])
@@ -206,7 +213,7 @@ pub(super) fn check(places: &Places, around: &Surroundings) -> Result<(), SceneE
     else {
         return Ok(());
     };
-    let id = ply.grid.id(index);
+    let id = ply.id(index);
     let depth_mm = depth(point) * 1e3;
     let message = match mold {
         Mold::Plane(_) => format!("gripper {id:?} starts {depth_mm:.2} mm below the mold"),

@@ -6,7 +6,7 @@ use super::layup::{layup, round};
 use super::located::Located;
 use super::places::Places;
 use plydrape::mold::Mold;
-use plydrape::net::{LayupError, Net, Reason};
+use plydrape::net::{LayupError, Missing, Net, Reason};
 use plydrape::ply::Ply;
 use plydrape::scene::Target;
 use std::path::Path;
@@ -31,7 +31,7 @@ pub(super) fn target(
                 ),
             ));
         }
-        let places = Places::read(positions, ply.grid, document, base)?;
+        let places = Places::read(positions, ply, document, base)?;
         places.check_run(ply, "at the target")?;
         return Ok(Target { grippers: places.points, drape: None });
     }
@@ -45,7 +45,7 @@ pub(super) fn target(
     let net = net(table, ply, mold, document)?;
     // nodes that hang straight above each other have no span between them
     let places = Places {
-        points: at_grippers(&net, ply, table, document)?,
+        points: at_grippers(&net, ply, mold, table, document)?,
         document: document.clone(),
         spans: vec![header(table, document)],
         height: None,
@@ -109,22 +109,24 @@ fn no_net(
 fn at_grippers(
     net: &Net,
     ply: &Ply,
+    mold: &Mold,
     table: &Located<TargetTable>,
     document: &Document,
 ) -> Result<Vec<[f64; 3]>, SceneError> {
-    let divisions = [0, 1].map(|n| (ply.cell[n] / net.layup.mesh[n]).round() as usize);
-    let node = |index: usize| {
-        let id = ply.grid.id(index);
-        [id[0] * divisions[0], id[1] * divisions[1]]
-    };
     let places: Vec<Option<[f64; 3]>> =
-        (0..ply.grid.grippers()).map(|index| net.node(node(index))).collect();
+        (0..ply.grippers()).map(|index| net.place_or_node(mold, ply.place(index))).collect();
     let missing = places.iter().filter(|place| place.is_none()).count();
     let Some(first) = places.iter().position(Option::is_none) else {
         return Ok(places.into_iter().flatten().collect());
     };
-    let id = ply.grid.id(first);
-    let reason = net.missing.iter().find(|missing| missing.node == node(first));
+    let id = ply.id(first);
+    // of the node that is nearest in the fabric
+    let [u, v] = ply.place(first);
+    let away = |missing: &&Missing| {
+        let [p, q] = net.layup.fabric(missing.node);
+        (p - u).hypot(q - v)
+    };
+    let reason = net.missing.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
     let (reason, help) = match reason.map(|missing| (missing.reason, missing.beyond)) {
         Some((Reason::OffMold, beyond)) => (
             match beyond {
@@ -144,7 +146,7 @@ fn at_grippers(
             "the ply folds on its way there: move `origin` or `seed` towards the middle of the ply, or take a smaller ply",
         ),
     };
-    let count = ply.grid.grippers();
+    let count = ply.grippers();
     let have = if missing == 1 { "gripper has" } else { "grippers have" };
     Err(document.error(
         header(table, document),

@@ -5,7 +5,7 @@ use super::error::{Document, SceneError};
 use super::file::MotionTable;
 use super::located::Located;
 use super::motion::DURATIONS;
-use super::places::{Places, X, Y, Z, csv_file, in_grid, point};
+use super::places::{Places, X, Y, Z, csv_file, index, point};
 use super::units::Dimension;
 use plydrape::motion::{MOST_POSITIONS, MOST_STEPS};
 use plydrape::ply::{GripperId, Ply};
@@ -79,7 +79,7 @@ struct Steps<'a> {
 
 impl<'a> Steps<'a> {
     fn new(document: &'a Document, ply: &'a Ply) -> Self {
-        let grippers = ply.grid.grippers();
+        let grippers = ply.grippers();
         Steps {
             document,
             ply,
@@ -113,7 +113,7 @@ impl<'a> Steps<'a> {
 
         // One gripper of the step.
         let gripper = gripper_id(row)?;
-        let index = in_grid(gripper, self.ply.grid).map_err(|(m, h)| row.fault(1, m, h))?;
+        let index = index(gripper, self.ply).map_err(|(m, h)| row.fault(1, m, h))?;
         if std::mem::replace(&mut self.seen[index], true) {
             return Err(row.fault(
                 1,
@@ -131,7 +131,7 @@ impl<'a> Steps<'a> {
 
     fn begin(&mut self, time: f64, row: &Row) -> Result<(), SceneError> {
         self.complete()?;
-        let most = MOST_STEPS.min(MOST_POSITIONS / self.ply.grid.grippers());
+        let most = MOST_STEPS.min(MOST_POSITIONS / self.ply.grippers());
         if self.motion.times.len() == most || time > DURATIONS[1] {
             return Err(row.fault(
                 0,
@@ -141,7 +141,7 @@ impl<'a> Steps<'a> {
         }
         self.seen.fill(false);
         self.motion.times.push(time);
-        self.motion.positions.push(vec![[0.0; 3]; self.ply.grid.grippers()]);
+        self.motion.positions.push(vec![[0.0; 3]; self.ply.grippers()]);
         Ok(())
     }
 
@@ -168,13 +168,10 @@ impl<'a> Steps<'a> {
             self.last_row.clone(),
             format!(
                 "gripper {:?} has no row at t = {} s",
-                self.ply.grid.id(missing),
+                self.ply.id(missing),
                 time + self.first_time
             ),
-            format!(
-                "give every one of the {} grippers one row at every time",
-                self.ply.grid.grippers()
-            ),
+            format!("give every one of the {} grippers one row at every time", self.ply.grippers()),
         ))
     }
 

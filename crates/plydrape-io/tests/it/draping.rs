@@ -232,6 +232,7 @@ fn a_ply_set_down_in_its_target_shape_lies_without_fault() {
         let layup = Layup {
             nodes: [4, 2],
             mesh: [0.1; 2],
+            origin: [0.0; 2],
             seed: [0; 2],
             place: [0.0; 3],
             heading: 0.0,

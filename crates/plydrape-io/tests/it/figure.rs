@@ -112,6 +112,7 @@ fn a_shear_map_says_what_its_net_reports() {
         let layup = Layup {
             nodes,
             mesh: [mesh; 2],
+            origin: [0.0; 2],
             seed,
             place: mold.closest_point([0.0, 0.0, down]).point,
             heading: 0.3,

@@ -23,6 +23,7 @@ fn published() -> Layup {
     Layup {
         nodes: [24, 24],
         mesh: [d, d],
+        origin: [0.0; 2],
         seed: [11, 11],
         place: [-d / 2.0, -d / 2.0, (1.0 - d * d / 2.0).sqrt()],
         heading: 0.0,
@@ -109,6 +110,7 @@ fn net_on_a_plane_is_affine() {
                 let layup = Layup {
                     nodes: [12, 9],
                     mesh: [0.03, 0.02],
+                    origin: [0.0; 2],
                     seed: [11, 3],
                     place: mold.highest_point([0.5, -0.4]).expect("a plane is everywhere"),
                     heading,
@@ -158,6 +160,7 @@ fn net_on_a_cylinder_is_the_flat_one() {
             let layup = Layup {
                 nodes: [30, 20],
                 mesh: [0.02, 0.03],
+                origin: [0.0; 2],
                 seed: [4, 13],
                 place: mold.highest_point([0.25, 0.0]).expect("mold below"),
                 heading,
@@ -251,6 +254,7 @@ fn refined(cells: usize, generators: Generators) -> Vec<[f64; 3]> {
     let layup = Layup {
         nodes: [cells + 1; 2],
         mesh: [d, d],
+        origin: [0.0; 2],
         seed: [cells / 2, cells / 2],
         place: [0.0, 0.0, 0.6],
         heading: 0.3,
@@ -334,6 +338,7 @@ fn shear_on_a_torus_is_its_total_curvature() {
         let layup = Layup {
             nodes: [cells + 1; 2],
             mesh: [d, d],
+            origin: [0.0; 2],
             seed: [0, 0],
             place: mold.highest_point([0.9, 0.2]).expect("mold below"),
             heading: 0.2,
@@ -376,6 +381,7 @@ fn nodes_beyond_the_border_are_named() {
         let layup = Layup {
             nodes: [21, 21],
             mesh: [0.04, 0.04],
+            origin: [0.0; 2],
             seed: [10, 10],
             place: [0.0; 3],
             heading: 0.0,
@@ -430,6 +436,7 @@ fn shear_on_a_sphere_obeys_its_equation_and_folds_where_cells_shut() {
         let layup = Layup {
             nodes: [51, 51],
             mesh: [0.06, 0.06],
+            origin: [0.0; 2],
             seed: [25, 25],
             place: [0.0, 0.0, 1.0],
             edges,
@@ -514,6 +521,7 @@ fn net_on_a_mesh_of_a_sphere_tends_to_that_on_the_sphere() {
                 let layup = Layup {
                     nodes: [41, 41],
                     mesh: [0.015, 0.015],
+                    origin: [0.0; 2],
                     seed: [20, 20],
                     place: mold.highest_point([0.0123, -0.0071]).expect("mold below"),
                     heading: 0.3,
@@ -545,6 +553,7 @@ fn a_ply_larger_than_its_mesh_leaves_it_at_the_border() {
     let layup = Layup {
         nodes: [31, 31],
         mesh: [0.04, 0.04],
+        origin: [0.0; 2],
         seed: [15, 15],
         place: mold.highest_point([0.0, 0.0]).expect("mold below"),
         generators: Generators::Geodesic,
@@ -571,6 +580,7 @@ fn a_ply_goes_on_behind_a_hole() {
         let layup = Layup {
             nodes: [21, 21],
             mesh: [0.04, 0.04],
+            origin: [0.0; 2],
             seed: [10, 10],
             place: [0.01, -0.02, 0.0025],
             heading: 0.0,

@@ -4,7 +4,7 @@ use super::spans::Point;
 use super::tuning::TUNING;
 use crate::equilibrium::{Solver, heading};
 use crate::mold::vector::{cross, dot, unit};
-use crate::ply::Grid;
+use crate::ply::{Grid, Neighbours, Ply, tangents};
 
 /// Slopes of the ply at a gripper and the orientation that follows from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,20 +40,36 @@ impl Attitude {
     }
 }
 
-/// The attitude of a gripper; the quaternion's sign continues `before`.
+/// The attitude of a gripper; the quaternion's sign continues `before`. `neighbours` are those of the ply; they count where
+/// no catenaries hang.
 pub fn attitude(
     solver: &Solver,
-    grid: Grid,
+    ply: &Ply,
+    neighbours: &[Neighbours],
     positions: &[Point],
     gripper: usize,
     before: Option<[f64; 4]>,
 ) -> Attitude {
+    let grid = ply.grid;
+    if grid == Grid::NONE {
+        let [u, v] = tangents(ply, neighbours, positions, gripper);
+        return across(u, v, [None; 2], before);
+    }
     let slope = [0, 1].map(|d| solver.gripper_slope(positions, gripper, d));
     let u = heading(grid, positions, gripper, 0).unwrap_or([1.0, 0.0]);
     // a strip has no v: across it the gripper is level
     let v = heading(grid, positions, gripper, 1).unwrap_or([-u[1], u[0]]);
     let tangent = |h: [f64; 2], s: Option<f64>| [h[0], h[1], s.unwrap_or(0.0)];
-    let (along_u, along_v) = (tangent(u, slope[0]), tangent(v, slope[1]));
+    across(tangent(u, slope[0]), tangent(v, slope[1]), slope, before)
+}
+
+/// The attitude of a gripper at which u and v run along two tangents.
+fn across(
+    along_u: Point,
+    along_v: Point,
+    slope: [Option<f64>; 2],
+    before: Option<[f64; 4]>,
+) -> Attitude {
     let up = [0.0, 0.0, 1.0];
     let normal =
         unit(cross(along_u, along_v)).map_or(up, |n| if n[2] < 0.0 { n.map(|x| -x) } else { n });

@@ -47,7 +47,7 @@ impl<'a> Draping<'a> {
         Draping {
             scene,
             solver: Solver::new(&scene.ply, &scene.settings),
-            mounts: MountedSolver::new(&scene.ply, &scene.settings),
+            mounts: (count > 0).then(|| MountedSolver::new(&scene.ply, &scene.settings)).flatten(),
             positions: scene.motion.positions[0].clone(),
             contacts: vec![None; count],
             bridges: vec![None; count],

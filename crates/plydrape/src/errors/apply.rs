@@ -15,9 +15,9 @@
 
 use super::draw::{Draw, MaterialError, PickUpError, RigidError};
 use crate::material::{Material, Section, ShearCurve};
-use crate::mold::vector::{along, sub, turned, unit};
+use crate::mold::vector::{along, sub, turned};
 use crate::mold::{Mold, Wavy};
-use crate::ply::Ply;
+use crate::ply::{Ply, tangents};
 use crate::scene::{Motion, Scene};
 use std::sync::Arc;
 
@@ -121,33 +121,18 @@ impl PickUpError {
         if *self == PickUpError::default() {
             return;
         }
-        let grid = ply.grid;
+        let [low, high] = ply.held_bounds();
+        let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
+        let neighbours = ply.neighbours();
         let at = points.to_vec();
         for (n, p) in points.iter_mut().enumerate() {
-            let id = grid.id(n);
-            let off = [(0, grid.nu), (1, grid.nv)]
-                .map(|(axis, count)| ply.cell[axis] * (id[axis] as f64 - 0.5 * (count - 1) as f64));
+            let place = ply.place(n);
+            let off = [0, 1].map(|axis| place[axis] - middle[axis]);
             let delta = [self.offset[0] - self.yaw * off[1], self.offset[1] + self.yaw * off[0]];
-            let [u, v] = chords(ply, &at, id);
+            let [u, v] = tangents(ply, &neighbours, &at, n);
             *p = along(along(*p, -delta[0], u), -delta[1], v);
         }
     }
-}
-
-/// Unit chords along u and v between the neighbours of a gripper, from itself at a border; across a single row the
-/// horizontal direction at a right angle to it.
-fn chords(ply: &Ply, at: &[[f64; 3]], id: [usize; 2]) -> [[f64; 3]; 2] {
-    let grid = ply.grid;
-    let chord = |axis: usize, count: usize| {
-        let [mut before, mut after] = [id; 2];
-        before[axis] = id[axis].saturating_sub(1);
-        after[axis] = (id[axis] + 1).min(count - 1);
-        unit(sub(at[grid.index(after)], at[grid.index(before)]))
-    };
-    let u = chord(0, grid.nu).unwrap_or([1.0, 0.0, 0.0]);
-    let across = || unit([-u[1], u[0], 0.0]).unwrap_or([0.0, 1.0, 0.0]);
-    let v = if grid.nv > 1 { chord(1, grid.nv) } else { None };
-    [u, v.unwrap_or_else(across)]
 }
 
 impl MaterialError {

@@ -3,7 +3,7 @@
 use super::{Draw, Errors, Term};
 use crate::draping::{self, Judged};
 use crate::measure::{Site, Verdict};
-use crate::ply::{Grid, Ply};
+use crate::ply::{Neighbours, Ply};
 use crate::scene::{Model, Scene};
 use crate::sheet;
 use rayon::prelude::*;
@@ -182,7 +182,7 @@ impl Errors {
 
     /// The scene of a cell with all errors larger by a factor.
     fn cell(&self, scene: &Scene, sample: usize, factor: f64) -> Scene {
-        let draw: Draw = self.draw(sample, scene.ply.grid.grippers());
+        let draw: Draw = self.draw(sample, scene.ply.grippers());
         draw.scaled(factor).apply(scene)
     }
 }
@@ -336,24 +336,32 @@ fn in_digits(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 
-/// The highest node, with the line of grippers and the gripper that are nearest in the fabric.
+/// Distance of a place from the line between two others in the fabric (m).
+fn off_line([u, v]: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
+    let way = [b[0] - a[0], b[1] - a[1]];
+    let (off, square) = ([u - a[0], v - a[1]], way[0] * way[0] + way[1] * way[1]);
+    let t = ((off[0] * way[0] + off[1] * way[1]) / square).clamp(0.0, 1.0);
+    (off[0] - t * way[0]).hypot(off[1] - t * way[1])
+}
+
+/// The highest node, with the two neighbouring grippers whose line, and the gripper that, is nearest in the fabric.
 fn highest(scene: &Scene, places: &[[f64; 2]], spread: &[f64]) -> Option<Highest> {
     let (node, height) = spread.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
     let (place, ply) = (places[node], &scene.ply);
-    let Grid { nu, nv } = ply.grid;
-    let nearest = |axis: usize, count: usize| {
-        let at = if ply.cell[axis] > 0.0 { place[axis] / ply.cell[axis] } else { 0.0 };
-        let n = at.round().clamp(0.0, (count - 1) as f64);
-        (n as usize, (at - n).abs() * ply.cell[axis])
+    let away = |n: &usize| {
+        let [u, v] = ply.place(*n);
+        (place[0] - u).hypot(place[1] - v)
     };
-    let ((i, off_u), (j, off_v)) = (nearest(0, nu), nearest(1, nv));
-    let label = |id| Site::Gripper(ply.grid.index(id)).label(ply.grid);
-    let ends = if off_v <= off_u { [[0, j], [nu - 1, j]] } else { [[i, 0], [i, nv - 1]] };
-    let [from, to] = ends.map(label);
+    let gripper = (0..ply.grippers()).min_by(|a, b| away(a).total_cmp(&away(b)))?;
+    let off = |line: &Neighbours| off_line(place, line.grippers.map(|n| ply.place(n)));
+    let lines = ply.neighbours();
+    let line = lines.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    let label = |n: usize| Site::Gripper(n).label(ply);
+    let [from, to] = line.map_or([gripper; 2], |line| line.grippers).map(label);
     Some(Highest {
         height_mm: height * 1e3,
         uv_mm: place.map(|c| c * 1e3),
         line: format!("{from} to {to}"),
-        gripper: label([i, j]),
+        gripper: label(gripper),
     })
 }

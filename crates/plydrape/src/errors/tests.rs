@@ -46,7 +46,14 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
         tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
         locking_angle: None,
     };
-    let ply = Ply { grid, cell: [0.1, 0.08], material, warp: Direction::U, length_factor: 1.0 };
+    let ply = Ply {
+        grid,
+        cell: [0.1, 0.08],
+        material,
+        warp: Direction::U,
+        length_factor: 1.0,
+        cut: None,
+    };
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
     let step = |k: usize| {
         let near = 0.97 + 0.005 * k as f64;

@@ -2,7 +2,7 @@
 
 use super::Sense;
 use crate::draping::spans::Point;
-use crate::ply::Grid;
+use crate::ply::Ply;
 
 /// A part of the ply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,9 +26,10 @@ pub enum Site {
 impl Site {
     /// As a label.
     #[must_use]
-    pub fn label(self, grid: Grid) -> String {
+    pub fn label(self, ply: &Ply) -> String {
+        let grid = ply.grid;
         let id = |n: usize| {
-            let [i, j] = grid.id(n);
+            let [i, j] = ply.id(n);
             format!("[{i},{j}]")
         };
         match self {

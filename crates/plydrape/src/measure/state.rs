@@ -7,6 +7,7 @@ use crate::draping::misfit::{LyingSegment, Misfit, lying_segments, misfit};
 use crate::draping::spans::Point;
 use crate::draping::{Snapshot, stations};
 use crate::equilibrium::Solver;
+use crate::ply::Grid;
 use crate::scene::Scene;
 use std::cell::OnceCell;
 use std::collections::VecDeque;
@@ -78,11 +79,12 @@ impl<'a> State<'a> {
     /// How the grippers are tilted.
     pub(crate) fn attitudes(&self) -> &[Attitude] {
         self.attitudes.get_or_init(|| {
-            let (grid, positions) = (self.scene.ply.grid, &self.snapshot.positions);
+            let (ply, positions) = (&self.scene.ply, &self.snapshot.positions);
+            let neighbours = if ply.grid == Grid::NONE { ply.neighbours() } else { Vec::new() };
             let before = |n: usize| self.before.map(|before| before.quaternions[n]);
             let tolerance = self.scene.settings.contact.tolerance;
             let one = |n: usize| {
-                let own = attitude(self.solver, grid, positions, n, before(n));
+                let own = attitude(self.solver, ply, &neighbours, positions, n, before(n));
                 let Some(mold) = &self.scene.mold else { return own };
                 let closest = mold.closest_point(positions[n]);
                 if closest.beyond || closest.normal[2] <= 0.0 {
@@ -90,7 +92,7 @@ impl<'a> State<'a> {
                 }
                 own.landing(closest.distance, closest.normal, tolerance, before(n))
             };
-            (0..grid.grippers()).map(one).collect()
+            (0..ply.grippers()).map(one).collect()
         })
     }
 

@@ -114,12 +114,12 @@ impl<'a> Judge<'a> {
 
     /// Evaluates every measure of a step, and returns them.
     pub fn see_all(&mut self, state: &State) -> Measures {
-        let grid = state.scene.ply.grid;
+        let ply = &state.scene.ply;
         let mut out = Vec::with_capacity(Name::ALL.len());
         for name in Name::ALL {
             if let Some(found) = name.measure().evaluate(state) {
                 self.meet(*name, state.snapshot.step, found);
-                out.push((*name, Worst::of(&found, grid)));
+                out.push((*name, Worst::of(&found, ply)));
             }
         }
         self.solved(state);
@@ -149,10 +149,10 @@ impl<'a> Judge<'a> {
     /// Every limit that applies, in the order of [`Name::ALL`].
     #[must_use]
     pub fn verdicts(&self) -> Vec<Verdict> {
-        let grid = self.scene.ply.grid;
+        let ply = &self.scene.ply;
         let judged = Name::ALL.iter().filter_map(|name| {
             let (limit, (step, found)) = (self.limit(*name)?, self.worst.get(*name)?);
-            Some(Verdict::of(*name, Worst::of(found, grid), limit, Some(*step)))
+            Some(Verdict::of(*name, Worst::of(found, ply), limit, Some(*step)))
         });
         let mut out: Vec<Verdict> = judged.collect();
         if let Some((step, residual, why)) = self.unfound {

@@ -25,6 +25,9 @@ pub struct Layup {
     pub nodes: [usize; 2],
     /// Mesh widths: fabric between neighbouring nodes along u and v (m).
     pub mesh: [f64; 2],
+    /// Fabric coordinates of node [0, 0] (m).
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
+    pub origin: [f64; 2],
     /// The node that is placed first.
     pub seed: [usize; 2],
     /// Where it lies on the mold (m).
@@ -93,7 +96,32 @@ pub enum LayupError {
     },
 }
 
+#[cfg(feature = "serde")]
+/// Whether coordinates need not be written.
+fn is_zero(origin: &[f64; 2]) -> bool {
+    *origin == [0.0; 2]
+}
+
 impl Layup {
+    /// Fabric coordinates of a node (m).
+    #[must_use]
+    pub fn fabric(&self, node: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|n| self.origin[n] + node[n] as f64 * self.mesh[n])
+    }
+
+    /// The node at a fabric point (m); none where there is none.
+    #[must_use]
+    pub fn node(&self, uv: [f64; 2]) -> Option<[usize; 2]> {
+        let share = [0, 1].map(|n| (uv[n] - self.origin[n]) / self.mesh[n]);
+        let is_node = |n: usize| {
+            let nearest = share[n].round();
+            (share[n] - nearest).abs() <= TUNING.boundary_rounding
+                && nearest >= 0.0
+                && nearest < self.nodes[n] as f64
+        };
+        (is_node(0) && is_node(1)).then(|| share.map(|s| s.round() as usize))
+    }
+
     /// Whether a net can be begun: sensible numbers, and a seed on the mold.
     pub(super) fn check(&self, mold: &Mold) -> Result<(), LayupError> {
         let ([nu, nv], [du, dv], [i, j]) = (self.nodes, self.mesh, self.seed);

@@ -5,7 +5,7 @@
 //! generators run straight over the mold, or cell by cell with the least shear (Krogh et al. 2021,
 //! KinDrape). The result is X*(u, v), the place where each point of the fabric should end.
 //!
-//! Fabric coordinates u and v are metres of fabric along the two fibre directions from node [0, 0].
+//! Fabric coordinates u and v are metres of fabric along the two fibre directions.
 //! Arrays hold node [i, j] at j·nu + i, and the cell whose lowest node is [i, j] at j·(nu − 1) + i.
 //!
 //! The net's error falls with the square of the mesh width: between two nodes the fabric is taken for
@@ -104,6 +104,15 @@ impl Net {
     pub fn node(&self, [i, j]: [usize; 2]) -> Option<[f64; 3]> {
         let [nu, nv] = self.layup.nodes;
         (i < nu && j < nv).then(|| self.nodes[j * nu + i])?
+    }
+
+    /// The place of a fabric point on the mold (m): of a node, or between nodes as [`Net::place`] has it.
+    #[must_use]
+    pub fn place_or_node(&self, mold: &Mold, uv: [f64; 2]) -> Option<[f64; 3]> {
+        match self.layup.node(uv) {
+            Some(node) => self.node(node),
+            None => self.place(mold, uv),
+        }
     }
 
     /// Shear of the cell whose lowest node is `[i, j]`.

@@ -16,7 +16,7 @@ struct Patch {
 }
 
 impl Net {
-    /// X*(u, v): where the fabric point `uv` (m of fabric from node [0, 0]) lies on the mold (m); none off
+    /// X*(u, v): where the fabric point `uv` (m) lies on the mold (m); none off
     /// the fabric, off the mold or where the net has no nodes. Exact at nodes.
     #[must_use]
     pub fn place(&self, mold: &Mold, uv: [f64; 2]) -> Option<[f64; 3]> {
@@ -51,7 +51,7 @@ impl Net {
         for n in 0..2 {
             let last = self.layup.nodes[n] - 1;
             // a rounding error beyond the boundary is the boundary
-            let t = uv[n] / self.layup.mesh[n];
+            let t = (uv[n] - self.layup.origin[n]) / self.layup.mesh[n];
             if !(-TUNING.boundary_rounding..=last as f64 + TUNING.boundary_rounding).contains(&t) {
                 return None;
             }

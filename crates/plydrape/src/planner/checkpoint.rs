@@ -2,7 +2,6 @@
 
 use super::PlanError;
 use super::path::{Strategy, preload};
-use crate::ply::Grid;
 use crate::scene::Scene;
 
 /// Positions (m) of all grippers, step by step.
@@ -13,16 +12,19 @@ type Positions = Vec<Vec<[f64; 3]>>;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Checkpoint {
-    /// Grippers along u and v.
-    grippers: [usize; 2],
-    /// Fabric length of a cell along u and v (m).
-    cell: [f64; 2],
+    /// Fabric coordinates of the grippers (m).
+    grippers: Vec<[f64; 2]>,
     /// Complete drapes tried in all searches.
     pub evaluations: usize,
     /// The best strategy; none for a plan of the stepwise planner.
     pub strategy: Option<Strategy>,
     /// Positions (m) of all grippers in each step of the best plan, those of its strategy over the mold of that search.
     positions: Positions,
+}
+
+/// Fabric coordinates of a scene's grippers (m).
+fn grippers(scene: &Scene) -> Vec<[f64; 2]> {
+    (0..scene.ply.grippers()).map(|n| scene.ply.place(n)).collect()
 }
 
 impl Checkpoint {
@@ -34,8 +36,7 @@ impl Checkpoint {
         strategy: Option<Strategy>,
         positions: Positions,
     ) -> Self {
-        let Grid { nu, nv } = scene.ply.grid;
-        Checkpoint { grippers: [nu, nv], cell: scene.ply.cell, evaluations, strategy, positions }
+        Checkpoint { grippers: grippers(scene), evaluations, strategy, positions }
     }
 
     /// The strategy from which to continue, and its positions if they lead from the scene's start to its target.
@@ -49,13 +50,13 @@ impl Checkpoint {
 
     /// Refuses a checkpoint of another ply.
     pub(super) fn check(&self, scene: &Scene) -> Result<(), PlanError> {
-        let Grid { nu, nv } = scene.ply.grid;
-        if self.grippers != [nu, nv] || self.cell != scene.ply.cell {
-            let [earlier_u, earlier_v] = self.grippers;
-            return Err(PlanError::OtherPly { earlier_u, earlier_v, nu, nv });
+        let own = grippers(scene);
+        if self.grippers != own {
+            let (earlier, now) = (self.grippers.len(), own.len());
+            return Err(PlanError::OtherPly { earlier, now });
         }
         let sound = |place: &[f64; 3]| place.iter().all(|c| c.is_finite());
-        let whole = |step: &Vec<[f64; 3]>| step.len() == nu * nv && step.iter().all(sound);
+        let whole = |step: &Vec<[f64; 3]>| step.len() == own.len() && step.iter().all(sound);
         if self.strategy.is_some_and(|s| !s.is_sound()) || !self.positions.iter().all(whole) {
             return Err(PlanError::Numbers);
         }

@@ -71,7 +71,7 @@ pub fn with_errors(
         return worst;
     }
     let planned = Errors { seed: !errors.seed, ..errors };
-    let grippers = scene.ply.grid.grippers();
+    let grippers = scene.ply.grippers();
     let cell = |sample: usize| drape(planned.draw(sample, grippers).apply(scene));
     let cells: Vec<Judged> =
         (0..TUNING.evaluation.cells).into_par_iter().filter_map(cell).collect();

@@ -7,6 +7,7 @@
 use crate::draping::reach::{closest, outside};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::mold::{Mold, distance};
+use crate::net::Missing;
 use crate::ply::{Kind, shear};
 use crate::scene::{Scene, Target};
 
@@ -29,7 +30,7 @@ pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
     out.extend(places(scene, &target.grippers, "at the target", None));
     out.extend(overstretch(scene, target));
     out.extend(shear(scene, target));
-    out.extend(missing_nodes(target));
+    out.extend(missing_nodes(scene, target));
     if let Some(mold) = &scene.mold {
         out.extend(off_mold(scene, target, mold));
         out.extend(tilt(scene, target, mold));
@@ -64,9 +65,8 @@ fn places(
         (Name::Workspace, 0.0, workspace),
         (Name::GripperDistance, limits.gripper_distance * 1e3, closest(positions)),
     ];
-    let grid = scene.ply.grid;
     found.into_iter().filter_map(move |(name, limit, found)| {
-        let worst = Worst::of(&found?, grid);
+        let worst = Worst::of(&found?, &scene.ply);
         let worst = Worst { at: format!("{} {when}", worst.at), ..worst };
         Some(Verdict::of(name, worst, limit, step)).filter(|verdict| !verdict.ok)
     })
@@ -98,8 +98,9 @@ fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
             - 1.0
     };
     let worst = largest((0..grid.edges()).map(|n| (share(n), n)));
-    let found =
-        worst.map(|(share, n)| (share, format!("{} at the target", Site::Catenary(n).label(grid))));
+    let found = worst.map(|(share, n)| {
+        (share, format!("{} at the target", Site::Catenary(n).label(&scene.ply)))
+    });
     beyond(Name::Overstretch, scene.limits.overstretch, found)
 }
 
@@ -138,10 +139,22 @@ fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
 }
 
 /// Parts of the ideal drape without a place on the mold.
-fn missing_nodes(target: &Target) -> Option<Verdict> {
+fn missing_nodes(scene: &Scene, target: &Target) -> Option<Verdict> {
     let net = target.drape.as_ref()?;
-    let first = net.missing.first()?;
-    let found = (net.missing.len() as f64, format!("ideal drape: {first}"));
+    let [low, high] = scene.ply.held_bounds();
+    let outline = scene.ply.cut.as_ref().map(|cut| &cut.outline);
+    // what is beyond the grippers may hang beside the mold
+    let between_grippers = |missing: &&Missing| {
+        let uv = net.layup.fabric(missing.node);
+        let held = (0..2).all(|n| {
+            let rounding = 1e-9 * net.layup.mesh[n];
+            (low[n] - rounding..=high[n] + rounding).contains(&uv[n])
+        });
+        held && outline.is_none_or(|outline| outline.contains(uv))
+    };
+    let missing: Vec<&Missing> = net.missing.iter().filter(between_grippers).collect();
+    let first = missing.first()?;
+    let found = (missing.len() as f64, format!("ideal drape: {first}"));
     beyond(Name::MissingNodes, 0.0, Some(found))
 }
 
@@ -161,7 +174,7 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
         } else {
             "inside it"
         };
-        (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(scene.ply.grid)))
+        (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(&scene.ply)))
     });
     beyond(Name::OffMold, scene.settings.contact.tolerance * 1e3, found)
 }
@@ -176,10 +189,7 @@ fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     };
     let all = target.grippers.iter().enumerate();
     let found = largest(all.filter_map(|(n, place)| Some((tilt(*place)?, n)))).map(|(tilt, n)| {
-        (
-            tilt.to_degrees(),
-            format!("mold at the target of {}", Site::Gripper(n).label(scene.ply.grid)),
-        )
+        (tilt.to_degrees(), format!("mold at the target of {}", Site::Gripper(n).label(&scene.ply)))
     });
     beyond(Name::Tilt, scene.limits.tilt.to_degrees(), found)
 }
@@ -193,7 +203,7 @@ fn reach(scene: &Scene, start: &[[f64; 3]], target: &Target) -> Option<Verdict> 
     let found = largest(distances.enumerate().map(|(n, far)| (far, n))).map(|(far, n)| {
         (
             far * 1e3,
-            format!("straight way of {} in {moves} moves", Site::Gripper(n).label(scene.ply.grid)),
+            format!("straight way of {} in {moves} moves", Site::Gripper(n).label(&scene.ply)),
         )
     });
     beyond(Name::MoveLimit, reach * 1e3, found)

@@ -49,17 +49,13 @@ pub enum PlanError {
     NoTarget,
     /// A plan for other grippers or other fabric.
     #[error(
-        "the earlier plan is for {earlier_u} × {earlier_v} grippers or other cells, the scene has {nu} × {nv}: plan anew"
+        "the earlier plan is for {earlier} grippers, or for other places in the fabric, and the scene has {now}: plan anew"
     )]
     OtherPly {
-        /// Grippers of the earlier plan along u.
-        earlier_u: usize,
-        /// Grippers of the earlier plan along v.
-        earlier_v: usize,
-        /// Grippers of the scene along u.
-        nu: usize,
-        /// Grippers of the scene along v.
-        nv: usize,
+        /// Grippers of the earlier plan.
+        earlier: usize,
+        /// Grippers of the scene.
+        now: usize,
     },
     /// A checkpoint with numbers that no search writes.
     #[error(
@@ -192,7 +188,7 @@ pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
     match plan.outcome {
         Outcome::OutOfSteps(error) | Outcome::OutOfReach(error) => {
             let gripper = scene.ply.grid.index(error.gripper);
-            let at = Site::Gripper(gripper).label(scene.ply.grid);
+            let at = Site::Gripper(gripper).label(&scene.ply);
             let worst = Worst {
                 value: error.distance * 1e3,
                 at: format!("{at}, short of its target"),
@@ -211,7 +207,7 @@ fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
         let step = motion.times().partition_point(|t| *t < peak.time) + 1;
         let worst = Worst {
             value: peak.value,
-            at: Site::Gripper(peak.gripper).label(scene.ply.grid),
+            at: Site::Gripper(peak.gripper).label(&scene.ply),
             place: Some(motion.at(peak.time)[peak.gripper]),
         };
         Verdict::of(name, worst, limit, Some(step.min(motion.times().len())))

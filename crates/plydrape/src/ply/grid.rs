@@ -7,9 +7,9 @@ pub type GripperId = [usize; 2];
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Grid {
-    /// Grippers along u, at least 2.
+    /// Grippers along u, at least 2; 0 of [`Grid::NONE`].
     pub nu: usize,
-    /// Grippers along v, at least 1.
+    /// Grippers along v, at least 1; 0 of [`Grid::NONE`].
     pub nv: usize,
 }
 
@@ -48,6 +48,9 @@ impl Kind {
 }
 
 impl Grid {
+    /// No array along the yarns: no catenary hangs.
+    pub const NONE: Grid = Grid { nu: 0, nv: 0 };
+
     /// Number of grippers.
     #[must_use]
     pub fn grippers(self) -> usize {
@@ -69,7 +72,7 @@ impl Grid {
     /// Number of cells.
     #[must_use]
     pub fn cells(self) -> usize {
-        (self.nu - 1) * (self.nv - 1)
+        self.nu.saturating_sub(1) * self.nv.saturating_sub(1)
     }
 
     /// Number of catenaries: edges along u, edges along v, then two diagonals per cell.
@@ -81,13 +84,13 @@ impl Grid {
     /// Number of edge catenaries; they come first.
     #[must_use]
     pub fn edges(self) -> usize {
-        self.edges_u() + self.nu * (self.nv - 1)
+        self.edges_u() + self.nu * self.nv.saturating_sub(1)
     }
 
     /// Number of edges along u; they come first of all.
     #[must_use]
     pub fn edges_u(self) -> usize {
-        (self.nu - 1) * self.nv
+        self.nu.saturating_sub(1) * self.nv
     }
 
     /// Index of the edge from `[i, j]` to `[i+1, j]`.

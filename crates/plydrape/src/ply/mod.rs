@@ -1,6 +1,7 @@
 //! The ply as a net of catenaries between grippers.
 
 mod contact_segment;
+mod cut;
 mod grid;
 mod outline;
 mod places;
@@ -9,6 +10,7 @@ pub mod shear;
 mod tuning;
 
 pub use contact_segment::{ContactSegment, LandedCell};
+pub use cut::{Cut, Held, Neighbours, directions, tangents};
 pub use grid::{Catenary, Grid, GripperId, Kind};
 pub use outline::{Outline, OutlineError, Ring, RingId};
 pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
@@ -16,14 +18,17 @@ pub use ruck::Ruck;
 
 use crate::material::{Line, Material, Section};
 
-/// A rectangular woven ply held by a grid of grippers.
+/// A woven ply held by grippers: a rectangle that ends at its array of grippers, or as it is cut.
+///
+/// Fabric coordinates (u, v) are metres along its two families of yarns, from the first gripper.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Ply {
-    /// Grippers along u and v.
+    /// Grippers along u and v, between which catenaries hang; [`Grid::NONE`] where grippers are no array along the yarns.
     pub grid: Grid,
-    /// Fabric length of a cell along u and along v: a, b (m).
+    /// Fabric length of a cell along u and along v: a, b (m); where grippers are no array along the yarns, the pitch of the
+    /// array, or the distance of neighbours.
     pub cell: [f64; 2],
     /// What it is made of.
     pub material: Material,
@@ -33,6 +38,9 @@ pub struct Ply {
     /// unless an error of the length is examined. Fabric coordinates are those of the nominal ply all the same.
     #[cfg_attr(feature = "serde", serde(default = "nominal", skip_serializing_if = "is_nominal"))]
     pub length_factor: f64,
+    /// How it is cut and where it is held; none of a rectangle with a gripper at every node of its grid.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub cut: Option<Cut>,
 }
 
 /// The length factor of a ply without an error.
@@ -122,4 +130,19 @@ impl Ply {
             }
         }
     }
+}
+
+/// A ply of no matter what between the grippers of an array, 100 mm apart.
+#[cfg(test)]
+pub(crate) fn cloth(grid: Grid) -> Ply {
+    let material = Material {
+        name: "cloth".into(),
+        source: String::new(),
+        section: Section::Line { mass: 0.3, flexural_rigidity: 1e-5 },
+        tension: None,
+        shear_curve: None,
+        locking_angle: None,
+    };
+    let (cell, warp) = ([0.1; 2], Direction::U);
+    Ply { grid, cell, material, warp, length_factor: 1.0, cut: None }
 }

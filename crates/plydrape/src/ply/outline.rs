@@ -191,6 +191,24 @@ impl Outline {
         let clipped = |ring| area(&clip(ring, low, high));
         self.rings().map(clipped).sum::<f64>().max(0.0)
     }
+
+    /// Centre of the ply's area in a rectangle between two corners (m); none where there is none.
+    #[must_use]
+    pub fn centre_in(&self, low: [f64; 2], high: [f64; 2]) -> Option<[f64; 2]> {
+        let (mut total, mut moment) = (0.0, [0.0; 2]);
+        for part in self.rings().map(|ring| clip(ring, low, high)) {
+            for [a, b] in lines(&part) {
+                // triangles from the lowest corner
+                let (p, q) = (sub(a, low), sub(b, low));
+                let area = 0.5 * cross(p, q);
+                total += area;
+                moment = [0, 1].map(|n| moment[n] + area * (p[n] + q[n]) / 3.0);
+            }
+        }
+        let centre = [0, 1].map(|n| low[n] + moment[n] / total);
+        let within = |n: usize| (low[n]..=high[n]).contains(&centre[n]);
+        (total > 0.0 && within(0) && within(1)).then_some(centre)
+    }
 }
 
 #[cfg(feature = "serde")]

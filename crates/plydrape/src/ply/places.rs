@@ -107,12 +107,12 @@ impl Ply {
     /// # Errors
     /// [`PlaceError`]: the first gripper, or pair of neighbours, that cannot be where it is.
     pub fn check_places(&self, positions: &[[f64; 3]]) -> Result<(), PlaceError> {
-        let (found, expected) = (positions.len(), self.grid.grippers());
+        let (found, expected) = (positions.len(), self.grippers());
         if found != expected {
             return Err(PlaceError::Count { step: None, found, expected });
         }
         if let Some(far) = positions.iter().position(|position| !is_near(position)) {
-            let (gripper, position) = (self.grid.id(far), positions[far]);
+            let (gripper, position) = (self.id(far), positions[far]);
             return Err(PlaceError::Far { step: None, gripper, position });
         }
         (0..self.grid.catenaries()).try_for_each(|index| {

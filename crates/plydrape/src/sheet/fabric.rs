@@ -4,6 +4,9 @@
 //! evenly spaced in between. All areas and widths are tributary: half the spacing to each side, so that all of the ply
 //! is there once.
 
+use crate::ply::Outline;
+use std::collections::HashMap;
+
 /// A yarn segment between two neighbouring nodes of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
@@ -22,8 +25,29 @@ pub struct Segment {
 pub struct Cell {
     /// Its nodes at (u, v) = (0, 0), (1, 0), (1, 1) and (0, 1).
     pub nodes: [u32; 4],
-    /// Its area in the flat (m²).
+    /// Area of the ply in it in the flat (m²).
     pub area: f64,
+    /// Share of it that is ply: less than 1 where the boundary cuts it.
+    pub share: f64,
+}
+
+impl Cell {
+    /// Whether half of it or more is ply, and so its middle.
+    #[must_use]
+    pub fn is_ply(&self) -> bool {
+        self.share >= 0.5
+    }
+}
+
+/// A point of the boundary, on a side of a cell or at a corner of the outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rim {
+    /// Its fabric coordinates (m).
+    pub place: [f64; 2],
+    /// Nodes of its cell.
+    pub nodes: [u32; 4],
+    /// Their shares in it.
+    pub weights: [f64; 4],
 }
 
 /// Three neighbouring nodes of a line, at whose middle one the line bends.
@@ -54,6 +78,12 @@ pub struct Fabric {
     pub bends: Vec<Bend>,
     /// Coordinates of the lines (m): `lines[0]` those at constant u, `lines[1]` those at constant v.
     pub lines: [Vec<f64>; 2],
+    /// Node where lines of both directions cross, those along u fastest; none where there is no ply.
+    crossings: Vec<Option<u32>>,
+    /// Whether each node is on the ply: those of cells that the boundary cuts may be beyond it.
+    pub inside: Vec<bool>,
+    /// The rings of the boundary, each as points in order; none of a rectangle, whose boundary is lines of nodes.
+    pub rims: Vec<Vec<Rim>>,
     /// Length in the flat over the difference of fabric coordinates, [`crate::Ply::length_factor`].
     pub length_factor: f64,
 }
@@ -105,10 +135,150 @@ impl Fabric {
             for i in 1..nu {
                 let nodes = [node(i - 1, j - 1), node(i, j - 1), node(i, j), node(i - 1, j)];
                 let area = (lines[0][i] - lines[0][i - 1]) * (lines[1][j] - lines[1][j - 1]);
-                cells.push(Cell { nodes, area });
+                cells.push(Cell { nodes, area, share: 1.0 });
             }
         }
-        Fabric { places, areas, segments, cells, bends, lines, length_factor: 1.0 }
+        let nodes = places.len();
+        Fabric {
+            crossings: (0..nodes as u32).map(Some).collect(),
+            inside: vec![true; nodes],
+            rims: Vec::new(),
+            places,
+            areas,
+            segments,
+            cells,
+            bends,
+            lines,
+            length_factor: 1.0,
+        }
+    }
+
+    /// What is within an outline of the rectangle between its first and last lines.
+    ///
+    /// Cells that the boundary cuts keep their four nodes, also those beyond it, and count with the share of them that is
+    /// ply: their shear with its area, the yarns along their sides with the width of what is beside them, their mass at the
+    /// four nodes so that its centre is where it is. So the boundary may run anywhere between the lines. Cells with less
+    /// than `least` of them in the ply are left out.
+    #[must_use]
+    pub fn cut(lines: [Vec<f64>; 2], outline: &Outline, least: f64) -> Self {
+        let whole = Fabric::rectangle(lines, 0.0);
+        let count = whole.places.len();
+        let corner = |cell: &Cell, n: usize| whole.places[cell.nodes[n] as usize];
+        let mut areas = vec![0.0; count];
+        // width of ply beside each pair of neighbouring nodes, times their distance
+        let mut strips: HashMap<[u32; 2], f64> = HashMap::new();
+        let mut cells = Vec::new();
+        for cell in &whole.cells {
+            let (low, high) = (corner(cell, 0), corner(cell, 2));
+            let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
+            let area = outline.area_in(low, high);
+            if area < least * cell.area {
+                continue;
+            }
+            let halves = [
+                ([0, 1], low, [high[0], middle[1]]),
+                ([3, 2], [low[0], middle[1]], high),
+                ([0, 3], low, [middle[0], high[1]]),
+                ([1, 2], [middle[0], low[1]], high),
+            ];
+            for (ends, low, high) in halves {
+                let strip = outline.area_in(low, high);
+                if strip > 0.0 {
+                    *strips.entry(ends.map(|n: usize| cell.nodes[n])).or_default() += strip;
+                }
+            }
+            let centre = outline.centre_in(low, high).unwrap_or(middle);
+            let weights = bilinear(low, high, centre);
+            for (node, weight) in cell.nodes.iter().zip(weights) {
+                areas[*node as usize] += weight * area;
+            }
+            cells.push(Cell { area, share: area / cell.area, ..*cell });
+        }
+        let segments: Vec<Segment> = whole
+            .segments
+            .iter()
+            .filter_map(|segment| {
+                let width = strips.get(&segment.nodes)? / segment.length;
+                Some(Segment { width, ..*segment })
+            })
+            .collect();
+        let widths: HashMap<[u32; 2], f64> = segments.iter().map(|s| (s.nodes, s.width)).collect();
+        let bends = whole.bends.iter().filter_map(|bend| {
+            let [a, b, c] = bend.nodes;
+            let width = widths.get(&[a, b])?.min(*widths.get(&[b, c])?);
+            Some(Bend { width, ..*bend })
+        });
+        let bends: Vec<Bend> = bends.collect();
+
+        // nodes of no cell are left out
+        let mut number = vec![None; count];
+        for node in cells.iter().flat_map(|cell| cell.nodes) {
+            number[node as usize] = Some(0);
+        }
+        let mut kept = 0;
+        for own in number.iter_mut().flatten() {
+            *own = kept;
+            kept += 1;
+        }
+        let at = |node: u32| number[node as usize].unwrap_or_default();
+        let keep = |n: &usize| number[*n].is_some();
+        let places: Vec<[f64; 2]> = (0..count).filter(keep).map(|n| whole.places[n]).collect();
+        let [low, high] = outline.bounds();
+        let rounding = 1e-9 * (high[0] - low[0]).max(high[1] - low[1]);
+        let mut fabric = Fabric {
+            areas: (0..count).filter(keep).map(|n| areas[n]).collect(),
+            segments: segments
+                .into_iter()
+                .map(|s| Segment { nodes: s.nodes.map(at), ..s })
+                .collect(),
+            bends: bends.into_iter().map(|b| Bend { nodes: b.nodes.map(at), ..b }).collect(),
+            cells: cells.into_iter().map(|c| Cell { nodes: c.nodes.map(at), ..c }).collect(),
+            inside: places.iter().map(|place| outline.depth(*place) >= -rounding).collect(),
+            crossings: number,
+            rims: Vec::new(),
+            places,
+            lines: whole.lines,
+            length_factor: 1.0,
+        };
+        fabric.rims = outline.rings().map(|ring| fabric.rim(ring)).collect();
+        fabric
+    }
+
+    /// The points at which a ring crosses lines of nodes, and its corners; those in cells that are left out are left out.
+    fn rim(&self, ring: &[[f64; 2]]) -> Vec<Rim> {
+        let mut out = Vec::new();
+        for n in 0..ring.len() {
+            let (from, to) = (ring[n], ring[(n + 1) % ring.len()]);
+            let mut shares = vec![0.0];
+            for axis in 0..2 {
+                let way = to[axis] - from[axis];
+                shares.extend(self.lines[axis].iter().map(|line| (line - from[axis]) / way));
+            }
+            shares.retain(|share| (0.0..1.0).contains(share));
+            shares.sort_by(f64::total_cmp);
+            shares.dedup();
+            for (k, share) in shares.iter().enumerate() {
+                let point = |t: f64| [0, 1].map(|axis| from[axis] + t * (to[axis] - from[axis]));
+                // the cell ahead of it, or behind it
+                let next = shares.get(k + 1).copied().unwrap_or(1.0);
+                let place = point(*share);
+                out.extend(self.rim_point(place, point(0.5 * (share + next))));
+            }
+        }
+        out
+    }
+
+    /// A point of the boundary in the cell of another point (m) beside it.
+    fn rim_point(&self, place: [f64; 2], beside: [f64; 2]) -> Option<Rim> {
+        let [i, j] = [0, 1].map(|axis| {
+            let lines = &self.lines[axis];
+            lines.partition_point(|line| *line <= beside[axis]).clamp(1, lines.len() - 1)
+        });
+        let nu = self.lines[0].len();
+        let node = |i: usize, j: usize| self.crossings[j * nu + i];
+        let nodes = [node(i - 1, j - 1)?, node(i, j - 1)?, node(i, j)?, node(i - 1, j)?];
+        let [low, high] = [nodes[0], nodes[2]].map(|n| self.places[n as usize]);
+        Some(Rim { place, nodes, weights: bilinear(low, high, place) })
     }
 
     /// The same lines on a fabric that is larger by a factor along u and v alike: fabric coordinates stay, and lengths,
@@ -159,8 +329,28 @@ impl Fabric {
             lines.iter().position(|line| close(place[n], *line, span.max(f64::MIN_POSITIVE)))
         };
         let (i, j) = (find(0)?, find(1)?);
-        Some(j * self.lines[0].len() + i)
+        self.crossings[j * self.lines[0].len() + i].map(|node| node as usize)
     }
+}
+
+impl Rim {
+    /// Its value of what nodes have.
+    #[must_use]
+    pub fn of<const N: usize>(&self, values: &[[f64; N]]) -> [f64; N] {
+        let mut sum = [0.0; N];
+        for (node, weight) in self.nodes.iter().zip(self.weights) {
+            for (sum, value) in sum.iter_mut().zip(values[*node as usize]) {
+                *sum += weight * value;
+            }
+        }
+        sum
+    }
+}
+
+/// Shares of the corners (0, 0), (1, 0), (1, 1) and (0, 1) of a rectangle in a point of it.
+fn bilinear(low: [f64; 2], high: [f64; 2], place: [f64; 2]) -> [f64; 4] {
+    let [s, t] = [0, 1].map(|n| (place[n] - low[n]) / (high[n] - low[n]));
+    [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]
 }
 
 /// Half the spacing to each side of each line (m); `alone` of a single line.
@@ -224,5 +414,82 @@ mod tests {
             found.windows(2).all(|pair| pair[1] - pair[0] <= 0.01 + 1e-12 && pair[1] > pair[0])
         );
         assert_eq!(lines(vec![0.0, 0.3], 0.01).len(), 31);
+    }
+
+    /// A rectangle that is cut out along lines of nodes is that rectangle, whatever lies beyond it.
+    #[test]
+    fn what_is_cut_along_lines_is_a_rectangle() {
+        let u = lines(vec![0.0, 0.013, 0.1, 0.3], 0.02);
+        let v = lines(vec![-0.03, 0.2], 0.011);
+        let whole = Fabric::rectangle([u.clone(), v.clone()], 1.0);
+        let outline = Outline::rectangle([0.0, -0.03], [0.3, 0.2]).unwrap();
+        let beyond =
+            |lines: &[f64]| [&[lines[0] - 0.02], lines, &[lines[lines.len() - 1] + 0.01]].concat();
+        let cut = Fabric::cut([beyond(&u), beyond(&v)], &outline, 0.05);
+        assert_eq!(cut.places, whole.places);
+        let nodes = |fabric: &Fabric| fabric.segments.iter().map(|s| s.nodes).collect::<Vec<_>>();
+        assert_eq!(nodes(&cut), nodes(&whole));
+        assert_eq!(cut.bends.len(), whole.bends.len());
+        assert!(cut.inside.iter().all(|inside| *inside));
+        let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+        cut.areas.iter().zip(&whole.areas).for_each(|(a, b)| near(*a, *b));
+        cut.segments.iter().zip(&whole.segments).for_each(|(a, b)| near(a.width, b.width));
+        cut.bends.iter().zip(&whole.bends).for_each(|(a, b)| near(a.width, b.width));
+        for place in &whole.places {
+            assert_eq!(cut.node_at(*place), whole.node_at(*place));
+        }
+    }
+
+    /// A disc with a hole, at no whole number of meshes: mass, its centre and its moments of inertia, and the area of the
+    /// yarns along u and along v, are those of the ring to a share of a mesh; the mass is the polygon's but for slivers.
+    #[test]
+    fn a_ring_has_its_mass_where_it_is() {
+        let circle = |radius: f64, sides: usize| -> Vec<[f64; 2]> {
+            let angle = |n: usize| std::f64::consts::TAU * n as f64 / sides as f64;
+            (0..sides)
+                .map(|n| [0.11 + radius * angle(n).cos(), 0.07 + radius * angle(n).sin()])
+                .collect()
+        };
+        let (outer, inner) = (0.1, 0.04);
+        let outline = Outline::new(circle(outer, 720), vec![circle(inner, 360)]).unwrap();
+        for mesh in [0.01, 0.005] {
+            let [low, high] = outline.bounds();
+            let lines = [0, 1].map(|n| lines(vec![low[n], high[n]], mesh));
+            let fabric = Fabric::cut(lines, &outline, 0.05);
+            let sum = |weight: &dyn Fn([f64; 2]) -> f64| -> f64 {
+                fabric.places.iter().zip(&fabric.areas).map(|(p, area)| weight(*p) * area).sum()
+            };
+            let area = outline.area();
+            assert!((sum(&|_| 1.0) / area - 1.0).abs() < 5e-3 * mesh / 0.01);
+            let centre = [sum(&|p| p[0]) / area, sum(&|p| p[1]) / area];
+            assert!((centre[0] - 0.11).hypot(centre[1] - 0.07) < 0.02 * mesh, "{centre:?}");
+            let polar = sum(&|p| (p[0] - 0.11).powi(2) + (p[1] - 0.07).powi(2)) / area;
+            let exact = 0.5 * (outer * outer + inner * inner);
+            assert!((polar / exact - 1.0).abs() < 8.0 * (mesh / outer).powi(2), "{polar} {exact}");
+            for direction in 0..2 {
+                let segments = fabric.segments.iter().filter(|s| s.direction == direction);
+                let yarns: f64 = segments.map(|s| s.length * s.width).sum();
+                assert!((yarns / area - 1.0).abs() < 5e-3 * mesh / 0.01, "{yarns} {area}");
+            }
+            // the boundary is met where it is, though nodes are not
+            let length: f64 = fabric
+                .rims
+                .iter()
+                .map(|rim| {
+                    let next = |n: usize| rim[(n + 1) % rim.len()].place;
+                    let way = |n: usize| {
+                        (next(n)[0] - rim[n].place[0]).hypot(next(n)[1] - rim[n].place[1])
+                    };
+                    (0..rim.len()).map(way).sum::<f64>()
+                })
+                .sum();
+            let expected = std::f64::consts::TAU * (outer + inner);
+            assert!((length / expected - 1.0).abs() < 0.02, "{length} {expected}");
+            for rim in fabric.rims.iter().flatten() {
+                let at = rim.of(&fabric.places);
+                assert!((at[0] - rim.place[0]).hypot(at[1] - rim.place[1]) < 1e-12);
+                assert!(outline.depth(at).abs() < 1e-9);
+            }
+        }
     }
 }

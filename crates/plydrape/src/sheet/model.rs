@@ -4,8 +4,14 @@ use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
 use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
-use crate::ply::{Direction, Ply};
+use crate::ply::{Direction, Grid, GripperId, Neighbours, Outline, Ply};
 use crate::scene::{Friction, PadSettings, Scene};
+
+/// Share of a cell that must be ply for the cell to count. Less of it is a sliver of fabric whose nodes hardly have a mass:
+/// with a mesh of 10 mm the boundary is half a millimetre off at most where slivers are left out.
+const LEAST_SHARE: f64 = 0.05;
+/// Distance of two lines, as a share of the mesh, below which the less important one is not met.
+const CLOSE: f64 = 0.3;
 
 /// A ply as a sheet.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,6 +90,30 @@ pub enum SheetError {
         radius_mm: f64,
         /// Fabric beyond the outermost grippers (mm).
         overhang_mm: f64,
+    },
+    /// A pad that is not on the ply as a whole.
+    #[error(
+        "the pad of gripper {gripper:?} has a radius of {radius_mm:.3} mm and its middle is {inside_mm:.3} mm inside the boundary of the ply"
+    )]
+    PadOff {
+        /// The gripper.
+        gripper: GripperId,
+        /// Radius of its pad (mm).
+        radius_mm: f64,
+        /// How far inside the boundary its middle is (mm); negative beyond it.
+        inside_mm: f64,
+    },
+    /// A pad between lines of nodes that holds too few of them.
+    #[error(
+        "the pad of gripper {gripper:?}, of {radius_mm:.3} mm radius, holds no three nodes of a mesh of {mesh_mm:.3} mm: grippers that do not stand in rows along the yarns need pads larger than the mesh"
+    )]
+    PadSmall {
+        /// The gripper.
+        gripper: GripperId,
+        /// Radius of its pad (mm).
+        radius_mm: f64,
+        /// The mesh (mm).
+        mesh_mm: f64,
     },
     /// A number that is not one, or has the wrong sign.
     #[error("{what} is {value}; it must be {range}")]
@@ -164,27 +194,45 @@ impl Sheet {
             let [mesh_mm, between_mm, most_mm] = [mesh, 2.0 * most, most].map(|x| x * 1e3);
             return Err(SheetError::Coarse { mesh_mm, between_mm, most_mm });
         }
-        if radius > overhang * (1.0 + 1e-9) {
-            let [radius_mm, overhang_mm] = [radius, overhang].map(|x| x * 1e3);
-            return Err(SheetError::Overhang { radius_mm, overhang_mm });
-        }
-
-        let along = |count: usize, cell: f64| {
-            if count == 1 {
-                return vec![0.0];
-            }
-            let last = (count - 1) as f64 * cell;
-            let mut meet = vec![-overhang, last + overhang];
-            for n in 0..count {
-                let at = n as f64 * cell;
-                meet.extend([at - radius, at, at + radius]);
-            }
-            lines(meet, mesh)
-        };
         // a single line stands for a strip one cell wide
         let width = if b > 0.0 { b } else { a };
-        let fabric = Fabric::rectangle([along(grid.nu, a), along(grid.nv, b)], width)
-            .enlarged(ply.length_factor);
+        let fabric = match &ply.cut {
+            Some(cut) => {
+                let off = |n: &usize| cut.outline.depth(ply.place(*n)) < radius * (1.0 - 1e-9);
+                if let Some(off) = (0..ply.grippers()).find(off) {
+                    return Err(SheetError::PadOff {
+                        gripper: ply.id(off),
+                        radius_mm: radius * 1e3,
+                        inside_mm: cut.outline.depth(ply.place(off)) * 1e3,
+                    });
+                }
+                Fabric::cut(
+                    lines_of_cut(ply, &cut.outline, radius, mesh),
+                    &cut.outline,
+                    LEAST_SHARE,
+                )
+            }
+            None => {
+                if radius > overhang * (1.0 + 1e-9) {
+                    let [radius_mm, overhang_mm] = [radius, overhang].map(|x| x * 1e3);
+                    return Err(SheetError::Overhang { radius_mm, overhang_mm });
+                }
+                let along = |count: usize, cell: f64| {
+                    if count == 1 {
+                        return vec![0.0];
+                    }
+                    let last = (count - 1) as f64 * cell;
+                    let mut meet = vec![-overhang, last + overhang];
+                    for n in 0..count {
+                        let at = n as f64 * cell;
+                        meet.extend([at - radius, at, at + radius]);
+                    }
+                    lines(meet, mesh)
+                };
+                Fabric::rectangle([along(grid.nu, a), along(grid.nv, b)], width)
+            }
+        };
+        let fabric = fabric.enlarged(ply.length_factor);
 
         let (areal_mass, rigidity) = match material.section {
             // a line is a strip one cell wide
@@ -203,14 +251,13 @@ impl Sheet {
         }
         let mount = mount_stiffness(&settings.pad, 1e3 * tension.tension(0.0)[2], pitch);
         let gripper = |n: usize| {
-            let [i, j] = grid.id(n);
-            let place = [i as f64 * a, j as f64 * b];
+            let place = ply.place(n);
             let (slip_force, max_tilt) = (settings.pad.slip_force, settings.max_tilt);
             Gripper { place, radius, mount, slip_force, max_tilt }
         };
         let sheet = Sheet {
             fabric,
-            grippers: (0..grid.grippers()).map(gripper).collect(),
+            grippers: (0..ply.grippers()).map(gripper).collect(),
             mold: scene.mold.clone(),
             areal_mass,
             rigidity,
@@ -222,6 +269,13 @@ impl Sheet {
             pitch,
             mesh,
         };
+        for (n, held) in sheet.held().iter().enumerate() {
+            // one node may be held at the gripper's own point alone; a pad that turns needs three
+            if sheet.fabric.node_at(ply.place(n)).is_none() && !spans_an_area(held) {
+                let [radius_mm, mesh_mm] = [radius, mesh].map(|x| x * 1e3);
+                return Err(SheetError::PadSmall { gripper: ply.id(n), radius_mm, mesh_mm });
+            }
+        }
         Ok(sheet)
     }
 
@@ -242,6 +296,46 @@ impl Sheet {
         };
         self.grippers.iter().map(one).collect()
     }
+}
+
+/// The lines of nodes of a ply that is cut: its lowest and highest coordinates, the grippers and the edges of their pads
+/// where those stand in rows, and straight parts of the outline along the yarns, unless they are close to another line.
+fn lines_of_cut(ply: &Ply, outline: &Outline, radius: f64, mesh: f64) -> [Vec<f64>; 2] {
+    let [low, high] = outline.bounds();
+    [0, 1].map(|n| {
+        let rounding = 1e-9 * (high[n] - low[n]);
+        let mut rows: Vec<f64> = (0..ply.grippers()).map(|k| ply.place(k)[n]).collect();
+        rows.sort_by(f64::total_cmp);
+        rows.dedup_by(|b, a| *b - *a <= rounding);
+        // grippers that are in no rows would make lines close to each other: their pads hold what is near
+        if rows.windows(2).any(|pair| pair[1] - pair[0] < CLOSE * mesh) {
+            rows.clear();
+        }
+        let pads = rows.iter().flat_map(|row| [row - radius, row + radius]);
+        let sides = outline.lines().filter(|[a, b]| {
+            (a[n] - b[n]).abs() <= rounding && (a[1 - n] - b[1 - n]).abs() >= mesh
+        });
+        let others: Vec<f64> = pads.chain(sides.map(|[a, _]| a[n])).collect();
+        let mut meet = rows;
+        meet.extend([low[n], high[n]]);
+        for other in others {
+            if meet.iter().all(|line| (line - other).abs() >= CLOSE * mesh) {
+                meet.push(other);
+            }
+        }
+        lines(meet, mesh)
+    })
+}
+
+/// Whether nodes, by their distances from one point (m), are not all on one line.
+fn spans_an_area(held: &[(usize, [f64; 2])]) -> bool {
+    let off = |n: usize, m: usize| [0, 1].map(|k| held[n].1[k] - held[m].1[k]);
+    let cross = |a: [f64; 2], b: [f64; 2]| (a[0] * b[1] - a[1] * b[0]).abs();
+    let size = |a: [f64; 2]| a[0] * a[0] + a[1] * a[1];
+    (2..held.len()).any(|n| {
+        let (a, b) = (off(1, 0), off(n, 0));
+        cross(a, b) > 1e-3 * (size(a) * size(b)).sqrt()
+    })
 }
 
 /// Stiffness of a mount along x, y and z (N/m); none if it is rigid and holds whatever pulls.
@@ -268,7 +362,14 @@ pub fn coarsest_mesh(pitch: f64, radius: f64) -> f64 {
 #[must_use]
 pub fn pitch(ply: &Ply) -> f64 {
     let [a, b] = ply.cell;
-    if ply.grid.nv > 1 { a.min(b) } else { a }
+    if ply.grid != Grid::NONE {
+        return if ply.grid.nv > 1 { a.min(b) } else { a };
+    }
+    let distance = |pair: &Neighbours| {
+        let [[u, v], [p, q]] = pair.grippers.map(|n| ply.place(n));
+        (p - u).hypot(q - v)
+    };
+    ply.neighbours().iter().map(distance).fold(f64::INFINITY, f64::min).min(a.max(b))
 }
 
 fn check(

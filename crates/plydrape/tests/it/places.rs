@@ -21,6 +21,7 @@ fn ply() -> Ply {
         material,
         warp: Direction::U,
         length_factor: 1.0,
+        cut: None,
     }
 }
 

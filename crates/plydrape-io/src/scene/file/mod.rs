@@ -18,15 +18,16 @@ pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 
 use super::choice::{Centred, Curve, FrictionChoice, MaterialChoice, Place, Positions};
+use super::drawing::{HoleChoice, OutlineChoice, WarpChoice};
 use super::located::{Count, Fixed, Located};
 use super::quantity::{
     Acceleration, Angle, BendingRigidity, FlexuralRigidity, Force, ForcePerLength, Length, Mass,
     Pressure, Quantity, Ratio, ShearSlope, TensileStiffness, Time,
 };
-use plydrape::ply::Direction;
 use plydrape::scene::Model;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::ops::Range;
 
 /// A scene of plydrape: a ply, the grippers that hold it, the mold, and where all of it goes.
 /// Plain numbers are in SI units; a string carries a unit, as in "98 mm".
@@ -37,7 +38,7 @@ pub(super) struct SceneKeys {
     /// Name for reports; the file's name unless given.
     pub title: Option<Located<String>>,
     /// What hangs between the grippers.
-    pub ply: PlyTable,
+    pub ply: Located<PlyTable>,
     /// What the ply is laid on. Without it the ply just hangs.
     pub mold: Option<Located<MoldTable>>,
     /// Where the grippers start.
@@ -65,41 +66,99 @@ pub(super) struct SceneKeys {
     pub errors: Option<ErrorsTable>,
 }
 
+impl SceneKeys {
+    /// Where the scene says how many grippers there are.
+    pub fn grippers_span(&self) -> &Range<usize> {
+        let ply = &self.ply.value;
+        let points = ply.points.as_ref().map(|points| &points.span);
+        ply.grippers.as_ref().map(|grippers| &grippers.span).or(points).unwrap_or(&self.ply.span)
+    }
+}
+
 /// What hangs between the grippers.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Ply")]
 pub(super) struct PlyTable {
-    /// Number of grippers along u and along v; [n, 1] is a strip.
-    pub grippers: Located<Fixed<Located<Count>, 2>>,
-    /// Fabric length between neighbouring grippers along u and along v (m).
-    pub cell: Fixed<Quantity<Length>, 2>,
+    /// Number of grippers along u and along v; [n, 1] is a strip. Of a ply that is cut, the columns and rows of the array of
+    /// cups.
+    pub grippers: Option<Located<Fixed<Located<Count>, 2>>>,
+    /// Fabric length between neighbouring grippers along u and along v (m); of a ply that is cut, the pitch of the array.
+    pub cell: Option<Fixed<Quantity<Length>, 2>>,
+    /// Its boundary: points [x, y] of a drawing (m), or a DXF file. Unless given, the ply is the rectangle between its
+    /// outermost grippers and its `overhang`.
+    pub outline: Option<Located<OutlineChoice>>,
+    /// A rectangle from the drawing's origin (m), in place of an `outline`.
+    pub size: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    /// Holes of the ply: each points [x, y] of the drawing (m), or a circle.
+    pub holes: Option<Located<Vec<Located<HoleChoice>>>>,
+    /// Where the array of cups picks up a ply that is cut, and which of its cups hold.
+    pub array: Option<Located<ArrayTable>>,
+    /// The cups that hold a ply that is cut, as points [x, y] of the drawing (m), in place of an array.
+    pub points: Option<Located<Vec<Located<Fixed<Quantity<Length>, 2>>>>>,
     /// A shipped material by name, a .toml file relative to the scene, or a table.
     pub material: Located<MaterialChoice>,
-    /// The grid direction along which the warp runs, "u" unless given.
-    pub warp: Option<Warp>,
+    /// The grid direction along which the warp runs, "u" unless given. Of a ply that is cut, the angle from the drawing's x
+    /// axis to the warp (rad), or "u" for its x axis and "v" for its y axis.
+    pub warp: Option<Located<WarpChoice>>,
     /// Fabric beyond the outermost grippers, on all sides (m), 0 unless given. Catenaries end at the grippers: the
     /// sheet alone has it.
     pub overhang: Option<Quantity<Length>>,
 }
 
-/// Grid direction of the warp.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Warp {
-    /// Along the first gripper index.
-    U,
-    /// Along the second gripper index.
-    V,
+/// A DXF file and what of it is the ply.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Drawing")]
+pub(super) struct DrawingTable {
+    /// The file, relative to the scene.
+    pub file: Located<String>,
+    /// The layers with boundary and holes; all that are visible unless given.
+    pub layers: Option<Located<Vec<Located<String>>>>,
+    /// The unit of its coordinates, as "mm"; that of the file unless given.
+    pub unit: Option<Located<String>>,
+    /// How far a curve may be from the lines that stand for it (m); a thousandth of the drawing's size unless given.
+    pub tolerance: Option<Quantity<Length>>,
 }
 
-impl From<Warp> for Direction {
-    fn from(warp: Warp) -> Self {
-        match warp {
-            Warp::U => Direction::U,
-            Warp::V => Direction::V,
-        }
-    }
+/// A round hole.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Circle")]
+pub(super) struct CircleTable {
+    /// Its middle in the drawing (m).
+    pub middle: Located<Fixed<Quantity<Length>, 2>>,
+    /// Its diameter (m).
+    pub diameter: Quantity<Length>,
+}
+
+/// Where an array of cups picks up a ply that is cut.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Array")]
+pub(super) struct ArrayTable {
+    /// The middle of the array in the drawing (m); the middle of the ply unless given.
+    pub middle: Option<Located<Fixed<Quantity<Length>, 2>>>,
+    /// Angle from the drawing's x axis to the rows of the array (rad), 0 unless given.
+    pub direction: Option<Quantity<Angle>>,
+    /// Fabric that there must be around the pad of a cup that holds (m), 0 unless given.
+    pub margin: Option<Quantity<Length>>,
+    /// Which cups hold: a text for each row along v, "#" for a cup that holds and "." for one that does not. All that are on
+    /// the ply unless given.
+    pub holds: Option<Located<Vec<Located<String>>>>,
+    /// What becomes of a cup whose pad is only partly on the ply, "refuse" unless given.
+    pub partly: Option<PartlyKey>,
+}
+
+/// What becomes of a cup whose pad is only partly on the ply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[schemars(rename = "Partly")]
+pub(super) enum PartlyKey {
+    /// The scene is refused.
+    Refuse,
+    /// It does not hold.
+    LeaveOff,
 }
 
 /// A woven ply, by line as in Krogh et al. 2018 or by area.

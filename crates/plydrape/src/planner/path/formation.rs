@@ -13,7 +13,7 @@ use crate::mold::vector::{along, dot, sub};
 use crate::mold::{FrontSurface, Graph, HeightGrid, Mold, Pose, Rise, Surface};
 use crate::net::{Layup, Net};
 use crate::planner::tuning;
-use crate::ply::Grid;
+use crate::ply::Ply;
 use crate::scene::Scene;
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ pub struct Formation<'a> {
     lines: Option<Arc<Lines>>,
     /// The net from the front's start; none where the ideal drape is not known as a net.
     layup: Option<Layup>,
-    grid: Grid,
+    ply: &'a Ply,
     targets: &'a [Point],
     strategy: Strategy,
     centre: [f64; 2],
@@ -70,7 +70,7 @@ impl<'a> Formation<'a> {
             heights: Arc::clone(&heights.heights),
             lines: heights.lines.clone(),
             layup,
-            grid: scene.ply.grid,
+            ply: &scene.ply,
             targets: &target.grippers,
             strategy,
             centre: layup.map_or(middle, |layup| [layup.place[0], layup.place[1]]),
@@ -114,8 +114,8 @@ impl<'a> Formation<'a> {
         let mold = Mold::Graph(Graph { pose, surface, domain: None });
         let place = mold.highest_point(self.centre)?;
         let net = Net::drape(&mold, Layup { place, ..layup }).ok()?;
-        let node = |n: usize| net.node(self.grid.id(n).map(|k| k * TUNING.front.divisions));
-        (0..self.grid.grippers()).map(node).collect()
+        let place = |n: usize| net.place_or_node(&mold, self.ply.place(n));
+        (0..self.ply.grippers()).map(place).collect()
     }
 
     /// Gripper positions (m) when the front has come to `front` (m).
@@ -144,16 +144,32 @@ impl<'a> Formation<'a> {
 /// The layup of a scene's ideal drape, begun where the front starts; none where the drape is not known.
 fn layup(scene: &Scene, strategy: &Strategy) -> Option<Layup> {
     let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
-    let grid = scene.ply.grid;
-    let divisions = TUNING.front.divisions;
-    let nodes = [grid.nu, grid.nv].map(|n| (n - 1) * divisions + 1);
-    let mesh = scene.ply.cell.map(|side| side / divisions as f64);
-    let seed = [0, 1].map(|n| (strategy.start[n] * (nodes[n] - 1) as f64).round() as usize);
-    let uv = [0, 1].map(|n| seed[n] as f64 * mesh[n]);
+    let [origin, high] = scene.ply.held_bounds();
+    let divisions = TUNING.front.divisions as f64;
+    let size = [0, 1].map(|n| high[n] - origin[n]);
+    // a whole number of meshes, of which so many are a cell
+    let cells = [0, 1].map(|n| size[n] / scene.ply.cell[n]);
+    let parts = cells.map(|cells| (cells * divisions * (1.0 - 1e-9)).ceil().max(0.0));
+    let mesh = [0, 1].map(|n| match parts[n] {
+        0.0 => scene.ply.cell[n] / divisions,
+        parts => size[n] / parts,
+    });
+    let nodes = parts.map(|parts| parts as usize + 1);
+    let seed = [0, 1].map(|n| (strategy.start[n] * parts[n]).round() as usize);
+    let uv = [0, 1].map(|n| origin[n] + seed[n] as f64 * mesh[n]);
     let place = drape.place(mold, uv)?;
     let [u, v] = drape.fibres(mold, uv)?;
     let shear = dot(u, v).clamp(-1.0, 1.0).asin();
-    Some(Layup { nodes, mesh, seed, place, heading: u[1].atan2(u[0]), shear, ..drape.layup })
+    Some(Layup {
+        nodes,
+        mesh,
+        origin,
+        seed,
+        place,
+        heading: u[1].atan2(u[0]),
+        shear,
+        ..drape.layup
+    })
 }
 
 /// Heights of a mold over the drape and some margin around it.

@@ -2,8 +2,8 @@
 
 use crate::draping::reach::{closest, outside};
 use crate::draping::spans::Point;
-use crate::mold::vector::{cross, sub, unit};
-use crate::ply::Grid;
+use crate::mold::vector::{cross, unit};
+use crate::ply::{Neighbours, Ply, tangents};
 use crate::scene::Scene;
 
 /// The largest ratio of a measure to its limit: tilt, workspace, and distance of the grippers. Above 1 no drape keeps
@@ -11,8 +11,9 @@ use crate::scene::Scene;
 #[must_use]
 pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
     let limits = &scene.limits;
+    let neighbours = scene.ply.neighbours();
     let one = |step: &Vec<Point>| {
-        let tilt = tilt(scene.ply.grid, step) / limits.tilt;
+        let tilt = tilt(&scene.ply, &neighbours, step) / limits.tilt;
         let workspace = limits.workspace.and_then(|box_| outside(step, box_, scene.ply.cell));
         let workspace = if workspace.is_some_and(|w| w.value > 0.0) { f64::INFINITY } else { 0.0 };
         let near = closest(step).map_or(0.0, |c| limits.gripper_distance * 1e3 / c.value);
@@ -22,24 +23,18 @@ pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
 }
 
 /// Largest angle (rad) between the vertical and the normal of the lines to neighbouring grippers.
-fn tilt(grid: Grid, positions: &[Point]) -> f64 {
+fn tilt(ply: &Ply, neighbours: &[Neighbours], positions: &[Point]) -> f64 {
     let one = |n: usize| {
-        let [i, j] = grid.id(n);
-        let across = |at: usize, count: usize, place: &dyn Fn(usize) -> usize| {
-            let [low, high] = [at.saturating_sub(1), (at + 1).min(count - 1)].map(place);
-            sub(positions[high], positions[low])
-        };
-        let u = across(i, grid.nu, &|i| grid.index([i, j]));
-        let v = across(j, grid.nv, &|j| grid.index([i, j]));
-        let v = if grid.nv > 1 { v } else { cross([0.0, 0.0, 1.0], u) };
+        let [u, v] = tangents(ply, neighbours, positions, n);
         unit(cross(u, v)).map_or(0.0, |normal| normal[2].clamp(-1.0, 1.0).acos())
     };
-    (0..grid.grippers()).map(one).fold(0.0, f64::max)
+    (0..ply.grippers()).map(one).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ply::{Grid, cloth};
 
     /// All grippers of a level array that is inclined by an angle tilt by this angle, whatever its heading; so does a line of
     /// grippers that climbs by it.
@@ -56,7 +51,8 @@ mod tests {
                     [x * cos - v * sin, x * sin + v * cos, z]
                 };
                 let places: Vec<Point> = (0..grid.grippers()).map(place).collect();
-                let found = tilt(grid, &places);
+                let ply = cloth(grid);
+                let found = tilt(&ply, &ply.neighbours(), &places);
                 assert!((found - inclination).abs() < 1e-7, "{nu} × {nv}: {found} {inclination}");
             }
         }

@@ -16,13 +16,14 @@ use crate::draping::spans::Point;
 use crate::mold::distance;
 use crate::mold::vector::{along, between, sub, unit};
 use crate::planner::tuning;
-use crate::ply::Grid;
+use crate::ply::Neighbours;
 use crate::scene::Scene;
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// The preload of a strategy's grippers; none of rigid ones.
 pub struct Preload<'a> {
     scene: &'a Scene,
+    neighbours: Vec<Neighbours>,
     targets: &'a [Point],
     /// How far a mount gives along x, y and z (m/N).
     compliance: [f64; 3],
@@ -65,6 +66,7 @@ impl<'a> Preload<'a> {
         let kept = if pull > 0.0 { (needed / pull).clamp(TUNING.preload.kept, 1.0) } else { 0.0 };
         Some(Preload {
             scene,
+            neighbours: scene.ply.neighbours(),
             targets: &target.grippers,
             compliance: [lateral, lateral, axial],
             pull,
@@ -104,30 +106,16 @@ impl<'a> Preload<'a> {
     /// What lines of unit pull do to a gripper, of whose pull a share `free` is not yet given up; and whether one of them
     /// bridges a hollow.
     fn lines(&self, places: &[Point], gripper: usize, free: f64) -> (Point, bool) {
-        let grid: Grid = self.scene.ply.grid;
-        let [i, j] = grid.id(gripper);
         let (mut sum, mut over_hollow) = ([0.0; 3], false);
-        let mut add = |id: [usize; 2], border: bool| {
-            let other = grid.index(id);
+        let beside = self.neighbours.iter().filter(|pair| pair.grippers.contains(&gripper));
+        for pair in beside {
+            let other = pair.grippers[usize::from(pair.grippers[0] == gripper)];
             let way = unit(sub(places[other], places[gripper])).unwrap_or([0.0; 3]);
             let hollow = self.is_over_hollow(gripper, other);
             over_hollow |= hollow;
             let kept = if hollow { 0.0 } else { self.kept };
-            let pull = if border { self.border } else { 1.0 };
+            let pull = if pair.border { self.border } else { 1.0 };
             sum = along(sum, pull * (kept + (1.0 - kept) * free), way);
-        };
-        let (on_u, on_v) = (j == 0 || j + 1 == grid.nv, i == 0 || i + 1 == grid.nu);
-        if i > 0 {
-            add([i - 1, j], on_u);
-        }
-        if i + 1 < grid.nu {
-            add([i + 1, j], on_u);
-        }
-        if j > 0 {
-            add([i, j - 1], on_v);
-        }
-        if j + 1 < grid.nv {
-            add([i, j + 1], on_v);
         }
         (sum, over_hollow)
     }

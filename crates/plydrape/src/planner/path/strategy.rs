@@ -103,7 +103,6 @@ impl Strategy {
     /// grippers leaves to a front of this shape.
     #[must_use]
     pub fn families(scene: &Scene, steepest: impl Fn(Strategy) -> f64 + Sync) -> Vec<Strategy> {
-        let grid = scene.ply.grid;
         let [first, second] =
             principal_directions(scene).unwrap_or([0.0, std::f64::consts::FRAC_PI_2]);
         let shape = |ratio, angle| Strategy { ratio, angle, ..Strategy::ring() };
@@ -138,7 +137,9 @@ impl Strategy {
         let tauter = |of: Strategy| Strategy { pretension: 2.0 * of.pretension, ..of };
         let softer = |of: Strategy| Strategy { pretension: 0.5 * of.pretension, ..of };
         // where a cell is in the middle, both starts are one
-        let cell = [grid.nu, grid.nv].map(middle_of_cell);
+        let [low, high] = scene.ply.held_bounds();
+        let cells = |n: usize| ((high[n] - low[n]) / scene.ply.cell[n]).round();
+        let cell = [0, 1].map(|n| middle_of_cell(cells(n) as usize));
         let beside: &[Strategy] = match cell == ring.start {
             true => &[],
             false => &[Strategy { start: cell, ..softer(ring) }, Strategy { start: cell, ..ring }],
@@ -210,9 +211,9 @@ impl Strategy {
     }
 }
 
-/// The middle of the cell that is nearest the middle of so many grippers, as a share of the fabric.
-fn middle_of_cell(grippers: usize) -> f64 {
-    let cells = grippers.saturating_sub(1).max(1);
+/// The middle of the cell that is nearest the middle of so many cells, as a share of the fabric.
+fn middle_of_cell(cells: usize) -> f64 {
+    let cells = cells.max(1);
     ((cells / 2) as f64 + if cells % 2 == 1 { 0.5 } else { -0.5 }) / cells as f64
 }
 

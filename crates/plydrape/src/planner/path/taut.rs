@@ -9,7 +9,8 @@
 
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
-use crate::mold::vector::between;
+use crate::mold::vector::{between, distance};
+use crate::ply::Neighbours;
 use crate::scene::Scene;
 
 /// The lines between neighbouring grippers of a scene, as they shall lie on the mold.
@@ -44,22 +45,23 @@ impl Lines {
     #[must_use]
     pub fn new(scene: &Scene) -> Option<Self> {
         let (mold, drape) = (scene.mold.as_ref()?, scene.target.as_ref()?.drape.as_ref()?);
-        let (grid, cell) = (scene.ply.grid, scene.ply.cell);
+        let ply = &scene.ply;
         let parts = TUNING.front.line_parts;
-        let line = |n: usize| {
-            let catenary = grid.catenary(n);
-            let [a, b] = [catenary.from, catenary.to].map(|[i, j]| [i as f64, j as f64]);
+        let line = |pair: Neighbours| {
+            let [a, b] = pair.grippers.map(|n| ply.place(n));
             let place = |k: usize| {
                 let t = k as f64 / parts as f64;
-                drape.place(mold, [0, 1].map(|c| (a[c] + t * (b[c] - a[c])) * cell[c]))
+                drape.place(mold, [0, 1].map(|c| a[c] + t * (b[c] - a[c])))
             };
-            Some(Line {
-                grippers: [catenary.from, catenary.to].map(|id| grid.index(id)),
-                length: scene.ply.flat_length(catenary.kind),
-                places: (0..=parts).map(place).collect::<Option<_>>()?,
-            })
+            let places: Vec<Point> = (0..=parts).map(place).collect::<Option<_>>()?;
+            let length = match pair.fibre {
+                Some(_) => ply.length_factor * (b[0] - a[0]).hypot(b[1] - a[1]),
+                // a line across the yarns becomes as long as the shear of the ideal drape makes it
+                None => places.windows(2).map(|pair| distance(pair[0], pair[1])).sum(),
+            };
+            Some(Line { grippers: pair.grippers, length, places })
         };
-        (0..grid.edges()).map(line).collect::<Option<_>>().map(Lines)
+        ply.neighbours().into_iter().map(line).collect::<Option<_>>().map(Lines)
     }
 
     /// Moves grippers (m) that are not in contact sideways until all free lines are taut, `stretch` beyond their length.

@@ -19,12 +19,12 @@ pub struct Evaluation {
 
 impl Evaluation {
     pub fn of(scene: &Scene, draping: &Draping, shape: &Shape) -> Self {
-        let (grid, positions) = (scene.ply.grid, &draping.positions);
-        let tilt = |n| attitude(&draping.solver, grid, positions, n, None).tilt;
+        let (ply, positions) = (&scene.ply, &draping.positions);
+        let tilt = |n| attitude(&draping.solver, ply, &[], positions, n, None).tilt;
         Evaluation {
             converged: shape.equilibrium.status == Status::Converged,
             stretch: stretch(scene, draping, shape),
-            tilt: (0..grid.grippers()).map(tilt).fold(0.0, f64::max),
+            tilt: (0..ply.grippers()).map(tilt).fold(0.0, f64::max),
         }
     }
 

@@ -16,7 +16,7 @@ pub fn directions(
     step: usize,
 ) -> [Most; 2] {
     let mut most = [Most::default(); 2];
-    for cell in &fabric.cells {
+    for cell in fabric.cells.iter().filter(|cell| cell.is_ply()) {
         let [a, b, c, d] = cell.nodes.map(|n| x[n as usize]);
         let at = middle([a, b, c, d]);
         let uv = middle(cell.nodes.map(|n| fabric.places[n as usize]));

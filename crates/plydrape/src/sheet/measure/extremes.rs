@@ -38,7 +38,7 @@ impl Extremes {
             let (uv, at) = of(segment.nodes);
             self.strain.meet(strain(segment, x), uv, at, step);
         }
-        for (cell, shear) in fabric.cells.iter().zip(&state.shear) {
+        for (cell, shear) in fabric.cells.iter().zip(&state.shear).filter(|(c, _)| c.is_ply()) {
             let uv = middle(cell.nodes.map(|n| fabric.places[n as usize]));
             let at = middle(cell.nodes.map(|n| x[n as usize]));
             self.shear.meet(shear.abs(), uv, at, step);
@@ -68,14 +68,15 @@ impl Extremes {
             };
             self.tilt.meet(tilt, gripper.place, at, step);
         }
-        for (node, height) in state.heights.iter().enumerate() {
+        for (node, height) in state.heights.iter().enumerate().filter(|(n, _)| fabric.inside[*n]) {
             self.depth.meet((-height).max(0.0), fabric.places[node], x[node], step);
         }
         if let Some(mold) = &sheet.mold {
             self.between(fabric, mold, state, sheet.mesh);
         }
         if self.first_contact.is_none() {
-            let heights = state.heights.iter().enumerate().filter(|(node, _)| !gripped[*node]);
+            let free = |node: usize| fabric.inside[node] && !gripped[node];
+            let heights = state.heights.iter().enumerate().filter(|(node, _)| free(*node));
             let lowest = heights.min_by(|a, b| a.1.total_cmp(b.1));
             self.first_contact =
                 lowest.filter(|(_, height)| **height <= touching).map(|(node, height)| Place {
@@ -92,7 +93,7 @@ impl Extremes {
         if matches!(mold, Mold::Plane(_)) {
             return;
         }
-        for cell in &fabric.cells {
+        for cell in fabric.cells.iter().filter(|cell| cell.is_ply()) {
             let nodes = cell.nodes.map(|n| n as usize);
             if nodes.iter().all(|n| state.heights[*n] > mesh) {
                 continue;

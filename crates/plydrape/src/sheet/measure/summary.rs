@@ -124,8 +124,8 @@ impl Summary {
             let x = &last.positions;
             let (mut squares, mut above, mut area) = (0.0, 0.0, 0.0);
             for (node, height) in last.heights.iter().enumerate() {
-                // what lies off the mold has no height
-                if mold.closest_point(x[node]).beyond {
+                // what lies off the mold has no height, and what is beyond the boundary is no ply
+                if !fabric.inside[node] || mold.closest_point(x[node]).beyond {
                     continue;
                 }
                 ends.height.meet(height.max(0.0), fabric.places[node], x[node], last.step);
@@ -135,19 +135,27 @@ impl Summary {
                     above += fabric.areas[node];
                 }
             }
+            for rim in fabric.rims.iter().flatten() {
+                let at = rim.of(x);
+                let closest = mold.closest_point(at);
+                if !closest.beyond {
+                    ends.height.meet(closest.distance.max(0.0), rim.place, at, last.step);
+                }
+            }
             if area > 0.0 {
                 (rms, share) = (Some((squares / area).sqrt()), Some(above / area));
                 let kinds = raised(fabric, mold, x, clear);
                 let highest = |kind: Raised| {
-                    let of = kinds.iter().zip(&last.heights).filter(|(k, _)| **k == Some(kind));
-                    Some(of.map(|(_, height)| *height).fold(0.0, f64::max))
+                    let of = kinds.iter().zip(&last.heights).zip(&fabric.inside);
+                    let of = of.filter(|((k, _), inside)| **inside && **k == Some(kind));
+                    Some(of.map(|((_, height), _)| *height).fold(0.0, f64::max))
                 };
                 (ridge, bridge) = (highest(Raised::Ridge), highest(Raised::Bridge));
             }
             let ideal = scene.target.as_ref().and_then(|target| target.drape.as_deref());
             [ends.out_of_plane, ends.fibre_angle] = directions(fabric, mold, ideal, x, last.step);
             if let Some(ideal) = ideal {
-                let landed = |node: usize| last.heights[node] <= touching;
+                let landed = |node: usize| fabric.inside[node] && last.heights[node] <= touching;
                 (ends.position, position_rms) =
                     positions(fabric, mold, ideal, x, landed, last.step);
             }

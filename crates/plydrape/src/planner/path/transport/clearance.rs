@@ -6,7 +6,7 @@ use crate::mold::Mold;
 use crate::mold::vector::{along, between, distance, norm, sub};
 use crate::planner::path::tuning::TUNING;
 use crate::planner::tuning;
-use crate::ply::Ply;
+use crate::ply::{Grid, Ply, directions};
 use crate::scene::Scene;
 
 /// What a carried array must stay clear of.
@@ -51,7 +51,7 @@ impl<'a> Clearance<'a> {
             points,
             line,
             start: middle,
-            hang: sag(ply, start).max(overhang),
+            hang: sag(ply, start).max(beyond(ply, overhang)),
             margin: TUNING.transport.margin * tuning::cell(scene),
             table: None,
             own: f64::INFINITY,
@@ -176,53 +176,73 @@ fn highest_boundary(mold: &Mold, ranges: [[f64; 2]; 2], pitch: f64) -> f64 {
     highest
 }
 
-/// Points of an array, as lines along u: a few each cell, bilinear between grippers, and the same surface continued over the
-/// overhang (m).
+/// Points of the ply as its array is at the start, as lines along u: a few each cell between its lowest and highest fabric
+/// coordinates (m). Between grippers that are an array along the yarns they are bilinear, elsewhere where the array as a whole
+/// puts them.
 fn points(ply: &Ply, places: &[Point], overhang: f64) -> Vec<Vec<Point>> {
-    let grid = ply.grid;
+    let [low, high] = ply.bounds(overhang);
+    let [inner_low, inner_high] = ply.held_bounds();
     let axis = |n: usize| -> Vec<f64> {
-        let last = [grid.nu, grid.nv][n] - 1;
-        if last == 0 {
-            return vec![0.0];
-        }
-        let divisions = last * TUNING.transport.divisions;
-        let inner = (0..=divisions).map(|k| k as f64 / TUNING.transport.divisions as f64);
-        let beyond = overhang / ply.cell[n];
+        let size = inner_high[n] - inner_low[n];
+        let parts = (size / ply.cell[n] * TUNING.transport.divisions as f64).round();
+        let inner = (0..=parts as usize).map(|k| inner_low[n] + k as f64 / parts.max(1.0) * size);
         let mut axis: Vec<f64> = inner.collect();
-        if beyond > 0.0 {
-            axis.insert(0, -beyond);
-            axis.push(last as f64 + beyond);
+        if low[n] < inner_low[n] {
+            axis.insert(0, low[n]);
+        }
+        if high[n] > inner_high[n] {
+            axis.push(high[n]);
         }
         axis
     };
-    let at = |u: f64, v: f64| {
-        let cell = |x: f64, count: usize| (x.max(0.0) as usize).min(count.saturating_sub(2));
-        let (i, j) = (cell(u, grid.nu), cell(v, grid.nv));
-        let place =
-            |i: usize, j: usize| places[grid.index([i.min(grid.nu - 1), j.min(grid.nv - 1)])];
-        let line = |j: usize| {
-            let (a, b) = (place(i, j), place(i + 1, j));
-            along(a, u - i as f64, sub(b, a))
-        };
-        let (a, b) = (line(j), line(j + 1));
-        along(a, v - j as f64, sub(b, a))
-    };
     let (u, v) = (axis(0), axis(1));
+    let at: Box<dyn Fn(f64, f64) -> Point> = match ply.grid {
+        Grid::NONE => {
+            let (middle, [along_u, along_v]) = (centre(places), directions(ply, places));
+            let count = places.len() as f64;
+            let own =
+                [0, 1].map(|n| (0..places.len()).map(|k| ply.place(k)[n]).sum::<f64>() / count);
+            Box::new(move |u, v| {
+                let p = along(middle, u - own[0], along_u.unwrap_or_default());
+                along(p, v - own[1], along_v.unwrap_or_default())
+            })
+        }
+        grid => Box::new(move |u, v| bilinear(grid, places, [u / ply.cell[0], v / ply.cell[1]])),
+    };
     v.iter().map(|v| u.iter().map(|u| at(*u, *v)).collect()).collect()
+}
+
+/// The place (m) at a share of cells between the grippers of an array; beyond them its outermost cells go on.
+fn bilinear(grid: Grid, places: &[Point], [u, v]: [f64; 2]) -> Point {
+    let cell = |x: f64, count: usize| (x.max(0.0) as usize).min(count.saturating_sub(2));
+    let (i, j) = (cell(u, grid.nu), cell(v, grid.nv));
+    let place = |i: usize, j: usize| places[grid.index([i.min(grid.nu - 1), j.min(grid.nv - 1)])];
+    let line = |j: usize| {
+        let (a, b) = (place(i, j), place(i + 1, j));
+        along(a, u - i as f64, sub(b, a))
+    };
+    let (a, b) = (line(j), line(j + 1));
+    along(a, if v.is_finite() { v - j as f64 } else { 0.0 }, sub(b, a))
 }
 
 /// The most that a cell hangs below its grippers (m): its middle hangs below the middles of two of its edges as an edge
 /// along the other direction does, each as a parabola, `f² = 3/8 ℓ (L − ℓ)`.
 fn sag(ply: &Ply, places: &[Point]) -> f64 {
-    let grid = ply.grid;
     let mut largest = [0.0_f64; 2];
-    for edge in 0..grid.edges() {
-        let c = grid.catenary(edge);
-        let [a, b] = [c.from, c.to].map(|g| places[grid.index(g)]);
-        let (chord, length) = (distance(a, b), ply.flat_length(c.kind));
+    for pair in ply.neighbours() {
+        let [a, b] = pair.grippers.map(|n| places[n]);
+        let [p, q] = pair.grippers.map(|n| ply.place(n));
+        let way = [q[0] - p[0], q[1] - p[1]];
+        let (chord, length) = (distance(a, b), ply.length_factor * way[0].hypot(way[1]));
         let sag = (0.375 * chord * (length - chord).max(0.0)).sqrt();
-        let of = &mut largest[usize::from(edge >= grid.edges_u())];
+        let of = &mut largest[usize::from(way[1].abs() > way[0].abs())];
         *of = of.max(sag);
     }
     largest[0] + largest[1]
+}
+
+/// How far fabric reaches beyond the outermost grippers at most (m): so far may it hang.
+fn beyond(ply: &Ply, overhang: f64) -> f64 {
+    let ([low, high], [from, to]) = (ply.bounds(overhang), ply.held_bounds());
+    [0, 1].map(|n| (from[n] - low[n]).max(high[n] - to[n])).into_iter().fold(0.0, f64::max)
 }

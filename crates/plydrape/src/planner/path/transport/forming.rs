@@ -8,7 +8,6 @@
 
 use crate::draping::spans::Point;
 use crate::mold::vector::{along, between, cross, distance, dot, norm, sub};
-use crate::ply::Grid;
 
 /// Residual at which the conjugate gradients end, as a share of the first one.
 const RESIDUAL: f64 = 1e-12;
@@ -19,8 +18,15 @@ const ERROR: f64 = 1e-6;
 
 /// The array a share of the way from one shape to another (m). Its edges have the share `tight[1]` of their change of length
 /// after the share `tight[0]` of the way, because a ply that hangs slack tilts its grippers already, and what inclines it
-/// afterwards adds to that; the rest of it comes last, because no edge may be too long meanwhile.
-pub fn formed(grid: Grid, from: &[Point], to: &[Point], share: f64, tight: [f64; 2]) -> Vec<Point> {
+/// afterwards adds to that; the rest of it comes last, because no edge may be too long meanwhile. `edges` are the grippers at
+/// both ends of each.
+pub fn formed(
+    edges: &[[usize; 2]],
+    from: &[Point],
+    to: &[Point],
+    share: f64,
+    tight: [f64; 2],
+) -> Vec<Point> {
     let [early, most] = tight;
     let lengthened = if share < early {
         most * share / early
@@ -29,25 +35,26 @@ pub fn formed(grid: Grid, from: &[Point], to: &[Point], share: f64, tight: [f64;
     };
     let straight: Vec<Point> = from.iter().zip(to).map(|(a, b)| between(*a, *b, share)).collect();
     // what the edges lack on straight ways
-    let turned: Vec<Point> = edges(grid)
-        .map(|[a, b]| turned(sub(from[b], from[a]), sub(to[b], to[a]), share, lengthened))
+    let turned: Vec<Point> = edges
+        .iter()
+        .map(|&[a, b]| turned(sub(from[b], from[a]), sub(to[b], to[a]), share, lengthened))
         .collect();
-    let pairs = edges(grid).zip(&turned);
+    let pairs = edges.iter().zip(&turned);
     let lacks: Vec<Point> =
-        pairs.map(|([a, b], edge)| sub(*edge, sub(straight[b], straight[a]))).collect();
-    let corrections = fitted(grid, &lacks);
+        pairs.map(|(&[a, b], edge)| sub(*edge, sub(straight[b], straight[a]))).collect();
+    let corrections = fitted(edges, from.len(), &lacks);
     let mut formed: Vec<Point> =
         straight.iter().zip(corrections).map(|(p, by)| along(*p, 1.0, by)).collect();
     let lengths: Vec<f64> = turned.iter().map(|edge| norm(*edge)).collect();
-    give_lengths(grid, &mut formed, &lengths);
+    give_lengths(edges, &mut formed, &lengths);
     formed
 }
 
 /// Moves both ends of each edge by the same way along it until all edges have their lengths (m).
-fn give_lengths(grid: Grid, places: &mut [Point], lengths: &[f64]) {
+fn give_lengths(edges: &[[usize; 2]], places: &mut [Point], lengths: &[f64]) {
     for _ in 0..ROUNDS {
         let mut worst = 0.0_f64;
-        for ([a, b], length) in edges(grid).zip(lengths) {
+        for (&[a, b], length) in edges.iter().zip(lengths) {
             let now = distance(places[a], places[b]);
             if now <= 0.0 {
                 continue;
@@ -79,10 +86,9 @@ fn turned(from: Point, to: Point, share: f64, lengthened: f64) -> Point {
 }
 
 /// The moves of the grippers, zero on the average, whose differences along the edges fit the given ones best.
-fn fitted(grid: Grid, differences: &[Point]) -> Vec<Point> {
-    let count = grid.grippers();
+fn fitted(edges: &[[usize; 2]], count: usize, differences: &[Point]) -> Vec<Point> {
     let mut residual = vec![[0.0; 3]; count];
-    for ([a, b], difference) in edges(grid).zip(differences) {
+    for (&[a, b], difference) in edges.iter().zip(differences) {
         residual[a] = sub(residual[a], *difference);
         residual[b] = along(residual[b], 1.0, *difference);
     }
@@ -95,7 +101,7 @@ fn fitted(grid: Grid, differences: &[Point]) -> Vec<Point> {
             break;
         }
         let mut image = vec![[0.0; 3]; count];
-        for [a, b] in edges(grid) {
+        for &[a, b] in edges {
             let along_edge = sub(direction[b], direction[a]);
             image[a] = sub(image[a], along_edge);
             image[b] = along(image[b], 1.0, along_edge);
@@ -115,20 +121,17 @@ fn fitted(grid: Grid, differences: &[Point]) -> Vec<Point> {
     moves
 }
 
-/// The grippers at both ends of every edge, by index.
-fn edges(grid: Grid) -> impl Iterator<Item = [usize; 2]> {
-    (0..grid.edges()).map(move |edge| {
-        let c = grid.catenary(edge);
-        [grid.index(c.from), grid.index(c.to)]
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mold::distance;
+    use crate::ply::Grid;
 
     const GRID: Grid = Grid { nu: 5, nv: 4 };
+
+    fn edges(grid: Grid) -> Vec<[usize; 2]> {
+        crate::ply::cloth(grid).neighbours().iter().map(|pair| pair.grippers).collect()
+    }
 
     fn array(place: impl Fn(f64, f64) -> Point) -> Vec<Point> {
         let id = |n: usize| GRID.id(n).map(|k| k as f64);
@@ -147,7 +150,7 @@ mod tests {
             [cos * u + sin * v, sin * u + cos * v, 0.02]
         });
         for k in 0..=10 {
-            let between = formed(GRID, &from, &to, f64::from(k) / 10.0, [0.5, 0.5]);
+            let between = formed(&edges(GRID), &from, &to, f64::from(k) / 10.0, [0.5, 0.5]);
             for [a, b] in edges(GRID) {
                 let length = distance(between[a], between[b]);
                 let expected = 0.099 + 1e-4 * f64::from(k);
@@ -166,7 +169,7 @@ mod tests {
             [x, y, 0.3 * x - 1.2 * x * x + 0.8 * x * y - 0.6 * y * y]
         });
         for k in 4..=10 {
-            let between = formed(GRID, &from, &to, f64::from(k) / 10.0, [0.4, 1.0]);
+            let between = formed(&edges(GRID), &from, &to, f64::from(k) / 10.0, [0.4, 1.0]);
             for [a, b] in edges(GRID) {
                 let ratio = distance(between[a], between[b]) / distance(to[a], to[b]);
                 assert!((ratio - 1.0).abs() < 1e-5, "{k}: {ratio}");
@@ -184,11 +187,13 @@ mod tests {
             [x, y, -0.5 * (x * x + y * y)]
         });
         for (share, expected) in [(0.0, &from), (1.0, &to)] {
-            for (p, q) in formed(GRID, &from, &to, share, [0.5, 0.5]).iter().zip(expected) {
+            for (p, q) in formed(&edges(GRID), &from, &to, share, [0.5, 0.5]).iter().zip(expected) {
                 assert!(distance(*p, *q) < 1e-12, "{share}: {p:?} {q:?}");
             }
         }
-        for ((p, a), b) in formed(GRID, &from, &to, 0.5, [0.5, 0.5]).iter().zip(&from).zip(&to) {
+        for ((p, a), b) in
+            formed(&edges(GRID), &from, &to, 0.5, [0.5, 0.5]).iter().zip(&from).zip(&to)
+        {
             assert!(distance(*p, between(*a, *b, 0.5)) < 5e-4, "{p:?} {a:?} {b:?}");
         }
     }

@@ -35,8 +35,8 @@ pub fn transport(scene: &Scene, formation: &[Point], steps: usize) -> Option<Vec
     let share = |share: f64| ((share * steps as f64).round() as usize).max(1);
     let forming = share(TUNING.transport.forming);
     let tight = TUNING.transport.tight;
-    let form =
-        |k: usize| formed(scene.ply.grid, &carried, &above, k as f64 / forming as f64, tight);
+    let edges: Vec<[usize; 2]> = scene.ply.neighbours().iter().map(|pair| pair.grippers).collect();
+    let form = |k: usize| formed(&edges, &carried, &above, k as f64 / forming as f64, tight);
     positions.extend((1..forming).map(form));
     let descent = share(TUNING.transport.descent);
     let down = |k: usize| {

@@ -3,7 +3,7 @@
 
 use crate::draping::spans::Point;
 use crate::mold::vector::{along, cross, dot, norm, sub, unit};
-use crate::ply::Grid;
+use crate::ply::{Ply, directions};
 
 /// A rotation as the rows of its matrix.
 pub type Rotation = [[f64; 3]; 3];
@@ -25,9 +25,9 @@ pub struct Turn {
 
 impl Turn {
     /// The turn of an array from some places to others (m).
-    pub fn new(grid: Grid, from: &[Point], to: &[Point]) -> Self {
+    pub fn new(ply: &Ply, from: &[Point], to: &[Point]) -> Self {
         let whole = best_rotation(from, to);
-        let normal = normal(grid, from);
+        let normal = normal(ply, from);
         let mut normals = [normal, turned(&whole, normal)];
         // what is left of it between the two upright positions is a rotation about z
         let upright = turned(&whole, turned(&inclined(normals[0]), [1.0, 0.0, 0.0]));
@@ -100,20 +100,9 @@ fn best_rotation(from: &[Point], to: &[Point]) -> Rotation {
 }
 
 /// Normal of an array, upwards; of a line of grippers the steepest one.
-fn normal(grid: Grid, places: &[Point]) -> Point {
-    let across = |axis: usize| {
-        let last = [grid.nu, grid.nv][axis] - 1;
-        if last == 0 {
-            return [0.0; 3];
-        }
-        (0..places.len()).fold([0.0; 3], |sum, n| match grid.id(n)[axis] {
-            0 => sub(sum, places[n]),
-            k if k == last => along(sum, 1.0, places[n]),
-            _ => sum,
-        })
-    };
+fn normal(ply: &Ply, places: &[Point]) -> Point {
     let upwards = [0.0, 0.0, 1.0];
-    let normal = match [0, 1].map(|axis| unit(across(axis))) {
+    let normal = match directions(ply, places) {
         [Some(u), Some(v)] => unit(cross(u, v)),
         [Some(line), None] | [None, Some(line)] => unit(along(upwards, -line[2], line)),
         [None, None] => None,
@@ -172,6 +161,7 @@ fn solve(rows: &Rotation, right: Point) -> Option<Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ply::{Grid, cloth};
     use std::f64::consts::{PI, TAU};
 
     const GRID: Grid = Grid { nu: 4, nv: 3 };
@@ -205,7 +195,7 @@ mod tests {
     fn a_turn_goes_from_one_array_to_the_other() {
         let there = array(GRID);
         let places = all(&rotation_about([0.3, -0.2, 1.1]), &there);
-        let turn = Turn::new(GRID, &places, &there);
+        let turn = Turn::new(&cloth(GRID), &places, &there);
         for (share, expected) in [(0.0, &places), (1.0, &there)] {
             let (from, to) = (centre(&places), centre(expected));
             for (p, q) in places.iter().zip(expected) {
@@ -227,7 +217,7 @@ mod tests {
     fn no_array_is_inclined_on_its_way() {
         let places = array(GRID);
         let there = all(&rotation_about([0.3, -0.2, 1.1]), &places);
-        let turn = Turn::new(GRID, &places, &there);
+        let turn = Turn::new(&cloth(GRID), &places, &there);
         for k in 0..=10 {
             let up = turned(&turn.at(f64::from(k) / 10.0), turn.normals[0]);
             assert!((up[2] - turn.normals[0][2]).abs() < 1e-12, "{k}: {up:?}");
@@ -241,7 +231,7 @@ mod tests {
         for (from, by) in [(0.0, 5.0), (2.0, -4.0), (-3.0, 3.5), (1.0, 1.0)] {
             let start = all(&rotation_about([0.0, 0.0, from]), &places);
             let end = all(&rotation_about([0.0, 0.0, from + by]), &places);
-            let turn = Turn::new(GRID, &start, &end);
+            let turn = Turn::new(&cloth(GRID), &start, &end);
             let shorter = (by + PI).rem_euclid(TAU) - PI;
             assert!((turn.heading - shorter).abs() < 1e-12, "{by}: {}", turn.heading);
         }
@@ -254,7 +244,7 @@ mod tests {
         for grid in [Grid { nu: 5, nv: 1 }, Grid { nu: 1, nv: 5 }] {
             let level: Vec<Point> = (0..5).map(|k| [0.1 * f64::from(k), 0.0, 0.0]).collect();
             let climbing = all(&rotation_about([0.0, -0.3, 0.7]), &level);
-            let turn = Turn::new(grid, &climbing, &level);
+            let turn = Turn::new(&cloth(grid), &climbing, &level);
             let [x, y, z] = unit(sub(climbing[4], climbing[0])).expect("a line");
             assert!((turn.heading + y.atan2(x)).abs() < 1e-9, "{turn:?}");
             // a normal of a line that climbs by an angle is no steeper than this angle allows

@@ -1,0 +1,379 @@
+//! A ply as it is cut: its outline, the cups that hold it, and fabric coordinates along its yarns.
+//!
+//! A file has all of it in the coordinates of a drawing. Fabric coordinates run along the yarns, from the first cup that
+//! holds: along the rows of the array where these lie along the yarns, else along the warp.
+
+use super::check::{grid, missing};
+use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
+use super::error::{Document, SceneError};
+use super::file::{ArrayTable, CircleTable, PartlyKey, PlyTable};
+use super::heading::{coordinates, heading};
+use super::located::{Fixed, Located};
+use super::quantity::{Length, Quantity, rounded};
+use crate::shown::millimetres;
+use plydrape::ply::{Cut, Direction, Grid, Held, Outline, OutlineError, Ring, RingId};
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::ops::Range;
+use std::path::Path;
+
+/// Sides of the polygon that stands for a circle: it is a thousandth of the radius off at most.
+const SIDES: usize = 72;
+/// Directions that differ by less (rad) are the same: a millionth of a metre over a ply of a kilometre.
+const SAME: f64 = 1e-9;
+/// Most cups of a list.
+const MOST_POINTS: usize = 10_000;
+
+/// A ply that is cut, as far as its outline and its grippers say what it is.
+pub(super) struct Shape {
+    pub grid: Grid,
+    pub cell: [f64; 2],
+    pub warp: Direction,
+    pub cut: Cut,
+}
+
+/// A cup in the drawing.
+#[derive(Clone, Copy)]
+struct Cup {
+    id: [usize; 2],
+    place: [f64; 2],
+}
+
+/// Whether the table says how the ply is cut.
+pub(super) fn is_cut(table: &PlyTable) -> bool {
+    table.outline.is_some()
+        || table.size.is_some()
+        || table.holes.is_some()
+        || table.array.is_some()
+        || table.points.is_some()
+}
+
+/// Reads how a ply is cut and held; `radius` is that of the pads (m).
+pub(super) fn shape(
+    ply: &Located<PlyTable>,
+    radius: f64,
+    document: &Document,
+    base: &Path,
+) -> Result<Shape, SceneError> {
+    let table = &ply.value;
+    if let Some(overhang) = &table.overhang {
+        return Err(document.error(
+            overhang.span.clone(),
+            "the ply has an outline and an `overhang`",
+            "remove `overhang`: the outline says where the ply ends",
+        ));
+    }
+    let outline = outline(ply, document, base)?;
+    let warp = match &table.warp {
+        None | Some(Located { value: WarpChoice::U, .. }) => 0.0,
+        Some(Located { value: WarpChoice::V, .. }) => FRAC_PI_2,
+        Some(Located { value: WarpChoice::Angle(angle), span }) => {
+            heading(&Located { value: angle.clone(), span: span.clone() }, document)?
+        }
+    };
+    match &table.points {
+        Some(points) => listed(points, ply, &outline, warp, radius, document),
+        None => array(ply, &outline, warp, radius, document),
+    }
+}
+
+/// The outline in the drawing.
+fn outline(
+    ply: &Located<PlyTable>,
+    document: &Document,
+    base: &Path,
+) -> Result<Outline, SceneError> {
+    let table = &ply.value;
+    let (boundary, mut holes, span) = match (&table.outline, &table.size) {
+        (Some(outline), None) => match &outline.value {
+            OutlineChoice::Points(points) => {
+                (polygon(points, document)?, Vec::new(), outline.span.clone())
+            }
+            OutlineChoice::File(_) | OutlineChoice::Drawing(_) => {
+                let drawn = super::dxf::outline(outline, document, base)?;
+                let holes = drawn.holes().to_vec();
+                (drawn.boundary().to_vec(), holes, outline.span.clone())
+            }
+        },
+        (None, Some(size)) => {
+            let [a, b] = &size.value.0;
+            let (a, b) = (a.size(document)?, b.size(document)?);
+            (vec![[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]], Vec::new(), size.span.clone())
+        }
+        (Some(_), Some(size)) => {
+            return Err(document.error(
+                size.span.clone(),
+                "the ply has an `outline` and a `size`",
+                "keep one of them: `size` is a rectangle from the drawing's origin",
+            ));
+        }
+        (None, None) => {
+            let span = [
+                table.holes.as_ref().map(|key| &key.span),
+                table.array.as_ref().map(|key| &key.span),
+                table.points.as_ref().map(|key| &key.span),
+            ];
+            let span = span.into_iter().flatten().next().unwrap_or(&ply.span);
+            return Err(document.error(
+                span.clone(),
+                "the ply has no outline that this could belong to",
+                "give its `outline`, as points or as a DXF file, or its `size`, as in size = [\"900 mm\", \"500 mm\"]",
+            ));
+        }
+    };
+    let of_file = holes.len();
+    let mut spans = vec![span.clone(); 1 + of_file];
+    for hole in table.holes.iter().flat_map(|holes| &holes.value) {
+        spans.push(hole.span.clone());
+        holes.push(match &hole.value {
+            HoleChoice::Points(points) => polygon(points, document)?,
+            HoleChoice::Circle(circle) => disc(circle, document)?,
+        });
+    }
+    Outline::new(boundary, holes).map_err(|error| {
+        let of = |ring: RingId| match ring {
+            RingId::Boundary => 0,
+            RingId::Hole(n) => n + 1,
+        };
+        let ring = match &error {
+            OutlineError::Crosses { a, b, .. } => of(*a).max(of(*b)),
+            OutlineError::HoleOutside { hole, .. } => hole + 1,
+            OutlineError::TooFew { ring, .. }
+            | OutlineError::NotFinite { ring, .. }
+            | OutlineError::Flat { ring } => of(*ring),
+            _ => 0,
+        };
+        let help = match &error {
+            OutlineError::Crosses { .. } => {
+                "give the points in order around the ply, each once; holes lie inside and apart"
+            }
+            OutlineError::HoleOutside { .. } => {
+                "holes lie inside the boundary, apart from each other"
+            }
+            _ => "give three or more points in order around the ply",
+        };
+        let span = spans.get(ring).unwrap_or(&span).clone();
+        document.error(span, error.to_string(), help)
+    })
+}
+
+fn polygon(points: &Polygon, document: &Document) -> Result<Ring, SceneError> {
+    points.iter().map(|point| coordinates(&point.value, document)).collect()
+}
+
+fn disc(circle: &CircleTable, document: &Document) -> Result<Ring, SceneError> {
+    let [x, y] = coordinates(&circle.middle.value, document)?;
+    let radius = 0.5 * circle.diameter.size(document)?;
+    let point = |n: usize| {
+        let (sin, cos) = (TAU * n as f64 / SIDES as f64).sin_cos();
+        [x + radius * cos, y + radius * sin]
+    };
+    Ok((0..SIDES).map(point).collect())
+}
+
+/// The cups of an array that hold.
+fn array(
+    ply: &Located<PlyTable>,
+    outline: &Outline,
+    warp: f64,
+    radius: f64,
+    document: &Document,
+) -> Result<Shape, SceneError> {
+    let table = &ply.value;
+    let Grid { nu, nv } = grid(ply, document)?;
+    let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
+    let cell = [a.size(document)?, b.size(document)?];
+    let none = ArrayTable::default();
+    let (keys, span) = match &table.array {
+        Some(array) => (&array.value, &array.span),
+        None => (&none, &ply.span),
+    };
+    let direction = match &keys.direction {
+        Some(direction) => heading(direction, document)?,
+        None => 0.0,
+    };
+    let [low, high] = outline.bounds();
+    let middle = match &keys.middle {
+        Some(middle) => coordinates(&middle.value, document)?,
+        None => [0, 1].map(|n| 0.5 * (low[n] + high[n])),
+    };
+    let margin = match &keys.margin {
+        Some(margin) => margin.size_or_zero(document)?,
+        None => 0.0,
+    };
+    let (sin, cos) = direction.sin_cos();
+    let cup = |index: usize| {
+        let id = [index % nu, index / nu];
+        let off = [(0, nu), (1, nv)]
+            .map(|(n, count)| cell[n] * (id[n] as f64 - 0.5 * (count - 1) as f64));
+        let place =
+            [middle[0] + cos * off[0] - sin * off[1], middle[1] + sin * off[0] + cos * off[1]];
+        Cup { id, place }
+    };
+    let rows = keys.holds.as_ref().map(|rows| mask(rows, [nu, nv], document)).transpose()?;
+    let mut cups = Vec::new();
+    for cup in (0..nu * nv).map(cup) {
+        let depth = outline.depth(cup.place);
+        let wanted = rows.as_ref().map(|rows| rows[cup.id[1]][cup.id[0]]);
+        let rounding = 1e-9 * (high[0] - low[0]).max(high[1] - low[1]);
+        if wanted == Some(false) {
+            continue;
+        }
+        if depth >= radius + margin - rounding {
+            cups.push(cup);
+            continue;
+        }
+        let leave = keys.partly == Some(PartlyKey::LeaveOff);
+        // a cup beside the ply holds nothing; one that the scene names shall hold
+        if wanted.is_none() && (leave || depth <= -radius) {
+            continue;
+        }
+        let [i, j] = cup.id;
+        let [x, y] = cup.place.map(|c| rounded(c * 1e3));
+        let off = if depth < 0.0 { "beyond" } else { "inside" };
+        let place = keys.holds.as_ref().map_or(span, |rows| &rows.span);
+        return Err(document.error(
+            place.clone(),
+            format!(
+                "the cup [{i}, {j}] at ({x}, {y}) mm of the drawing is {} mm {off} the boundary, and needs {} mm of ply around its middle",
+                millimetres(depth.abs()), millimetres(radius + margin)
+            ),
+            "move the array, give it another pitch or a smaller `margin`, or write partly = \"leave-off\" in `array`: such cups then do not hold",
+        ));
+    }
+    if cups.len() < 2 {
+        return Err(document.error(
+            span.clone(),
+            format!("{} of the {} cups of the array hold the ply", cups.len(), nu * nv),
+            "two or more must: move the array over the ply, or give it a closer pitch",
+        ));
+    }
+    // rows along the warp or across it
+    let turn = (direction - warp).rem_euclid(FRAC_PI_2);
+    let is_along = turn.min(FRAC_PI_2 - turn) <= SAME;
+    let (angle, turn, warp_of) = if is_along {
+        let quarter = ((direction - warp) / FRAC_PI_2).round() as i64;
+        let warp = if quarter % 2 == 0 { Direction::U } else { Direction::V };
+        (direction, 0.0, warp)
+    } else {
+        (warp, direction - warp, Direction::U)
+    };
+    let whole = cups.len() == nu * nv && is_along;
+    let grid = if whole { Grid { nu, nv } } else { Grid::NONE };
+    Ok(shaped(outline, &cups, [angle, turn], grid, cell, warp_of))
+}
+
+/// Which cups of an array hold, row by row.
+fn mask(
+    rows: &Located<Vec<Located<String>>>,
+    [nu, nv]: [usize; 2],
+    document: &Document,
+) -> Result<Vec<Vec<bool>>, SceneError> {
+    let help = format!(
+        "give a text for each of the {nv} rows along v, the first first, each with {nu} signs: \"#\" holds, \".\" does not"
+    );
+    if rows.value.len() != nv {
+        let message = format!("`holds` has {} rows, and the array {nv}", rows.value.len());
+        return Err(document.error(rows.span.clone(), message, help));
+    }
+    let row = |row: &Located<String>| {
+        let signs = row.value.chars().map(|sign| match sign {
+            '#' => Some(true),
+            '.' => Some(false),
+            _ => None,
+        });
+        let signs: Option<Vec<bool>> = signs.collect();
+        signs.filter(|signs| signs.len() == nu).ok_or_else(|| {
+            let message = format!("{} is no row of {nu} cups", document.quoted(&row.span));
+            document.error(row.span.clone(), message, help.clone())
+        })
+    };
+    rows.value.iter().map(row).collect()
+}
+
+/// Cups at points of the drawing.
+fn listed(
+    points: &Located<Vec<Located<Fixed<Quantity<Length>, 2>>>>,
+    ply: &Located<PlyTable>,
+    outline: &Outline,
+    warp: f64,
+    radius: f64,
+    document: &Document,
+) -> Result<Shape, SceneError> {
+    let table = &ply.value;
+    let other: [(&str, Option<&Range<usize>>); 3] = [
+        ("grippers", table.grippers.as_ref().map(|key| &key.span)),
+        ("cell", table.cell.as_ref().map(|cell| &cell.0[0].span)),
+        ("array", table.array.as_ref().map(|key| &key.span)),
+    ];
+    if let Some((key, span)) = other.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        return Err(document.error(
+            span.clone(),
+            format!("the cups are given twice: by `points` and by `{key}`"),
+            format!("remove `{key}`: points say all, or remove `points`"),
+        ));
+    }
+    let count = points.value.len();
+    if !(2..=MOST_POINTS).contains(&count) {
+        return Err(document.error(
+            points.span.clone(),
+            format!("there cannot be {count} cups"),
+            format!("give 2 to {MOST_POINTS} points"),
+        ));
+    }
+    let mut cups: Vec<Cup> = Vec::with_capacity(count);
+    for (n, point) in points.value.iter().enumerate() {
+        let place = coordinates(&point.value, document)?;
+        let depth = outline.depth(place);
+        if depth < radius * (1.0 - 1e-9) {
+            let off = if depth < 0.0 { "beyond" } else { "inside" };
+            return Err(document.error(
+                point.span.clone(),
+                format!(
+                    "cup {n} is {} mm {off} the boundary of the ply, and its pad has a radius of {} mm",
+                    millimetres(depth.abs()), millimetres(radius)
+                ),
+                "move it onto the ply",
+            ));
+        }
+        let near = |cup: &Cup| (cup.place[0] - place[0]).hypot(cup.place[1] - place[1]);
+        let least = (2.0 * radius).max(f64::MIN_POSITIVE);
+        if let Some(cup) = cups.iter().find(|cup| near(cup) < least) {
+            return Err(document.error(
+                point.span.clone(),
+                format!("cups {} and {n} are {} mm apart", cup.id[0], millimetres(near(cup))),
+                "give every cup a place of its own, farther apart than a pad is wide",
+            ));
+        }
+        cups.push(Cup { id: [n, 0], place });
+    }
+    // the distance of neighbours, for what is measured in cells
+    let nearest = |cup: &Cup| {
+        let others = cups.iter().filter(|other| other.id != cup.id);
+        let away =
+            |other: &Cup| (cup.place[0] - other.place[0]).hypot(cup.place[1] - other.place[1]);
+        others.map(away).fold(f64::INFINITY, f64::min)
+    };
+    let mut distances: Vec<f64> = cups.iter().map(nearest).collect();
+    distances.sort_by(f64::total_cmp);
+    let cell = [distances[distances.len() / 2]; 2];
+    Ok(shaped(outline, &cups, [warp, 0.0], Grid::NONE, cell, Direction::U))
+}
+
+/// The shape whose u runs at `angle` (rad) in the drawing, from the first cup.
+fn shaped(
+    outline: &Outline,
+    cups: &[Cup],
+    [angle, turn]: [f64; 2],
+    grid: Grid,
+    cell: [f64; 2],
+    warp: Direction,
+) -> Shape {
+    let origin = cups[0].place;
+    let mut cut = Cut { outline: outline.clone(), held: Vec::new(), angle, turn, origin };
+    cut.outline = outline.moved(|point| cut.fabric(point));
+    if grid == Grid::NONE {
+        let held = |cup: &Cup| Held { id: cup.id, place: cut.fabric(cup.place) };
+        cut.held = cups.iter().map(held).collect();
+    }
+    Shape { grid, cell, warp, cut }
+}
