@@ -5,7 +5,7 @@ use super::error::{OutlineFault, Place};
 use super::flatten::{self, Arc, Limit, Nurbs, TooMany};
 use super::transform::Transform;
 use ::dxf::Drawing;
-use ::dxf::entities::{Entity, EntityType, Insert, LwPolyline, Polyline, Spline};
+use ::dxf::entities::{Entity, EntityType, Insert, Polyline, Spline};
 use ::dxf::{Point, Vector};
 use std::collections::{BTreeSet, HashMap};
 
@@ -62,6 +62,17 @@ pub fn curves(drawing: &Drawing, unit: f64, options: &Options) -> Result<Curves,
         reader.read(entity, None, &Transform::scale(unit), 0)?;
     }
     Ok(reader.found)
+}
+
+/// How many entities and vertices of polylines the library has read.
+pub fn count(drawing: &Drawing) -> usize {
+    let of_blocks = drawing.blocks().flat_map(|block| &block.entities);
+    let count = |entity: &Entity| match &entity.specific {
+        EntityType::Polyline(line) => 1 + line.vertices().count(),
+        EntityType::Seqend(_) => 0,
+        _ => 1,
+    };
+    drawing.entities().chain(of_blocks).map(count).sum()
 }
 
 /// Names of layers and blocks differ in more than small and capital letters.
@@ -136,7 +147,7 @@ impl Reader<'_> {
             tolerance: self.tolerance,
             most: MOST_POINTS,
         };
-        if !finite(&entity.specific) || !place.at.iter().all(|c| c.is_finite()) {
+        if !place.at.iter().all(|c| c.is_finite()) {
             return Err(not_finite());
         }
         if let Some(z) = heights(&entity.specific) {
@@ -288,37 +299,6 @@ fn in_own_plane(entity: &EntityType) -> bool {
 fn mirrored(normal: &Vector) -> Option<bool> {
     let across = normal.x.hypot(normal.y);
     (normal.z != 0.0 && across <= ROUNDING * normal.z.abs()).then_some(normal.z < 0.0)
-}
-
-/// Whether all numbers of a curve are numbers.
-fn finite(entity: &EntityType) -> bool {
-    let points = |points: &[&Point]| points.iter().all(|p| finite_point(p));
-    let numbers = |numbers: &[f64]| numbers.iter().all(|n| n.is_finite());
-    match entity {
-        EntityType::Line(line) => points(&[&line.p1, &line.p2]),
-        EntityType::Circle(circle) => points(&[&circle.center]) && numbers(&[circle.radius]),
-        EntityType::Arc(arc) => {
-            points(&[&arc.center]) && numbers(&[arc.radius, arc.start_angle, arc.end_angle])
-        }
-        EntityType::Ellipse(e) => {
-            let (major, range) = (&e.major_axis, [e.start_parameter, e.end_parameter]);
-            points(&[&e.center])
-                && numbers(&[major.x, major.y, major.z, e.minor_axis_ratio])
-                && numbers(&range)
-        }
-        EntityType::LwPolyline(LwPolyline { vertices, .. }) => {
-            vertices.iter().all(|v| numbers(&[v.x, v.y, v.bulge]))
-        }
-        EntityType::Polyline(line) => {
-            line.vertices().all(|v| points(&[&v.location]) && v.bulge.is_finite())
-        }
-        EntityType::Spline(spline) => spline.control_points.iter().all(finite_point),
-        _ => true,
-    }
-}
-
-fn finite_point(point: &Point) -> bool {
-    point.x.is_finite() && point.y.is_finite() && point.z.is_finite()
 }
 
 /// Lowest and highest z of a curve that is not flat.

@@ -124,7 +124,7 @@ fn drawing(bytes: &[u8]) -> Result<Drawing, OutlineFault> {
     size::check(memory, || format!("a drawing of {}", size::shown(bytes.len() as f64)))
         .map_err(OutlineFault::Size)?;
     let kept = pairs::keep(bytes)?;
-    Drawing::load(&mut kept.text.as_slice()).map_err(|error| {
+    let drawing = Drawing::load(&mut kept.text.as_slice()).map_err(|error| {
         let line = match &error {
             DxfError::ParseFloatError(_, line)
             | DxfError::ParseIntError(_, line)
@@ -140,7 +140,12 @@ fn drawing(bytes: &[u8]) -> Result<Drawing, OutlineFault> {
             Some((line, code, found)) => OutlineFault::Value { line, code, found },
             None => OutlineFault::Unread(error.to_string()),
         }
-    })
+    })?;
+    let (found, expected) = (entity::count(&drawing), kept.entities);
+    if found == expected {
+        return Ok(drawing);
+    }
+    Err(OutlineFault::Unread(format!("{found} of its {expected} entities can be read")))
 }
 
 /// A unit of a drawing (m); none if it has none.

@@ -2,7 +2,8 @@
 //!
 //! A DXF text is a sequence of pairs of lines, a group code and its value. What has no part in an outline is left out before the
 //! library sees it: dates, previews, objects, extended data, entities that are no curves. Some of these make the library panic
-//! where a file is damaged, and groups within groups would take all of its stack.
+//! where a file is damaged, and groups within groups would take all of its stack. Where a number is none, the library leaves out
+//! the entity and all that follow it without a word, so numbers are checked here and entities are counted.
 
 use super::error::OutlineFault;
 
@@ -25,8 +26,6 @@ const ENTITIES: [&[u8]; 12] = [
     b"SEQEND",
     b"INSERT",
 ];
-/// Group codes of pictures and other bytes.
-const BYTES: std::ops::RangeInclusive<i32> = 310..=319;
 /// The first group code of extended data.
 const EXTENDED: i32 = 1000;
 /// The group code of a comment.
@@ -38,6 +37,8 @@ const GROUP: i32 = 102;
 pub struct Kept<'a> {
     /// As DXF text.
     pub text: Vec<u8>,
+    /// How many entities and vertices of polylines it has.
+    pub entities: usize,
     /// The lines of the values in the file, counted from 1, each with its code and value.
     lines: Vec<(usize, &'a [u8], &'a [u8])>,
 }
@@ -81,7 +82,7 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, OutlineFault> {
             return Err(OutlineFault::Format(kind));
         }
     }
-    let mut kept = Kept { text: Vec::new(), lines: Vec::new() };
+    let mut kept = Kept { text: Vec::new(), entities: 0, lines: Vec::new() };
     let mut lines = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii_end).enumerate();
     let mut last = 1;
     let mut state = State::Outside;
@@ -137,7 +138,10 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, OutlineFault> {
                     kept.push(line, code, value);
                 }
             }
-            (State::In(b"HEADER"), ..) if keeps => kept.push(line, code, value),
+            (State::In(b"HEADER"), ..) if keeps => {
+                check(line, number, code, value)?;
+                kept.push(line, code, value);
+            }
             // the table of layers alone
             (State::In(b"TABLES"), 0, b"TABLE") => keeps = false,
             (State::In(b"TABLES"), 2, b"LAYER") if !keeps => {
@@ -152,7 +156,7 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, OutlineFault> {
                 keeps = false;
             }
             (State::In(b"TABLES"), ..) if keeps => {
-                push_outside(&mut kept, &mut groups, (line, number, code, value));
+                push_outside(&mut kept, &mut groups, (line, number, code, value))?;
                 let flags = std::str::from_utf8(name).ok().and_then(|text| text.parse().ok());
                 frozen |= number == 70 && flags.is_some_and(|flags: i64| flags & 1 == 1);
             }
@@ -160,28 +164,50 @@ pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, OutlineFault> {
                 keeps = ENTITIES.contains(&entity);
                 if keeps {
                     kept.push(line, code, value);
+                    kept.entities +=
+                        usize::from(!matches!(entity, b"BLOCK" | b"ENDBLK" | b"SEQEND"));
                 }
             }
-            (State::In(b"BLOCKS" | b"ENTITIES"), ..) if keeps && !BYTES.contains(&number) => {
-                push_outside(&mut kept, &mut groups, (line, number, code, value));
+            (State::In(b"BLOCKS" | b"ENTITIES"), ..) if keeps => {
+                push_outside(&mut kept, &mut groups, (line, number, code, value))?;
             }
             _ => {}
         }
     }
 }
 
-/// Keeps a pair unless it belongs to a group of an application.
+/// Keeps a pair of a layer, a block or an entity, if it says something of its shape and belongs to no group of an application.
 fn push_outside<'a>(
     kept: &mut Kept<'a>,
     groups: &mut usize,
     (line, number, code, value): (usize, i32, &'a [u8], &'a [u8]),
-) {
+) -> Result<(), OutlineFault> {
     match (number, value.trim_ascii()) {
         (GROUP, b"}") => *groups = groups.saturating_sub(1),
         (GROUP, _) => *groups += 1,
-        _ if *groups == 0 => kept.push(line, code, value),
+        // names, lengths and angles, flags, counts, normals
+        (0 | 2 | 8 | 10..=59 | 60..=79 | 90..=99 | 210..=239, _) if *groups == 0 => {
+            check(line, number, code, value)?;
+            kept.push(line, code, value);
+        }
         _ => {}
     }
+    Ok(())
+}
+
+/// Refuses a value that is no number where its group code asks for one.
+fn check(line: usize, number: i32, code: &[u8], value: &[u8]) -> Result<(), OutlineFault> {
+    let text = std::str::from_utf8(value).unwrap_or_default().trim();
+    let is_right = match number {
+        // short numbers are written as lengths by some programs
+        10..=79 | 210..=239 => text.parse().is_ok_and(|value: f64| value.is_finite()),
+        90..=99 => text.parse::<i32>().is_ok(),
+        _ => true,
+    };
+    if is_right {
+        return Ok(());
+    }
+    Err(OutlineFault::Value { line, code: shown(code), found: shown(value) })
 }
 
 /// A line as messages show it.
