@@ -7,8 +7,6 @@ pub mod boundary;
 pub mod dxf;
 mod dxf_text;
 pub mod pdf;
-#[cfg(test)]
-mod tests;
 
 use plydrape::ply::Outline;
 
