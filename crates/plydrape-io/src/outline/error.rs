@@ -197,7 +197,7 @@ pub enum OutlineFault {
         /// The largest closed line.
         outer: Place,
         /// One that is not in it.
-        inner: Place,
+        inner: Box<Place>,
         /// The layers with closed lines.
         layers: Vec<String>,
     },

@@ -109,7 +109,7 @@ fn outline(bytes: &[u8], options: &Options) -> Result<Outline, OutlineFault> {
     if let Some(inner) = all[1..].iter().find(|inner| !inside(&outer.ring, inner.ring[0])) {
         return Err(OutlineFault::Several {
             outer: outer.place.clone(),
-            inner: inner.place.clone(),
+            inner: Box::new(inner.place.clone()),
             layers: layers(&all),
         });
     }
