@@ -613,3 +613,31 @@ fn a_drawing_that_ends_early_is_refused() {
     }
     assert!(of(&text[..whole]).is_ok());
 }
+
+/// From version 2007 on names are UTF-8; before, letters beyond ASCII are of the code page of Windows.
+#[test]
+fn layers_have_names_in_letters_of_every_version() {
+    let text = millimetres(&square("Größe", [0.0, 0.0], 100.0));
+    let text = |version: &str| {
+        text.replace("9\n$INSUNITS", &format!("9\n$ACADVER\n1\n{version}\n9\n$INSUNITS"))
+    };
+    let layers = Some(vec!["GRÖßE".to_owned()]);
+    let options = Options { layers, ..Options::new(TOLERANCE) };
+    assert!(read_dxf("ply.dxf", text("AC1024").as_bytes(), &options).is_ok());
+    let old: Vec<u8> = text("AC1015").chars().map(|c| c as u8).collect();
+    assert!(read_dxf("ply.dxf", &old, &options).is_ok());
+}
+
+/// Layer 0 of a block is the layer of the INSERT; every other layer is itself.
+#[test]
+fn what_a_block_holds_on_other_layers_stays_there() {
+    let text = placed(&[(41, 100.0), (42, 100.0)]).replacen(
+        "LWPOLYLINE\n8\n0\n",
+        "LWPOLYLINE\n8\nPLY\n",
+        1,
+    );
+    assert_eq!(of_layers(&text, Some(&["PLY"])).unwrap().holes().len(), 0);
+    // the circle alone, on the layer of the INSERT
+    let hole = of_layers(&text, Some(&["CUT"])).unwrap();
+    assert!((hole.area() - PI * 1e-4).abs() < 0.07 * TOLERANCE);
+}
