@@ -35,6 +35,10 @@ enum Format {
     Svg,
     /// Abaqus and CalculiX: ply.inp, shells, gripper motion and a rigid mold.
     Inp,
+    /// The ply in the flat with its cups and its warp: pattern.dxf, and pattern.pdf at full size.
+    Pattern,
+    /// The boundary of the ply at the end, for a laser projector: boundary.csv and boundary.dxf.
+    Boundary,
     /// ROS 2: trajectory.yaml, and trajectory.mcap, a bag with the ply's shape in it.
     Ros2,
     /// ParaView: drape.pvd and its parts.
@@ -47,6 +51,8 @@ impl Format {
             Format::Csv => export::Format::Csv,
             Format::Inp => export::Format::Inp,
             Format::Svg => export::Format::Svg,
+            Format::Pattern => export::Format::Pattern,
+            Format::Boundary => export::Format::Boundary,
             Format::Ros2 => export::Format::Ros2,
             Format::Vtk => export::Format::Vtk,
         }
@@ -57,6 +63,8 @@ impl Format {
             Format::Csv => "csv",
             Format::Inp => "inp",
             Format::Svg => "svg",
+            Format::Pattern => "pattern",
+            Format::Boundary => "boundary",
             Format::Ros2 => "ros2",
             Format::Vtk => "vtk",
         }

@@ -45,6 +45,11 @@ pub enum OutputError {
         /// The path as given.
         path: PathBuf,
     },
+    /// The boundary at the end is that of the sheet, and the result has none, or not to its end.
+    #[error(
+        "the result has no sheet whose boundary could be written: drape the scene with kind = \"sheet\" in [model]"
+    )]
+    NoSheet,
     /// The file system refused.
     #[error("cannot {what} {}: {source}; {remedy}", path.display())]
     Io {

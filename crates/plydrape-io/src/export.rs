@@ -1,6 +1,6 @@
 //! Files for other programs, all made from a result alone.
 
-use super::{OutputError, csv, figure, folder, inp, ros2, vtk};
+use super::{OutputError, csv, figure, folder, inp, pattern, ros2, vtk};
 use crate::result::ResultFile;
 use std::path::{Path, PathBuf};
 
@@ -13,6 +13,10 @@ pub enum Format {
     Svg,
     /// Abaqus and CalculiX: `ply.inp`, shells, gripper motion and a rigid mold.
     Inp,
+    /// The ply in the flat, with its cups and its warp: `pattern.dxf` for a cutter, `pattern.pdf` at full size.
+    Pattern,
+    /// The boundary of the ply on the mold at the end, for a laser projector: `boundary.csv` and `boundary.dxf`.
+    Boundary,
     /// ROS 2: the trajectory as YAML, and a bag of it with the ply's markers.
     Ros2,
     /// VTK: series of ply, catenaries and grippers, and the mold.
@@ -37,6 +41,8 @@ pub fn files(result: &ResultFile, format: Format) -> Result<Files, OutputError> 
             files.extend(csv::planned_motion(result)?.map(|motion| text("motion.csv", motion)));
             files
         }
+        Format::Pattern => pattern::result::flat(result),
+        Format::Boundary => pattern::result::boundary(result)?,
         Format::Ros2 => ros2::files(result)?,
         Format::Vtk => vtk::files(result)?,
         Format::Inp => vec![text("ply.inp", inp::text(result)?)],

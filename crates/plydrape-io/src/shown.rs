@@ -70,27 +70,6 @@ pub fn excerpt(text: &str, characters: usize) -> String {
     short
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A carriage return alone would let the next words write over those before it.
-    #[test]
-    fn a_blanked_text_keeps_its_length_and_no_control_character_but_line_feeds_and_tabs() {
-        let text = "a\r\nb\rc\td\u{1b}e\u{85}f\n";
-        assert_eq!(blanked(text), "a \nb?c\td?e¿f\n");
-        assert_eq!(blanked(text).len(), text.len());
-    }
-
-    /// Counted in characters, not in bytes.
-    #[test]
-    fn an_excerpt_ends_with_an_ellipsis_where_something_is_left_out() {
-        assert_eq!(excerpt("µµµ\n", 3), "µµµ");
-        assert_eq!(excerpt("µµµ", 2), "µµ…");
-        assert_eq!(excerpt("µµ\nµ", 2), "µµ…");
-    }
-}
-
 /// What a ply is and how it is held, in a line.
 #[must_use]
 pub fn ply(ply: &Ply) -> String {
@@ -119,4 +98,25 @@ pub fn ply(ply: &Ply) -> String {
     };
     let warp = millimetres(warp * 1e-3);
     format!("cut to {width} × {height} mm{holes}, held by {held}, warp at {warp}° in the drawing")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A carriage return alone would let the next words write over those before it.
+    #[test]
+    fn a_blanked_text_keeps_its_length_and_no_control_character_but_line_feeds_and_tabs() {
+        let text = "a\r\nb\rc\td\u{1b}e\u{85}f\n";
+        assert_eq!(blanked(text), "a \nb?c\td?e¿f\n");
+        assert_eq!(blanked(text).len(), text.len());
+    }
+
+    /// Counted in characters, not in bytes.
+    #[test]
+    fn an_excerpt_ends_with_an_ellipsis_where_something_is_left_out() {
+        assert_eq!(excerpt("µµµ\n", 3), "µµµ");
+        assert_eq!(excerpt("µµµ", 2), "µµ…");
+        assert_eq!(excerpt("µµ\nµ", 2), "µµ…");
+    }
 }

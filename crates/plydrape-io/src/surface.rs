@@ -80,9 +80,9 @@ impl Surface {
     #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         let [nu, nv] = self.size;
-        let mut out = Vec::with_capacity(2 * (nu - 1) * (nv - 1));
-        for j in 0..nv - 1 {
-            for i in 0..nu - 1 {
+        let mut out = Vec::with_capacity(2 * nu.saturating_sub(1) * nv.saturating_sub(1));
+        for j in 0..nv.saturating_sub(1) {
+            for i in 0..nu.saturating_sub(1) {
                 let [a, b, c, d] =
                     [j * nu + i, j * nu + i + 1, (j + 1) * nu + i + 1, (j + 1) * nu + i]
                         .map(|n| n as u32);

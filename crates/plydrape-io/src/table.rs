@@ -16,6 +16,7 @@ use plydrape::draping::record::{Step, Summary, Verdict};
 use plydrape::equilibrium::Status;
 use plydrape::errors::SampleVerdict;
 use plydrape::measure::Name;
+use plydrape::ply::Grid;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -150,9 +151,14 @@ pub fn verdict(result: &ResultFile) -> String {
             catenaries(summary, sample) + &line(text, limiting(&summary.limits))
         }
         Some(sheet) => {
-            let text = match summary.catenaries_accepted() {
-                true => "accepted by the catenaries",
-                false => "not accepted by the catenaries",
+            let none = result.scene.ply.grid == Grid::NONE;
+            let text = match (none, summary.catenaries_accepted()) {
+                (true, true) => {
+                    "the motion keeps its limits; no catenaries hang between these cups"
+                }
+                (true, false) => "not accepted by its motion",
+                (false, true) => "accepted by the catenaries",
+                (false, false) => "not accepted by the catenaries",
             };
             catenaries(summary, None)
                 + &line(text, limiting(&summary.limits))

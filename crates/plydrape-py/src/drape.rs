@@ -8,6 +8,7 @@ use crate::work::{Watch, run};
 use plydrape::draping;
 use plydrape::errors::{self, Robustness};
 use plydrape::planner::{self, Checkpoint, Planned};
+use plydrape::ply::Grid;
 use plydrape::scene::{Model, PlanMethod};
 use plydrape_io::ResultFile;
 use plydrape_io::plan as plan_file;
@@ -77,6 +78,11 @@ pub fn for_model(scene: &Arc<SceneFile>, model: Option<&str>) -> PyResult<Arc<Sc
     match model {
         None => {}
         Some("sheet") => Arc::make_mut(&mut scene).settings.model = Model::Sheet,
+        Some("catenaries") if scene.ply.grid == Grid::NONE => {
+            let text = "catenaries hang between the cups of a whole array along the yarns, and the \
+                cups that hold this ply are none: drape it with model=\"sheet\"";
+            return Err(PyValueError::new_err(text));
+        }
         Some("catenaries") => Arc::make_mut(&mut scene).settings.model = Model::Catenaries,
         Some(other) => {
             let text = format!("model is {other:?}; \"sheet\" or \"catenaries\" is wanted");

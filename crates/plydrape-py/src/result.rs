@@ -297,7 +297,7 @@ impl Result {
     #[getter]
     fn shear_deg(&self) -> Array<f64> {
         let grid = self.0.scene.ply.grid;
-        let shape = [self.0.steps.len(), grid.nv - 1, grid.nu - 1];
+        let shape = [self.0.steps.len(), grid.nv.saturating_sub(1), grid.nu.saturating_sub(1)];
         let cells = self.0.steps.iter().flat_map(|step| &step.cells);
         Array::new(&shape, cells.map(|cell| cell.shear_deg).collect())
     }
@@ -415,7 +415,7 @@ impl Result {
     ///     >>> with tempfile.TemporaryDirectory() as folder:
     ///     ...     sorted(path.name for path in result.export("csv", folder))
     ///     ['steps.csv', 'trajectory.csv']
-    #[pyo3(signature = (to: "typing.Literal['vtk', 'inp', 'ros2', 'csv', 'svg']", folder))]
+    #[pyo3(signature = (to: "typing.Literal['vtk', 'inp', 'ros2', 'csv', 'svg', 'pattern', 'boundary']", folder))]
     fn export(&self, py: Python<'_>, to: &str, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
         let format = match to {
             "vtk" => export::Format::Vtk,
@@ -423,9 +423,11 @@ impl Result {
             "ros2" => export::Format::Ros2,
             "csv" => export::Format::Csv,
             "svg" => export::Format::Svg,
+            "pattern" => export::Format::Pattern,
+            "boundary" => export::Format::Boundary,
             other => {
                 let text = format!(
-                    "there is no export to {other:?}: vtk, inp, ros2, csv and svg are possible"
+                    "there is no export to {other:?}: vtk, inp, ros2, csv, svg, pattern and boundary are possible"
                 );
                 return Err(PyValueError::new_err(text));
             }

@@ -119,6 +119,11 @@ export class Motion {
       const d = [0, 1, 2].map((c) => (at[3 * a + c]! - at[3 * b + c]!) * MICRO);
       least = Math.min(least, Math.hypot(...d));
     };
+    if (nu === 0) {
+      // cups that are no array: the closest two, of as many as are quickly compared
+      const count = Math.min(this.data.ids.length, 500);
+      for (let a = 0; a < count; a++) for (let b = a + 1; b < count; b++) measure(a, b);
+    }
     for (let j = 0; j < nv; j++) {
       for (let i = 0; i < nu; i++) {
         if (i + 1 < nu) measure(j * nu + i, j * nu + i + 1);

@@ -156,7 +156,10 @@ export interface PageData {
   stopped: string | null;
   steps: number[];
   times: number[];
+  /** Grippers along u and v; zeros where no catenaries hang between them. */
   grid: [number, number];
+  /** Column and row of each gripper. */
+  ids: [number, number][];
   divisions: number;
   limits: Limit[];
   /** What published data say of such angles, for information, and what they are not. */
@@ -175,7 +178,7 @@ export interface PageData {
 /** Data that cannot be shown; the message completes the sentence "This page cannot be shown: …". */
 export class BrokenData extends Error {}
 
-const LISTS = ["facts", "steps", "times", "grid", "limits", "measures", "fields", "left_out"] as const;
+const LISTS = ["facts", "steps", "times", "grid", "ids", "limits", "measures", "fields", "left_out"] as const;
 const BLOCKS = ["surface", "diagonals", "grippers", "normals", "shear", "direction"] as const;
 
 /** The page's data from its text, checked as far as a wrong file would show. */
@@ -229,12 +232,13 @@ function checkGeometry(data: PageData): void {
     throw new BrokenData("the contacts of its geometry are missing");
   const [nu, nv] = data.grid;
   const n = data.divisions;
-  const cells = (nu - 1) * (nv - 1);
+  const none = nu === 0;
+  const cells = none ? 0 : (nu - 1) * (nv - 1);
   const expected: Record<(typeof BLOCKS)[number], number> = {
-    surface: ((nu - 1) * n + 1) * ((nv - 1) * n + 1),
+    surface: none ? 0 : ((nu - 1) * n + 1) * ((nv - 1) * n + 1),
     diagonals: 2 * cells * (n + 1),
-    grippers: nu * nv,
-    normals: nu * nv,
+    grippers: data.ids.length,
+    normals: data.ids.length,
     shear: cells,
     direction: cells,
   };
@@ -244,7 +248,7 @@ function checkGeometry(data: PageData): void {
     if (name === "diagonals" && block.count === 0) continue;
     if (block.count !== expected[name] || block.steps !== data.steps.length) {
       throw new BrokenData(
-        `the ${name} of its geometry do not fit ${nu} × ${nv} grippers and ${data.steps.length} steps`,
+        `the ${name} of its geometry do not fit ${data.ids.length} grippers and ${data.steps.length} steps`,
       );
     }
   }

@@ -79,7 +79,7 @@ function ofNode(motion: Motion, state: number, { number }: Found): string[] {
 }
 
 function ofGripper(motion: Motion, state: number, { number }: Found): string[] {
-  const [nu] = motion.data.grid;
+  const [i, j] = motion.data.ids[number]!;
   const sheet = motion.sheet!;
   const force = sheet.force(state, number);
   const [along, across] = sheet.loads(state, number);
@@ -89,7 +89,7 @@ function ofGripper(motion: Motion, state: number, { number }: Found): string[] {
   const normals = sheet.normals.at(state);
   const up = across.reduce((sum, f, c) => sum + f * normals[3 * number + c]!, 0);
   return [
-    `gripper [${String(number % nu)}, ${String(Math.floor(number / nu))}]`,
+    `gripper [${String(i)}, ${String(j)}]`,
     `force ${newtons(force)}${of(allowed.whole)}`,
     `${newtons(along)} along the ply${of(allowed.along)}`,
     up > 0

@@ -59,7 +59,8 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
       m: () => state.set({ mold: !mold }),
       p: () => state.set({ forces: !forces }),
       c: () => {
-        if (data.sheet !== null) chooseModel(state, data, model === "sheet" ? "catenaries" : "sheet");
+        if (data.sheet !== null && !data.grid.includes(0))
+          chooseModel(state, data, model === "sheet" ? "catenaries" : "sheet");
       },
       l: () => byId("theme").click(),
       Escape: () => state.set({ pointer: null }),

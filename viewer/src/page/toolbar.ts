@@ -41,7 +41,7 @@ export function chooseModel(state: State, data: PageData, model: Model): void {
 
 export function linkToolbar(state: State, data: PageData, eye: Eye | null): void {
   const models = byId("models");
-  models.hidden = data.sheet === null;
+  models.hidden = data.sheet === null || data.grid.includes(0);
   for (const [key, name] of MODELS) {
     const input = make("input", { type: "radio", name: "model", value: key });
     models.append(make("label", { title: `${name} (C changes)` }, input, make("span", {}, name)));

@@ -19,6 +19,7 @@ use facts::{Fact, facts};
 use geometry::{Detail, Geometry, Ranges};
 use plydrape::draping::record::{Step, Worst};
 use plydrape::measure::{Name, Sense, Subject, Verdict};
+use plydrape::ply::GripperId;
 use sample::{Sample, sample, stands};
 use serde::Serialize;
 use sheet::{Sheet, Shown, sheet};
@@ -44,7 +45,10 @@ struct Page<'a> {
     stopped: Option<&'a str>,
     steps: Vec<usize>,
     times: Vec<f64>,
+    /// Grippers along u and v; zeros where no catenaries hang between them.
     grid: [usize; 2],
+    /// Column and row of each gripper.
+    ids: Vec<GripperId>,
     divisions: usize,
     limits: Vec<Limit<'a>>,
     /// What published data say of the angles at the end.
@@ -185,6 +189,7 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
         steps,
         times: shown.iter().map(|step| step.time).collect(),
         grid: [scene.ply.grid.nu, scene.ply.grid.nv],
+        ids: (0..scene.ply.grippers()).map(|n| scene.ply.id(n)).collect(),
         divisions: detail.intervals,
         limits: limits(result),
         strength: Strength { notes: strength::notes(summary), warning: strength::INFORMATION },

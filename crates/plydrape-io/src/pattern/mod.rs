@@ -7,6 +7,7 @@ pub mod boundary;
 pub mod dxf;
 mod dxf_text;
 pub mod pdf;
+pub mod result;
 
 use plydrape::ply::Outline;
 

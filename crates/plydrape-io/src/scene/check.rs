@@ -1,9 +1,10 @@
 //! From the keys of a file to a scene that makes sense.
 
+use super::diagnostic::hint;
 use super::drawing::WarpChoice;
 use super::error::{Document, SceneError};
 use super::errors::errors;
-use super::file::{GrippersTable, MotionKind, PlyTable, SceneKeys};
+use super::file::{GrippersTable, MethodKey, MotionKind, PlyTable, SceneKeys};
 use super::limits::limits;
 use super::located::{Count, Fixed, Located, Whole};
 use super::motion::{motion, unplanned};
@@ -15,7 +16,7 @@ use crate::shown;
 use crate::size::{self, SizeError};
 use plydrape::mold::Mold;
 use plydrape::ply::{Direction, Grid, Ply};
-use plydrape::scene::{Motion, Scene, Target};
+use plydrape::scene::{Model, Motion, Scene, Settings, Target};
 use std::ops::Range;
 use std::path::Path;
 
@@ -39,6 +40,7 @@ pub(super) fn scene(
         None => (made, None),
     };
     let settings = settings(file, &ply, document)?;
+    hangs_as_catenaries(file, &ply, &settings, document)?;
     let places = Surroundings {
         ply: &ply,
         mold: mold.as_ref(),
@@ -72,6 +74,27 @@ pub(super) fn scene(
         mesh,
         plan_refusal: unplanned.or(fits.err()).map(Box::new),
     })
+}
+
+/// Refuses catenaries, and the planner that needs them, between cups that are no whole array along the yarns.
+fn hangs_as_catenaries(
+    file: &SceneKeys,
+    ply: &Ply,
+    settings: &Settings,
+    document: &Document,
+) -> Result<(), SceneError> {
+    let stepwise = matches!(file.plan.method, Some(MethodKey::Stepwise));
+    let what = match (settings.model, stepwise) {
+        _ if ply.grid != Grid::NONE => return Ok(()),
+        (Model::Catenaries, _) => "catenaries hang",
+        (Model::Sheet, true) => "the stepwise planner follows catenaries, which hang",
+        (Model::Sheet, false) => return Ok(()),
+    };
+    Err(document.error(
+        file.grippers_span().clone(),
+        format!("{what} between the cups of a whole array along the yarns, and the cups that hold this ply are none"),
+        "drape and plan it with the sheet, as kind = \"sheet\" in [model] and method = \"path\" in [plan] do",
+    ))
 }
 
 /// The title that is written, or else the file's name without its ending; its folder's, if the file is just `scene.toml`.
@@ -154,14 +177,10 @@ pub(super) fn grid(ply: &Located<PlyTable>, document: &Document) -> Result<Grid,
 pub(super) fn missing(key: &str, ply: &Located<PlyTable>, document: &Document) -> SceneError {
     let text = document.text.get(ply.span.clone()).unwrap_or_default();
     let header = text.find('\n').unwrap_or(text.len());
-    let help = match key {
-        "grippers" => "give their number along u and v, as in grippers = [4, 2]",
-        _ => "give the fabric between neighbouring grippers, as in cell = [\"100 mm\", \"100 mm\"]",
-    };
     document.error(
         ply.span.start..ply.span.start + header,
-        format!("`{key}` is missing in [ply]"),
-        help,
+        format!("the key `{key}` is missing in [ply]"),
+        hint(key),
     )
 }
 

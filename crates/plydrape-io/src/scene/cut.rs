@@ -9,7 +9,7 @@ use super::error::{Document, SceneError};
 use super::file::{ArrayTable, CircleTable, PartlyKey, PlyTable};
 use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
-use super::quantity::{Length, Quantity, rounded};
+use super::quantity::rounded;
 use crate::shown::millimetres;
 use plydrape::ply::{Cut, Direction, Grid, Held, Outline, OutlineError, Ring, RingId};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -84,16 +84,16 @@ fn outline(
 ) -> Result<Outline, SceneError> {
     let table = &ply.value;
     let (boundary, mut holes, span) = match (&table.outline, &table.size) {
-        (Some(outline), None) => match &outline.value {
-            OutlineChoice::Points(points) => {
-                (polygon(points, document)?, Vec::new(), outline.span.clone())
+        (Some(outline), None) => {
+            let span = outline.span.clone();
+            match (&outline.value, super::dxf::outline(outline, document, base)?) {
+                (_, Some(drawn)) => (drawn.boundary().to_vec(), drawn.holes().to_vec(), span),
+                (OutlineChoice::Points(points), None) => {
+                    (polygon(points, document)?, Vec::new(), span)
+                }
+                (_, None) => (Vec::new(), Vec::new(), span),
             }
-            OutlineChoice::File(_) | OutlineChoice::Drawing(_) => {
-                let drawn = super::dxf::outline(outline, document, base)?;
-                let holes = drawn.holes().to_vec();
-                (drawn.boundary().to_vec(), holes, outline.span.clone())
-            }
-        },
+        }
         (None, Some(size)) => {
             let [a, b] = &size.value.0;
             let (a, b) = (a.size(document)?, b.size(document)?);
@@ -244,7 +244,10 @@ fn array(
         return Err(document.error(
             span.clone(),
             format!("{} of the {} cups of the array hold the ply", cups.len(), nu * nv),
-            "two or more must: move the array over the ply, or give it a closer pitch",
+            format!(
+                "two or more must: move the array over the ply, or give it a closer pitch; the ply is {} × {} mm large: is its unit right?",
+                millimetres(high[0] - low[0]), millimetres(high[1] - low[1])
+            ),
         ));
     }
     // rows along the warp or across it
@@ -292,7 +295,7 @@ fn mask(
 
 /// Cups at points of the drawing.
 fn listed(
-    points: &Located<Vec<Located<Fixed<Quantity<Length>, 2>>>>,
+    points: &Located<Polygon>,
     ply: &Located<PlyTable>,
     outline: &Outline,
     warp: f64,

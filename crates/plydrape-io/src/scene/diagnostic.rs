@@ -119,7 +119,7 @@ fn unknown_key(key: &str, known: &[&str]) -> (String, String) {
 }
 
 /// What to write for a key that is missing.
-fn hint(key: &str) -> String {
+pub(super) fn hint(key: &str) -> String {
     match key {
         "ply" => "add a table [ply] with grippers, cell and material".into(),
         "grippers" => "say how many grippers there are along u and v: grippers = [4, 2]".into(),

@@ -5,8 +5,9 @@ use super::{SheetError, SheetMesh, SheetSpool, SheetState};
 use crate::size::{self, SizeError};
 use plydrape::planner::PlannedSheet;
 use plydrape::scene::Scene;
+use plydrape::sheet::fabric::Cell;
 use plydrape::sheet::measure::Summary;
-use plydrape::sheet::{self, Drape, Sheet, State, Tuning, is_kept};
+use plydrape::sheet::{self, Drape, Fabric, Sheet, State, Tuning, is_kept};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
@@ -96,13 +97,14 @@ pub fn drape(
     mut progress: impl FnMut(usize),
 ) -> Result<SheetDrape, SheetDrapeError> {
     SheetSize::of(scene)?;
-    let mut spool = SheetSpool::new(dir, mesh(&Sheet::new(scene)?))?;
+    let sheet = Sheet::new(scene)?;
+    let mut spool = SheetSpool::new(dir, mesh(&sheet))?;
     let (steps, keep) = (scene.motion.positions.len(), scene.settings.sheet.keep);
     let (mut last, mut fault) = (0, None);
     let draped = sheet::drape(scene, Tuning::default(), stop, |seen| {
         progress(seen.step);
         if is_kept(seen.step, steps, keep) {
-            if let Err(refused) = spool.push(&state(seen)) {
+            if let Err(refused) = spool.push(&state(seen, &sheet.fabric)) {
                 fault = Some(refused);
                 return ControlFlow::Break(());
             }
@@ -126,7 +128,7 @@ pub fn keep(planned: PlannedSheet, dir: &Path) -> Result<SheetDrape, SheetDrapeE
     let mut spool = SheetSpool::new(dir, mesh(&drape.sheet))?;
     let last = states.last().map_or(0, |kept| kept.step);
     for kept in states {
-        spool.push(&state(&kept))?;
+        spool.push(&state(&kept, &drape.sheet.fabric))?;
     }
     finished(drape, last, spool)
 }
@@ -137,10 +139,10 @@ fn finished(
     last: usize,
     mut spool: SheetSpool,
 ) -> Result<SheetDrape, SheetDrapeError> {
-    let Drape { summary, landing_step, last: end, duration, .. } = draped;
+    let Drape { sheet, summary, landing_step, last: end, duration, .. } = draped;
     if end.step != last {
         // where the drape ended early, its end is kept too
-        spool.push(&state(&end))?;
+        spool.push(&state(&end, &sheet.fabric))?;
     }
     let landed: Vec<u32> = landing_step.iter().map(|step| step.map_or(0, |n| n as u32)).collect();
     let states = SheetKept::made(spool.finish(&landed)?);
@@ -154,13 +156,15 @@ fn mesh(sheet: &Sheet) -> SheetMesh<'static> {
         places: fabric.places.clone().into(),
         areas: fabric.areas.clone().into(),
         segments: fabric.segments.iter().map(|segment| segment.nodes).collect(),
-        cells: fabric.cells.iter().map(|cell| cell.nodes).collect(),
+        cells: fabric.cells.iter().filter(|cell| cell.is_ply()).map(|cell| cell.nodes).collect(),
         grippers: sheet.grippers.len(),
     }
 }
 
-/// A state as it is kept.
-fn state(state: &State) -> SheetState<'_> {
+/// A state as it is kept: with the cells that are ply by half or more.
+fn state<'a>(state: &'a State, fabric: &Fabric) -> SheetState<'a> {
+    let all = fabric.cells.iter().all(Cell::is_ply);
+    let of_ply = || fabric.cells.iter().zip(&state.shear).filter(|(cell, _)| cell.is_ply());
     let unknown = || vec![f64::NAN; state.positions.len()].into();
     SheetState {
         step: state.step as u32,
@@ -171,7 +175,10 @@ fn state(state: &State) -> SheetState<'_> {
             false => (&state.heights).into(),
         },
         contact: (&state.contact).into(),
-        shear: (&state.shear).into(),
+        shear: match all {
+            true => (&state.shear).into(),
+            false => of_ply().map(|(_, shear)| *shear).collect(),
+        },
         tension: (&state.tension).into(),
         grippers: state.pads.iter().map(|pad| pad.position).collect(),
         pad_forces: (&state.forces).into(),

@@ -3,6 +3,7 @@
 mod common;
 mod constraint;
 mod curved;
+mod cut;
 mod damaged_files;
 mod draping;
 mod equilibrium;

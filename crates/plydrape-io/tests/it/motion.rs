@@ -1,7 +1,7 @@
 //! Timed motions against closed forms, finite differences of their samples, and what was planned.
 
+use crate::common::paper_ply;
 use plydrape::motion::{Attitudes, Bounds, MotionError, TimedMotion};
-use plydrape::ply::Grid;
 use plydrape_io::scene;
 use plydrape_io::{OutputError, csv};
 use proptest::prelude::*;
@@ -447,8 +447,8 @@ fn a_scene_follows_the_dense_table() {
     let motion = timed(&rolling(30));
     let level = vec![[0.0, 0.0, 0.0, 1.0]; 16];
     let attitudes = Attitudes::new(&[0.0, motion.duration()], &[level.clone(), level]).unwrap();
-    let grid = Grid { nu: 4, nv: 4 };
-    let table = csv::motion(&motion, &attitudes, grid, 100.0).unwrap();
+    let ply = paper_ply(4, 4);
+    let table = csv::motion(&motion, &attitudes, &ply, 100.0).unwrap();
     assert_eq!(table.lines().next(), Some("t (s),gripper,x (m),y (m),z (m),qx,qy,qz,qw"));
 
     let folder = tempfile::tempdir().unwrap();
@@ -458,8 +458,8 @@ fn a_scene_follows_the_dense_table() {
     let scene = scene::parse(text, folder.path(), "scene").unwrap_or_else(|e| panic!("{e}")).scene;
     assert_eq!(scene.motion, motion.sampled(100.0).unwrap());
 
-    let other = Grid { nu: 4, nv: 3 };
-    let refused = csv::motion(&motion, &attitudes, other, 100.0);
+    let other = paper_ply(4, 3);
+    let refused = csv::motion(&motion, &attitudes, &other, 100.0);
     assert!(matches!(refused, Err(OutputError::Motion(MotionError::Grippers { .. }))));
 }
 

@@ -205,7 +205,7 @@ fn is_draped(scene: &Scene, s: f64, made: Option<PathBuf>, position: f64, what: 
     keeps_what_counts(&summary, s, position, &format!("{what}, motion.csv"));
     let result = read::read(&made.join("result.json")).unwrap();
     let (motion, attitudes) = result.motion().unwrap().expect("a plan");
-    let dense = csv::motion(&motion, &attitudes, scene.ply.grid, 1000.0).unwrap();
+    let dense = csv::motion(&motion, &attitudes, &scene.ply, 1000.0).unwrap();
     moves_within_its_rates(&poses(&dense), s, 1000.0, what);
 }
 

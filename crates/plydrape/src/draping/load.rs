@@ -26,7 +26,7 @@ pub fn loads(scene: &Scene, snapshot: &Snapshot) -> Vec<Load> {
         let load = |[x, y, z]: &[f64; 3]| Load { vertical: -z, pull: [*x, *y] };
         return mounts.force.iter().map(load).collect();
     }
-    let mut out = vec![Load::default(); grid.grippers()];
+    let mut out = vec![Load::default(); ply.grippers()];
     for span in snapshot.shape.spans.iter().filter(|span| span.catenary < grid.edges()) {
         let c = grid.catenary(span.catenary);
         let share = ply.tributary(span.catenary);

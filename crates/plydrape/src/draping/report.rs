@@ -35,15 +35,15 @@ impl<'a> Report<'a> {
 
     /// Records a step; false if no ply survives it.
     pub fn add(&mut self, snapshot: &Snapshot, solver: &Solver) -> bool {
-        let (scene, grid) = (self.scene, self.scene.ply.grid);
+        let (scene, ply) = (self.scene, &self.scene.ply);
         let state = State::new(scene, snapshot, solver, self.before.as_ref());
         let measures = self.judge.see_all(&state);
-        let mut grippers = Vec::with_capacity(grid.grippers());
+        let mut grippers = Vec::with_capacity(ply.grippers());
         for (n, attitude) in state.attitudes().iter().enumerate() {
             let position = snapshot.positions[n];
             let target = scene.target.as_ref().map(|t| distance(position, t.grippers[n]) * 1e3);
             grippers.push(Gripper {
-                id: grid.id(n),
+                id: ply.id(n),
                 position,
                 slope_u: attitude.slope[0],
                 slope_v: attitude.slope[1],
@@ -130,7 +130,8 @@ impl<'a> Report<'a> {
     }
 
     fn cells(&self, snapshot: &Snapshot) -> Vec<Cell> {
-        let (across, edges) = (self.scene.ply.grid.nu - 1, self.scene.ply.grid.edges());
+        let (across, edges) =
+            (self.scene.ply.grid.nu.saturating_sub(1), self.scene.ply.grid.edges());
         let cell = |(n, shear): (usize, &Option<super::CellShear>)| Cell {
             cell: [n % across, n / across],
             shear_deg: shear.map_or(0.0, |shear| shear.angle.to_degrees()),

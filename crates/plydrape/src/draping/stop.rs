@@ -33,9 +33,8 @@ pub fn reason(scene: &Scene, steps: &[Step]) -> Option<String> {
         last.step
     );
     let landing = |step: &Step| step.measures.value(Name::LandingError);
-    let grid = scene.ply.grid;
-    let [a, b] = scene.ply.cell;
-    let side = (a * (grid.nu - 1) as f64).max(b * grid.nv.saturating_sub(1) as f64);
+    let [low, high] = scene.ply.held_bounds();
+    let side = (high[0] - low[0]).max(high[1] - low[1]);
     match steps.iter().find_map(landing) {
         Some(far) if far * 1e-3 > TUNING.large_landing_error * side => {
             text +=

@@ -1,6 +1,7 @@
 //! Limits and whether they hold.
 
-use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, TUNING, Worst};
+use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, Subject, TUNING, Worst};
+use crate::ply::Grid;
 use crate::scene::Scene;
 use std::borrow::Cow;
 
@@ -95,7 +96,12 @@ impl<'a> Judge<'a> {
             Scope::Time => self.timed,
             Scope::Whole => false,
         };
-        measure.limit(self.scene).filter(|_| judged)
+        measure.limit(self.scene).filter(|_| judged && self.has(name))
+    }
+
+    /// Whether the catenaries can tell a measure: where none hang, only what is of the motion alone.
+    fn has(&self, name: Name) -> bool {
+        self.scene.ply.grid != Grid::NONE || name.measure().subject() == Subject::Motion
     }
 
     /// Evaluates the limits of a step; `last` if no other follows.
@@ -117,7 +123,9 @@ impl<'a> Judge<'a> {
         let ply = &state.scene.ply;
         let mut out = Vec::with_capacity(Name::ALL.len());
         for name in Name::ALL {
-            if let Some(found) = name.measure().evaluate(state) {
+            if self.has(*name)
+                && let Some(found) = name.measure().evaluate(state)
+            {
                 self.meet(*name, state.snapshot.step, found);
                 out.push((*name, Worst::of(&found, ply)));
             }

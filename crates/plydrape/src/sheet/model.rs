@@ -5,7 +5,7 @@ use super::gripper::Gripper;
 use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
 use crate::ply::{Direction, Grid, GripperId, Neighbours, Outline, Ply};
-use crate::scene::{Friction, PadSettings, Scene};
+use crate::scene::{Friction, PadSettings, Scene, Settings};
 
 /// Share of a cell that must be ply for the cell to count. Less of it is a sliver of fabric whose nodes hardly have a mass:
 /// with a mesh of 10 mm the boundary is half a millimetre off at most where slivers are left out.
@@ -168,7 +168,6 @@ impl Sheet {
         }
 
         let [a, b] = ply.cell;
-        let grid = ply.grid;
         let pitch = pitch(ply);
         let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch);
         let (radius, overhang) = (settings.pad.radius, settings.sheet.overhang);
@@ -196,43 +195,7 @@ impl Sheet {
         }
         // a single line stands for a strip one cell wide
         let width = if b > 0.0 { b } else { a };
-        let fabric = match &ply.cut {
-            Some(cut) => {
-                let off = |n: &usize| cut.outline.depth(ply.place(*n)) < radius * (1.0 - 1e-9);
-                if let Some(off) = (0..ply.grippers()).find(off) {
-                    return Err(SheetError::PadOff {
-                        gripper: ply.id(off),
-                        radius_mm: radius * 1e3,
-                        inside_mm: cut.outline.depth(ply.place(off)) * 1e3,
-                    });
-                }
-                Fabric::cut(
-                    lines_of_cut(ply, &cut.outline, radius, mesh),
-                    &cut.outline,
-                    LEAST_SHARE,
-                )
-            }
-            None => {
-                if radius > overhang * (1.0 + 1e-9) {
-                    let [radius_mm, overhang_mm] = [radius, overhang].map(|x| x * 1e3);
-                    return Err(SheetError::Overhang { radius_mm, overhang_mm });
-                }
-                let along = |count: usize, cell: f64| {
-                    if count == 1 {
-                        return vec![0.0];
-                    }
-                    let last = (count - 1) as f64 * cell;
-                    let mut meet = vec![-overhang, last + overhang];
-                    for n in 0..count {
-                        let at = n as f64 * cell;
-                        meet.extend([at - radius, at, at + radius]);
-                    }
-                    lines(meet, mesh)
-                };
-                Fabric::rectangle([along(grid.nu, a), along(grid.nv, b)], width)
-            }
-        };
-        let fabric = fabric.enlarged(ply.length_factor);
+        let fabric = Fabric::of(ply, settings)?;
 
         let (areal_mass, rigidity) = match material.section {
             // a line is a strip one cell wide
@@ -295,6 +258,53 @@ impl Sheet {
             held
         };
         self.grippers.iter().map(one).collect()
+    }
+}
+
+impl Fabric {
+    /// The fabric of a ply as a scene divides it.
+    ///
+    /// # Errors
+    /// If pads hang over the boundary.
+    pub fn of(ply: &Ply, settings: &Settings) -> Result<Self, SheetError> {
+        let ([a, b], grid) = (ply.cell, ply.grid);
+        let (radius, overhang) = (settings.pad.radius, settings.sheet.overhang);
+        let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch(ply));
+        let fabric = match &ply.cut {
+            Some(cut) => {
+                let off = |n: &usize| cut.outline.depth(ply.place(*n)) < radius * (1.0 - 1e-9);
+                if let Some(off) = (0..ply.grippers()).find(off) {
+                    return Err(SheetError::PadOff {
+                        gripper: ply.id(off),
+                        radius_mm: radius * 1e3,
+                        inside_mm: cut.outline.depth(ply.place(off)) * 1e3,
+                    });
+                }
+                let lines = lines_of_cut(ply, &cut.outline, radius, mesh);
+                Fabric::cut(lines, &cut.outline, LEAST_SHARE)
+            }
+            None => {
+                if radius > overhang * (1.0 + 1e-9) {
+                    let [radius_mm, overhang_mm] = [radius, overhang].map(|x| x * 1e3);
+                    return Err(SheetError::Overhang { radius_mm, overhang_mm });
+                }
+                let along = |count: usize, cell: f64| {
+                    if count == 1 {
+                        return vec![0.0];
+                    }
+                    let last = (count - 1) as f64 * cell;
+                    let mut meet = vec![-overhang, last + overhang];
+                    for n in 0..count {
+                        let at = n as f64 * cell;
+                        meet.extend([at - radius, at, at + radius]);
+                    }
+                    lines(meet, mesh)
+                };
+                let width = if b > 0.0 { b } else { a };
+                Fabric::rectangle([along(grid.nu, a), along(grid.nv, b)], width)
+            }
+        };
+        Ok(fabric.enlarged(ply.length_factor))
     }
 }
 

@@ -18,7 +18,7 @@ pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 
 use super::choice::{Centred, Curve, FrictionChoice, MaterialChoice, Place, Positions};
-use super::drawing::{HoleChoice, OutlineChoice, WarpChoice};
+use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
 use super::located::{Count, Fixed, Located};
 use super::quantity::{
     Acceleration, Angle, BendingRigidity, FlexuralRigidity, Force, ForcePerLength, Length, Mass,
@@ -95,7 +95,7 @@ pub(super) struct PlyTable {
     /// Where the array of cups picks up a ply that is cut, and which of its cups hold.
     pub array: Option<Located<ArrayTable>>,
     /// The cups that hold a ply that is cut, as points [x, y] of the drawing (m), in place of an array.
-    pub points: Option<Located<Vec<Located<Fixed<Quantity<Length>, 2>>>>>,
+    pub points: Option<Located<Polygon>>,
     /// A shipped material by name, a .toml file relative to the scene, or a table.
     pub material: Located<MaterialChoice>,
     /// The grid direction along which the warp runs, "u" unless given. Of a ply that is cut, the angle from the drawing's x

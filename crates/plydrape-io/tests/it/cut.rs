@@ -1,0 +1,240 @@
+//! Plies as they are cut: outlines, holes, overhang, cups that hold or not, and arrays at any angle to the yarns.
+
+use crate::common::distance;
+use plydrape::ply::Grid;
+use plydrape::scene::Scene;
+use plydrape::sheet::{self, Sheet, Tuning};
+use plydrape_io::export::{self, Format};
+use plydrape_io::outline::{self, Options};
+use plydrape_io::scene;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// A scene whose table [ply] has these keys, held still in the air or, with a mold, moved straight down on it.
+fn parse(ply: &str, rest: &str) -> Scene {
+    let text = format!(
+        "[ply]\n{ply}\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n{rest}"
+    );
+    scene::parse(&text, Path::new(""), "scene").unwrap_or_else(|error| panic!("{error}")).scene
+}
+
+const CYLINDER: &str = "origin = \"centred\"\n[mold]\nkind = \"cylinder\"\nradius = 0.5\nposition = [0, 0, -0.5]\n\
+    [motion]\nkind = \"straight\"\nsteps = 2\n[target]\nseed = \"middle\"\n";
+
+fn drape(scene: &Scene) -> sheet::Drape {
+    let stop = || false;
+    sheet::drape(scene, Tuning::default(), &stop, |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// A rectangle that ends at its cups, whatever it is called: cut to a size, or told by its array alone.
+#[test]
+fn a_ply_that_is_cut_at_its_cups_is_the_ply_of_its_array() {
+    let array = "grippers = [4, 2]\ncell = [0.1, 0.1]";
+    let told = drape(&parse(array, ""));
+    let cut = drape(&parse(&format!("{array}\nsize = [0.3, 0.1]"), ""));
+    assert_eq!(cut.sheet.fabric.places, told.sheet.fabric.places);
+    for (a, b) in cut.last.positions.iter().zip(&told.last.positions) {
+        assert!(distance(*a, *b) < 1e-8, "{a:?} {b:?}");
+    }
+}
+
+/// The cups bear the weight of what is cut out, holes left out, to a ten-thousandth: of a disc with a hole whose yarns run
+/// askew, and of a notched ply of which one cup does not hold.
+#[test]
+fn the_cups_bear_the_weight_of_what_is_cut_out() {
+    let disc: Vec<String> = (0..40)
+        .map(|n| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(n) / 40.0).sin_cos();
+            format!("[{}, {}]", 0.13 * cos, 0.13 * sin)
+        })
+        .collect();
+    let disc = format!(
+        "outline = [{}]\nholes = [{{ middle = [0.01, 0], diameter = 0.05 }}]\nwarp = \"25 deg\"\n\
+         grippers = [2, 2]\ncell = [0.12, 0.12]",
+        disc.join(", ")
+    );
+    let notched = "outline = [[0, 0], [0.33, 0], [0.33, 0.15], [0.24, 0.23], [0, 0.23]]\n\
+        grippers = [3, 2]\ncell = [0.12, 0.12]\narray = { holds = [\"###\", \"##.\"], middle = [0.16, 0.11] }";
+    for (ply, pad, cups) in [(disc.as_str(), "pad_radius = 0.018\n", 4), (notched, "", 5)] {
+        let scene = parse(ply, pad);
+        assert_eq!(scene.ply.grippers(), cups);
+        let outline = &scene.ply.cut.as_ref().unwrap().outline;
+        let drape = drape(&scene);
+        let carried: f64 = -drape.last.forces.iter().map(|force| force[2]).sum::<f64>();
+        let weight = drape.sheet.areal_mass * drape.sheet.gravity * outline.area();
+        assert!((carried / weight - 1.0).abs() < 1e-4, "{carried} N of {weight} N");
+    }
+}
+
+/// The drawing may lie anywhere: turned and moved with its array and its warp, the ply and its cups are the same.
+#[test]
+fn a_drawing_may_lie_anywhere() {
+    let at = |turn: f64, warp: &str| {
+        let (sin, cos) = turn.to_radians().sin_cos();
+        let place =
+            |x: f64, y: f64| format!("[{}, {}]", 0.7 + cos * x - sin * y, cos * y + sin * x - 0.2);
+        let corners = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.3, 0.3), (0.0, 0.3)];
+        let outline: Vec<String> = corners.iter().map(|(x, y)| place(*x, *y)).collect();
+        let ply = format!(
+            "outline = [{}]\ngrippers = [3, 2]\ncell = [0.12, 0.11]\nwarp = \"{warp}\"\n\
+             array = {{ middle = {}, direction = \"{turn} deg\" }}",
+            outline.join(", "),
+            place(0.19, 0.13)
+        );
+        parse(&ply, "").ply
+    };
+    // along the yarns, and at 40 degrees to them
+    for (here, there) in
+        [(at(0.0, "0 deg"), at(37.0, "37 deg")), (at(0.0, "40 deg"), at(37.0, "77 deg"))]
+    {
+        assert_eq!(here.grid, there.grid);
+        assert_eq!(here.grippers(), there.grippers());
+        let [a, b] = [&here, &there].map(|ply| ply.cut.as_ref().unwrap());
+        for (p, q) in a.outline.boundary().iter().zip(b.outline.boundary()) {
+            assert!((p[0] - q[0]).hypot(p[1] - q[1]) < 1e-12, "{p:?} {q:?}");
+        }
+        for n in 0..here.grippers() {
+            let ([u, v], [p, q]) = (here.place(n), there.place(n));
+            assert!((u - p).hypot(v - q) < 1e-12);
+        }
+        for uv in [[0.0, 0.0], [0.1, -0.2]] {
+            let back = b.fabric(b.drawn(uv));
+            assert!((back[0] - uv[0]).hypot(back[1] - uv[1]) < 1e-12);
+        }
+    }
+}
+
+/// A cylinder can be unrolled: a ply at 45 degrees to its array, and to the cylinder's axis, has its cups where the unrolled
+/// array has them, and its ideal drape has no shear.
+#[test]
+fn a_ply_at_45_degrees_is_laid_on_a_cylinder_without_shear() {
+    let ply = "size = [0.36, 0.26]\nwarp = \"45 deg\"\ngrippers = [4, 3]\ncell = [0.1, 0.1]";
+    let scene = parse(ply, &format!("{CYLINDER}direction = \"45 deg\"\n"));
+    let target = scene.target.as_ref().unwrap();
+    let net = target.drape.as_ref().unwrap();
+    assert!(net.report.largest_shear.is_some_and(|(shear, _)| shear < 1e-6));
+    for n in 0..12 {
+        let [i, j] = scene.ply.id(n).map(|k| k as f64);
+        let (x, arc) = (0.1 * (i - 1.5), 0.1 * (j - 1.0));
+        let (sin, cos) = (arc / 0.5).sin_cos();
+        let expected = [x, 0.5 * sin, 0.5 * cos - 0.5];
+        let found = target.grippers[n];
+        assert!(distance(found, expected) < 1e-6, "{found:?} {expected:?}");
+    }
+    assert_eq!(scene.ply.grid, Grid::NONE);
+    // the start lies in rows along the array too
+    let start = &scene.motion.positions[0];
+    assert!((distance(start[0], start[1]) - 0.098).abs() < 1e-12);
+    assert!((start[0][1] - start[3][1]).abs() < 1e-9, "{start:?}");
+}
+
+/// A list of cups at the places of an array is that array, and a mask that lets all hold is none.
+#[test]
+fn a_list_of_cups_is_the_array_at_their_places() {
+    let sized = "size = [0.25, 0.15]\nwarp = \"10 deg\"";
+    let array =
+        parse(&format!("{sized}\ngrippers = [3, 2]\ncell = [0.1, 0.1]"), "pad_radius = 0.015\n");
+    let list = "points = [[0.025, 0.025], [0.125, 0.025], [0.225, 0.025], [0.025, 0.125], [0.125, 0.125], [0.225, 0.125]]";
+    let list = parse(&format!("{sized}\n{list}"), "pad_radius = 0.015\n");
+    assert_eq!(array.ply.grippers(), list.ply.grippers());
+    let [a, b] = [&array, &list].map(|scene| Sheet::new(scene).unwrap());
+    assert_eq!(a.fabric.places.len(), b.fabric.places.len());
+    for (a, b) in a.grippers.iter().zip(&b.grippers) {
+        assert!((a.place[0] - b.place[0]).hypot(a.place[1] - b.place[1]) < 1e-12);
+    }
+    let masked = "grippers = [3, 2]\ncell = [0.1, 0.1]\narray = { holds = [\"###\", \"###\"] }";
+    let masked = parse(&format!("{sized}\n{masked}"), "pad_radius = 0.015\n");
+    assert_eq!(masked.ply, array.ply);
+}
+
+/// Cups beside the ply hold nothing; one that is partly on it holds nothing only if the scene says so.
+#[test]
+fn cups_hold_where_there_is_ply_around_them() {
+    let ply = |partly: &str| {
+        format!(
+            "outline = [[0, 0], [0.35, 0], [0, 0.35]]\ngrippers = [4, 4]\ncell = [0.1, 0.1]\n\
+             array = {{ middle = [0.17, 0.17], margin = 0.01{partly} }}"
+        )
+    };
+    let scene = parse(&ply(", partly = \"leave-off\""), "");
+    let ids: Vec<_> = (0..scene.ply.grippers()).map(|n| scene.ply.id(n)).collect();
+    assert_eq!(ids, [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [0, 2]]);
+    let text = format!("[ply]\n{}\nmaterial = \"krogh2018\"\n", ply(""));
+    let refused = scene::parse(&text, Path::new(""), "scene").unwrap_err();
+    assert!(refused.help.contains("leave-off"), "{refused}");
+}
+
+/// A drape of a ply with a hole, across the yarns of which its cups stand, is written to every file and read back; the
+/// pattern has the outline of the drawing, and the boundary ends where the net puts it.
+#[test]
+fn a_cut_ply_is_written_to_every_file() {
+    let ply = "size = [0.22, 0.22]\nwarp = \"45 deg\"\ngrippers = [2, 2]\ncell = [0.1, 0.1]\n\
+        holes = [{ middle = [0.11, 0.11], diameter = 0.04 }]";
+    let rest = format!(
+        "{CYLINDER}direction = \"45 deg\"\n[contact]\nfriction = 0.3\n[sheet]\nmesh = 0.02\n"
+    );
+    let scene = parse(ply, &rest);
+    let folder = tempfile::tempdir().unwrap();
+    let mut result = crate::common::drape(&scene);
+    let draped = plydrape_io::sheet::drape(&scene, folder.path(), &|| false, |_| {}).unwrap();
+    result.summary.sheet = Some(draped.summary);
+    result.sheet_states = Some(draped.states);
+    let results = folder.path().join("results");
+    plydrape_io::write_all(&result, &results).unwrap_or_else(|error| panic!("{error}"));
+    let read = plydrape_io::read::read(&results.join("result.json")).unwrap();
+    assert_eq!(read.scene.ply, scene.ply);
+    for format in
+        [Format::Csv, Format::Svg, Format::Ros2, Format::Vtk, Format::Pattern, Format::Boundary]
+    {
+        let files =
+            export::files(&read, format).unwrap_or_else(|error| panic!("{format:?}: {error}"));
+        assert!(
+            !files.is_empty() && files.iter().all(|(_, bytes)| !bytes.is_empty()),
+            "{format:?}"
+        );
+    }
+    assert!(export::files(&read, Format::Inp).is_err());
+
+    let pattern = export::files(&read, Format::Pattern).unwrap();
+    let options = Options::new(1e-4);
+    let layers = Some(vec!["CUT".into(), "HOLES".into()]);
+    let again =
+        outline::read_dxf("pattern.dxf", &pattern[0].1, &Options { layers, ..options }).unwrap();
+    let cut = scene.ply.cut.as_ref().unwrap();
+    assert!((again.area() - cut.outline.area()).abs() < 1e-9);
+    assert!((again.bounds()[1][0] - 0.22).abs() < 1e-9 && again.holes().len() == 1);
+
+    let (mold, net) = (scene.mold.as_ref().unwrap(), scene.target.as_ref().unwrap());
+    let net = net.drape.as_ref().unwrap();
+    let boundary = export::files(&read, Format::Boundary).unwrap();
+    let text = String::from_utf8(boundary[0].1.clone()).unwrap();
+    let mut places = cut.outline.rings().flat_map(|ring| ring.iter().copied());
+    let near = |place: [f64; 3]| {
+        let off = text.lines().skip(1).map(|line| {
+            let numbers: Vec<f64> = line.split(',').skip(2).map(|n| n.parse().unwrap()).collect();
+            distance(place, [numbers[0], numbers[1], numbers[2]])
+        });
+        off.fold(f64::INFINITY, f64::min)
+    };
+    assert!(places.all(|uv| near(net.place(mold, uv).unwrap()) < 6e-3));
+}
+
+/// An outline is the same whether its points stand in the scene or in a drawing.
+#[test]
+fn an_outline_may_be_a_drawing() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it/broken/tables");
+    let text = |outline: &str| {
+        format!(
+            "[ply]\noutline = {outline}\ngrippers = [3, 2]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n\
+             [grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n"
+        )
+    };
+    let read = |outline: &str| scene::parse(&text(outline), &folder, "scene");
+    let drawn = read("{ file = \"square.dxf\", unit = \"mm\" }").unwrap().scene.ply;
+    let points = read("[[0, 0], [0.4, 0], [0.4, 0.3], [0, 0.3]]").unwrap().scene.ply;
+    let [a, b] = [&drawn, &points].map(|ply| &ply.cut.as_ref().unwrap().outline);
+    assert!((a.area() - b.area()).abs() < 1e-15);
+    assert_eq!(drawn.grippers(), points.grippers());
+    let refused = read("\"square.dxf\"").unwrap_err();
+    assert!(refused.to_string().contains("no unit"), "{refused}");
+}
