@@ -815,7 +815,7 @@ class Result:
         Whether every equilibrium was found, by the model that decides.
         """
     def export(
-        self, /, to: typing.Literal["vtk", "inp", "ros2", "csv", "svg"], folder: str | PathLike[str]
+        self, /, to: typing.Literal["vtk", "inp", "ros2", "csv", "svg", "pattern", "boundary"], folder: str | PathLike[str]
     ) -> list[Path]:
         """
         Writes files for another program into a folder, all or none, and returns their paths.

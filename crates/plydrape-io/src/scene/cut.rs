@@ -9,7 +9,6 @@ use super::error::{Document, SceneError};
 use super::file::{ArrayTable, CircleTable, PartlyKey, PlyTable};
 use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
-use super::quantity::rounded;
 use crate::shown::millimetres;
 use plydrape::ply::{Cut, Direction, Grid, Held, Outline, OutlineError, Ring, RingId};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -228,7 +227,7 @@ fn array(
             continue;
         }
         let [i, j] = cup.id;
-        let [x, y] = cup.place.map(|c| rounded(c * 1e3));
+        let [x, y] = cup.place.map(millimetres);
         let off = if depth < 0.0 { "beyond" } else { "inside" };
         let place = keys.holds.as_ref().map_or(span, |rows| &rows.span);
         return Err(document.error(

@@ -107,7 +107,10 @@ fn rectangle(
     let plane = ground(keys, around)?;
     let direction = match (&keys.direction, target.filter(|_| is_centred(keys))) {
         (Some(direction), _) => heading(direction, document)?,
-        (None, Some(target)) => heading_of(&target.grippers, ply),
+        (None, Some(target)) => match target.drape.as_ref().filter(|_| ply.grid == Grid::NONE) {
+            Some(net) => net.layup.heading,
+            None => heading_of(&target.grippers, ply),
+        },
         (None, None) => 0.0,
     };
     // gripper [0, 0] as far from the middle as without a shift

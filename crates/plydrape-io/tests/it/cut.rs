@@ -38,34 +38,6 @@ fn a_ply_that_is_cut_at_its_cups_is_the_ply_of_its_array() {
     }
 }
 
-/// The cups bear the weight of what is cut out, holes left out, to a ten-thousandth: of a disc with a hole whose yarns run
-/// askew, and of a notched ply of which one cup does not hold.
-#[test]
-fn the_cups_bear_the_weight_of_what_is_cut_out() {
-    let disc: Vec<String> = (0..40)
-        .map(|n| {
-            let (sin, cos) = (std::f64::consts::TAU * f64::from(n) / 40.0).sin_cos();
-            format!("[{}, {}]", 0.13 * cos, 0.13 * sin)
-        })
-        .collect();
-    let disc = format!(
-        "outline = [{}]\nholes = [{{ middle = [0.01, 0], diameter = 0.05 }}]\nwarp = \"25 deg\"\n\
-         grippers = [2, 2]\ncell = [0.12, 0.12]",
-        disc.join(", ")
-    );
-    let notched = "outline = [[0, 0], [0.33, 0], [0.33, 0.15], [0.24, 0.23], [0, 0.23]]\n\
-        grippers = [3, 2]\ncell = [0.12, 0.12]\narray = { holds = [\"###\", \"##.\"], middle = [0.16, 0.11] }";
-    for (ply, pad, cups) in [(disc.as_str(), "pad_radius = 0.018\n", 4), (notched, "", 5)] {
-        let scene = parse(ply, pad);
-        assert_eq!(scene.ply.grippers(), cups);
-        let outline = &scene.ply.cut.as_ref().unwrap().outline;
-        let drape = drape(&scene);
-        let carried: f64 = -drape.last.forces.iter().map(|force| force[2]).sum::<f64>();
-        let weight = drape.sheet.areal_mass * drape.sheet.gravity * outline.area();
-        assert!((carried / weight - 1.0).abs() < 1e-4, "{carried} N of {weight} N");
-    }
-}
-
 /// The drawing may lie anywhere: turned and moved with its array and its warp, the ply and its cups are the same.
 #[test]
 fn a_drawing_may_lie_anywhere() {

@@ -272,7 +272,9 @@ impl Fabric {
         let mesh = settings.sheet.mesh.unwrap_or(0.1 * pitch(ply));
         let fabric = match &ply.cut {
             Some(cut) => {
-                let off = |n: &usize| cut.outline.depth(ply.place(*n)) < radius * (1.0 - 1e-9);
+                let [low, high] = cut.outline.bounds();
+                let rounding = 1e-9 * (high[0] - low[0]).max(high[1] - low[1]);
+                let off = |n: &usize| cut.outline.depth(ply.place(*n)) < radius - rounding;
                 if let Some(off) = (0..ply.grippers()).find(off) {
                     return Err(SheetError::PadOff {
                         gripper: ply.id(off),
