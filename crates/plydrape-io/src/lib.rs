@@ -2,9 +2,9 @@
 //!
 //! The crate `plydrape` computes; this one reads what it needs and writes what it found, and computes no physics:
 //!
-//! 1. [`scene`]: a file becomes a checked scene, with [`mesh`] and [`formula`] for its mold;
+//! 1. [`scene`]: a file becomes a checked scene, with [`mesh`] and [`formula`] for its mold and [`outline`] for its ply;
 //! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
-//! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`]: everything else is made from a result;
+//! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`], [`pattern`]: everything else is made from a result;
 //! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`comparison`] for several strategies, [`sheet`] keeps the states of a sheet beside its result;
 //!    [`table`] prints for people, [`strength`] says what is published of fibre angles;
 //! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
@@ -26,7 +26,9 @@ mod manifest;
 pub mod mesh;
 pub mod mold_patch;
 pub mod net;
+pub mod outline;
 pub mod page;
+pub mod pattern;
 pub mod plan;
 pub mod result;
 pub mod ros2;

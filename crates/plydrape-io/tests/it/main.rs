@@ -17,6 +17,8 @@ mod mesh_files;
 mod molds_in_scenes;
 mod motion;
 mod net;
+mod outlines;
+mod pattern;
 mod plans;
 mod preload;
 mod reach;

@@ -1,0 +1,374 @@
+//! The curves of a drawing: its entities, blocks placed, as polygons in metres.
+
+use super::Options;
+use super::error::{OutlineFault, Place};
+use super::flatten::{self, Arc, Limit, Nurbs, TooMany};
+use super::transform::Transform;
+use ::dxf::Drawing;
+use ::dxf::entities::{Entity, EntityType, Insert, Polyline, Spline};
+use ::dxf::{Point, Vector};
+use std::collections::{BTreeSet, HashMap};
+
+/// Most points of all curves: crossings of all lines are sought.
+pub const MOST_POINTS: usize = 50_000;
+/// Most blocks within one another.
+const MOST_DEPTH: usize = 16;
+/// Most entities that are looked at, those of blocks each time they are placed.
+const MOST_ENTITIES: usize = 2_000_000;
+/// A curve is flat if its z varies by no more than this share of its coordinates; an arc closed if it lacks no larger share.
+const ROUNDING: f64 = 1e-6;
+
+/// A curve as a polygon.
+#[derive(Debug, Clone)]
+pub struct Curve {
+    /// Its points (m); of a closed one the first is not repeated.
+    pub points: Vec<[f64; 2]>,
+    /// Whether its end is its beginning.
+    pub closed: bool,
+    /// Its type, as DXF names it.
+    pub entity: &'static str,
+    /// Its layer.
+    pub layer: String,
+}
+
+impl Curve {
+    /// A point of it, for messages.
+    pub fn place(&self, at: [f64; 2]) -> Place {
+        Place { entity: self.entity, layer: self.layer.clone(), at }
+    }
+}
+
+/// The curves of the layers that are wanted, and of those that are not their layers alone.
+pub struct Curves {
+    /// Those that are wanted.
+    pub curves: Vec<Curve>,
+    /// Layers of the others.
+    pub others: BTreeSet<String>,
+}
+
+/// All curves of a drawing; a unit of the drawing in metres.
+pub fn curves(drawing: &Drawing, unit: f64, options: &Options) -> Result<Curves, OutlineFault> {
+    let hidden = drawing.layers().filter(|layer| !layer.is_layer_on);
+    let mut reader = Reader {
+        blocks: drawing.blocks().map(|block| (key(&block.name), block)).collect(),
+        wanted: options.layers.as_ref().map(|names| names.iter().map(|n| key(n)).collect()),
+        hidden: hidden.map(|layer| key(&layer.name)).collect(),
+        tolerance: options.tolerance,
+        points: 0,
+        visited: 0,
+        found: Curves { curves: Vec::new(), others: BTreeSet::new() },
+    };
+    for entity in drawing.entities().filter(|entity| !entity.common.is_in_paper_space) {
+        reader.read(entity, None, &Transform::scale(unit), 0)?;
+    }
+    Ok(reader.found)
+}
+
+/// How many entities and vertices of polylines the library has read.
+pub fn count(drawing: &Drawing) -> usize {
+    let of_blocks = drawing.blocks().flat_map(|block| &block.entities);
+    let count = |entity: &Entity| match &entity.specific {
+        EntityType::Polyline(line) => 1 + line.vertices().count(),
+        EntityType::Seqend(_) => 0,
+        _ => 1,
+    };
+    drawing.entities().chain(of_blocks).map(count).sum()
+}
+
+/// Names of layers and blocks differ in more than small and capital letters.
+pub fn key(name: &str) -> String {
+    name.to_uppercase()
+}
+
+struct Reader<'a> {
+    blocks: HashMap<String, &'a ::dxf::Block>,
+    wanted: Option<BTreeSet<String>>,
+    hidden: BTreeSet<String>,
+    tolerance: f64,
+    points: usize,
+    visited: usize,
+    found: Curves,
+}
+
+/// A polygon before it is placed, in units of the drawing.
+struct Flat {
+    points: Vec<[f64; 2]>,
+    closed: bool,
+}
+
+impl Reader<'_> {
+    /// Adds the curves of an entity; on layer 0 of a block it is on the layer that the block is placed on.
+    fn read(
+        &mut self,
+        entity: &Entity,
+        placed_on: Option<&str>,
+        outer: &Transform,
+        depth: usize,
+    ) -> Result<(), OutlineFault> {
+        let layer = match (placed_on, entity.common.layer.as_str()) {
+            (Some(layer), "0") => layer,
+            (_, layer) => layer,
+        };
+        self.visited += 1;
+        let Some((kind, origin, normal)) = sort(&entity.specific) else { return Ok(()) };
+        let z_unit = flatten::stretch(outer.x, outer.y);
+        let place =
+            Place { entity: kind, layer: layer.to_owned(), at: outer.of([origin.x, origin.y]) };
+        if self.visited > MOST_ENTITIES {
+            let what = "entities in blocks";
+            return Err(OutlineFault::Blocks { place, most: MOST_ENTITIES, what });
+        }
+        if let EntityType::Insert(insert) = &entity.specific {
+            return self.place(insert, layer, &place, outer, depth);
+        }
+        let name = key(layer);
+        let wanted = match &self.wanted {
+            Some(wanted) => wanted.contains(&name),
+            None => !self.hidden.contains(&name) && entity.common.is_visible,
+        };
+        if !wanted {
+            self.found.others.insert(layer.to_owned());
+            return Ok(());
+        }
+        let not_finite = || OutlineFault::NotFinite { entity: kind, layer: layer.to_owned() };
+        let mirrored = mirrored(normal).ok_or_else(|| OutlineFault::Tilted(place.clone()))?;
+        let transform = if mirrored && in_own_plane(&entity.specific) {
+            outer.after(&Transform::mirror())
+        } else {
+            *outer
+        };
+        let room = MOST_POINTS - self.points;
+        let limit = Limit {
+            tolerance: self.tolerance / flatten::stretch(transform.x, transform.y),
+            points: room,
+        };
+        let too_many = |TooMany| OutlineFault::Points {
+            place: place.clone(),
+            tolerance: self.tolerance,
+            most: MOST_POINTS,
+        };
+        if !place.at.iter().all(|c| c.is_finite()) {
+            return Err(not_finite());
+        }
+        if let Some(z) = heights(&entity.specific) {
+            return Err(OutlineFault::NotFlat { place, z: z.map(|z| z * z_unit) });
+        }
+        let flat = match &entity.specific {
+            EntityType::Line(line) => {
+                Flat { points: vec![plane(&line.p1), plane(&line.p2)], closed: false }
+            }
+            EntityType::Circle(circle) => {
+                arc(&circle.center, circle.radius, 0.0, 360.0, limit).map_err(too_many)?
+            }
+            EntityType::Arc(a) => {
+                let sweep = (a.end_angle - a.start_angle).rem_euclid(360.0);
+                arc(&a.center, a.radius, a.start_angle, sweep, limit).map_err(too_many)?
+            }
+            EntityType::Ellipse(ellipse) => {
+                let p = [ellipse.major_axis.x, ellipse.major_axis.y];
+                let ratio =
+                    if mirrored { -ellipse.minor_axis_ratio } else { ellipse.minor_axis_ratio };
+                let start = ellipse.start_parameter;
+                let arc = Arc {
+                    centre: plane(&ellipse.center),
+                    p,
+                    q: [-ratio * p[1], ratio * p[0]],
+                    start,
+                    sweep: (ellipse.end_parameter - start).rem_euclid(std::f64::consts::TAU),
+                };
+                closed_if_whole(arc, limit).map_err(too_many)?
+            }
+            EntityType::LwPolyline(line) => {
+                let vertices = line.vertices.iter().map(|v| ([v.x, v.y], v.bulge));
+                polyline(vertices.collect(), line.is_closed(), limit).map_err(too_many)?
+            }
+            EntityType::Polyline(line) => {
+                let on_it = line.vertices().filter(|v| !v.is_spline_frame_control_point());
+                let bulge = |bulge: f64| if line.is_3d_polyline() { 0.0 } else { bulge };
+                let vertices = on_it.map(|v| (plane(&v.location), bulge(v.bulge)));
+                polyline(vertices.collect(), line.is_closed(), limit).map_err(too_many)?
+            }
+            EntityType::Spline(spline) => {
+                let points = nurbs(spline, &place)?.flatten(limit).map_err(too_many)?;
+                Flat { points, closed: false }
+            }
+            _ => return Ok(()),
+        };
+        if flat.points.len() > room {
+            return Err(too_many(TooMany));
+        }
+        let points: Vec<[f64; 2]> = flat.points.iter().map(|p| transform.of(*p)).collect();
+        if !points.iter().flatten().all(|c| c.is_finite()) {
+            return Err(not_finite());
+        }
+        if points.is_empty() {
+            return Ok(());
+        }
+        self.points += points.len();
+        let curve = Curve { points, closed: flat.closed, entity: kind, layer: layer.to_owned() };
+        self.found.curves.push(curve);
+        Ok(())
+    }
+
+    /// Adds the curves of a block where it is placed, in rows and columns.
+    fn place(
+        &mut self,
+        insert: &Insert,
+        layer: &str,
+        place: &Place,
+        outer: &Transform,
+        depth: usize,
+    ) -> Result<(), OutlineFault> {
+        let Some(block) = self.blocks.get(&key(&insert.name)).copied() else {
+            let block = insert.name.clone();
+            return Err(OutlineFault::Block { place: place.clone(), block });
+        };
+        if depth == MOST_DEPTH {
+            let (place, what) = (place.clone(), "blocks within one another");
+            return Err(OutlineFault::Blocks { place, most: MOST_DEPTH, what });
+        }
+        let mirrored = mirrored(&insert.extrusion_direction)
+            .ok_or_else(|| OutlineFault::Tilted(place.clone()))?;
+        let outer = if mirrored { outer.after(&Transform::mirror()) } else { *outer };
+        let outer = outer
+            .after(&Transform::shift(plane(&insert.location)))
+            .after(&Transform::turn(insert.rotation.to_radians()));
+        let base = [-block.base_point.x, -block.base_point.y];
+        let scale = Transform {
+            x: [insert.x_scale_factor, 0.0],
+            y: [0.0, insert.y_scale_factor],
+            origin: [0.0; 2],
+        };
+        for row in 0..insert.row_count.max(1) {
+            for column in 0..insert.column_count.max(1) {
+                let shift = [
+                    f64::from(column) * insert.column_spacing,
+                    f64::from(row) * insert.row_spacing,
+                ];
+                let inner = outer
+                    .after(&Transform::shift(shift))
+                    .after(&scale)
+                    .after(&Transform::shift(base));
+                // an empty block in many rows takes time too
+                self.visited += 1;
+                for entity in &block.entities {
+                    self.read(entity, Some(layer), &inner, depth + 1)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What an entity is called, a point of it, and the normal of its plane; none for what is no curve.
+fn sort(entity: &EntityType) -> Option<(&'static str, Point, &Vector)> {
+    Some(match entity {
+        EntityType::Line(line) => ("LINE", line.p1.clone(), &line.extrusion_direction),
+        EntityType::Circle(circle) => ("CIRCLE", circle.center.clone(), &circle.normal),
+        EntityType::Arc(arc) => ("ARC", arc.center.clone(), &arc.normal),
+        EntityType::Ellipse(ellipse) => ("ELLIPSE", ellipse.center.clone(), &ellipse.normal),
+        EntityType::LwPolyline(line) => {
+            let at = line.vertices.first().map(|v| Point::new(v.x, v.y, 0.0))?;
+            ("LWPOLYLINE", at, &line.extrusion_direction)
+        }
+        // polygon meshes and polyface meshes are no curves
+        EntityType::Polyline(line) if line.flags & (16 | 64) == 0 => {
+            ("POLYLINE", line.vertices().next()?.location.clone(), &line.normal)
+        }
+        EntityType::Spline(spline) => {
+            let first = spline.control_points.first().or(spline.fit_points.first())?;
+            ("SPLINE", first.clone(), &spline.normal)
+        }
+        EntityType::Insert(insert) => {
+            ("INSERT", insert.location.clone(), &insert.extrusion_direction)
+        }
+        _ => return None,
+    })
+}
+
+/// Whether the coordinates of an entity are those of its own plane, and not of the drawing.
+fn in_own_plane(entity: &EntityType) -> bool {
+    match entity {
+        EntityType::Circle(_) | EntityType::Arc(_) | EntityType::LwPolyline(_) => true,
+        EntityType::Polyline(Polyline { flags, .. }) => flags & 8 == 0,
+        _ => false,
+    }
+}
+
+/// Whether a plane is seen from behind; none for one that is inclined to the drawing.
+fn mirrored(normal: &Vector) -> Option<bool> {
+    let across = normal.x.hypot(normal.y);
+    (normal.z != 0.0 && across <= ROUNDING * normal.z.abs()).then_some(normal.z < 0.0)
+}
+
+/// Lowest and highest z of a curve that is not flat.
+fn heights(entity: &EntityType) -> Option<[f64; 2]> {
+    let points: Vec<Point> = match entity {
+        EntityType::Line(line) => vec![line.p1.clone(), line.p2.clone()],
+        EntityType::Polyline(line) => line.vertices().map(|v| v.location.clone()).collect(),
+        EntityType::Spline(spline) => spline.control_points.clone(),
+        EntityType::Ellipse(ellipse) => {
+            let (centre, axis) = (&ellipse.center, &ellipse.major_axis);
+            vec![
+                centre.clone(),
+                Point::new(centre.x + axis.x, centre.y + axis.y, centre.z + axis.z),
+            ]
+        }
+        _ => return None,
+    };
+    let mut z = [f64::INFINITY, f64::NEG_INFINITY];
+    let mut size = 0.0_f64;
+    for point in &points {
+        z = [z[0].min(point.z), z[1].max(point.z)];
+        size = size.max(point.x.abs()).max(point.y.abs()).max(point.z.abs());
+    }
+    (z[1] - z[0] > ROUNDING * size).then_some(z)
+}
+
+fn plane(point: &Point) -> [f64; 2] {
+    [point.x, point.y]
+}
+
+/// An arc of a circle, its angles in degrees.
+fn arc(centre: &Point, radius: f64, start: f64, sweep: f64, limit: Limit) -> Result<Flat, TooMany> {
+    let (p, q) = ([radius, 0.0], [0.0, radius]);
+    let [start, sweep] = [start, sweep].map(f64::to_radians);
+    closed_if_whole(Arc { centre: plane(centre), p, q, start, sweep }, limit)
+}
+
+/// An arc that ends where it begins is whole, and an arc of no angle is that too.
+fn closed_if_whole(arc: Arc, limit: Limit) -> Result<Flat, TooMany> {
+    let whole = std::f64::consts::TAU;
+    let missing = arc.sweep.rem_euclid(whole);
+    if missing.min(whole - missing) > ROUNDING * whole {
+        return Ok(Flat { points: arc.flatten(limit)?, closed: false });
+    }
+    let mut points = Arc { sweep: whole, ..arc }.flatten(limit)?;
+    points.pop();
+    Ok(Flat { points, closed: true })
+}
+
+/// Points, each with the bulge of the line that follows it.
+fn polyline(vertices: Vec<([f64; 2], f64)>, closed: bool, limit: Limit) -> Result<Flat, TooMany> {
+    let mut points = Vec::new();
+    for (n, (at, bulge)) in vertices.iter().enumerate() {
+        points.push(*at);
+        let next = if n + 1 < vertices.len() { n + 1 } else { 0 };
+        if next != 0 || closed {
+            let room = limit.points.checked_sub(points.len()).ok_or(TooMany)?;
+            let limit = Limit { points: room, ..limit };
+            points.extend(flatten::bulge(*at, vertices[next].0, *bulge, limit)?);
+        }
+    }
+    Ok(Flat { points, closed })
+}
+
+fn nurbs(spline: &Spline, place: &Place) -> Result<Nurbs, OutlineFault> {
+    if spline.control_points.is_empty() {
+        return Err(OutlineFault::FitPoints(place.clone()));
+    }
+    let points: Vec<[f64; 2]> = spline.control_points.iter().map(plane).collect();
+    let degree = usize::try_from(spline.degree_of_curve).unwrap_or(0);
+    Nurbs::new(degree, spline.knot_values.clone(), &points, &spline.weight_values)
+        .map_err(|why| OutlineFault::Spline { place: place.clone(), why })
+}

@@ -1,0 +1,223 @@
+//! The part of a DXF text that outlines are made of.
+//!
+//! A DXF text is a sequence of pairs of lines, a group code and its value. What has no part in an outline is left out before the
+//! library sees it: dates, previews, objects, extended data, entities that are no curves. Some of these make the library panic
+//! where a file is damaged, and groups within groups would take all of its stack. Where a number is none, the library leaves out
+//! the entity and all that follow it without a word, so numbers are checked here and entities are counted.
+
+use super::error::OutlineFault;
+
+/// The variables of the header that are kept.
+const VARIABLES: [&[u8]; 3] = [b"$ACADVER", b"$DWGCODEPAGE", b"$INSUNITS"];
+/// The sections that are kept.
+const SECTIONS: [&[u8]; 4] = [b"HEADER", b"TABLES", b"BLOCKS", b"ENTITIES"];
+/// What is kept of blocks and entities.
+const ENTITIES: [&[u8]; 12] = [
+    b"BLOCK",
+    b"ENDBLK",
+    b"LINE",
+    b"ARC",
+    b"CIRCLE",
+    b"ELLIPSE",
+    b"SPLINE",
+    b"LWPOLYLINE",
+    b"POLYLINE",
+    b"VERTEX",
+    b"SEQEND",
+    b"INSERT",
+];
+/// The first group code of extended data.
+const EXTENDED: i32 = 1000;
+/// The group code of a comment.
+const COMMENT: i32 = 999;
+/// The group code that opens and closes groups of an application.
+const GROUP: i32 = 102;
+
+/// What is kept of a DXF text.
+pub struct Kept<'a> {
+    /// As DXF text.
+    pub text: Vec<u8>,
+    /// How many entities and vertices of polylines it has.
+    pub entities: usize,
+    /// The lines of the values in the file, counted from 1, each with its code and value.
+    lines: Vec<(usize, &'a [u8], &'a [u8])>,
+}
+
+impl<'a> Kept<'a> {
+    /// The line of the file, the code and the value that a line of the kept text has, counted from 1.
+    pub fn origin(&self, line: usize) -> Option<(usize, String, String)> {
+        let (line, code, value) = self.lines.get(line.checked_sub(1)? / 2)?;
+        Some((*line, shown(code), shown(value)))
+    }
+
+    fn push(&mut self, line: usize, code: &'a [u8], value: &'a [u8]) {
+        for part in [code, value] {
+            self.text.extend_from_slice(part);
+            self.text.push(b'\n');
+        }
+        self.lines.push((line, code, value));
+    }
+}
+
+/// Where the reading of a text stands.
+enum State<'a> {
+    /// Between two sections.
+    Outside,
+    /// In a section.
+    In(&'a [u8]),
+}
+
+/// What outlines are made of in a DXF text.
+///
+/// # Errors
+/// [`OutlineFault`] for what is no DXF text, or ends before its end.
+pub fn keep(bytes: &[u8]) -> Result<Kept<'_>, OutlineFault> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    for (start, kind) in [
+        (&b"AutoCAD Binary DXF"[..], "a binary DXF file"),
+        (b"AutoCAD DXB", "a DXB file"),
+        (b"AC10", "a DWG file"),
+    ] {
+        if bytes.starts_with(start) {
+            return Err(OutlineFault::Format(kind));
+        }
+    }
+    let mut kept = Kept { text: Vec::new(), entities: 0, lines: Vec::new() };
+    let mut lines = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii_end).enumerate();
+    let mut last = 1;
+    let mut state = State::Outside;
+    // whether what is under way is kept: a variable, a table, an entity
+    let mut keeps = false;
+    let mut groups = 0_usize;
+    let mut frozen = false;
+    loop {
+        let (Some((at, code)), Some((_, value))) = (lines.next(), lines.next()) else {
+            return Err(OutlineFault::Ends { line: last });
+        };
+        let line = at + 2;
+        last = line;
+        let number = std::str::from_utf8(code).ok().and_then(|text| text.trim().parse().ok());
+        let Some(number): Option<i32> = number else {
+            return Err(OutlineFault::Code { line: at + 1, found: shown(code) });
+        };
+        let (code, name) = (code.trim_ascii(), value.trim_ascii());
+        if number == COMMENT || number >= EXTENDED {
+            continue;
+        }
+        if number == 0 {
+            groups = 0;
+            if std::mem::take(&mut frozen) {
+                // the library does not read the flag; a layer whose colour is negative is off
+                kept.push(line, b"62", b"-7");
+            }
+        }
+        match (&state, number, name) {
+            (_, 0, b"EOF") => {
+                kept.push(line, code, value);
+                return Ok(kept);
+            }
+            (State::Outside, 0, b"SECTION") => keeps = false,
+            (State::Outside, 2, section) => {
+                state = State::In(section);
+                if SECTIONS.contains(&section) {
+                    kept.push(line, b"0", b"SECTION");
+                    kept.push(line, code, value);
+                }
+            }
+            (State::Outside, ..) => {}
+            (State::In(section), 0, b"ENDSEC") => {
+                if SECTIONS.contains(section) {
+                    kept.push(line, code, value);
+                }
+                state = State::Outside;
+                keeps = false;
+            }
+            (State::In(b"HEADER"), 9, variable) => {
+                keeps = VARIABLES.contains(&variable);
+                if keeps {
+                    kept.push(line, code, value);
+                }
+            }
+            (State::In(b"HEADER"), ..) if keeps => {
+                check(line, number, code, value)?;
+                kept.push(line, code, value);
+            }
+            // the table of layers alone
+            (State::In(b"TABLES"), 0, b"TABLE") => keeps = false,
+            (State::In(b"TABLES"), 2, b"LAYER") if !keeps => {
+                keeps = true;
+                kept.push(line, b"0", b"TABLE");
+                kept.push(line, code, value);
+            }
+            (State::In(b"TABLES"), 0, b"ENDTAB") => {
+                if keeps {
+                    kept.push(line, code, value);
+                }
+                keeps = false;
+            }
+            (State::In(b"TABLES"), ..) if keeps => {
+                push_outside(&mut kept, &mut groups, (line, number, code, value))?;
+                let flags = std::str::from_utf8(name).ok().and_then(|text| text.parse().ok());
+                frozen |= number == 70 && flags.is_some_and(|flags: i64| flags & 1 == 1);
+            }
+            (State::In(b"BLOCKS" | b"ENTITIES"), 0, entity) => {
+                keeps = ENTITIES.contains(&entity);
+                if keeps {
+                    kept.push(line, code, value);
+                    kept.entities +=
+                        usize::from(!matches!(entity, b"BLOCK" | b"ENDBLK" | b"SEQEND"));
+                }
+            }
+            (State::In(b"BLOCKS" | b"ENTITIES"), ..) if keeps => {
+                push_outside(&mut kept, &mut groups, (line, number, code, value))?;
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Keeps a pair of a layer, a block or an entity, if it says something of its shape and belongs to no group of an application.
+fn push_outside<'a>(
+    kept: &mut Kept<'a>,
+    groups: &mut usize,
+    (line, number, code, value): (usize, i32, &'a [u8], &'a [u8]),
+) -> Result<(), OutlineFault> {
+    match (number, value.trim_ascii()) {
+        (GROUP, b"}") => *groups = groups.saturating_sub(1),
+        (GROUP, _) => *groups += 1,
+        // names, lengths and angles, flags, counts, normals
+        (0 | 2 | 8 | 10..=59 | 60..=79 | 90..=99 | 210..=239, _) if *groups == 0 => {
+            check(line, number, code, value)?;
+            kept.push(line, code, value);
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Refuses a value that is no number where its group code asks for one.
+fn check(line: usize, number: i32, code: &[u8], value: &[u8]) -> Result<(), OutlineFault> {
+    let text = std::str::from_utf8(value).unwrap_or_default().trim();
+    let is_right = match number {
+        // short numbers are written as lengths by some programs
+        10..=79 | 210..=239 => text.parse().is_ok_and(|value: f64| value.is_finite()),
+        90..=99 => text.parse::<i32>().is_ok(),
+        _ => true,
+    };
+    if is_right {
+        return Ok(());
+    }
+    Err(OutlineFault::Value { line, code: shown(code), found: shown(value) })
+}
+
+/// A line as messages show it.
+fn shown(line: &[u8]) -> String {
+    const MOST: usize = 40;
+    let text = String::from_utf8_lossy(&line[..line.len().min(4 * MOST)]);
+    let text = text.trim();
+    let mut shown: String = text.chars().take(MOST).collect();
+    if shown.len() < text.len() {
+        shown.push('…');
+    }
+    shown.escape_debug().to_string()
+}

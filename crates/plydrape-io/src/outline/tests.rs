@@ -1,0 +1,643 @@
+//! Drawings are written here pair by pair, so that nothing that writes DXF files can hide a fault of what reads them. Files of
+//! another program are in `tests/it/outlines`.
+
+use super::entity::MOST_POINTS;
+use super::*;
+use plydrape::ply::OutlineError;
+use proptest::prelude::*;
+use std::f64::consts::PI;
+use std::fmt::Write as _;
+
+const TOLERANCE: f64 = 1e-5;
+
+/// A drawing in a unit of the header, of entities.
+fn drawing(unit: u8, entities: &str) -> String {
+    format!(
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n{unit}\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
+    )
+}
+
+fn millimetres(entities: &str) -> String {
+    drawing(4, entities)
+}
+
+fn entity(kind: &str, layer: &str, pairs: &[(i32, f64)]) -> String {
+    let mut text = format!("0\n{kind}\n8\n{layer}\n");
+    for (code, value) in pairs {
+        let whole = matches!(code, 60..=79 | 90..=99);
+        let value = if whole { format!("{value:.0}") } else { format!("{value:?}") };
+        let _ = write!(text, "{code}\n{value}\n");
+    }
+    text
+}
+
+fn line(layer: &str, a: [f64; 2], b: [f64; 2]) -> String {
+    entity("LINE", layer, &[(10, a[0]), (20, a[1]), (11, b[0]), (21, b[1])])
+}
+
+fn arc(layer: &str, centre: [f64; 2], radius: f64, from: f64, to: f64) -> String {
+    let pairs = [(10, centre[0]), (20, centre[1]), (40, radius), (50, from), (51, to)];
+    entity("ARC", layer, &pairs)
+}
+
+fn circle(layer: &str, centre: [f64; 2], radius: f64) -> String {
+    entity("CIRCLE", layer, &[(10, centre[0]), (20, centre[1]), (40, radius)])
+}
+
+/// A closed polyline of points and bulges.
+fn bulged(layer: &str, vertices: &[[f64; 3]]) -> String {
+    let mut pairs = vec![(90, vertices.len() as f64), (70, 1.0)];
+    for [x, y, bulge] in vertices {
+        pairs.extend([(10, *x), (20, *y), (42, *bulge)]);
+    }
+    entity("LWPOLYLINE", layer, &pairs)
+}
+
+fn polygon(layer: &str, points: &[[f64; 2]]) -> String {
+    bulged(layer, &points.iter().map(|[x, y]| [*x, *y, 0.0]).collect::<Vec<_>>())
+}
+
+fn square(layer: &str, [x, y]: [f64; 2], side: f64) -> String {
+    polygon(layer, &[[x, y], [x + side, y], [x + side, y + side], [x, y + side]])
+}
+
+fn spline(layer: &str, degree: f64, knots: &[f64], points: &[[f64; 3]]) -> String {
+    let counts = [(72, knots.len() as f64), (73, points.len() as f64), (74, 0.0)];
+    let mut pairs = vec![(70, 4.0), (71, degree)];
+    pairs.extend(counts);
+    pairs.extend(knots.iter().map(|k| (40, *k)));
+    pairs.extend(points.iter().map(|p| (41, p[2])));
+    pairs.extend(points.iter().flat_map(|p| [(10, p[0]), (20, p[1]), (30, 0.0)]));
+    entity("SPLINE", layer, &pairs)
+}
+
+/// A quarter of a circle about the origin as a spline, from the x axis to the y axis, exact.
+fn quarter(radius: f64) -> String {
+    let weight = 0.5_f64.sqrt();
+    let points = [[radius, 0.0, 1.0], [radius, radius, weight], [0.0, radius, 1.0]];
+    spline("0", 2.0, &[0.0, 0.0, 0.0, 1.0, 1.0, 1.0], &points)
+}
+
+fn of(text: &str) -> Result<Outline, OutlineFileError> {
+    of_layers(text, None)
+}
+
+fn of_layers(text: &str, layers: Option<&[&str]>) -> Result<Outline, OutlineFileError> {
+    let layers = layers.map(|names| names.iter().map(|name| (*name).to_owned()).collect());
+    read_dxf("ply.dxf", text.as_bytes(), &Options { layers, ..Options::new(TOLERANCE) })
+}
+
+/// What a drawing is refused with, and what to do about it.
+fn refused(text: &str) -> (OutlineFault, String, String) {
+    let error = of(text).unwrap_err();
+    let (message, remedy) = (error.to_string(), error.remedy());
+    (error.fault, message, remedy)
+}
+
+/// Distances of the corners and of the middles of lines from a circle about the origin, least and largest.
+fn off_circle(outline: &Outline, radius: f64) -> [f64; 2] {
+    let middles = outline.lines().map(|[a, b]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
+    let corners = outline.lines().map(|[a, _]| a);
+    let off = corners.chain(middles).map(|p| p[0].hypot(p[1]) - radius);
+    off.fold([f64::INFINITY, f64::NEG_INFINITY], |b, d| [b[0].min(d), b[1].max(d)])
+}
+
+/// The area of a regular polygon of n corners on a circle is n/2 R² sin(2π/n); its lines are 1 − cos(π/n) of R from the circle.
+#[test]
+fn a_circle_is_the_polygon_with_the_fewest_lines_within_the_tolerance() {
+    let outline = of(&millimetres(&circle("0", [30.0, -20.0], 100.0))).unwrap();
+    let lines = outline.boundary().len() as f64;
+    assert!((outline.area() - 0.5 * lines * 0.01 * (2.0 * PI / lines).sin()).abs() < 1e-15);
+    let off = |lines: f64| 0.1 * (1.0 - (PI / lines).cos());
+    assert!(off(lines) <= TOLERANCE && off(lines - 1.0) > TOLERANCE);
+}
+
+/// A semicircle has the bulge 1; the two of a disc bulge outwards, or the one goes back inside the other.
+#[test]
+fn a_bulge_is_an_arc_to_the_side_of_its_sign() {
+    let disc = of(&millimetres(&bulged("0", &[[-50.0, 0.0, 1.0], [50.0, 0.0, 1.0]]))).unwrap();
+    let [least, most] = off_circle(&disc, 0.05);
+    assert!(least >= -TOLERANCE && most < 1e-15, "{least} {most}");
+    // from the right to the left along the upper half is counterclockwise; back over a flatter arc below it
+    let moon = of(&millimetres(&bulged("0", &[[50.0, 0.0, 1.0], [-50.0, 0.0, -0.5]]))).unwrap();
+    // circular segments by their angle θ = 4 atan(bulge) and radius c / (2 sin(θ/2))
+    let segment = |bulge: f64| {
+        let angle = 4.0 * bulge.atan();
+        let radius = 0.05 / (0.5 * angle).sin();
+        0.5 * radius * radius * (angle - angle.sin())
+    };
+    let expected = segment(1.0) - segment(0.5);
+    // each line may be a tolerance away
+    assert!((moon.area() - expected).abs() < 0.3 * TOLERANCE, "{} {expected}", moon.area());
+    assert!(moon.bounds()[0][1] > -1e-12);
+}
+
+/// However flat a bulge is, it rises by half of its chord times the bulge: also where its centre is a light year away.
+#[test]
+fn an_almost_straight_bulge_keeps_its_rise() {
+    for bulge in [1e-3, 1e-6, 1e-10, 1e-15] {
+        let limit = flatten::Limit { tolerance: 1e-4 * bulge, points: 1000 };
+        let points = flatten::bulge([0.0, 0.0], [2.0, 0.0], bulge, limit).unwrap();
+        let lowest = points.iter().map(|p| p[1]).fold(0.0, f64::min);
+        assert!((lowest / -bulge - 1.0).abs() < 2e-4, "{bulge}: {lowest}");
+    }
+}
+
+/// Three control points and the weight √½ are a quarter of a circle, exactly (Piegl and Tiller, The NURBS Book, 1997, ch. 7).
+#[test]
+fn a_rational_spline_lies_on_its_circle() {
+    let text = quarter(100.0)
+        + &line("0", [0.0, 100.0], [0.0, 0.0])
+        + &line("0", [100.0, 0.0], [0.0, 0.0]);
+    let outline = of(&millimetres(&text)).unwrap();
+    let arc: Vec<f64> = outline
+        .boundary()
+        .iter()
+        .filter(|p| p[0].hypot(p[1]) > 1e-6)
+        .map(|p| p[0].hypot(p[1]) - 0.1)
+        .collect();
+    assert!(arc.len() > 10 && arc.iter().all(|off| off.abs() < 1e-15));
+    let expected = PI * 0.01 / 4.0;
+    assert!((outline.area() - expected).abs() < 0.05 * PI * TOLERANCE);
+}
+
+/// A cubic with control points that a straight line of it has too: knots inside, none of them at an end of the curve.
+#[test]
+fn a_spline_without_knots_at_its_ends_covers_its_middle_spans_alone() {
+    let knots: Vec<f64> = (0..9).map(f64::from).collect();
+    let points = [[0.0, 0.0], [1.0, 1.0], [2.0, 4.0], [3.0, 9.0], [4.0, 16.0]];
+    let spline = flatten::Nurbs::new(3, knots, &points, &[]).unwrap();
+    let points = spline.flatten(flatten::Limit { tolerance: 1e-6, points: 100_000 }).unwrap();
+    // the points (i, i²) at Greville abscissae make (t, t² + 1/3) of the uniform cubic, at t from 1 to 3
+    let (first, last) = (points[0], points[points.len() - 1]);
+    for (found, t) in [(first, 1.0), (last, 3.0)] {
+        assert!((found[0] - t).abs() < 1e-12 && (found[1] - t * t - 1.0 / 3.0).abs() < 1e-12);
+    }
+    assert!(points.iter().all(|[x, y]| (y - x * x - 1.0 / 3.0).abs() < 1e-12));
+}
+
+/// π a b, and the same turned, mirrored and as a part of it.
+#[test]
+fn an_ellipse_has_its_area_whole_and_in_part() {
+    let pairs = |start: f64, end: f64| {
+        [(10, 5.0), (20, 7.0), (11, 60.0), (21, 80.0), (40, 0.3), (41, start), (42, end)]
+    };
+    let whole = of(&millimetres(&entity("ELLIPSE", "0", &pairs(0.0, 2.0 * PI)))).unwrap();
+    let expected = PI * 0.1 * 0.03;
+    // an ellipse of this size is 0.45 m around
+    assert!((whole.area() - expected).abs() < 0.45 * TOLERANCE);
+    for (normal, side) in [(1.0, 1.0), (-1.0, -1.0)] {
+        let mut half = pairs(0.0, PI).to_vec();
+        half.push((230, normal));
+        let chord = line("0", [65.0, 87.0], [-55.0, -73.0]);
+        let half = of(&millimetres(&(entity("ELLIPSE", "0", &half) + &chord))).unwrap();
+        assert!((half.area() - 0.5 * expected).abs() < 0.45 * TOLERANCE);
+        // the half to the left of the major axis, or to its right
+        let left = |p: &[f64; 2]| (0.6 * (p[1] - 0.007) - 0.8 * (p[0] - 0.005)) * side;
+        assert!(half.boundary().iter().all(|p| left(p) > -1e-9));
+    }
+}
+
+/// A slot of width 40 and length 100 between the middles of its round ends (mm), in the ways it can be drawn.
+fn slots() -> Vec<String> {
+    let bulge = bulged(
+        "0",
+        &[[0.0, -20.0, 0.0], [100.0, -20.0, 1.0], [100.0, 20.0, 0.0], [0.0, 20.0, 1.0]],
+    );
+    let parts = [
+        line("0", [100.0, 20.0], [0.0, 20.0]),
+        arc("0", [0.0, 0.0], 20.0, 90.0, 270.0),
+        line("0", [100.0, -20.0], [0.0, -20.0]),
+        arc("0", [100.0, 0.0], 20.0, -90.0, 90.0),
+    ];
+    let w = 0.5_f64.sqrt();
+    let end = |x: f64, out: f64| {
+        let points = [
+            [x, -20.0, 1.0],
+            [x + out, -20.0, w],
+            [x + out, 0.0, 1.0],
+            [x + out, 20.0, w],
+            [x, 20.0, 1.0],
+        ];
+        spline("0", 2.0, &[0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 2.0], &points)
+    };
+    let vertex =
+        |x: f64, y: f64, bulge: f64| entity("VERTEX", "0", &[(10, x), (20, y), (42, bulge)]);
+    let old = entity("POLYLINE", "0", &[(66, 1.0), (70, 1.0)])
+        + &vertex(0.0, -20.0, 0.0)
+        + &vertex(100.0, -20.0, 1.0)
+        + &vertex(100.0, 20.0, 0.0)
+        + &vertex(0.0, 20.0, 1.0)
+        + &entity("SEQEND", "0", &[]);
+    let mut all = vec![bulge, old, parts.concat()];
+    all.push([3, 1, 0, 2].map(|n| parts[n].as_str()).concat());
+    all.push(parts[2].clone() + &end(0.0, -20.0) + &end(100.0, 20.0) + &parts[0]);
+    all
+}
+
+/// However it is drawn, its area is 100 × 40 + π 20² mm², and its bounds are the same.
+#[test]
+fn a_shape_is_the_same_however_it_is_drawn() {
+    let expected = 0.1 * 0.04 + PI * 0.02 * 0.02;
+    for (n, text) in slots().into_iter().enumerate() {
+        let outline = of(&millimetres(&text)).unwrap_or_else(|error| panic!("{n}: {error}"));
+        let around = 0.2 + 0.04 * PI;
+        assert!((outline.area() - expected).abs() < around * TOLERANCE, "{n}: {}", outline.area());
+        for (found, due) in outline.bounds().iter().flatten().zip([-0.02, -0.02, 0.12, 0.02]) {
+            assert!((found - due).abs() <= TOLERANCE, "{n}: {found} {due}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// A polygon that is cut into lines is put together again, whatever their order and senses.
+    #[test]
+    fn lines_in_any_order_and_sense_are_joined(
+        radii in prop::collection::vec(50.0..100.0f64, 3..40), seed: u64,
+    ) {
+        let count = radii.len();
+        let point = |n: usize| {
+            let (sin, cos) = (2.0 * PI * (n % count) as f64 / count as f64).sin_cos();
+            [radii[n % count] * cos, radii[n % count] * sin]
+        };
+        let points: Vec<[f64; 2]> = (0..count).map(point).collect();
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by_key(|n| (*n as u64 + 1).wrapping_mul(seed | 1));
+        let lines = order.iter().map(|n| {
+            let (a, b) = (point(*n), point(n + 1));
+            if (seed >> (n % 64)) & 1 == 0 { line("0", a, b) } else { line("0", b, a) }
+        });
+        let joined = of(&millimetres(&lines.collect::<String>())).unwrap();
+        let whole = of(&millimetres(&polygon("0", &points))).unwrap();
+        prop_assert_eq!(joined.boundary().len(), count);
+        prop_assert!((joined.area() - whole.area()).abs() < 1e-15);
+    }
+
+    /// Whatever a DXF text says of a few entities, it is an outline or refused.
+    #[test]
+    fn numbers_of_every_size_are_read_or_refused(
+        values in prop::collection::vec(prop::num::f64::ANY, 12), bulge in prop::num::f64::ANY,
+    ) {
+        let v = &values;
+        for text in [
+            bulged("0", &[[v[0], v[1], bulge], [v[2], v[3], v[4]], [v[5], v[6], v[7]]]),
+            circle("0", [v[0], v[1]], v[2]),
+            arc("0", [v[0], v[1]], v[2], v[3], v[4]),
+            spline("0", 2.0, &[0.0, 0.0, 0.0, v[9], v[10], v[11]], &[[v[0], v[1], v[2]], [v[3], v[4], v[5]], [v[6], v[7], v[8]]]),
+            entity("ELLIPSE", "0", &[(10, v[0]), (11, v[1]), (21, v[2]), (40, v[3]), (41, v[4]), (42, v[5])]),
+        ] {
+            let _ = of(&millimetres(&text));
+        }
+    }
+}
+
+/// Of the two rings inside, one is a circle; they are on layers of their own.
+#[test]
+fn closed_lines_inside_the_largest_are_holes() {
+    let text = circle("HOLE", [30.0, 30.0], 10.0)
+        + &square("CUT", [0.0, 0.0], 200.0)
+        + &square("HOLE", [100.0, 100.0], 20.0);
+    let outline = of(&millimetres(&text)).unwrap();
+    assert_eq!(outline.holes().len(), 2);
+    let expected = 0.04 - 0.0004 - PI * 1e-4;
+    assert!((outline.area() - expected).abs() < 0.07 * TOLERANCE);
+    assert_eq!(of_layers(&millimetres(&text), Some(&["cut"])).unwrap().holes().len(), 0);
+}
+
+/// A hole of 0.02 mm is seen by a cutter, even if curves are followed to 1 mm.
+#[test]
+fn a_hole_smaller_than_the_tolerance_stays_a_hole() {
+    let text = square("0", [0.0, 0.0], 200.0) + &circle("0", [30.0, 30.0], 0.01);
+    let options = Options::new(1e-3);
+    let outline = read_dxf("ply.dxf", millimetres(&text).as_bytes(), &options).unwrap();
+    assert_eq!(outline.holes()[0].len(), 8);
+}
+
+#[test]
+fn every_unit_of_the_header_is_that_length() {
+    for (unit, metres) in
+        [(1, 0.0254), (2, 0.3048), (4, 1e-3), (5, 1e-2), (6, 1.0), (10, 0.9144), (14, 0.1)]
+    {
+        let outline = of(&drawing(unit, &square("0", [0.0, 0.0], 1.0))).unwrap();
+        assert!((outline.area() - metres * metres).abs() < 1e-15, "{unit}");
+    }
+}
+
+#[test]
+fn a_drawing_without_a_unit_asks_for_one() {
+    let text = drawing(0, &square("0", [0.0, 0.0], 1.0));
+    let (fault, message, remedy) = refused(&text);
+    assert!(matches!(fault, OutlineFault::Unitless), "{fault:?}");
+    assert_eq!(message, "ply.dxf: its header gives no unit of length ($INSUNITS)");
+    assert_eq!(remedy, "state the unit of the drawing, as in unit = \"mm\"");
+    let options = Options { unit: Some(0.01), ..Options::new(TOLERANCE) };
+    assert!((read_dxf("ply.dxf", text.as_bytes(), &options).unwrap().area() - 1e-4).abs() < 1e-15);
+}
+
+#[test]
+fn an_open_line_is_refused_with_the_place_and_width_of_its_gap() {
+    let text = line("CUT", [0.0, 0.0], [100.0, 0.0])
+        + &line("CUT", [100.0, 0.3], [100.0, 80.0])
+        + &line("CUT", [100.0, 80.0], [0.0, 0.0]);
+    let (fault, message, remedy) = refused(&millimetres(&text));
+    assert!(matches!(fault, OutlineFault::Gap { width, .. } if (width - 3e-4).abs() < 1e-12));
+    assert_eq!(
+        message,
+        "ply.dxf: LINE on layer `CUT` at (100.000, 0.000) mm is not closed: it ends 0.300 mm from the nearest other open end, which is at (100.000, 0.300) mm"
+    );
+    assert!(remedy.contains("join the ends"));
+    // rounding of the sixth digit is no gap
+    let rounded = text.replace("0.3\n", "0.0003\n");
+    assert!(of(&millimetres(&rounded)).is_ok());
+}
+
+#[test]
+fn a_line_that_is_drawn_twice_is_refused_with_its_place() {
+    let sides = line("0", [0.0, 0.0], [100.0, 0.0])
+        + &line("0", [100.0, 0.0], [100.0, 80.0])
+        + &line("0", [100.0, 80.0], [0.0, 0.0]);
+    let twice = sides + &line("0", [100.0, 0.0], [0.0, 0.0]);
+    let (fault, message, remedy) = refused(&millimetres(&twice));
+    assert!(matches!(fault, OutlineFault::Branch { count: 3, .. }), "{fault:?}");
+    assert!(message.contains("3 curves end at (0.000, 0.000) mm"), "{message}");
+    assert!(remedy.contains("drawn twice"));
+}
+
+#[test]
+fn a_line_that_crosses_itself_is_refused_with_the_place() {
+    let bow =
+        polygon("0", &[[0.0, 0.0], [100.0, 100.0], [100.0, 0.0], [0.0, 100.0], [-50.0, 50.0]]);
+    let (fault, message, _) = refused(&millimetres(&bow));
+    assert!(matches!(fault, OutlineFault::Outline(OutlineError::Crosses { .. })), "{fault:?}");
+    assert!(message.contains("(50.000, 50.000) mm"), "{message}");
+}
+
+#[test]
+fn two_plies_in_a_drawing_ask_for_a_layer() {
+    let text = square("PLY_1", [0.0, 0.0], 100.0) + &square("PLY_2", [200.0, 0.0], 50.0);
+    let (fault, message, remedy) = refused(&millimetres(&text));
+    assert!(matches!(fault, OutlineFault::Several { .. }), "{fault:?}");
+    assert!(message.contains("LWPOLYLINE on layer `PLY_2` at (200.000, 0.000) mm"), "{message}");
+    assert_eq!(remedy, "choose a layer; those with closed lines are `PLY_1`, `PLY_2`");
+    let chosen = of_layers(&millimetres(&text), Some(&["ply_2"])).unwrap();
+    assert!((chosen.area() - 0.0025).abs() < 1e-15);
+}
+
+#[test]
+fn a_layer_that_is_absent_or_empty_is_refused_with_those_there_are() {
+    let text = millimetres(&(square("CUT", [0.0, 0.0], 100.0) + &entity("TEXT", "NOTE", &[])));
+    let absent = of_layers(&text, Some(&["CUTS"])).unwrap_err();
+    assert_eq!(absent.to_string(), "ply.dxf: there is no layer `CUTS`");
+    assert_eq!(absent.remedy(), "layers are `CUT`");
+    let inner = square("CUT", [0.0, 0.0], 100.0) + &entity("LWPOLYLINE", "NOTE", &[(90, 0.0)]);
+    let empty = of_layers(&millimetres(&inner), Some(&["NOTE"])).unwrap_err();
+    assert_eq!(empty.to_string(), "ply.dxf: it has no lines or curves on layer `NOTE`");
+    assert_eq!(empty.remedy(), "layers with lines or curves are `CUT`");
+}
+
+/// A ply of 3 mm in a drawing whose unit was thought to be 1 µm.
+#[test]
+fn a_tiny_outline_is_refused_with_its_size() {
+    let (fault, message, remedy) = refused(&drawing(13, &square("0", [0.0, 0.0], 3.0)));
+    assert!(matches!(fault, OutlineFault::Tiny { .. }), "{fault:?}");
+    assert!(message.contains("0.0030 mm by 0.0030 mm"), "{message}");
+    assert_eq!(remedy, "is the unit of the drawing right?");
+}
+
+/// A table of layers, each with flags and colour.
+fn with_layers(layers: &[(&str, i32, i32)], entities: &str) -> String {
+    let mut table = "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n9\n".to_owned();
+    for (name, flags, colour) in layers {
+        let _ = write!(table, "0\nLAYER\n2\n{name}\n70\n{flags}\n62\n{colour}\n6\nCONTINUOUS\n");
+    }
+    table += "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
+    millimetres(entities).replace("0\nSECTION\n2\nENTITIES\n", &table)
+}
+
+#[test]
+fn layers_that_are_off_or_frozen_are_read_only_if_they_are_asked_for() {
+    let entities = square("CUT", [0.0, 0.0], 100.0)
+        + &square("OFF", [10.0, 10.0], 10.0)
+        + &square("FROZEN", [40.0, 40.0], 10.0);
+    let text = with_layers(&[("CUT", 0, 7), ("OFF", 0, -7), ("FROZEN", 1, 7)], &entities);
+    assert_eq!(of(&text).unwrap().holes().len(), 0);
+    let asked = of_layers(&text, Some(&["CUT", "OFF", "FROZEN"])).unwrap();
+    assert_eq!(asked.holes().len(), 2);
+    let shown = with_layers(&[("CUT", 0, 7), ("OFF", 0, 7), ("FROZEN", 0, 7)], &entities);
+    assert_eq!(of(&shown).unwrap().holes().len(), 2);
+}
+
+/// A block of a unit square about its base point, placed by an INSERT.
+fn placed(insert: &[(i32, f64)]) -> String {
+    let blocks = format!(
+        "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n8\n0\n2\nply\n70\n0\n10\n5.0\n20\n5.0\n30\n0.0\n{}0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
+        square("0", [4.5, 4.5], 1.0) + &circle("0", [5.0, 5.2], 0.1)
+    );
+    let insert = entity("INSERT", "CUT", insert).replace("8\nCUT\n", "8\nCUT\n2\nPLY\n");
+    millimetres(&insert).replace("0\nSECTION\n2\nENTITIES\n", &blocks)
+}
+
+/// Scales of 100 and 50 make the block 100 mm by 50 mm and its hole an ellipse; the layer is that of the INSERT.
+#[test]
+fn a_block_is_drawn_where_it_is_placed() {
+    let pairs = [(10, 300.0), (20, 200.0), (41, 100.0), (42, 50.0), (50, 90.0)];
+    let text = placed(&pairs);
+    let outline = of_layers(&text, Some(&["CUT"])).unwrap();
+    for (found, due) in outline.bounds().iter().flatten().zip([0.275, 0.15, 0.325, 0.25]) {
+        assert!((found - due).abs() < 1e-12, "{found} {due}");
+    }
+    let expected = 0.1 * 0.05 - PI * 0.01 * 0.005;
+    assert!((outline.area() - expected).abs() < 0.05 * TOLERANCE);
+    // the hole was above the middle, and a quarter turn to the left brings it to the left
+    let hole =
+        outline.holes()[0].iter().map(|p| p[0]).sum::<f64>() / outline.holes()[0].len() as f64;
+    assert!((hole - 0.29).abs() < 1e-9);
+    // seen from behind, x is −x
+    let behind: Vec<(i32, f64)> = pairs.into_iter().chain([(230, -1.0)]).collect();
+    let mirrored = of(&placed(&behind)).unwrap();
+    assert!((mirrored.bounds()[0][0] + 0.325).abs() < 1e-12);
+    // two beside each other are two plies
+    let two: Vec<(i32, f64)> = pairs.into_iter().chain([(70, 2.0), (44, 200.0)]).collect();
+    assert!(matches!(of(&placed(&two)).unwrap_err().fault, OutlineFault::Several { .. }));
+}
+
+/// Each block places the next one a hundred times: a thousand bytes would be 10³² lines.
+#[test]
+fn blocks_within_blocks_are_refused_before_they_grow() {
+    let mut blocks = String::new();
+    for n in 0..16 {
+        let inner = entity("INSERT", "0", &[(70, 10.0), (71, 10.0)]);
+        let inner = inner.replace("8\n0\n", &format!("8\n0\n2\nb{}\n", n + 1));
+        let _ = write!(blocks, "0\nBLOCK\n8\n0\n2\nb{n}\n{inner}0\nENDBLK\n");
+    }
+    let _ = write!(blocks, "0\nBLOCK\n8\n0\n2\nb16\n0\nENDBLK\n");
+    let first = entity("INSERT", "0", &[]).replace("8\n0\n", "8\n0\n2\nb0\n");
+    let blocks = format!("0\nSECTION\n2\nBLOCKS\n{blocks}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
+    let text = millimetres(&first).replace("0\nSECTION\n2\nENTITIES\n", &blocks);
+    let (fault, _, remedy) = refused(&text);
+    assert!(matches!(fault, OutlineFault::Blocks { .. }), "{fault:?}");
+    assert!(remedy.contains("explode"));
+    let loops = text.replace("2\nb1\n", "2\nb0\n");
+    assert!(matches!(refused(&loops).0, OutlineFault::Blocks { .. }));
+}
+
+#[test]
+fn curves_that_are_inclined_or_not_flat_are_refused() {
+    let tilted = circle("0", [0.0, 0.0], 10.0).replace("40\n", "210\n0.6\n230\n0.8\n40\n");
+    assert!(matches!(refused(&millimetres(&tilted)).0, OutlineFault::Tilted(_)));
+    let rising = line("CUT", [0.0, 0.0], [100.0, 0.0]) + "31\n2.5\n";
+    let (fault, message, remedy) = refused(&millimetres(&rising));
+    assert!(matches!(fault, OutlineFault::NotFlat { .. }), "{fault:?}");
+    assert_eq!(
+        message,
+        "ply.dxf: LINE on layer `CUT` at (0.000, 0.000) mm is not flat: its z goes from 0.000 to 2.500 mm"
+    );
+    assert!(remedy.contains("flat"));
+}
+
+#[test]
+fn a_spline_with_fit_points_alone_is_refused_with_a_remedy() {
+    let points: Vec<(i32, f64)> =
+        [(71, 3.0), (74, 2.0), (11, 0.0), (21, 0.0), (31, 0.0), (11, 9.0), (21, 9.0), (31, 0.0)]
+            .into();
+    let (fault, _, remedy) = refused(&millimetres(&entity("SPLINE", "0", &points)));
+    assert!(matches!(fault, OutlineFault::FitPoints(_)), "{fault:?}");
+    assert!(remedy.contains("control points"));
+}
+
+#[test]
+fn a_spline_whose_numbers_do_not_fit_is_refused_with_the_number() {
+    let good = [[0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [2.0, 0.0, 1.0]];
+    let knots = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+    for (degree, knots, points, says) in [
+        (0.0, &knots[..], &good[..], "degree is 0"),
+        (2.0, &knots[..5], &good[..], "5 knots, expected 6"),
+        (2.0, &[0.0, 0.0, 1.0, 0.5, 1.0, 1.0][..], &good[..], "do not grow"),
+        (2.0, &[1.0; 6][..], &good[..], "all the same"),
+        (
+            2.0,
+            &knots[..],
+            &[[0.0, 0.0, 1.0], [1.0, 1.0, -2.0], [2.0, 0.0, 1.0]][..],
+            "weight of -2",
+        ),
+        (3.0, &knots[..], &good[..], "3 control points, expected 4"),
+    ] {
+        let (_, message, _) = refused(&millimetres(&spline("0", degree, knots, points)));
+        assert!(message.contains(says), "{message}");
+    }
+}
+
+#[test]
+fn a_circle_that_would_have_too_many_points_is_refused() {
+    let options = Options::new(1e-18);
+    let text = millimetres(&circle("0", [0.0, 0.0], 1e6));
+    let error = read_dxf("ply.dxf", text.as_bytes(), &options).unwrap_err();
+    assert!(matches!(error.fault, OutlineFault::Points { most: MOST_POINTS, .. }), "{error}");
+    assert_eq!(error.remedy(), "give a larger tolerance");
+}
+
+#[test]
+fn what_is_no_dxf_text_is_refused_as_what_it_is() {
+    for (bytes, says) in [
+        (&b"AutoCAD Binary DXF\r\n\x1a\0"[..], "a binary DXF file, not a DXF text"),
+        (b"AC1027\0\0\0", "a DWG file, not a DXF text"),
+        (b"", "the file ends at line 1 without its mark EOF"),
+        (b"solid ply\nfacet\n", "line 1: found `solid ply`, expected a group code"),
+    ] {
+        let error = read_dxf("ply.dxf", bytes, &Options::new(TOLERANCE)).unwrap_err();
+        assert!(error.to_string().contains(says), "{error}");
+    }
+    let wrong = millimetres(&circle("0", [0.0, 0.0], 10.0)).replace("40\n10.0", "40\nten");
+    let error = of(&wrong).unwrap_err();
+    // the line of the file, not of what was kept of it
+    let line = wrong.lines().position(|line| line == "ten").unwrap() + 1;
+    assert_eq!(error.to_string(), format!("ply.dxf: line {line}: group code 40 cannot be \"ten\""));
+}
+
+/// Comments, lines that end as on Windows, extended data, groups of applications and other sections change nothing.
+#[test]
+fn what_is_no_part_of_an_outline_changes_nothing() {
+    let plain = millimetres(&square("0", [0.0, 0.0], 100.0));
+    let more = plain
+        .replace("90\n4\n", "102\n{ACAD_X\n360\nFF\n102\n}\n90\n4\n1001\nACAD\n1002\n{\n")
+        .replace("9\n$INSUNITS", "9\n$TDCREATE\n40\n1e300\n9\n$INSUNITS")
+        .replace("0\nENDSEC\n0\nEOF", "0\nHATCH\n70\nx\n0\nENDSEC\n0\nSECTION\n2\nTHUMBNAILIMAGE\n90\n9999999999999\n0\nENDSEC\n0\nEOF");
+    let more = format!("999\na comment\n{more}").replace('\n', "\r\n");
+    assert_eq!(of(&more).unwrap(), of(&plain).unwrap());
+}
+
+/// A group in a group a million deep would take all of the stack.
+#[test]
+fn groups_within_groups_without_end_are_left_out() {
+    let deep = "102\n{A\n".repeat(1_000_000);
+    let text = millimetres(&(square("0", [0.0, 0.0], 100.0) + &deep));
+    assert!(of(&text).is_ok());
+}
+
+/// A damaged drawing is refused or is another drawing; nothing of it is lost without a word.
+#[test]
+fn a_number_that_is_none_is_refused_with_its_line_wherever_it_is() {
+    let text = slots().concat() + &quarter(10.0) + &circle("0", [0.0, 0.0], 3.0);
+    let text = millimetres(&text);
+    let lines: Vec<&str> = text.lines().collect();
+    for n in (1..lines.len()).step_by(2) {
+        let code: i32 = lines[n - 1].parse().unwrap();
+        if matches!(code, 10..=79 | 90..=99) {
+            let mut spoilt = lines.clone();
+            spoilt[n] = "1.0.0";
+            let error = of(&spoilt.join("\n")).unwrap_err().to_string();
+            assert!(
+                error.contains(&format!("line {}: group code {code} cannot", n + 1)),
+                "{error}"
+            );
+        }
+    }
+}
+
+/// Cut after any byte: the mark of the end is missing.
+#[test]
+fn a_drawing_that_ends_early_is_refused() {
+    let text = with_layers(&[("0", 0, 7)], &slots()[2]);
+    let whole = text.trim_end().len();
+    for end in 0..whole {
+        let error = of(&text[..end]).unwrap_err();
+        assert!(
+            matches!(
+                error.fault,
+                OutlineFault::Ends { .. } | OutlineFault::Code { .. } | OutlineFault::Value { .. }
+            ),
+            "{end}: {error}"
+        );
+    }
+    assert!(of(&text[..whole]).is_ok());
+}
+
+/// From version 2007 on names are UTF-8; before, letters beyond ASCII are of the code page of Windows.
+#[test]
+fn layers_have_names_in_letters_of_every_version() {
+    let text = millimetres(&square("Größe", [0.0, 0.0], 100.0));
+    let text = |version: &str| {
+        text.replace("9\n$INSUNITS", &format!("9\n$ACADVER\n1\n{version}\n9\n$INSUNITS"))
+    };
+    let layers = Some(vec!["GRÖßE".to_owned()]);
+    let options = Options { layers, ..Options::new(TOLERANCE) };
+    assert!(read_dxf("ply.dxf", text("AC1024").as_bytes(), &options).is_ok());
+    let old: Vec<u8> = text("AC1015").chars().map(|c| c as u8).collect();
+    assert!(read_dxf("ply.dxf", &old, &options).is_ok());
+}
+
+/// Layer 0 of a block is the layer of the INSERT; every other layer is itself.
+#[test]
+fn what_a_block_holds_on_other_layers_stays_there() {
+    let text = placed(&[(41, 100.0), (42, 100.0)]).replacen(
+        "LWPOLYLINE\n8\n0\n",
+        "LWPOLYLINE\n8\nPLY\n",
+        1,
+    );
+    assert_eq!(of_layers(&text, Some(&["PLY"])).unwrap().holes().len(), 0);
+    // the circle alone, on the layer of the INSERT
+    let hole = of_layers(&text, Some(&["CUT"])).unwrap();
+    assert!((hole.area() - PI * 1e-4).abs() < 0.07 * TOLERANCE);
+}
