@@ -75,7 +75,7 @@ fn target(scene: &Scene) -> String {
     };
     let layup = &net.layup;
     let [x, y, z] = layup.place.map(millimetres);
-    let [u, v] = [0, 1].map(|n| millimetres(layup.seed[n] as f64 * layup.mesh[n]));
+    let [u, v] = layup.fabric(layup.seed).map(millimetres);
     let mut text = format!(
         "on the mold, fabric point ({u}, {v}) mm at ({x}, {y}, {z}) mm, sheared by {} deg, u heading {} deg",
         degrees(layup.shear),

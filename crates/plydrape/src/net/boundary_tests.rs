@@ -53,7 +53,8 @@ fn on_a_cylinder_the_boundary_is_the_outline_rolled_up() {
         assert!(count > 20);
         for n in 0..count {
             let (a, b) = (&line.points[n], &line.points[(n + 1) % count]);
-            assert!(distance(a.place, rolled(a.fabric)) < 1e-9, "{a:?}");
+            // cubics between nodes: of fourth order in the mesh width
+            assert!(distance(a.place, rolled(a.fabric)) < 5e-8, "{a:?}");
             let middle = rolled([0, 1].map(|c| 0.5 * (a.fabric[c] + b.fabric[c])));
             let chord = [0, 1, 2].map(|c| 0.5 * (a.place[c] + b.place[c]));
             assert!(distance(middle, chord) < 1.1e-3 * 0.0125);
@@ -91,7 +92,7 @@ fn on_a_sphere_the_middles_of_the_sides_are_an_arc_away() {
 #[test]
 fn what_hangs_over_a_straight_boundary_is_measured() {
     let saddle = Saddle { radii: [1e9, 1e9] };
-    let domain = Some([[-1.0, -1.0], [0.15, 1.0]]);
+    let domain = Some([[-1.0, 0.15], [-1.0, 1.0]]);
     let mold = Mold::Graph(Graph { pose: level(), surface: Surface::Saddle(saddle), domain });
     let net = Net::drape(&mold, layup(&mold, [21, 21], 0.02, 0.0)).unwrap();
     let boundary = net.boundary(&mold).unwrap();
@@ -239,7 +240,7 @@ fn trim_around_a_cylinder_is_measured_along_it() {
     ];
     let trim = boundary.trim(&mold, &Wanted::new(&mold, &wide, 1.0).unwrap()).unwrap();
     assert!(trim.beyond.is_none());
-    assert!((trim.short.unwrap().error + 0.06).abs() < 1e-9, "{:?}", trim.short);
+    assert!((trim.short.unwrap().error + 0.06).abs() < 5e-8, "{:?}", trim.short);
 }
 
 /// A wanted boundary that is not on the mold, or none, is refused with its point.

@@ -40,7 +40,7 @@ impl Net {
                 let Some(fabric) = cells.fabric(self, place, TUNING.under * width) else {
                     continue;
                 };
-                if !outline.contains(fabric) {
+                if !outline.contains(fabric) || self.is_at_its_end(fabric) {
                     continue;
                 }
                 found.length += length / parts as f64;
@@ -50,6 +50,15 @@ impl Net {
             }
         }
         Some(found)
+    }
+
+    /// Whether a fabric point (m) is where the net ends: places beside the net are closest to such points.
+    fn is_at_its_end(&self, uv: [f64; 2]) -> bool {
+        (0..2).any(|n| {
+            let share = (uv[n] - self.layup.origin[n]) / self.layup.mesh[n];
+            let last = (self.layup.nodes[n] - 1) as f64;
+            share < TUNING.boundary_rounding || share > last - TUNING.boundary_rounding
+        })
     }
 }
 
