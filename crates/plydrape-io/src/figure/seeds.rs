@@ -95,7 +95,7 @@ pub fn svg(seeds: &Seeds, net: &Net, name: &str) -> Result<String, FigureError> 
         plain(LABEL, 0),
     )?;
     let between = [HEAD + 24.0, HEAD + height.max(120.0)];
-    bar(&mut canvas, "largest shear (deg)", Scale::Even([low, high]), PANEL + 90.0, between)?;
+    bar(&mut canvas, "largest shear (deg)", Scale::Even([low, high]), PANEL + 60.0, between)?;
 
     if by_heading.len() > 1 {
         let top = HEAD + height + ROOM[1] + 18.0;

@@ -295,9 +295,45 @@ impl Walk<'_> {
             return;
         }
         let fabric = outline.area_in(low, high);
-        let part = |kind: u8| kinds.iter().filter(|k| **k == kind).count() as f64 / 5.0;
-        self.found.off_mold.area += part(1) * fabric;
-        self.found.folded.area += part(2) * fabric;
+        let missing = if alike { 1.0 } else { self.missing_share(&at[..4], &kinds) } * fabric;
+        let folded = kinds.iter().filter(|kind| **kind == 2).count() as f64;
+        let off = kinds.iter().filter(|kind| **kind == 1).count() as f64;
+        self.found.off_mold.area += missing * off / (off + folded);
+        self.found.folded.area += missing * folded / (off + folded);
+    }
+
+    /// The share of a rectangle of fabric that has no place on the mold, whose corners and middle lie as `kinds` says: what
+    /// a straight line cuts off between the ends of the mold on its sides.
+    fn missing_share(&self, corners: &[[f64; 2]], kinds: &[u8; 5]) -> f64 {
+        if kinds[..4].iter().all(|kind| (*kind == 0) == (kinds[0] == 0)) {
+            // only the middle differs: between a diamond and nothing, or all
+            return 0.5;
+        }
+        let mut ring: Vec<[f64; 2]> = Vec::with_capacity(8);
+        for n in 0..4 {
+            let next = (n + 1) % 4;
+            if kinds[n] != 0 {
+                ring.push(corners[n]);
+            }
+            if (kinds[n] == 0) != (kinds[next] == 0) {
+                ring.push(self.end_of_mold(corners[n], corners[next], kinds[n] == 0));
+            }
+        }
+        let area = |ring: &[[f64; 2]]| {
+            let pairs = (0..ring.len()).map(|n| (ring[n], ring[(n + 1) % ring.len()]));
+            pairs.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
+        };
+        (area(&ring) / area(corners)).clamp(0.0, 1.0)
+    }
+
+    /// Where between two fabric points (m) the mold ends, of which the first is on it or the second.
+    fn end_of_mold(&self, mut a: [f64; 2], mut b: [f64; 2], first_is_on: bool) -> [f64; 2] {
+        for _ in 0..TUNING.area_end_halvings {
+            let middle = [0, 1].map(|n| 0.5 * (a[n] + b[n]));
+            let is_on = matches!(self.lie(middle), Lie::On(_));
+            *(if is_on == first_is_on { &mut a } else { &mut b }) = middle;
+        }
+        [0, 1].map(|n| 0.5 * (a[n] + b[n]))
     }
 }
 

@@ -47,8 +47,11 @@ pub(crate) struct Tuning {
     pub boundary_end_halvings: usize,
     /// Distance along the boundary, as a share of the mesh width, up to which two points are one.
     pub same_boundary_point: f64,
-    /// Most times that a cell is halved to measure what of it lies off the mold: to a sixteenth of its side.
+    /// Most times that a cell is halved to measure what of it lies off the mold: an eighth of its side follows the boundary of
+    /// the mold by a straight line.
     pub area_halvings: usize,
+    /// Times that a side of such a part is halved to find where the mold ends on it.
+    pub area_end_halvings: usize,
     /// Angle (rad) by which a mesh must turn across an edge for it to be sharp.
     pub sharp: f64,
     /// Longest part of a sharp edge that is looked for under the ply, as a share of the mesh width.
@@ -101,7 +104,8 @@ pub(crate) const TUNING: Tuning = Tuning {
     boundary_halvings: 6,
     boundary_end_halvings: 30,
     same_boundary_point: 1e-6,
-    area_halvings: 4,
+    area_halvings: 3,
+    area_end_halvings: 12,
     sharp: 30.0 / 180.0 * std::f64::consts::PI,
     edge_part: 0.1,
     under: 0.75,
