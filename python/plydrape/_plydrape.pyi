@@ -514,12 +514,17 @@ class Net:
     @property
     def missing(self, /) -> list[tuple[tuple[int, int], str]]:
         """
-        Why each node without a place has none, those closest to the seed first: indices and reason.
+        Why each node of the ply without a place has none, those closest to the seed first: indices and reason.
         """
     @property
     def nodes(self, /) -> NDArray[float64]:
         """
         Places of the nodes (m), shape (along u, along v, 3); nan where a node has no place on the mold.
+        """
+    @property
+    def on_ply(self, /) -> NDArray[bool_]:
+        """
+        Whether each node is on the ply, shape (along u, along v); the net of a ply that is cut covers the box around it.
         """
     @staticmethod
     def read(path: str | PathLike[str]) -> Net:
@@ -538,7 +543,8 @@ class Net:
     @property
     def shear_deg(self, /) -> NDArray[float64]:
         """
-        Shear angle of each cell (°), shape (along u − 1, along v − 1); nan where a corner has no place.
+        Shear angle of each cell (°), shape (along u − 1, along v − 1); nan where a corner has no place, and in cells of which
+        less than half is on the ply.
         """
 
 @final

@@ -3,7 +3,7 @@
 use crate::failure::Done;
 use crate::results::Results;
 use plydrape::net::Net;
-use plydrape_io::net::{Summary, write_all};
+use plydrape_io::net::{Findings, Summary, write_all};
 use serde::Serialize;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -11,8 +11,9 @@ use std::time::Instant;
 /// Lay the ply on the mold as a net of yarns: where every point should end, and how it shears.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Of the scene it reads [ply], [mold], [target] and [limits]. Writes nodes.csv, shear.svg, net.vtp and \
-mold.vtp to the scene's name with `.net`. A file in the folder that plydrape did not write, or that \
+Of the scene it reads [ply], [mold], [target] and [limits]. Writes nodes.csv, boundary.csv, \
+boundary.dxf, shear.svg, net.vtp and mold.vtp to the scene's name with `.net`, and seeds.csv and \
+seeds.svg where [target] has seed = \"best\" or direction = \"best\". A file in the folder that plydrape did not write, or that \
 was edited since, is never overwritten. Not accepted, with exit code 1, is a ply that runs off the \
 mold, folds, or shears beyond the scene's limit or the material's locking angle.")]
 pub struct Arguments {
@@ -35,12 +36,13 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let (mold, net) = (&ideal.mold, &ideal.net);
     // once more, to measure how long it takes apart from all else that reading a scene does
     let start = Instant::now();
-    let again = Net::drape(mold, net.layup);
+    let again = Net::drape_cut(mold, net.layup, net.outline.clone());
     let time_ms = start.elapsed().as_secs_f64() * 1e3;
     debug_assert_eq!(again.as_ref(), Ok(net));
 
-    let summary = Summary::of(net, Some(ideal.shear_limit));
-    let files = write_all(net, mold, &ideal.title, &results.folder("net"))?;
+    let findings = Findings::of(net, mold, ideal.wanted.as_ref(), ideal.seeds.clone());
+    let summary = Summary::of(net, &findings, Some(ideal.shear_limit));
+    let files = write_all(net, mold, &findings, &ideal.title, &results.folder("net"))?;
     let text = format!("{}\n\n{}", ideal.title, summary.table());
     results.print(quiet, &Printed { summary: &summary, time_ms }, &text, &files)?;
     Ok(if summary.accepted { ExitCode::SUCCESS } else { ExitCode::from(1) })

@@ -44,12 +44,24 @@ impl Net {
         Array::rows(&[nu, nv, 3], (0..nu).flat_map(|i| (0..nv).map(move |j| node(i, j))))
     }
 
-    /// Shear angle of each cell (°), shape (along u − 1, along v − 1); nan where a corner has no place.
+    /// Shear angle of each cell (°), shape (along u − 1, along v − 1); nan where a corner has no place, and in cells of which
+    /// less than half is on the ply.
     #[getter]
     fn shear_deg(&self) -> Array<f64> {
         let [nu, nv] = self.0.layup.nodes.map(|n| n - 1);
         let cell = |i, j| or_nan(self.0.cell_shear([i, j]).map(|s| s.angle.to_degrees()));
         Array::new(&[nu, nv], (0..nu).flat_map(|i| (0..nv).map(move |j| cell(i, j))).collect())
+    }
+
+    /// Whether each node is on the ply, shape (along u, along v); the net of a ply that is cut covers the box around it.
+    #[getter]
+    fn on_ply(&self) -> Array<bool> {
+        let ([nu, nv], coverage) = (self.0.layup.nodes, self.0.coverage());
+        let node = |i: usize, j: usize| coverage.node([i, j]);
+        Array::new(
+            &[nu, nv],
+            (0..nu).flat_map(|i| (0..nv).map(move |j| [i, j])).map(|[i, j]| node(i, j)).collect(),
+        )
     }
 
     /// Fabric between neighbouring nodes along u and v (m).
@@ -58,7 +70,7 @@ impl Net {
         self.0.layup.mesh.into()
     }
 
-    /// Why each node without a place has none, those closest to the seed first: indices and reason.
+    /// Why each node of the ply without a place has none, those closest to the seed first: indices and reason.
     #[getter]
     fn missing(&self) -> Vec<((usize, usize), String)> {
         self.0.missing.iter().map(|m| (m.node.into(), m.to_string())).collect()

@@ -122,3 +122,44 @@ fn the_hemisphere_needs_no_grippers_and_shears_as_its_peer_says() {
     let shear = ["max_shear_deg", "mean_shear_deg"].map(|key| json[key].as_f64().unwrap());
     assert!((shear[0] - 38.005).abs() < 5e-4 && (shear[1] - 10.533).abs() < 5e-4, "{shear:?}");
 }
+
+/// The JSON has the boundary, the trim against a file and the seed that was taken, and the table says the same; a ply whose seed
+/// is searched for stays where it is asked.
+#[test]
+fn boundary_trim_and_the_chosen_seed_are_printed_and_written() {
+    let home = tempfile::tempdir().unwrap();
+    // a square of 240 mm seen from above, on the cap
+    let mut rows = String::from("x (mm),y (mm),z (mm)\n");
+    for n in 0..160 {
+        let (side, share) = (n / 40, f64::from(n % 40) / 20.0 - 1.0);
+        let (x, y) = [(share, -1.0), (1.0, share), (-share, 1.0), (-1.0, -share)][side as usize];
+        let (x, y) = (120.0 * x, 120.0 * y);
+        rows += &format!("{x},{y},{}\n", -(x * x + y * y) / 300.0);
+    }
+    std::fs::write(home.path().join("edge.csv"), rows).unwrap();
+    let scene = scene(CAP, "trim = \"edge.csv\"\norigin = [\"10 mm\", \"0 mm\"]");
+    let scene = scene.replace("\"middle\"", "\"best\"");
+    let done = net(home.path(), &scene, &["--json"]);
+    assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
+    let json: Value = serde_json::from_slice(&done.stdout).unwrap();
+    let number = |value: &Value| value.as_f64().unwrap();
+    let boundary = &json["boundary"];
+    assert!((number(&boundary["length"]) - 0.8).abs() < 0.05, "{boundary}");
+    assert_eq!(boundary["off_mold_length"], 0.0);
+    assert_eq!(json["sharp_edges"], Value::Null);
+    let trim = &json["trim"];
+    // the flanks are steep, so 100 mm of ply along them reach less than 120 mm in plan
+    assert!(number(&trim["short"]["error"]) < -0.02 && number(&trim["mean"]) < 0.0, "{trim}");
+    assert!(trim["short"]["place"].is_array() && trim["short"]["fabric"].is_array());
+    let search = &json["search"];
+    assert!(number(&search["choices"]) > 30.0, "{search}");
+    let [best, middle] = ["max_shear_deg", "held_max_shear_deg"].map(|key| number(&search[key]));
+    assert!(best <= middle + 0.01 && best == number(&json["max_shear_deg"]), "{search}");
+    for name in ["boundary.csv", "boundary.dxf", "seeds.csv", "seeds.svg"] {
+        assert!(home.path().join("cap.net").join(name).is_file(), "{name}");
+    }
+    let table = text(&net(home.path(), &scene, &[]).stdout);
+    for label in ["boundary ", "trim ", "search "] {
+        assert!(table.lines().any(|line| line.starts_with(label)), "{label}: {table}");
+    }
+}

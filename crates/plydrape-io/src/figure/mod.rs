@@ -18,6 +18,7 @@ mod piece;
 mod projection;
 mod relief;
 mod scale;
+pub mod seeds;
 pub mod shear_map;
 mod sheet;
 mod shorten;

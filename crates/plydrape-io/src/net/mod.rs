@@ -1,17 +1,23 @@
 //! What a net leaves behind: its nodes as a table, its shear as a picture and for VTK, and the mold.
 //!
-//! [`write_all`] puts four files into a folder:
+//! [`write_all`] puts these files into a folder:
 //!
 //! - `nodes.csv`, where every point of the fabric should end ([`nodes`]);
+//! - `boundary.csv` and `boundary.dxf`, the ply's boundary on the mold ([`boundary`]);
 //! - `shear.svg`, the shear map ([`figure::shear_map`]);
+//! - `seeds.csv` and `seeds.svg`, what each seed costs, where it was searched for ([`seeds`], [`figure::seeds`]);
 //! - `net.vtp` and `mold.vtp` for ParaView and other readers of VTK's files ([`polygons`]).
 //!
 //! [`Summary`] says in a few numbers how the net lies, and judges it.
 
+pub mod boundary;
+mod findings;
 pub mod nodes;
 pub mod polygons;
+pub mod seeds;
 mod summary;
 
+pub use findings::Findings;
 pub use summary::{ShearPlace, Summary};
 
 use super::{OutputError, figure, finite, folder};
@@ -19,8 +25,7 @@ use plydrape::mold::Mold;
 use plydrape::net::Net;
 use std::path::{Path, PathBuf};
 
-/// Writes `nodes.csv`, `shear.svg`, `net.vtp` and `mold.vtp` into a folder, all or none; a mold of which
-/// nothing is near the net has no file.
+/// Writes the files of this module into a folder, all or none; what is not there to be written has no file.
 ///
 /// Returns the paths written. Same net, same bytes.
 ///
@@ -30,20 +35,33 @@ use std::path::{Path, PathBuf};
 pub fn write_all(
     net: &Net,
     mold: &Mold,
+    findings: &Findings,
     title: &str,
     dir: &Path,
 ) -> Result<Vec<PathBuf>, OutputError> {
     // First of all: it proves every number finite.
     finite::check(net)?;
     let nodes = nodes::table(net)?;
+    let boundary = findings.boundary.as_ref().filter(|boundary| !boundary.lines.is_empty());
+    let lines = boundary.map(boundary::table).transpose()?;
+    let drawing = boundary.map(boundary::dxf);
     let map = figure::shear_map::svg(net, mold, title)?;
+    let costs = findings.seeds.as_ref().map(seeds::table).transpose()?;
+    let picture = findings.seeds.as_ref().map(|seeds| figure::seeds::svg(seeds, net, title));
+    let picture = picture.transpose()?;
     let cells = polygons::net(net);
     let surface = polygons::mold(net, mold);
-    let mut files = vec![
-        ("nodes.csv", nodes.as_bytes()),
-        ("shear.svg", map.as_bytes()),
-        ("net.vtp", cells.as_slice()),
+    let texts = [
+        ("nodes.csv", Some(&nodes)),
+        ("boundary.csv", lines.as_ref()),
+        ("boundary.dxf", drawing.as_ref()),
+        ("shear.svg", Some(&map)),
+        ("seeds.csv", costs.as_ref()),
+        ("seeds.svg", picture.as_ref()),
     ];
+    let mut files: Vec<(&str, &[u8])> =
+        texts.iter().filter_map(|(name, text)| Some((*name, text.as_ref()?.as_bytes()))).collect();
+    files.push(("net.vtp", cells.as_slice()));
     files.extend(surface.iter().map(|bytes| ("mold.vtp", bytes.as_slice())));
     folder::write(dir, "net", &files)
 }

@@ -1,13 +1,19 @@
 //! A net in a few numbers, judged: what `plydrape net` prints as a table or as JSON.
 
-use plydrape::net::{EdgeRule, Generators, Missing, Net, Reason};
+use super::Findings;
+use plydrape::net::{
+    Boundary, EdgeRule, Generators, Missing, Net, PlyPoint, Reason, Seeds, SharpEdges, Trim,
+};
 use serde::Serialize;
 use std::fmt::Write;
+
+/// Fabric no farther than this beyond the boundary of the mold, in mesh widths, lies on it: rounding.
+const HAIR: f64 = 1e-6;
 
 /// A net in a few numbers, judged.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
-    /// Every node has a place, and no cell shears more than allowed.
+    /// All of the ply has a place, and no cell shears more than allowed.
     pub accepted: bool,
     /// Nodes along u and v.
     pub nodes: [usize; 2],
@@ -31,7 +37,7 @@ pub struct Summary {
     pub shear_limit_deg: Option<f64>,
     /// Largest error of an edge's length (m).
     pub max_edge_error: f64,
-    /// Nodes with a place on the mold.
+    /// Nodes of the ply with a place on the mold.
     pub placed: usize,
     /// Nodes beyond the mold's boundary.
     pub off_mold: usize,
@@ -41,6 +47,61 @@ pub struct Summary {
     pub unreached: usize,
     /// Of each reason that occurs, the missing node closest to the seed.
     pub first_missing: Vec<Missing>,
+    /// The ply's boundary on the mold; none of a strip without width.
+    pub boundary: Option<BoundarySummary>,
+    /// Sharp edges of the mold under the ply; none where the mold has no edges to tell.
+    pub sharp_edges: Option<SharpEdgesSummary>,
+    /// How far the ply's boundary is from where it is wanted (m); none where that is not given.
+    pub trim: Option<Trim>,
+    /// How the seed was chosen; none where it was given.
+    pub search: Option<SearchSummary>,
+}
+
+/// The boundary of a ply on its mold, in a few numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BoundarySummary {
+    /// Length on the mold, holes included (m).
+    pub length: f64,
+    /// Length of fabric of the boundary beyond that of the mold (m).
+    pub off_mold_length: f64,
+    /// Area of the ply beyond the boundary of the mold (m²).
+    pub off_mold_area: f64,
+    /// How far beyond it reaches (m); 0 where it does not.
+    pub farthest_beyond: f64,
+    /// Which fabric that is, and where; none where there is none.
+    pub farthest_at: Option<PlyPoint>,
+    /// Length of fabric of the boundary where the ply folds (m).
+    pub folded_length: f64,
+    /// Area of the ply where it folds (m²).
+    pub folded_area: f64,
+}
+
+/// Sharp edges of the mold under the ply.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SharpEdgesSummary {
+    /// Their length (m).
+    pub length: f64,
+    /// The largest angle by which the mold turns across one (°); none without any.
+    pub sharpest_deg: Option<f64>,
+    /// Which fabric runs over that, and where.
+    pub sharpest_at: Option<PlyPoint>,
+}
+
+/// How a seed was chosen.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SearchSummary {
+    /// Seeds and headings that were tried.
+    pub choices: usize,
+    /// Fabric coordinates of the seed that was taken (m).
+    pub seed: [f64; 2],
+    /// Heading of u asked of the point that was to lie at the origin (°).
+    pub heading_deg: f64,
+    /// Largest shear with the choice that was taken (°).
+    pub max_shear_deg: Option<f64>,
+    /// Largest shear from the point itself that was to lie at the origin (°), with the same heading.
+    pub held_max_shear_deg: Option<f64>,
+    /// How far that point is from the origin (m); none where it has no place.
+    pub off: Option<f64>,
 }
 
 /// The middle of a cell.
@@ -57,11 +118,14 @@ pub struct ShearPlace {
 }
 
 impl Summary {
-    /// Of a net, with the largest shear allowed (rad), if there is a limit.
+    /// Of a net and what is found of it, with the largest shear allowed (rad), if there is a limit.
     #[must_use]
-    pub fn of(net: &Net, shear_limit: Option<f64>) -> Self {
+    pub fn of(net: &Net, findings: &Findings, shear_limit: Option<f64>) -> Self {
         let (layup, report) = (&net.layup, &net.report);
-        let all = report.placed == net.nodes.len();
+        let boundary = findings.boundary.as_ref().map(BoundarySummary::of);
+        let hair = HAIR * layup.mesh[0].min(layup.mesh[1]);
+        let lies = boundary.as_ref().is_none_or(|boundary| boundary.lies(hair));
+        let all = net.missing.is_empty() && lies;
         let within = match (report.largest_shear, shear_limit) {
             (Some((largest, _)), Some(limit)) => largest <= limit,
             _ => true,
@@ -84,6 +148,10 @@ impl Summary {
             folded: report.folded,
             unreached: report.unreached,
             first_missing: report.first.clone(),
+            boundary,
+            sharp_edges: findings.sharp_edges.as_ref().map(SharpEdgesSummary::of),
+            trim: findings.trim,
+            search: findings.seeds.as_ref().map(SearchSummary::of),
         }
     }
 
@@ -128,12 +196,106 @@ impl Summary {
             let first = self.first_missing.iter().find(|m| m.reason == reason);
             lines.push((label, first.map_or("no node".into(), |first| missing_text(count, first))));
         }
+        lines.extend(self.lines_of_ply());
         let mut text = String::new();
         for (label, entry) in lines {
             let _ = writeln!(text, "{label:<14} {entry}");
         }
         let _ = writeln!(text, "\n{}", self.verdict());
         text
+    }
+
+    /// The lines of the table on the boundary of the ply, sharp edges, trim and the search for the seed.
+    fn lines_of_ply(&self) -> Vec<(&'static str, String)> {
+        let mut lines = Vec::new();
+        let of_ply = |at: &PlyPoint| {
+            let [u, v] = at.fabric.map(tenths);
+            format!("u = {u}, v = {v} mm")
+        };
+        if let Some(boundary) = &self.boundary {
+            lines.push(("boundary", format!("{} mm on the mold", tenths(boundary.length))));
+            if let Some(at) = &boundary.farthest_at {
+                let [length, beyond] =
+                    [boundary.off_mold_length, boundary.farthest_beyond].map(tenths);
+                let area = square_millimetres(boundary.off_mold_area);
+                lines.push((
+                    "hangs over",
+                    format!(
+                        "{length} mm of boundary, {area} mm²; up to {beyond} mm beyond at {}",
+                        of_ply(at)
+                    ),
+                ));
+            }
+            if boundary.folded_length > 0.0 || boundary.folded_area > 0.0 {
+                let length = tenths(boundary.folded_length);
+                let area = square_millimetres(boundary.folded_area);
+                lines.push((
+                    "no place",
+                    format!("{length} mm of boundary, {area} mm²: the ply folds"),
+                ));
+            }
+        }
+        if let Some(edges) = &self.sharp_edges {
+            lines.push((
+                "sharp edges",
+                match (edges.sharpest_deg, &edges.sharpest_at) {
+                    (Some(angle), Some(at)) => format!(
+                        "{} mm under the ply, up to {angle:.0}° at {}",
+                        tenths(edges.length),
+                        of_ply(at)
+                    ),
+                    _ => "none under the ply".into(),
+                },
+            ));
+        }
+        if let Some(trim) = &self.trim {
+            let most = |place: &Option<plydrape::net::TrimPlace>, side: &str| match place {
+                Some(place) => {
+                    format!("{} mm {side} at most, at {}", mm(place.error.abs()), of_ply(&place.at))
+                }
+                None => format!("nowhere {side}"),
+            };
+            lines.push(("trim", most(&trim.beyond, "beyond")));
+            lines.push(("", most(&trim.short, "short")));
+            lines.push((
+                "",
+                format!("{} mm on the mean of {} mm", mm(trim.mean), tenths(trim.compared)),
+            ));
+            let (place, far) = trim.farthest_wanted;
+            lines.push((
+                "",
+                format!("{} mm from it at most what is wanted, at {} mm", mm(far), at(place)),
+            ));
+            if trim.not_compared > 0.0 {
+                lines.push((
+                    "",
+                    format!(
+                        "{} mm of boundary not compared: off the mold",
+                        tenths(trim.not_compared)
+                    ),
+                ));
+            }
+        }
+        if let Some(search) = &self.search {
+            let [u, v] = search.seed.map(tenths);
+            let shear = |shear: f64| format!("{shear:.2}°");
+            let from_middle =
+                search.held_max_shear_deg.filter(|held| Some(*held) != search.max_shear_deg);
+            lines.push((
+                "search",
+                format!(
+                    "seed u = {u}, v = {v} mm, heading {:.2}°, best of {}: {}{}",
+                    search.heading_deg,
+                    search.choices,
+                    search.max_shear_deg.map_or("no whole cell".into(), shear),
+                    from_middle.map_or(String::new(), |held| format!(
+                        " against {} from the middle",
+                        shear(held)
+                    ))
+                ),
+            ));
+        }
+        lines
     }
 
     /// One line: accepted, or not and why.
@@ -149,6 +311,9 @@ impl Summary {
         if self.off_mold > 0 {
             faults.push(format!("{} of its nodes lie beyond the mold's boundary", self.off_mold));
         }
+        if self.folded == 0 && self.off_mold == 0 && !faults_of(self.boundary.as_ref()).is_empty() {
+            faults.push(faults_of(self.boundary.as_ref()));
+        }
         match (self.max_shear_deg, self.shear_limit_deg) {
             (Some(largest), Some(limit)) if largest > limit => {
                 faults.push(format!("shear {largest:.2}° against {limit:.2}°"));
@@ -161,7 +326,8 @@ impl Summary {
 
 impl ShearPlace {
     fn of(net: &Net, [i, j]: [usize; 2]) -> Option<Self> {
-        let [u, v] = [0, 1].map(|c| ([i, j][c] as f64 + 0.5) * net.layup.mesh[c]);
+        let low = net.layup.fabric([i, j]);
+        let [u, v] = [0, 1].map(|c| low[c] + 0.5 * net.layup.mesh[c]);
         let ring = [
             net.node([i, j])?,
             net.node([i + 1, j])?,
@@ -170,6 +336,65 @@ impl ShearPlace {
         ];
         let place = [0, 1, 2].map(|c| ring.iter().map(|p| p[c]).sum::<f64>() / 4.0);
         Some(ShearPlace { cell: [i, j], u, v, place })
+    }
+}
+
+impl BoundarySummary {
+    fn of(boundary: &Boundary) -> Self {
+        BoundarySummary {
+            length: boundary.length,
+            off_mold_length: boundary.off_mold.length,
+            off_mold_area: boundary.off_mold.area,
+            farthest_beyond: boundary.farthest.map_or(0.0, |far| far.beyond),
+            farthest_at: boundary.farthest.map(|far| far.at),
+            folded_length: boundary.folded.length,
+            folded_area: boundary.folded.area,
+        }
+    }
+
+    /// Whether all of the ply lies on the mold, a hair (m) apart.
+    fn lies(&self, hair: f64) -> bool {
+        self.farthest_beyond <= hair && self.folded_length == 0.0 && self.folded_area == 0.0
+    }
+}
+
+/// What of a ply without missing nodes does not lie on the mold; empty if all does.
+fn faults_of(boundary: Option<&BoundarySummary>) -> String {
+    match boundary {
+        Some(b) if b.folded_length > 0.0 || b.folded_area > 0.0 => "the ply folds".into(),
+        Some(b) if b.farthest_beyond > 0.0 => {
+            format!("the ply reaches {} mm beyond the mold's boundary", mm(b.farthest_beyond))
+        }
+        _ => String::new(),
+    }
+}
+
+impl SharpEdgesSummary {
+    fn of(edges: &SharpEdges) -> Self {
+        SharpEdgesSummary {
+            length: edges.length,
+            sharpest_deg: edges.sharpest.map(|(turn, _)| turn.to_degrees()),
+            sharpest_at: edges.sharpest.map(|(_, at)| at),
+        }
+    }
+}
+
+impl SearchSummary {
+    fn of(seeds: &Seeds) -> Self {
+        let taken = &seeds.choices[seeds.chosen];
+        // only the held point is in its place to the last bit
+        let held = seeds.choices.iter().find(|choice| {
+            choice.off == Some((0.0, 0.0)) && choice.held_heading == taken.held_heading
+        });
+        let degrees = |shear: Option<f64>| shear.map(f64::to_degrees);
+        SearchSummary {
+            choices: seeds.choices.len(),
+            seed: taken.at.fabric,
+            heading_deg: taken.held_heading.to_degrees(),
+            max_shear_deg: degrees(taken.largest_shear_fine),
+            held_max_shear_deg: degrees(held.and_then(|choice| choice.largest_shear_fine)),
+            off: taken.off.map(|(off, _)| off),
+        }
     }
 }
 
@@ -187,6 +412,16 @@ fn missing_text(count: usize, first: &Missing) -> String {
 /// Millimetres, to a thousandth.
 fn mm(metres: f64) -> String {
     format!("{}", (metres * 1e6).round() / 1e3 + 0.0)
+}
+
+/// Millimetres, to a tenth.
+fn tenths(metres: f64) -> String {
+    format!("{}", (metres * 1e4).round() / 10.0 + 0.0)
+}
+
+/// Square millimetres, whole ones.
+fn square_millimetres(area: f64) -> String {
+    format!("{:.0}", area * 1e6)
 }
 
 /// A place in millimetres, to a tenth.

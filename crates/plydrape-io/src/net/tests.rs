@@ -47,7 +47,7 @@ fn the_table_of_nodes_reads_back_and_leaves_missing_ones_empty() {
     let (_, net) = &nets()[1];
     assert!(net.report.off_mold > 0 && net.report.placed > 100);
     let text = nodes::table(net).unwrap();
-    assert_eq!(text.lines().next(), Some("i,j,u,v,x,y,z,shear_deg"));
+    assert_eq!(text.lines().next(), Some("i,j,u,v,x,y,z,shear_deg,on_ply"));
     let rows = rows(&text);
     assert_eq!(rows.len(), net.nodes.len());
     for (n, row) in rows.iter().enumerate() {
@@ -58,7 +58,7 @@ fn the_table_of_nodes_reads_back_and_leaves_missing_ones_empty() {
                 let read: Vec<f64> = (4..7).map(|k| row[k].parse().unwrap()).collect();
                 assert_eq!(read, place);
             }
-            None => assert!(row[4..].iter().all(String::is_empty)),
+            None => assert!(row[4..8].iter().all(String::is_empty)),
         }
     }
 }
@@ -83,20 +83,24 @@ fn a_line_of_nodes_is_drawn_as_a_line() {
     let svg = figure::shear_map::svg(&net, &mold, "line").unwrap();
     assert!(svg.contains("on the mold") && !svg.contains("flat fabric"));
     let home = tempfile::tempdir().unwrap();
-    assert_eq!(write_all(&net, &mold, "line", home.path()).unwrap().len(), 4);
+    assert_eq!(write_all(&net, &mold, &Findings::default(), "line", home.path()).unwrap().len(), 4);
 }
 
-/// Four files, and the same bytes again from the same net.
+/// Its files, and the same bytes again from the same net.
 #[test]
 fn a_net_writes_its_files_twice_the_same() {
     let dir = tempfile::tempdir().unwrap();
     let (mold, net) = &nets()[0];
-    let paths = write_all(net, mold, "dome", dir.path()).unwrap();
+    let findings = Findings::of(net, mold, None, None);
+    let paths = write_all(net, mold, &findings, "dome", dir.path()).unwrap();
     let names: Vec<_> = paths.iter().filter_map(|p| p.file_name()).collect();
-    assert_eq!(names, ["nodes.csv", "shear.svg", "net.vtp", "mold.vtp"]);
+    assert_eq!(
+        names,
+        ["nodes.csv", "boundary.csv", "boundary.dxf", "shear.svg", "net.vtp", "mold.vtp"]
+    );
     let read = || -> Vec<Vec<u8>> { paths.iter().map(|p| std::fs::read(p).unwrap()).collect() };
     let first = read();
-    write_all(net, mold, "dome", dir.path()).unwrap();
+    write_all(net, mold, &findings, "dome", dir.path()).unwrap();
     assert_eq!(read(), first);
 }
 
@@ -104,16 +108,17 @@ fn a_net_writes_its_files_twice_the_same() {
 /// what is not so.
 #[test]
 fn a_net_is_refused_beyond_its_shear_limit_and_beyond_its_mold() {
-    let [(_, whole), (_, large)] = &nets();
+    let [(_, whole), (bowl, large)] = &nets();
+    let none = Findings::default();
     let (largest, cell) = whole.report.largest_shear.unwrap();
-    let free = Summary::of(whole, None);
+    let free = Summary::of(whole, &none, None);
     assert!(free.accepted && free.table().ends_with("\naccepted\n"), "{}", free.table());
     assert_eq!(free.max_shear_at.unwrap().cell, cell);
-    assert!(Summary::of(whole, Some(largest)).accepted);
-    let tight = Summary::of(whole, Some(0.5 * largest));
+    assert!(Summary::of(whole, &none, Some(largest)).accepted);
+    let tight = Summary::of(whole, &none, Some(0.5 * largest));
     assert!(!tight.accepted);
     assert!(tight.verdict().starts_with("not accepted: shear 5"), "{}", tight.verdict());
-    let beyond = Summary::of(large, None);
+    let beyond = Summary::of(large, &Findings::of(large, bowl, None, None), None);
     assert!(!beyond.accepted && beyond.verdict().contains("beyond the mold's boundary"));
     assert!(beyond.table().lines().all(|l| l.chars().count() <= 100), "{}", beyond.table());
 }

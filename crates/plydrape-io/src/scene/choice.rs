@@ -2,7 +2,7 @@
 
 use super::file::MaterialTable;
 use super::located::{Fixed, Located};
-use super::quantity::{Coefficient, Length, Measure, Quantity, Unchecked};
+use super::quantity::{Angle, Coefficient, Length, Measure, Quantity, Unchecked};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -210,18 +210,9 @@ pub(super) trait Keyword {
 /// Above the middle of the target.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Centred;
-/// The middle of the ply.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Middle;
-
 impl Keyword for Centred {
     const KEYWORD: &'static str = "centred";
     const PAIR: &'static str = "a place [x, y]";
-}
-
-impl Keyword for Middle {
-    const KEYWORD: &'static str = "middle";
-    const PAIR: &'static str = "a fabric point [u, v]";
 }
 
 /// Two coordinates (m), or a keyword.
@@ -263,5 +254,106 @@ impl<W: Keyword> JsonSchema for Place<W> {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let pair = generator.subschema_for::<Fixed<Quantity<Length>, 2>>();
         json_schema!({ "anyOf": [{ "const": W::KEYWORD }, pair] })
+    }
+}
+
+/// The word that has something searched for.
+const BEST: &str = "best";
+
+/// The fabric point that is laid first: a point, or a keyword.
+#[derive(Debug)]
+pub(super) enum SeedChoice {
+    /// The middle of the ply.
+    Middle,
+    /// Where the ply shears least.
+    Best,
+    At(Fixed<Quantity<Length>, 2>),
+}
+
+impl<'de> Deserialize<'de> for SeedChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Choice;
+        impl<'de> Visitor<'de> for Choice {
+            type Value = SeedChoice;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a fabric point [u, v], \"middle\" or \"best\"")
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
+                match word {
+                    "middle" => Ok(SeedChoice::Middle),
+                    BEST => Ok(SeedChoice::Best),
+                    _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
+                }
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
+                Fixed::deserialize(SeqAccessDeserializer::new(seq)).map(SeedChoice::At)
+            }
+        }
+        deserializer.deserialize_any(Choice)
+    }
+}
+
+impl JsonSchema for SeedChoice {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "FabricPoint".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let pair = generator.subschema_for::<Fixed<Quantity<Length>, 2>>();
+        json_schema!({ "anyOf": [{ "enum": ["middle", BEST] }, pair] })
+    }
+}
+
+/// A heading, or a keyword.
+#[derive(Debug)]
+pub(super) enum HeadingChoice {
+    /// Where the ply shears least.
+    Best,
+    Angle(Unchecked<Angle>),
+}
+
+impl<'de> Deserialize<'de> for HeadingChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Choice;
+        impl Visitor<'_> for Choice {
+            type Value = HeadingChoice;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an angle, e.g. \"45 deg\", or \"best\"")
+            }
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Self::Value, E> {
+                Unchecked::deserialize(value.into_deserializer()).map(HeadingChoice::Angle)
+            }
+            fn visit_u64<E: Error>(self, value: u64) -> Result<Self::Value, E> {
+                Unchecked::deserialize(value.into_deserializer()).map(HeadingChoice::Angle)
+            }
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Self::Value, E> {
+                Unchecked::deserialize(value.into_deserializer()).map(HeadingChoice::Angle)
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
+                match word {
+                    BEST => Ok(HeadingChoice::Best),
+                    _ => Unchecked::deserialize(word.into_deserializer()).map(HeadingChoice::Angle),
+                }
+            }
+        }
+        deserializer.deserialize_any(Choice)
+    }
+}
+
+impl JsonSchema for HeadingChoice {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "Heading".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut schema = Unchecked::<Angle>::json_schema(generator);
+        if let Some(Value::Array(choices)) = schema.get_mut("anyOf") {
+            choices.push(json_schema!({ "const": BEST }).into());
+        }
+        schema
     }
 }

@@ -6,7 +6,7 @@ use super::file::SceneKeys;
 use super::limits::limits;
 use super::{mold, target};
 use plydrape::mold::Mold;
-use plydrape::net::Net;
+use plydrape::net::{Net, Seeds, Wanted};
 use plydrape::ply::Ply;
 use plydrape::scene::Settings;
 use std::path::Path;
@@ -22,6 +22,10 @@ pub struct IdealDrape {
     pub mold: Mold,
     /// How it lies; some of it may not.
     pub net: Net,
+    /// How its seed and heading were chosen, if they were searched for.
+    pub seeds: Option<Seeds>,
+    /// Where its boundary is wanted, if that is given.
+    pub wanted: Option<Wanted>,
     /// Largest shear allowed (rad), see [`plydrape::scene::Limits::shear`].
     pub shear_limit: f64,
 }
@@ -54,9 +58,9 @@ pub(super) fn ideal_drape(
             "give `origin`, `direction`, `shear` and `seed` to have the ply laid on the mold",
         ));
     }
-    let net = target::net(table, &ply, &mold, document)?;
+    let target::Laid { net, seeds, wanted } = target::net(table, &ply, &mold, document, base)?;
     let limits = limits(&file.limits, &ply, &Settings::default(), document)?;
     let shear_limit = limits.shear;
     let title = title(file.title.as_ref(), document, base)?;
-    Ok(IdealDrape { title, ply, mold, net, shear_limit })
+    Ok(IdealDrape { title, ply, mold, net, seeds, wanted, shear_limit })
 }

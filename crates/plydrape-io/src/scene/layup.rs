@@ -3,14 +3,14 @@
 //! Grippers hold nodes of the net. So every cell of the ply is divided into a whole number of meshes, and
 //! into as many as put the seed on a node too.
 
-use super::choice::Place;
+use super::choice::{HeadingChoice, SeedChoice};
 use super::error::{Document, SceneError};
 use super::file::{EdgesKey, GeneratorsKey, TargetTable};
 use super::heading::{coordinates, heading};
 use super::located::Located;
 use super::quantity::{Angle, Length, Quantity, rounded};
 use plydrape::mold::Mold;
-use plydrape::net::{EdgeRule, Generators, Layup};
+use plydrape::net::{EdgeRule, Free, Generators, Layup};
 use plydrape::ply::{Cut, Ply};
 use std::ops::Range;
 
@@ -28,8 +28,15 @@ pub(super) fn extent(ply: &Ply) -> [f64; 2] {
     [(ply.grid.nu - 1) as f64 * ply.cell[0], (ply.grid.nv - 1) as f64 * ply.cell[1]]
 }
 
+/// What `[target]` has searched for.
+pub(super) fn free(keys: &TargetTable) -> Free {
+    let seed = keys.seed.as_ref().is_some_and(|seed| matches!(seed.value, SeedChoice::Best));
+    let best = |heading: &Located<HeadingChoice>| matches!(heading.value, HeadingChoice::Best);
+    Free { seed, heading: keys.direction.as_ref().is_some_and(best) }
+}
+
 /// Checks the keys of `[target]` that say how the ply is laid on the mold; `table` is the place of the
-/// whole table.
+/// whole table. What is to be searched for is the middle of the ply, and a heading of 0.
 pub(super) fn layup(
     keys: &TargetTable,
     table: &Range<usize>,
@@ -42,8 +49,10 @@ pub(super) fn layup(
         None => 0.0,
     };
     let heading = match &keys.direction {
-        Some(direction) => heading(direction, document)?,
-        None => 0.0,
+        Some(Located { value: HeadingChoice::Angle(angle), span }) => {
+            heading(&Located { value: angle.clone(), span: span.clone() }, document)?
+        }
+        Some(Located { value: HeadingChoice::Best, .. }) | None => 0.0,
     };
     let origin = match &keys.origin {
         Some(origin) => coordinates(&origin.value, document)?,
@@ -123,8 +132,8 @@ fn nodes_of_cut(
     let [low, high] = cut.outline.bounds();
     let middle = [0, 1].map(|n| 0.5 * (low[n] + high[n]));
     let seed = match &keys.seed {
-        None | Some(Located { value: Place::Keyword(_), .. }) => middle,
-        Some(Located { value: Place::At(point), span }) => {
+        None | Some(Located { value: SeedChoice::Middle | SeedChoice::Best, .. }) => middle,
+        Some(Located { value: SeedChoice::At(point), span }) => {
             let uv = cut.fabric(coordinates(point, document)?);
             if !(0..2).all(|n| (low[n]..=high[n]).contains(&uv[n])) {
                 return Err(document.error(
@@ -213,8 +222,10 @@ impl Seed {
         };
         let span = Some(written.span.clone());
         let point = match &written.value {
-            Place::Keyword(_) => return Ok(Seed { cells: most.map(|count| 0.5 * count), span }),
-            Place::At(point) => coordinates(point, document)?,
+            SeedChoice::Middle | SeedChoice::Best => {
+                return Ok(Seed { cells: most.map(|count| 0.5 * count), span });
+            }
+            SeedChoice::At(point) => coordinates(point, document)?,
         };
         let cells = [0, 1].map(|n| point[n] / ply.cell[n]);
         if (0..2).all(|n| cells[n] > -WHOLE && cells[n] < most[n] + WHOLE) {

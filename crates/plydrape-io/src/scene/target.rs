@@ -1,12 +1,13 @@
 //! Where the ply shall end: the ideal drape on the mold, or positions as given.
 
+use super::csv::Csv;
 use super::error::{Document, SceneError};
 use super::file::TargetTable;
-use super::layup::{layup, round};
+use super::layup::{free, layup, round};
 use super::located::Located;
-use super::places::Places;
+use super::places::{Places, X, Y, Z, csv_file, point};
 use plydrape::mold::Mold;
-use plydrape::net::{LayupError, Missing, Net, Reason};
+use plydrape::net::{CurveError, Free, LayupError, Missing, Net, Reason, Seeds, Wanted};
 use plydrape::ply::Ply;
 use plydrape::scene::Target;
 use std::path::Path;
@@ -42,7 +43,7 @@ pub(super) fn target(
             "add [mold] with kind = \"plane\", or give the target's `positions`",
         ));
     };
-    let net = net(table, ply, mold, document)?;
+    let Laid { net, .. } = net(table, ply, mold, document, base)?;
     // nodes that hang straight above each other have no span between them
     let places = Places {
         points: at_grippers(&net, ply, mold, table, document)?,
@@ -54,16 +55,65 @@ pub(super) fn target(
     Ok(Target { grippers: places.points, drape: Some(Arc::new(net)) })
 }
 
+/// A ply on its mold.
+pub(super) struct Laid {
+    /// The ideal drape.
+    pub net: Net,
+    /// How its seed and heading were chosen, if they were searched for.
+    pub seeds: Option<Seeds>,
+    /// Where its boundary is wanted.
+    pub wanted: Option<Wanted>,
+}
+
 /// Lays the ply on the mold; nodes without a place are no fault here.
 pub(super) fn net(
     table: &Located<TargetTable>,
     ply: &Ply,
     mold: &Mold,
     document: &Document,
-) -> Result<Net, SceneError> {
+    base: &Path,
+) -> Result<Laid, SceneError> {
     let keys = &table.value;
     let layup = layup(keys, &table.span, ply, mold, document)?;
-    Net::drape(mold, layup).map_err(|error| no_net(keys, table, &error, document))
+    let outline = ply.cut.as_ref().map(|cut| &cut.outline);
+    let mesh = layup.mesh[0].min(layup.mesh[1]);
+    let wanted = match &keys.trim {
+        Some(file) => Some(wanted(file, mold, mesh, document, base)?),
+        None => None,
+    };
+    let no_net = |error: LayupError| no_net(keys, table, &error, document);
+    let free = free(keys);
+    let seeds = match free {
+        Free { seed: false, heading: false } => None,
+        _ => Some(Seeds::search(mold, layup, outline, free).map_err(no_net)?),
+    };
+    let layup = seeds.as_ref().map_or(layup, |seeds| seeds.layup);
+    let net = Net::drape_cut(mold, layup, outline.cloned()).map_err(no_net)?;
+    Ok(Laid { net, seeds, wanted })
+}
+
+/// The wanted boundary from a CSV file.
+fn wanted(
+    file: &Located<String>,
+    mold: &Mold,
+    mesh: f64,
+    scene: &Document,
+    base: &Path,
+) -> Result<Wanted, SceneError> {
+    let document = csv_file(&file.value, &file.span, scene, base)?;
+    let (mut points, mut spans) = (Vec::new(), Vec::new());
+    for row in Csv::new(&document, &[X, Y, Z])?.rows() {
+        points.push(point(&row, [0, 1, 2])?);
+        spans.push(row.span.clone());
+    }
+    Wanted::new(mold, &points, mesh).map_err(|fault| match fault {
+        CurveError::OffMold { point, .. } => document.error(
+            spans[point].clone(),
+            fault.to_string(),
+            "give points of the mold in its place, and the unit in each header, as in `x (mm)`",
+        ),
+        _ => document.error_anywhere(fault.to_string(), "give one row for each point, in turn"),
+    })
 }
 
 /// A key that says how the ply is laid on the mold.
@@ -76,6 +126,7 @@ fn laying_key(keys: &TargetTable) -> Option<&'static str> {
         ("mesh", keys.mesh.is_some()),
         ("generators", keys.generators.is_some()),
         ("edges", keys.edges.is_some()),
+        ("trim", keys.trim.is_some()),
     ]
     .into_iter()
     .find_map(|(key, present)| present.then_some(key))

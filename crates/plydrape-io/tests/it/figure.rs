@@ -6,6 +6,7 @@ use plydrape::net::{EdgeRule, Generators, Layup, Net};
 use plydrape::ply::Grid;
 use plydrape::scene::{Motion, Scene, Target};
 use plydrape_io::ResultFile;
+use plydrape_io::net::{Findings, write_all};
 use plydrape_io::{self, figure};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -122,7 +123,8 @@ fn a_shear_map_says_what_its_net_reports() {
         };
         let net = Net::drape(&mold, layup).expect("a net");
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("net_{name}"));
-        plydrape_io::net::write_all(&net, &mold, name, &folder).expect("files");
+        let findings = Findings::of(&net, &mold, None, None);
+        write_all(&net, &mold, &findings, name, &folder).expect("files");
         let svg = figure::shear_map::svg(&net, &mold, name).expect("a map");
         let (largest, _) = net.report.largest_shear.expect("whole cells");
         let said = match name {

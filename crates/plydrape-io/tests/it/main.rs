@@ -13,6 +13,7 @@ mod front;
 mod gap;
 mod infeasible_limits;
 mod interrupted;
+mod laid;
 mod mesh;
 mod mesh_files;
 mod molds_in_scenes;

@@ -11,7 +11,11 @@
 //! The net's error falls with the square of the mesh width: between two nodes the fabric is taken for
 //! the straightest line on the mold, but fibres turn sideways where the shear changes along them.
 
+mod boundary;
+#[cfg(test)]
+mod boundary_tests;
 mod build;
+mod coverage;
 mod edge;
 mod generators;
 mod layup;
@@ -19,17 +23,26 @@ mod meet;
 mod missing;
 mod place;
 mod report;
+mod seeds;
+mod sharp_edges;
 mod shear;
 mod surface_point;
+mod trim;
 mod tuning;
 
+pub use boundary::{Boundary, Farthest, LeftOut, Line, PlyPoint};
+pub use coverage::Coverage;
 pub use edge::EdgeRule;
 pub use layup::{Generators, Layup, LayupError};
 pub use missing::{Missing, Reason};
 pub use report::Report;
+pub use seeds::{Choice, Free, Seeds};
+pub use sharp_edges::SharpEdges;
 pub use shear::CellShear;
+pub use trim::{CurveError, Trim, TrimPlace, Wanted};
 
 use crate::mold::Mold;
+use crate::ply::Outline;
 use build::Build;
 use surface_point::{ExtendedSurface, SurfacePoint};
 
@@ -39,13 +52,16 @@ use surface_point::{ExtendedSurface, SurfacePoint};
 pub struct Net {
     /// The input.
     pub layup: Layup,
+    /// The outline of a ply that is cut; none where the ply is all that the net covers.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub outline: Option<Outline>,
     /// Place of each node (m); none where it has no place on the mold.
     pub nodes: Vec<Option<[f64; 3]>>,
-    /// The nodes without a place, those closest to the seed first.
+    /// The nodes of the ply without a place, those closest to the seed first.
     pub missing: Vec<Missing>,
-    /// Shear of each cell whose four nodes are placed.
+    /// Shear of each cell that counts and whose nodes are placed; beyond the mold none of the ply's nodes may be.
     pub shear: Vec<Option<CellShear>>,
-    /// The net in a few numbers.
+    /// The net in a few numbers: of the ply, not of what the net covers beside it.
     pub report: Report,
     /// Nodes beyond the mold's boundary included.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -53,11 +69,30 @@ pub struct Net {
 }
 
 impl Net {
-    /// Drapes a ply on a mold. Nodes that find no place are [`Net::missing`], not an error.
+    /// Drapes a ply on a mold that is all that the net covers. Nodes that find no place are [`Net::missing`], not an error.
     ///
     /// # Errors
     /// [`LayupError`] if no net can be begun.
     pub fn drape(mold: &Mold, layup: Layup) -> Result<Self, LayupError> {
+        Net::drape_cut(mold, layup, None)
+    }
+
+    /// Drapes a ply that is cut, if it has an outline: only what is on the ply counts, see [`Coverage`].
+    ///
+    /// # Errors
+    /// [`LayupError`] if no net can be begun.
+    pub fn drape_cut(
+        mold: &Mold,
+        layup: Layup,
+        outline: Option<Outline>,
+    ) -> Result<Self, LayupError> {
+        let coverage = Coverage::of(&layup, outline.as_ref());
+        let net = Net::drape_covered(mold, layup, &coverage)?;
+        Ok(Net { outline, ..net })
+    }
+
+    /// Drapes a ply of which the net's nodes and cells are known.
+    fn drape_covered(mold: &Mold, layup: Layup, coverage: &Coverage) -> Result<Self, LayupError> {
         layup.check(mold)?;
         let [nu, nv] = layup.nodes;
         let mut build = Build {
@@ -72,6 +107,7 @@ impl Net {
         let nodes =
             build.points.iter().map(|s| s.as_ref().filter(on_mold).map(|s| s.point)).collect();
         let mut missing: Vec<Missing> = (0..nu * nv)
+            .filter(|n| coverage.node([n % nu, n / nu]))
             .filter_map(|n| {
                 let (reason, near, beyond) = build.reason(n)?;
                 Some(Missing { node: [n % nu, n / nu], reason, near, beyond })
@@ -82,21 +118,30 @@ impl Net {
         let closest_points = build.surface.closest_points();
         let points = build.points;
 
-        let at = |i: usize, j: usize| points[j * nu + i].as_ref().filter(on_mold);
+        // beside the ply a node may lie beyond the mold
+        let at = |i: usize, j: usize| {
+            points[j * nu + i].as_ref().filter(|s| on_mold(s) || !coverage.node([i, j]))
+        };
         let mut shear = Vec::with_capacity((nu - 1) * (nv - 1));
         for j in 0..nv - 1 {
             for i in 0..nu - 1 {
                 let ring = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
                 shear.push(match ring {
-                    [Some(a), Some(b), Some(c), Some(d)] => {
+                    [Some(a), Some(b), Some(c), Some(d)] if coverage.counts([i, j]) => {
                         Some(CellShear::of([a, b, c, d], layup.edges))
                     }
                     _ => None,
                 });
             }
         }
-        let report = Report::new(&layup, &points, &shear, &missing, closest_points);
-        Ok(Net { layup, nodes, missing, shear, report, points })
+        let report = Report::new(&layup, coverage, &points, &shear, &missing, closest_points);
+        Ok(Net { layup, outline: None, nodes, missing, shear, report, points })
+    }
+
+    /// Which nodes and cells are on the ply.
+    #[must_use]
+    pub fn coverage(&self) -> Coverage {
+        Coverage::of(&self.layup, self.outline.as_ref())
     }
 
     /// The node at grid indices `[i, j]` (m), if it has a place.

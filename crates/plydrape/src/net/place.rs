@@ -5,6 +5,7 @@
 //! one side, or are fewer. The cubics' error is of fourth order in the mesh width.
 
 use super::Net;
+use super::surface_point::{ExtendedSurface, SurfacePoint};
 use super::tuning::TUNING;
 use crate::mold::Mold;
 use crate::mold::vector::{along, dot, unit};
@@ -42,6 +43,24 @@ impl Net {
             tangent(scaled(self.sum(&patch, dp, q), du))?,
             tangent(scaled(self.sum(&patch, p, dq), dv))?,
         ])
+    }
+
+    /// Where a fabric point (m) lies on a mold or on its extension; none where the net has no nodes.
+    pub(super) fn surface_point(
+        &self,
+        surface: &ExtendedSurface,
+        uv: [f64; 2],
+    ) -> Option<SurfacePoint> {
+        let (patch, at) = self.patch(uv)?;
+        let [p, q] = [0, 1].map(|n| weights(at[n], patch.size[n]).0);
+        Some(surface.under(self.sum(&patch, p, q)))
+    }
+
+    /// A vector along u at a fabric point (m), about tangent to the mold; none where the net has no nodes.
+    pub(super) fn tangent_u(&self, uv: [f64; 2]) -> Option<[f64; 3]> {
+        let (patch, at) = self.patch(uv)?;
+        let [(_, dp), (q, _)] = [0, 1].map(|n| weights(at[n], patch.size[n]));
+        unit(self.sum(&patch, dp, q).map(|x| x / self.layup.mesh[0]))
     }
 
     /// The nodes around a fabric point, and where it lies among them, in mesh widths from the lowest.

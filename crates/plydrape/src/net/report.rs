@@ -1,5 +1,6 @@
 //! A net in a few numbers.
 
+use super::coverage::Coverage;
 use super::layup::Layup;
 use super::missing::{Missing, Reason};
 use super::shear::CellShear;
@@ -9,7 +10,7 @@ use super::surface_point::SurfacePoint;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
-    /// Nodes with a place on the mold.
+    /// Nodes of the ply with a place on the mold.
     pub placed: usize,
     /// Nodes beyond the mold's boundary.
     pub off_mold: usize,
@@ -32,6 +33,7 @@ pub struct Report {
 impl Report {
     pub(super) fn new(
         layup: &Layup,
+        coverage: &Coverage,
         points: &[Option<SurfacePoint>],
         shear: &[Option<CellShear>],
         missing: &[Missing],
@@ -60,6 +62,7 @@ impl Report {
             }
         }
 
+        let on_ply = (0..nu * nv).filter(|n| coverage.node([n % nu, n / nu])).count();
         let whole = || shear.iter().enumerate().filter_map(|(n, s)| Some((n, (*s)?.magnitude)));
         let largest_shear = whole()
             .max_by(|a, b| a.1.total_cmp(&b.1))
@@ -67,7 +70,7 @@ impl Report {
         let cells = whole().count();
         let mean_shear = whole().map(|(_, s)| s).sum::<f64>() / cells.max(1) as f64;
         Report {
-            placed: nu * nv - missing.len(),
+            placed: on_ply - missing.len(),
             off_mold: count(Reason::OffMold),
             folded: count(Reason::Folded),
             unreached: count(Reason::Unreached),

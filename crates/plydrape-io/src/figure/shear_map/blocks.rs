@@ -78,7 +78,8 @@ impl<'a> Blocks<'a> {
     pub fn isoline(&self, level: f64) -> Vec<[[f64; 2]; 2]> {
         let middle = |block: [usize; 2]| {
             let [low, high] = self.corners(block);
-            [0, 1].map(|c| 0.5 * (low[c] + high[c]) as f64 * self.net.layup.mesh[c])
+            let [low, high] = [low, high].map(|node| self.net.layup.fabric(node));
+            [0, 1].map(|c| 0.5 * (low[c] + high[c]))
         };
         let at = |[k, m]: [usize; 2]| Some((middle([k, m]), self.shear[m * self.count[0] + k]?));
         let mut pieces = Vec::new();

@@ -5,14 +5,14 @@ use super::marks::{arrow, dot, mark, marked, seed_ways};
 use crate::figure::FigureError;
 use crate::figure::axes::Frame;
 use crate::figure::canvas::{Canvas, Ink, Px};
-use crate::figure::colour::{MOLD, RED, WEAVE};
+use crate::figure::colour::{DARK, MOLD, RED, WEAVE};
 use crate::figure::layout::{bounds, mold_picture};
 use crate::figure::panel::MoldPicture;
 use crate::figure::piece::{self, Form, Piece, grown, thread};
 use crate::figure::projection::{Point, View};
 use crate::figure::relief::BACK;
 use plydrape::mold::Mold;
-use plydrape::net::Net;
+use plydrape::net::{Boundary, Net};
 
 /// Most fabric lines drawn each way.
 const LINES: usize = 24;
@@ -24,10 +24,11 @@ pub(super) struct Draped {
     pub low: Point,
     pub high: Point,
     pub mold_picture: Option<MoldPicture>,
+    boundary: Option<Boundary>,
 }
 
 impl Draped {
-    pub fn of(nodes: &[Point], mold: &Mold) -> Self {
+    pub fn of(nodes: &[Point], mold: &Mold, boundary: Option<Boundary>) -> Self {
         let [mut low, mut high] = bounds(nodes);
         let reach = MARGIN * (high[0] - low[0]).hypot(high[1] - low[1]).max(1e-3);
         for c in 0..2 {
@@ -44,7 +45,7 @@ impl Draped {
         if high[2] - low[2] < least {
             high[2] = low[2] + least;
         }
-        Draped { low, high, mold_picture }
+        Draped { low, high, mold_picture, boundary }
     }
 
     pub fn draw(
@@ -75,12 +76,21 @@ impl Draped {
         let line = net.layup.nodes.contains(&1);
         let (ink, width) = if line { (RED, 1.7) } else { (WEAVE, 0.7) };
         let lift = 1.5 * blocks.side as f64 * net.layup.mesh[0].max(net.layup.mesh[1]);
+        let coverage = net.coverage();
+        let of_ply = |pair: &&[[usize; 2]]| pair.iter().all(|id| coverage.node(*id));
         for way in fabric_lines(net) {
-            for pair in way.windows(2) {
+            for pair in way.windows(2).filter(of_ply) {
                 if let [Some(a), Some(b)] = [node(pair[0]), node(pair[1])] {
                     thread(&mut pieces, view, &[a, b], lift, ink, width);
                 }
             }
+        }
+        // of a ply that is cut
+        for line in self.boundary.iter().filter(|_| net.outline.is_some()).flat_map(|b| &b.lines) {
+            let again = line.points.first().filter(|_| line.closed);
+            let places: Vec<Point> =
+                line.points.iter().chain(again).map(|point| point.place).collect();
+            thread(&mut pieces, view, &places, lift, DARK, 1.0);
         }
         match &self.mold_picture {
             Some(MoldPicture::Relief(relief)) => relief.paint_among(canvas, view, pieces)?,

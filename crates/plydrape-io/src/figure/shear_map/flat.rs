@@ -5,7 +5,7 @@ use super::marks::{arrow, dot, mark, marked, seed_ways};
 use crate::figure::FigureError;
 use crate::figure::axes::{self, LABEL, TICK, plain};
 use crate::figure::canvas::{Canvas, Ink, Px};
-use crate::figure::colour::FRAME;
+use crate::figure::colour::{DARK, FRAME};
 
 /// Where the flat fabric is on the sheet.
 pub(super) struct Flat {
@@ -13,18 +13,19 @@ pub(super) struct Flat {
     pub bottom: f64,
     /// Picture points per metre.
     pub scale: f64,
-    /// Lengths along u and v (m).
-    pub fabric: [f64; 2],
+    /// Lowest and highest fabric coordinates (m).
+    pub bounds: [[f64; 2]; 2],
 }
 
 impl Flat {
     fn at(&self, [u, v]: [f64; 2]) -> Px {
-        [self.left + u * self.scale, self.bottom - v * self.scale]
+        let [low, _] = self.bounds;
+        [self.left + (u - low[0]) * self.scale, self.bottom - (v - low[1]) * self.scale]
     }
 
     pub fn draw(&self, canvas: &mut Canvas, blocks: &Blocks) -> Result<(), FigureError> {
         let net = blocks.net;
-        let place = |id: [usize; 2]| [0, 1].map(|c| id[c] as f64 * net.layup.mesh[c]);
+        let place = |id: [usize; 2]| net.layup.fabric(id);
         for ([low, high], ink) in blocks.tiles() {
             let ([x0, y0], [x1, y1]) = (self.at(place(low)), self.at(place(high)));
             // each reaches a hair over its neighbours, so that no seam shows
@@ -37,24 +38,30 @@ impl Flat {
             }
         }
 
-        // The fabric's boundary, ticks and labels.
-        let [u, v] = self.fabric;
-        let ring = [[0.0, 0.0], [u, 0.0], [u, v], [0.0, v], [0.0, 0.0]].map(|p| self.at(p));
-        canvas.line(&ring, FRAME, 1.0)?;
+        // The ply's boundary, ticks and labels.
+        let [low, high] = self.bounds;
+        let [u, v] = [0, 1].map(|c| high[c] - low[c]);
+        if let Some(outline) = net.ply_outline() {
+            for ring in outline.rings() {
+                let closed: Vec<Px> =
+                    ring.iter().chain(ring.first()).map(|p| self.at(*p)).collect();
+                canvas.line(&closed, if net.outline.is_some() { DARK } else { FRAME }, 1.0)?;
+            }
+        }
         let most = |length: f64, room: f64| (length * self.scale / room).clamp(2.0, 10.0);
-        for tick in axes::ticks(0.0, u, most(u, 56.0)) {
-            let [x, y] = self.at([tick * 1e-3, 0.0]);
+        for tick in axes::ticks(low[0], high[0], most(u, 56.0)) {
+            let [x, y] = self.at([tick * 1e-3, low[1]]);
             canvas.line(&[[x, y], [x, y + 4.0]], FRAME, 1.0)?;
             canvas.text(&axes::label(tick), [x, y + 13.0], plain(TICK, 0))?;
         }
-        for tick in axes::ticks(0.0, v, most(v, 34.0)) {
-            let [x, y] = self.at([0.0, tick * 1e-3]);
+        for tick in axes::ticks(low[1], high[1], most(v, 34.0)) {
+            let [x, y] = self.at([low[0], tick * 1e-3]);
             canvas.line(&[[x - 4.0, y], [x, y]], FRAME, 1.0)?;
             canvas.text(&axes::label(tick), [x - 8.0, y], plain(TICK, 1))?;
         }
-        let [x, y] = self.at([u / 2.0, 0.0]);
+        let [x, y] = self.at([0.5 * (low[0] + high[0]), low[1]]);
         canvas.text("u (mm)", [x, y + 34.0], plain(LABEL, 0))?;
-        let [x, y] = self.at([0.0, v]);
+        let [x, y] = self.at([low[0], high[1]]);
         canvas.text("v (mm)", [x, y - 16.0], plain(LABEL, 1))?;
 
         for (name, way) in seed_ways(net) {
@@ -63,7 +70,8 @@ impl Flat {
         }
         dot(canvas, self.at(place(net.layup.seed)))?;
         if let Some((largest, cell)) = marked(net) {
-            let middle = [0, 1].map(|c| (cell[c] as f64 + 0.5) * net.layup.mesh[c]);
+            let corner = place(cell);
+            let middle = [0, 1].map(|c| corner[c] + 0.5 * net.layup.mesh[c]);
             mark(canvas, self.at(middle), &format!("{largest:.1}°"))?;
         }
         Ok(())

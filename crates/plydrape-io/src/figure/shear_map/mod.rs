@@ -1,7 +1,7 @@
 //! The shear map of a net: on the mold in 3D, and on the flat fabric with lines of equal shear.
 //!
 //! A cell has the colour of its shear magnitude. Of large nets, blocks of cells share a colour, their
-//! mean. Where the net has no nodes nothing is drawn.
+//! mean. Where the net has no nodes, and beside a ply that is cut, nothing is drawn.
 
 mod blocks;
 mod draped;
@@ -41,11 +41,11 @@ const LEGEND: f64 = 42.0;
 /// # Errors
 /// [`FigureError`] if the net has no node with a place, or the writer fails.
 pub fn svg(net: &Net, mold: &Mold, name: &str) -> Result<String, FigureError> {
-    let nodes: Vec<Point> = net.nodes.iter().flatten().copied().collect();
+    let nodes = nodes(net);
     if nodes.is_empty() {
         return Err(FigureError::NoNode);
     }
-    let frame = Draped::of(&nodes, mold);
+    let frame = Draped::of(&nodes, mold, net.boundary(mold));
     let unit = View::of(frame.low, frame.high, 1.0);
     let [from, to] = unit.extent(frame.low, frame.high);
     let room = [PANELS - ROOM[0] - ROOM[2], BOX];
@@ -54,7 +54,11 @@ pub fn svg(net: &Net, mold: &Mold, name: &str) -> Result<String, FigureError> {
 
     let blocks = Blocks::of(net);
     let whole = blocks.shear.iter().any(Option::is_some);
-    let fabric = [0, 1].map(|c| (net.layup.nodes[c] - 1) as f64 * net.layup.mesh[c]);
+    let bounds = net.ply_outline().map_or_else(
+        || [net.layup.origin, net.layup.fabric(net.layup.nodes.map(|n| n - 1))],
+        |outline| outline.bounds(),
+    );
+    let fabric = [0, 1].map(|c| bounds[1][c] - bounds[0][c]);
     let flat = if whole { (FLAT[0] / fabric[0]).min(FLAT[1] / fabric[1]) } else { 0.0 };
     let second = if whole { TITLE + ROOM[1] + fabric[1] * flat + ROOM[3] } else { 0.0 };
     let absent = absent(net);
@@ -81,7 +85,7 @@ pub fn svg(net: &Net, mold: &Mold, name: &str) -> Result<String, FigureError> {
         canvas.text("on the flat fabric", [28.0, y + 12.0], heading(14.0))?;
         let left = (PANELS - fabric[0] * flat) / 2.0;
         let map =
-            Flat { left, bottom: y + TITLE + ROOM[1] + fabric[1] * flat, scale: flat, fabric };
+            Flat { left, bottom: y + TITLE + ROOM[1] + fabric[1] * flat, scale: flat, bounds };
         map.draw(&mut canvas, &blocks)?;
         let between = [head + 40.0, size[1] - LEGEND - 24.0];
         bar(&mut canvas, "shear (deg)", Scale::Even([0.0, top]), PANELS + 24.0, between)?;
@@ -91,13 +95,22 @@ pub fn svg(net: &Net, mold: &Mold, name: &str) -> Result<String, FigureError> {
     Ok(canvas::at_size(&text, size))
 }
 
+/// Places of the ply's nodes (m); of all nodes if none of them is on the ply.
+fn nodes(net: &Net) -> Vec<Point> {
+    let (coverage, nu) = (net.coverage(), net.layup.nodes[0]);
+    let all = || net.nodes.iter().enumerate().filter_map(|(n, place)| Some((n, (*place)?)));
+    let of_ply: Vec<Point> =
+        all().filter(|(n, _)| coverage.node([n % nu, n / nu])).map(|(_, place)| place).collect();
+    if of_ply.is_empty() { all().map(|(_, place)| place).collect() } else { of_ply }
+}
+
 /// The part of the mold around a net that its map shows, in polygons (m).
 pub(crate) fn patch(net: &Net, mold: &Mold) -> Vec<Vec<Point>> {
-    let nodes: Vec<Point> = net.nodes.iter().flatten().copied().collect();
+    let nodes = nodes(net);
     if nodes.is_empty() {
         return Vec::new();
     }
-    match Draped::of(&nodes, mold).mold_picture {
+    match Draped::of(&nodes, mold, None).mold_picture {
         Some(MoldPicture::Flat(corners)) => vec![corners.to_vec()],
         Some(MoldPicture::Relief(relief)) => relief.outlines(),
         None => Vec::new(),
@@ -115,7 +128,8 @@ fn figures(net: &Net) -> String {
     };
     let mut parts = vec![format!("{nu} × {nv} nodes, mesh {mesh} mm")];
     if let Some((largest, cell)) = net.report.largest_shear {
-        let [u, v] = [0, 1].map(|c| (cell[c] as f64 + 0.5) * net.layup.mesh[c] * 1e3);
+        let low = net.layup.fabric(cell);
+        let [u, v] = [0, 1].map(|c| (low[c] + 0.5 * net.layup.mesh[c]) * 1e3);
         let [largest, mean] = [largest, net.report.mean_shear].map(f64::to_degrees);
         if marked(net).is_some() {
             parts.push(format!("largest shear {largest:.1}° at u = {u:.0} mm, v = {v:.0} mm"));

@@ -1,6 +1,6 @@
 //! The keys of the table `[target]`.
 
-use crate::scene::choice::{Middle, Place, Positions};
+use crate::scene::choice::{HeadingChoice, Positions, SeedChoice};
 use crate::scene::located::{Fixed, Located};
 use crate::scene::quantity::{Angle, Length, Quantity};
 use schemars::JsonSchema;
@@ -13,12 +13,14 @@ use serde::Deserialize;
 pub(in crate::scene) struct TargetTable {
     /// Place x, y (m) of the fabric point that is laid first, the `seed`; it is put on the mold.
     pub origin: Option<Located<Fixed<Quantity<Length>, 2>>>,
-    /// Heading of u there (rad), from x towards y.
-    pub direction: Option<Quantity<Angle>>,
+    /// Heading of u there (rad), from x towards y; or "best", the one with which the ply shears least.
+    pub direction: Option<Located<HeadingChoice>>,
     /// Shear angle there (rad): v stands at 90° minus this angle from u.
     pub shear: Option<Quantity<Angle>>,
-    /// The fabric point [u, v] (m) that is laid first, gripper [0, 0] unless given; or "middle".
-    pub seed: Option<Located<Place<Middle>>>,
+    /// The fabric point [u, v] (m) that is laid first, gripper [0, 0] unless given, of a ply that is cut a point of its drawing and
+    /// its middle unless given; or "middle". With "best" the middle of the ply lies at `origin`, and the yarns that are laid first
+    /// are those with which the ply shears least.
+    pub seed: Option<Located<SeedChoice>>,
     /// Mesh width of the net (m), a whole part of both cells. Unless given, cells are divided to a tenth of their shorter side or
     /// less, on a plane not at all.
     pub mesh: Option<Quantity<Length>>,
@@ -26,6 +28,8 @@ pub(in crate::scene) struct TargetTable {
     pub generators: Option<Located<GeneratorsKey>>,
     /// How the fabric between neighbouring nodes of the net is measured, "along" unless given.
     pub edges: Option<Located<EdgesKey>>,
+    /// The boundary that is wanted, for `plydrape net`: a CSV file (x, y, z) of points on the mold in turn around the ply.
+    pub trim: Option<Located<String>>,
     /// Every position: a table of rows along v of [x, y, z] along u, or a CSV file (i, j, x, y, z).
     pub positions: Option<Located<Positions>>,
 }

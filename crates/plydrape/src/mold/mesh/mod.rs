@@ -17,6 +17,7 @@ mod one_ring;
 mod orient;
 mod report;
 mod section;
+mod sharp;
 mod soup;
 mod tree;
 mod triangle;
@@ -24,6 +25,7 @@ mod triangle;
 pub use boundary::Boundary;
 pub use error::MeshError;
 pub use report::{Finding, MeshReport};
+pub use sharp::SharpEdge;
 pub use soup::Soup;
 
 use std::fmt;
