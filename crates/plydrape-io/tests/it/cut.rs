@@ -3,7 +3,7 @@
 use crate::common::distance;
 use plydrape::ply::Grid;
 use plydrape::scene::Scene;
-use plydrape::sheet::{self, Sheet, Tuning};
+use plydrape::sheet::{self, Sheet, Status, Tuning};
 use plydrape_io::export::{self, Format};
 use plydrape_io::outline::{self, Options};
 use plydrape_io::scene;
@@ -35,6 +35,25 @@ fn a_ply_that_is_cut_at_its_cups_is_the_ply_of_its_array() {
     assert_eq!(cut.sheet.fabric.places, told.sheet.fabric.places);
     for (a, b) in cut.last.positions.iter().zip(&told.last.positions) {
         assert!(distance(*a, *b) < 1e-8, "{a:?} {b:?}");
+    }
+}
+
+/// At rest in the air, the cups bear what is left of the ply and nothing else: holes, cut corners and overhang count.
+#[test]
+fn the_cups_bear_the_weight_of_what_is_cut_out() {
+    let turned = "size = [0.34, 0.14]\nholes = [{ middle = [0.17, 0.07], diameter = 0.05 }]\nwarp = \"25 deg\"\n\
+        grippers = [4, 2]\ncell = [0.1, 0.1]";
+    let notched = "outline = [[0, 0], [0.24, 0], [0.24, 0.1], [0.16, 0.14], [0, 0.14]]\n\
+        grippers = [3, 2]\ncell = [0.1, 0.1]\narray = { holds = [\"###\", \"##.\"], middle = [0.12, 0.07] }";
+    for (ply, pad, cups) in [(turned, "pad_radius = 0.015\n", 8), (notched, "", 5)] {
+        let scene = parse(ply, pad);
+        assert_eq!(scene.ply.grippers(), cups);
+        let outline = &scene.ply.cut.as_ref().unwrap().outline;
+        let drape = drape(&scene);
+        assert_eq!(drape.summary.status, Status::Converged);
+        let carried: f64 = -drape.last.forces.iter().map(|force| force[2]).sum::<f64>();
+        let weight = drape.sheet.areal_mass * drape.sheet.gravity * outline.area();
+        assert!((carried / weight - 1.0).abs() < 1e-4, "{carried} N of {weight} N");
     }
 }
 
