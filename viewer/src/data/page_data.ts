@@ -96,6 +96,8 @@ export interface SheetData {
   fields: Field[];
   /** Corners of the cells, four each. */
   cells: number[];
+  /** Cells that the boundary of the ply cuts: drawn in place of those with the same corners. */
+  cut: CutCell[];
   /** Step in which each node landed for good, 0 for never. */
   landing: number[];
   /** Fabric coordinates of the nodes; one step. */
@@ -119,6 +121,13 @@ export interface SheetData {
   used: Block;
   /** Height at the end that the needed share of the cells of the sample keeps at each node; one step. */
   spread: Block | null;
+}
+
+/** A cell of which a part is ply: rings, in shares of its sides from its first corner, and the cell whose values it has. */
+export interface CutCell {
+  nodes: [number, number, number, number];
+  cell: number;
+  rings: [number, number][][];
 }
 
 /** The verdict over a sample of cells, each with errors of its own. */
@@ -279,7 +288,9 @@ function checkSheet(data: PageData, sheet: SheetData): void {
     ([block, of]) => block === null || (block.count === of && block.steps === count),
   );
   const known = sheet.states.every((state) => state === null || state < count);
-  const corners = sheet.cells.every((node) => node < nodes);
+  const corners =
+    sheet.cells.every((node) => node < nodes) &&
+    sheet.cut.every((cut) => cut.cell < cells && cut.nodes.every((node) => node < nodes));
   const pads = sheet.grippers.count === data.geometry.grippers.count;
   if (
     !fit ||

@@ -74,6 +74,9 @@ export function showLimits(state: State, data: PageData): void {
   section.append(
     make("h3", {}, "Of the sheet, which decides"),
     limitsTable(state, data, "sheet", deciding(data)),
+  );
+  if (own.length === 0) return;
+  section.append(
     make(
       "details",
       {},

@@ -10,7 +10,9 @@ use super::projection::{Point, View};
 use super::scale::Scale;
 use crate::read::ReadError;
 use crate::result::ResultFile;
-use crate::sheet::SheetState;
+use crate::sheet::{CutCell, SheetState};
+
+use std::collections::HashSet;
 
 /// Heights at the ends of the colours (m).
 const HEIGHTS: [f64; 2] = [1e-4, 1e-2];
@@ -20,8 +22,10 @@ const LINES: usize = 3500;
 
 /// The sheet in the steps of a figure.
 pub(super) struct SheetPicture {
-    /// Corners of the cells.
+    /// Corners of the whole cells.
     pub cells: Vec<[usize; 4]>,
+    /// Cells that the boundary cuts.
+    cut: Vec<CutCell>,
     /// The states that are shown, one a panel.
     pub states: Vec<SheetState<'static>>,
 }
@@ -38,8 +42,11 @@ impl SheetPicture {
             let Some(number) = number else { return Ok(None) };
             states.extend(file.state(number)?);
         }
-        let cells = file.mesh().cells.iter().map(|cell| cell.map(|n| n as usize)).collect();
-        Ok(Some(SheetPicture { cells, states }))
+        let cut = CutCell::all(&result.scene.ply, &result.scene.settings, file.mesh());
+        let known: HashSet<[u32; 4]> = cut.iter().map(|cell| cell.nodes).collect();
+        let whole = file.mesh().cells.iter().filter(|cell| !known.contains(*cell));
+        let cells = whole.map(|cell| cell.map(|n| n as usize)).collect();
+        Ok(Some(SheetPicture { cells, cut, states }))
     }
 
     /// The state of a step.
@@ -72,26 +79,13 @@ impl Stage<'_> {
         let parts = (SQUARES / drawn.max(1)).isqrt().clamp(1, 4);
         let mut lift = 0.0;
         for cell in &picture.cells {
-            let at = |[a, b]: [f64; 2]| {
-                let weights = [(1.0 - a) * (1.0 - b), a * (1.0 - b), a * b, (1.0 - a) * b];
-                let sum = |of: &dyn Fn(usize) -> f64| {
-                    (0..4).map(|k| weights[k] * of(cell[k])).sum::<f64>()
-                };
-                ([0, 1, 2].map(|c| sum(&|n| state.positions[n][c])), sum(&|n| state.height[n]))
-            };
+            let at = |share: [f64; 2]| within(state, *cell, share);
             let share = |k: usize| k as f64 / parts as f64;
             for [k, m] in (0..parts * parts).map(|n| [n % parts, n / parts]) {
                 let corners = [[k, m], [k + 1, m], [k + 1, m + 1], [k, m + 1]];
                 let corners = corners.map(|corner| at(corner.map(share)).0);
-                let (place, height) = at([k, m].map(|n| share(n) + 0.5 / parts as f64));
-                let value = if self.is_over_mold() { height } else { place[2] };
-                let ink = match value.is_finite() {
-                    true => viridis(self.scale.share(value.max(0.0))),
-                    false => FRAME,
-                };
-                let depth = corners.iter().map(|p| view.depth(*p)).sum::<f64>() / 4.0;
-                let points = grown(&corners.map(|p| view.at(p)));
-                pieces.push(Piece { depth, place, points, ink, form: Form::Area });
+                let middle = at([k, m].map(|n| share(n) + 0.5 / parts as f64));
+                pieces.push(self.part(view, &corners, middle));
             }
             let sides = [0, 1, 2, 3].map(|k| [cell[k], cell[(k + 1) % 4]]);
             lift = length(sides[0].map(|n| state.positions[n])).max(lift);
@@ -102,10 +96,37 @@ impl Stage<'_> {
                 }
             }
         }
+        for cell in &picture.cut {
+            let at = |share: &[f64; 2]| within(state, cell.nodes.map(|n| n as usize), *share);
+            let polygon = cell.polygon();
+            let corners: Vec<Point> = polygon.iter().map(|share| at(share).0).collect();
+            let middle = [0, 1]
+                .map(|n| polygon.iter().map(|share| share[n]).sum::<f64>() / polygon.len() as f64);
+            pieces.push(self.part(view, &corners, at(&middle)));
+        }
         for (place, turn) in state.grippers.iter().zip(state.pad_rotation.iter()) {
             self.disc(pieces, view, (*place, *turn), lift);
         }
     }
+
+    /// A part of the sheet between corners, with the colour of its middle, a point and its height (m).
+    fn part(&self, view: &View, corners: &[Point], (place, height): (Point, f64)) -> Piece {
+        let value = if self.is_over_mold() { height } else { place[2] };
+        let ink = match value.is_finite() {
+            true => viridis(self.scale.share(value.max(0.0))),
+            false => FRAME,
+        };
+        let depth = corners.iter().map(|p| view.depth(*p)).sum::<f64>() / corners.len() as f64;
+        let points = grown(&corners.iter().map(|p| view.at(*p)).collect::<Vec<_>>());
+        Piece { depth, place, points, ink, form: Form::Area }
+    }
+}
+
+/// The point of a cell at shares of its sides, and its height over the mold (m).
+fn within(state: &SheetState, cell: [usize; 4], [a, b]: [f64; 2]) -> (Point, f64) {
+    let weights = [(1.0 - a) * (1.0 - b), a * (1.0 - b), a * b, (1.0 - a) * b];
+    let sum = |of: &dyn Fn(usize) -> f64| (0..4).map(|k| weights[k] * of(cell[k])).sum::<f64>();
+    ([0, 1, 2].map(|c| sum(&|n| state.positions[n][c])), sum(&|n| state.height[n]))
 }
 
 fn length([a, b]: [Point; 2]) -> f64 {

@@ -9,7 +9,7 @@ use super::margin::Allowed;
 use super::{Field, Limit, limit};
 use crate::OutputError;
 use crate::result::ResultFile;
-use crate::sheet::{SheetMesh, SheetSides, SheetState, SheetStates, ended, normal};
+use crate::sheet::{CutCell, SheetMesh, SheetSides, SheetState, SheetStates, ended, normal};
 use crate::table::share;
 use plydrape::errors::SampleVerdict;
 use plydrape::sheet::measure::Summary;
@@ -38,6 +38,8 @@ pub(super) struct Sheet<'a> {
     fields: Vec<Field>,
     /// Corners of the cells, four each.
     cells: Vec<u32>,
+    /// Cells that the boundary cuts: drawn in place of those with the same nodes.
+    cut: Vec<CutCell>,
     /// Step in which each node landed for good, 0 for never.
     landing: Vec<u32>,
     places: Block,
@@ -177,6 +179,7 @@ pub(super) fn sheet<'a>(
         limits: summary.limits.iter().map(|verdict| limit(verdict, None)).collect(),
         fields: fields(result, &packed, file.landing_step(), known, sample),
         cells: mesh.cells.as_flattened().to_vec(),
+        cut: CutCell::all(&result.scene.ply, &result.scene.settings, mesh),
         landing: file.landing_step().to_vec(),
         places: Block::new(1, 2, &places),
         positions: block(3, &packed.positions),

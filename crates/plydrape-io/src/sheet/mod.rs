@@ -8,6 +8,7 @@
 
 mod array;
 mod check;
+mod cut_cell;
 mod drape;
 mod ended;
 mod error;
@@ -19,6 +20,7 @@ mod shown;
 mod spool;
 
 pub use array::{ARRAYS, Array, Extent, Scalar};
+pub(crate) use cut_cell::CutCell;
 pub use drape::{SheetDrape, SheetDrapeError, SheetSize, drape, keep};
 pub(crate) use ended::ended;
 pub use error::SheetError;

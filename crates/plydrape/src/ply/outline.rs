@@ -192,6 +192,14 @@ impl Outline {
         self.rings().map(clipped).sum::<f64>().max(0.0)
     }
 
+    /// What its rings enclose of a rectangle between two corners (m), the ply on the left of each. Parts of a ring are joined
+    /// by lines along the sides of the rectangle.
+    #[must_use]
+    pub fn rings_in(&self, low: [f64; 2], high: [f64; 2]) -> Vec<Ring> {
+        let clipped = self.rings().map(|ring| clip(ring, low, high));
+        clipped.filter(|part| area(part) != 0.0).collect()
+    }
+
     /// Centre of the ply's area in a rectangle between two corners (m); none where there is none.
     #[must_use]
     pub fn centre_in(&self, low: [f64; 2], high: [f64; 2]) -> Option<[f64; 2]> {
