@@ -711,7 +711,7 @@ class Plan:
 @final
 class Ply:
     """
-    A rectangular woven ply held by a grid of grippers.
+    A woven ply held by grippers: a rectangle held by an array of them, or, from a scene, as it is cut.
 
     Grippers are counted with i, along u, running fastest. Catenaries are counted: edges along u, edges along
     v, then two diagonals a cell, the one from `[i, j]` to `[i + 1, j + 1]` first.
@@ -755,7 +755,17 @@ class Ply:
     @property
     def grippers(self, /) -> tuple[int, int]:
         """
-        Grippers along u and v.
+        Grippers along u and v; zeros where they are no whole array along the yarns.
+        """
+    @property
+    def holes(self, /) -> list[NDArray[float64]]:
+        """
+        Holes of a ply that is cut, each as `outline`, clockwise.
+        """
+    @property
+    def ids(self, /) -> NDArray[int64]:
+        """
+        Indices i, j of each gripper, which are its name in files and pages, shape (grippers, 2).
         """
     @property
     def lengths(self, /) -> NDArray[float64]:
@@ -766,6 +776,22 @@ class Ply:
     def material(self, /) -> Material:
         """
         What it is made of.
+        """
+    @property
+    def outline(self, /) -> NDArray[float64] | None:
+        """
+        Outline of a ply that is cut, fabric coordinates (m), shape (points, 2), counterclockwise; None of one that ends at its
+        grippers or a margin beyond them.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/13_cut_ply/scene.toml")
+            >>> scene.ply.outline.shape, len(scene.ply.holes), len(scene.ply.places)
+            ((5, 2), 1, 15)
+        """
+    @property
+    def places(self, /) -> NDArray[float64]:
+        """
+        Fabric coordinates u, v of each gripper (m), shape (grippers, 2), in the order of all arrays of grippers.
         """
     @property
     def warp(self, /) -> str:
@@ -821,7 +847,10 @@ class Result:
         Whether every equilibrium was found, by the model that decides.
         """
     def export(
-        self, /, to: typing.Literal["vtk", "inp", "ros2", "csv", "svg", "pattern", "boundary"], folder: str | PathLike[str]
+        self,
+        /,
+        to: typing.Literal["vtk", "inp", "ros2", "csv", "svg", "pattern", "boundary"],
+        folder: str | PathLike[str],
     ) -> list[Path]:
         """
         Writes files for another program into a folder, all or none, and returns their paths.
@@ -851,7 +880,7 @@ class Result:
     @property
     def grid(self, /) -> tuple[int, int]:
         """
-        Grippers along u and v.
+        Grippers along u and v; zeros where they are no whole array along the yarns.
         """
     def html(self, /) -> str:
         """
@@ -936,6 +965,11 @@ class Result:
             >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
             >>> result = plydrape.simulate(scene)
             >>> figure = result.plot("measures")
+        """
+    @property
+    def ply(self, /) -> Ply:
+        """
+        The ply that was draped.
         """
     @property
     def positions(self, /) -> NDArray[float64]:

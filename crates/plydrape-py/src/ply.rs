@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use toml::Value;
 use toml::map::Map;
 
-/// A rectangular woven ply held by a grid of grippers.
+/// A woven ply held by grippers: a rectangle held by an array of them, or, from a scene, as it is cut.
 ///
 /// Grippers are counted with i, along u, running fastest. Catenaries are counted: edges along u, edges along
 /// v, then two diagonals a cell, the one from `[i, j]` to `[i + 1, j + 1]` first.
@@ -62,7 +62,7 @@ impl Ply {
         ply.map(Ply).map_err(|refused| error::scene(&refused))
     }
 
-    /// Grippers along u and v.
+    /// Grippers along u and v; zeros where they are no whole array along the yarns.
     #[getter]
     fn grippers(&self) -> (usize, usize) {
         (self.0.grid.nu, self.0.grid.nv)
@@ -108,15 +108,56 @@ impl Ply {
         Array::new(&[grid.catenaries()], lengths.collect())
     }
 
+    /// Fabric coordinates u, v of each gripper (m), shape (grippers, 2), in the order of all arrays of grippers.
+    #[getter]
+    fn places(&self) -> Array<f64> {
+        let count = self.0.grippers();
+        Array::rows(&[count, 2], (0..count).map(|n| self.0.place(n)))
+    }
+
+    /// Indices i, j of each gripper, which are its name in files and pages, shape (grippers, 2).
+    #[getter]
+    fn ids(&self) -> Array<i64> {
+        let count = self.0.grippers();
+        Array::rows(&[count, 2], (0..count).map(|n| self.0.id(n).map(|k| k as i64)))
+    }
+
+    /// Outline of a ply that is cut, fabric coordinates (m), shape (points, 2), counterclockwise; None of one that ends at its
+    /// grippers or a margin beyond them.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/13_cut_ply/scene.toml")
+    ///     >>> scene.ply.outline.shape, len(scene.ply.holes), len(scene.ply.places)
+    ///     ((5, 2), 1, 15)
+    #[getter]
+    fn outline(&self) -> Option<Array<f64>> {
+        Some(ring(self.0.cut.as_ref()?.outline.boundary()))
+    }
+
+    /// Holes of a ply that is cut, each as `outline`, clockwise.
+    #[getter]
+    fn holes(&self) -> Vec<Array<f64>> {
+        let cut = self.0.cut.iter();
+        cut.flat_map(|cut| cut.outline.holes()).map(|hole| ring(hole)).collect()
+    }
+
     fn __repr__(&self) -> String {
         let ply = &self.0;
         let [a, b] = ply.cell.map(|side| side * 1e3);
         let (grid, name) = (ply.grid, &ply.material.name);
+        if ply.cut.is_some() {
+            let count = ply.grippers();
+            return format!("<plydrape.Ply cut to an outline, {count} grippers, {name:?}>");
+        }
         format!(
             "<plydrape.Ply {} × {} grippers, cells of {a} × {b} mm, {name:?}>",
             grid.nu, grid.nv
         )
     }
+}
+
+fn ring(points: &[[f64; 2]]) -> Array<f64> {
+    Array::rows(&[points.len(), 2], points.iter().copied())
 }
 
 /// What a ply is made of: mass, flexural rigidity, tension, shear curve and locking angle.

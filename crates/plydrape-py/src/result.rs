@@ -5,6 +5,7 @@ use crate::error;
 use crate::json::Json;
 use crate::mold::{Mold, triangles};
 use crate::net::Net;
+use crate::ply::Ply;
 use crate::sample::Sample;
 use crate::sheet::Sheet;
 use crate::surface::Surface;
@@ -124,10 +125,16 @@ impl Result {
         self.0.scene.input.as_deref()
     }
 
-    /// Grippers along u and v.
+    /// Grippers along u and v; zeros where they are no whole array along the yarns.
     #[getter]
     fn grid(&self) -> (usize, usize) {
         (self.0.scene.ply.grid.nu, self.0.scene.ply.grid.nv)
+    }
+
+    /// The ply that was draped.
+    #[getter]
+    fn ply(&self) -> Ply {
+        Ply(self.0.scene.ply.clone())
     }
 
     /// Fabric length of a cell along u and v (m).
