@@ -37,7 +37,7 @@ pub(super) struct Detail {
 impl Detail {
     /// The finest that keeps the page small.
     pub fn of(result: &ResultFile) -> Self {
-        let (grid, all) = (result.scene.ply.grid, result.steps.len());
+        let (grid, all) = (result.scene.ply.lines().surface(), result.steps.len());
         let surface =
             |n: usize| (grid.nu.saturating_sub(1) * n + 1) * (grid.nv.saturating_sub(1) * n + 1);
         let across = |n: usize| 2 * grid.cells() * (n + 1);
@@ -119,10 +119,14 @@ fn range(values: impl Iterator<Item = i32> + Clone, unit: f64) -> [f64; 2] {
 impl Geometry {
     /// Everything that is drawn, and the ranges of what its colours tell.
     pub fn of(result: &ResultFile, detail: &Detail) -> (Self, Ranges) {
-        let (grid, n) = (result.scene.ply.grid, detail.intervals);
+        let (graph, n) = (result.scene.ply.lines(), detail.intervals);
+        let grid = graph.surface();
         let steps: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
         let count = steps.len();
-        let across = if detail.diagonals { grid.edges()..grid.catenaries() } else { 0..0 };
+        let across = match detail.diagonals && grid.cells() > 0 {
+            true => graph.edges()..graph.catenaries(),
+            false => 0..0,
+        };
         // ply, diagonals and contact marks of each step
         let shapes = steps.par_iter().map(|step| {
             let curves = result.curves(step);
@@ -179,7 +183,7 @@ impl Geometry {
 /// Angle of the warp in each cell from the x axis, as seen from above (°): the mean of its two edges along the
 /// warp. A fibre has no sign; angles stay within 90° of the warp at the first gripper of the first step.
 fn directions(result: &ResultFile, step: &Step) -> Vec<f64> {
-    let grid = result.scene.ply.grid;
+    let grid = result.scene.ply.lines().surface();
     let [[a, b], [c, d]] = match result.scene.ply.warp {
         Direction::U => [[1, 0], [0, 1]],
         Direction::V => [[0, 1], [1, 0]],
@@ -204,7 +208,7 @@ fn directions(result: &ResultFile, step: &Step) -> Vec<f64> {
 /// Places where the ply touches the mold, evenly along everything that lies.
 fn contacts(result: &ResultFile, step: &Step, curves: &[Vec<Vec<[f64; 3]>>]) -> Vec<[f64; 3]> {
     let [a, b] = result.scene.ply.cell;
-    let marks = if result.scene.ply.grid.cells() <= SMALL { MARKS } else { 1.0 };
+    let marks = if result.scene.ply.lines().cells().len() <= SMALL { MARKS } else { 1.0 };
     let apart = a.min(b) / marks;
     let mut out = Vec::new();
     for line in contact_lines(step, curves, usize::MAX) {

@@ -263,7 +263,7 @@ fn fields(result: &ResultFile, ranges: &Ranges) -> Vec<Field> {
     if let Some(range) = ranges.gap {
         out.push(Field::even("gap", "gap to the mold", "mm", "vertex", range, None));
     }
-    if result.scene.ply.grid.cells() > 0 {
+    if result.scene.ply.lines().surface().cells() > 0 {
         let limit = Some(result.scene.limits.shear.to_degrees());
         out.push(Field::even("shear", "shear angle", "°", "cell", ranges.shear, limit));
         out.push(Field::even("direction", "warp direction", "°", "cell", ranges.direction, None));

@@ -50,6 +50,7 @@ pub fn paper_ply(nu: usize, nv: usize) -> Ply {
         warp: Direction::U,
         length_factor: 1.0,
         cut: None,
+        found: Default::default(),
     }
 }
 

@@ -53,6 +53,7 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
         warp: Direction::U,
         length_factor: 1.0,
         cut: None,
+        found: Default::default(),
     };
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
     let step = |k: usize| {
@@ -387,9 +388,8 @@ fn a_length_factor_of_one_changes_nothing() {
     assert_eq!(plain.clone().enlarged(1.0), plain);
     assert_eq!(scene.ply.fabric_cell(), scene.ply.cell);
     let longer = Ply { length_factor: 1.01, ..scene.ply.clone() };
-    for n in 0..scene.ply.grid.catenaries() {
-        let kind = scene.ply.grid.catenary(n).kind;
-        let share = longer.flat_length(kind) / scene.ply.flat_length(kind);
+    for n in 0..scene.ply.lines().catenaries() {
+        let share = longer.flat_length(n) / scene.ply.flat_length(n);
         assert!((share - 1.01).abs() < 1e-15);
     }
     #[cfg(feature = "serde")]

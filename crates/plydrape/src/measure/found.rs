@@ -27,20 +27,22 @@ impl Site {
     /// As a label.
     #[must_use]
     pub fn label(self, ply: &Ply) -> String {
-        let grid = ply.grid;
         let id = |n: usize| {
             let [i, j] = ply.id(n);
             format!("[{i},{j}]")
         };
         match self {
             Site::Catenary(n) => {
-                let c = grid.catenary(n);
+                let c = ply.lines().catenary(n);
                 let kind = if c.kind.is_edge() { "edge" } else { "diagonal" };
                 format!("{kind} [{},{}]–[{},{}]", c.from[0], c.from[1], c.to[0], c.to[1])
             }
             Site::Gripper(n) => format!("gripper {}", id(n)),
             Site::Grippers(a, b) => format!("grippers {} and {}", id(a), id(b)),
-            Site::Cell(n) => format!("cell [{},{}]", n % (grid.nu - 1), n / (grid.nu - 1)),
+            Site::Cell(n) => {
+                let [i, j] = ply.lines().cells()[n].id;
+                format!("cell [{i},{j}]")
+            }
             Site::AllEdges => "all edges".into(),
             Site::AllGrippers => "all grippers".into(),
             Site::Nowhere => "nowhere".into(),

@@ -24,6 +24,7 @@ fn ply(nu: usize, nv: usize) -> Ply {
         warp: Along::U,
         length_factor: 1.0,
         cut: None,
+        found: Default::default(),
     }
 }
 
