@@ -150,7 +150,8 @@ impl Geometry {
         let grippers = points(&mut hands().map(|gripper| gripper.position));
         let normals: Vec<i32> =
             hands().flat_map(|g| g.normal().map(|c| (c * 1e4).round() as i32)).collect();
-        let cells = || steps.iter().flat_map(|step| &step.cells);
+        // without a surface there is nothing to colour cell by cell
+        let cells = || steps.iter().flat_map(|step| step.cells.iter().take(grid.cells()));
         let shear: Vec<i32> = cells().map(|cell| hundredths(cell.shear_deg)).collect();
         let direction: Vec<i32> =
             steps.iter().flat_map(|step| directions(result, step)).map(hundredths).collect();

@@ -118,7 +118,8 @@ fn a_pad_sticks_where_it_touched_and_is_lifted_off_where_the_mold_would_pull() {
     let mut mounts = MountedSolver::new(&scene.ply, &scene.settings).unwrap();
     let contacts = vec![None];
     let mold = plane();
-    let ground = Ground { mold: &mold, tolerance: 2e-4, grid, contacts: &contacts };
+    let lines = scene.ply.lines();
+    let ground = Ground { mold: &mold, tolerance: 2e-4, lines, contacts: &contacts };
     // the ply itself is let through the mold here: only the pads are on it
     let mut at = |mounts: &mut MountedSolver, x: f64, z: f64| {
         let places = [[-0.049, 0.0, 0.01], [0.049 + x, 0.0, z]];

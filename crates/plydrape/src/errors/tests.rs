@@ -422,7 +422,7 @@ fn a_longer_fabric_pulls_as_a_catenary_of_its_length() {
     };
     let expected = span.solve(None).force.expect("it hangs");
     let mut solver = Solver::new(&real.ply, &real.settings);
-    let contacts = vec![None; real.ply.grid.catenaries()];
+    let contacts = vec![None; real.ply.lines().catenaries()];
     let _ = solver.solve(&real.motion.positions[0], &contacts);
     let found = solver.force(0).expect("a force");
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");

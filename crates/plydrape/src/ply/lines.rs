@@ -472,3 +472,7 @@ fn chains(
     }
     out
 }
+
+#[cfg(test)]
+#[path = "lines_tests.rs"]
+pub(super) mod tests;

@@ -26,7 +26,7 @@ pub(super) struct Held<'a> {
     pub contacts: &'a [Option<ContactSegment>],
 }
 
-/// An end of an edge, or of a stretched diagonal, at a pad.
+/// An end of a fibre line, or of a bias line, at a pad.
 struct Pull {
     /// The gripper.
     gripper: usize,
