@@ -5,7 +5,7 @@ use crate::mold_patch::mold_patch;
 use crate::result::ResultFile;
 use crate::surface::{Surface, contact_lines, lines, stations};
 use plydrape::draping::record::Step;
-use plydrape::ply::Direction;
+use plydrape::ply::{Direction, Grid};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -74,6 +74,8 @@ impl Detail {
 pub(super) struct Geometry {
     surface: Block,
     gap: Option<Block>,
+    /// Fibre lines where they are no lines of a surface.
+    fibres: Option<Block>,
     diagonals: Block,
     grippers: Block,
     normals: Block,
@@ -123,18 +125,20 @@ impl Geometry {
         let grid = graph.surface();
         let steps: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
         let count = steps.len();
-        let across = match detail.diagonals && grid.cells() > 0 {
-            true => graph.edges()..graph.catenaries(),
-            false => 0..0,
-        };
+        // edges of a whole array are lines of the surface
+        let alone = grid == Grid::NONE && !graph.is_empty();
+        let drawn = if detail.diagonals { graph.catenaries() } else { graph.edges() };
         // ply, diagonals and contact marks of each step
         let shapes = steps.par_iter().map(|step| {
             let curves = result.curves(step);
-            let lines = match across.is_empty() {
-                true => Vec::new(),
-                false => lines(result, step, &curves, n).split_off(across.start).concat(),
+            let mut fibres = match alone || drawn > graph.edges() {
+                true => lines(result, step, &curves, n),
+                false => Vec::new(),
             };
-            (Surface::of(result, step, &curves, n), lines, contacts(result, step, &curves))
+            let across = fibres.split_off(graph.edges().min(fibres.len()));
+            let across = if drawn > graph.edges() { across.concat() } else { Vec::new() };
+            let along = if alone { fibres.concat() } else { Vec::new() };
+            (Surface::of(result, step, &curves, n), [along, across], contacts(result, step, &curves))
         });
         let shapes: Vec<_> = shapes.collect();
         let points = |p: &mut dyn Iterator<Item = [f64; 3]>| -> Vec<i32> {
@@ -145,7 +149,9 @@ impl Geometry {
             let all = shapes.iter().filter_map(|(s, ..)| s.gap.as_ref()).flatten();
             all.map(|gap| (gap * MICRO).round() as i32).collect()
         });
-        let diagonals = points(&mut shapes.iter().flat_map(|(_, lines, _)| lines.iter().copied()));
+        let [fibres, diagonals] = [0, 1].map(|k| {
+            points(&mut shapes.iter().flat_map(|(_, lines, _)| lines[k].iter().copied()))
+        });
         let hands = || steps.iter().flat_map(|step| &step.grippers);
         let grippers = points(&mut hands().map(|gripper| gripper.position));
         let normals: Vec<i32> =
@@ -166,6 +172,7 @@ impl Geometry {
         let geometry = Geometry {
             surface: Block::new(count, 3, &surface),
             gap: gap.map(|gap| Block::new(count, 1, &gap)),
+            fibres: alone.then(|| Block::new(count, 3, &fibres)),
             diagonals: Block::new(count, 3, &diagonals),
             grippers: Block::new(count, 3, &grippers),
             normals: Block::new(count, 3, &normals),
