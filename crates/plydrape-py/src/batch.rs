@@ -218,7 +218,9 @@ pub fn equilibria(
                 status: equilibrium.status,
                 iterations: equilibrium.iterations,
                 forces: vec![f64::NAN; graph.catenaries()],
-                slopes: (0..graph.catenaries()).map(|n| [straight(&graph, positions, n); 2]).collect(),
+                slopes: (0..graph.catenaries())
+                    .map(|n| [straight(&graph, positions, n); 2])
+                    .collect(),
                 shear: shear_angles(&ply, solver),
             };
             for (n, element) in solver.problem().elements.iter().enumerate() {

@@ -78,8 +78,9 @@ pub fn for_model(scene: &Arc<SceneFile>, model: Option<&str>) -> PyResult<Arc<Sc
         None => {}
         Some("sheet") => Arc::make_mut(&mut scene).settings.model = Model::Sheet,
         Some("catenaries") if !scene.ply.has_lines() => {
-            let text = "catenaries hang in rows along the yarns or at 45° to them, from every cup that \
-                holds, and the cups that hold this ply have none: drape it with model=\"sheet\"";
+            let text = "no catenaries hang between the cups that hold this ply: not each of them shares \
+                a yarn with another one, as in rows along the yarns or at 45° to them: drape it with \
+                model=\"sheet\"";
             return Err(PyValueError::new_err(text));
         }
         Some("catenaries") => Arc::make_mut(&mut scene).settings.model = Model::Catenaries,

@@ -138,7 +138,11 @@ impl Geometry {
             let across = fibres.split_off(graph.edges().min(fibres.len()));
             let across = if drawn > graph.edges() { across.concat() } else { Vec::new() };
             let along = if alone { fibres.concat() } else { Vec::new() };
-            (Surface::of(result, step, &curves, n), [along, across], contacts(result, step, &curves))
+            (
+                Surface::of(result, step, &curves, n),
+                [along, across],
+                contacts(result, step, &curves),
+            )
         });
         let shapes: Vec<_> = shapes.collect();
         let points = |p: &mut dyn Iterator<Item = [f64; 3]>| -> Vec<i32> {
@@ -149,9 +153,8 @@ impl Geometry {
             let all = shapes.iter().filter_map(|(s, ..)| s.gap.as_ref()).flatten();
             all.map(|gap| (gap * MICRO).round() as i32).collect()
         });
-        let [fibres, diagonals] = [0, 1].map(|k| {
-            points(&mut shapes.iter().flat_map(|(_, lines, _)| lines[k].iter().copied()))
-        });
+        let [fibres, diagonals] = [0, 1]
+            .map(|k| points(&mut shapes.iter().flat_map(|(_, lines, _)| lines[k].iter().copied())));
         let hands = || steps.iter().flat_map(|step| &step.grippers);
         let grippers = points(&mut hands().map(|gripper| gripper.position));
         let normals: Vec<i32> =

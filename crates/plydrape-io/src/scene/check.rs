@@ -90,7 +90,7 @@ fn hangs_as_catenaries(
             "the stepwise planner follows catenaries between the cups of a whole array along the yarns, and the cups that hold this ply are none"
         }
         (Model::Catenaries, false) if lines.is_empty() => {
-            "catenaries hang in rows along the yarns or at 45° to them, from every cup that holds, and the cups that hold this ply have none"
+            "no catenaries hang between the cups that hold this ply: not each of them shares a yarn with another one, as in rows along the yarns or at 45° to them"
         }
         _ => return Ok(()),
     };
@@ -145,7 +145,15 @@ pub(super) fn ply(
             None => 0.0,
         };
         let cut::Shape { grid, cell, warp, cut } = cut::shape(ply, radius, document, base)?;
-        return Ok(Ply { grid, cell, material, warp, length_factor: 1.0, cut: Some(cut), found: FoundLines::default() });
+        return Ok(Ply {
+            grid,
+            cell,
+            material,
+            warp,
+            length_factor: 1.0,
+            cut: Some(cut),
+            found: FoundLines::default(),
+        });
     }
     let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
     let warp = match &table.warp {

@@ -72,8 +72,8 @@ fn a_sheared_ply_in_an_inclined_plane_has_its_normal_at_every_constrained_grippe
                         continue;
                     };
                     constrained += 1;
-                    let found =
-                        normal(&solver, &ply.lines(), &positions, gripper).expect("edges both ways");
+                    let found = normal(&solver, &ply.lines(), &positions, gripper)
+                        .expect("edges both ways");
                     for k in 0..3 {
                         assert!((constraint.normal[k] - expected[k]).abs() < 1e-13);
                         assert!((found[k] - expected[k]).abs() < 1e-12, "{found:?} {expected:?}");

@@ -63,7 +63,8 @@ fn a_formation_stands_behind_its_front_and_keeps_the_fabric() {
         let scene = example(name);
         let heights = MoldHeights::new(&scene).expect("a mold");
         let formation = Formation::new(&scene, &heights, RING).expect("a target");
-        let (lines, targets) = (scene.ply.lines(), &scene.target.as_ref().expect("a target").grippers);
+        let (lines, targets) =
+            (scene.ply.lines(), &scene.target.as_ref().expect("a target").grippers);
         let mold = scene.mold.as_ref().expect("a mold");
         for k in 0..=10 {
             let front = formation.reach() * f64::from(k) / 10.0;

@@ -39,7 +39,10 @@ fn a_whole_rectangle_that_is_cut_has_the_states_of_its_array() {
     for (a, b) in told.steps.iter().zip(&cut.steps) {
         assert_eq!(a.cells, b.cells);
         for (p, q) in a.catenaries.iter().zip(&b.catenaries) {
-            assert_eq!((p.kind, p.from, p.to, p.spans.len()), (q.kind, q.from, q.to, q.spans.len()));
+            assert_eq!(
+                (p.kind, p.from, p.to, p.spans.len()),
+                (q.kind, q.from, q.to, q.spans.len())
+            );
             assert!((p.length - q.length).abs() < 1e-12);
             for (s, t) in p.spans.iter().zip(&q.spans) {
                 let [force, other] = [s.force, t.force].map(|force| force.unwrap_or(0.0));
@@ -120,7 +123,8 @@ fn a_span_over_a_missing_cup_hangs_as_one_of_twice_the_length() {
 fn contact_and_free_lengths_add_up_to_the_set_lengths() {
     let off = array([4, 4], "array = { holds = [\"####\", \"#.##\", \"####\", \"###.\"] }");
     let bias = array([4, 3], "warp = \"45 deg\"");
-    let bias_target = CYLINDER.replace("seed = \"middle\"", "seed = \"middle\"\ndirection = \"45 deg\"");
+    let bias_target =
+        CYLINDER.replace("seed = \"middle\"", "seed = \"middle\"\ndirection = \"45 deg\"");
     for (ply, rest) in [(off.as_str(), CYLINDER), (bias.as_str(), bias_target.as_str())] {
         let scene = parse(ply, rest);
         let drape = simulate(&scene, |_| ControlFlow::Continue(()));
@@ -139,9 +143,7 @@ fn contact_and_free_lengths_add_up_to_the_set_lengths() {
 /// columns' set length is √(d² − s₁²), and the shear angle is that between the fibres' directions.
 #[test]
 fn a_ply_at_45_degrees_shears_by_the_trellis_rule() {
-    for (warp, slopes) in
-        [("45 deg", SlopeRule::MinForce), ("-45 deg", SlopeRule::MomentBalance)]
-    {
+    for (warp, slopes) in [("45 deg", SlopeRule::MinForce), ("-45 deg", SlopeRule::MomentBalance)] {
         let mut scene = parse(&array([3, 3], &format!("warp = \"{warp}\"")), "");
         scene.settings.slopes = slopes;
         let (ply, lines) = (&scene.ply, scene.ply.lines());
@@ -198,7 +200,8 @@ fn a_ply_at_45_degrees_rolls_on_a_cylinder_without_shear() {
     let mut solver = Solver::new(ply, &scene.settings);
     solver.solve(target, &vec![None; lines.catenaries()]);
     for (cell, shearing) in lines.cells().iter().zip(&solver.problem().shearing) {
-        let angle = shearing.map_or(0.0, |(path, _)| plydrape::ply::shear::angle(cell.trellis, path));
+        let angle =
+            shearing.map_or(0.0, |(path, _)| plydrape::ply::shear::angle(cell.trellis, path));
         assert!(angle < 1e-4, "{angle}");
     }
 }

@@ -24,8 +24,15 @@ fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2])
         tension: None,
         locking_angle: None,
     };
-    let ply =
-        Ply { grid, cell: [0.1; 2], material, warp: Direction::U, length_factor: 1.0, cut: None, found: Default::default() };
+    let ply = Ply {
+        grid,
+        cell: [0.1; 2],
+        material,
+        warp: Direction::U,
+        length_factor: 1.0,
+        cut: None,
+        found: Default::default(),
+    };
     let settings = Settings { model: Model::Catenaries, pad, ..Settings::default() };
     let limits = Limits::of(&ply, &settings);
     let share = |step: usize| step as f64 / (heights.len() - 1).max(1) as f64;

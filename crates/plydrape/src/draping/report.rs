@@ -98,8 +98,7 @@ impl<'a> Report<'a> {
                 kind: c.kind,
                 from: c.from,
                 to: c.to,
-                length: contact
-                    .map_or_else(|| scene.ply.flat_length(n), |contact| contact.length),
+                length: contact.map_or_else(|| scene.ply.flat_length(n), |contact| contact.length),
                 shearing: stretched.is_some(),
                 shear_force_n: force,
                 spans: Vec::with_capacity(2),
@@ -125,9 +124,14 @@ impl<'a> Report<'a> {
     }
 
     /// Force (N) of a stretched bias line of a taut path (m) from the cells that it shears, where the material has a shear curve.
-    fn shear_force(&self, path: f64, shears: impl Iterator<Item = super::CellShear>) -> Option<f64> {
+    fn shear_force(
+        &self,
+        path: f64,
+        shears: impl Iterator<Item = super::CellShear>,
+    ) -> Option<f64> {
         let curve = self.scene.ply.material.shear_curve.as_ref()?;
-        let of = |shear: super::CellShear| shear::force(shear.angle, path, curve.force(shear.angle).0);
+        let of =
+            |shear: super::CellShear| shear::force(shear.angle, path, curve.force(shear.angle).0);
         let force: f64 = shears.map(of).sum();
         force.is_finite().then_some(force)
     }

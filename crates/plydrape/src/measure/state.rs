@@ -134,7 +134,8 @@ impl<'a> State<'a> {
     pub(crate) fn lying(&self) -> &[Vec<LyingSegment>] {
         self.lying.get_or_init(|| {
             let Some(mold) = &self.scene.mold else { return Vec::new() };
-            let (lines, tolerance) = (self.scene.ply.lines(), self.scene.settings.contact.tolerance);
+            let (lines, tolerance) =
+                (self.scene.ply.lines(), self.scene.settings.contact.tolerance);
             let one = |(n, contact): (usize, &Option<_>)| {
                 let grippers = lines.ends(n).map(|gripper| self.snapshot.positions[gripper]);
                 let segments = |contact| lying_segments(n, contact, grippers, mold, tolerance);

@@ -24,9 +24,8 @@ pub(super) fn fibre_cells(
             continue;
         }
         let [p, q] = [*low, *top].map(|n| places[n]);
-        let inside = |place: &[f64; 2]| {
-            (0..2).all(|n| place[n] > p[n] + same && place[n] < q[n] - same)
-        };
+        let inside =
+            |place: &[f64; 2]| (0..2).all(|n| place[n] > p[n] + same && place[n] < q[n] - same);
         let diagonals = [[*low, *top], [*right, *left]].map(|ends| ends.map(|n| places[n]));
         let is_there = diagonals.iter().all(|line| outline.has_line(*line));
         if is_there && !places.iter().any(inside) {
@@ -70,9 +69,8 @@ pub(super) fn bias_cells(
                 vec![rising([low, right]), rising([left, high])],
                 vec![falling([right, high]), falling([low, left])],
             ];
-            let is_there = bias.iter().flatten().all(|pair| {
-                outline.has_line(pair.ends.map(|n| places[n]))
-            });
+            let is_there =
+                bias.iter().flatten().all(|pair| outline.has_line(pair.ends.map(|n| places[n])));
             if is_there && half[0].hypot(half[1]) <= side + same {
                 let corners = [low, right, high, left];
                 let name = corners.into_iter().min().unwrap_or(low);

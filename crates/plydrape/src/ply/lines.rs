@@ -156,7 +156,8 @@ impl Lines {
         let families = if nv > 1 { 2.0 } else { 1.0 };
         let share = |line: &FabricLine| {
             let c = line.catenary;
-            let (line, lines) = if c.kind == Kind::EdgeU { (c.from[1], nv) } else { (c.from[0], nu) };
+            let (line, lines) =
+                if c.kind == Kind::EdgeU { (c.from[1], nv) } else { (c.from[0], nu) };
             let boundary = lines > 1 && (line == 0 || line + 1 == lines);
             if boundary { 0.5 / families } else { 1.0 / families }
         };
@@ -172,7 +173,8 @@ impl Lines {
     fn found(ply: &Ply, outline: &Outline) -> Lines {
         let count = ply.grippers();
         let places: Vec<[f64; 2]> = (0..count).map(|n| ply.place(n)).collect();
-        let mut own = Lines { grid: ply.grid, pitch: ply.cell, grippers: count, ..Lines::default() };
+        let mut own =
+            Lines { grid: ply.grid, pitch: ply.cell, grippers: count, ..Lines::default() };
         // rows at 45° to the yarns: cups on one yarn are a diagonal of the array apart
         let turned = ply.is_turned();
         let pitch = if turned { [ply.cell[0].hypot(ply.cell[1]); 2] } else { ply.cell };

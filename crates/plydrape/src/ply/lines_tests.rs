@@ -63,7 +63,8 @@ fn a_missing_cup_leaves_lines_of_two_pitches_and_no_cells() {
     let three = held([3, 3], 0.0, |id| id != [1, 1]).lines();
     assert_eq!(counts(&three), [10, 0, 0]);
     let long: Vec<usize> = (0..10).filter(|n| three.flat_length(*n, 1.0) > 0.15).collect();
-    let ends: Vec<_> = long.iter().map(|n| (three.catenary(*n).from, three.catenary(*n).to)).collect();
+    let ends: Vec<_> =
+        long.iter().map(|n| (three.catenary(*n).from, three.catenary(*n).to)).collect();
     assert_eq!(ends, [([0, 1], [2, 1]), ([1, 0], [1, 2])]);
     assert!(long.iter().all(|n| (three.flat_length(*n, 1.0) - 0.2).abs() < 1e-15));
 
@@ -123,7 +124,8 @@ fn rows_at_45_degrees_are_bias_lines() {
         for n in lines.edges()..lines.catenaries() {
             assert!((lines.flat_length(n, 1.0) - 0.1).abs() < 1e-12);
         }
-        let shared = (lines.edges()..lines.catenaries()).filter(|n| lines.cells_of(*n).count() == 2);
+        let shared =
+            (lines.edges()..lines.catenaries()).filter(|n| lines.cells_of(*n).count() == 2);
         assert_eq!(shared.count(), 3 + 4);
         for cell in lines.cells() {
             assert_eq!(cell.fibres, Fibres::Diagonals);

@@ -14,9 +14,9 @@ mod tuning;
 pub use contact_segment::{ContactSegment, LandedCell};
 pub use cut::{Cut, Held, Neighbours, directions, tangents};
 pub use grid::{Catenary, Grid, GripperId, Kind};
-pub use lines::{BiasLines, Fibres, FoundLines, LineCell, Lines};
 #[cfg(test)]
 pub(crate) use lines::tests::held;
+pub use lines::{BiasLines, Fibres, FoundLines, LineCell, Lines};
 pub use outline::{Outline, OutlineError, Ring, RingId};
 pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
 pub use ruck::Ruck;

@@ -119,8 +119,10 @@ impl Ply {
         (0..lines.catenaries()).try_for_each(|index| {
             let Catenary { from: a, to: b, .. } = lines.catenary(index);
             let [from, to] = lines.ends(index).map(|gripper| positions[gripper]);
-            let (run, length) =
-                ((to[0] - from[0]).hypot(to[1] - from[1]), lines.flat_length(index, self.length_factor));
+            let (run, length) = (
+                (to[0] - from[0]).hypot(to[1] - from[1]),
+                lines.flat_length(index, self.length_factor),
+            );
             if run >= STEEPEST * length {
                 return Ok(());
             }

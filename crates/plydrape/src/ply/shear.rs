@@ -92,12 +92,7 @@ pub(crate) fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
 /// d₁² + d₂² = 2(a² + b²) + A²/3. Two half fibres a, b at an angle of π/2 ± γ have s² = a² + b² ± 2ab sin γ − A²/3 between
 /// their ends. Ours.
 #[must_use]
-pub fn curved_scale(
-    [a, b]: [f64; 2],
-    fibres: Fibres,
-    shear: f64,
-    gaussian_curvature: f64,
-) -> f64 {
+pub fn curved_scale([a, b]: [f64; 2], fibres: Fibres, shear: f64, gaussian_curvature: f64) -> f64 {
     let area = a * b * shear.cos();
     let squares = match fibres {
         Fibres::Sides => 6.0 * (a * a + b * b),

@@ -272,7 +272,9 @@ impl Bias {
     /// The path (m) that shears the cell: of two sides the mean by their squares.
     fn path(&self) -> f64 {
         match &self.lines {
-            [Some(one), Some(other)] => (0.5 * (one.path * one.path + other.path * other.path)).sqrt(),
+            [Some(one), Some(other)] => {
+                (0.5 * (one.path * one.path + other.path * other.path)).sqrt()
+            }
             [one, _] => one.as_ref().map_or(0.0, |one| one.path),
         }
     }

@@ -84,7 +84,8 @@ impl<T: Number> Problem<T> {
         self.stretched.clear();
         self.stretched.resize(around.lines.catenaries() - self.edges, None);
         for cell in around.lines.cells() {
-            let path = |bias: &BiasLines| mean_path(bias.list().iter().map(|n| around.taut_path(*n)));
+            let path =
+                |bias: &BiasLines| mean_path(bias.list().iter().map(|n| around.taut_path(*n)));
             let [rising, falling] = cell.bias.each_ref().map(path);
             let longer = if falling.re() > rising.re() { (falling, true) } else { (rising, false) };
             let trellis = around.ply.trellis(cell, around.contacts);

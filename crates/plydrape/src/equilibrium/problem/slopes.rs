@@ -153,14 +153,13 @@ impl<T: Number> Slopes<T> {
             (along[0] * v[1] - along[1] * v[0]) / determinant,
             (u[0] * along[1] - u[1] * along[0]) / determinant,
         ];
-        let source = [0, 1].map(|d| {
-            match (self.shared_at[gripper][d], self.sides[gripper][d][sides[d]]) {
+        let source =
+            [0, 1].map(|d| match (self.shared_at[gripper][d], self.sides[gripper][d][sides[d]]) {
                 (Some(slope), _) => SlopeSource::Shared(slope),
                 (None, Side::Hanging(element, end)) => SlopeSource::Outcome(element, end),
                 (None, Side::Fixed(slope)) => SlopeSource::Prescribed(slope),
                 (None, Side::None) => SlopeSource::Prescribed(T::from(0.0)),
-            }
-        });
+            });
         End::Plane(PlaneSlope { share, source })
     }
 }
