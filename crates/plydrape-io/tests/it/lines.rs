@@ -239,3 +239,28 @@ fn rows_at_30_degrees_have_no_catenaries() {
     let error = parse("catenaries").err().unwrap().to_string();
     assert!(error.contains("at 45° to them"), "{error}");
 }
+
+/// Two cells at 45° beside each other of which only the first is drawn out: its own column gets what the trellis leaves, the last
+/// one the flat length, and the one between them the mean of both by squares.
+#[test]
+fn a_side_of_two_cells_has_the_mean_of_what_they_leave_it() {
+    let scene = parse(&array([3, 2], "warp = \"45 deg\""), "");
+    let (ply, lines) = (&scene.ply, scene.ply.lines());
+    let short = f64::sqrt(2.0 * 0.1 * 0.1 - 0.108 * 0.108);
+    let at = |n: usize| {
+        let [i, j] = ply.id(n);
+        [[0.0, 0.108, 0.108 + 0.099][i], (short - 5e-4) * j as f64, 0.05]
+    };
+    let positions: Vec<_> = (0..6).map(at).collect();
+    let mut solver = Solver::new(ply, &scene.settings);
+    solver.solve(&positions, &vec![None; lines.catenaries()]);
+    assert!(solver.problem().shearing[0].is_some() && solver.problem().shearing[1].is_none());
+    let mean = f64::sqrt(0.5 * (short * short + 0.1 * 0.1));
+    for (column, expected) in [short, mean, 0.1].into_iter().enumerate() {
+        let is_column = |n: &usize| lines.ends(*n).map(|gripper| ply.id(gripper)[0]) == [column; 2];
+        let n = (lines.edges()..lines.catenaries()).find(is_column).unwrap();
+        let element = solver.problem().elements.iter().find(|element| element.catenary == n);
+        let length = element.unwrap().length;
+        assert!((length - expected).abs() < 1e-15, "{column}: {length} {expected}");
+    }
+}
