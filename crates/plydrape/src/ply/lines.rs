@@ -47,7 +47,7 @@ struct FabricLine {
 /// A cell of the fabric between four cups.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineCell {
-    /// Its name: the gripper at its lowest corner.
+    /// Its name: the gripper at its first corner.
     pub id: GripperId,
     /// Its corners in order around it.
     pub corners: [usize; 4],
@@ -178,7 +178,7 @@ impl Lines {
         // rows at 45° to the yarns: cups on one yarn are a diagonal of the array apart
         let turned = ply.is_turned();
         let pitch = if turned { [ply.cell[0].hypot(ply.cell[1]); 2] } else { ply.cell };
-        let edges = [0, 1].map(|d| fibre_lines(&places, outline, d, pitch));
+        let mut edges = [0, 1].map(|d| fibre_lines(&places, outline, d, pitch));
         let mut cells = fibre_cells(&places, outline, &edges, pitch);
         let side = ply.cell[0].max(ply.cell[1]);
         cells.extend(bias_cells(&places, outline, &edges, side));
@@ -187,7 +187,8 @@ impl Lines {
         let is_bias = cells.iter().any(|cell| cell.fibres == Fibres::Diagonals);
         // a cup without a line would hold nothing, and an array across the yarns has no shear without cells
         if !held.iter().all(|held| *held) || (turned && !is_bias) {
-            return own;
+            edges = [Vec::new(), Vec::new()];
+            cells.clear();
         }
         let shares = [0, 1].map(|d| tributaries(&places, &edges, d, ply.line_widths()[d]));
         let start = |n: usize| [0, 1].map(|d| places[n][d] / ply.cell[d]);
@@ -370,7 +371,8 @@ pub(super) fn fibre_quad(corners: [usize; 4], trellis: [f64; 2]) -> Quad {
     let [a, b] = trellis;
     let pair = |ends, way| vec![Pair { ends, way }];
     let bias = [pair([low, top], [a, b]), pair([right, left], [-a, b])];
-    Quad { name: low, corners, trellis, fibres: Fibres::Sides, bias }
+    let name = corners.into_iter().min().unwrap_or(low);
+    Quad { name, corners, trellis, fibres: Fibres::Sides, bias }
 }
 
 /// The fibre lines along a direction between cups on one yarn, in ascending order of v, then u of their first ends.
