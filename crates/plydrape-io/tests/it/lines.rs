@@ -37,7 +37,11 @@ fn a_whole_rectangle_that_is_cut_has_the_states_of_its_array() {
     });
     assert!(told.steps.last().unwrap().catenaries.iter().any(|line| line.contact.is_some()));
     for (a, b) in told.steps.iter().zip(&cut.steps) {
-        assert_eq!(a.cells, b.cells);
+        // the middle of the target is found once from indices and once from places: the same to rounding
+        for (p, q) in a.cells.iter().zip(&b.cells) {
+            assert_eq!((p.cell, p.shearing), (q.cell, q.shearing));
+            assert!((p.shear_deg - q.shear_deg).abs() < 1e-9);
+        }
         for (p, q) in a.catenaries.iter().zip(&b.catenaries) {
             assert_eq!(
                 (p.kind, p.from, p.to, p.spans.len()),
@@ -195,7 +199,8 @@ fn a_ply_at_45_degrees_rolls_on_a_cylinder_without_shear() {
         let length = lines.flat_length(n, 1.0);
         // the net of the ideal drape has cells of millimetres
         assert!((mold.path_length(a, b) - length).abs() < 1e-5, "{}", mold.path_length(a, b));
-        assert!(distance(a, b) < length);
+        // rows run along the axis; fibres wind around it
+        assert!(n >= lines.edges() || distance(a, b) < length);
     }
     let mut solver = Solver::new(ply, &scene.settings);
     solver.solve(target, &vec![None; lines.catenaries()]);
