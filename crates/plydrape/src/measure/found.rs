@@ -2,7 +2,7 @@
 
 use super::Sense;
 use crate::draping::spans::Point;
-use crate::ply::Ply;
+use crate::ply::{Fibres, Ply};
 
 /// A part of the ply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,8 +33,15 @@ impl Site {
         };
         match self {
             Site::Catenary(n) => {
-                let c = ply.lines().catenary(n);
-                let kind = if c.kind.is_edge() { "edge" } else { "diagonal" };
+                let lines = ply.lines();
+                let c = lines.catenary(n);
+                let is_side =
+                    lines.cells_of(n).any(|cell| lines.cells()[cell].fibres == Fibres::Diagonals);
+                let kind = match (c.kind.is_edge(), is_side) {
+                    (true, _) => "edge",
+                    (false, true) => "bias line",
+                    (false, false) => "diagonal",
+                };
                 format!("{kind} [{},{}]–[{},{}]", c.from[0], c.from[1], c.to[0], c.to[1])
             }
             Site::Gripper(n) => format!("gripper {}", id(n)),
