@@ -1055,7 +1055,8 @@ class Result:
     @property
     def shear_deg(self, /) -> NDArray[float64]:
         """
-        Shear angle of each cell (°), shape (steps, cells along v, cells along u); 0 where no diagonal shears.
+        Shear angle of each cell (°), shape (steps, cells along v, cells along u), or (steps, cells) where the cups are no whole
+        array along the yarns; 0 where no bias line shears.
         """
     @property
     def sheet(self, /) -> Sheet | None:

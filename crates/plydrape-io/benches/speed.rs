@@ -41,7 +41,7 @@ fn array(side: usize, rule: SlopeRule) -> (Solver, Vec<[f64; 3]>, usize) {
     let grid = scene.ply.grid;
     let at = |n: usize| grid.id(n).map(|k| 0.098 * k as f64);
     let positions = (0..grid.grippers()).map(|n| [at(n)[0], at(n)[1], 0.0]).collect();
-    (Solver::new(&scene.ply, &scene.settings), positions, grid.catenaries())
+    (Solver::new(&scene.ply, &scene.settings), positions, scene.ply.lines().catenaries())
 }
 
 /// An edge of the example, free at the rim.
@@ -71,7 +71,7 @@ fn span_length_with_slope(bencher: Bencher) {
 #[divan::bench]
 fn equilibrium_4x2_cold(bencher: Bencher) {
     let scene = example();
-    let contacts = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.lines().catenaries()];
     let mut solver = Solver::new(&scene.ply, &scene.settings);
     bencher.bench_local(|| {
         solver.forget();
@@ -83,7 +83,7 @@ fn equilibrium_4x2_cold(bencher: Bencher) {
 #[divan::bench]
 fn equilibrium_4x2_again(bencher: Bencher) {
     let scene = example();
-    let contacts = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.lines().catenaries()];
     let mut solver = Solver::new(&scene.ply, &scene.settings);
     bencher.bench_local(|| solver.solve(black_box(&scene.motion.positions[0]), &contacts));
 }
@@ -92,7 +92,7 @@ fn equilibrium_4x2_again(bencher: Bencher) {
 #[divan::bench]
 fn equilibria_4x2_warm_24_steps(bencher: Bencher) {
     let scene = example();
-    let contacts = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.lines().catenaries()];
     bencher
         .with_inputs(|| {
             let mut solver = Solver::new(&scene.ply, &scene.settings);
@@ -111,7 +111,7 @@ fn equilibria_4x2_warm_24_steps(bencher: Bencher) {
 #[divan::bench]
 fn equilibrium_4x2_warm_steps_1_2(bencher: Bencher) {
     let scene = example();
-    let contacts = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.lines().catenaries()];
     let mut solver = Solver::new(&scene.ply, &scene.settings);
     solver.solve(&scene.motion.positions[0], &contacts);
     let mut step = 0;

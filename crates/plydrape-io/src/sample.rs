@@ -9,7 +9,7 @@ use plydrape::errors::{CellVerdict, Errors, Highest, SampleVerdict};
 use plydrape::material::{Material, Section};
 use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
-use plydrape::ply::{Catenary, Direction, Grid, Kind, Ply};
+use plydrape::ply::{Catenary, Direction, Grid, Kind, Lines, Ply};
 use plydrape::scene::{ContactEnd, ContactSettings, Limits, Settings, SlopeRule, Stepping, Target};
 use plydrape::sheet;
 
@@ -58,15 +58,16 @@ fn positions(grid: Grid, spacing: f64, shear: f64, z: f64) -> Vec<[f64; 3]> {
 fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) -> Step {
     let mut shapes: Vec<Vec<[f64; 3]>> = Vec::new();
     let mut lengths = Vec::new();
-    for k in 0..grid.catenaries() {
-        let line = grid.catenary(k);
+    let graph = Lines::array(grid, [CELL; 2]);
+    for k in 0..graph.catenaries() {
+        let line = graph.catenary(k);
         let ends = [line.from, line.to].map(|id| at[grid.index(id)]);
         lengths.push(length(grid, line, at));
         shapes.push(parabola(ends, lengths[k]));
     }
-    lift_crossings(grid, &mut shapes);
-    let catenaries = (0..grid.catenaries())
-        .map(|k| catenary(grid.catenary(k), lengths[k], &shapes[k], mold))
+    lift_crossings(&graph, &mut shapes);
+    let catenaries = (0..graph.catenaries())
+        .map(|k| catenary(graph.catenary(k), lengths[k], &shapes[k], mold))
         .collect();
     let grippers = (0..at.len()).map(|k| gripper(grid, k, at)).collect();
     let worst = |value| Worst { value, at: "edge [0, 0]–[1, 0]".into(), place: Some(at[0]) };
@@ -82,8 +83,8 @@ fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) 
             contact: ContactStatus::Followed,
         },
         catenaries,
-        cells: (0..grid.cells())
-            .map(|k| grid.catenary(grid.edges() + 2 * k).from)
+        cells: (graph.cells().iter())
+            .map(|cell| cell.id)
             .map(|cell| Cell { cell, shear_deg: 0.0, shearing: None, landed_deg: [None; 2] })
             .collect(),
         measures: [
@@ -134,9 +135,9 @@ fn parabola(ends: [[f64; 3]; 2], length: f64) -> Vec<[f64; 3]> {
 }
 
 /// The lower diagonal of each cell is drawn through the point of the higher, by a tent.
-fn lift_crossings(grid: Grid, shapes: &mut [Vec<[f64; 3]>]) {
-    for k in 0..grid.cells() {
-        let pair = [grid.edges() + 2 * k, grid.edges() + 2 * k + 1];
+fn lift_crossings(graph: &Lines, shapes: &mut [Vec<[f64; 3]>]) {
+    for cell in graph.cells() {
+        let pair = cell.bias.map(|bias| bias.list()[0]);
         let middle = STATIONS / 2;
         let height = pair.map(|c| shapes[c][middle][2]);
         let top = height[0].max(height[1]);
@@ -245,6 +246,7 @@ fn frame(grid: Grid) -> ResultFile {
                 warp: Direction::U,
                 length_factor: 1.0,
                 cut: None,
+                found: Default::default(),
             },
             mold: None,
             target: None,

@@ -178,19 +178,19 @@ pub fn plan(ply: &Ply, plan: &Plan, sheets: Option<PlanSheets>) -> Result<(), Si
 /// As [`check`].
 pub fn derivatives(ply: &Ply) -> Result<(), SizeError> {
     let grippers = ply.grippers();
-    let (rows, columns) = (ply.grid.catenaries(), 3 * grippers);
+    let (rows, columns) = (ply.lines().catenaries(), 3 * grippers);
     check(DERIVATIVE * rows as f64 * columns as f64, || {
         format!("derivatives of {rows} catenaries to {columns} coordinates of {grippers} grippers")
     })
 }
 
 fn of_steps(ply: &Ply, steps: usize) -> f64 {
-    let (grippers, catenaries) = (ply.grippers() as f64, ply.grid.catenaries() as f64);
+    let (grippers, catenaries) = (ply.grippers() as f64, ply.lines().catenaries() as f64);
     (GRIPPER * grippers + CATENARY * catenaries) * steps as f64
 }
 
 fn steps(what: &str, ply: &Ply, steps: usize) -> String {
-    let (grippers, catenaries) = (ply.grippers(), ply.grid.catenaries());
+    let (grippers, catenaries) = (ply.grippers(), ply.lines().catenaries());
     let steps = match steps {
         1 => "a single step".to_owned(),
         steps => format!("{steps} steps"),

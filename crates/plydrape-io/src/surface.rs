@@ -18,7 +18,7 @@
 
 use crate::result::ResultFile;
 use plydrape::draping::record::{CatenaryState, Hold, SpanState, Step};
-use plydrape::ply::Grid;
+use plydrape::ply::{Catenary, Grid, Kind, LineCell, Lines};
 
 type Point = [f64; 3];
 
@@ -49,7 +49,8 @@ impl Surface {
         curves: &[Vec<Vec<Point>>],
         intervals: usize,
     ) -> Self {
-        let (grid, n) = (result.scene.ply.grid, intervals.max(1));
+        let (graph, n) = (result.scene.ply.lines(), intervals.max(1));
+        let grid = graph.surface();
         let size = [grid.nu, grid.nv].map(|grippers| grippers.saturating_sub(1) * n + 1);
         let size = if grid == Grid::NONE { [0; 2] } else { size };
         let lines = lines(result, step, curves, n);
@@ -57,15 +58,17 @@ impl Surface {
         let mut put = |i: usize, j: usize, p: Point| vertices[j * size[0] + i] = p;
         for j in 0..grid.nv.saturating_sub(1) {
             for i in 0..grid.nu.saturating_sub(1) {
-                for (k, p) in cell(grid, &lines, [i, j], n).into_iter().enumerate() {
+                let place = &graph.cells()[j * (grid.nu - 1) + i];
+                for (k, p) in cell(&graph, place, &lines, n).into_iter().enumerate() {
                     put(i * n + k % (n + 1), j * n + k / (n + 1), p);
                 }
             }
         }
         // the edges last: exact, and all there is of a strip
-        for edge in 0..grid.edges() {
-            let [i, j] = grid.catenary(edge).from;
-            let along = usize::from(edge >= grid.edges_u());
+        let edges = if grid == Grid::NONE { 0 } else { graph.edges() };
+        for edge in 0..edges {
+            let Catenary { kind, from: [i, j], .. } = graph.catenary(edge);
+            let along = usize::from(kind == Kind::EdgeV);
             for (k, p) in lines[edge].iter().enumerate() {
                 put(i * n + k * (1 - along), j * n + k * along, *p);
             }
@@ -181,12 +184,10 @@ pub(crate) fn lines(
     curves: &[Vec<Vec<Point>>],
     count: usize,
 ) -> Vec<Vec<Point>> {
-    let grid = result.scene.ply.grid;
-    let at = |id| step.grippers[grid.index(id)].position;
-    (0..grid.catenaries())
+    let graph = result.scene.ply.lines();
+    (0..graph.catenaries())
         .map(|k| {
-            let line = grid.catenary(k);
-            let ends = [at(line.from), at(line.to)];
+            let ends = graph.ends(k).map(|gripper| step.grippers[gripper].position);
             let whole = match step.catenaries.get(k) {
                 Some(state) => shape(state, &curves[k], ends),
                 None => ends.to_vec(),
@@ -196,11 +197,14 @@ pub(crate) fn lines(
         .collect()
 }
 
-/// One cell: `(n + 1)²` points, s running fastest, from its six lines at `n + 1` stations.
-pub(crate) fn cell(grid: Grid, lines: &[Vec<Point>], [i, j]: [usize; 2], n: usize) -> Vec<Point> {
-    let (c0, c1) = (&lines[grid.edge_u([i, j])], &lines[grid.edge_u([i, j + 1])]);
-    let (d0, d1) = (&lines[grid.edge_v([i, j])], &lines[grid.edge_v([i + 1, j])]);
-    let [rising, falling] = grid.diagonals([i, j]).map(|k| &lines[k]);
+/// One cell whose sides are fibres: `(n + 1)²` points, s running fastest, from its six lines at `n + 1` stations.
+pub(crate) fn cell(graph: &Lines, cell: &LineCell, lines: &[Vec<Point>], n: usize) -> Vec<Point> {
+    let [low, right, _, left] = cell.corners;
+    // the sides of a cell of a whole array are there
+    let behind = |gripper: usize, d: usize| &lines[graph.beside(gripper, d)[1].unwrap_or_default()];
+    let (c0, c1) = (behind(low, 0), behind(left, 0));
+    let (d0, d1) = (behind(low, 1), behind(right, 1));
+    let [rising, falling] = cell.bias.map(|bias| &lines[bias.list()[0]]);
     let patch = |s: f64, t: f64| {
         let [a, b] = [at(c0, s), at(c1, s)];
         let [c, d] = [at(d0, t), at(d1, t)];
@@ -263,17 +267,24 @@ mod tests {
     #[test]
     fn the_surface_passes_through_edges_and_diagonals() {
         let result = sample::hanging(3, 2);
-        let (grid, n) = (result.scene.ply.grid, 8);
+        let (graph, n) = (result.scene.ply.lines(), 8);
         let step = &result.steps[0];
         let lines = lines(&result, step, &result.curves(step), n);
-        let cell = cell(grid, &lines, [1, 0], n);
+        let at = &graph.cells()[1];
+        let cell = cell(&graph, at, &lines, n);
         let on = |s: usize, t: usize| cell[t * (n + 1) + s];
         let near = |a: Point, b: Point| {
             assert!((0..3).all(|c| (a[c] - b[c]).abs() < 1e-12), "{a:?} {b:?}");
         };
-        let [rising, falling] = grid.diagonals([1, 0]);
-        let [c0, c1] = [[1, 0], [1, 1]].map(|id| grid.edge_u(id));
-        let [d0, d1] = [[1, 0], [2, 0]].map(|id| grid.edge_v(id));
+        let [rising, falling] = at.bias.map(|bias| bias.list()[0]);
+        let number = |kind, from| {
+            (0..graph.edges()).find(|n| {
+                let line = graph.catenary(*n);
+                (line.kind, line.from) == (kind, from)
+            })
+        };
+        let [c0, c1] = [[1, 0], [1, 1]].map(|id| number(Kind::EdgeU, id).unwrap());
+        let [d0, d1] = [[1, 0], [2, 0]].map(|id| number(Kind::EdgeV, id).unwrap());
         let each = |line: usize, on_cell: &dyn Fn(usize) -> Point| {
             for (k, point) in lines[line].iter().enumerate() {
                 near(on_cell(k), *point);

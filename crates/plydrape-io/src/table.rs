@@ -16,7 +16,6 @@ use plydrape::draping::record::{Step, Summary, Verdict};
 use plydrape::equilibrium::Status;
 use plydrape::errors::SampleVerdict;
 use plydrape::measure::Name;
-use plydrape::ply::Grid;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -151,7 +150,7 @@ pub fn verdict(result: &ResultFile) -> String {
             catenaries(summary, sample) + &line(text, limiting(&summary.limits))
         }
         Some(sheet) => {
-            let none = result.scene.ply.grid == Grid::NONE;
+            let none = !result.scene.ply.has_lines();
             let text = match (none, summary.catenaries_accepted()) {
                 (true, true) => {
                     "the motion keeps its limits; no catenaries hang between these cups"

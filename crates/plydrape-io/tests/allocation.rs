@@ -19,7 +19,7 @@ fn a_second_solve_allocates_nothing() {
     let path =
         concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/01_flat_sheared_mold/scene.toml");
     let scene = plydrape_io::scene::read(Path::new(path)).expect("a shipped scene").scene;
-    let contacts = vec![None; scene.ply.grid.catenaries()];
+    let contacts = vec![None; scene.ply.lines().catenaries()];
     for rule in [SlopeRule::MinForce, SlopeRule::MomentBalance] {
         let mut settings = scene.settings;
         settings.slopes = rule;

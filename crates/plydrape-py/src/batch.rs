@@ -10,7 +10,7 @@ use crate::work::run;
 use plydrape::draping;
 use plydrape::equilibrium::Status;
 use plydrape::errors::{self, Robustness};
-use plydrape::ply::Grid;
+use plydrape::ply::{Grid, Lines};
 use plydrape_io::ResultFile;
 use plydrape_io::scene::SceneFile;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -103,6 +103,7 @@ struct Found {
 #[pyclass(frozen, module = "plydrape")]
 pub struct Equilibria {
     grid: Grid,
+    lines: Arc<Lines>,
     found: Vec<Found>,
 }
 
@@ -137,19 +138,19 @@ impl Equilibria {
     /// Horizontal forces (N), shape (n, catenaries); nan of stretched diagonals and straight catenaries.
     #[getter]
     fn forces(&self) -> Array<f64> {
-        self.array(self.grid.catenaries(), |found| found.forces.as_chunks::<1>().0, &[])
+        self.array(self.lines.catenaries(), |found| found.forces.as_chunks::<1>().0, &[])
     }
 
     /// Slopes at the ends of each catenary, shape (n, catenaries, 2).
     #[getter]
     fn slopes(&self) -> Array<f64> {
-        self.array(self.grid.catenaries(), |found| &found.slopes, &[2])
+        self.array(self.lines.catenaries(), |found| &found.slopes, &[2])
     }
 
     /// Shear angles (rad), shape (n, cells); 0 where no diagonal is stretched.
     #[getter]
     fn shear(&self) -> Array<f64> {
-        self.array(self.grid.cells(), |found| found.shear.as_chunks::<1>().0, &[])
+        self.array(self.lines.cells().len(), |found| found.shear.as_chunks::<1>().0, &[])
     }
 
     fn __len__(&self) -> usize {
@@ -206,17 +207,20 @@ pub fn equilibria(
         fault.map_err(|fault| PyValueError::new_err(format!("positions[{n}]: {fault}")))?;
     }
     let pool = pool(threads)?;
-    let grid = ply.grid;
+    let (grid, lines) = (ply.grid, ply.lines());
+    let graph = Arc::clone(&lines);
     let found = run(py, progress, move |watch| {
-        let contacts = vec![None; grid.catenaries()];
+        let contacts = vec![None; graph.catenaries()];
         let solve = |solver: &mut plydrape::equilibrium::Solver, positions: &Vec<[f64; 3]>| {
             solver.forget();
             let equilibrium = solver.solve(positions, &contacts);
             let mut found = Found {
                 status: equilibrium.status,
                 iterations: equilibrium.iterations,
-                forces: vec![f64::NAN; grid.catenaries()],
-                slopes: (0..grid.catenaries()).map(|n| [straight(grid, positions, n); 2]).collect(),
+                forces: vec![f64::NAN; graph.catenaries()],
+                slopes: (0..graph.catenaries())
+                    .map(|n| [straight(&graph, positions, n); 2])
+                    .collect(),
                 shear: shear_angles(&ply, solver),
             };
             for (n, element) in solver.problem().elements.iter().enumerate() {
@@ -246,13 +250,12 @@ pub fn equilibria(
             stretches.flatten_iter().collect()
         })
     })?;
-    Ok(Equilibria { grid, found })
+    Ok(Equilibria { grid, lines, found })
 }
 
 /// Slope of the straight line between the ends of a catenary; 0 where they are above each other.
-fn straight(grid: Grid, positions: &[[f64; 3]], catenary: usize) -> f64 {
-    let c = grid.catenary(catenary);
-    let [a, b] = [c.from, c.to].map(|g| positions[grid.index(g)]);
+fn straight(lines: &Lines, positions: &[[f64; 3]], catenary: usize) -> f64 {
+    let [a, b] = lines.ends(catenary).map(|gripper| positions[gripper]);
     let run = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
     if run > 0.0 { (b[2] - a[2]) / run } else { 0.0 }
 }

@@ -8,7 +8,6 @@ use crate::work::{Watch, run};
 use plydrape::draping;
 use plydrape::errors::{self, Robustness};
 use plydrape::planner::{self, Checkpoint, Planned};
-use plydrape::ply::Grid;
 use plydrape::scene::{Model, PlanMethod};
 use plydrape_io::ResultFile;
 use plydrape_io::plan as plan_file;
@@ -78,9 +77,10 @@ pub fn for_model(scene: &Arc<SceneFile>, model: Option<&str>) -> PyResult<Arc<Sc
     match model {
         None => {}
         Some("sheet") => Arc::make_mut(&mut scene).settings.model = Model::Sheet,
-        Some("catenaries") if scene.ply.grid == Grid::NONE => {
-            let text = "catenaries hang between the cups of a whole array along the yarns, and the \
-                cups that hold this ply are none: drape it with model=\"sheet\"";
+        Some("catenaries") if !scene.ply.has_lines() => {
+            let text = "no catenaries hang between the cups that hold this ply: not each of them shares \
+                a yarn with another one, as in rows along the yarns or at 45° to them: drape it with \
+                model=\"sheet\"";
             return Err(PyValueError::new_err(text));
         }
         Some("catenaries") => Arc::make_mut(&mut scene).settings.model = Model::Catenaries,

@@ -38,8 +38,8 @@ impl Jacobian {
 
     /// How the ends of a span move along a direction.
     fn ends(&self, span: &FreeSpan, column: usize) -> [[f64; 3]; 2] {
-        let c = self.ply.grid.catenary(span.catenary);
-        [c.from, c.to].map(|g| self.directions[column].grippers[self.ply.grid.index(g)])
+        let velocity = |gripper: usize| self.directions[column].grippers[gripper];
+        self.ply.lines().ends(span.catenary).map(velocity)
     }
 }
 

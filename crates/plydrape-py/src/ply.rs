@@ -92,20 +92,17 @@ impl Ply {
     /// Grippers at the ends of each catenary, shape (catenaries, 2).
     #[getter]
     fn catenaries(&self) -> Array<i64> {
-        let grid = self.0.grid;
-        let ends = (0..grid.catenaries()).map(|n| {
-            let c = grid.catenary(n);
-            [c.from, c.to].map(|g| grid.index(g) as i64)
-        });
-        Array::rows(&[grid.catenaries(), 2], ends)
+        let lines = self.0.lines();
+        let ends = (0..lines.catenaries()).map(|n| lines.ends(n).map(|gripper| gripper as i64));
+        Array::rows(&[lines.catenaries(), 2], ends)
     }
 
     /// Fabric length of each catenary of the flat ply (m), shape (catenaries,).
     #[getter]
     fn lengths(&self) -> Array<f64> {
-        let grid = self.0.grid;
-        let lengths = (0..grid.catenaries()).map(|n| self.0.flat_length(grid.catenary(n).kind));
-        Array::new(&[grid.catenaries()], lengths.collect())
+        let lines = self.0.lines();
+        let length = |n| lines.flat_length(n, self.0.length_factor);
+        Array::new(&[lines.catenaries()], (0..lines.catenaries()).map(length).collect())
     }
 
     /// Fabric coordinates u, v of each gripper (m), shape (grippers, 2), in the order of all arrays of grippers.

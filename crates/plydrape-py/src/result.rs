@@ -13,6 +13,7 @@ use plydrape::draping::record::{CatenaryState, Step};
 use plydrape::equilibrium::Status;
 use plydrape::errors::Term;
 use plydrape::measure::{Name, Scope};
+use plydrape::ply::Grid;
 use plydrape_io::mold_patch::mold_patch;
 use plydrape_io::{ResultFile, export, figure, folder, page, read, surface};
 use pyo3::exceptions::{PyIndexError, PyValueError};
@@ -64,7 +65,7 @@ impl Result {
 
     /// A number of each catenary in each step.
     fn catenaries(&self, find: impl Fn(&CatenaryState) -> f64) -> Array<f64> {
-        let shape = [self.0.steps.len(), self.0.scene.ply.grid.catenaries()];
+        let shape = [self.0.steps.len(), self.0.scene.ply.lines().catenaries()];
         Array::new(&shape, self.0.steps.iter().flat_map(|s| &s.catenaries).map(find).collect())
     }
 }
@@ -300,11 +301,16 @@ impl Result {
         self.catenaries(|c| c.contact.as_ref().map_or(0.0, |contact| contact.length()))
     }
 
-    /// Shear angle of each cell (°), shape (steps, cells along v, cells along u); 0 where no diagonal shears.
+    /// Shear angle of each cell (°), shape (steps, cells along v, cells along u), or (steps, cells) where the cups are no whole
+    /// array along the yarns; 0 where no bias line shears.
     #[getter]
     fn shear_deg(&self) -> Array<f64> {
-        let grid = self.0.scene.ply.grid;
-        let shape = [self.0.steps.len(), grid.nv.saturating_sub(1), grid.nu.saturating_sub(1)];
+        let lines = self.0.scene.ply.lines();
+        let shape = match lines.whole_array() {
+            Some(Grid { nu, nv }) => vec![nv.saturating_sub(1), nu.saturating_sub(1)],
+            None => vec![lines.cells().len()],
+        };
+        let shape = [vec![self.0.steps.len()], shape].concat();
         let cells = self.0.steps.iter().flat_map(|step| &step.cells);
         Array::new(&shape, cells.map(|cell| cell.shear_deg).collect())
     }
@@ -331,14 +337,15 @@ impl Result {
     ///     >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
     ///     (16, 3)
     fn lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
-        let (grid, step) = (self.0.scene.ply.grid, self.step(step)?);
+        let (ply, step) = (&self.0.scene.ply, self.step(step)?);
+        let graph = ply.lines();
         let curves = self.0.curves(step);
-        let line = |(c, curves): (&CatenaryState, &Vec<_>)| {
-            let ends = [c.from, c.to].map(|id| step.grippers[grid.index(id)].position);
+        let line = |(n, (c, curves)): (usize, (&CatenaryState, &Vec<_>))| {
+            let ends = graph.ends(n).map(|gripper| step.grippers[gripper].position);
             let points = surface::shape(c, curves, ends);
             Array::rows(&[points.len(), 3], points)
         };
-        Ok(step.catenaries.iter().zip(&curves).map(line).collect())
+        Ok(step.catenaries.iter().zip(&curves).enumerate().map(line).collect())
     }
 
     /// The lines in which the ply touches the mold in a step (m), one for each catenary that does, arrays of

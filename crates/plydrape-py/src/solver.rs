@@ -52,7 +52,7 @@ impl State {
         State {
             solver: equilibrium::Solver::new(ply, settings),
             ply: Arc::new(ply.clone()),
-            contacts: vec![None; ply.grid.catenaries()].into(),
+            contacts: vec![None; ply.lines().catenaries()].into(),
         }
     }
 }
@@ -178,6 +178,10 @@ impl Solver {
 
 /// Shear angle of each cell (rad), 0 where no diagonal is stretched.
 pub fn shear_angles(ply: &ply::Ply, solver: &equilibrium::Solver) -> Vec<f64> {
-    let stretched = solver.problem().shearing.iter();
-    stretched.map(|s| s.map_or(0.0, |(path, _)| shear::angle(ply.fabric_cell(), path))).collect()
+    let lines = ply.lines();
+    let angle = |(cell, path): (&ply::LineCell, f64)| {
+        shear::angle(cell.trellis.map(|side| side * ply.length_factor), path)
+    };
+    let stretched = lines.cells().iter().zip(&solver.problem().shearing);
+    stretched.map(|(cell, s)| s.map_or(0.0, |(path, _)| angle((cell, path)))).collect()
 }

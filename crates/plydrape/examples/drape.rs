@@ -36,6 +36,7 @@ fn main() {
         warp: Direction::U,
         length_factor: 1.0,
         cut: None,
+        found: Default::default(),
     };
     // 2 mm closer than the fabric and 75 mm up at the start, sheared by 20 degrees on the mold at the end
     let start = grid(ply.grid, 0.098, 0.0, 0.075);

@@ -85,7 +85,7 @@ pub enum PlanMethod {
 pub struct Motion {
     /// Time of each step (s), ascending, from 0.
     pub times: Vec<f64>,
-    /// Positions (m) of each step, in the order of [`crate::ply::Grid::index`].
+    /// Positions (m) of each step, in the order of [`crate::ply::Ply::index`].
     pub positions: Vec<Vec<[f64; 3]>>,
 }
 
@@ -94,7 +94,7 @@ pub struct Motion {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Target {
-    /// Final gripper positions (m), in the order of [`crate::ply::Grid::index`].
+    /// Final gripper positions (m), in the order of [`crate::ply::Ply::index`].
     pub grippers: Vec<[f64; 3]>,
     /// The ideal drape, of which the grippers are nodes; none where their positions were given.
     pub drape: Option<Arc<Net>>,

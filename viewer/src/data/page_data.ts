@@ -74,6 +74,8 @@ export interface Field {
 export interface Geometry {
   surface: Block;
   gap: Block | null;
+  /** Fibre lines where they are no lines of a surface: the grid is zero, and cups hold that are no whole array. */
+  fibres: Block | null;
   diagonals: Block;
   grippers: Block;
   normals: Block;
@@ -165,7 +167,7 @@ export interface PageData {
   stopped: string | null;
   steps: number[];
   times: number[];
-  /** Grippers along u and v; zeros where no catenaries hang between them. */
+  /** Grippers along u and v; zeros where catenaries make no surface. */
   grid: [number, number];
   /** Column and row of each gripper. */
   ids: [number, number][];
@@ -183,6 +185,13 @@ export interface PageData {
   stands: string | null;
   left_out: string[];
 }
+
+/** Whether catenaries hang between the cups. */
+export const hasCatenaries = (data: PageData): boolean =>
+  !data.grid.includes(0) || data.geometry.fibres !== null;
+
+/** Whether the catenaries span a surface: neither a strip nor cups that are no whole array do. */
+export const hasSurface = (data: PageData): boolean => data.grid.every((count) => count > 1);
 
 /** Data that cannot be shown; the message completes the sentence "This page cannot be shown: …". */
 export class BrokenData extends Error {}
@@ -254,7 +263,7 @@ function checkGeometry(data: PageData): void {
   for (const name of BLOCKS) {
     const block = data.geometry[name];
     // Diagonals may be left out to keep the page small.
-    if (name === "diagonals" && block.count === 0) continue;
+    if (name === "diagonals" && (block.count === 0 || (none && block.count % (n + 1) === 0))) continue;
     if (block.count !== expected[name] || block.steps !== data.steps.length) {
       throw new BrokenData(
         `the ${name} of its geometry do not fit ${data.ids.length} grippers and ${data.steps.length} steps`,

@@ -1,6 +1,6 @@
 /** Keys for everything, and the list of them. */
 
-import type { PageData } from "../data/page_data";
+import { hasCatenaries, type PageData } from "../data/page_data";
 import type { Eye, StandardView } from "../scene/camera";
 import { byId, make } from "./dom";
 import type { Player } from "./player";
@@ -59,7 +59,7 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
       m: () => state.set({ mold: !mold }),
       p: () => state.set({ forces: !forces }),
       c: () => {
-        if (data.sheet !== null && !data.grid.includes(0))
+        if (data.sheet !== null && hasCatenaries(data))
           chooseModel(state, data, model === "sheet" ? "catenaries" : "sheet");
       },
       l: () => byId("theme").click(),

@@ -4,7 +4,7 @@ import { gradient, mapOf, shareOf } from "../data/colour_map";
 import { bracketed, full, short, ticks, ticksOfOrders, withUnit } from "../data/number";
 import type { Motion } from "../data/motion";
 import { USES } from "../scene/forces";
-import { fieldsOf, type Field } from "../data/page_data";
+import { fieldsOf, hasSurface, type Field } from "../data/page_data";
 import { byId, make } from "./dom";
 import type { Choice, State } from "./state";
 
@@ -46,7 +46,7 @@ export function linkLegend(state: State, motion: Motion): void {
     if (now !== before && same && !ranged) return;
     const field = fieldOf(motion, now);
     // A strip of ply has no cells, so nothing is coloured.
-    host.hidden = field === undefined || (now.model === "catenaries" && motion.data.grid.includes(1));
+    host.hidden = field === undefined || (now.model === "catenaries" && !hasSurface(motion.data));
     check.checked = now.stepRange;
     // the ends of a scale of orders are those of every result, so that pictures can be compared
     check.parentElement!.hidden = field?.scale === "orders";

@@ -1,6 +1,13 @@
 /** The bar over the picture: colour modes, standard views, what is shown. */
 
-import { fieldsOf, type FieldKey, type Model, type PageData } from "../data/page_data";
+import {
+  fieldsOf,
+  hasCatenaries,
+  hasSurface,
+  type FieldKey,
+  type Model,
+  type PageData,
+} from "../data/page_data";
 import type { Eye, StandardView } from "../scene/camera";
 import { byId, make } from "./dom";
 import type { State } from "./state";
@@ -41,7 +48,7 @@ export function chooseModel(state: State, data: PageData, model: Model): void {
 
 export function linkToolbar(state: State, data: PageData, eye: Eye | null): void {
   const models = byId("models");
-  models.hidden = data.sheet === null || data.grid.includes(0);
+  models.hidden = data.sheet === null || !hasCatenaries(data);
   for (const [key, name] of MODELS) {
     const input = make("input", { type: "radio", name: "model", value: key });
     models.append(make("label", { title: `${name} (C changes)` }, input, make("span", {}, name)));
@@ -52,7 +59,7 @@ export function linkToolbar(state: State, data: PageData, eye: Eye | null): void
   const colours = byId("colours");
   state.listen((now, before) => {
     if (now !== before && now.model === before.model) return;
-    colours.hidden = now.model === "catenaries" && data.grid.includes(1);
+    colours.hidden = now.model === "catenaries" && !hasSurface(data);
     colours.replaceChildren(...modes(data, now.model).map(([key, name], k) => colour(state, key, name, k)));
     byId("show-diagonals").parentElement!.hidden =
       now.model === "sheet" || data.geometry.diagonals.count === 0;

@@ -1,6 +1,6 @@
 /**
- * The catenaries: edges between neighbouring grippers, which are lines of the surface's grid, and the two
- * diagonals of every cell. Diagonals hang below the surface drawn between the edges; they are pulled towards
+ * The catenaries: edges between neighbouring grippers, which are lines of the surface's grid where there is one, and the
+ * diagonals of every cell, or its sides where its diagonals are the fibres. Diagonals hang below the surface drawn between the edges; they are pulled towards
  * the eye by as much as that, so that they are seen through it.
  */
 
@@ -22,8 +22,9 @@ export class Catenaries {
   ) {
     const [nu, nv] = motion.data.grid;
     const n = motion.data.divisions;
-    const columns = (nu - 1) * n + 1;
-    const rows = (nv - 1) * n + 1;
+    const { fibres } = motion;
+    const columns = fibres === null ? (nu - 1) * n + 1 : 0;
+    const rows = fibres === null ? (nv - 1) * n + 1 : 0;
     const under: number[] = [];
     for (let row = 0; row < rows; row += n) {
       for (let k = 0; k < columns; k++) under.push(row * columns + k);
@@ -33,7 +34,9 @@ export class Catenaries {
     }
     this.under = Uint32Array.from(under);
     const along = (count: number, length: number) => new Array<number>(count).fill(length);
-    this.edges = new Lines([...along(nv, columns), ...along(nu, rows)], 1.9, push);
+    const edges =
+      fibres === null ? [...along(nv, columns), ...along(nu, rows)] : along(fibres.count / (n + 1), n + 1);
+    this.edges = new Lines(edges, 1.9, push);
     this.diagonals = new Lines(along(motion.diagonals.count / (n + 1), n + 1), 1.2, -pull);
     this.group.add(this.diagonals.mesh, this.edges.mesh);
   }
@@ -78,6 +81,8 @@ export class Catenaries {
       const from = 3 * this.under[k]!;
       for (let c = 0; c < 3; c++) edges[3 * k + c] = grid[from + c]! * MICRO;
     }
+    const fibres = this.motion.fibres?.at(step) ?? [];
+    for (let k = 0; k < fibres.length; k++) edges[k] = fibres[k]! * MICRO;
     this.edges.changed();
 
     const given = this.motion.diagonals.at(step);

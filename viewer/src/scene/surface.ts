@@ -33,16 +33,18 @@ export class PlySurface {
   ) {
     const [nu, nv] = motion.data.grid;
     const n = motion.data.divisions;
-    this.columns = (nu - 1) * n + 1;
-    this.rows = (nv - 1) * n + 1;
-    const total = (nu - 1) * (nv - 1) * (n + 1) ** 2;
+    const none = nu === 0;
+    this.columns = none ? 0 : (nu - 1) * n + 1;
+    this.rows = none ? 0 : (nv - 1) * n + 1;
+    const cells = none ? 0 : (nu - 1) * (nv - 1);
+    const total = cells * (n + 1) ** 2;
     this.source = new Uint32Array(total);
     this.cell = new Uint32Array(total);
     this.first = new Int32Array(this.columns * this.rows).fill(-1);
     this.normals = new Float32Array(3 * this.columns * this.rows);
     const threads = new Float32Array(2 * total);
     this.layOut(nu, nv, n, threads);
-    this.every = new BufferAttribute(triangles((nu - 1) * (nv - 1), n, 1), 1);
+    this.every = new BufferAttribute(triangles(cells, n, 1), 1);
 
     const dynamic = (size: number) =>
       new BufferAttribute(new Float32Array(size * total), size).setUsage(DynamicDrawUsage);

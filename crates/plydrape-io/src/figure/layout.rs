@@ -69,7 +69,7 @@ pub(super) fn page(
         stage.draw(&mut canvas, &unit.placed(scale, origin), step)?;
     }
     // Lines alone carry no colour of height.
-    if result.scene.ply.grid.cells() > 0 || stage.sheet.is_some() {
+    if result.scene.ply.lines().surface().cells() > 0 || stage.sheet.is_some() {
         let between = [HEAD + 40.0, size[1] - LEGEND - 24.0];
         bar(&mut canvas, colour_name(&stage), stage.scale.times(1e3), PANELS + 24.0, between)?;
     }

@@ -41,7 +41,7 @@ struct Detail {
 impl Detail {
     /// For one of so many panels, with cells of so many picture points.
     fn of(result: &ResultFile, panels: usize, cell: f64) -> Self {
-        let cells = result.scene.ply.grid.cells().max(1) as f64;
+        let cells = result.scene.ply.lines().cells().len().max(1) as f64;
         let most = (6000.0 / cells / panels as f64).sqrt();
         let squares = (cell / 9.0).max(4.0).min(most).clamp(1.0, 28.0) as usize;
         Detail {
@@ -208,22 +208,22 @@ impl Stage<'_> {
 
     /// How many catenaries are drawn; edges come first.
     fn drawn(&self, detail: Detail) -> usize {
-        let grid = self.result.scene.ply.grid;
+        let lines = self.result.scene.ply.lines();
         match detail.diagonals {
-            true => grid.catenaries(),
-            false => grid.edges(),
+            true => lines.catenaries(),
+            false => lines.edges(),
         }
     }
 
     /// Surface and catenaries.
     fn ply(&self, pieces: &mut Vec<Piece>, view: &View, (step, curves): Shown, detail: Detail) {
-        let grid = self.result.scene.ply.grid;
+        let graph = self.result.scene.ply.lines();
         let n = detail.squares;
         let lift = self.lift(detail);
         let edges = surface::lines(self.result, step, curves, n);
-        for k in 0..grid.cells() {
-            let id = [k % (grid.nu - 1), k / (grid.nu - 1)];
-            let points = surface::cell(grid, &edges, id, n);
+        let cells = graph.surface().cells();
+        for cell in graph.cells().iter().take(cells) {
+            let points = surface::cell(&graph, cell, &edges, n);
             for row in 0..n {
                 for column in 0..n {
                     let at = row * (n + 1) + column;
@@ -248,7 +248,7 @@ impl Stage<'_> {
         // Finer lines leave colour to be seen in small cells.
         let finer = (self.cell_length() * view.scale() / 70.0).clamp(0.4, 1.0);
         for (k, line) in lines.iter().take(count).enumerate() {
-            let width = if k < grid.edges() { 1.7 } else { 1.1 };
+            let width = if k < graph.edges() { 1.7 } else { 1.1 };
             thread(pieces, view, line, lift, RED, width * finer);
         }
     }

@@ -5,7 +5,7 @@ use crate::mold_patch::mold_patch;
 use crate::result::ResultFile;
 use crate::surface::{Surface, contact_lines, lines, stations};
 use plydrape::draping::record::Step;
-use plydrape::ply::Direction;
+use plydrape::ply::{Direction, Grid};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -37,7 +37,7 @@ pub(super) struct Detail {
 impl Detail {
     /// The finest that keeps the page small.
     pub fn of(result: &ResultFile) -> Self {
-        let (grid, all) = (result.scene.ply.grid, result.steps.len());
+        let (grid, all) = (result.scene.ply.lines().surface(), result.steps.len());
         let surface =
             |n: usize| (grid.nu.saturating_sub(1) * n + 1) * (grid.nv.saturating_sub(1) * n + 1);
         let across = |n: usize| 2 * grid.cells() * (n + 1);
@@ -74,6 +74,8 @@ impl Detail {
 pub(super) struct Geometry {
     surface: Block,
     gap: Option<Block>,
+    /// Fibre lines where they are no lines of a surface.
+    fibres: Option<Block>,
     diagonals: Block,
     grippers: Block,
     normals: Block,
@@ -119,18 +121,28 @@ fn range(values: impl Iterator<Item = i32> + Clone, unit: f64) -> [f64; 2] {
 impl Geometry {
     /// Everything that is drawn, and the ranges of what its colours tell.
     pub fn of(result: &ResultFile, detail: &Detail) -> (Self, Ranges) {
-        let (grid, n) = (result.scene.ply.grid, detail.intervals);
+        let (graph, n) = (result.scene.ply.lines(), detail.intervals);
+        let grid = graph.surface();
         let steps: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
         let count = steps.len();
-        let across = if detail.diagonals { grid.edges()..grid.catenaries() } else { 0..0 };
+        // edges of a whole array are lines of the surface
+        let alone = grid == Grid::NONE && !graph.is_empty();
+        let drawn = if detail.diagonals { graph.catenaries() } else { graph.edges() };
         // ply, diagonals and contact marks of each step
         let shapes = steps.par_iter().map(|step| {
             let curves = result.curves(step);
-            let lines = match across.is_empty() {
-                true => Vec::new(),
-                false => lines(result, step, &curves, n).split_off(across.start).concat(),
+            let mut fibres = match alone || drawn > graph.edges() {
+                true => lines(result, step, &curves, n),
+                false => Vec::new(),
             };
-            (Surface::of(result, step, &curves, n), lines, contacts(result, step, &curves))
+            let across = fibres.split_off(graph.edges().min(fibres.len()));
+            let across = if drawn > graph.edges() { across.concat() } else { Vec::new() };
+            let along = if alone { fibres.concat() } else { Vec::new() };
+            (
+                Surface::of(result, step, &curves, n),
+                [along, across],
+                contacts(result, step, &curves),
+            )
         });
         let shapes: Vec<_> = shapes.collect();
         let points = |p: &mut dyn Iterator<Item = [f64; 3]>| -> Vec<i32> {
@@ -141,12 +153,14 @@ impl Geometry {
             let all = shapes.iter().filter_map(|(s, ..)| s.gap.as_ref()).flatten();
             all.map(|gap| (gap * MICRO).round() as i32).collect()
         });
-        let diagonals = points(&mut shapes.iter().flat_map(|(_, lines, _)| lines.iter().copied()));
+        let [fibres, diagonals] = [0, 1]
+            .map(|k| points(&mut shapes.iter().flat_map(|(_, lines, _)| lines[k].iter().copied())));
         let hands = || steps.iter().flat_map(|step| &step.grippers);
         let grippers = points(&mut hands().map(|gripper| gripper.position));
         let normals: Vec<i32> =
             hands().flat_map(|g| g.normal().map(|c| (c * 1e4).round() as i32)).collect();
-        let cells = || steps.iter().flat_map(|step| &step.cells);
+        // without a surface there is nothing to colour cell by cell
+        let cells = || steps.iter().flat_map(|step| step.cells.iter().take(grid.cells()));
         let shear: Vec<i32> = cells().map(|cell| hundredths(cell.shear_deg)).collect();
         let direction: Vec<i32> =
             steps.iter().flat_map(|step| directions(result, step)).map(hundredths).collect();
@@ -161,6 +175,7 @@ impl Geometry {
         let geometry = Geometry {
             surface: Block::new(count, 3, &surface),
             gap: gap.map(|gap| Block::new(count, 1, &gap)),
+            fibres: alone.then(|| Block::new(count, 3, &fibres)),
             diagonals: Block::new(count, 3, &diagonals),
             grippers: Block::new(count, 3, &grippers),
             normals: Block::new(count, 3, &normals),
@@ -179,7 +194,7 @@ impl Geometry {
 /// Angle of the warp in each cell from the x axis, as seen from above (°): the mean of its two edges along the
 /// warp. A fibre has no sign; angles stay within 90° of the warp at the first gripper of the first step.
 fn directions(result: &ResultFile, step: &Step) -> Vec<f64> {
-    let grid = result.scene.ply.grid;
+    let grid = result.scene.ply.lines().surface();
     let [[a, b], [c, d]] = match result.scene.ply.warp {
         Direction::U => [[1, 0], [0, 1]],
         Direction::V => [[0, 1], [1, 0]],
@@ -204,7 +219,7 @@ fn directions(result: &ResultFile, step: &Step) -> Vec<f64> {
 /// Places where the ply touches the mold, evenly along everything that lies.
 fn contacts(result: &ResultFile, step: &Step, curves: &[Vec<Vec<[f64; 3]>>]) -> Vec<[f64; 3]> {
     let [a, b] = result.scene.ply.cell;
-    let marks = if result.scene.ply.grid.cells() <= SMALL { MARKS } else { 1.0 };
+    let marks = if result.scene.ply.lines().cells().len() <= SMALL { MARKS } else { 1.0 };
     let apart = a.min(b) / marks;
     let mut out = Vec::new();
     for line in contact_lines(step, curves, usize::MAX) {

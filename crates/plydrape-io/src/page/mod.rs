@@ -45,7 +45,7 @@ struct Page<'a> {
     stopped: Option<&'a str>,
     steps: Vec<usize>,
     times: Vec<f64>,
-    /// Grippers along u and v; zeros where no catenaries hang between them.
+    /// Grippers along u and v; zeros where catenaries make no surface: they are no whole array, or lines are missing.
     grid: [usize; 2],
     /// Column and row of each gripper.
     ids: Vec<GripperId>,
@@ -176,6 +176,7 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
         (Some(kept), Some(outcome)) => Some(sheet(result, outcome, kept, &steps)?),
         _ => None,
     };
+    let grid = scene.ply.lines().surface();
     Ok(Page {
         format: "plydrape-page",
         version: 1,
@@ -188,7 +189,7 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
         stopped: summary.stopped.as_deref(),
         steps,
         times: shown.iter().map(|step| step.time).collect(),
-        grid: [scene.ply.grid.nu, scene.ply.grid.nv],
+        grid: [grid.nu, grid.nv],
         ids: (0..scene.ply.grippers()).map(|n| scene.ply.id(n)).collect(),
         divisions: detail.intervals,
         limits: limits(result),
@@ -263,7 +264,7 @@ fn fields(result: &ResultFile, ranges: &Ranges) -> Vec<Field> {
     if let Some(range) = ranges.gap {
         out.push(Field::even("gap", "gap to the mold", "mm", "vertex", range, None));
     }
-    if result.scene.ply.grid.cells() > 0 {
+    if result.scene.ply.lines().surface().cells() > 0 {
         let limit = Some(result.scene.limits.shear.to_degrees());
         out.push(Field::even("shear", "shear angle", "°", "cell", ranges.shear, limit));
         out.push(Field::even("direction", "warp direction", "°", "cell", ranges.direction, None));

@@ -178,7 +178,7 @@ fn of_catenary(line: &CatenaryState) -> Option<String> {
 
 fn of_summary(result: &ResultFile) -> Option<String> {
     let (summary, steps) = (&result.summary, result.steps.len());
-    let grid = result.scene.ply.grid;
+    let ply = &result.scene.ply;
     if summary.steps != steps || summary.steps_planned < steps {
         return Some(format!(
             "its summary has {} of {} steps",
@@ -194,7 +194,7 @@ fn of_summary(result: &ResultFile) -> Option<String> {
     if let Some(what) = of_sheet(result).or_else(|| super::check_errors::fault(result)) {
         return Some(what);
     }
-    let known = |[i, j]: GripperId| i < grid.nu && j < grid.nv;
+    let known = |id: GripperId| ply.index(id).is_some();
     let unknown =
         summary.first_contact.iter().find(|line| !(known(line.from) && known(line.to)))?;
     Some(format!("its summary names a catenary from {:?} to {:?}", unknown.from, unknown.to))

@@ -15,7 +15,7 @@ use crate::folder::Content;
 use crate::json::JsonError;
 use crate::sheet::SheetSeal;
 use plydrape::draping::record::{PlanRecord, Step, Summary};
-use plydrape::ply::{Grid, GripperId, Kind};
+use plydrape::ply::{GripperId, Kind, Lines};
 use serde::ser::SerializeSeq;
 use serde::{Deserialize, Serialize, Serializer};
 use std::borrow::Cow;
@@ -40,7 +40,7 @@ pub(super) struct Document<'a, S, C> {
     pub checksum: C,
 }
 
-/// The catenaries of the grid: edges along u, edges along v, then two diagonals a cell.
+/// The catenaries of the ply: fibre lines along u, along v, then bias lines.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Catenaries {
@@ -60,11 +60,11 @@ impl Catenaries {
         }
     }
 
-    /// Whether they are the catenaries of a grid.
-    pub(super) fn are_of(&self, grid: Grid) -> bool {
-        let count = grid.catenaries();
+    /// Whether they are the catenaries of a ply.
+    pub(super) fn are_of(&self, lines: &Lines) -> bool {
+        let count = lines.catenaries();
         [self.kind.len(), self.from.len(), self.to.len()] == [count; 3]
-            && (0..count).map(|n| grid.catenary(n)).enumerate().all(|(n, line)| {
+            && (0..count).map(|n| lines.catenary(n)).enumerate().all(|(n, line)| {
                 (line.kind, line.from, line.to) == (self.kind[n], self.from[n], self.to[n])
             })
     }

@@ -13,6 +13,7 @@ use crate::sheet::SheetKept;
 use crate::shown::excerpt;
 use crate::size::{self, SizeError};
 use crate::{folder, input};
+use plydrape::ply::{Grid, Ply};
 use serde::Deserialize;
 use serde_json::error::Category;
 use std::fs::File;
@@ -243,15 +244,22 @@ fn reason(error: &serde_json::Error) -> String {
     format!("{start} at line {} column {}", error.line(), error.column())
 }
 
+/// The grippers of a ply, as an array or by their number.
+fn named(ply: &Ply) -> String {
+    match ply.grid {
+        Grid::NONE => format!("{} grippers", ply.grippers()),
+        Grid { nu, nv } => format!("{nu} × {nv} grippers"),
+    }
+}
+
 /// The result that a file in a folder describes, and the check sum that it names.
 fn from_columns(read: ReadDocument, folder: PathBuf) -> Result<(ResultFile, String), String> {
     let ply = read.scene.ply.clone();
-    let grid = ply.grid;
     if let Some(what) = super::check::of_ply(&read.scene) {
         return Err(what);
     }
-    if !read.catenaries.are_of(grid) {
-        return Err(format!("its catenaries are not those of {} × {} grippers", grid.nu, grid.nv));
+    if !read.catenaries.are_of(&ply.lines()) {
+        return Err(format!("its catenaries are not those of {}", named(&ply)));
     }
     let mut known = Vec::new();
     let step = |(columns, number): (StepColumns, usize)| {

@@ -4,7 +4,7 @@ use super::contact::{ContactColumns, Known};
 use plydrape::draping::record::{
     Bridge, CatenaryState, Cell, Gripper, Hold, Measures, Mount, Solver, SpanState, Step,
 };
-use plydrape::ply::{Grid, Kind, Ply};
+use plydrape::ply::{Kind, Lines, Ply};
 use serde::{Deserialize, Serialize};
 
 /// The ply in one step.
@@ -168,7 +168,7 @@ impl StepColumns {
 
     /// The step again, or what is impossible in it.
     pub(super) fn step(self, ply: &Ply, known: &mut Known) -> Result<Step, String> {
-        let mut catenaries = self.catenaries.lines(ply.grid)?;
+        let mut catenaries = self.catenaries.lines(&ply.lines())?;
         self.spans.fill(&mut catenaries)?;
         self.contact.fill(known, &mut catenaries)?;
         let BridgeColumns { catenary, place, gap, width } = self.bridging;
@@ -183,7 +183,7 @@ impl StepColumns {
             grippers: self.grippers.list(ply)?,
             solver: self.solver,
             catenaries,
-            cells: self.cells.list(ply.grid)?,
+            cells: self.cells.list(&ply.lines())?,
             measures: self.measures,
         })
     }
@@ -220,11 +220,11 @@ impl GripperColumns {
 }
 
 impl CatenaryColumns {
-    fn lines(self, grid: Grid) -> Result<Vec<CatenaryState>, String> {
-        alike("catenaries", grid.catenaries(), &[self.length.len()])?;
+    fn lines(self, graph: &Lines) -> Result<Vec<CatenaryState>, String> {
+        alike("catenaries", graph.catenaries(), &[self.length.len()])?;
         alike("shearing diagonals", self.shearing.len(), &[self.shear_force.len()])?;
         let state = |(n, length): (usize, &f64)| {
-            let known = grid.catenary(n);
+            let known = graph.catenary(n);
             CatenaryState {
                 kind: known.kind,
                 from: known.from,
@@ -291,19 +291,19 @@ impl SpanColumns {
 }
 
 impl CellColumns {
-    fn list(self, grid: Grid) -> Result<Vec<Cell>, String> {
+    fn list(self, graph: &Lines) -> Result<Vec<Cell>, String> {
         alike(
             "cells",
-            grid.cells(),
+            graph.cells().len(),
             &[self.shear_deg.len(), self.shearing.len(), self.landed_deg.len()],
         )?;
         let cell = |n: usize| Cell {
-            cell: [n % (grid.nu - 1), n / (grid.nu - 1)],
+            cell: graph.cells()[n].id,
             shear_deg: self.shear_deg[n],
             shearing: self.shearing[n],
             landed_deg: self.landed_deg[n],
         };
-        Ok((0..grid.cells()).map(cell).collect())
+        Ok((0..graph.cells().len()).map(cell).collect())
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) struct Paint {
 impl Paint {
     /// Fine enough to look round, coarse enough to play; one range of colours for the whole drape.
     pub fn of(result: &ResultFile) -> Self {
-        let cells = result.scene.ply.grid.cells().max(1);
+        let cells = result.scene.ply.lines().surface().cells().max(1);
         let divisions = (TRIANGLES / (2 * cells)).isqrt().clamp(1, DIVISIONS);
         let grippers = result.steps.iter().flat_map(|step| &step.grippers);
         let value = |gripper: &Gripper| figure::colour_value(result, gripper.position);
@@ -66,7 +66,7 @@ impl Paint {
 pub(super) fn ply(result: &ResultFile, step: &Step, paint: &Paint) -> MarkerArray {
     let radius = figure::gripper_radius(result);
     let mut markers = Vec::with_capacity(4 + step.grippers.len());
-    if result.scene.ply.grid.cells() > 0 {
+    if result.scene.ply.lines().surface().cells() > 0 {
         markers.push(surface(result, step, paint));
     }
     let curves = result.curves(step);

@@ -15,7 +15,7 @@ use super::{SceneFile, cut, material, mold, named, sheet, start, target};
 use crate::shown;
 use crate::size::{self, SizeError};
 use plydrape::mold::Mold;
-use plydrape::ply::{Direction, Grid, Ply};
+use plydrape::ply::{Direction, FoundLines, Grid, Ply};
 use plydrape::scene::{Model, Motion, Scene, Settings, Target};
 use std::ops::Range;
 use std::path::Path;
@@ -76,7 +76,7 @@ pub(super) fn scene(
     })
 }
 
-/// Refuses catenaries, and the planner that needs them, between cups that are no whole array along the yarns.
+/// Refuses catenaries where no lines run between the cups, and the stepwise planner where these are no whole array.
 fn hangs_as_catenaries(
     file: &SceneKeys,
     ply: &Ply,
@@ -84,15 +84,19 @@ fn hangs_as_catenaries(
     document: &Document,
 ) -> Result<(), SceneError> {
     let stepwise = matches!(file.plan.method, Some(MethodKey::Stepwise));
+    let lines = ply.lines();
     let what = match (settings.model, stepwise) {
-        _ if ply.grid != Grid::NONE => return Ok(()),
-        (Model::Catenaries, _) => "catenaries hang",
-        (Model::Sheet, true) => "the stepwise planner follows catenaries, which hang",
-        (Model::Sheet, false) => return Ok(()),
+        (_, true) if lines.whole_array().is_none() => {
+            "the stepwise planner follows catenaries between the cups of a whole array along the yarns, and the cups that hold this ply are none"
+        }
+        (Model::Catenaries, false) if lines.is_empty() => {
+            "no catenaries hang between the cups that hold this ply: not each of them shares a yarn with another one, as in rows along the yarns or at 45° to them"
+        }
+        _ => return Ok(()),
     };
     Err(document.error(
         file.grippers_span().clone(),
-        format!("{what} between the cups of a whole array along the yarns, and the cups that hold this ply are none"),
+        what,
         "drape and plan it with the sheet, as kind = \"sheet\" in [model] and method = \"path\" in [plan] do",
     ))
 }
@@ -141,7 +145,15 @@ pub(super) fn ply(
             None => 0.0,
         };
         let cut::Shape { grid, cell, warp, cut } = cut::shape(ply, radius, document, base)?;
-        return Ok(Ply { grid, cell, material, warp, length_factor: 1.0, cut: Some(cut) });
+        return Ok(Ply {
+            grid,
+            cell,
+            material,
+            warp,
+            length_factor: 1.0,
+            cut: Some(cut),
+            found: FoundLines::default(),
+        });
     }
     let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
     let warp = match &table.warp {
@@ -162,6 +174,7 @@ pub(super) fn ply(
         warp,
         length_factor: 1.0,
         cut: None,
+        found: FoundLines::default(),
     })
 }
 

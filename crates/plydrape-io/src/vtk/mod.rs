@@ -35,7 +35,7 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
     result.check_finite()?;
     let mut files = Vec::new();
     let mut all = Collection::default();
-    let surface = result.scene.ply.grid.cells() > 0;
+    let surface = result.scene.ply.lines().surface().cells() > 0;
     let mut series = ["ply", "catenaries", "grippers"].map(|name| (name, Collection::default()));
     // a drape of 10 000 steps still stands in order in a folder
     let digits = result.steps.last().map_or(1, |step| step.step).to_string().len().max(4);

@@ -24,7 +24,7 @@ const INTERVALS: usize = 10;
 
 /// The surface of a step.
 pub(super) fn ply(result: &ResultFile, step: &Step) -> PolyData {
-    let grid = result.scene.ply.grid;
+    let grid = result.scene.ply.lines().surface();
     let intervals = (QUADS / grid.cells().max(1)).isqrt().clamp(1, INTERVALS);
     let Surface { size: [nu, nv], vertices, gap } = Surface::new(result, step, intervals);
 

@@ -50,12 +50,13 @@ pub fn paper_ply(nu: usize, nv: usize) -> Ply {
         warp: Direction::U,
         length_factor: 1.0,
         cut: None,
+        found: Default::default(),
     }
 }
 
 /// Nothing of the ply is on a mold.
 pub fn free(ply: &Ply) -> Vec<Option<ContactSegment>> {
-    vec![None; ply.grid.catenaries()]
+    vec![None; ply.lines().catenaries()]
 }
 
 /// The paper's settings with an axial stiffness in place of a ply that does not stretch.

@@ -2,7 +2,7 @@
 
 use crate::common::{Point, RULES, free, paper_ply, settings};
 use plydrape::equilibrium::{Direction, Solver, Status, heading};
-use plydrape::ply::{Grid, shear};
+use plydrape::ply::{Grid, Lines, shear};
 use plydrape::scene::SlopeRule;
 
 /// Parallelogram cells of sides 97.5 mm, sheared by `angle` (rad) in the horizontal plane.
@@ -30,9 +30,9 @@ fn posed(points: &[Point], turn: f64, climb: f64, towards: f64) -> Vec<Point> {
 }
 
 /// Normal of the ply at a gripper, from its slopes along u and v; none where an edge is missing.
-fn normal(solver: &Solver, grid: Grid, positions: &[Point], gripper: usize) -> Option<Point> {
+fn normal(solver: &Solver, lines: &Lines, positions: &[Point], gripper: usize) -> Option<Point> {
     let tangent = |d| {
-        let h = heading(grid, positions, gripper, d)?;
+        let h = heading(lines, positions, gripper, d)?;
         Some([h[0], h[1], solver.gripper_slope(positions, gripper, d)?])
     };
     let ([a, b], [c, d], [e, f]) = {
@@ -72,8 +72,8 @@ fn a_sheared_ply_in_an_inclined_plane_has_its_normal_at_every_constrained_grippe
                         continue;
                     };
                     constrained += 1;
-                    let found =
-                        normal(&solver, grid, &positions, gripper).expect("edges both ways");
+                    let found = normal(&solver, &ply.lines(), &positions, gripper)
+                        .expect("edges both ways");
                     for k in 0..3 {
                         assert!((constraint.normal[k] - expected[k]).abs() < 1e-13);
                         assert!((found[k] - expected[k]).abs() < 1e-12, "{found:?} {expected:?}");

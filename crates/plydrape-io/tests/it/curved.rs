@@ -4,7 +4,7 @@ use crate::common::{distance, drape, example};
 use plydrape::measure::Name;
 use plydrape::mold::{Cylinder, Face, Graph, HeightGrid, Mold, Pose, Saddle, Sphere, Surface};
 use plydrape::net::{Layup, Net};
-use plydrape::ply::{Grid, Kind};
+use plydrape::ply::{Fibres, Grid, Kind};
 use plydrape::scene::{ContactEnd, ContactSettings, Motion, Scene, Stepping};
 use plydrape_io::ResultFile;
 use std::sync::Arc;
@@ -344,10 +344,10 @@ fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it
     let rolled = drape(&scene);
 
     let bow = (0.15_f64 / 0.6).tan() / 0.6 * 0.1 * 0.1 / 8.0 * 1e3;
-    let grid = scene.ply.grid;
+    let lines = scene.ply.lines();
     let mut worst = 0.0_f64;
-    for edge in 0..grid.edges() {
-        let c = grid.catenary(edge);
+    for edge in 0..lines.edges() {
+        let c = lines.catenary(edge);
         let along = usize::from(c.kind == Kind::EdgeV);
         let outer = [0, 3].contains(&c.from[1 - along]);
         let (off, slack) = edge_off(&rolled, edge);
@@ -357,15 +357,16 @@ fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it
         assert!(slack < 0.05, "{:?} {:?}: {slack} mm of slack", c.from, c.to);
     }
     assert!((worst - bow).abs() < 0.03, "{worst} {bow}");
-    let wrinkled = (0..grid.edges()).map(|edge| edge_off(&straight, edge).1).fold(0.0, f64::max);
+    let wrinkled = (0..lines.edges()).map(|edge| edge_off(&straight, edge).1).fold(0.0, f64::max);
     assert!(wrinkled > 1.0, "straight paths leave {wrinkled} mm of slack");
 }
 
 /// A cell of geodesic sides a, b on a unit sphere, its half diagonals p, q crossing at φ, has
 /// cos a, b = cos p cos q ± sin p sin q cos φ; on a saddle the same with hyperbolic functions. The scale is the root of
-/// (d₁² + d₂²)/2(a² + b²), and on a plane 1 by the parallelogram law.
+/// (d₁² + d₂²)/2(a² + b²), and on a plane 1 by the parallelogram law. Where the diagonals are the fibres, that of the sides is the
+/// root of (a² + b²)/2(p² + q²).
 #[test]
-fn a_cell_has_the_scale_of_its_diagonals() {
+fn a_cell_has_the_scale_of_its_bias_lines() {
     for size in [0.02_f64, 0.05, 0.1] {
         for (ratio, angle) in
             [(1.0, 1.2), (1.0, std::f64::consts::FRAC_PI_2), (0.7, 1.4), (0.5, 0.9)]
@@ -385,16 +386,22 @@ fn a_cell_has_the_scale_of_its_diagonals() {
                 let (a, b) = (side(1.0), side(-1.0));
                 // the difference of the diagonals is the shear
                 let shear = ((p * p - q * q) / (a * b)).asin();
-                let found = plydrape::ply::shear::curved_scale([a, b], shear, curvature);
-                (found, (diagonals / (2.0 * (a * a + b * b))).sqrt())
+                let scale = plydrape::ply::shear::curved_scale;
+                let found = scale([a, b], Fibres::Sides, shear, curvature);
+                let diagonals = (diagonals / (2.0 * (a * a + b * b))).sqrt();
+                // the same cell with fibres as its diagonals, whose halves cross at φ
+                let across = scale([p, q], Fibres::Diagonals, cos_phi.asin(), curvature);
+                let sides = ((a * a + b * b) / (2.0 * (p * p + q * q))).sqrt();
+                [(found, diagonals), (across, sides)]
             };
             for curvature in [-1.0, 0.0, 1.0] {
-                let (found, exact) = on(curvature);
-                // what is left is of the fourth order in the size
-                assert!(
-                    (found - exact).abs() < size.powi(4),
-                    "{curvature} {size}: {found} {exact}"
-                );
+                for (found, exact) in on(curvature) {
+                    // what is left is of the fourth order in the size
+                    assert!(
+                        (found - exact).abs() < size.powi(4),
+                        "{curvature} {size}: {found} {exact}"
+                    );
+                }
             }
         }
     }

@@ -5,7 +5,7 @@ use crate::common::{inextensible, paper_ply, settings, squares_of_forces};
 use plydrape::catenary::Profile;
 use plydrape::equilibrium::{Direction, Property, Solver, Status};
 use plydrape::material::Section;
-use plydrape::ply::{Grid, Kind, Ply};
+use plydrape::ply::{Grid, Kind, Lines, Ply};
 use plydrape::scene::{Settings, SlopeRule};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -24,10 +24,10 @@ fn forces(solver: &Solver, kind: Kind) -> Vec<f64> {
         let element = &solver.problem().elements[n];
         (element.catenary, solver.force(n).expect("it hangs"))
     };
-    let grid = Grid { nu: 4, nv: 2 };
+    let lines = Lines::array(Grid { nu: 4, nv: 2 }, [0.1; 2]);
     (0..solver.problem().elements.len())
         .map(grid_kind)
-        .filter(|(catenary, _)| grid.catenary(*catenary).kind == kind)
+        .filter(|(catenary, _)| lines.catenary(*catenary).kind == kind)
         .map(|(_, force)| force)
         .collect()
 }
@@ -104,7 +104,7 @@ proptest! {
     /// (moment-balance).
     #[test]
     fn an_equilibrium_satisfies_its_rule((ply, positions) in any_array(), settings in any_rule()) {
-        let contacts = vec![None; ply.grid.catenaries()];
+        let contacts = vec![None; ply.lines().catenaries()];
         let mut solver = Solver::new(&ply, &settings);
         let outcome = solver.solve(&positions, &contacts);
         prop_assert_eq!(outcome.status, Status::Converged, "{:?}", outcome);
@@ -154,7 +154,7 @@ proptest! {
     /// A warm start reaches the same state as a cold one.
     #[test]
     fn a_warm_start_changes_nothing((ply, positions) in any_array(), settings in any_rule()) {
-        let contacts = vec![None; ply.grid.catenaries()];
+        let contacts = vec![None; ply.lines().catenaries()];
         let mut warm = Solver::new(&ply, &settings);
         warm.solve(&level(ply.grid, 0.097), &contacts);
         let first = warm.solve(&positions, &contacts);
@@ -178,7 +178,7 @@ proptest! {
         random in prop::collection::vec(-1.0..1.0, 3 * 30),
         others in (prop::array::uniform2(-1.0..1.0), prop::array::uniform3(-1.0..1.0)),
     ) {
-        let contacts = vec![None; ply.grid.catenaries()];
+        let contacts = vec![None; ply.lines().catenaries()];
         let count = ply.grid.grippers();
         let ([mass, rigidity], [along_u, along_v, _]) = others;
         let Section::Line { mass: m, flexural_rigidity: ei } = ply.material.section else { panic!() };

@@ -63,15 +63,16 @@ fn a_formation_stands_behind_its_front_and_keeps_the_fabric() {
         let scene = example(name);
         let heights = MoldHeights::new(&scene).expect("a mold");
         let formation = Formation::new(&scene, &heights, RING).expect("a target");
-        let (grid, targets) = (scene.ply.grid, &scene.target.as_ref().expect("a target").grippers);
+        let (lines, targets) =
+            (scene.ply.lines(), &scene.target.as_ref().expect("a target").grippers);
         let mold = scene.mold.as_ref().expect("a mold");
         for k in 0..=10 {
             let front = formation.reach() * f64::from(k) / 10.0;
             let grippers = formation.grippers(front);
-            for edge in 0..grid.edges() {
-                let c = grid.catenary(edge);
-                let [a, b] = [c.from, c.to].map(|g| grippers[grid.index(g)]);
-                let most = scene.ply.flat_length(c.kind) * (1.0 + 2e-4);
+            for edge in 0..lines.edges() {
+                let c = lines.catenary(edge);
+                let [a, b] = lines.ends(edge).map(|gripper| grippers[gripper]);
+                let most = scene.ply.flat_length(edge) * (1.0 + 2e-4);
                 assert!(distance(a, b) < most, "{name}: {c:?} is {} m long", distance(a, b));
             }
             for (place, target) in grippers.iter().zip(targets) {

@@ -14,6 +14,7 @@ mod gap;
 mod infeasible_limits;
 mod interrupted;
 mod laid;
+mod lines;
 mod mesh;
 mod mesh_files;
 mod molds_in_scenes;

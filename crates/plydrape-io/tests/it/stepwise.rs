@@ -114,12 +114,12 @@ fn any_ply() -> impl Strategy<Value = Ply> {
                     [at[0], at[1], surface[2] + 0.008 + 0.005 * r(2)]
                 })
                 .collect();
-            let grid = scene.ply.grid;
-            let contacts = (0..grid.catenaries())
+            let lines = scene.ply.lines();
+            let contacts = (0..lines.catenaries())
                 .map(|n| {
-                    let c = grid.catenary(n);
-                    let ends = [c.from, c.to].map(|g| positions[grid.index(g)]);
-                    let edge = scene.ply.flat_length(c.kind);
+                    let c = lines.catenary(n);
+                    let ends = lines.ends(n).map(|gripper| positions[gripper]);
+                    let edge = scene.ply.flat_length(n);
                     let chord = (0..3).map(|k| (ends[1][k] - ends[0][k]).powi(2)).sum::<f64>();
                     // a diagonal lands with the length that its shear gives it
                     let length = if c.kind.is_edge() { edge } else { 1.01 * chord.sqrt() };

@@ -305,7 +305,7 @@ fn a_start_right_above_keeps_its_straight_way() {
     let forming = (TUNING.transport.forming * 90.0).round() as usize;
     let height = TUNING.transport.formed_height * 0.1;
     let above: Vec<Point> = formation.iter().map(|p| [p[0], p[1], p[2] + height]).collect();
-    let grid = scene.ply.grid;
+    let lines = scene.ply.lines();
     for (k, places) in positions[..=forming].iter().enumerate() {
         let t = k as f64 / forming as f64;
         for ((p, a), b) in places.iter().zip(start).zip(&above) {
@@ -315,8 +315,7 @@ fn a_start_right_above_keeps_its_straight_way() {
         let [a, b] = [start, &above].map(|places| centre(places));
         let straight = [0, 1, 2].map(|n| a[n] + t * (b[n] - a[n]));
         assert!(distance(centre(places), straight) < 1e-9, "step {k}");
-        for c in (0..grid.edges()).map(|edge| grid.catenary(edge)) {
-            let ends = [c.from, c.to].map(|id| grid.index(id));
+        for ends in (0..lines.edges()).map(|edge| lines.ends(edge)) {
             let [now, before, after] =
                 [places, start, &above].map(|places| distance(places[ends[0]], places[ends[1]]));
             let [early, most] = TUNING.transport.tight;

@@ -50,15 +50,21 @@ pub fn attitude(
     gripper: usize,
     before: Option<[f64; 4]>,
 ) -> Attitude {
-    let grid = ply.grid;
-    if grid == Grid::NONE {
-        let [u, v] = tangents(ply, neighbours, positions, gripper);
-        return across(u, v, [None; 2], before);
-    }
+    let lines = solver.lines();
     let slope = [0, 1].map(|d| solver.gripper_slope(positions, gripper, d));
-    let u = heading(grid, positions, gripper, 0).unwrap_or([1.0, 0.0]);
+    if ply.grid == Grid::NONE && slope.contains(&None) {
+        // no fibre line runs through it along u or along v: there its neighbours say how it is tilted
+        let mut along = tangents(ply, neighbours, positions, gripper);
+        for d in 0..2 {
+            if let (Some([x, y]), Some(slope)) = (heading(lines, positions, gripper, d), slope[d]) {
+                along[d] = [x, y, slope];
+            }
+        }
+        return across(along[0], along[1], slope, before);
+    }
+    let u = heading(lines, positions, gripper, 0).unwrap_or([1.0, 0.0]);
     // a strip has no v: across it the gripper is level
-    let v = heading(grid, positions, gripper, 1).unwrap_or([-u[1], u[0]]);
+    let v = heading(lines, positions, gripper, 1).unwrap_or([-u[1], u[0]]);
     let tangent = |h: [f64; 2], s: Option<f64>| [h[0], h[1], s.unwrap_or(0.0)];
     across(tangent(u, slope[0]), tangent(v, slope[1]), slope, before)
 }

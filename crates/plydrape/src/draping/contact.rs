@@ -17,7 +17,7 @@ use super::spans::{FreeSpan, Point};
 use super::tuning::TUNING;
 use crate::mold::vector::{cross, unit};
 use crate::mold::{Mold, SurfaceCurve, distance};
-use crate::ply::{ContactSegment, LandedCell, shear};
+use crate::ply::{ContactSegment, Fibres, LandedCell, shear};
 use crate::scene::ContactSettings;
 
 /// A diagonal about to land, and its cell at that moment.
@@ -26,8 +26,10 @@ use crate::scene::ContactSettings;
 /// √(a² + b² ± 2ab sin γ) times [`shear::curved_scale`], on a plane the length that it hangs with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Diagonal {
-    /// Fabric sides of the cell a, b (m).
+    /// Sides a, b (m) of the trellis of its cell.
     pub sides: [f64; 2],
+    /// Which lines of the cell are fibres.
+    pub fibres: Fibres,
     /// Its shear angle γ (rad), positive where the rising diagonal is the longer one.
     pub shear: f64,
     /// 1 for the rising diagonal, −1 for the falling one.
@@ -38,7 +40,7 @@ impl Diagonal {
     /// Its length (m) on the mold where `place` (m) touches it, and how its cell lands.
     fn landed(&self, mold: &Mold, place: Point) -> (f64, LandedCell) {
         let [first, second] = mold.curvatures(place).principal;
-        let scale = shear::curved_scale(self.sides, self.shear, first * second);
+        let scale = shear::curved_scale(self.sides, self.fibres, self.shear, first * second);
         let flat = shear::diagonal(self.sides, self.shear, self.sign);
         (scale * flat, LandedCell { shear: self.shear, scale })
     }

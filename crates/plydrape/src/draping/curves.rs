@@ -5,15 +5,15 @@
 //! shown, not the solve.
 
 use super::misfit::taut;
-use super::record::{CatenaryState, Hold, SpanState, Step};
+use super::record::{Hold, SpanState, Step};
 use super::spans::{FreeSpan, Point};
 use super::tuning::TUNING;
 use crate::catenary::{EndCondition, Profile, Span, SpanState as Tension};
 use crate::mold::Mold;
 use crate::mold::vector::along;
-use crate::ply::Ply;
+use crate::ply::{Fibres, Lines, Ply};
 use crate::scene::Settings;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Points of a span in a record.
 const STATIONS: usize = 11;
@@ -32,11 +32,11 @@ pub fn curves(
     mold: Option<&Mold>,
     step: &Step,
 ) -> Vec<Vec<Vec<Point>>> {
-    let recorded = Recorded { ply, settings, step };
+    let recorded = Recorded { ply, lines: ply.lines(), settings, step };
     let mut out: Vec<Vec<Vec<Point>>> = Vec::with_capacity(step.catenaries.len());
     for (n, catenary) in step.catenaries.iter().enumerate() {
         let curve = |span: &SpanState| match (span.hold, mold) {
-            (Hold::Lying, Some(mold)) => recorded.lying(catenary, span, mold),
+            (Hold::Lying, Some(mold)) => recorded.lying(n, span, mold),
             _ => hanging(&recorded.span(n, span)),
         };
         out.push(catenary.spans.iter().map(curve).collect());
@@ -50,19 +50,21 @@ pub fn curves(
 /// A step and what its record leaves to the scene.
 struct Recorded<'a> {
     ply: &'a Ply,
+    lines: Arc<Lines>,
     settings: &'a Settings,
     step: &'a Step,
 }
 
 impl Recorded<'_> {
-    fn grippers(&self, catenary: &CatenaryState) -> [Point; 2] {
-        [catenary.from, catenary.to].map(|g| self.step.grippers[self.ply.grid.index(g)].position)
+    fn grippers(&self, catenary: usize) -> [Point; 2] {
+        let place = |gripper: usize| self.step.grippers[gripper].position;
+        self.lines.ends(catenary).map(place)
     }
 
     /// A span that hangs or is straight, as it was solved.
     fn span(&self, n: usize, span: &SpanState) -> FreeSpan {
         let catenary = &self.step.catenaries[n];
-        let [first, second] = self.grippers(catenary);
+        let [first, second] = self.grippers(n);
         let contact = catenary.contact.as_ref().map(|contact| &contact.points);
         let ends = match (contact, span.segment) {
             (Some(points), 0) => [first, points[0]],
@@ -90,7 +92,7 @@ impl Recorded<'_> {
 
     /// The closed form's data of a span between its ends.
     fn problem(&self, span: &FreeSpan) -> Span {
-        let line = self.ply.line(self.ply.grid.catenary(span.catenary).kind);
+        let line = self.ply.line(self.lines.catenary(span.catenary).kind);
         let end = |n: usize| match span.prescribed[n] {
             true => EndCondition::Slope(span.slopes[n]),
             false => EndCondition::Free,
@@ -107,7 +109,8 @@ impl Recorded<'_> {
     }
 
     /// A segment that lies: its slack stands up as a ruck in its middle.
-    fn lying(&self, catenary: &CatenaryState, span: &SpanState, mold: &Mold) -> Vec<Point> {
+    fn lying(&self, n: usize, span: &SpanState, mold: &Mold) -> Vec<Point> {
+        let catenary = &self.step.catenaries[n];
         let Some(contact) =
             catenary.contact.as_ref().filter(|contact| contact.length() < catenary.length)
         else {
@@ -117,7 +120,7 @@ impl Recorded<'_> {
             return Vec::new();
         }
         let end = contact.points[if span.segment == 0 { 0 } else { contact.points.len() - 1 }];
-        let gripper = self.grippers(catenary)[span.segment];
+        let gripper = self.grippers(n)[span.segment];
         let (line, _) = taut(span.segment, end, gripper, mold, self.settings.contact.tolerance);
         let ruck = span.ruck(self.ply, self.settings.gravity, catenary);
         let station = |n: usize| {
@@ -132,10 +135,10 @@ impl Recorded<'_> {
     /// For each cell whose diagonals hang whole and miss each other: the lower one's catenary and its points (m), drawn through
     /// the higher one.
     fn lowered(&self) -> Vec<(usize, Vec<Point>)> {
-        let (grid, catenaries) = (self.ply.grid, &self.step.catenaries);
+        let catenaries = &self.step.catenaries;
         let mut out = Vec::new();
-        for rising in (grid.edges()..grid.catenaries()).step_by(2) {
-            let pair = [rising, rising + 1];
+        for cell in self.lines.cells().iter().filter(|cell| cell.fibres == Fibres::Sides) {
+            let pair = cell.bias.map(|bias| bias.list()[0]);
             let whole = |n: usize| match (&catenaries[n].contact, catenaries[n].spans.as_slice()) {
                 (None, [span]) => Some(self.span(n, span)),
                 _ => None,

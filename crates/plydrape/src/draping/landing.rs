@@ -28,12 +28,7 @@ impl Landing {
 
 /// Fabric coordinates (u, v) (m) of a catenary at a share of its length from its first gripper.
 pub(crate) fn fabric(scene: &Scene, catenary: usize, share: f64) -> [f64; 2] {
-    let c = scene.ply.grid.catenary(catenary);
-    let [a, b] = scene.ply.cell;
-    let at = |from: usize, to: usize, side: f64| {
-        side * (from as f64 + share * (to as f64 - from as f64))
-    };
-    [at(c.from[0], c.to[0], a), at(c.from[1], c.to[1], b)]
+    scene.ply.lines().point(catenary, share)
 }
 
 /// Compares a contact segment with the ideal drape; none if that is not known.
@@ -48,7 +43,7 @@ pub fn landing(scene: &Scene, catenary: usize, contact: &ContactSegment) -> Opti
         .zip(&line.points)
         .map(|(arc, point)| place(*arc).map(|ideal| distance(*point, ideal)))
         .collect();
-    let fibre_angle = (catenary < scene.ply.grid.edges()).then(|| {
+    let fibre_angle = (catenary < scene.ply.lines().edges()).then(|| {
         let ([from, to], [a, b]) = (contact.arc(), contact.point());
         let landed =
             unit(sub(b, a)).filter(|_| to - from > TUNING.shortest_direction * contact.length)?;

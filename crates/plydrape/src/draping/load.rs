@@ -15,23 +15,23 @@ pub struct Load {
     pub pull: [f64; 2],
 }
 
-/// The loads of all grippers, in the order of [`crate::ply::Grid::index`].
+/// The loads of all grippers, in the order of [`crate::ply::Ply::index`].
 ///
 /// A span between two grippers pulls with its forces. Where the mold holds a segment at its other end, the tension is an
 /// artefact of the axial stiffness; half of its weight counts. Mounts that yield bound such a tension, and their forces count.
 #[must_use]
 pub fn loads(scene: &Scene, snapshot: &Snapshot) -> Vec<Load> {
-    let (ply, grid) = (&scene.ply, scene.ply.grid);
+    let (ply, lines) = (&scene.ply, scene.ply.lines());
     if let Some(mounts) = &snapshot.mounts {
         let load = |[x, y, z]: &[f64; 3]| Load { vertical: -z, pull: [*x, *y] };
         return mounts.force.iter().map(load).collect();
     }
     let mut out = vec![Load::default(); ply.grippers()];
-    for span in snapshot.shape.spans.iter().filter(|span| span.catenary < grid.edges()) {
-        let c = grid.catenary(span.catenary);
-        let share = ply.tributary(span.catenary);
-        let grippers = [c.from, c.to].map(|g| grid.index(g));
-        let half_weight = 0.5 * ply.line(c.kind).mass * scene.settings.gravity * span.length;
+    for span in snapshot.shape.spans.iter().filter(|span| span.catenary < lines.edges()) {
+        let share = lines.tributary(span.catenary);
+        let grippers = lines.ends(span.catenary);
+        let kind = lines.catenary(span.catenary).kind;
+        let half_weight = 0.5 * ply.line(kind).mass * scene.settings.gravity * span.length;
         if snapshot.contacts[span.catenary].is_some() {
             out[grippers[span.segment]].vertical += share * half_weight;
             continue;

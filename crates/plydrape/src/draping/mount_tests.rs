@@ -24,8 +24,15 @@ fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2])
         tension: None,
         locking_angle: None,
     };
-    let ply =
-        Ply { grid, cell: [0.1; 2], material, warp: Direction::U, length_factor: 1.0, cut: None };
+    let ply = Ply {
+        grid,
+        cell: [0.1; 2],
+        material,
+        warp: Direction::U,
+        length_factor: 1.0,
+        cut: None,
+        found: Default::default(),
+    };
     let settings = Settings { model: Model::Catenaries, pad, ..Settings::default() };
     let limits = Limits::of(&ply, &settings);
     let share = |step: usize| step as f64 / (heights.len() - 1).max(1) as f64;
@@ -118,7 +125,8 @@ fn a_pad_sticks_where_it_touched_and_is_lifted_off_where_the_mold_would_pull() {
     let mut mounts = MountedSolver::new(&scene.ply, &scene.settings).unwrap();
     let contacts = vec![None];
     let mold = plane();
-    let ground = Ground { mold: &mold, tolerance: 2e-4, grid, contacts: &contacts };
+    let lines = scene.ply.lines();
+    let ground = Ground { mold: &mold, tolerance: 2e-4, lines, contacts: &contacts };
     // the ply itself is let through the mold here: only the pads are on it
     let mut at = |mounts: &mut MountedSolver, x: f64, z: f64| {
         let places = [[-0.049, 0.0, 0.01], [0.049 + x, 0.0, z]];

@@ -12,7 +12,7 @@ use crate::catenary;
 use crate::equilibrium::Solver;
 use crate::measure::{Before, Judge, Name, State, last_numbers, worst_numbers};
 use crate::mold::distance;
-use crate::ply::{ContactSegment, Kind, shear};
+use crate::ply::{ContactSegment, Kind, LineCell, shear};
 use crate::scene::Scene;
 
 /// Collects the steps of a drape.
@@ -80,26 +80,27 @@ impl<'a> Report<'a> {
     }
 
     fn catenaries(&self, state: &State) -> Vec<CatenaryState> {
-        let (scene, grid) = (self.scene, self.scene.ply.grid);
+        let (scene, lines) = (self.scene, self.scene.ply.lines());
         let (snapshot, landings) = (state.snapshot, state.landings());
         let mut misfits = state.misfits().iter();
         let mut spans = snapshot.shape.spans.iter().peekable();
-        let mut out = Vec::with_capacity(grid.catenaries());
-        for n in 0..grid.catenaries() {
-            let c = grid.catenary(n);
+        let mut out = Vec::with_capacity(lines.catenaries());
+        for n in 0..lines.catenaries() {
+            let c = lines.catenary(n);
             let contact = snapshot.contacts[n].as_ref();
-            let shear = (n >= grid.edges())
-                .then(|| snapshot.shear[(n - grid.edges()) / 2])
-                .flatten()
-                .filter(|shear| shear.falling == (c.kind == Kind::Falling));
+            let stretched = state.solver.problem().stretched(n);
+            let force = stretched.and_then(|path| {
+                let is_falling = c.kind == Kind::Falling;
+                let shears = lines.cells_of(n).filter_map(|cell| snapshot.shear[cell]);
+                self.shear_force(path, shears.filter(|shear| shear.falling == is_falling))
+            });
             let mut line = CatenaryState {
                 kind: c.kind,
                 from: c.from,
                 to: c.to,
-                length: contact
-                    .map_or_else(|| scene.ply.flat_length(c.kind), |contact| contact.length),
-                shearing: shear.is_some(),
-                shear_force_n: shear.and_then(|shear| self.shear_force(&shear)),
+                length: contact.map_or_else(|| scene.ply.flat_length(n), |contact| contact.length),
+                shearing: stretched.is_some(),
+                shear_force_n: force,
                 spans: Vec::with_capacity(2),
                 contact: None,
                 bridging: snapshot.bridges[n],
@@ -122,29 +123,34 @@ impl<'a> Report<'a> {
         out
     }
 
-    /// Force of a stretched diagonal (N), where the material has a shear curve.
-    fn shear_force(&self, shear: &super::CellShear) -> Option<f64> {
+    /// Force (N) of a stretched bias line of a taut path (m) from the cells that it shears, where the material has a shear curve.
+    fn shear_force(
+        &self,
+        path: f64,
+        shears: impl Iterator<Item = super::CellShear>,
+    ) -> Option<f64> {
         let curve = self.scene.ply.material.shear_curve.as_ref()?;
-        let force = shear::force(shear.angle, shear.path, curve.force(shear.angle).0);
+        let of =
+            |shear: super::CellShear| shear::force(shear.angle, path, curve.force(shear.angle).0);
+        let force: f64 = shears.map(of).sum();
         force.is_finite().then_some(force)
     }
 
     fn cells(&self, snapshot: &Snapshot) -> Vec<Cell> {
-        let (across, edges) =
-            (self.scene.ply.grid.nu.saturating_sub(1), self.scene.ply.grid.edges());
-        let cell = |(n, shear): (usize, &Option<super::CellShear>)| Cell {
-            cell: [n % across, n / across],
+        let lines = self.scene.ply.lines();
+        let landed = |n: &usize| snapshot.contacts[*n].as_ref().and_then(|contact| contact.landed);
+        let cell = |(line_cell, shear): (&LineCell, &Option<super::CellShear>)| Cell {
+            cell: line_cell.id,
             shear_deg: shear.map_or(0.0, |shear| shear.angle.to_degrees()),
             shearing: shear.map(|shear| match shear.falling {
                 true => Kind::Falling,
                 false => Kind::Rising,
             }),
-            landed_deg: [0, 1].map(|k| {
-                let contact = snapshot.contacts[edges + 2 * n + k].as_ref()?;
-                contact.landed.map(|landed| landed.shear.to_degrees())
+            landed_deg: line_cell.bias.map(|bias| {
+                bias.list().iter().find_map(landed).map(|landed| landed.shear.to_degrees())
             }),
         };
-        snapshot.shear.iter().enumerate().map(cell).collect()
+        lines.cells().iter().zip(&snapshot.shear).map(cell).collect()
     }
 
     /// The steps and the outcome, judged.

@@ -35,7 +35,7 @@ pub(crate) struct Snapshot {
     pub contact_status: ContactStatus,
 }
 
-/// The mounts of all grippers in one step, in the order of [`crate::ply::Grid::index`].
+/// The mounts of all grippers in one step, in the order of [`crate::ply::Ply::index`].
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MountState {
     /// Where the robot holds them (m).

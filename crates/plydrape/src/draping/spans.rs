@@ -3,7 +3,7 @@
 use crate::catenary::{Profile, SpanState};
 use crate::equilibrium::{Equilibrium, Solver, StateTangent};
 use crate::mold::distance;
-use crate::ply::{ContactSegment, Kind, Ply};
+use crate::ply::{ContactSegment, Ply};
 use std::sync::OnceLock;
 
 /// A point in space (m).
@@ -157,18 +157,13 @@ pub fn shape(
     positions: &[Point],
     contacts: &[Option<ContactSegment>],
 ) -> Shape {
-    let grid = ply.grid;
+    let lines = ply.lines();
     let problem = solver.problem();
     let mut elements = problem.elements.iter().enumerate().peekable();
-    let mut spans = Vec::with_capacity(2 * grid.catenaries());
-    for catenary in 0..grid.catenaries() {
-        let c = grid.catenary(catenary);
-        let grippers = [c.from, c.to].map(|g| positions[grid.index(g)]);
-        let stretched = (catenary >= grid.edges())
-            .then(|| problem.shearing[(catenary - grid.edges()) / 2])
-            .flatten()
-            .filter(|(_, falling)| *falling == (c.kind == Kind::Falling))
-            .filter(|_| contacts[catenary].is_none());
+    let mut spans = Vec::with_capacity(2 * lines.catenaries());
+    for catenary in 0..lines.catenaries() {
+        let grippers = lines.ends(catenary).map(|gripper| positions[gripper]);
+        let stretched = problem.stretched(catenary).filter(|_| contacts[catenary].is_none());
         let segments = contacts[catenary].as_ref().map_or(1, |_| 2);
         for segment in 0..segments {
             let ends = match &contacts[catenary] {
@@ -201,7 +196,7 @@ pub fn shape(
             span.slopes = [span.slope(0.0); 2];
             // a fold has no catenary
             span.length = contacts[catenary].as_ref().map_or(0.0, |l| l.free_length(segment));
-            if let Some((path, _)) = stretched {
+            if let Some(path) = stretched {
                 span.length = path;
             } else if let Some((n, element)) =
                 elements.next_if(|(_, e)| e.catenary == catenary && e.segment == segment)

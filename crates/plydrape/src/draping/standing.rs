@@ -12,7 +12,8 @@ use super::tuning::TUNING;
 use crate::equilibrium::{MountLaw, MountedSolver, Standing};
 use crate::mold::Mold;
 use crate::mold::vector::dot;
-use crate::ply::{ContactSegment, Grid};
+use crate::ply::{ContactSegment, Lines};
+use std::sync::Arc;
 
 /// What the pads of a step depend on.
 pub struct Ground<'a> {
@@ -20,8 +21,8 @@ pub struct Ground<'a> {
     pub mold: &'a Mold,
     /// Contact tolerance (m).
     pub tolerance: f64,
-    /// The array.
-    pub grid: Grid,
+    /// The lines of the ply.
+    pub lines: Arc<Lines>,
     /// Contact segment of each catenary.
     pub contacts: &'a [Option<ContactSegment>],
 }
@@ -29,12 +30,11 @@ pub struct Ground<'a> {
 impl Ground<'_> {
     /// Whether an edge beside each gripper lies up to it.
     fn lying(&self) -> Vec<bool> {
-        let mut out = vec![false; self.grid.grippers()];
-        for (n, contact) in self.contacts.iter().enumerate().take(self.grid.edges()) {
+        let mut out = vec![false; self.lines.grippers()];
+        for (n, contact) in self.contacts.iter().enumerate().take(self.lines.edges()) {
             let Some(contact) = contact else { continue };
-            let c = self.grid.catenary(n);
-            for (end, id) in [c.from, c.to].into_iter().enumerate() {
-                out[self.grid.index(id)] |= contact.lying[end];
+            for (end, gripper) in self.lines.ends(n).into_iter().enumerate() {
+                out[gripper] |= contact.lying[end];
             }
         }
         out

@@ -11,15 +11,18 @@ use super::standing::Ground;
 use super::tuning::TUNING;
 use super::{CellShear, ContactStatus, Drape, Snapshot};
 use crate::equilibrium::{Continuation, Equilibrium, MountedSolver, Solver, Status};
-use crate::ply::{ContactSegment, Grid, Kind, shear};
+use crate::ply::{ContactSegment, Kind, Lines, shear};
 use crate::scene::{Scene, Stepping};
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A drape under way.
 #[derive(Clone)]
 pub(crate) struct Draping<'a> {
     scene: &'a Scene,
+    /// The lines of the ply.
+    lines: Arc<Lines>,
     /// The solver, as it was left by the last move.
     pub(crate) solver: Solver,
     /// The mounts of the grippers, where they yield.
@@ -43,9 +46,10 @@ pub(crate) struct Draping<'a> {
 
 impl<'a> Draping<'a> {
     pub(crate) fn new(scene: &'a Scene) -> Self {
-        let count = scene.ply.grid.catenaries();
+        let count = scene.ply.lines().catenaries();
         Draping {
             scene,
+            lines: scene.ply.lines(),
             solver: Solver::new(&scene.ply, &scene.settings),
             mounts: (count > 0).then(|| MountedSolver::new(&scene.ply, &scene.settings)).flatten(),
             positions: scene.motion.positions[0].clone(),
@@ -154,7 +158,7 @@ impl<'a> Draping<'a> {
         let shearing = self.solver.problem().shearing.iter().enumerate();
         let shear = |(cell, stretched): (usize, &Option<(f64, bool)>)| {
             let (path, falling) = (*stretched)?;
-            let sides = self.scene.ply.sides(cell, &self.contacts);
+            let sides = self.scene.ply.trellis(&self.lines.cells()[cell], &self.contacts);
             Some(CellShear { angle: shear::angle(sides, path), path, falling })
         };
         shearing.map(shear).collect()
@@ -212,7 +216,7 @@ impl<'a> Draping<'a> {
             let is_deep = deep.is_some() || (self.pad_is_deep() && start != *goal);
             let mut is_cut = is_deep && may_cut;
             // a fibre that jumps so far penetrates the mold, which has a limit; a diagonal is no fibre
-            if !is_cut && deep.is_some_and(|catenary| catenary < self.scene.ply.grid.edges()) {
+            if !is_cut && deep.is_some_and(|catenary| catenary < self.lines.edges()) {
                 self.contact_status = ContactStatus::CutLimit;
                 self.note_depth(&shape, &gaps);
             }
@@ -283,7 +287,7 @@ impl<'a> Draping<'a> {
         let tolerance = self.scene.settings.contact.tolerance;
         let deep = |(span, gaps): &(&FreeSpan, &GapSamples)| {
             let in_contact = self.contacts[span.catenary].is_some();
-            let follows = !in_contact || span.catenary < self.scene.ply.grid.edges();
+            let follows = !in_contact || span.catenary < self.lines.edges();
             follows
                 && gaps.depth() > tolerance
                 && contact::new_depth(span, gaps, mold, in_contact, tolerance) > tolerance
@@ -295,7 +299,7 @@ impl<'a> Draping<'a> {
     fn note_depth(&mut self, shape: &Shape, gaps: &[GapSamples]) {
         for (span, gaps) in shape.spans.iter().zip(gaps) {
             let landed = self.contacts[span.catenary].is_some();
-            if landed && span.catenary >= self.scene.ply.grid.edges() {
+            if landed && span.catenary >= self.lines.edges() {
                 continue;
             }
             let Some((t, distance)) = gaps.deepest() else { continue };
@@ -305,17 +309,24 @@ impl<'a> Draping<'a> {
         }
     }
 
-    /// A diagonal without contact, and the shear of its cell.
+    /// A bias line without contact, and the shear of its cell; of a side between two cells the mean of their sines.
     fn diagonal(&self, catenary: usize) -> Option<Diagonal> {
-        let grid: Grid = self.scene.ply.grid;
-        let cell = catenary.checked_sub(grid.edges())? / 2;
-        let shearing = self.solver.problem().shearing[cell];
-        let sides = self.scene.ply.sides(cell, &self.contacts);
-        let shear = shearing.map_or(0.0, |(path, falling)| {
-            CellShear { angle: shear::angle(sides, path), path, falling }.signed()
-        });
-        let sign = if grid.catenary(catenary).kind == Kind::Rising { 1.0 } else { -1.0 };
-        Some(Diagonal { sides: self.scene.ply.fabric_cell(), shear, sign })
+        let cells = self.lines.cells_of(catenary);
+        let shear = |cell: usize| {
+            let sides = self.scene.ply.trellis(&self.lines.cells()[cell], &self.contacts);
+            self.solver.problem().shearing[cell].map_or(0.0, |(path, falling)| {
+                CellShear { angle: shear::angle(sides, path), path, falling }.signed()
+            })
+        };
+        let mut shears = cells.clone().map(shear);
+        let shear = match [shears.next(), shears.next()] {
+            [Some(one), Some(other)] => (0.5 * (one.sin() + other.sin())).asin(),
+            [one, _] => one?,
+        };
+        let cell = &self.lines.cells()[cells.clone().next()?];
+        let sides = cell.trellis.map(|side| side * self.scene.ply.length_factor);
+        let sign = if self.lines.catenary(catenary).kind == Kind::Rising { 1.0 } else { -1.0 };
+        Some(Diagonal { sides, fibres: cell.fibres, shear, sign })
     }
 
     /// Updates the contact of every span once; true if it has changed.
@@ -365,7 +376,7 @@ fn ground<'a>(scene: &'a Scene, contacts: &'a [Option<ContactSegment>]) -> Optio
     Some(Ground {
         mold: scene.mold.as_ref()?,
         tolerance: scene.settings.contact.tolerance,
-        grid: scene.ply.grid,
+        lines: scene.ply.lines(),
         contacts,
     })
 }

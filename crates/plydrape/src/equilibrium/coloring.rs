@@ -4,7 +4,7 @@
 //! apart are moved together, and each element's change is put down to the one of them that is near: so many directions are
 //! enough as a neighbourhood has grippers, whatever the array's size (Curtis, Powell and Reid 1974).
 
-use crate::ply::{Grid, GripperId};
+use crate::ply::{Grid, GripperId, Ply};
 
 /// Groups of grippers, each a stride apart along u and v.
 #[derive(Debug, Clone, Copy)]
@@ -15,8 +15,15 @@ pub struct Coloring {
 
 impl Coloring {
     /// Groups for an influence of a gripper that ends `reach` cells away from it.
-    pub fn new(grid: Grid, reach: usize) -> Self {
+    fn new(grid: Grid, reach: usize) -> Self {
         Coloring { grid, reach }
+    }
+
+    /// Groups for a ply; where its cups are no whole array, each of them is a group of its own, because lines of several pitches
+    /// carry an influence farther.
+    pub fn of(ply: &Ply, reach: usize) -> Self {
+        let grid = ply.rows();
+        Coloring::new(grid, if ply.grid == Grid::NONE { grid.grippers() } else { reach })
     }
 
     /// Grippers along u and v of which one each is in a group.

@@ -7,7 +7,7 @@ use crate::ply::{self, Ply};
 /// and diagonals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Direction {
-    /// Velocity of each gripper (m), in the order of [`crate::ply::Grid::index`].
+    /// Velocity of each gripper (m), in the order of [`crate::ply::Ply::index`].
     pub grippers: Vec<[f64; 3]>,
     /// Relative change of fabric lengths.
     pub length: [f64; 3],
@@ -68,7 +68,7 @@ impl Direction {
     /// its slopes have no derivative.
     #[must_use]
     pub fn property(ply: &Ply, property: Property) -> Option<Direction> {
-        let mut direction = Direction::none(ply.grid.grippers());
+        let mut direction = Direction::none(ply.grippers());
         let inverse = |value: f64| (value > 0.0).then(|| 1.0 / value);
         match (ply.material.section, property) {
             (Section::Line { mass, .. } | Section::Areal { mass, .. }, Property::Mass) => {
@@ -99,7 +99,7 @@ impl Direction {
     /// one cell wide: it widens with the other side, and a diagonal with the mean of both.
     #[must_use]
     pub fn cell(ply: &Ply, along: usize) -> Direction {
-        let mut direction = Direction::none(ply.grid.grippers());
+        let mut direction = Direction::none(ply.grippers());
         let [a, b] = ply.cell;
         let side = ply.cell[along];
         direction.length[along] = 1.0 / side;
@@ -115,7 +115,7 @@ impl Direction {
     /// Metres of a gripper along an axis.
     #[must_use]
     pub fn gripper(ply: &Ply, gripper: usize, axis: usize) -> Direction {
-        let mut direction = Direction::none(ply.grid.grippers());
+        let mut direction = Direction::none(ply.grippers());
         direction.grippers[gripper][axis] = 1.0;
         direction
     }

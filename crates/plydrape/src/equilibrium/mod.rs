@@ -39,7 +39,7 @@ pub use mount::{
 };
 pub use problem::{
     Constraint, Element, End, PlaneSlope, Problem, SharedSlope, Side, SlopeSource, Stretched,
-    heading, neighbours,
+    heading,
 };
 pub use sensitivity::{Linearized, StateTangent};
 pub use solver::Solver;

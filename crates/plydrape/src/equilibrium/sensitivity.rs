@@ -133,7 +133,7 @@ impl<'a> Linearization<'a> {
         let (slopes, is_sound) = rule.get().respond(&change, active, solver.tuning());
         pass.run(problem, jets, at, &slopes);
         let gripper_slope = |gripper: usize, direction: usize| {
-            let heading = heading(solver.grid(), moving, gripper, direction)?;
+            let heading = heading(solver.lines(), moving, gripper, direction)?;
             let free = |n: usize| free.get(n).copied();
             problem.gripper_slope(gripper, direction, heading, free, |n| Some(pass.held[n]))
         };

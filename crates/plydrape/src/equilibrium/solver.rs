@@ -15,13 +15,15 @@ use super::status::{Equilibrium, Status};
 use super::tuning::Tuning;
 use super::warm_start::WarmStart;
 use crate::catenary::{Span, SpanState};
-use crate::ply::{ContactSegment, Grid, Ply};
+use crate::ply::{ContactSegment, Lines, Ply};
 use crate::scene::{Settings, SlopeRule};
+use std::sync::Arc;
 
 /// Finds equilibria, one after the other.
 #[derive(Debug, Clone)]
 pub struct Solver {
     ply: Ply,
+    lines: Arc<Lines>,
     settings: Settings,
     tuning: Tuning,
     problem: Problem<f64>,
@@ -73,13 +75,14 @@ impl Solver {
         }
         Solver {
             ply: ply.clone(),
+            lines: ply.lines(),
             settings: *settings,
             tuning,
             problem: Problem::default(),
             state: State::new(settings.axial_stiffness, tuning),
             rule: SceneRule::new(settings.slopes),
             newton: Newton::default(),
-            warm_start: WarmStart::new(ply.grid),
+            warm_start: WarmStart::new(&ply.lines()),
             unconstrained: None,
             free: Vec::new(),
             constrained: true,
@@ -109,7 +112,7 @@ impl Solver {
         }
     }
 
-    /// Solves the equilibrium at gripper positions (m), in the order of [`crate::ply::Grid::index`],
+    /// Solves the equilibrium at gripper positions (m), in the order of [`crate::ply::Ply::index`],
     /// with the contact segment of each catenary.
     ///
     /// Where a cell has just begun to shear, the ply is solved without constraints first: those slopes are mixed
@@ -196,6 +199,7 @@ impl Solver {
     ) {
         self.problem.rebuild(&Circumstances {
             ply: &self.ply,
+            lines: &self.lines,
             settings: &self.settings,
             tuning: &self.tuning,
             positions,
@@ -250,9 +254,10 @@ impl Solver {
         factors: Factors<T>,
         free: &'a [[T; 2]],
     ) -> Circumstances<'a, T> {
-        let Solver { ply, settings, tuning, constrained, .. } = self;
+        let Solver { ply, lines, settings, tuning, constrained, .. } = self;
         Circumstances {
             ply,
+            lines,
             settings,
             tuning,
             positions,
@@ -269,9 +274,9 @@ impl Solver {
         &self.ply
     }
 
-    /// The grid of grippers.
-    pub(super) fn grid(&self) -> Grid {
-        self.ply.grid
+    /// The lines of the ply.
+    pub(crate) fn lines(&self) -> &Lines {
+        &self.lines
     }
 
     /// Shared slopes of the last solve, one each of [`Problem::shared_slopes`].
@@ -302,7 +307,7 @@ impl Solver {
         gripper: usize,
         direction: usize,
     ) -> Option<f64> {
-        let heading = heading(self.ply.grid, positions, gripper, direction)?;
+        let heading = heading(&self.lines, positions, gripper, direction)?;
         let held = |element: usize| Some(self.state.end_slopes(element));
         let free = |element: usize| self.free.get(element).copied();
         self.problem.gripper_slope(gripper, direction, heading, free, held)

@@ -4,7 +4,7 @@
 use super::problem::{Element, End, Problem};
 use super::state::{Evaluation, State};
 use crate::catenary::SpanState;
-use crate::ply::Grid;
+use crate::ply::Lines;
 
 /// Earlier solutions of a ply.
 #[derive(Debug, Clone)]
@@ -22,11 +22,11 @@ type Solved = (Element<f64>, Evaluation);
 
 impl WarmStart {
     /// Without an earlier solution.
-    pub fn new(grid: Grid) -> WarmStart {
+    pub fn new(lines: &Lines) -> WarmStart {
         WarmStart {
-            slopes: vec![[0.0; 2]; grid.grippers()],
-            ratios: vec![[None; 2]; grid.catenaries()],
-            solved: vec![[None; 2]; grid.catenaries()],
+            slopes: vec![[0.0; 2]; lines.grippers()],
+            ratios: vec![[None; 2]; lines.catenaries()],
+            solved: vec![[None; 2]; lines.catenaries()],
         }
     }
 

@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 pub struct Draw {
     /// Of the tool frame.
     pub frame: RigidError,
-    /// Of each gripper, in the order of [`crate::ply::Grid::index`].
+    /// Of each gripper, in the order of [`crate::ply::Ply::index`].
     pub grippers: Vec<GripperError>,
     /// Of where the grippers hold the ply.
     pub pick_up: PickUpError,

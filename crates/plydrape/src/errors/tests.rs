@@ -53,6 +53,7 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
         warp: Direction::U,
         length_factor: 1.0,
         cut: None,
+        found: Default::default(),
     };
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
     let step = |k: usize| {
@@ -387,9 +388,8 @@ fn a_length_factor_of_one_changes_nothing() {
     assert_eq!(plain.clone().enlarged(1.0), plain);
     assert_eq!(scene.ply.fabric_cell(), scene.ply.cell);
     let longer = Ply { length_factor: 1.01, ..scene.ply.clone() };
-    for n in 0..scene.ply.grid.catenaries() {
-        let kind = scene.ply.grid.catenary(n).kind;
-        let share = longer.flat_length(kind) / scene.ply.flat_length(kind);
+    for n in 0..scene.ply.lines().catenaries() {
+        let share = longer.flat_length(n) / scene.ply.flat_length(n);
         assert!((share - 1.01).abs() < 1e-15);
     }
     #[cfg(feature = "serde")]
@@ -422,7 +422,7 @@ fn a_longer_fabric_pulls_as_a_catenary_of_its_length() {
     };
     let expected = span.solve(None).force.expect("it hangs");
     let mut solver = Solver::new(&real.ply, &real.settings);
-    let contacts = vec![None; real.ply.grid.catenaries()];
+    let contacts = vec![None; real.ply.lines().catenaries()];
     let _ = solver.solve(&real.motion.positions[0], &contacts);
     let found = solver.force(0).expect("a force");
     assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");

@@ -21,10 +21,10 @@ impl Measure for ContactShare {
 
     fn evaluate(&self, state: &State) -> Option<Found> {
         state.scene.mold.as_ref()?;
-        let (ply, grid) = (&state.scene.ply, state.scene.ply.grid);
+        let (ply, lines) = (&state.scene.ply, state.scene.ply.lines());
         let (mut lying, mut total) = (0.0, 0.0);
-        for (n, contact) in state.snapshot.contacts.iter().enumerate().take(grid.edges()) {
-            total += ply.flat_length(grid.catenary(n).kind);
+        for (n, contact) in state.snapshot.contacts.iter().enumerate().take(lines.edges()) {
+            total += lines.flat_length(n, ply.length_factor);
             let Some(contact) = contact else { continue };
             let beside = (0..2)
                 .filter(|&which| contact.lying[which])

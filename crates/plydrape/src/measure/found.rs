@@ -2,7 +2,7 @@
 
 use super::Sense;
 use crate::draping::spans::Point;
-use crate::ply::Ply;
+use crate::ply::{Fibres, Ply};
 
 /// A part of the ply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,20 +27,29 @@ impl Site {
     /// As a label.
     #[must_use]
     pub fn label(self, ply: &Ply) -> String {
-        let grid = ply.grid;
         let id = |n: usize| {
             let [i, j] = ply.id(n);
             format!("[{i},{j}]")
         };
         match self {
             Site::Catenary(n) => {
-                let c = grid.catenary(n);
-                let kind = if c.kind.is_edge() { "edge" } else { "diagonal" };
+                let lines = ply.lines();
+                let c = lines.catenary(n);
+                let is_side =
+                    lines.cells_of(n).any(|cell| lines.cells()[cell].fibres == Fibres::Diagonals);
+                let kind = match (c.kind.is_edge(), is_side) {
+                    (true, _) => "edge",
+                    (false, true) => "bias line",
+                    (false, false) => "diagonal",
+                };
                 format!("{kind} [{},{}]–[{},{}]", c.from[0], c.from[1], c.to[0], c.to[1])
             }
             Site::Gripper(n) => format!("gripper {}", id(n)),
             Site::Grippers(a, b) => format!("grippers {} and {}", id(a), id(b)),
-            Site::Cell(n) => format!("cell [{},{}]", n % (grid.nu - 1), n / (grid.nu - 1)),
+            Site::Cell(n) => {
+                let [i, j] = ply.lines().cells()[n].id;
+                format!("cell [{i},{j}]")
+            }
             Site::AllEdges => "all edges".into(),
             Site::AllGrippers => "all grippers".into(),
             Site::Nowhere => "nowhere".into(),

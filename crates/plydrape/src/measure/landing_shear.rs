@@ -6,7 +6,8 @@
 
 use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
 use crate::mold::vector::between;
-use crate::ply::shear::signed_angle;
+use crate::ply::BiasLines;
+use crate::ply::shear::{mean_path, signed_angle};
 use crate::scene::Scene;
 
 /// Landing shear error |γ_end − γ_l|; see the head of this file.
@@ -26,35 +27,32 @@ impl Measure for LandingShear {
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
-        let judged = scene.mold.is_some() && scene.target.is_some() && scene.ply.grid.cells() > 0;
+        let judged = scene.mold.is_some() && scene.target.is_some() && !scene.ply.lines().cells().is_empty();
         judged.then(|| scene.limits.landing_shear.to_degrees())
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {
         let (scene, snapshot) = (state.scene, state.snapshot);
-        let (mold, grid) = (scene.mold.as_ref()?, scene.ply.grid);
+        let (mold, lines) = (scene.mold.as_ref()?, scene.ply.lines());
         let tolerance = scene.settings.contact.tolerance;
         let mut most = Most::default();
-        for cell in 0..grid.cells() {
-            let diagonals = grid.diagonals([cell % (grid.nu - 1), cell / (grid.nu - 1)]);
-            let landed =
-                diagonals.map(|n| snapshot.contacts[n].as_ref().and_then(|contact| contact.landed));
-            if landed == [None, None] {
+        let path = |n: usize| {
+            let [a, b] = lines.ends(n).map(|gripper| snapshot.positions[gripper]);
+            let stand = [a, b].iter().all(|p| mold.signed_distance(*p) <= tolerance);
+            if stand { mold.path_length(a, b) } else { crate::mold::distance(a, b) }
+        };
+        for (number, cell) in lines.cells().iter().enumerate() {
+            let bias = cell.bias.iter().flat_map(BiasLines::list);
+            let landed = bias.filter_map(|n| snapshot.contacts[*n].as_ref()?.landed);
+            if landed.clone().next().is_none() {
                 continue;
             }
-            let ends = diagonals.map(|n| {
-                let c = grid.catenary(n);
-                [c.from, c.to].map(|g| snapshot.positions[grid.index(g)])
-            });
-            let [rising, falling] = ends.map(|[a, b]| {
-                let stand = [a, b].iter().all(|p| mold.signed_distance(*p) <= tolerance);
-                if stand { mold.path_length(a, b) } else { crate::mold::distance(a, b) }
-            });
-            let end = signed_angle(scene.ply.sides(cell, &snapshot.contacts), rising, falling);
-            let errors = landed.into_iter().flatten().map(|landed| (end - landed.shear).abs());
+            let [rising, falling] = cell.bias.map(|bias| mean_path(bias.list(), path));
+            let end = signed_angle(scene.ply.trellis(cell, &snapshot.contacts), rising, falling);
+            let errors = landed.map(|landed| (end - landed.shear).abs());
+            let [low, _, top, _] = cell.corners.map(|gripper| snapshot.positions[gripper]);
             for error in errors {
-                let place = between(ends[0][0], ends[0][1], 0.5);
-                most.meet(error.to_degrees(), Site::Cell(cell), place);
+                most.meet(error.to_degrees(), Site::Cell(number), between(low, top, 0.5));
             }
         }
         Some(most.found().unwrap_or(Found::NONE))

@@ -16,17 +16,17 @@ impl Measure for Shear {
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
-        (scene.ply.grid.cells() > 0).then(|| scene.limits.shear.to_degrees())
+        (!scene.ply.lines().cells().is_empty()).then(|| scene.limits.shear.to_degrees())
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {
-        let grid = state.scene.ply.grid;
+        let lines = state.scene.ply.lines();
         let mut most = Most::default();
         for (cell, shear) in state.snapshot.shear.iter().enumerate() {
-            let [i, j] = [cell % (grid.nu - 1), cell / (grid.nu - 1)];
-            let corner = |di, dj| state.snapshot.positions[grid.index([i + di, j + dj])];
+            let [low, _, top, _] =
+                lines.cells()[cell].corners.map(|gripper| state.snapshot.positions[gripper]);
             let angle = shear.map_or(0.0, |shear| shear.angle.to_degrees());
-            most.meet(angle, Site::Cell(cell), between(corner(0, 0), corner(1, 1), 0.5));
+            most.meet(angle, Site::Cell(cell), between(low, top, 0.5));
         }
         most.found()
     }

@@ -73,7 +73,7 @@ impl<'a> State<'a> {
     /// Number of edge catenaries; they come first.
     #[must_use]
     pub(crate) fn edges(&self) -> usize {
-        self.scene.ply.grid.edges()
+        self.scene.ply.lines().edges()
     }
 
     /// How the grippers are tilted.
@@ -134,10 +134,10 @@ impl<'a> State<'a> {
     pub(crate) fn lying(&self) -> &[Vec<LyingSegment>] {
         self.lying.get_or_init(|| {
             let Some(mold) = &self.scene.mold else { return Vec::new() };
-            let (grid, tolerance) = (self.scene.ply.grid, self.scene.settings.contact.tolerance);
+            let (lines, tolerance) =
+                (self.scene.ply.lines(), self.scene.settings.contact.tolerance);
             let one = |(n, contact): (usize, &Option<_>)| {
-                let c = grid.catenary(n);
-                let grippers = [c.from, c.to].map(|g| self.snapshot.positions[grid.index(g)]);
+                let grippers = lines.ends(n).map(|gripper| self.snapshot.positions[gripper]);
                 let segments = |contact| lying_segments(n, contact, grippers, mold, tolerance);
                 contact.as_ref().map(segments).unwrap_or_default()
             };

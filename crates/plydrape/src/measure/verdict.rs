@@ -1,7 +1,6 @@
 //! Limits and whether they hold.
 
 use super::{ByName, Found, Measures, Name, Numbers, Scope, Sense, State, Subject, TUNING, Worst};
-use crate::ply::Grid;
 use crate::scene::Scene;
 use std::borrow::Cow;
 
@@ -101,7 +100,7 @@ impl<'a> Judge<'a> {
 
     /// Whether the catenaries can tell a measure: where none hang, only what is of the motion alone.
     fn has(&self, name: Name) -> bool {
-        self.scene.ply.grid != Grid::NONE || name.measure().subject() == Subject::Motion
+        self.scene.ply.has_lines() || name.measure().subject() == Subject::Motion
     }
 
     /// Evaluates the limits of a step; `last` if no other follows.

@@ -30,9 +30,10 @@ impl Measure for Wrinkle {
 /// The largest of a property of the rucks that the slack of the edges makes; zero without slack.
 pub fn highest(state: &State, property: impl Fn(&Ruck) -> f64) -> Most {
     let (ply, gravity) = (&state.scene.ply, state.scene.settings.gravity);
+    let lines = ply.lines();
     let mut most = Most::default();
     for m in state.edge_misfits() {
-        let line = ply.line(ply.grid.catenary(m.catenary).kind);
+        let line = ply.line(lines.catenary(m.catenary).kind);
         let ruck = Ruck::of(m.slack(), line.flexural_rigidity, line.mass * gravity);
         most.meet(ruck.as_ref().map_or(0.0, &property), Site::Catenary(m.catenary), m.place);
     }

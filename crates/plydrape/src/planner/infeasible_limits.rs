@@ -8,7 +8,7 @@ use crate::draping::reach::{closest, outside};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::mold::{Mold, distance};
 use crate::net::Missing;
-use crate::ply::{Kind, shear};
+use crate::ply::{LineCell, shear};
 use crate::scene::{Scene, Target};
 
 /// A value and a text that says where it is.
@@ -87,17 +87,12 @@ fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
     if target.drape.is_some() {
         return None;
     }
-    let grid = scene.ply.grid;
-    let ends = |n: usize| {
-        let edge = grid.catenary(n);
-        (edge, [edge.from, edge.to].map(|g| grid.index(g)))
-    };
+    let lines = scene.ply.lines();
     let share = |n: usize| {
-        let (edge, [a, b]) = ends(n);
-        fabric(scene, target.grippers[a], target.grippers[b]) / scene.ply.flat_length(edge.kind)
-            - 1.0
+        let [a, b] = lines.ends(n).map(|gripper| target.grippers[gripper]);
+        fabric(scene, a, b) / lines.flat_length(n, scene.ply.length_factor) - 1.0
     };
-    let worst = largest((0..grid.edges()).map(|n| (share(n), n)));
+    let worst = largest((0..lines.edges()).map(|n| (share(n), n)));
     let found = worst.map(|(share, n)| {
         (share, format!("{} at the target", Site::Catenary(n).label(&scene.ply)))
     });
@@ -106,7 +101,7 @@ fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
 
 /// Shear of the ideal drape, or of the cells between the targets where it is not known.
 fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
-    let (grid, ply) = (scene.ply.grid, &scene.ply);
+    let (lines, ply) = (scene.ply.lines(), &scene.ply);
     let found = match &target.drape {
         Some(net) => net.report.largest_shear.map(|(angle, [i, j])| {
             let [x, y, z] = net.node([i, j]).unwrap_or_default().map(|c| c * 1e3);
@@ -116,20 +111,18 @@ fn shear(scene: &Scene, target: &Target) -> Option<Verdict> {
             )
         }),
         None => {
-            let angle = |cell: usize| {
-                let [i, j] = [cell % (grid.nu - 1), cell / (grid.nu - 1)];
-                let paths = grid.diagonals([i, j]).map(|n| {
-                    let diagonal = grid.catenary(n);
-                    let [a, b] =
-                        [diagonal.from, diagonal.to].map(|g| target.grippers[grid.index(g)]);
-                    fabric(scene, a, b)
-                });
-                let longer = paths[0].max(paths[1]).max(ply.flat_length(Kind::Rising));
-                shear::angle(ply.cell, longer)
+            let path = |n: usize| {
+                let [a, b] = lines.ends(n).map(|gripper| target.grippers[gripper]);
+                fabric(scene, a, b)
             };
-            let worst = largest((0..grid.cells()).map(|cell| (angle(cell), cell)));
+            let angle = |cell: &LineCell| {
+                let paths = cell.bias.map(|bias| shear::mean_path(bias.list(), path));
+                let flat = lines.flat_length(cell.bias[0].list()[0], ply.length_factor);
+                shear::angle(cell.trellis, paths[0].max(paths[1]).max(flat))
+            };
+            let worst = largest(lines.cells().iter().enumerate().map(|(n, cell)| (angle(cell), n)));
             worst.map(|(angle, cell)| {
-                let [i, j] = [cell % (grid.nu - 1), cell / (grid.nu - 1)];
+                let [i, j] = lines.cells()[cell].id;
                 (angle, format!("cell [{i},{j}] of the target"))
             })
         }

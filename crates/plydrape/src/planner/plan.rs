@@ -187,7 +187,7 @@ fn by_steps(scene: &Scene, state: &SearchState) -> Result<Found, PlanError> {
 pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
     match plan.outcome {
         Outcome::OutOfSteps(error) | Outcome::OutOfReach(error) => {
-            let gripper = scene.ply.grid.index(error.gripper);
+            let gripper = scene.ply.index(error.gripper).unwrap_or_default();
             let at = Site::Gripper(gripper).label(&scene.ply);
             let worst = Worst {
                 value: error.distance * 1e3,

@@ -1,6 +1,6 @@
 //! A ply as it is cut, and the cups that hold it.
 
-use super::{Direction, Grid, GripperId, Outline, Ply};
+use super::{Direction, Grid, GripperId, Lines, Outline, Ply};
 use crate::mold::vector::{along, sub, unit};
 
 /// A ply that is cut to an outline and held where cups are.
@@ -64,6 +64,12 @@ impl Ply {
     #[must_use]
     pub fn grippers(&self) -> usize {
         self.held().map_or(self.grid.grippers(), <[Held]>::len)
+    }
+
+    /// Its grippers in rows: its array, or one row of all of them where they are no whole array along the yarns.
+    #[must_use]
+    pub(crate) fn rows(&self) -> Grid {
+        self.held().map_or(self.grid, |held| Grid { nu: held.len(), nv: 1 })
     }
 
     /// Its cups, where they are no array along the yarns.
@@ -136,12 +142,10 @@ impl Ply {
     pub fn neighbours(&self) -> Vec<Neighbours> {
         let count = self.grippers();
         let pairs: Vec<[usize; 2]> = match self.held() {
-            None => (0..self.grid.edges())
-                .map(|edge| {
-                    let line = self.grid.catenary(edge);
-                    [line.from, line.to].map(|id| self.grid.index(id))
-                })
-                .collect(),
+            None => {
+                let lines = Lines::array(self.grid, self.cell);
+                (0..lines.edges()).map(|edge| lines.ends(edge)).collect()
+            }
             Some(held) if held.iter().any(|gripper| gripper.id[1] > 0) => next_in_lines(held),
             Some(held) => next_in_list(held),
         };
@@ -288,7 +292,8 @@ mod tests {
     fn neighbours_are_the_next_cups_that_hold() {
         let whole = ply(array(3, 3, |_| true));
         let grid = Grid { nu: 3, nv: 3 };
-        let edges: Vec<_> = (0..grid.edges()).map(|n| grid.catenary(n)).collect();
+        let lines = Lines::array(grid, [0.1; 2]);
+        let edges: Vec<_> = (0..lines.edges()).map(|n| lines.catenary(n)).collect();
         let expected: Vec<_> = edges.iter().map(|edge| [edge.from, edge.to]).collect();
         assert_eq!(pairs(&whole), expected);
 

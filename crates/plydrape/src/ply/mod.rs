@@ -1,8 +1,10 @@
 //! The ply as a net of catenaries between grippers.
 
+mod cells;
 mod contact_segment;
 mod cut;
 mod grid;
+mod lines;
 mod outline;
 mod places;
 mod ruck;
@@ -12,6 +14,9 @@ mod tuning;
 pub use contact_segment::{ContactSegment, LandedCell};
 pub use cut::{Cut, Held, Neighbours, directions, tangents};
 pub use grid::{Catenary, Grid, GripperId, Kind};
+#[cfg(test)]
+pub(crate) use lines::tests::held;
+pub use lines::{BiasLines, Fibres, FoundLines, LineCell, Lines};
 pub use outline::{Outline, OutlineError, Ring, RingId};
 pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
 pub use ruck::Ruck;
@@ -25,7 +30,7 @@ use crate::material::{Line, Material, Section};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Ply {
-    /// Grippers along u and v, between which catenaries hang; [`Grid::NONE`] where grippers are no array along the yarns.
+    /// Grippers along u and v; [`Grid::NONE`] where grippers are no whole array along the yarns.
     pub grid: Grid,
     /// Fabric length of a cell along u and along v: a, b (m); where grippers are no array along the yarns, the pitch of the
     /// array, or the distance of neighbours.
@@ -41,6 +46,9 @@ pub struct Ply {
     /// How it is cut and where it is held; none of a rectangle with a gripper at every node of its grid.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub cut: Option<Cut>,
+    /// Its lines, see [`Ply::lines`].
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub found: FoundLines,
 }
 
 /// The length factor of a ply without an error.
@@ -73,44 +81,38 @@ impl Ply {
         self.cell.map(|side| side * self.length_factor)
     }
 
-    /// Fabric length of a catenary in the flat ply (m): a, b, or √(a²+b²) for a diagonal.
+    /// Fabric length of a catenary in the flat ply (m).
     #[must_use]
-    pub fn flat_length(&self, kind: Kind) -> f64 {
-        let [a, b] = self.fabric_cell();
-        match kind {
-            Kind::EdgeU => a,
-            Kind::EdgeV => b,
-            Kind::Rising | Kind::Falling => a.hypot(b),
-        }
+    pub fn flat_length(&self, catenary: usize) -> f64 {
+        self.lines().flat_length(catenary, self.length_factor)
     }
 
-    /// Sides of a cell (m) as its diagonals measure it: those of the fabric, scaled where a diagonal lies on a
+    /// Sides (m) of the trellis of a cell as its bias lines measure it: those of the fabric, scaled where a bias line lies on a
     /// curved mold ([`shear::curved_scale`]). `contacts` holds the contact segment of each catenary.
     #[must_use]
-    pub fn sides(&self, cell: usize, contacts: &[Option<ContactSegment>]) -> [f64; 2] {
-        let first = self.grid.edges() + 2 * cell;
-        let landed = contacts[first..first + 2].iter().flatten().find_map(|contact| contact.landed);
-        self.fabric_cell().map(|side| landed.map_or(1.0, |landed| landed.scale) * side)
+    pub fn trellis(&self, cell: &LineCell, contacts: &[Option<ContactSegment>]) -> [f64; 2] {
+        let mut bias = cell.bias.iter().flat_map(BiasLines::list);
+        let landed = bias.find_map(|n| contacts[*n].as_ref().and_then(|contact| contact.landed));
+        let scale = landed.map_or(1.0, |landed| landed.scale);
+        cell.trellis.map(|side| scale * (side * self.length_factor))
     }
 
-    /// Share of an edge's forces that is the ply's.
-    ///
-    /// Each family of edges has the weight of the whole ply, so where there are two families each counts half. A line
-    /// inside the ply stands for a strip one cell wide, one on its boundary for half a strip.
+    /// Whether the rows of its cups cross the yarns.
     #[must_use]
-    pub(crate) fn tributary(&self, edge: usize) -> f64 {
-        let (grid, c) = (self.grid, self.grid.catenary(edge));
-        let (line, lines) =
-            if c.kind == Kind::EdgeU { (c.from[1], grid.nv) } else { (c.from[0], grid.nu) };
-        let families = if grid.nv > 1 { 2.0 } else { 1.0 };
-        let boundary = lines > 1 && (line == 0 || line + 1 == lines);
-        if boundary { 0.5 / families } else { 1.0 / families }
+    pub(crate) fn is_turned(&self) -> bool {
+        self.cut.as_ref().is_some_and(|cut| cut.turn != 0.0)
+    }
+
+    /// Width of the strip that a fibre line along u or v stands for (m): from one line to the next; of the nominal ply.
+    pub(crate) fn line_widths(&self) -> [f64; 2] {
+        let [a, b] = self.cell;
+        if self.is_turned() { [0.5 * a.hypot(b); 2] } else { [b, a] }
     }
 
     /// Mass per length and flexural rigidity of a catenary.
     ///
-    /// With areal properties each catenary stands for a strip one cell wide: `b` for the lines along
-    /// u, `a` for those along v. A diagonal is no tow; it takes the mean of both.
+    /// With areal properties each fibre line stands for a strip as wide as it is to the next one: `b` for the lines along
+    /// u, `a` for those along v. A bias line is no tow; it takes the mean of the array's pitches, and of both rigidities.
     #[must_use]
     pub fn line(&self, kind: Kind) -> Line {
         match self.material.section {
@@ -121,9 +123,10 @@ impl Ply {
                     Direction::V => (weft_rigidity, warp_rigidity),
                 };
                 let [a, b] = self.fabric_cell();
+                let [wide_u, wide_v] = self.line_widths().map(|width| width * self.length_factor);
                 let (width, rigidity) = match kind {
-                    Kind::EdgeU => (b, along_u),
-                    Kind::EdgeV => (a, along_v),
+                    Kind::EdgeU => (wide_u, along_u),
+                    Kind::EdgeV => (wide_v, along_v),
                     Kind::Rising | Kind::Falling => ((a + b) / 2.0, (along_u + along_v) / 2.0),
                 };
                 Line { mass: mass * width, flexural_rigidity: rigidity * width }
@@ -144,5 +147,5 @@ pub(crate) fn cloth(grid: Grid) -> Ply {
         locking_angle: None,
     };
     let (cell, warp) = ([0.1; 2], Direction::U);
-    Ply { grid, cell, material, warp, length_factor: 1.0, cut: None }
+    Ply { grid, cell, material, warp, length_factor: 1.0, cut: None, found: FoundLines::default() }
 }

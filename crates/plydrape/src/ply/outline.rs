@@ -185,6 +185,30 @@ impl Outline {
         if self.contains(point) { away } else { -away }
     }
 
+    /// Whether the fabric is there all along a straight line (m): it crosses no boundary and no hole. It may end on the boundary,
+    /// or run along it.
+    #[must_use]
+    pub fn has_line(&self, [a, b]: [[f64; 2]; 2]) -> bool {
+        let way = sub(b, a);
+        let square = way[0] * way[0] + way[1] * way[1];
+        let rounding = 1e-9;
+        let crosses = |[c, d]: [[f64; 2]; 2]| {
+            let [c, d] = [sub(c, a), sub(d, a)];
+            let [left, right] = [cross(way, c), cross(way, d)];
+            // a corner on the line counts as being to its right, so that a ring is crossed there once
+            let is_left = |side: f64| side > rounding * square;
+            if is_left(left) == is_left(right) {
+                return false;
+            }
+            let t = left / (left - right);
+            let meets = [c[0] + t * (d[0] - c[0]), c[1] + t * (d[1] - c[1])];
+            let share = (meets[0] * way[0] + meets[1] * way[1]) / square;
+            share > rounding && share < 1.0 - rounding
+        };
+        let middle = [0, 1].map(|n| 0.5 * (a[n] + b[n]));
+        self.depth(middle) >= -rounding * square.sqrt() && !self.lines().any(crosses)
+    }
+
     /// Area of the ply in a rectangle between two corners (m²): the lowest and the highest coordinates.
     #[must_use]
     pub fn area_in(&self, low: [f64; 2], high: [f64; 2]) -> f64 {

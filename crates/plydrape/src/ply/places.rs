@@ -3,7 +3,7 @@
 //! Scene files, tables and programs are held to the same: coordinates are finite and up to [`FARTHEST`], neighbours stand a
 //! horizontal distance apart, because a span straight up has no horizontal force, and times ascend.
 
-use super::{GripperId, Ply};
+use super::{Catenary, GripperId, Ply};
 
 /// Largest coordinate of a gripper (m): far beyond any robot, and far from where squares of distances overflow.
 pub const FARTHEST: f64 = 1e6;
@@ -102,7 +102,7 @@ pub fn is_near(position: &[f64; 3]) -> bool {
 }
 
 impl Ply {
-    /// Refuses gripper positions (m, in the order of [`super::Grid::index`]) for which the model has no solution.
+    /// Refuses gripper positions (m, in the order of [`super::Ply::index`]) for which the model has no solution.
     ///
     /// # Errors
     /// [`PlaceError`]: the first gripper, or pair of neighbours, that cannot be where it is.
@@ -115,12 +115,14 @@ impl Ply {
             let (gripper, position) = (self.id(far), positions[far]);
             return Err(PlaceError::Far { step: None, gripper, position });
         }
-        (0..self.grid.catenaries()).try_for_each(|index| {
-            let catenary = self.grid.catenary(index);
-            let [a, b] = [catenary.from, catenary.to];
-            let [from, to] = [a, b].map(|gripper| positions[self.grid.index(gripper)]);
-            let (run, length) =
-                ((to[0] - from[0]).hypot(to[1] - from[1]), self.flat_length(catenary.kind));
+        let lines = self.lines();
+        (0..lines.catenaries()).try_for_each(|index| {
+            let Catenary { from: a, to: b, .. } = lines.catenary(index);
+            let [from, to] = lines.ends(index).map(|gripper| positions[gripper]);
+            let (run, length) = (
+                (to[0] - from[0]).hypot(to[1] - from[1]),
+                lines.flat_length(index, self.length_factor),
+            );
             if run >= STEEPEST * length {
                 return Ok(());
             }

@@ -1,6 +1,7 @@
 //! Shear of a cell: the trellis of sides a, b whose one diagonal is stretched, eqs. (6)–(8) of
 //! `docs/theory/ply.md`, after Krogh et al. 2018, section 2.3.
 
+use super::Fibres;
 use super::tuning::TUNING;
 use num_dual::DualNum;
 
@@ -84,15 +85,20 @@ pub(crate) fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
     square.max(0.0).sqrt().max(TUNING.folded_diagonal * a.min(b))
 }
 
-/// By how much a mold of Gaussian curvature K (1/m²) scales both diagonals of a cell that lies on it, with sides a, b
-/// (m) and shear angle γ (rad): √(1 + K A²/6(a² + b²)), A = ab cos γ its area. 1 on a plane.
+/// By how much a mold of Gaussian curvature K (1/m²) scales the bias lines of a cell that lies on it, with a trellis of sides a, b
+/// (m) and shear angle γ (rad): diagonals √(1 + K A²/6(a² + b²)), sides √(1 − K A²/3(a² + b²)), A = ab cos γ. 1 on a plane.
 ///
 /// With half diagonals p, q that cross at φ on a sphere of radius 1, cos a + cos b = 2 cos p cos q; to fourth order
-/// d₁² + d₂² = 2(a² + b²) + A²/3. Ours.
+/// d₁² + d₂² = 2(a² + b²) + A²/3. Two half fibres a, b at an angle of π/2 ± γ have s² = a² + b² ± 2ab sin γ − A²/3 between
+/// their ends. Ours.
 #[must_use]
-pub fn curved_scale([a, b]: [f64; 2], shear: f64, gaussian_curvature: f64) -> f64 {
+pub fn curved_scale([a, b]: [f64; 2], fibres: Fibres, shear: f64, gaussian_curvature: f64) -> f64 {
     let area = a * b * shear.cos();
-    let excess = gaussian_curvature * area * area / (6.0 * (a * a + b * b));
+    let squares = match fibres {
+        Fibres::Sides => 6.0 * (a * a + b * b),
+        Fibres::Diagonals => -3.0 * (a * a + b * b),
+    };
+    let excess = gaussian_curvature * area * area / squares;
     let most = TUNING.curvature_excess;
     (1.0 + excess.clamp(-most, most)).sqrt()
 }
@@ -102,4 +108,13 @@ pub fn curved_scale([a, b]: [f64; 2], shear: f64, gaussian_curvature: f64) -> f6
 #[must_use]
 pub fn force(angle: f64, stretched: f64, shear_force_per_length: f64) -> f64 {
     shear_force_per_length * stretched / angle.cos()
+}
+
+/// The path (m) by which the bias lines of a cell in one direction shear it: that of a diagonal, or the mean of two sides by their
+/// squares.
+pub(crate) fn mean_path(lines: &[usize], path: impl Fn(usize) -> f64) -> f64 {
+    match lines {
+        [one, other] => (0.5 * (path(*one).powi(2) + path(*other).powi(2))).sqrt(),
+        _ => lines.first().map_or(0.0, |one| path(*one)),
+    }
 }

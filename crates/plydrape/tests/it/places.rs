@@ -22,6 +22,7 @@ fn ply() -> Ply {
         warp: Direction::U,
         length_factor: 1.0,
         cut: None,
+        found: Default::default(),
     }
 }
 

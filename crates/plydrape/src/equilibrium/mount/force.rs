@@ -10,7 +10,7 @@ use super::super::sensitivity::StateTangent;
 use super::super::solver::Solver;
 use crate::catenary::{Profile, SpanState};
 use crate::mold::vector::{dot, sub, unit};
-use crate::ply::{Catenary, ContactSegment, Grid, shear};
+use crate::ply::{ContactSegment, Lines, shear};
 
 /// A point in space (m), or a force (N).
 type Vector = [f64; 3];
@@ -26,7 +26,7 @@ pub(super) struct Held<'a> {
     pub contacts: &'a [Option<ContactSegment>],
 }
 
-/// An end of an edge, or of a stretched diagonal, at a pad.
+/// An end of a fibre line, or of a bias line, at a pad.
 struct Pull {
     /// The gripper.
     gripper: usize,
@@ -35,15 +35,14 @@ struct Pull {
 }
 
 impl<'a> Held<'a> {
-    fn grid(&self) -> Grid {
-        self.solver.ply().grid
+    fn graph(&self) -> &'a Lines {
+        self.solver.lines()
     }
 
     /// The two ends of a free segment of a catenary (m), and the pads among them.
     fn ends(&self, catenary: usize, segment: usize) -> ([Vector; 2], [Option<Pull>; 2]) {
-        let (grid, contact) = (self.grid(), self.contacts[catenary].as_ref());
-        let Catenary { from, to, .. } = grid.catenary(catenary);
-        let [a, b] = [from, to].map(|id| grid.index(id));
+        let contact = self.contacts[catenary].as_ref();
+        let [a, b] = self.graph().ends(catenary);
         let mut ends = [self.pads[a], self.pads[b]];
         let pull = |gripper: usize, end: usize| Pull { gripper, sign: 1.0 - 2.0 * end as f64 };
         let mut pulls = [Some(pull(a, 0)), Some(pull(b, 1))];
@@ -67,12 +66,12 @@ impl<'a> Held<'a> {
                 }
             }
         };
-        let edges = self.grid().edges();
+        let edges = self.graph().edges();
         for (n, element) in self.solver.problem().elements.iter().enumerate() {
             if element.catenary >= edges {
                 continue;
             }
-            let share = self.solver.ply().tributary(element.catenary);
+            let share = self.graph().tributary(element.catenary);
             let (ends, pulls) = self.ends(element.catenary, element.segment);
             let Some(force) = self.solver.force(n) else {
                 if element.run > self.solver.tuning().vertical_run * element.length {
@@ -90,10 +89,10 @@ impl<'a> Held<'a> {
                     .map(|x| [along[0], along[1], share * profile.station(x).vertical_force]),
             );
         }
-        for cell in 0..self.grid().cells() {
+        for cell in 0..self.graph().cells().len() {
             let Some(resistance) = self.shear_resistance(cell) else { continue };
-            for (n, diagonal) in resistance.diagonals.iter().enumerate() {
-                let force = resistance.force(n);
+            for (n, diagonal) in resistance.lines() {
+                let force = resistance.force(n, diagonal);
                 if !force.is_finite() {
                     return None;
                 }
@@ -113,7 +112,7 @@ impl<'a> Held<'a> {
         tangent: &StateTangent,
         mut put: impl FnMut(usize, usize, Vector),
     ) {
-        let edges = self.grid().edges();
+        let edges = self.graph().edges();
         for (n, element) in self.solver.problem().elements.iter().enumerate() {
             let Some(force) = self.solver.force(n).filter(|_| element.catenary < edges) else {
                 if element.catenary < edges {
@@ -122,7 +121,7 @@ impl<'a> Held<'a> {
                 continue;
             };
             debug_assert!(element.state != SpanState::Straight);
-            let share = self.solver.ply().tributary(element.catenary);
+            let share = self.graph().tributary(element.catenary);
             let (ends, pulls) = self.ends(element.catenary, element.segment);
             let velocity = |end: usize| {
                 let pull = pulls[end].as_ref();
@@ -151,7 +150,7 @@ impl<'a> Held<'a> {
                 put(element.catenary, pull.gripper, change);
             }
         }
-        for cell in 0..self.grid().cells() {
+        for cell in 0..self.graph().cells().len() {
             self.shear_change(cell, direction, &mut put);
         }
     }
@@ -164,7 +163,7 @@ impl<'a> Held<'a> {
         put: &mut impl FnMut(usize, usize, Vector),
     ) {
         let element = &self.solver.problem().elements[n];
-        let share = 0.5 * self.solver.ply().tributary(element.catenary);
+        let share = 0.5 * self.graph().tributary(element.catenary);
         let change = tangent.loads[n][0] * element.length + element.weight * tangent.spans[n][2];
         for pull in self.ends(element.catenary, element.segment).1.iter().flatten() {
             put(element.catenary, pull.gripper, [0.0, 0.0, -share * change]);
@@ -174,18 +173,23 @@ impl<'a> Held<'a> {
     /// What a cell does against its shear, where its material resists.
     fn shear_resistance(&self, cell: usize) -> Option<ShearResistance> {
         let curve = self.solver.ply().material.shear_curve.as_ref()?;
-        let diagonals = [0, 1].map(|n| {
-            let catenary = self.grid().edges() + 2 * cell + n;
-            let lying = self.contacts[catenary].as_ref().map_or(0.0, |contact| {
-                contact.line.length() + contact.excess_length[0] + contact.excess_length[1]
-            });
-            let free: f64 = self.lines(catenary).map(|(line, _)| length(line)).sum();
-            Diagonal { catenary, path: free + lying, lying }
+        let cell = &self.graph().cells()[cell];
+        let bias = cell.bias.each_ref().map(|bias| {
+            let mut lines = bias.list().iter().map(|n| self.bias_line(*n));
+            Bias { lines: [lines.next(), lines.next()] }
         });
-        let sides = self.solver.ply().sides(cell, self.contacts);
-        let angle = shear::difference_angle(sides, diagonals.each_ref().map(|d| d.path));
+        let sides = self.solver.ply().trellis(cell, self.contacts);
+        let angle = shear::difference_angle(sides, bias.each_ref().map(Bias::path));
         let (size, slope) = curve.force(angle);
-        Some(ShearResistance { diagonals, sides, angle, per_length: size.copysign(angle), slope })
+        Some(ShearResistance { bias, sides, angle, per_length: size.copysign(angle), slope })
+    }
+
+    fn bias_line(&self, catenary: usize) -> BiasLine {
+        let lying = self.contacts[catenary].as_ref().map_or(0.0, |contact| {
+            contact.line.length() + contact.excess_length[0] + contact.excess_length[1]
+        });
+        let free: f64 = self.lines(catenary).map(|(line, _)| length(line)).sum();
+        BiasLine { catenary, path: free + lying, lying }
     }
 
     /// The straight lines of a diagonal, and the pads at their ends: from gripper to gripper, or from each one to the end of
@@ -216,17 +220,18 @@ impl<'a> Held<'a> {
             };
             sub(velocity(&pulls[1]), velocity(&pulls[0]))
         };
-        let [along_u, along_v, along_diagonals] = direction.length;
-        let d_paths = resistance.diagonals.each_ref().map(|diagonal| {
+        let [along_u, along_v, along_bias] = direction.length;
+        let d_path = |line: &BiasLine| {
             let ahead = |(towards, pulls): (Vector, _)| dot(moving(&pulls), towards);
-            let free: f64 = self.pulling(diagonal.catenary).map(ahead).sum();
-            free + along_diagonals * diagonal.lying
-        });
+            let free: f64 = self.pulling(line.catenary).map(ahead).sum();
+            free + along_bias * line.lying
+        };
+        let d_paths = resistance.bias.each_ref().map(|bias| bias.path_change(d_path));
         let [a, b] = resistance.sides;
         let d_angle = resistance.angle_change([a * along_u, b * along_v], d_paths);
-        for (n, diagonal) in resistance.diagonals.iter().enumerate() {
-            let force = resistance.force(n);
-            let d_force = resistance.force_change(n, d_angle, d_paths[n]);
+        for (n, diagonal) in resistance.lines() {
+            let force = resistance.force(n, diagonal);
+            let d_force = resistance.force_change(n, diagonal, d_angle, d_path(diagonal));
             for (line, pulls) in self.lines(diagonal.catenary) {
                 let Some(towards) = unit(line) else { continue };
                 let moving = moving(&pulls);
@@ -246,21 +251,53 @@ fn length(line: Vector) -> f64 {
     dot(line, line).sqrt()
 }
 
-/// A diagonal of a cell: rising or falling.
-struct Diagonal {
+/// A bias line of a cell.
+struct BiasLine {
     catenary: usize,
     /// Length (m) of its taut path, and of the part of it that lies on the mold.
     path: f64,
     lying: f64,
 }
 
-/// What a cell does against its shear: τ(γ) with sin γ = (d₁² − d₂²)/4ab from both diagonals d₁, d₂. The one pulls its pads
-/// together, the other one pushes them apart.
+/// The bias lines of a cell in one direction: a diagonal, or two sides.
+struct Bias {
+    lines: [Option<BiasLine>; 2],
+}
+
+impl Bias {
+    fn list(&self) -> impl Iterator<Item = &BiasLine> {
+        self.lines.iter().flatten()
+    }
+
+    /// The path (m) that shears the cell: of two sides the mean by their squares.
+    fn path(&self) -> f64 {
+        match &self.lines {
+            [Some(one), Some(other)] => {
+                (0.5 * (one.path * one.path + other.path * other.path)).sqrt()
+            }
+            [one, _] => one.as_ref().map_or(0.0, |one| one.path),
+        }
+    }
+
+    /// How that path changes with those of the lines.
+    fn path_change(&self, change: impl Fn(&BiasLine) -> f64) -> f64 {
+        match &self.lines {
+            [Some(one), Some(other)] => {
+                let sum = one.path * change(one) + other.path * change(other);
+                0.5 * sum / self.path()
+            }
+            [one, _] => one.as_ref().map_or(0.0, change),
+        }
+    }
+}
+
+/// What a cell does against its shear: τ(γ) with sin γ = (d₁² − d₂²)/4ab from its rising and its falling bias lines d₁, d₂,
+/// and a, b the sides of its trellis. The one pulls its pads together, the other one pushes them apart.
 struct ShearResistance {
-    /// The rising diagonal, and the falling one.
-    diagonals: [Diagonal; 2],
+    /// The rising bias lines, and the falling ones.
+    bias: [Bias; 2],
     sides: [f64; 2],
-    /// Shear angle γ (rad), positive where the rising diagonal is the longer one.
+    /// Shear angle γ (rad), positive where the rising bias lines are the longer ones.
     angle: f64,
     /// Shear force τ per length (N/m) of the sign of the angle, and its derivative to the angle.
     per_length: f64,
@@ -268,24 +305,30 @@ struct ShearResistance {
 }
 
 impl ShearResistance {
-    /// Tension (N) in a diagonal: ∂(ab ∫τ dγ)/∂d = ±τ d/(2 cos γ). Infinite where the cell has folded.
-    fn force(&self, diagonal: usize) -> f64 {
-        let sign = 1.0 - 2.0 * diagonal as f64;
-        sign * self.per_length * self.diagonals[diagonal].path / (2.0 * self.angle.cos())
+    /// All bias lines, each with its direction: 0 rising, 1 falling.
+    fn lines(&self) -> impl Iterator<Item = (usize, &BiasLine)> {
+        self.bias.iter().enumerate().flat_map(|(n, bias)| bias.list().map(move |line| (n, line)))
     }
 
-    /// How that tension changes with the shear angle and the diagonal.
-    fn force_change(&self, diagonal: usize, d_angle: f64, d_path: f64) -> f64 {
-        let sign = 1.0 - 2.0 * diagonal as f64;
+    /// Tension (N) in a bias line, the derivative of the cell's energy to it. A cell of fibre sides has the area ab, one of fibre
+    /// diagonals 2ab and two sides in each direction; in both it is ∂(area ∫τ dγ)/∂d = ±τ d/(2 cos γ). Infinite where the cell has
+    /// folded.
+    fn force(&self, direction: usize, line: &BiasLine) -> f64 {
+        let sign = 1.0 - 2.0 * direction as f64;
+        sign * self.per_length * line.path / (2.0 * self.angle.cos())
+    }
+
+    /// How that tension changes with the shear angle and the bias line.
+    fn force_change(&self, direction: usize, line: &BiasLine, d_angle: f64, d_path: f64) -> f64 {
+        let sign = 1.0 - 2.0 * direction as f64;
         let (sine, cosine) = self.angle.sin_cos();
-        let path = self.diagonals[diagonal].path;
-        let change = self.slope * d_angle * path + self.per_length * d_path;
-        (sign * change / 2.0 + self.force(diagonal) * sine * d_angle) / cosine
+        let change = self.slope * d_angle * line.path + self.per_length * d_path;
+        (sign * change / 2.0 + self.force(direction, line) * sine * d_angle) / cosine
     }
 
-    /// How the shear angle changes with the sides and the diagonals.
+    /// How the shear angle changes with the sides of the trellis and the bias lines.
     fn angle_change(&self, [da, db]: [f64; 2], d_paths: [f64; 2]) -> f64 {
-        let ([a, b], [rising, falling]) = (self.sides, self.diagonals.each_ref().map(|d| d.path));
+        let ([a, b], [rising, falling]) = (self.sides, self.bias.each_ref().map(Bias::path));
         let (sine, cosine) = self.angle.sin_cos();
         let change = (rising * d_paths[0] - falling * d_paths[1]) / (2.0 * a * b);
         (change - sine * (da / a + db / b)) / cosine

@@ -70,7 +70,7 @@ impl MountedSolver {
     #[must_use]
     pub fn new(ply: &Ply, settings: &Settings) -> Option<MountedSolver> {
         let law = MountLaw::new(ply, &settings.pad, &super::Tuning::default())?;
-        let count = ply.grid.grippers();
+        let count = ply.grippers();
         let balance = Balance { offset: vec![[0.0; 3]; count], ..Balance::default() };
         Some(MountedSolver {
             law,
@@ -82,7 +82,7 @@ impl MountedSolver {
     }
 
     /// Solves the equilibrium of the ply and the mounts, which the robot holds at `commanded` (m), in the order of
-    /// [`crate::ply::Grid::index`]; the state of the ply is left in its solver.
+    /// [`crate::ply::Ply::index`]; the state of the ply is left in its solver.
     ///
     /// The status is [`super::Status::MountsNotBalanced`] where no balance was found; the state is then the best one.
     pub fn solve(

@@ -75,8 +75,8 @@ impl Matrix {
         unknowns: &Unknowns,
         reach: usize,
     ) -> Option<Matrix> {
-        let grid = held.solver.ply().grid;
-        let coloring = Coloring::new(grid, reach);
+        let (grid, lines) = (held.solver.ply().rows(), held.solver.lines());
+        let coloring = Coloring::of(held.solver.ply(), reach);
         let half = if coloring.is_whole() {
             unknowns.list.len()
         } else {
@@ -104,7 +104,7 @@ impl Matrix {
                 members.iter().for_each(|n| direction.grippers[*n][axis] = 1.0);
                 let tangent = linearized.along(&direction);
                 held.changes(&direction, &tangent, |catenary, gripper, change| {
-                    let c = grid.catenary(catenary);
+                    let c = lines.catenary(catenary);
                     let corner = [0, 1].map(|d| c.from[d].min(c.to[d]));
                     let Some((near, _)) = coloring.near(group, corner) else { return };
                     let Some(column) = unknowns.number[near][axis] else { return };
@@ -189,7 +189,7 @@ pub(super) fn solve(
     contacts: &[Option<ContactSegment>],
     continuation: Continuation,
 ) -> Equilibrium {
-    let unknowns = Unknowns::of(mounts, solver.ply().grid);
+    let unknowns = Unknowns::of(mounts, solver.ply().rows());
     let tuning = *solver.tuning();
     let mut search =
         Search { mounts, solver, commanded, contacts, tuning, unknowns, iterations: 0 };
@@ -294,7 +294,7 @@ impl Search<'_> {
 
     /// Cells of the array's longer side.
     fn widest(&self) -> usize {
-        let grid = self.solver.ply().grid;
+        let grid = self.solver.ply().rows();
         grid.nu.max(grid.nv)
     }
 

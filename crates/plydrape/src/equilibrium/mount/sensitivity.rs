@@ -34,7 +34,7 @@ impl MountedSolver {
         solver: &'a Solver,
         contacts: &'a [Option<ContactSegment>],
     ) -> MountedLinearization<'a> {
-        let grid = solver.ply().grid;
+        let grid = solver.ply().rows();
         let held = Held { solver, pads: self.pads(), contacts };
         let unknowns = Unknowns::of(self, grid);
         let reach = 2 * solver.tuning().mount_reach;

@@ -24,6 +24,7 @@ fn ply(nu: usize, nv: usize) -> Ply {
         warp: Along::U,
         length_factor: 1.0,
         cut: None,
+        found: Default::default(),
     }
 }
 
@@ -76,7 +77,7 @@ struct Solved {
 fn solved(ply: &Ply, settings: &Settings, commanded: &[[f64; 3]]) -> Solved {
     let mut solver = Solver::new(ply, settings);
     let mut mounts = MountedSolver::new(ply, settings).expect("mounts yield");
-    let contacts = vec![None; ply.grid.catenaries()];
+    let contacts = vec![None; ply.lines().catenaries()];
     let found = mounts.solve(&mut solver, commanded, &contacts, Continuation::IfNeeded);
     Solved { solver, mounts, found }
 }
@@ -151,7 +152,7 @@ fn rigid_grippers_are_the_limit_of_stiff_mounts() {
     for slopes in RULES {
         let ply = ply(4, 3);
         let commanded = uneven(ply.grid, 0.098);
-        let contacts = vec![None; ply.grid.catenaries()];
+        let contacts = vec![None; ply.lines().catenaries()];
         let mut rigid = Solver::new(&ply, &settings(slopes, PadSettings::default()));
         assert_eq!(rigid.solve(&commanded, &contacts).status, Status::Converged);
         let elements = rigid.problem().elements.len();
@@ -187,8 +188,8 @@ fn all_mounts_together_hold_the_weight() {
                 (0..3).for_each(|axis| sum[axis] += force[axis]);
             }
             let weight: f64 = (solved.solver.problem().elements.iter())
-                .filter(|element| element.catenary < ply.grid.edges())
-                .map(|e| ply.tributary(e.catenary) * e.weight * e.run.hypot(e.rise))
+                .filter(|element| element.catenary < ply.lines().edges())
+                .map(|e| ply.lines().tributary(e.catenary) * e.weight * e.run.hypot(e.rise))
                 .sum();
             let scale = 1e-8 * solved.mounts.largest_force();
             assert!((sum[2] + weight).abs() < scale.max(1e-9 * weight), "{sum:?} {weight}");
@@ -250,7 +251,7 @@ fn derivatives_with_mounts_agree_with_central_differences() {
             ply.material.shear_curve = Some(ShearCurve::Polynomial { coefficients: vec![5.0] });
             let settings = settings(slopes, pad);
             let commanded = uneven(ply.grid, 0.0985);
-            let contacts = vec![None; ply.grid.catenaries()];
+            let contacts = vec![None; ply.lines().catenaries()];
             let mut base = balanced(&ply, &settings, &commanded);
             if case < 2 {
                 // one pad stands where it is
@@ -462,6 +463,54 @@ fn a_long_array_is_balanced_to_the_same_tolerance() {
             for (ply, mount) in ply.iter().zip(mount.force) {
                 assert!((ply + mount).abs() <= most);
             }
+        }
+    }
+}
+
+/// A sheared array at 45° to the yarns, its cups moved at random: the force on each pad in excess of that without a shear curve is
+/// minus the slope of the shear energy, ∑ area ∫τ dγ with the angles of all cells, by central differences.
+#[test]
+fn bias_lines_pull_by_the_slope_of_the_shear_energy() {
+    let curve = ShearCurve::Polynomial { coefficients: vec![5.0, 0.0, 40.0] };
+    let mut plies = [1.0, 0.0].map(|_| crate::ply::held([3, 3], 45.0, |_| true));
+    plies[0].material.shear_curve = Some(curve.clone());
+    let lines = plies[0].lines();
+    let mut places = uneven(Grid { nu: 3, nv: 3 }, 0.098);
+    places.iter_mut().for_each(|place| place[0] *= 1.05);
+    let contacts = vec![None; lines.catenaries()];
+    let forces = plies.each_ref().map(|ply| {
+        let mut solver = Solver::new(ply, &Settings::default());
+        solver.solve(&places, &contacts);
+        let held = super::force::Held { solver: &solver, pads: &places, contacts: &contacts };
+        held.forces().expect("all lines hang or stretch").0
+    });
+    let energy = |places: &[[f64; 3]]| -> f64 {
+        let path = |n: usize| {
+            let [a, b] = lines.ends(n).map(|gripper| places[gripper]);
+            crate::mold::distance(a, b)
+        };
+        let cell = |cell: &crate::ply::LineCell| {
+            // sin γ from the squares of all four sides, the fibres d long and the flat cell d²/2 large
+            let [rising, falling] =
+                cell.bias.map(|bias| bias.list().iter().map(|n| path(*n).powi(2)).sum::<f64>());
+            let d = 0.1 * std::f64::consts::SQRT_2;
+            let angle = ((rising - falling) / (2.0 * d * d)).asin();
+            0.5 * d * d * curve.energy(angle.abs())
+        };
+        lines.cells().iter().map(cell).sum()
+    };
+    let step = 1e-6;
+    for gripper in 0..9 {
+        for axis in 0..3 {
+            let moved = |by: f64| {
+                let mut places = places.clone();
+                places[gripper][axis] += by;
+                energy(&places)
+            };
+            let slope = (moved(step) - moved(-step)) / (2.0 * step);
+            let force = forces[0][gripper][axis] - forces[1][gripper][axis];
+            // the forces of taut fibres, up to a hundred newtons, are subtracted
+            assert!((force + slope).abs() < 1e-6, "{gripper} {axis}: {force} {slope}");
         }
     }
 }

@@ -7,13 +7,15 @@ use super::element::{Element, End, class};
 use super::line::Line;
 use crate::catenary::SpanState;
 use crate::equilibrium::{Number, Tuning};
-use crate::ply::{Catenary, ContactSegment, Grid, Kind, Ply};
+use crate::ply::{ContactSegment, Kind, Lines, Ply};
 use crate::scene::{ContactEnd, Settings};
 
 /// The ply at given gripper positions, from which a [`super::Problem`] is built.
 pub struct Circumstances<'a, T> {
     /// The ply.
     pub ply: &'a Ply,
+    /// Its lines.
+    pub lines: &'a Lines,
     /// Rules of the model.
     pub settings: &'a Settings,
     /// Constants of the method.
@@ -46,31 +48,32 @@ fn constant<T: Number>(p: [f64; 3]) -> [T; 3] {
 }
 
 impl<T: Number> Circumstances<'_, T> {
-    /// The grid of grippers.
-    pub fn grid(&self) -> Grid {
-        self.ply.grid
+    /// Kind of a catenary.
+    pub fn kind(&self, catenary: usize) -> Kind {
+        self.lines.catenary(catenary).kind
     }
 
-    fn ends(&self, c: &Catenary) -> [[T; 3]; 2] {
-        [c.from, c.to].map(|g| self.positions[self.grid().index(g)])
+    fn ends(&self, catenary: usize) -> [[T; 3]; 2] {
+        self.lines.ends(catenary).map(|gripper| self.positions[gripper])
     }
 
     /// From the first gripper of a catenary to its second (m).
     pub fn chord(&self, catenary: usize) -> [T; 3] {
-        let [from, to] = self.ends(&self.grid().catenary(catenary));
+        let [from, to] = self.ends(catenary);
         [0, 1, 2].map(|n| to[n] - from[n])
     }
 
-    /// Sides of a cell as its diagonals measure it (m).
-    pub fn sides(&self, cell: usize) -> [T; 2] {
+    /// Sides of the trellis of a cell as its bias lines measure it (m).
+    pub fn trellis(&self, cell: usize) -> [T; 2] {
         let [along_u, along_v, _] = self.factors.length;
-        let [a, b] = self.ply.sides(cell, self.contacts);
+        let [a, b] = self.ply.trellis(&self.lines.cells()[cell], self.contacts);
         [along_u * a, along_v * b]
     }
 
     /// Fabric length of a catenary in the flat ply (m).
-    pub fn flat_length(&self, kind: Kind) -> T {
-        self.factors.length[class(kind)] * self.ply.flat_length(kind)
+    pub fn flat_length(&self, catenary: usize) -> T {
+        let nominal = self.lines.flat_length(catenary, self.ply.length_factor);
+        self.factors.length[class(self.kind(catenary))] * nominal
     }
 
     /// Whether the lines of edges along a direction have bending stiffness.
@@ -81,13 +84,13 @@ impl<T: Number> Circumstances<'_, T> {
 
     /// Whether the free segment at an end of a catenary in contact hangs: it has not lain down, nor is it a fold.
     pub fn hangs(&self, catenary: usize, contact: &ContactSegment, end: usize) -> bool {
-        let place = self.ends(&self.grid().catenary(catenary))[end];
+        let place = self.ends(catenary)[end];
         contact.hangs(end) && !contact.is_folded(end, place.map(|x| x.re()))
     }
 
     /// The straight line of the free segment at an end of a catenary, from its first to its second end.
     pub fn segment_line(&self, catenary: usize, end: usize) -> Line<T> {
-        let ends = self.ends(&self.grid().catenary(catenary));
+        let ends = self.ends(catenary);
         match &self.contacts[catenary] {
             None => Line::new(ends[0], ends[1]),
             // one that lies, or has no length, has no direction of its own: it goes on as the contact segment ends
@@ -112,15 +115,14 @@ impl<T: Number> Circumstances<'_, T> {
 
     /// Taut path from end to end (m): straight, and along the mold where the ply lies.
     pub fn taut_path(&self, catenary: usize) -> T {
-        let c = self.grid().catenary(catenary);
-        let ends = self.ends(&c);
+        let ends = self.ends(catenary);
         match &self.contacts[catenary] {
             None => Line::new(ends[0], ends[1]).chord,
             Some(contact) => {
                 let [a, b] = contact.point().map(constant);
                 let along =
                     contact.line.length() + contact.excess_length[0] + contact.excess_length[1];
-                let factor = self.factors.length[class(c.kind)];
+                let factor = self.factors.length[class(self.kind(catenary))];
                 Line::new(ends[0], a).chord + Line::new(b, ends[1]).chord + factor * along
             }
         }
@@ -134,7 +136,7 @@ impl<T: Number> Circumstances<'_, T> {
         line: &Line<T>,
         length: T,
     ) -> Element<T> {
-        let kind = self.grid().catenary(catenary).kind;
+        let kind = self.kind(catenary);
         let (section, class) = (self.ply.line(kind), class(kind));
         let mut element = Element {
             catenary,
@@ -163,7 +165,7 @@ impl<T: Number> Circumstances<'_, T> {
         end: usize,
         line: &Line<T>,
     ) -> Element<T> {
-        let kind = self.grid().catenary(catenary).kind;
+        let kind = self.kind(catenary);
         let length = T::from(contact.free_length(end)) * self.factors.length[class(kind)];
         let mut element = self.element(catenary, end, line, length);
         element.ends[1 - end] = self.contact_end(kind, contact, end, line);

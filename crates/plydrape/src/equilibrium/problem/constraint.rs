@@ -1,7 +1,7 @@
 //! The planes of shearing cells, which constrain the slopes at their grippers: eq. (8a) of `docs/theory/ply.md`.
 //!
-//! A shearing cell is a taut sheet: its plane contains the stretched diagonal and the direction between the
-//! two other grippers. Where several cells meet, their planes are averaged by their weights w, and the
+//! A shearing cell is a taut sheet: its plane contains the stretched bias line and the direction across it: between the
+//! two other grippers of a cell whose diagonals are bias lines, of the mean of the two other sides where the sides are. Where several cells meet, their planes are averaged by their weights w, and the
 //! weight of the mean is `1 − ∏(1−w)`. A diagonal that has landed gives up its weight as its free segment
 //! shortens from half of it to zero.
 
@@ -44,50 +44,55 @@ impl<T: Number> Constraint<T> {
     }
 }
 
-/// The stretched diagonal of a cell that shears: its taut path (m), and whether it is the falling one.
+/// The stretched bias lines of a cell that shears: their taut path (m), and whether they are the falling ones.
 pub type Stretched<T> = Option<(T, bool)>;
 
-/// The constraint of each gripper, from the stretched diagonals of all cells.
+/// The constraint of each gripper, from the stretched bias lines of all cells.
 pub fn constrain<T: Number>(
     around: &Circumstances<T>,
     shearing: &[Stretched<T>],
     out: &mut Vec<Option<Constraint<T>>>,
 ) {
-    let grid = around.grid();
     out.clear();
-    out.resize(grid.grippers(), None);
+    out.resize(around.lines.grippers(), None);
     if !around.constrained || !(around.is_rigid(0) || around.is_rigid(1)) {
         return;
     }
     for (cell, shearing) in shearing.iter().enumerate() {
-        let Some((path, falling)) = *shearing else {
+        let Some((_, falling)) = *shearing else {
             continue;
         };
-        let first = grid.edges() + 2 * cell;
-        let (stretched, other) = (first + usize::from(falling), first + usize::from(!falling));
-        let weight = shear::onset(around.sides(cell), path, around.tuning.full_constraint);
-        let across = around.chord(other);
-        let catenary = grid.catenary(stretched);
-        for (end, gripper) in [catenary.from, catenary.to].into_iter().enumerate() {
-            // the part of a diagonal that is in contact does not constrain the slopes beyond its gripper
-            let free = around.contacts[stretched].as_ref().map_or(1.0, |contact| {
-                let share = (2.0 * contact.free_length(end) / contact.length).clamp(0.0, 1.0);
-                share * share * (3.0 - 2.0 * share)
-            });
-            if free == 0.0 {
-                continue;
+        let bias = &around.lines.cells()[cell].bias;
+        let (stretched, others) = (&bias[usize::from(falling)], &bias[usize::from(!falling)]);
+        let mut across = [T::from(0.0); 3];
+        for other in others.list() {
+            let chord = around.chord(*other);
+            (0..3).for_each(|n| across[n] += chord[n]);
+        }
+        for stretched in stretched.list().iter().copied() {
+            let path = around.taut_path(stretched);
+            let weight = shear::onset(around.trellis(cell), path, around.tuning.full_constraint);
+            for (end, gripper) in around.lines.ends(stretched).into_iter().enumerate() {
+                // the part of a bias line that is in contact does not constrain the slopes beyond its gripper
+                let free = around.contacts[stretched].as_ref().map_or(1.0, |contact| {
+                    let share = (2.0 * contact.free_length(end) / contact.length).clamp(0.0, 1.0);
+                    share * share * (3.0 - 2.0 * share)
+                });
+                if free == 0.0 {
+                    continue;
+                }
+                let (weight, along) = (weight * free, around.segment_line(stretched, end).vector());
+                let Some(normal) = upward_normal(along, across, around.tuning.upright_plane) else {
+                    continue;
+                };
+                let here = &mut out[gripper];
+                let none = Constraint { normal: [T::from(0.0); 3], weight: T::from(0.0) };
+                let before = here.unwrap_or(none);
+                *here = Some(Constraint {
+                    normal: [0, 1, 2].map(|n| before.normal[n] + weight * normal[n]),
+                    weight: before.weight + weight - before.weight * weight,
+                });
             }
-            let (weight, along) = (weight * free, around.segment_line(stretched, end).vector());
-            let Some(normal) = upward_normal(along, across, around.tuning.upright_plane) else {
-                continue;
-            };
-            let here = &mut out[grid.index(gripper)];
-            let none = Constraint { normal: [T::from(0.0); 3], weight: T::from(0.0) };
-            let before = here.unwrap_or(none);
-            *here = Some(Constraint {
-                normal: [0, 1, 2].map(|n| before.normal[n] + weight * normal[n]),
-                weight: before.weight + weight - before.weight * weight,
-            });
         }
     }
     for constraint in out.iter_mut() {

@@ -7,7 +7,7 @@ use crate::ply::Kind;
 /// One free span of the ply.
 #[derive(Debug, Clone, Copy)]
 pub struct Element<T> {
-    /// Index of its catenary, see [`crate::ply::Grid::catenary`].
+    /// Index of its catenary, see [`crate::ply::Lines::catenary`].
     pub catenary: usize,
     /// Kind of its catenary.
     pub kind: Kind,

@@ -1,7 +1,7 @@
 //! Straight lines between places, and the headings of the lines of edges in plan.
 
 use crate::equilibrium::Number;
-use crate::ply::Grid;
+use crate::ply::Lines;
 
 /// A straight line from one place to another.
 #[derive(Clone, Copy)]
@@ -45,24 +45,15 @@ impl<T: Number> Line<T> {
     }
 }
 
-/// The grippers before and behind one along a direction (0: u, 1: v); itself on the boundary.
-#[must_use]
-pub fn neighbours(grid: Grid, gripper: usize, direction: usize) -> [usize; 2] {
-    let [i, j] = grid.id(gripper);
-    let (index, count) = if direction == 0 { (i, grid.nu) } else { (j, grid.nv) };
-    let at = |k: usize| grid.index(if direction == 0 { [k, j] } else { [i, k] });
-    [at(index.saturating_sub(1)), at((index + 1).min(count - 1))]
-}
-
 /// Horizontal unit vector of the line through a gripper along a direction (0: u, 1: v): from the gripper
 /// before it to the one behind it.
 pub fn heading<T: Number>(
-    grid: Grid,
+    lines: &Lines,
     positions: &[[T; 3]],
     gripper: usize,
     direction: usize,
 ) -> Option<[T; 2]> {
-    let [before, after] = neighbours(grid, gripper, direction);
+    let [before, after] = lines.neighbours(gripper, direction);
     let line = Line::new(positions[before], positions[after]);
     (line.run.re() > 0.0).then(|| line.heading())
 }

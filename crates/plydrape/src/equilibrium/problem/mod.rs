@@ -12,12 +12,12 @@ mod slopes;
 pub use circumstances::{Circumstances, Factors};
 pub use constraint::{Constraint, Stretched};
 pub use element::{Element, End, PlaneSlope, SlopeSource};
-pub use line::{heading, neighbours};
+pub use line::heading;
 pub use slopes::{SharedSlope, Side};
 
 use super::Number;
 use crate::catenary::SpanState;
-use crate::ply::{Kind, shear};
+use crate::ply::{BiasLines, Fibres, Kind, shear};
 use slopes::Slopes;
 
 /// The free spans of a ply at given gripper positions. A solve does not change it.
@@ -27,8 +27,12 @@ pub struct Problem<T> {
     pub elements: Vec<Element<T>>,
     /// Number of edge elements.
     pub edge_elements: usize,
-    /// The stretched diagonal of each cell.
+    /// The stretched bias lines of each cell.
     pub shearing: Vec<Stretched<T>>,
+    /// Taut path of each bias line that is stretched.
+    stretched: Vec<Option<T>>,
+    /// Number of fibre lines.
+    edges: usize,
     /// The plane that shearing cells prescribe at each gripper, where they do.
     pub constraints: Vec<Option<Constraint<T>>>,
     slopes: Slopes<T>,
@@ -41,6 +45,8 @@ impl<T> Default for Problem<T> {
             elements: Vec::new(),
             edge_elements: 0,
             shearing: Vec::new(),
+            stretched: Vec::new(),
+            edges: 0,
             constraints: Vec::new(),
             slopes: Slopes::default(),
             is_rigid: [true; 2],
@@ -51,18 +57,19 @@ impl<T> Default for Problem<T> {
 impl<T: Number> Problem<T> {
     /// States the problem anew, in place.
     pub(crate) fn rebuild(&mut self, around: &Circumstances<T>) {
-        let grid = around.grid();
+        let lines = around.lines;
+        self.edges = lines.edges();
         self.elements.clear();
         self.is_rigid = [0, 1].map(|direction| around.is_rigid(direction));
         self.shear(around);
         constraint::constrain(around, &self.shearing, &mut self.constraints);
-        self.slopes.reset(grid.grippers());
-        for catenary in 0..grid.edges() {
+        self.slopes.reset(lines.grippers());
+        for catenary in 0..lines.edges() {
             self.edge(around, catenary);
         }
         self.edge_elements = self.elements.len();
         self.slopes.hold_edges(around, &self.constraints, &mut self.elements);
-        for catenary in grid.edges()..grid.catenaries() {
+        for catenary in lines.edges()..lines.catenaries() {
             self.diagonal(around, catenary);
         }
         if !around.constrained {
@@ -70,28 +77,52 @@ impl<T: Number> Problem<T> {
         }
     }
 
-    /// Which diagonal of each cell is stretched.
+    /// Which bias lines of each cell are stretched. The two sides of a cell that run in one direction shear it together, by the
+    /// mean of their squares: that holds whatever the sides are, as the fibres are straight and cross in their middles.
     fn shear(&mut self, around: &Circumstances<T>) {
-        let grid = around.grid();
         self.shearing.clear();
-        for cell in 0..grid.cells() {
-            let [rising, falling] = [0, 1].map(|n| around.taut_path(grid.edges() + 2 * cell + n));
+        self.stretched.clear();
+        self.stretched.resize(around.lines.catenaries() - self.edges, None);
+        for cell in around.lines.cells() {
+            let path =
+                |bias: &BiasLines| mean_path(bias.list().iter().map(|n| around.taut_path(*n)));
+            let [rising, falling] = cell.bias.each_ref().map(path);
             let longer = if falling.re() > rising.re() { (falling, true) } else { (rising, false) };
-            let shears = shear::is_shearing(around.ply.sides(cell, around.contacts), longer.0.re());
+            let trellis = around.ply.trellis(cell, around.contacts);
+            let shears = shear::is_shearing(trellis, longer.0.re());
             self.shearing.push(shears.then_some(longer));
+            for (bias, falling) in cell.bias.iter().zip([false, true]) {
+                for n in bias.list() {
+                    let path = around.taut_path(*n);
+                    let is_stretched = match cell.fibres {
+                        Fibres::Sides => shears && falling == longer.1,
+                        // a side is stretched by its own ends, whichever of its two cells shears more
+                        Fibres::Diagonals => shear::is_shearing(trellis, path.re()),
+                    };
+                    if is_stretched {
+                        self.stretched[*n - self.edges] = Some(path);
+                    }
+                }
+            }
         }
+    }
+
+    /// Taut path (m) of a bias line that is stretched.
+    #[must_use]
+    pub fn stretched(&self, catenary: usize) -> Option<T> {
+        let bias = catenary.checked_sub(self.edges)?;
+        self.stretched[bias]
     }
 
     /// The elements of an edge, and what its grippers see of it.
     fn edge(&mut self, around: &Circumstances<T>, catenary: usize) {
-        let (grid, first) = (around.grid(), self.elements.len());
-        let c = grid.catenary(catenary);
+        let (kind, first) = (around.kind(catenary), self.elements.len());
         let seen = [0, 1].map(|end| {
             let line = around.segment_line(catenary, end);
             match &around.contacts[catenary] {
                 // one span from gripper to gripper
                 None if end == 0 => {
-                    let length = around.flat_length(c.kind);
+                    let length = around.flat_length(catenary);
                     self.elements.push(around.element(catenary, 0, &line, length));
                 }
                 Some(contact) if around.hangs(catenary, contact, end) => {
@@ -109,44 +140,43 @@ impl<T: Number> Problem<T> {
             };
             (side, line.heading())
         });
-        let grippers = [c.from, c.to].map(|g| grid.index(g));
-        self.slopes.see(grippers, usize::from(c.kind == Kind::EdgeV), seen);
+        let grippers = around.lines.ends(catenary);
+        self.slopes.see(grippers, usize::from(kind == Kind::EdgeV), seen);
     }
 
-    /// The elements of a diagonal, unless it is stretched straight.
+    /// The elements of a bias line, unless it is stretched straight.
     fn diagonal(&mut self, around: &Circumstances<T>, catenary: usize) {
-        let grid = around.grid();
-        let cell = (catenary - grid.edges()) / 2;
-        let kind = grid.catenary(catenary).kind;
-        let length = match self.shearing[cell] {
-            // once it has landed, its free segments are spans like any other
-            Some((_, falling))
-                if falling == (kind == Kind::Falling) && around.contacts[catenary].is_none() =>
-            {
-                return;
-            }
-            Some((path, _)) => shear::partner_length(around.sides(cell), path),
-            None => around.flat_length(kind),
-        };
-        self.hang_diagonal(around, catenary, length);
+        // once it has landed, its free segments are spans like any other
+        if self.stretched(catenary).is_none() || around.contacts[catenary].is_some() {
+            self.hang_diagonal(around, catenary, self.set_length(around, catenary));
+        }
     }
 
-    /// The stretched diagonals as spans of the flat cell's length, behind all other elements.
+    /// Set length of a bias line (m): that of the flat ply, or what a cell that shears across it leaves it. A side between
+    /// two cells has the mean of both by their squares: that is the side at the mean of the sines of their shear angles.
+    fn set_length(&self, around: &Circumstances<T>, catenary: usize) -> T {
+        let is_falling = around.kind(catenary) == Kind::Falling;
+        mean_path(around.lines.cells_of(catenary).map(|cell| match self.shearing[cell] {
+            Some((path, falling)) if falling != is_falling => {
+                shear::partner_length(around.trellis(cell), path)
+            }
+            _ => around.flat_length(catenary),
+        }))
+    }
+
+    /// The stretched bias lines as spans of the flat cell's length, behind all other elements.
     ///
-    /// Just before the onset of shear a taut diagonal draws all slopes by its large force. Without constraints it
+    /// Just before the onset of shear a taut bias line draws all slopes by its large force. Without constraints it
     /// does so still, so that these slopes do not jump at the onset.
     fn stretched_diagonals(&mut self, around: &Circumstances<T>) {
-        let grid = around.grid();
-        for cell in 0..grid.cells() {
-            if let Some((_, falling)) = self.shearing[cell] {
-                let catenary = grid.edges() + 2 * cell + usize::from(falling);
-                let flat = around.flat_length(grid.catenary(catenary).kind);
-                self.hang_diagonal(around, catenary, flat);
+        for catenary in around.lines.edges()..around.lines.catenaries() {
+            if self.stretched(catenary).is_some() {
+                self.hang_diagonal(around, catenary, around.flat_length(catenary));
             }
         }
     }
 
-    /// The elements of a diagonal of a given fabric length (m).
+    /// The elements of a bias line of a given fabric length (m).
     fn hang_diagonal(&mut self, around: &Circumstances<T>, catenary: usize, length: T) {
         for segment in 0..2 {
             let line = around.segment_line(catenary, segment);
@@ -208,6 +238,14 @@ impl<T: Number> Problem<T> {
     #[must_use]
     pub fn sides(&self) -> &[[[Side<T>; 2]; 2]] {
         self.slopes.sides()
+    }
+}
+
+/// Mean (m) of the lengths of one or two lines by their squares.
+fn mean_path<T: Number>(mut paths: impl Iterator<Item = T>) -> T {
+    match [paths.next(), paths.next()] {
+        [Some(one), Some(other)] => ((one * one + other * other) / 2.0).sqrt(),
+        [one, _] => one.unwrap_or(T::from(0.0)),
     }
 }
 

@@ -88,13 +88,11 @@ impl<T: Number> Slopes<T> {
         constraints: &[Option<Constraint<T>>],
         elements: &mut [Element<T>],
     ) {
-        let grid = around.grid();
-        let lines = (0..grid.nv).map(|j| (0, j)).chain((0..grid.nu).map(|i| (1, i)));
-        for (direction, fixed) in lines.filter(|(direction, _)| around.is_rigid(*direction)) {
-            let count = if direction == 0 { grid.nu } else { grid.nv };
-            for moving in 0..count {
-                let id = if direction == 0 { [moving, fixed] } else { [fixed, moving] };
-                let gripper = grid.index(id);
+        for (direction, grippers) in around.lines.chains() {
+            if !around.is_rigid(direction) {
+                continue;
+            }
+            for &gripper in grippers {
                 let sides = self.sides[gripper][direction];
                 if let Some(constraint) = constraints[gripper] {
                     for side in sides {
@@ -128,23 +126,25 @@ impl<T: Number> Slopes<T> {
         [element, end]: [usize; 2],
         line: &Line<T>,
     ) -> End<T> {
-        let (grid, along) = (around.grid(), line.heading());
-        let c = grid.catenary(catenary);
-        if around.ply.line(c.kind).flexural_rigidity == 0.0 {
+        let along = line.heading();
+        if around.ply.line(around.kind(catenary)).flexural_rigidity == 0.0 {
             return End::Free;
         }
-        let gripper = if end == 0 { c.from } else { c.to };
-        let g = grid.index(gripper);
-        if let Some(constraint) = constraints[g] {
+        let gripper = around.lines.ends(catenary)[end];
+        if let Some(constraint) = constraints[gripper] {
             let free = around.free.get(element).map(|slopes| slopes[end]);
             return End::Prescribed(constraint.blend(free, along));
         }
-        let cell = (catenary - grid.edges()) / 2;
-        let (i, j) = (cell % (grid.nu - 1), cell / (grid.nu - 1));
-        // the cell's edges at this gripper: it stands at their start (0) or at their end (1)
-        let at = [gripper[0] - i, gripper[1] - j];
-        let edges = [grid.edge_u([i, gripper[1]]), grid.edge_v([gripper[0], j])];
-        let [u, v] = [self.headings[edges[0]][at[0]], self.headings[edges[1]][at[1]]];
+        // the fibre lines between which it leaves, before the gripper (0) or behind it (1); at a boundary those that go on
+        let away = around.lines.way(catenary);
+        let fibres = [0, 1].map(|d| {
+            let side = usize::from((away[d] > 0.0) == (end == 0));
+            let beside = around.lines.beside(gripper, d);
+            [side, 1 - side].into_iter().find_map(|side| Some((side, beside[side]?)))
+        });
+        let [Some((side_u, edge_u)), Some((side_v, edge_v))] = fibres else { return End::Free };
+        let sides = [side_u, side_v];
+        let [u, v] = [self.headings[edge_u][1 - side_u], self.headings[edge_v][1 - side_v]];
         let determinant = u[0] * v[1] - u[1] * v[0];
         if determinant.re().abs() < around.tuning.parallel_edges {
             return End::Free;
@@ -153,12 +153,13 @@ impl<T: Number> Slopes<T> {
             (along[0] * v[1] - along[1] * v[0]) / determinant,
             (u[0] * along[1] - u[1] * along[0]) / determinant,
         ];
-        let source = [0, 1].map(|d| match (self.shared_at[g][d], self.sides[g][d][1 - at[d]]) {
-            (Some(slope), _) => SlopeSource::Shared(slope),
-            (None, Side::Hanging(element, end)) => SlopeSource::Outcome(element, end),
-            (None, Side::Fixed(slope)) => SlopeSource::Prescribed(slope),
-            (None, Side::None) => SlopeSource::Prescribed(T::from(0.0)),
-        });
+        let source =
+            [0, 1].map(|d| match (self.shared_at[gripper][d], self.sides[gripper][d][sides[d]]) {
+                (Some(slope), _) => SlopeSource::Shared(slope),
+                (None, Side::Hanging(element, end)) => SlopeSource::Outcome(element, end),
+                (None, Side::Fixed(slope)) => SlopeSource::Prescribed(slope),
+                (None, Side::None) => SlopeSource::Prescribed(T::from(0.0)),
+            });
         End::Plane(PlaneSlope { share, source })
     }
 }

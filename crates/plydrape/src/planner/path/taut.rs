@@ -170,14 +170,14 @@ mod tests {
     }
 
     fn lines() -> Lines {
+        let graph = crate::ply::Lines::array(GRID, [0.1; 2]);
         let line = |n: usize| {
-            let catenary = GRID.catenary(n);
-            let ends = [catenary.from, catenary.to];
-            let [a, b] = ends.map(target);
+            let ends = graph.ends(n);
+            let [a, b] = ends.map(|gripper| target(GRID.id(gripper)));
             let places = (0..=16).map(|k| between(a, b, f64::from(k) / 16.0)).collect();
-            Line { grippers: ends.map(|id| GRID.index(id)), length: 0.1, places }
+            Line { grippers: ends, length: 0.1, places }
         };
-        Lines((0..GRID.edges()).map(line).collect())
+        Lines((0..graph.edges()).map(line).collect())
     }
 
     fn radius(p: Point) -> f64 {

@@ -1,7 +1,6 @@
 //! Grippers and cells: tilt, height above the mold, distances, shear.
 
 use super::{Quantity, Sensitivity};
-use crate::equilibrium::neighbours;
 use crate::mold::vector::{sub, unit};
 use crate::planner::row::Row;
 use crate::planner::tuning::TUNING;
@@ -14,7 +13,7 @@ impl Sensitivity<'_> {
     #[must_use]
     pub fn shear(&self, cell: usize) -> Option<Quantity> {
         let path = self.paths[cell].as_ref()?;
-        let sides = self.scene.ply.sides(cell, self.contacts);
+        let sides = self.scene.ply.trellis(&self.scene.ply.lines().cells()[cell], self.contacts);
         let value = shear::angle(sides, path.value);
         // from sin γ = (d₁² − a² − b²)/2ab; a folded cell shears no further
         let rate = path.value / (sides[0] * sides[1] * value.cos());
@@ -55,8 +54,8 @@ impl Sensitivity<'_> {
         let slopes = self.slopes[gripper].iter().flatten();
         let mut columns: BTreeSet<usize> =
             slopes.flat_map(|slope| slope.gradient.entries().map(|(column, _)| column)).collect();
-        for neighbour in [0, 1].map(|d| neighbours(self.scene.ply.grid, gripper, d)).as_flattened()
-        {
+        let lines = self.scene.ply.lines();
+        for neighbour in [0, 1].map(|d| lines.neighbours(gripper, d)).as_flattened() {
             columns.extend(3 * neighbour..3 * neighbour + 3);
         }
         let along = |column: usize| (column, self.tilt_along(gripper, Some(column)).eps);
@@ -69,8 +68,9 @@ impl Sensitivity<'_> {
             let moves = column == Some(3 * n + axis);
             Dual64::new(self.positions[n][axis], f64::from(u8::from(moves)))
         };
+        let lines = self.scene.ply.lines();
         let heading = |d: usize| {
-            let [before, after] = neighbours(self.scene.ply.grid, gripper, d);
+            let [before, after] = lines.neighbours(gripper, d);
             let [x, y] = [0, 1].map(|n| position(after, n) - position(before, n));
             let square = x * x + y * y;
             (square.re > 0.0).then(|| [x, y].map(|c| c / square.sqrt()))

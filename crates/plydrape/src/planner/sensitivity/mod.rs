@@ -33,7 +33,7 @@ use state::State;
 pub struct Quantity {
     /// The value.
     pub value: f64,
-    /// Derivatives to x, y, z of each gripper (per m), in the order of [`crate::ply::Grid::index`].
+    /// Derivatives to x, y, z of each gripper (per m), in the order of [`crate::ply::Ply::index`].
     pub gradient: Row,
 }
 
@@ -95,9 +95,8 @@ impl<'a> Sensitivity<'a> {
         positions: &'a [Point],
         contacts: &'a [Option<ContactSegment>],
     ) -> Self {
-        let grid = scene.ply.grid;
         let State { rows, paths, slopes, is_sound } =
-            State::new(grid, solver, positions, contacts, negligible);
+            State::new(&scene.ply, solver, positions, contacts, negligible);
         Sensitivity { scene, shape, positions, contacts, rows, paths, slopes, is_sound }
     }
 
@@ -115,9 +114,7 @@ impl<'a> Sensitivity<'a> {
     /// The gripper that holds an end of a span; none where the mold does.
     #[must_use]
     pub fn gripper_at(&self, span: &FreeSpan, end: usize) -> Option<usize> {
-        let grid = self.scene.ply.grid;
-        let c = grid.catenary(span.catenary);
         let whole = self.contacts[span.catenary].is_none();
-        (whole || span.segment == end).then(|| grid.index(if end == 0 { c.from } else { c.to }))
+        (whole || span.segment == end).then(|| self.scene.ply.lines().ends(span.catenary)[end])
     }
 }

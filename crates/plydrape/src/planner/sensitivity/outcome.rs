@@ -37,14 +37,14 @@ pub fn outcome(
 ) -> Option<Outcome> {
     let mut draping = Draping::new(scene);
     let (drape, shape) = draping.run(&mut progress);
-    let (shape, grid) = (shape?, scene.ply.grid);
+    let (shape, lines) = (shape?, scene.ply.lines());
     let Draping { solver, positions, contacts, .. } = &mut draping;
     let sensitivity = Sensitivity::whole(scene, solver, &shape, positions, contacts);
 
     let nothing = Quantity { value: f64::NEG_INFINITY, gradient: Row::default() };
-    let mut overstretch = vec![nothing; grid.catenaries()];
-    let mut force: Vec<Option<Quantity>> = vec![None; grid.catenaries()];
-    for catenary in 0..grid.catenaries() {
+    let mut overstretch = vec![nothing; lines.catenaries()];
+    let mut force: Vec<Option<Quantity>> = vec![None; lines.catenaries()];
+    for catenary in 0..lines.catenaries() {
         for found in lying(scene, sensitivity.contacts, sensitivity.positions, catenary) {
             if found.value > overstretch[catenary].value {
                 overstretch[catenary] = found;
@@ -66,8 +66,8 @@ pub fn outcome(
     Some(Outcome {
         overstretch,
         force,
-        shear: (0..grid.cells()).map(|cell| sensitivity.shear(cell)).collect(),
-        tilt: (0..grid.grippers()).map(|gripper| sensitivity.tilt(gripper)).collect(),
+        shear: (0..lines.cells().len()).map(|cell| sensitivity.shear(cell)).collect(),
+        tilt: (0..lines.grippers()).map(|gripper| sensitivity.tilt(gripper)).collect(),
         drape,
     })
 }
@@ -80,9 +80,7 @@ fn lying(
     catenary: usize,
 ) -> Vec<Quantity> {
     let (Some(mold), Some(contact)) = (&scene.mold, &contacts[catenary]) else { return Vec::new() };
-    let grid = scene.ply.grid;
-    let c = grid.catenary(catenary);
-    let grippers = [c.from, c.to].map(|g| grid.index(g));
+    let grippers = scene.ply.lines().ends(catenary);
     let tolerance = scene.settings.contact.tolerance;
     let misfits = |ends: [Point; 2]| -> Vec<f64> {
         let segments = lying_segments(catenary, contact, ends, mold, tolerance);

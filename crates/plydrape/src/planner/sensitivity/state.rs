@@ -5,7 +5,7 @@ use crate::draping::spans::Point;
 use crate::equilibrium::{Coloring, Direction, Solver, StateTangent};
 use crate::planner::row::Row;
 use crate::planner::tuning::TUNING;
-use crate::ply::{ContactSegment, Grid, GripperId};
+use crate::ply::{ContactSegment, GripperId, Ply};
 
 /// The derivatives of a state to all gripper positions.
 pub(super) struct State {
@@ -23,18 +23,19 @@ impl State {
     /// Differentiates the last state of a solver. Numbers smaller than a share `negligible` of the largest in a row are
     /// left out; with 0 there are all.
     pub fn new(
-        grid: Grid,
+        ply: &Ply,
         solver: &Solver,
         positions: &[Point],
         contacts: &[Option<ContactSegment>],
         negligible: f64,
     ) -> Self {
         let mut linearized = solver.linearize(positions, contacts);
-        let whole = grid.nu.max(grid.nv);
+        let rows = ply.rows();
+        let whole = rows.nu.max(rows.nv);
         let mut reach = if negligible > 0.0 { TUNING.sensitivity.reach } else { whole };
         loop {
-            let coloring = Coloring::new(grid, reach);
-            let mut gathered = Gathered::new(grid, solver, positions.len(), negligible);
+            let coloring = Coloring::of(ply, reach);
+            let mut gathered = Gathered::new(ply, solver, positions.len(), negligible);
             let mut direction = Direction::none(positions.len());
             for group in 0..coloring.groups() {
                 for axis in 0..3 {
@@ -55,9 +56,11 @@ impl State {
 
 /// Rows as they are filled, kind by kind: those of elements, paths, slopes along u and v.
 struct Gathered {
-    grid: Grid,
     negligible: f64,
     corners: Vec<GripperId>,
+    /// Names of the cells and of the grippers.
+    cells: Vec<GripperId>,
+    ids: Vec<GripperId>,
     kinds: Vec<Vec<Gathering>>,
 }
 
@@ -100,20 +103,21 @@ impl Gathering {
 }
 
 impl Gathered {
-    fn new(grid: Grid, solver: &Solver, grippers: usize, negligible: f64) -> Self {
-        let elements = &solver.problem().elements;
+    fn new(ply: &Ply, solver: &Solver, grippers: usize, negligible: f64) -> Self {
+        let (elements, lines) = (&solver.problem().elements, solver.lines());
         let corner = |catenary: usize| {
-            let c = grid.catenary(catenary);
+            let c = lines.catenary(catenary);
             [0, 1].map(|d| c.from[d].min(c.to[d]))
         };
         let count = |kind: usize| match kind {
-            ROWS => grid.cells(),
+            ROWS => lines.cells().len(),
             kind if kind > ROWS => grippers,
             _ => elements.len(),
         };
         Gathered {
-            grid,
             negligible,
+            cells: lines.cells().iter().map(|cell| cell.id).collect(),
+            ids: (0..grippers).map(|n| ply.id(n)).collect(),
             corners: elements.iter().map(|element| corner(element.catenary)).collect(),
             kinds: (0..KINDS).map(|kind| vec![Gathering::default(); count(kind)]).collect(),
         }
@@ -121,7 +125,7 @@ impl Gathered {
 
     /// What the ply does when a group moves along an axis.
     fn put(&mut self, coloring: &Coloring, group: usize, axis: usize, tangent: &StateTangent) {
-        let Gathered { grid, negligible, corners, kinds } = self;
+        let Gathered { negligible, corners, cells, ids, kinds } = self;
         let mut put = |kind: usize, n: usize, near: Option<(usize, bool)>, x: f64| {
             if let Some((gripper, is_far)) = near {
                 kinds[kind][n].put(*negligible, 3 * gripper + axis, is_far, x);
@@ -134,11 +138,10 @@ impl Gathered {
             changes.into_iter().enumerate().for_each(|(row, x)| put(row, n, near, x));
         }
         for (cell, change) in tangent.paths.iter().enumerate() {
-            let corner = [cell % (grid.nu - 1), cell / (grid.nu - 1)];
-            put(ROWS, cell, coloring.near(group, corner), *change);
+            put(ROWS, cell, coloring.near(group, cells[cell]), *change);
         }
         for (gripper, changes) in tangent.grippers.iter().enumerate() {
-            let near = coloring.near(group, grid.id(gripper));
+            let near = coloring.near(group, ids[gripper]);
             (0..2).for_each(|d| put(ROWS + 1 + d, gripper, near, changes[d]));
         }
     }

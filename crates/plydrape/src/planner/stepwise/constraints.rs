@@ -17,7 +17,8 @@ impl Step<'_> {
                 program.at_most(&q.gradient, 1.0 / scale, limit.max(q.value) - q.value);
             }
         };
-        (0..grid.cells()).for_each(|cell| keep(sensitivity.shear(cell), limits.shear));
+        let cells = self.scene.ply.lines().cells().len();
+        (0..cells).for_each(|cell| keep(sensitivity.shear(cell), limits.shear));
         for gripper in 0..grid.grippers() {
             keep(Some(sensitivity.tilt(gripper)), limits.tilt);
         }

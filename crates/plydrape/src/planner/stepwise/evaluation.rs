@@ -38,8 +38,9 @@ impl Evaluation {
 }
 
 fn stretch(scene: &Scene, draping: &Draping, shape: &Shape) -> f64 {
-    let (ply, edges) = (&scene.ply, scene.ply.grid.edges());
-    let length = |catenary: usize| ply.flat_length(ply.grid.catenary(catenary).kind);
+    let (ply, lines) = (&scene.ply, scene.ply.lines());
+    let edges = lines.edges();
+    let length = |catenary: usize| lines.flat_length(catenary, ply.length_factor);
     let mut worst = 0.0_f64;
     for span in shape.spans.iter().filter(|span| span.catenary < edges) {
         let misfit = misfit(span, draping.contacts[span.catenary].as_ref());
@@ -50,8 +51,7 @@ fn stretch(scene: &Scene, draping: &Draping, shape: &Shape) -> f64 {
     };
     for (n, contact) in draping.contacts.iter().enumerate().take(edges) {
         let Some(contact) = contact else { continue };
-        let c = ply.grid.catenary(n);
-        let ends = [c.from, c.to].map(|g| draping.positions[ply.grid.index(g)]);
+        let ends = lines.ends(n).map(|gripper| draping.positions[gripper]);
         for segment in lying_segments(n, contact, ends, mold, scene.settings.contact.tolerance) {
             worst = worst.max(segment.misfit.overstretch() / length(n));
         }

@@ -6,7 +6,7 @@ use crate::ply::GripperId;
 /// A planned motion and how the planning ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stepwise {
-    /// Positions (m) of each step, the start first, in the order of [`crate::ply::Grid::index`].
+    /// Positions (m) of each step, the start first, in the order of [`crate::ply::Ply::index`].
     pub positions: Vec<Vec<Point>>,
     /// How it ended.
     pub outcome: Outcome,

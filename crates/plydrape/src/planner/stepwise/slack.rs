@@ -54,15 +54,15 @@ fn outward(line: &SurfaceCurve, end: usize, least: f64) -> Option<[f64; 3]> {
 }
 
 fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSegment> {
-    let (ply, grid) = (&scene.ply, scene.ply.grid);
+    let (ply, lines) = (&scene.ply, scene.ply.lines());
+    let flat_length = |n: usize| lines.flat_length(n, ply.length_factor);
     let mut out = Vec::new();
     let Some(mold) = &scene.mold else {
         return out;
     };
-    for (n, contact) in draping.contacts.iter().enumerate().take(grid.edges()) {
+    for (n, contact) in draping.contacts.iter().enumerate().take(lines.edges()) {
         let Some(contact) = contact else { continue };
-        let c = grid.catenary(n);
-        let ids = [c.from, c.to].map(|g| grid.index(g));
+        let ids = lines.ends(n);
         let ends = ids.map(|g| draping.positions[g]);
         for segment in lying_segments(n, contact, ends, mold, scene.settings.contact.tolerance) {
             let held: &[usize] = match segment.which {
@@ -70,12 +70,12 @@ fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSeg
                 Some(0) => &[0],
                 Some(_) => &[1],
             };
-            let least = TUNING.slack.shortest * ply.flat_length(c.kind);
+            let least = TUNING.slack.shortest * flat_length(n);
             out.push(FreeSegment {
                 stretch: segment.misfit.path - segment.misfit.length,
-                target: TUNING.slack.target_stretch * ply.flat_length(c.kind),
+                target: TUNING.slack.target_stretch * flat_length(n),
                 length: segment.misfit.length,
-                whole: ply.flat_length(c.kind),
+                whole: flat_length(n),
                 grippers: held
                     .iter()
                     .filter_map(|&end| {
@@ -88,22 +88,21 @@ fn free_segments(scene: &Scene, draping: &Draping, shape: &Shape) -> Vec<FreeSeg
         }
     }
     // segments that hang beside a gripper, and spans that bridge a hollow
-    for span in shape.spans.iter().filter(|span| span.catenary < grid.edges()) {
-        let c = grid.catenary(span.catenary);
+    for span in shape.spans.iter().filter(|span| span.catenary < lines.edges()) {
         let (Some(_), Some(way)) =
             (&draping.contacts[span.catenary], unit(sub(span.ends[1], span.ends[0])))
         else {
             continue;
         };
         let (gripper, way) = match span.segment {
-            0 => (grid.index(c.from), way.map(|x| -x)),
-            _ => (grid.index(c.to), way),
+            0 => (lines.ends(span.catenary)[0], way.map(|x| -x)),
+            _ => (lines.ends(span.catenary)[1], way),
         };
         out.push(FreeSegment {
             stretch: -misfit(span, draping.contacts[span.catenary].as_ref()).excess(),
             target: target_stretch(scene, span),
             length: span.length,
-            whole: ply.flat_length(c.kind),
+            whole: flat_length(span.catenary),
             grippers: vec![(gripper, way)],
         });
     }

@@ -66,7 +66,7 @@ impl Plan<'_> {
 
     /// Largest difference of a hanging edge from the length that it should have (m).
     fn slack(&self) -> f64 {
-        let edges = self.scene.ply.grid.edges();
+        let edges = self.scene.ply.lines().edges();
         self.shape
             .spans
             .iter()

@@ -105,12 +105,12 @@ impl Step<'_> {
         &self,
         sensitivity: &'s Sensitivity,
     ) -> impl Iterator<Item = &'s FreeSpan> {
-        let edges = self.scene.ply.grid.edges();
+        let edges = self.scene.ply.lines().edges();
         sensitivity.shape.spans.iter().filter(move |span| span.catenary < edges)
     }
 
     pub(super) fn whole(&self, span: &FreeSpan) -> f64 {
-        self.scene.ply.flat_length(self.scene.ply.grid.catenary(span.catenary).kind)
+        self.scene.ply.flat_length(span.catenary)
     }
 
     /// Stretch of edges: they hang taut; over a hollow they sag as deep as the hollow is.
@@ -184,7 +184,7 @@ impl Step<'_> {
 
 /// Stretch (m) that a span of an edge should have: a little, or slack over a hollow, in which it will lie.
 pub fn target_stretch(scene: &Scene, span: &FreeSpan) -> f64 {
-    let whole = scene.ply.flat_length(scene.ply.grid.catenary(span.catenary).kind);
+    let whole = scene.ply.flat_length(span.catenary);
     let sag = hollow(scene, span).powi(2) * span.length.powi(3) / 24.0;
     if sag > 0.0 { -sag - TUNING.hollow_slack * whole } else { TUNING.target_stretch * whole }
 }

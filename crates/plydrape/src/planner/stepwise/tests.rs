@@ -20,8 +20,15 @@ pub fn scene(count: usize) -> Scene {
         tension: None,
         locking_angle: None,
     };
-    let ply =
-        Ply { grid, cell: [0.1; 2], material, warp: Direction::U, length_factor: 1.0, cut: None };
+    let ply = Ply {
+        grid,
+        cell: [0.1; 2],
+        material,
+        warp: Direction::U,
+        length_factor: 1.0,
+        cut: None,
+        found: Default::default(),
+    };
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
     let pose = Pose::new([0.0, 0.0, -10.0], [0.0; 3]);
     let mold = Mold::Sphere(Sphere { pose, radius: 10.0, face: Face::Outside });

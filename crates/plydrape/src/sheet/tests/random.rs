@@ -52,7 +52,15 @@ fn scene(seed: u64) -> Scene {
         tension: Some(r.one(&[TensionLaw::Linear { stiffness: 1e6 }, table])),
         locking_angle: None,
     };
-    let ply = Ply { grid, cell, material, warp: Direction::U, length_factor: 1.0, cut: None };
+    let ply = Ply {
+        grid,
+        cell,
+        material,
+        warp: Direction::U,
+        length_factor: 1.0,
+        cut: None,
+        found: Default::default(),
+    };
     let side = cell[0].min(cell[1]);
     let mut settings = Settings { model: Model::Sheet, ..Settings::default() };
     settings.sheet.mesh = Some(side / r.between(2.0, 3.0));

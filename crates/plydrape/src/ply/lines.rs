@@ -1,0 +1,482 @@
+//! The lines of fabric between the cups, as a graph that follows from where cups hold the fabric.
+//!
+//! A *fibre line* joins two cups on one yarn with no cup between them, one or two pitches apart. A *bias line* runs across
+//! the yarns. Fibres and bias lines meet in cells, of which there are two arrangements:
+//!
+//! - four fibre lines are the sides, and two bias lines the diagonals (cups in rows along the yarns);
+//! - two fibre lines that cross in their middles are the diagonals, and four bias lines the sides (rows at 45° to the yarns).
+//!
+//! In both, each bias line is the diagonal of a trellis of fibres: of the cell itself, or of the parallelogram of half
+//! fibres around the bias line. So one set of formulas, that of [`super::shear`], holds for both.
+
+use super::cells::{bias_cells, fibre_cells};
+use super::tuning::TUNING;
+use super::{Catenary, Grid, GripperId, Kind, Outline, Ply};
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+/// All lines of a ply, and the cells between them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Lines {
+    grid: Grid,
+    pitch: [f64; 2],
+    grippers: usize,
+    lines: Vec<FabricLine>,
+    fibres: usize,
+    cells: Vec<LineCell>,
+    /// The fibre lines at each gripper: `[direction][before, after]`.
+    beside: Vec<[[Option<usize>; 2]; 2]>,
+    /// Grippers on one yarn that fibre lines join: direction and grippers in order.
+    chains: Vec<(usize, Vec<usize>)>,
+    /// The cells of each bias line.
+    cells_of: Vec<[Option<usize>; 2]>,
+}
+
+/// A line of fabric from cup to cup.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct FabricLine {
+    catenary: Catenary,
+    ends: [usize; 2],
+    /// Where its first end is in the fabric, and its way to the second one, in pitches along u and along v.
+    start: [f64; 2],
+    way: [f64; 2],
+    /// Share of its forces that is the ply's.
+    tributary: f64,
+}
+
+/// A cell of the fabric between four cups.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineCell {
+    /// Its name: the gripper at its first corner.
+    pub id: GripperId,
+    /// Its corners in order around it.
+    pub corners: [usize; 4],
+    /// Sides along u and along v (m) of the trellis whose diagonals its bias lines are, of the nominal ply: the cell's own sides,
+    /// or half of each fibre that is its diagonal.
+    pub trellis: [f64; 2],
+    /// Which of its lines are fibres.
+    pub fibres: Fibres,
+    /// Its bias lines: the rising ones, and the falling ones.
+    pub bias: [BiasLines; 2],
+}
+
+/// Which lines of a cell are fibres.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fibres {
+    /// Its four sides; bias lines are its diagonals.
+    Sides,
+    /// Its two diagonals; bias lines are its sides.
+    Diagonals,
+}
+
+/// The bias lines of a cell in one direction: one diagonal, or two sides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BiasLines {
+    lines: [usize; 2],
+    count: usize,
+}
+
+impl BiasLines {
+    /// The catenaries.
+    #[must_use]
+    pub fn list(&self) -> &[usize] {
+        &self.lines[..self.count]
+    }
+}
+
+/// Two grippers, and the way through the fabric from the first to the second along u and v (m).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair {
+    pub ends: [usize; 2],
+    pub way: [f64; 2],
+}
+
+/// A cell as geometry has it: its corners, its trellis, and its bias lines of each direction.
+pub(super) struct Quad {
+    pub name: usize,
+    pub corners: [usize; 4],
+    pub trellis: [f64; 2],
+    pub fibres: Fibres,
+    pub bias: [Vec<Pair>; 2],
+}
+
+/// The lines of a ply once they have been found; no part of what the ply is.
+#[derive(Debug, Clone, Default)]
+pub struct FoundLines(OnceLock<Arc<Lines>>);
+
+impl PartialEq for FoundLines {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Ply {
+    /// Its lines between cups; none where the sheet alone can drape it.
+    #[must_use]
+    pub fn lines(&self) -> Arc<Lines> {
+        let lines = self.found.0.get_or_init(|| Arc::new(Lines::of(self)));
+        if lines.are_of(self) { Arc::clone(lines) } else { Arc::new(Lines::of(self)) }
+    }
+
+    /// Whether catenaries hang between its cups.
+    #[must_use]
+    pub fn has_lines(&self) -> bool {
+        !self.lines().is_empty()
+    }
+}
+
+impl Lines {
+    fn of(ply: &Ply) -> Lines {
+        match &ply.cut {
+            None => Lines::array(ply.grid, ply.cell),
+            Some(cut) => Lines::found(ply, &cut.outline),
+        }
+    }
+
+    fn are_of(&self, ply: &Ply) -> bool {
+        self.grid == ply.grid && self.pitch == ply.cell && self.grippers == ply.grippers()
+    }
+
+    /// The lines of a whole array along the yarns: edges along u, edges along v, then two diagonals per cell.
+    #[must_use]
+    pub fn array(grid: Grid, cell: [f64; 2]) -> Lines {
+        let Grid { nu, nv } = grid;
+        let [a, b] = cell;
+        let (across, along) = (nu.saturating_sub(1), nv.saturating_sub(1));
+        let at = |i: usize, j: usize| grid.index([i, j]);
+        let u = (0..nv).flat_map(|j| (0..across).map(move |i| [at(i, j), at(i + 1, j)]));
+        let v = (0..along).flat_map(|j| (0..nu).map(move |i| [at(i, j), at(i, j + 1)]));
+        let u = u.map(|ends| Pair { ends, way: [a, 0.0] }).collect();
+        let v = v.map(|ends| Pair { ends, way: [0.0, b] }).collect();
+        let quad = |[i, j]: [usize; 2]| {
+            let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            fibre_quad(corners, cell)
+        };
+        let cells = (0..along).flat_map(|j| (0..across).map(move |i| [i, j])).map(quad).collect();
+        let families = if nv > 1 { 2.0 } else { 1.0 };
+        let share = |line: &FabricLine| {
+            let c = line.catenary;
+            let (line, lines) =
+                if c.kind == Kind::EdgeU { (c.from[1], nv) } else { (c.from[0], nu) };
+            let boundary = lines > 1 && (line == 0 || line + 1 == lines);
+            if boundary { 0.5 / families } else { 1.0 / families }
+        };
+        let id = |n| grid.id(n);
+        let mut lines = Lines { grid, pitch: cell, grippers: grid.grippers(), ..Lines::default() };
+        lines.join([u, v], cells, |n| (id(n), id(n).map(|k| k as f64)));
+        let fibres = lines.fibres;
+        lines.lines[..fibres].iter_mut().for_each(|line| line.tributary = share(line));
+        lines
+    }
+
+    /// The lines between the cups of a cut ply, from their places in the fabric.
+    fn found(ply: &Ply, outline: &Outline) -> Lines {
+        let count = ply.grippers();
+        let places: Vec<[f64; 2]> = (0..count).map(|n| ply.place(n)).collect();
+        let mut own =
+            Lines { grid: ply.grid, pitch: ply.cell, grippers: count, ..Lines::default() };
+        // rows at 45° to the yarns: cups on one yarn are a diagonal of the array apart
+        let turned = ply.is_turned();
+        let pitch = if turned { [ply.cell[0].hypot(ply.cell[1]); 2] } else { ply.cell };
+        let mut edges = [0, 1].map(|d| fibre_lines(&places, outline, d, pitch));
+        let mut cells = fibre_cells(&places, outline, &edges, pitch);
+        let side = ply.cell[0].max(ply.cell[1]);
+        cells.extend(bias_cells(&places, outline, &edges, side));
+        let mut held = vec![false; count];
+        edges.iter().flatten().flat_map(|edge| edge.ends).for_each(|n| held[n] = true);
+        let is_bias = cells.iter().any(|cell| cell.fibres == Fibres::Diagonals);
+        // a cup without a line would hold nothing, and an array across the yarns has no shear without cells
+        if !held.iter().all(|held| *held) || (turned && !is_bias) {
+            edges = [Vec::new(), Vec::new()];
+            cells.clear();
+        }
+        let shares = [0, 1].map(|d| tributaries(&places, &edges, d, ply.line_widths()[d]));
+        let start = |n: usize| [0, 1].map(|d| places[n][d] / ply.cell[d]);
+        own.join(edges, cells, |n| (ply.id(n), start(n)));
+        for (line, share) in own.lines.iter_mut().zip(shares.into_iter().flatten()) {
+            line.tributary = share;
+        }
+        own
+    }
+
+    /// Joins grippers by fibre lines and cells; `at` gives a gripper's name and its place in pitches.
+    fn join(
+        &mut self,
+        edges: [Vec<Pair>; 2],
+        quads: Vec<Quad>,
+        at: impl Fn(usize) -> (GripperId, [f64; 2]),
+    ) {
+        let fibres = edges[0].len() + edges[1].len();
+        let (pitch, mut beside) = (self.pitch, vec![[[None; 2]; 2]; self.grippers]);
+        let mut lines = Vec::with_capacity(fibres + 2 * quads.len());
+        let line = |kind, Pair { ends, way }: Pair| {
+            let [(from, start), (to, _)] = ends.map(&at);
+            let way = [0, 1].map(|d| way[d] / pitch[d]);
+            FabricLine { catenary: Catenary { kind, from, to }, ends, start, way, tributary: 1.0 }
+        };
+        for (d, kind) in [Kind::EdgeU, Kind::EdgeV].into_iter().enumerate() {
+            for pair in &edges[d] {
+                let [a, b] = pair.ends;
+                beside[a][d][1] = Some(lines.len());
+                beside[b][d][0] = Some(lines.len());
+                lines.push(line(kind, *pair));
+            }
+        }
+        let (mut known, mut cells_of) = (BTreeMap::new(), Vec::new());
+        let mut cells = Vec::with_capacity(quads.len());
+        for (number, quad) in quads.into_iter().enumerate() {
+            let mut bias = [BiasLines { lines: [0; 2], count: 0 }; 2];
+            for (d, kind) in [Kind::Rising, Kind::Falling].into_iter().enumerate() {
+                for pair in &quad.bias[d] {
+                    let n = *known.entry(pair.ends).or_insert_with(|| {
+                        lines.push(line(kind, *pair));
+                        cells_of.push([None; 2]);
+                        lines.len() - 1
+                    });
+                    let of: &mut [Option<usize>; 2] = &mut cells_of[n - fibres];
+                    of[usize::from(of[0].is_some())] = Some(number);
+                    bias[d].lines[bias[d].count] = n;
+                    bias[d].count += 1;
+                }
+            }
+            let Quad { name, corners, trellis, fibres, .. } = quad;
+            cells.push(LineCell { id: at(name).0, corners, trellis, fibres, bias });
+        }
+        self.chains = chains(&lines, &beside, &edges);
+        (self.lines, self.fibres, self.beside) = (lines, fibres, beside);
+        (self.cells, self.cells_of) = (cells, cells_of);
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.lines.is_empty()
+    }
+
+    /// The array whose lines these all are; none where cups or lines are missing, or rows cross the yarns.
+    #[must_use]
+    pub fn whole_array(&self) -> Option<Grid> {
+        let Grid { nu, nv } = self.grid;
+        let edges = nu.saturating_sub(1) * nv + nu * nv.saturating_sub(1);
+        let whole = self.fibres == edges && self.cells.len() == self.grid.cells();
+        (whole && self.fibres > 0).then_some(self.grid)
+    }
+
+    /// The same as a grid without cells where they are not all lines of a whole array.
+    #[must_use]
+    pub fn surface(&self) -> Grid {
+        self.whole_array().unwrap_or(Grid::NONE)
+    }
+
+    /// Number of grippers.
+    #[must_use]
+    pub fn grippers(&self) -> usize {
+        self.grippers
+    }
+
+    /// Number of lines: fibre lines along u, along v, then bias lines. A catenary hangs in each.
+    #[must_use]
+    pub fn catenaries(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// Number of fibre lines; they come first.
+    #[must_use]
+    pub fn edges(&self) -> usize {
+        self.fibres
+    }
+
+    /// A line by its index.
+    #[must_use]
+    pub fn catenary(&self, index: usize) -> Catenary {
+        self.lines[index].catenary
+    }
+
+    /// Positions of its grippers in all per-gripper arrays.
+    #[must_use]
+    pub fn ends(&self, index: usize) -> [usize; 2] {
+        self.lines[index].ends
+    }
+
+    /// The cells.
+    #[must_use]
+    pub fn cells(&self) -> &[LineCell] {
+        &self.cells
+    }
+
+    /// The cells of a bias line, one or two; none of a fibre line.
+    pub fn cells_of(&self, index: usize) -> impl Iterator<Item = usize> + Clone + use<> {
+        let cells = index.checked_sub(self.fibres).map_or([None; 2], |n| self.cells_of[n]);
+        cells.into_iter().flatten()
+    }
+
+    /// Fabric length (m) of a line of the flat ply, `factor` times that of the nominal one.
+    #[must_use]
+    pub fn flat_length(&self, index: usize, factor: f64) -> f64 {
+        let [a, b] = self.way(index).map(|way| way * factor);
+        match self.catenary(index).kind {
+            Kind::EdgeU => a,
+            Kind::EdgeV => b,
+            Kind::Rising | Kind::Falling => a.hypot(b),
+        }
+    }
+
+    /// Way through the fabric from the first end of a line to its second along u and along v (m), of the nominal ply.
+    #[must_use]
+    pub fn way(&self, index: usize) -> [f64; 2] {
+        [0, 1].map(|d| self.pitch[d] * self.lines[index].way[d])
+    }
+
+    /// Fabric coordinates (m) of a line at a share of its length from its first end.
+    #[must_use]
+    pub fn point(&self, index: usize, share: f64) -> [f64; 2] {
+        let FabricLine { start, way, .. } = &self.lines[index];
+        [0, 1].map(|d| self.pitch[d] * (start[d] + share * way[d]))
+    }
+
+    /// Share of a fibre line's forces that is the ply's.
+    ///
+    /// Each family of fibre lines has the weight of the whole ply, so where there are two families each counts half. A line
+    /// stands for a strip half-way to the next one of its family on each side.
+    #[must_use]
+    pub fn tributary(&self, index: usize) -> f64 {
+        self.lines[index].tributary
+    }
+
+    /// The fibre lines at a gripper along a direction (0: u, 1: v): the one before it, and the one behind it.
+    #[must_use]
+    pub fn beside(&self, gripper: usize, direction: usize) -> [Option<usize>; 2] {
+        self.beside[gripper][direction]
+    }
+
+    /// The grippers before and behind one along a direction; itself where no line goes on.
+    #[must_use]
+    pub fn neighbours(&self, gripper: usize, direction: usize) -> [usize; 2] {
+        let [before, after] = self.beside[gripper][direction];
+        [
+            before.map_or(gripper, |n| self.lines[n].ends[0]),
+            after.map_or(gripper, |n| self.lines[n].ends[1]),
+        ]
+    }
+
+    /// Grippers that fibre lines join along one yarn: those along u (0) first, then those along v (1), each in ascending order.
+    pub fn chains(&self) -> impl Iterator<Item = (usize, &[usize])> {
+        self.chains.iter().map(|(direction, grippers)| (*direction, grippers.as_slice()))
+    }
+}
+
+/// A cell whose sides are fibres, from its corners in order around it.
+pub(super) fn fibre_quad(corners: [usize; 4], trellis: [f64; 2]) -> Quad {
+    let [low, right, top, left] = corners;
+    let [a, b] = trellis;
+    let pair = |ends, way| vec![Pair { ends, way }];
+    let bias = [pair([low, top], [a, b]), pair([right, left], [-a, b])];
+    let name = corners.into_iter().min().unwrap_or(low);
+    Quad { name, corners, trellis, fibres: Fibres::Sides, bias }
+}
+
+/// The fibre lines along a direction between cups on one yarn, in ascending order of v, then u of their first ends.
+fn fibre_lines(
+    places: &[[f64; 2]],
+    outline: &Outline,
+    direction: usize,
+    pitch: [f64; 2],
+) -> Vec<Pair> {
+    let (along, across) = (direction, 1 - direction);
+    let same = TUNING.same_yarn * pitch[0].min(pitch[1]);
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by(|a, b| places[*a][across].total_cmp(&places[*b][across]));
+    let mut pairs = Vec::new();
+    for yarn in order.chunk_by_mut(|a, b| places[*b][across] - places[*a][across] <= same) {
+        yarn.sort_by(|a, b| places[*a][along].total_cmp(&places[*b][along]));
+        for ends in yarn.windows(2).map(|ends| [ends[0], ends[1]]) {
+            let [a, b] = ends.map(|n| places[n]);
+            let length = b[along] - a[along];
+            if length <= (2.0 + TUNING.same_yarn) * pitch[along] && outline.has_line([a, b]) {
+                let mut way = [0.0; 2];
+                way[along] = length;
+                pairs.push(Pair { ends, way });
+            }
+        }
+    }
+    let first = |pair: &Pair| places[pair.ends[0]];
+    let row = |place: [f64; 2]| (place[1] / same).round();
+    pairs.sort_by(|a, b| {
+        let (a, b) = (first(a), first(b));
+        row(a).total_cmp(&row(b)).then(a[0].total_cmp(&b[0]))
+    });
+    pairs
+}
+
+/// Share of each fibre line along a direction: the fabric from half-way to the next line on one side to half-way to that on
+/// the other, over a strip of a width (m) along the line, and halved where there are two families.
+fn tributaries(
+    places: &[[f64; 2]],
+    edges: &[Vec<Pair>; 2],
+    direction: usize,
+    width: f64,
+) -> Vec<f64> {
+    let (along, across) = (direction, 1 - direction);
+    let families = edges.iter().filter(|edges| !edges.is_empty()).count() as f64;
+    let reach = |pair: &Pair| pair.ends.map(|n| places[n][along]);
+    let at = |pair: &Pair| places[pair.ends[0]][across];
+    let same = TUNING.same_yarn * width;
+    let own = &edges[direction];
+    let one = |pair: &Pair| {
+        let [from, to] = reach(pair);
+        let beside = |other: &&Pair| {
+            let [a, b] = reach(other);
+            a < to && b > from && (at(other) - at(pair)).abs() > same
+        };
+        let others: Vec<&Pair> = own.iter().filter(beside).collect();
+        let mut cuts: Vec<f64> = others.iter().flat_map(|other| reach(other)).collect();
+        cuts.extend([from, to]);
+        cuts.retain(|cut| (from..=to).contains(cut));
+        cuts.sort_by(f64::total_cmp);
+        let mut area = 0.0;
+        for [a, b] in cuts.windows(2).map(|cut| [cut[0], cut[1]]) {
+            let middle = 0.5 * (a + b);
+            let mut sides = [f64::INFINITY; 2];
+            for other in &others {
+                let ([c, d], off) = (reach(other), at(other) - at(pair));
+                if c < middle && d > middle {
+                    let side = &mut sides[usize::from(off > 0.0)];
+                    *side = side.min(off.abs());
+                }
+            }
+            let half = |side: &f64| if side.is_finite() { 0.5 * side } else { 0.0 };
+            let strip: f64 = sides.iter().map(half).sum();
+            area += (b - a) * if strip > 0.0 { strip } else { width };
+        }
+        area / ((to - from) * width * families)
+    };
+    own.iter().map(one).collect()
+}
+
+/// The grippers along each yarn, line by line.
+fn chains(
+    lines: &[FabricLine],
+    beside: &[[[Option<usize>; 2]; 2]],
+    edges: &[Vec<Pair>; 2],
+) -> Vec<(usize, Vec<usize>)> {
+    let mut out = Vec::new();
+    for (d, edges) in edges.iter().enumerate() {
+        for start in edges.iter().map(|pair| pair.ends[0]) {
+            if beside[start][d][0].is_some() {
+                continue;
+            }
+            let mut chain = vec![start];
+            let mut at = start;
+            while let Some(line) = beside[at][d][1] {
+                at = lines[line].ends[1];
+                chain.push(at);
+            }
+            out.push((d, chain));
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+#[path = "lines_tests.rs"]
+pub(super) mod tests;
