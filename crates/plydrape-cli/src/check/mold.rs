@@ -62,7 +62,8 @@ pub(super) fn mold(scene: &SceneFile) -> Vec<Line> {
             Some(report) => return mesh(report),
             None => "mesh".into(),
         },
-        // no scene file makes one
+        // no scene file makes these
+        Mold::Layered(_) => "plies on a mold".into(),
         Mold::Wavy(_) => "waves on a mold".into(),
     };
     vec![("mold", text)]

@@ -4,7 +4,7 @@ use super::*;
 use crate::catenary::{EndCondition, Span};
 use crate::equilibrium::Solver;
 use crate::material::{Material, Section, ShearCurve, TensionLaw};
-use crate::mold::distance;
+use crate::mold::{Relief, distance};
 use crate::mold::vector::{along, sub, turned};
 use crate::ply::{Direction, Grid, Ply};
 use crate::scene::{Limits, Model, Motion, Plan, Scene, Settings, Target};
