@@ -77,7 +77,7 @@ fn a_move_that_fails_in_the_middle_is_undone() {
     let before = contents(dir.path());
     let stage = tempfile::Builder::new().prefix(".plydrape-").tempdir_in(dir.path()).unwrap();
     for name in ["a", "b"] {
-        stage_file(&stage, dir.path(), name, &&b"2"[..]).unwrap();
+        stage_file(stage.path(), dir.path(), name, &&b"2"[..]).unwrap();
     }
     let mut moves = Moves::new(dir.path(), stage);
     moves.put("a", "a").unwrap();

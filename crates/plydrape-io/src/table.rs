@@ -1,10 +1,12 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
+mod book;
 mod comparison;
 mod errors;
 mod sheet;
 mod slack;
 
+pub use book::book;
 pub use comparison::comparison;
 pub(crate) use comparison::verdict as verdict_on;
 pub(crate) use errors::{share, stands_in_words};

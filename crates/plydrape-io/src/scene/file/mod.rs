@@ -104,6 +104,8 @@ pub(super) struct PlyTable {
     /// Fabric beyond the outermost grippers, on all sides (m), 0 unless given. Catenaries end at the grippers: the
     /// sheet alone has it.
     pub overhang: Option<Quantity<Length>>,
+    /// Thickness of the ply once it lies (m). A plybook needs it where another ply lies on this one; nothing else uses it.
+    pub thickness: Option<Quantity<Length>>,
 }
 
 /// A DXF file and what of it is the ply.
