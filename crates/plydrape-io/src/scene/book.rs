@@ -164,7 +164,10 @@ fn book(document: &Document, base: &Path) -> Result<Book, SceneError> {
 
     let mut readings: Vec<Reading> = Vec::with_capacity(entries.len());
     for (n, (entry, span)) in entries.into_iter().enumerate() {
-        let named = |fault| in_ply(fault, &format!("{}", n + 1));
+        let label = entry.get("name").and_then(|name| name.get_ref().as_str());
+        let label = label.filter(|name| !name.trim().is_empty());
+        let label = label.map_or_else(|| (n + 1).to_string(), str::to_owned);
+        let named = |fault| in_ply(fault, &label);
         let reading = reading(entry, span, &shared, &whole, document, base).map_err(named)?;
         if let Some(twin) = readings.iter().position(|other| other.name == reading.name) {
             return Err(document.error(

@@ -41,13 +41,13 @@ fn line_of(text: &str, part: &str) -> usize {
 #[test]
 fn a_ply_has_the_shared_keys_and_its_own_in_their_place() {
     let own = "[[plies]]\nname = \"a\"\nply = { size = [0.3, 0.2], thickness = \"0.5 mm\" }\n[[plies]]\nname = \"b\"\n\
-        ply = { size = [0.24, 0.14], warp = \"90 deg\" }\ntarget = { direction = \"30 deg\" }\nlimits = { height = \"0.9 mm\" }\n";
+        ply = { size = [0.24, 0.14], warp = \"90 deg\" }\ntarget = { direction = \"30 deg\" }\nlimits = { height = \"1 mm\" }\n";
     let book = book(own);
     assert_eq!(book.title, "Part");
     let [a, b] = &book.plies[..] else { panic!("two plies") };
     assert_eq!([a.scene.title.as_str(), b.scene.title.as_str()], ["Part: a", "Part: b"]);
     assert_eq!([a.scene.thickness, b.scene.thickness], [Some(0.5e-3), Some(0.3e-3)]);
-    assert_eq!([a.scene.limits.height, b.scene.limits.height], [0.5e-3, 0.9e-3]);
+    assert_eq!([a.scene.limits.height, b.scene.limits.height], [0.5e-3, 1e-3]);
     let heading = |ply: &scene::BookPly| {
         ply.scene.target.as_ref().unwrap().drape.as_ref().unwrap().layup.heading
     };
@@ -129,7 +129,8 @@ fn a_thickness_is_wanted_only_where_another_ply_lies() {
     assert!(read(&without).is_ok());
     let on_it = without + &ply("c", SIZE, [0.05, 0.0]);
     let (place, message) = refused(&on_it);
-    assert_eq!(place, Some((line_of(&on_it, "[[plies]]\nname = \"c\""), 1)));
+    let lacking = line_of(&on_it, "[[plies]]\nname = \"a\"");
+    assert_eq!(place, Some((lacking, 1)), "where the thickness is missing");
     assert!(message.starts_with("ply c: it lies on ply a, whose thickness"), "{message}");
     assert!(message.contains("add thickness = "), "{message}");
 }
@@ -143,13 +144,13 @@ fn what_is_wrong_in_a_book_is_refused_with_its_place_and_its_ply() {
         (good.replace("[0.24, 0.14]", "[0.24, \"14\"]"), "\"14\"", "ply a: \"14\" has no unit"),
         // a shared value, found in the first ply
         (good.replace("\"20 mm\"", "\"20 s\""), "height", "ply a: \"20 s\""),
-        (good.replace("target = {", "target = { seeed = 1,"), "seeed", "`seeed` is no key here"),
+        (good.replace("target = {", "target = { seeed = 1,"), "seeed", "ply a: `seeed` is no key here"),
         (good.replace("name = \"a\"\n", "name = \"a\"\ncolour = 1\n"), "colour", "`colour` is no key here"),
         (good.replace("name = \"a\"\n", ""), "[[plies]]", "ply 1: the ply has no name"),
         (good.replace("name = \"a\"", "name = \"\""), "name = ", "the name is empty"),
         (good.clone() + &ply("a", SIZE, [0.0, 0.5]), "", "plies 1 and 2 have the same name"),
         (good.replace("target = {", "mold = { kind = \"plane\" }\ntarget = {"), "mold = {", "no `mold` of its own"),
-        (good.replace("origin = [0, 0]", "positions = []"), "target", "ply a: "),
+        (good.replace("origin = [0, 0]", "positions = []"), "target = {", "ply a: "),
         (good.replace("[mold]\nkind = \"plane\"\n", ""), "", "the book has no [mold]"),
         (SHARED.into(), "", "the book has no [[plies]]"),
         (SHARED.replace("title", "plies = []\ntitle"), "plies", "there cannot be 0 plies"),
@@ -171,4 +172,24 @@ fn a_book_is_no_scene() {
     let error = scene::parse(&text, Path::new(""), "plies.toml").unwrap_err();
     assert_eq!(error.line_column(), Some((line_of(&text, "[[plies]]"), 1)));
     assert!(error.message.contains("plybook") && error.help.contains("plydrape plan"), "{error}");
+}
+
+/// Every place where the trellis would be used reads the material: scenes, books, ideal drapes and plies alone.
+#[test]
+fn a_unidirectional_ply_is_refused_with_its_reason() {
+    let material = "material = { mass = \"0.2 kg/m^2\", bending_rigidity_warp = 1e-3, bending_rigidity_weft = 1e-5, fabric = \"unidirectional\" }";
+    let text = format!("{SHARED}{}", ply("a", SIZE, [0.0; 2]));
+    let text = text.replace("material = \"krogh2018\"", material);
+    let (place, message) = refused(&text);
+    assert_eq!(place.map(|(line, _)| line), Some(line_of(&text, "material = ")));
+    assert!(message.starts_with("ply a: a unidirectional ply"), "{message}");
+    let scene_text = text.split("[[plies]]").next().unwrap();
+    for error in [
+        scene::parse(scene_text, Path::new(""), "scene").unwrap_err(),
+        scene::parse_ply(scene_text, Path::new(""), "scene").unwrap_err(),
+    ] {
+        assert!(error.message.contains("does not shear as a trellis"), "{error}");
+    }
+    let woven = text.replace("unidirectional", "woven");
+    assert!(read(&woven).is_ok());
 }
