@@ -171,7 +171,7 @@ fn a_wrong_book_is_refused_and_nothing_is_written() {
         let output = command().arg(name).arg(&path).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
         let said = one_line(&output.stderr);
-        assert!(said.contains("ply beside: \"400\" has no unit") && said.contains("plies.toml:33"), "{said}");
+        assert!(said.contains("ply beside: \"400\" has no unit") && said.contains("plies.toml:32"), "{said}");
     }
     assert_eq!(files(folder.path()), ["plies.toml"]);
 }

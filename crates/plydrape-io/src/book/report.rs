@@ -10,7 +10,7 @@ const STYLE: &str = "\
 @media(prefers-color-scheme:dark){:root{--ink:#e6edf3;--faint:#8b949e;--line:#30363d;--back:#0d1117;--good:#3fb950;--bad:#f85149}}
 body{font:15px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--back);max-width:68rem;margin:2rem auto;padding:0 1rem}
 table{border-collapse:collapse;width:100%;margin:1rem 0}th,td{text-align:left;padding:.35rem .6rem;border-bottom:1px solid var(--line)}
-th{color:var(--faint);font-weight:600}td.n{text-align:right;font-variant-numeric:tabular-nums}a{color:inherit}
+th{color:var(--faint);font-weight:600}td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}a{color:inherit}
 .good{color:var(--good);font-weight:600}.bad{color:var(--bad);font-weight:600}.faint{color:var(--faint)}
 svg.all{width:100%;max-width:40rem;border:1px solid var(--line)}svg.one{width:100%;border:1px solid var(--line)}
 .plies{display:grid;grid-template-columns:repeat(auto-fill,minmax(15rem,1fr));gap:1rem}figure{margin:0}figcaption{font-size:.9em}
@@ -38,7 +38,7 @@ pub(super) fn html(book: &Book, plies: &[PlyRecord], interrupted: bool) -> Strin
     format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
 <title>{title}</title><style>\n{STYLE}\n</style></head><body>\n<h1>{title}</h1>\n<p class=\"{class}\">{verdict}</p>\n\
-<table><thead><tr><th>order</th><th>ply</th><th>lies on</th><th>thickness mm</th><th>verdict</th><th>worst limit</th><th>motion s</th><th>drapes</th></tr></thead>\n\
+<table><thead><tr><th class=\"n\">order</th><th>ply</th><th>lies on</th><th class=\"n\">thickness mm</th><th>verdict</th><th>worst limit</th><th class=\"n\">motion s</th><th class=\"n\">drapes</th></tr></thead>\n\
 <tbody>\n{rows}</tbody></table>\n<p class=\"faint\">All motions together take {motion:.1} s. A ply's name leads to its own page. The worst limit is the one that is \
 exceeded most; of an accepted plan, the one nearest to not holding.</p>\n<h2>The plies on the mold, seen from above</h2>\n\
 <p class=\"faint\">x to the right, y upwards. Each number stands in the middle of its ply, on a line along the warp there.</p>\n{all}\
@@ -68,7 +68,10 @@ fn row(n: usize, ply: &PlyRecord) -> String {
 
 fn figure(book: &Book, n: usize, ply: &PlyRecord) -> String {
     let heading = match ply.warp_heading {
-        Some(heading) => format!(", warp at {:.0}°", heading.to_degrees()),
+        // a line has no sense: from 0° up to 180°
+        Some(heading) => {
+            format!(", warp at {:.0}°", heading.to_degrees().round().rem_euclid(180.0))
+        }
         None => String::new(),
     };
     format!(

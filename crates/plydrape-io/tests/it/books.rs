@@ -102,6 +102,28 @@ fn the_second_ply_lands_one_thickness_above_the_first() {
     assert!((step - 3e-4).abs() < 2e-5, "{step}");
 }
 
+/// Half of the second ply is beside the first: there its sheet comes down to the mold, beyond what its stiffness bridges. By the
+/// deflection of a beam under its weight q that is (72 D t / q)^¼, 28 mm for this ply and step.
+#[test]
+fn a_ply_comes_down_to_the_mold_beside_the_one_beneath() {
+    let book = book(&[ply("first", SIZE, [-0.12, 0.0]), ply("second", SIZE, [0.0; 2])].concat());
+    let stop = || false;
+    let scene = &book.plies[1].scene;
+    let drape =
+        sheet::drape(scene, Tuning::default(), &stop, |_| ControlFlow::Continue(())).unwrap();
+    let mut seen = [0, 0];
+    for [x, _, z] in &drape.last.positions {
+        if *x < -0.05 {
+            assert!((z - 3e-4).abs() < 5e-5, "on the first ply at {x}: {z}");
+            seen[0] += 1;
+        } else if *x > 0.05 {
+            assert!(z.abs() < 5e-5, "beside it at {x}: {z}");
+            seen[1] += 1;
+        }
+    }
+    assert!(seen.iter().all(|count| *count >= 12), "{seen:?}");
+}
+
 /// A ply as a scene file of its own lies on the book's mold; one with a mold is refused in its file.
 #[test]
 fn a_ply_may_be_a_scene_file_without_a_mold() {

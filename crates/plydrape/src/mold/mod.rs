@@ -175,6 +175,15 @@ impl Curvatures {
 }
 
 impl Mold {
+    /// The mold without the plies that lie on it.
+    #[must_use]
+    pub fn bare(&self) -> &Mold {
+        match self {
+            Mold::Layered(layered) => layered.mold.bare(),
+            mold => mold,
+        }
+    }
+
     /// What lies closest to `p` (m).
     #[must_use]
     pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
