@@ -199,7 +199,7 @@ fn a_book_is_no_scene() {
 /// Every place where the trellis would be used reads the material: scenes, books, ideal drapes and plies alone.
 #[test]
 fn a_unidirectional_ply_is_refused_with_its_reason() {
-    let material = "material = { mass = \"0.2 kg/m^2\", bending_rigidity_warp = 1e-3, bending_rigidity_weft = 1e-5, fabric = \"unidirectional\" }";
+    let material = "material = { mass = \"0.2 kg/m^2\", bending_rigidity_warp = 1e-3, bending_rigidity_weft = 1e-5, tension = 1e5, shear_curve = 5.0, fabric = \"unidirectional\" }";
     let text = format!("{SHARED}{}", ply("a", SIZE, [0.0; 2]));
     let text = text.replace("material = \"krogh2018\"", material);
     let (place, message) = refused(&text);
@@ -213,5 +213,5 @@ fn a_unidirectional_ply_is_refused_with_its_reason() {
         assert!(error.message.contains("does not shear as a trellis"), "{error}");
     }
     let woven = text.replace("unidirectional", "woven");
-    assert!(read(&woven).is_ok());
+    assert!(read(&woven).is_ok(), "{:?}", read(&woven).err());
 }
