@@ -52,15 +52,17 @@ pub fn plan(
     if let Some(option) = arguments.of_one_ply() {
         return Err(Failure::Argument {
             message: format!("{option} is for a single ply, and this is a plybook"),
-            help: format!("plan the book without {option}; a ply that has a scene file of its own can be planned alone once that has a [mold]"),
+            help: format!(
+                "plan the book without {option}; a ply that has a scene file of its own can be planned alone once that has a [mold]"
+            ),
         });
     }
     let results = arguments.results();
     let mut book = read_book(&results.scene)?;
     for ply in &mut book.plies {
         let checked = arguments.apply(&mut ply.scene);
-        let checked = checked
-            .and_then(|()| crate::sheet::check(&ply.scene).map(drop).map_err(Failure::from));
+        let checked =
+            checked.and_then(|()| crate::sheet::check(&ply.scene).map(drop).map_err(Failure::from));
         checked.map_err(|cause| of_ply(&ply.name, cause))?;
     }
     let dir = results.folder("plan");
@@ -122,8 +124,7 @@ pub fn plan(
 
     let accepted = records.iter().all(|ply| ply.accepted);
     let time_s = began.elapsed().as_secs_f64();
-    let printed =
-        Printed { title: &book.title, accepted, interrupted, plies: &records, time_s };
+    let printed = Printed { title: &book.title, accepted, interrupted, plies: &records, time_s };
     results.print(quiet, &printed, &text(&records, interrupted, time_s), &files)?;
     Ok(outcome::code(interrupted, unsolved, accepted))
 }

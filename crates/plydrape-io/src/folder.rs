@@ -143,10 +143,7 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::write`].
-    pub fn write_more<C: Content>(
-        self,
-        files: &[(&str, C)],
-    ) -> Result<Vec<PathBuf>, OutputError> {
+    pub fn write_more<C: Content>(self, files: &[(&str, C)]) -> Result<Vec<PathBuf>, OutputError> {
         self.put(files, None)?.write()
     }
 

@@ -111,7 +111,12 @@ fn a_book_has_a_folder_for_each_ply_and_one_report_over_all() {
     let scene: Value = serde_json::from_str(&std::fs::read_to_string(&result).unwrap()).unwrap();
     assert_eq!(scene["scene"]["mold"]["kind"], "layered");
     assert_eq!(scene["scene"]["mold"]["layers"][0]["thickness"], 0.3e-3);
-    let output = command().args(["export", "--to", "vtk", "-o"]).arg(folder.path().join("vtk")).arg(&result).output().unwrap();
+    let output = command()
+        .args(["export", "--to", "vtk", "-o"])
+        .arg(folder.path().join("vtk"))
+        .arg(&result)
+        .output()
+        .unwrap();
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
 
@@ -122,7 +127,8 @@ fn results_do_not_depend_on_the_number_of_threads() {
     let path = book(folder.path(), BOOK);
     let run = |threads: &str| {
         let out = folder.path().join(threads);
-        let flags = ["--threads", threads, "--quiet", "--without-errors", "-o", out.to_str().unwrap()];
+        let flags =
+            ["--threads", threads, "--quiet", "--without-errors", "-o", out.to_str().unwrap()];
         let output = plan(&path, &flags);
         assert!(output.stdout.is_empty() && output.stderr.is_empty());
         contents(&out)
@@ -171,7 +177,10 @@ fn a_wrong_book_is_refused_and_nothing_is_written() {
         let output = command().arg(name).arg(&path).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
         let said = one_line(&output.stderr);
-        assert!(said.contains("ply beside: \"400\" has no unit") && said.contains("plies.toml:32"), "{said}");
+        assert!(
+            said.contains("ply beside: \"400\" has no unit") && said.contains("plies.toml:32"),
+            "{said}"
+        );
     }
     assert_eq!(files(folder.path()), ["plies.toml"]);
 }

@@ -182,7 +182,10 @@ fn yarns(ply: &BookPly) -> Vec<Vec<[f64; 2]>> {
                 uv[along] = low[along] + share * (high[along] - low[along]);
             }
             match net.place(mold, uv).filter(|_| outline.depth(uv) >= -1e-9 * (high[0] - low[0])) {
-                Some([x, y, _]) => lines.last_mut().into_iter().for_each(|line: &mut Vec<[f64; 2]>| line.push([x, y])),
+                Some([x, y, _]) => lines
+                    .last_mut()
+                    .into_iter()
+                    .for_each(|line: &mut Vec<[f64; 2]>| line.push([x, y])),
                 None => lines.push(Vec::new()),
             }
         }

@@ -96,7 +96,11 @@ struct Written<'a> {
 ///
 /// # Errors
 /// [`json::JsonError`] if a number is not finite.
-pub fn text(book: &Book, plies: &[PlyRecord], interrupted: bool) -> Result<String, json::JsonError> {
+pub fn text(
+    book: &Book,
+    plies: &[PlyRecord],
+    interrupted: bool,
+) -> Result<String, json::JsonError> {
     json::of(&Written {
         format: "plydrape-book",
         version: VERSION,

@@ -27,7 +27,9 @@ pub(super) fn html(book: &Book, plies: &[PlyRecord], interrupted: bool) -> Strin
     let title = text(&book.title);
     let accepted = plies.iter().filter(|ply| ply.accepted).count();
     let (class, verdict) = match (accepted == plies.len(), interrupted) {
-        (_, true) => ("bad", format!("interrupted: {accepted} of {} plies accepted so far", plies.len())),
+        (_, true) => {
+            ("bad", format!("interrupted: {accepted} of {} plies accepted so far", plies.len()))
+        }
         (true, _) => ("good", format!("all {} plies accepted", plies.len())),
         (false, _) => ("bad", format!("{accepted} of {} plies accepted", plies.len())),
     };

@@ -2,8 +2,8 @@
 
 use crate::formula;
 use plydrape::mold::{
-    Cylinder, Graph, HeightGrid, Layer, Layers, Mesh, Mold, Plane, Pose, Raised, Saddle, Sphere, Surface,
-    Torus,
+    Cylinder, Graph, HeightGrid, Layer, Layers, Mesh, Mold, Plane, Pose, Raised, Saddle, Sphere,
+    Surface, Torus,
 };
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

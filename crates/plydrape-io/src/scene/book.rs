@@ -172,15 +172,21 @@ fn book(document: &Document, base: &Path) -> Result<Book, SceneError> {
         if let Some(twin) = readings.iter().position(|other| other.name == reading.name) {
             return Err(document.error(
                 reading.header,
-                format!("plies {} and {} have the same name, \"{}\"", twin + 1, n + 1, excerpt(&reading.name)),
+                format!(
+                    "plies {} and {} have the same name, \"{}\"",
+                    twin + 1,
+                    n + 1,
+                    excerpt(&reading.name)
+                ),
                 "give every ply a `name` of its own",
             ));
         }
         readings.push(reading);
     }
-    if let (Some((key, _)), true) =
-        (shared.iter().next(), readings.iter().all(|reading| reading.document.file != document.file))
-    {
+    if let (Some((key, _)), true) = (
+        shared.iter().next(),
+        readings.iter().all(|reading| reading.document.file != document.file),
+    ) {
         return Err(document.error(
             key.span(),
             format!("no ply uses `{}`: each has a scene file of its own", excerpt(key.get_ref())),
@@ -259,15 +265,18 @@ fn reading<'a>(
     let fault = |error: toml::de::Error| diagnostic::scene_error(document, &error);
     let text = document.text.get(span.clone()).unwrap_or_default();
     let header = span.start..span.start + text.find('\n').unwrap_or(text.len());
-    let refused = |span: Range<usize>, message: &str, help: &str| {
-        Err(document.error(span, message, help))
-    };
+    let refused =
+        |span: Range<usize>, message: &str, help: &str| Err(document.error(span, message, help));
     for (key, help) in [
         ("mold", "remove it: all plies of a book lie on the book's [mold]"),
         ("title", "remove it: a ply has a `name`, and the book has the `title`"),
     ] {
         if let Some(value) = entry.get(key) {
-            return refused(value.span(), &format!("a ply of a book has no `{key}` of its own"), help);
+            return refused(
+                value.span(),
+                &format!("a ply of a book has no `{key}` of its own"),
+                help,
+            );
         }
     }
     let own: DeTable = ["name", "scene"]
@@ -281,7 +290,11 @@ fn reading<'a>(
     let own: Entry = of_table(own, span.clone()).map_err(fault)?;
     let name = match (&own.name, &own.scene) {
         (Some(name), _) if name.value.trim().is_empty() => {
-            return refused(name.span.clone(), "the name is empty", "give the ply a name, as in name = \"first\"");
+            return refused(
+                name.span.clone(),
+                "the name is empty",
+                "give the ply a name, as in name = \"first\"",
+            );
         }
         (Some(name), _) => check::line(name, document)?,
         (None, Some(file)) => {
@@ -318,7 +331,14 @@ fn reading<'a>(
         );
     }
     let keys: SceneKeys = of_table(keys, whole.clone()).map_err(fault)?;
-    Ok(Reading { name, keys, document: document.clone(), base: base.into(), header, book: document })
+    Ok(Reading {
+        name,
+        keys,
+        document: document.clone(),
+        base: base.into(),
+        header,
+        book: document,
+    })
 }
 
 /// A table of a ply over the shared one, key by key; of what is no table the ply's own.
@@ -385,7 +405,11 @@ fn laid(
     let bare = check::scene(keys, Some(mold.clone()), document, base)?;
     let region = region(&bare, mold).ok_or_else(|| {
         let message = "the ply has no place on the mold that another ply could lie on";
-        reading.book.error(header.clone(), message, "a book holds plies with a width that lie on the mold")
+        reading.book.error(
+            header.clone(),
+            message,
+            "a book holds plies with a width that lie on the mold",
+        )
     })?;
     let mut lies_on = Vec::new();
     let mut layers = Vec::new();
@@ -402,7 +426,11 @@ fn laid(
             ));
         };
         let layer = Layer::new(thickness, lower.region.clone()).map_err(|fault| {
-            reading.book.error(readings[n].header.clone(), fault.to_string(), "give another outline")
+            reading.book.error(
+                readings[n].header.clone(),
+                fault.to_string(),
+                "give another outline",
+            )
         })?;
         lies_on.push(n);
         layers.push(layer);

@@ -85,7 +85,8 @@ fn a_ply_lies_on_the_earlier_ones_that_it_overlaps() {
 /// first. Each sheet lies within what contact gives way by (0.02 mm) on what is beneath.
 #[test]
 fn the_second_ply_lands_one_thickness_above_the_first() {
-    let book = book(&[ply("first", [0.34, 0.24], [0.0; 2]), ply("second", SIZE, [0.0; 2])].concat());
+    let book =
+        book(&[ply("first", [0.34, 0.24], [0.0; 2]), ply("second", SIZE, [0.0; 2])].concat());
     let drape = |n: usize| {
         let stop = || false;
         let scene = &book.plies[n].scene;
@@ -133,7 +134,10 @@ fn a_ply_may_be_a_scene_file_without_a_mold() {
     std::fs::write(dir.path().join("one.toml"), &scene).unwrap();
     let head = "[mold]\nkind = \"plane\"\n[[plies]]\nscene = \"one.toml\"\n[[plies]]\nname = \"again\"\nscene = \"one.toml\"\n";
     let book = scene::parse_book(head, dir.path(), "plies.toml").unwrap();
-    assert_eq!(book.plies.iter().map(|ply| ply.name.as_str()).collect::<Vec<_>>(), ["one", "again"]);
+    assert_eq!(
+        book.plies.iter().map(|ply| ply.name.as_str()).collect::<Vec<_>>(),
+        ["one", "again"]
+    );
     assert_eq!(book.plies[1].lies_on, [0]);
     std::fs::write(dir.path().join("one.toml"), scene + "[mold]\nkind = \"plane\"\n").unwrap();
     let error = scene::parse_book(head, dir.path(), "plies.toml").unwrap_err();
@@ -166,12 +170,24 @@ fn what_is_wrong_in_a_book_is_refused_with_its_place_and_its_ply() {
         (good.replace("[0.24, 0.14]", "[0.24, \"14\"]"), "\"14\"", "ply a: \"14\" has no unit"),
         // a shared value, found in the first ply
         (good.replace("\"20 mm\"", "\"20 s\""), "height", "ply a: \"20 s\""),
-        (good.replace("target = {", "target = { seeed = 1,"), "seeed", "ply a: `seeed` is no key here"),
-        (good.replace("name = \"a\"\n", "name = \"a\"\ncolour = 1\n"), "colour", "`colour` is no key here"),
+        (
+            good.replace("target = {", "target = { seeed = 1,"),
+            "seeed",
+            "ply a: `seeed` is no key here",
+        ),
+        (
+            good.replace("name = \"a\"\n", "name = \"a\"\ncolour = 1\n"),
+            "colour",
+            "`colour` is no key here",
+        ),
         (good.replace("name = \"a\"\n", ""), "[[plies]]", "ply 1: the ply has no name"),
         (good.replace("name = \"a\"", "name = \"\""), "name = ", "the name is empty"),
         (good.clone() + &ply("a", SIZE, [0.0, 0.5]), "", "plies 1 and 2 have the same name"),
-        (good.replace("target = {", "mold = { kind = \"plane\" }\ntarget = {"), "mold = {", "no `mold` of its own"),
+        (
+            good.replace("target = {", "mold = { kind = \"plane\" }\ntarget = {"),
+            "mold = {",
+            "no `mold` of its own",
+        ),
         (good.replace("origin = [0, 0]", "positions = []"), "target = {", "ply a: "),
         (good.replace("[mold]\nkind = \"plane\"\n", ""), "", "the book has no [mold]"),
         (SHARED.into(), "", "the book has no [[plies]]"),

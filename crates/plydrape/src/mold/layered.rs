@@ -26,7 +26,9 @@ pub enum LayerError {
         thickness_mm: f64,
     },
     /// No region.
-    #[error("a layer has no region: {rings} rings, of three or more points with finite coordinates each")]
+    #[error(
+        "a layer has no region: {rings} rings, of three or more points with finite coordinates each"
+    )]
     Region {
         /// Rings that were given.
         rings: usize,
@@ -92,9 +94,8 @@ impl Layer {
         if !(thickness > 0.0 && thickness.is_finite()) {
             return Err(LayerError::Thickness { thickness_mm: thickness * 1e3 });
         }
-        let is_ring = |ring: &Vec<[f64; 2]>| {
-            ring.len() >= 3 && ring.iter().flatten().all(|c| c.is_finite())
-        };
+        let is_ring =
+            |ring: &Vec<[f64; 2]>| ring.len() >= 3 && ring.iter().flatten().all(|c| c.is_finite());
         if rings.is_empty() || !rings.iter().all(is_ring) {
             return Err(LayerError::Region { rings: rings.len() });
         }
@@ -149,11 +150,8 @@ impl Layer {
         // around a corner the ramp is a cone
         let round = if nearest.is_corner { slope / nearest.distance } else { 0.0 };
         let [a, b] = nearest.away;
-        let hessian = [
-            bend * a * a + round * b * b,
-            (bend - round) * a * b,
-            bend * b * b + round * a * a,
-        ];
+        let hessian =
+            [bend * a * a + round * b * b, (bend - round) * a * b, bend * b * b + round * a * a];
         (height, [slope * a, slope * b], hessian)
     }
 }
@@ -208,9 +206,8 @@ impl Grid {
     }
 
     fn cell(&self, low: [f64; 2], place: [f64; 2]) -> &Cell {
-        let [i, j] = [0, 1].map(|n| {
-            (((place[n] - low[n]) / self.side).max(0.0) as usize).min(self.count[n] - 1)
-        });
+        let [i, j] = [0, 1]
+            .map(|n| (((place[n] - low[n]) / self.side).max(0.0) as usize).min(self.count[n] - 1));
         &self.cells[j * self.count[0] + i]
     }
 }
@@ -246,8 +243,8 @@ pub fn overlap(a: &[Vec<[f64; 2]>], b: &[Vec<[f64; 2]>], margin: f64) -> bool {
     };
     let within = || {
         (0..COMPARED * COMPARED).any(|index| {
-            let share = [index % COMPARED, index / COMPARED]
-                .map(|k| (k as f64 + 0.5) / COMPARED as f64);
+            let share =
+                [index % COMPARED, index / COMPARED].map(|k| (k as f64 + 0.5) / COMPARED as f64);
             let place = [0, 1].map(|n| low[n] + share[n] * (high[n] - low[n]));
             is_deep(a, place, 0.5 * margin) && is_deep(b, place, 0.5 * margin)
         })
@@ -512,7 +509,9 @@ mod tests {
             assert!((closest.distance + THICK).abs() < 1e-12);
             let above = layered.closest_point(along(closest.point, 1e-3, closest.normal));
             assert!((above.distance - 1e-3).abs() < 1e-6, "{}", above.distance);
-            assert!((distance(above.point, mold.closest_point(above.point).point) - THICK).abs() < 1e-9);
+            assert!(
+                (distance(above.point, mold.closest_point(above.point).point) - THICK).abs() < 1e-9
+            );
         }
     }
 

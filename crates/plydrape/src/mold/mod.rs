@@ -31,10 +31,10 @@ pub use layered::{Layer, LayerError, Layers, overlap, ramp};
 pub use mesh::{Mesh, MeshError, MeshReport};
 pub use plane::Plane;
 pub use pose::Pose;
+pub use raised::{Raise, Raised, Relief};
 pub use round::{Cylinder, Face, Sphere, Torus};
 pub use saddle::Saddle;
 pub use vector::distance;
-pub use raised::{Raise, Raised, Relief};
 pub use wavy::Waves;
 
 use section::{Until, trace};

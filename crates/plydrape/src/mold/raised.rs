@@ -181,4 +181,3 @@ impl<R: Relief> Raised<R> {
         Some(if held { p } else { start })
     }
 }
-
