@@ -1396,6 +1396,20 @@ class Scene:
             >>> plydrape.Scene.read("examples/02_hanging_strip/scene.toml").ply.grippers
             (2, 1)
         """
+    @staticmethod
+    def read_book(path: str | PathLike[str]) -> list[tuple[str, Scene]]:
+        """
+        Reads and checks a plybook: the name and the scene of each ply, in the order in which they are laid. The mold of a scene has
+        the plies on it that the ply lies on.
+
+        Raises:
+            SceneError: If it cannot be read or makes no sense.
+
+        Example:
+            >>> plies = plydrape.Scene.read_book("examples/15_plybook/plies.toml")
+            >>> [(name, scene.mold.kind) for name, scene in plies][:2]
+            [('base 0', 'mesh'), ('turned 30', 'layered')]
+        """
     @property
     def target(self, /) -> NDArray[float64] | None:
         """

@@ -6,7 +6,8 @@ import { join, resolve } from "node:path";
 
 /**
  * Folders with a page under PLYDRAPE_REPORTS, in order of their names. Those of the examples with the sheet (NAME.sheet) are
- * left out: the folder `sheet` has such a page, and theirs differ from it by numbers only.
+ * left out: the folder `sheet` has such a page, and theirs differ from it by numbers only. So is the page of a book, which has no
+ * result of its own.
  */
 export function findReports() {
   const root = process.env.PLYDRAPE_REPORTS;
@@ -15,7 +16,7 @@ export function findReports() {
     .filter((name) => !name.endsWith(".sheet"))
     .sort()
     .map((name) => ({ name, folder: resolve(root, name), file: resolve(root, name, "report.html") }))
-    .filter(({ file }) => existsSync(file));
+    .filter(({ folder, file }) => existsSync(file) && existsSync(join(folder, "result.json")));
 }
 
 const LINES = `

@@ -28,6 +28,14 @@ pub enum Failure {
         /// What would be right.
         help: String,
     },
+    /// One ply of a book could not be planned.
+    #[error("ply {name}: {cause}")]
+    Ply {
+        /// Its name.
+        name: String,
+        /// Why.
+        cause: Box<Failure>,
+    },
     /// No plan could be looked for.
     #[error(transparent)]
     Plan(#[from] plydrape::planner::PlanError),
@@ -99,7 +107,11 @@ impl Failure {
         }
         // where standard error cannot be written either, the exit code is all that can be said
         let _ = write!(io::stderr(), "{}", Rendered(&Shown(self)));
-        ExitCode::from(match self {
+        let cause = match self {
+            Failure::Ply { cause, .. } => cause,
+            cause => cause,
+        };
+        ExitCode::from(match cause {
             Failure::NoSolution { .. } => 3,
             Failure::Stdout { .. } => 4,
             _ => 2,
@@ -125,6 +137,7 @@ impl Diagnostic for Failure {
     fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
         match self {
             Failure::Scene(refused) => Some(Box::new(&refused.0.help)),
+            Failure::Ply { cause, .. } => cause.help(),
             Failure::Argument { help, .. }
             | Failure::NoSolution { help, .. }
             | Failure::Output { help, .. } => Some(Box::new(help)),

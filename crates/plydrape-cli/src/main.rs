@@ -1,6 +1,7 @@
 //! The command `plydrape`: one file per subcommand, this one only sends to them.
 
 mod argument;
+mod book;
 mod check;
 mod compare;
 mod complete;

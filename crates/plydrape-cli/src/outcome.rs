@@ -38,13 +38,22 @@ impl<'a> Printed<'a> {
     }
 }
 
-/// The exit code of a drape, `interrupted` or not.
-pub fn exit_code(result: &ResultFile, interrupted: bool) -> ExitCode {
-    let unsolved = match &result.summary.sheet {
+/// Whether a drape has a step without a solution.
+pub fn is_unsolved(result: &ResultFile) -> bool {
+    match &result.summary.sheet {
         Some(sheet) => !sheet.converged,
         None => result.steps.iter().any(|step| !step.solver.found()),
-    };
-    match (interrupted, unsolved, result.summary.accepted) {
+    }
+}
+
+/// The exit code of a drape, `interrupted` or not.
+pub fn exit_code(result: &ResultFile, interrupted: bool) -> ExitCode {
+    code(interrupted, is_unsolved(result), result.summary.accepted)
+}
+
+/// The exit code of one or more drapes: whether they were interrupted, whether one has no solution, whether all are accepted.
+pub fn code(interrupted: bool, unsolved: bool, accepted: bool) -> ExitCode {
+    match (interrupted, unsolved, accepted) {
         (true, _, _) => ExitCode::from(130),
         (_, true, _) => ExitCode::from(3),
         (_, _, true) => ExitCode::SUCCESS,

@@ -39,6 +39,10 @@ Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.ht
 where the sheet decides, to the scene's name with `.plan`. A file in the folder that plydrape did not write, or that was edited \
 since, is never overwritten.
 
+A plybook, a file with [[plies]], is planned ply by ply, each on those that it lies on, several at once; see `docs/guide/plybook.md`. Each ply has a \
+folder of its own in the book's, beside book.json and a report.html over all plies. --time, --seed and the other options are for each \
+ply; the exit code is 0 if all plies are accepted.
+
 With --compare nothing is searched: the ply is draped by each of five strategies, straight (every gripper to its \
 target), all at once (formed over its place and let down flat), rolled (a line lands first), from a point (the middle lands \
 first) and stepwise. A table says which limits each one breaks, the worst first. comparison.csv (all limits) and comparison.svg \
@@ -139,12 +143,16 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     // first of all, so that even a long read ends in files
     let interrupt = Interrupt::listen();
     let time = arguments.time.as_deref().map(time).transpose()?;
-    let scene = scene(arguments)?;
-    let earlier = arguments.earlier.as_deref().map(checkpoint).transpose()?;
     if let Some(threads) = arguments.threads {
         // the pool cannot be set a second time, and has not been set before
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     }
+    if plydrape_io::scene::is_book(&results.scene) {
+        return crate::book::plan(arguments, &interrupt, time, quiet);
+    }
+    let mut scene = plydrape_io::scene::read(&results.scene)?;
+    arguments.apply(&mut scene)?;
+    let earlier = arguments.earlier.as_deref().map(checkpoint).transpose()?;
     if arguments.compare {
         return crate::compare::run(results, &scene, &interrupt, quiet);
     }
@@ -165,26 +173,16 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let mut search = Search::new(&scene.plan, time, &interrupt, quiet);
     let planned = planner::plan(&scene, earlier.as_ref(), &mut |progress| search.watch(progress));
     let (took, ended) = search.finish();
-    let plan_time_s = took.as_secs_f64();
-    let mut planned = planned?;
-
-    let mut result = ResultFile::planned(&scene, scene.input.clone(), &planned);
-    let keep = |sheet| result.keep_sheet(sheet, folder.stage());
-    let took = planned.sheet.take().map(keep).transpose()?;
-    let broken_off = if arguments.without_errors {
-        None
-    } else {
-        let robustness = Robustness::of_planned(&scene, planned.motion.steps());
-        errors::judge(&mut result, &robustness, &interrupt, quiet)
-    };
+    let found = arguments.judged(&scene, planned?, folder.stage(), &interrupt, quiet)?;
+    let Found { result, planned, sheet_took, broken_off } = found;
     let files = plan::write_into(folder, &result, &planned.checkpoint, &scene.files)?;
     let printed = Printed {
         method: planned.record.method,
-        plan_time_s,
+        plan_time_s: took.as_secs_f64(),
         evaluations: planned.record.evaluations,
         decisions: planned.decisions,
         motion: Motion::of(&planned),
-        drape: outcome::Printed::of(&result, planned.drape.solving, took),
+        drape: outcome::Printed::of(&result, planned.drape.solving, sheet_took),
     };
     results.print(quiet, &printed, &text(&result, &printed, (ended, broken_off), time), &files)?;
     let interrupted =
@@ -192,42 +190,91 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     Ok(exit_code(&result, interrupted))
 }
 
-/// The scene, with what the options say instead of it.
-fn scene(arguments: &Arguments) -> Result<SceneFile, Failure> {
-    let file = &arguments.results.scene;
-    let mut scene = plydrape_io::scene::read(file)?;
-    let refused = |message: &str, help: &str| {
-        Failure::from(SceneError {
-            file: file.display().to_string(),
-            text: "".into(),
-            span: None,
-            message: format!("`{}` {message}", file.display()),
-            help: help.into(),
-        })
-    };
-    if scene.mold.is_none() {
-        return Err(refused(
-            "has no [mold] to lay the ply on",
-            "add [mold] with kind = \"plane\", or another one; a ply that just hangs needs no plan",
-        ));
+/// A plan and its result, judged by the model that decides and with errors.
+pub struct Found {
+    /// What is written.
+    pub result: ResultFile,
+    /// The plan, without the states of its sheet.
+    pub planned: Planned,
+    /// How long the sheet took.
+    pub sheet_took: Option<Duration>,
+    /// Which drapes with errors somebody broke off.
+    pub broken_off: Option<BrokenOff>,
+}
+
+impl Arguments {
+    /// Whether something is asked for that only a scene of one ply has.
+    pub fn of_one_ply(&self) -> Option<&'static str> {
+        match (self.compare, &self.earlier) {
+            (true, _) => Some("--compare"),
+            (_, Some(_)) => Some("--continue"),
+            _ => None,
+        }
     }
-    if scene.target.is_none() {
-        return Err(refused(
-            "has no [target]: a plan needs to know where the ply shall end",
-            "add [target] with `origin`, `direction`, `shear` and `seed`, or empty, or with `positions`",
-        ));
+
+    /// The scene, the folder of results and the way to print.
+    pub fn results(&self) -> &Results {
+        &self.results
     }
-    if let Some(refusal) = scene.plan_refusal.take() {
-        return Err(Failure::from(*refusal));
+
+    /// What becomes of a planned motion: its result, with the sheet's states in a stage, judged with errors unless the options say
+    /// otherwise.
+    pub fn judged(
+        &self,
+        scene: &SceneFile,
+        mut planned: Planned,
+        stage: &Path,
+        interrupt: &Interrupt,
+        quiet: bool,
+    ) -> Result<Found, Failure> {
+        let mut result = ResultFile::planned(scene, scene.input.clone(), &planned);
+        let keep = |sheet| result.keep_sheet(sheet, stage);
+        let sheet_took = planned.sheet.take().map(keep).transpose()?;
+        let broken_off = if self.without_errors {
+            None
+        } else {
+            let robustness = Robustness::of_planned(scene, planned.motion.steps());
+            errors::judge(&mut result, &robustness, interrupt, quiet)
+        };
+        Ok(Found { result, planned, sheet_took, broken_off })
     }
-    if let Some(method) = arguments.method {
-        scene.plan.method = method.into();
+
+    /// Puts what the options say in place of the scene's own; refuses a scene that cannot be planned.
+    pub fn apply(&self, scene: &mut SceneFile) -> Result<(), Failure> {
+        let file = &self.results.scene;
+        let refused = |message: &str, help: &str| {
+            Failure::from(SceneError {
+                file: file.display().to_string(),
+                text: "".into(),
+                span: None,
+                message: format!("`{}` {message}", file.display()),
+                help: help.into(),
+            })
+        };
+        if scene.mold.is_none() {
+            return Err(refused(
+                "has no [mold] to lay the ply on",
+                "add [mold] with kind = \"plane\", or another one; a ply that just hangs needs no plan",
+            ));
+        }
+        if scene.target.is_none() {
+            return Err(refused(
+                "has no [target]: a plan needs to know where the ply shall end",
+                "add [target] with `origin`, `direction`, `shear` and `seed`, or empty, or with `positions`",
+            ));
+        }
+        if let Some(refusal) = scene.plan_refusal.take() {
+            return Err(Failure::from(*refusal));
+        }
+        if let Some(method) = self.method {
+            scene.plan.method = method.into();
+        }
+        if let Some(seed) = self.seed {
+            scene.plan.seed = seed;
+        }
+        scene.plan.improve |= self.improve;
+        Ok(())
     }
-    if let Some(seed) = arguments.seed {
-        scene.plan.seed = seed;
-    }
-    scene.plan.improve |= arguments.improve;
-    Ok(scene)
 }
 
 /// Shortest and longest time of a search (s).

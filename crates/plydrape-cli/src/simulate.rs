@@ -80,7 +80,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     };
     let files = write_into(folder, &result, &[], &scene.files)?;
     let (title, steps) = (&result.scene.title, table::steps_table(&result));
-    let mut text = format!("{title}\n\n{steps}\n{}", table::verdict(&result));
+    let steps = if steps.is_empty() { steps } else { format!("{steps}\n") };
+    let mut text = format!("{title}\n\n{steps}{}", table::verdict(&result));
     text += broken_off.map_or("", BrokenOff::text);
     results.print(quiet, &Printed::of(&result, solving, took), &text, &files)?;
     Ok(exit_code(&result, broken_off.is_some() || result.summary.interrupted()))

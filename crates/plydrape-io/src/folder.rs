@@ -119,10 +119,23 @@ impl Folder {
     /// [`OutputError::Foreign`] if a file in the way was not written by plydrape or was changed since;
     /// the other variants where the folder or the disk refuses.
     pub fn write<C: Content>(
-        mut self,
+        self,
         files: &[(&str, C)],
         read: &[PathBuf],
     ) -> Result<Vec<PathBuf>, OutputError> {
+        self.stage_files(files, read)?.write()
+    }
+
+    /// Stages a set of files as [`Folder::write`] would write them; they come in with [`Staged::write`], or with those of other
+    /// folders in [`write_together`].
+    ///
+    /// # Errors
+    /// As [`Folder::write`].
+    pub fn stage_files<C: Content>(
+        self,
+        files: &[(&str, C)],
+        read: &[PathBuf],
+    ) -> Result<Staged, OutputError> {
         self.put(files, Some(read))
     }
 
@@ -130,18 +143,15 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::write`].
-    pub fn write_more<C: Content>(
-        mut self,
-        files: &[(&str, C)],
-    ) -> Result<Vec<PathBuf>, OutputError> {
-        self.put(files, None)
+    pub fn write_more<C: Content>(self, files: &[(&str, C)]) -> Result<Vec<PathBuf>, OutputError> {
+        self.put(files, None)?.write()
     }
 
     fn put<C: Content>(
-        &mut self,
+        self,
         files: &[(&str, C)],
         read: Option<&[PathBuf]>,
-    ) -> Result<Vec<PathBuf>, OutputError> {
+    ) -> Result<Staged, OutputError> {
         // Nothing is touched before every name is known to be free or our own.
         let dir = self.dir.clone();
         let earlier = Manifest::read(&dir)?;
@@ -166,35 +176,84 @@ impl Folder {
             .collect();
 
         // Stage everything on the disk, beside its place.
-        let Some(stage) = self.stage.take() else { return Ok(Vec::new()) };
+        let stage = self.stage();
         let mut stamps = Vec::with_capacity(files.len());
         for (name, content) in files {
-            stamps.push(((*name).to_owned(), stage_file(&stage, &dir, name, content)?));
+            stamps.push(((*name).to_owned(), stage_file(stage, &dir, name, content)?));
         }
         let new = Manifest::of(self.by, stamps);
         let both = earlier.with(&new);
         // files that went were ours, and files that came are: what stays is listed as it was
         let sealed = read.is_some() || earlier.is_sealed();
         let own = earlier.without(&stale).replaced_by(&new, sealed);
-        stage_file(&stage, &dir, "both", &both.text()?.as_bytes())?;
-        stage_file(&stage, &dir, "sealed", &own.text()?.as_bytes())?;
+        stage_file(stage, &dir, "both", &both.text()?.as_bytes())?;
+        stage_file(stage, &dir, "sealed", &own.text()?.as_bytes())?;
 
-        // Move in, the list first: a cut in power from here on leaves only files that it knows.
-        let mut moves = Moves::new(&dir, stage);
+        let names = files.iter().map(|(name, _)| (*name).to_owned()).collect();
+        Ok(Staged { folder: self, names, stale })
+    }
+}
+
+/// Files on the disk beside their places, ready to come in.
+#[derive(Debug)]
+pub struct Staged {
+    folder: Folder,
+    names: Vec<String>,
+    /// Files of an earlier run that go.
+    stale: Vec<String>,
+}
+
+impl Staged {
+    /// Moves the files in and returns their paths, in the order given.
+    ///
+    /// # Errors
+    /// Where the disk refuses; the folder is then as it was.
+    pub fn write(self) -> Result<Vec<PathBuf>, OutputError> {
+        let mut paths = write_together(vec![self])?;
+        Ok(paths.pop().unwrap_or_default())
+    }
+
+    /// Moves in, the list first: a cut in power from here on leaves only files that it knows.
+    fn move_in(&mut self) -> Result<Option<Moves>, OutputError> {
+        let Some(stage) = self.folder.stage.take() else { return Ok(None) };
+        let mut moves = Moves::new(&self.folder.dir, stage);
         let moved = moves.put("both", MANIFEST).and_then(|()| {
-            for (name, _) in files {
+            for name in &self.names {
                 moves.put(name, name)?;
             }
-            stale.iter().try_for_each(|name| moves.take(name))?;
+            self.stale.iter().try_for_each(|name| moves.take(name))?;
             moves.put("sealed", MANIFEST)
         });
-        if let Err(fault) = moved {
-            return Err(moves.undo(fault));
+        match moved {
+            Ok(()) => Ok(Some(moves)),
+            Err(fault) => Err(moves.undo(fault)),
         }
-        self.made = false;
-        let _ = File::open(&dir).and_then(|folder| folder.sync_all());
-        Ok(files.iter().map(|(name, _)| dir.join(name)).collect())
     }
+}
+
+/// Moves in the staged files of several folders, all or none, and returns their paths, folder by folder in the order given. A folder
+/// within another one comes before it.
+///
+/// # Errors
+/// Where the disk refuses; all folders are then as they were.
+pub fn write_together(mut staged: Vec<Staged>) -> Result<Vec<Vec<PathBuf>>, OutputError> {
+    let mut done = Vec::with_capacity(staged.len());
+    for one in &mut staged {
+        match one.move_in() {
+            Ok(moves) => done.extend(moves),
+            Err(fault) => {
+                return Err(done.into_iter().rev().fold(fault, |fault, moves| moves.undo(fault)));
+            }
+        }
+    }
+    let mut paths = Vec::with_capacity(staged.len());
+    for one in &mut staged {
+        one.folder.made = false;
+        let dir = &one.folder.dir;
+        let _ = File::open(dir).and_then(|folder| folder.sync_all());
+        paths.push(one.names.iter().map(|name| dir.join(name)).collect());
+    }
+    Ok(paths)
 }
 
 impl Drop for Folder {
@@ -269,7 +328,7 @@ fn make(dir: &Path) -> Result<bool, OutputError> {
 }
 
 fn stage_file<C: Content>(
-    stage: &TempDir,
+    stage: &Path,
     dir: &Path,
     name: &str,
     content: &C,
@@ -282,22 +341,22 @@ fn stage_file<C: Content>(
         file.sync_all()?;
         Ok(stamp)
     };
-    File::create_new(stage.path().join(format!("new-{name}")))
+    File::create_new(stage.join(format!("new-{name}")))
         .and_then(write)
         .map_err(|e| OutputError::io("write", &dir.join(name), e))
 }
 
 /// Files moved into the folder so far, and what was there before each.
-struct Moves<'a> {
-    dir: &'a Path,
+struct Moves {
+    dir: PathBuf,
     stage: TempDir,
     /// Name, and whether an earlier file of that name is kept in the stage.
     done: Vec<(String, bool)>,
 }
 
-impl<'a> Moves<'a> {
-    fn new(dir: &'a Path, stage: TempDir) -> Self {
-        Moves { dir, stage, done: Vec::new() }
+impl Moves {
+    fn new(dir: &Path, stage: TempDir) -> Self {
+        Moves { dir: dir.into(), stage, done: Vec::new() }
     }
 
     /// Renames a staged file to its place; the earlier file, if any, stays kept in the stage.
@@ -346,7 +405,7 @@ impl<'a> Moves<'a> {
             let kept = self.stage.keep();
             // without its owner no later run takes it for one that may be cleared
             let _ = fs::remove_file(kept.join(OWNER));
-            OutputError::Torn { path: self.dir.into(), kept, cause: Box::new(fault) }
+            OutputError::Torn { path: self.dir, kept, cause: Box::new(fault) }
         } else {
             fault
         }

@@ -77,7 +77,7 @@ fn a_move_that_fails_in_the_middle_is_undone() {
     let before = contents(dir.path());
     let stage = tempfile::Builder::new().prefix(".plydrape-").tempdir_in(dir.path()).unwrap();
     for name in ["a", "b"] {
-        stage_file(&stage, dir.path(), name, &&b"2"[..]).unwrap();
+        stage_file(stage.path(), dir.path(), name, &&b"2"[..]).unwrap();
     }
     let mut moves = Moves::new(dir.path(), stage);
     moves.put("a", "a").unwrap();
@@ -87,6 +87,30 @@ fn a_move_that_fails_in_the_middle_is_undone() {
     let fault = moves.put("c", "c").unwrap_err();
     assert!(matches!(moves.undo(fault), OutputError::Io { .. }));
     assert_eq!(contents(dir.path()), before);
+}
+
+/// The disk refuses in the second of two folders that are written together: the first one is as it was too.
+#[test]
+fn a_move_that_fails_in_one_folder_is_undone_in_all() {
+    let home = tempfile::tempdir().unwrap();
+    let dirs = ["one", "two"].map(|name| home.path().join(name));
+    for dir in &dirs {
+        write(dir, "plan", &[("a", b"1"), ("gone", b"1")]).unwrap();
+    }
+    let before = dirs.each_ref().map(|dir| contents(dir));
+    let stage = |dir: &PathBuf| {
+        let folder = Folder::claim(dir, "plan").unwrap();
+        folder.stage_files(&[("a", &b"2"[..]), ("b", &b"2"[..])], &[]).unwrap()
+    };
+    let staged: Vec<Staged> = dirs.iter().map(stage).collect();
+    fs::remove_file(staged[1].folder.stage().join("new-b")).unwrap();
+    assert!(matches!(write_together(staged), Err(OutputError::Io { .. })));
+    assert_eq!(dirs.each_ref().map(|dir| contents(dir)), before);
+
+    let staged: Vec<Staged> = dirs.iter().map(stage).collect();
+    let paths = write_together(staged).unwrap();
+    assert_eq!(paths[1], [dirs[1].join("a"), dirs[1].join("b")]);
+    assert!(dirs.iter().all(|dir| is_sealed(dir) && !dir.join("gone").exists()));
 }
 
 /// A list of two files that both hold `2`.

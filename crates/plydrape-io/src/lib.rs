@@ -5,11 +5,12 @@
 //! 1. [`scene`]: a file becomes a checked scene, with [`mesh`] and [`formula`] for its mold and [`outline`] for its ply;
 //! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
 //! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`], [`pattern`]: everything else is made from a result;
-//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`comparison`] for several strategies, [`sheet`] keeps the states of a sheet beside its result;
+//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`comparison`] for several strategies, [`book`] for the plies of a part, [`sheet`] keeps the states of a sheet beside its result;
 //!    [`table`] prints for people, [`strength`] says what is published of fibre angles;
 //! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
 //!    the memory.
 
+pub mod book;
 pub mod comparison;
 pub mod csv;
 mod error;
@@ -46,7 +47,7 @@ mod sample;
 
 pub use error::OutputError;
 
-pub use folder::{Content, Folder};
+pub use folder::{Content, Folder, Staged};
 pub use result::{ResultFile, read};
 
 use std::path::{Path, PathBuf};
@@ -89,6 +90,19 @@ pub fn write_into(
     more: &[(&str, &dyn Content)],
     read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, OutputError> {
+    stage_into(folder, result, more, read)?.write()
+}
+
+/// The same, but the files only stand ready, see [`Staged`].
+///
+/// # Errors
+/// As [`write_all`].
+pub fn stage_into(
+    folder: Folder,
+    result: &ResultFile,
+    more: &[(&str, &dyn Content)],
+    read: &[PathBuf],
+) -> Result<Staged, OutputError> {
     // First of all: no number that is not finite goes on.
     result.check_finite()?;
     let steps = csv::steps(result)?;
@@ -106,7 +120,7 @@ pub fn write_into(
     files.push(("report.html", &page));
     files.extend(result.sheet_states.as_ref().map(|states| (sheet::NAME, states as &dyn Content)));
     files.extend(more);
-    folder.write(&files, read)
+    folder.stage_files(&files, read)
 }
 
 #[cfg(test)]

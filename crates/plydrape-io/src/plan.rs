@@ -1,6 +1,6 @@
 //! The files of a plan: those of its drape, the motion, and `plan.json`, the checkpoint from which a later search continues.
 
-use super::{Folder, OutputError, ResultFile, json};
+use super::{Folder, OutputError, ResultFile, Staged, json};
 use plydrape::planner::Checkpoint;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -94,6 +94,19 @@ pub fn write_into(
     search: &Checkpoint,
     read: &[PathBuf],
 ) -> Result<Vec<PathBuf>, OutputError> {
+    stage_into(folder, result, search, read)?.write()
+}
+
+/// The same, but the files only stand ready, see [`Staged`].
+///
+/// # Errors
+/// As [`write_all`].
+pub fn stage_into(
+    folder: Folder,
+    result: &ResultFile,
+    search: &Checkpoint,
+    read: &[PathBuf],
+) -> Result<Staged, OutputError> {
     let plan = text(search)?;
-    super::write_into(folder, result, &[("plan.json", &plan.as_bytes())], read)
+    super::stage_into(folder, result, &[("plan.json", &plan.as_bytes())], read)
 }

@@ -1,10 +1,12 @@
 //! Steps and verdict as plain text for a terminal, at most 100 columns wide.
 
+mod book;
 mod comparison;
 mod errors;
 mod sheet;
 mod slack;
 
+pub use book::book;
 pub use comparison::comparison;
 pub(crate) use comparison::verdict as verdict_on;
 pub(crate) use errors::{share, stands_in_words};
@@ -41,9 +43,12 @@ const COLUMNS: [&str; 9] = [
 /// One row a step: worst values and the share in contact.
 ///
 /// Of more than 40 steps it shows the first, the last, those where contact and shear begin, those of
-/// the worst values, and some evenly between.
+/// the worst values, and some evenly between. Empty where no catenaries hang, because all columns are theirs.
 #[must_use]
 pub fn steps_table(result: &ResultFile) -> String {
+    if !result.scene.ply.has_lines() {
+        return String::new();
+    }
     let shown = chosen(result);
     let mut rows = vec![header()];
     rows.extend(shown.iter().map(|index| row(&result.steps[*index])));

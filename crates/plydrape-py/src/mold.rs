@@ -116,6 +116,7 @@ impl Mold {
             mold::Mold::Graph(_) => "graph",
             mold::Mold::Mesh(_) => "mesh",
             mold::Mold::Wavy(_) => "wavy",
+            mold::Mold::Layered(_) => "layered",
         }
     }
 

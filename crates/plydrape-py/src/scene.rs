@@ -141,6 +141,23 @@ impl Scene {
         scene.map(Scene::from).map_err(|refused| error::scene(&refused))
     }
 
+    /// Reads and checks a plybook: the name and the scene of each ply, in the order in which they are laid. The mold of a scene has
+    /// the plies on it that the ply lies on.
+    ///
+    /// Raises:
+    ///     SceneError: If it cannot be read or makes no sense.
+    ///
+    /// Example:
+    ///     >>> plies = plydrape.Scene.read_book("examples/15_plybook/plies.toml")
+    ///     >>> [(name, scene.mold.kind) for name, scene in plies][:2]
+    ///     [('base 0', 'mesh'), ('turned 30', 'layered')]
+    #[staticmethod]
+    fn read_book(py: Python<'_>, path: PathBuf) -> PyResult<Vec<(String, Self)>> {
+        let book = py.detach(|| scene::read_book(&path));
+        let book = book.map_err(|refused| error::scene(&refused))?;
+        Ok(book.plies.into_iter().map(|ply| (ply.name, Scene::from(ply.scene))).collect())
+    }
+
     /// Reads and checks the text of a scene file.
     ///
     /// Args:

@@ -1,5 +1,6 @@
 //! `plydrape check`: reads a scene, says what was understood, and warns of what cannot be meant.
 
+mod book;
 mod mold;
 mod rules;
 mod sheet;
@@ -18,18 +19,21 @@ use std::process::ExitCode;
 /// A noun of the scene and what it is; without a noun it goes on with the one before.
 type Line = (&'static str, String);
 
-/// Read a scene, and say what was understood or what is wrong.
+/// Read a scene or a plybook, and say what was understood or what is wrong.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 What is possible but hardly meant, such as a start kilometres off, is warned of on standard error, \
 with exit code 0.")]
 pub struct Arguments {
-    /// The scene file.
+    /// The scene file, or the file of a plybook.
     scene: PathBuf,
 }
 
 /// Reads the scene; prints a summary unless `quiet`, and warnings.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
+    if plydrape_io::scene::is_book(&arguments.scene) {
+        return book::check(&arguments.scene, quiet);
+    }
     let scene = plydrape_io::scene::read(&arguments.scene)?;
     if !quiet {
         let mut out = io::stdout().lock();

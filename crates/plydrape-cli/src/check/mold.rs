@@ -10,6 +10,11 @@ pub(super) fn mold(scene: &SceneFile) -> Vec<Line> {
     let Some(mold) = &scene.mold else {
         return vec![("mold", "none: the ply just hangs".into())];
     };
+    of(mold, scene.mesh.as_ref())
+}
+
+/// A mold, with what was repaired if it is a mesh.
+pub(super) fn of(mold: &Mold, report: Option<&MeshReport>) -> Vec<Line> {
     let mm = |length: f64| format!("{} mm", millimetres(length));
     let side = |face: Face| match face {
         Face::Outside => "outside",
@@ -58,11 +63,12 @@ pub(super) fn mold(scene: &SceneFile) -> Vec<Line> {
             };
             format!("{surface}, {range}, {}", standing("origin", &graph.pose))
         }
-        Mold::Mesh(_) => match &scene.mesh {
+        Mold::Mesh(_) => match report {
             Some(report) => return mesh(report),
             None => "mesh".into(),
         },
-        // no scene file makes one
+        // no scene file makes these
+        Mold::Layered(_) => "plies on a mold".into(),
         Mold::Wavy(_) => "waves on a mold".into(),
     };
     vec![("mold", text)]

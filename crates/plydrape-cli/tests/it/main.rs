@@ -1,5 +1,6 @@
 //! The command as a user runs it, as one program.
 
+mod book;
 mod broken_scenes;
 mod check;
 mod commands;

@@ -91,6 +91,11 @@ fn mold(mold: &Mold) -> String {
             Surface::Front(_) => "a mold raised ahead of a front".into(),
         },
         Mold::Mesh(mesh) => format!("mesh of {} triangles", mesh.triangles().len()),
+        Mold::Layered(layered) => {
+            let count = layered.relief.0.len();
+            let plies = if count == 1 { "ply" } else { "plies" };
+            format!("{} with {count} {plies} on it", self::mold(&layered.mold))
+        }
         Mold::Wavy(wavy) => format!("{} with waves on it", self::mold(&wavy.mold)),
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::formula;
 use plydrape::mold::{
-    Cylinder, Graph, HeightGrid, Mesh, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus,
+    Cylinder, Graph, HeightGrid, Layer, Layers, Mesh, Mold, Plane, Pose, Raised, Saddle, Sphere,
+    Surface, Torus,
 };
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -18,6 +19,14 @@ enum Record<'a> {
     Torus(Torus),
     Graph { pose: Pose, surface: SurfaceRecord<'a>, domain: Option<[[f64; 2]; 2]> },
     Mesh { vertices: Cow<'a, [[f64; 3]]>, triangles: Cow<'a, [[u32; 3]]> },
+    Layered { on: Box<Record<'a>>, layers: Vec<LayerRecord<'a>> },
+}
+
+/// A ply that lies on the mold.
+#[derive(Serialize, Deserialize)]
+struct LayerRecord<'a> {
+    thickness: f64,
+    rings: Cow<'a, [Vec<[f64; 2]>]>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -52,6 +61,10 @@ impl<'a> Record<'a> {
                 vertices: mesh.vertices().into(),
                 triangles: mesh.triangles().into(),
             },
+            Mold::Layered(layered) => Record::Layered {
+                on: Box::new(Record::of(&layered.mold)?),
+                layers: layered.relief.0.iter().map(LayerRecord::of).collect(),
+            },
             // refused before
             Mold::Wavy(_) => return None,
         })
@@ -81,7 +94,21 @@ impl<'a> Record<'a> {
                 let mesh = Mesh::of_triangles(vertices.into_owned(), &triangles);
                 Mold::Mesh(Arc::new(mesh.map_err(|e| e.to_string())?.0))
             }
+            Record::Layered { on, layers } => {
+                let layer = |record: LayerRecord| {
+                    Layer::new(record.thickness, record.rings.into_owned())
+                        .map_err(|e| e.to_string())
+                };
+                let layers = layers.into_iter().map(layer).collect::<Result<_, _>>()?;
+                Mold::Layered(Arc::new(Raised { mold: on.mold()?, relief: Layers(layers) }))
+            }
         })
+    }
+}
+
+impl<'a> LayerRecord<'a> {
+    fn of(layer: &'a Layer) -> Self {
+        LayerRecord { thickness: layer.thickness(), rings: layer.rings().into() }
     }
 }
 

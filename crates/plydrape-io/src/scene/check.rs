@@ -67,11 +67,14 @@ pub(super) fn scene(
     let steps = file.plan.steps.as_ref().map_or(file.grippers_span(), |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
     let title = title(file.title.as_ref(), document, base)?;
+    let thickness =
+        file.ply.value.thickness.as_ref().map(|thickness| thickness.size(document)).transpose()?;
     Ok(SceneFile {
         scene: Scene { title, ply, mold, motion, target, settings, limits, plan, errors },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,
+        thickness,
         plan_refusal: unplanned.or(fits.err()).map(Box::new),
     })
 }

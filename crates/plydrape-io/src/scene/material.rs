@@ -3,7 +3,7 @@
 use super::check::line;
 use super::choice::MaterialChoice;
 use super::error::{Document, SceneError, excerpt};
-use super::file::MaterialTable;
+use super::file::{FabricKey, MaterialTable};
 use super::located::Located;
 use super::quantity::{Measure, Quantity};
 use super::units::Dimension;
@@ -113,6 +113,13 @@ fn from_table(
     place: &Range<usize>,
     name: &str,
 ) -> Result<Material, SceneError> {
+    if let Some(Located { value: FabricKey::Unidirectional, span }) = &table.fabric {
+        return Err(document.error(
+            span.clone(),
+            "a unidirectional ply does not shear as a trellis: nothing holds its fibres at the points where a weft would cross them, so the ideal drape and the sheet of woven plies are not its own",
+            "plydrape drapes woven plies so far, fabric = \"woven\"; for a unidirectional ply that is stitched to a weft and shears about it, that is the nearest",
+        ));
+    }
     let shear_curve =
         table.shear_curve.as_ref().map(|curve| curve::shear(curve, document)).transpose()?;
     let tension = table.tension.as_ref().map(|law| curve::tension(law, document)).transpose()?;

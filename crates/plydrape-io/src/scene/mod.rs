@@ -8,9 +8,10 @@
 //! 3. `check` with `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`,
 //!    `sheet`, `plan`, `errors`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
-//! `argument` lends the reader of stage 2 to values on the command line.
+//! `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
 
 mod argument;
+mod book;
 mod check;
 mod choice;
 mod csv;
@@ -44,6 +45,7 @@ mod trajectory;
 mod units;
 
 pub use argument::{Measured, quantity};
+pub use book::{Book, BookPly, is_book, parse_book, read_book};
 pub use error::SceneError;
 pub use ideal::IdealDrape;
 pub use material::{shipped_material, shipped_materials};
@@ -169,6 +171,9 @@ fn keys(document: &error::Document) -> Result<file::SceneKeys, SceneError> {
             "`plydrape new NAME` writes a commented scene to start from",
         ));
     }
+    if book::has_plies(document) {
+        return Err(book::refused_as_scene(document));
+    }
     read::keys(document)
 }
 
@@ -183,6 +188,8 @@ pub struct SceneFile {
     pub files: Vec<PathBuf>,
     /// What was found and repaired while the mold was read, if it is a mesh.
     pub mesh: Option<MeshReport>,
+    /// Thickness of the ply once it lies (m), if the scene says it: what is laid on it lies that much higher.
+    pub thickness: Option<f64>,
     /// Why no plan is looked for: what the scene says of its own motion and a planned one would not keep.
     pub plan_refusal: Option<Box<SceneError>>,
 }

@@ -1,5 +1,6 @@
 //! What the engine does with scenes that are read from files, and what it writes, as one program.
 
+mod books;
 mod common;
 mod constraint;
 mod curved;

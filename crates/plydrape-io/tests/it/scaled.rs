@@ -126,6 +126,7 @@ fn scaled_mold(mold: &Mold, s: f64) -> Mold {
             return Mold::Mesh(Arc::new(mesh));
         }
         Mold::Wavy(_) => panic!("no scene file has a mold with waves"),
+        Mold::Layered(_) => panic!("no scene file has a mold with plies on it"),
     }
     mold
 }

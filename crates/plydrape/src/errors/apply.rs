@@ -16,7 +16,7 @@
 use super::draw::{Draw, MaterialError, PickUpError, RigidError};
 use crate::material::{Material, Section, ShearCurve};
 use crate::mold::vector::{along, sub, turned};
-use crate::mold::{Mold, Wavy};
+use crate::mold::{Mold, Raised};
 use crate::ply::{Ply, tangents};
 use crate::scene::{Motion, Scene};
 use std::sync::Arc;
@@ -49,7 +49,7 @@ impl Draw {
 
     fn mold(&self, mold: &Mold) -> Mold {
         match self.mold.waves.filter(|waves| waves.amplitude != 0.0) {
-            Some(waves) => Mold::Wavy(Arc::new(Wavy { mold: mold.clone(), waves })),
+            Some(waves) => Mold::Wavy(Arc::new(Raised { mold: mold.clone(), relief: waves })),
             None => mold.clone(),
         }
     }

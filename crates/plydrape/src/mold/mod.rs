@@ -9,10 +9,12 @@ mod front_surface;
 mod graph;
 mod height;
 mod height_grid;
+mod layered;
 pub mod mesh;
 pub mod patch;
 mod plane;
 mod pose;
+mod raised;
 mod round;
 mod saddle;
 mod section;
@@ -25,13 +27,15 @@ pub use front_surface::{FrontSurface, Rise};
 pub use graph::{Graph, Surface};
 pub use height::{Height, Steepness};
 pub use height_grid::{HeightGrid, HeightGridError};
+pub use layered::{Layer, LayerError, Layers, overlap, ramp};
 pub use mesh::{Mesh, MeshError, MeshReport};
 pub use plane::Plane;
 pub use pose::Pose;
+pub use raised::{Raise, Raised, Relief};
 pub use round::{Cylinder, Face, Sphere, Torus};
 pub use saddle::Saddle;
 pub use vector::distance;
-pub use wavy::{Wave, Waves, Wavy};
+pub use wavy::Waves;
 
 use section::{Until, trace};
 use std::sync::Arc;
@@ -54,7 +58,9 @@ pub enum Mold {
     /// Triangles.
     Mesh(Arc<Mesh>),
     /// Any of these with waves on it; made by [`crate::errors::Draw::apply`] only.
-    Wavy(Arc<Wavy>),
+    Wavy(Arc<Raised<Waves>>),
+    /// Any of these with plies on it.
+    Layered(Arc<Raised<Layers>>),
 }
 
 /// What lies closest to a point.
@@ -169,6 +175,15 @@ impl Curvatures {
 }
 
 impl Mold {
+    /// The mold without the plies that lie on it.
+    #[must_use]
+    pub fn bare(&self) -> &Mold {
+        match self {
+            Mold::Layered(layered) => layered.mold.bare(),
+            mold => mold,
+        }
+    }
+
     /// What lies closest to `p` (m).
     #[must_use]
     pub fn closest_point(&self, p: [f64; 3]) -> ClosestPoint {
@@ -180,6 +195,7 @@ impl Mold {
             Mold::Graph(graph) => graph.closest_point(p),
             Mold::Mesh(mesh) => mesh.closest_point(p),
             Mold::Wavy(wavy) => wavy.closest_point(p),
+            Mold::Layered(layered) => layered.closest_point(p),
         }
     }
 
@@ -193,6 +209,7 @@ impl Mold {
                 sub(p, closest.point).map(|c| c / closest.distance)
             }
             Mold::Wavy(wavy) => wavy.distance_gradient(p),
+            Mold::Layered(layered) => layered.distance_gradient(p),
             _ => closest.normal,
         }
     }
@@ -218,6 +235,7 @@ impl Mold {
             Mold::Torus(torus) => torus.separation(p),
             Mold::Mesh(mesh) => mesh.separation(p, most),
             Mold::Wavy(wavy) => wavy.separation(p),
+            Mold::Layered(layered) => layered.separation(p),
             Mold::Graph(graph) => {
                 let ClosestPoint { distance, beyond, .. } = graph.closest_point(p);
                 Separation { distance, beyond }
@@ -231,6 +249,7 @@ impl Mold {
         match self {
             Mold::Graph(graph) => graph.steepness(),
             Mold::Wavy(wavy) => wavy.mold.steepness(),
+            Mold::Layered(layered) => layered.mold.steepness(),
             _ => Steepness::default(),
         }
     }
@@ -243,6 +262,7 @@ impl Mold {
         match self {
             Mold::Graph(graph) => graph.clear(p, apart, bound),
             Mold::Wavy(wavy) => wavy.clear(p, apart, bound),
+            Mold::Layered(layered) => layered.clear(p, apart, bound),
             _ if apart.beyond => 0.0,
             _ => apart.distance.max(0.0),
         }
@@ -265,6 +285,7 @@ impl Mold {
             Mold::Graph(graph) => graph.curvatures(self.closest_point(p).point),
             Mold::Mesh(mesh) => mesh.curvatures(p),
             Mold::Wavy(wavy) => wavy.curvatures(p),
+            Mold::Layered(layered) => layered.curvatures(p),
         }
     }
 
@@ -328,6 +349,7 @@ impl Mold {
             Mold::Graph(graph) => return graph.highest_point([x, y]),
             Mold::Mesh(mesh) => return mesh.highest_point([x, y]),
             Mold::Wavy(wavy) => return wavy.highest_point([x, y]),
+            Mold::Layered(layered) => return layered.highest_point([x, y]),
             Mold::Cylinder(cylinder) => (cylinder.pose.position, None),
             Mold::Sphere(sphere) => (sphere.pose.position, Some(sphere.radius)),
             Mold::Torus(torus) => {
@@ -381,7 +403,8 @@ impl Mold {
                 let sag = 0.5 * (length * length - chord * chord).max(0.0).sqrt();
                 da.min(db) - sag
             }
-            Mold::Wavy(wavy) => wavy.mold.clearance(a, b, length) - wavy.waves.most(),
+            Mold::Wavy(wavy) => wavy.mold.clearance(a, b, length) - wavy.relief.most(),
+            Mold::Layered(layered) => layered.mold.clearance(a, b, length) - layered.relief.most(),
             // no two points are farther apart in their distances than along the curve
             _ => 0.5 * (da + db - length),
         }

@@ -22,6 +22,7 @@ mod layup;
 mod meet;
 mod missing;
 mod place;
+mod region;
 mod report;
 mod seeds;
 mod sharp_edges;

@@ -104,6 +104,8 @@ pub(super) struct PlyTable {
     /// Fabric beyond the outermost grippers, on all sides (m), 0 unless given. Catenaries end at the grippers: the
     /// sheet alone has it.
     pub overhang: Option<Quantity<Length>>,
+    /// Thickness of the ply once it lies (m). A plybook needs it where another ply lies on this one; nothing else uses it.
+    pub thickness: Option<Quantity<Length>>,
 }
 
 /// A DXF file and what of it is the ply.
@@ -186,6 +188,19 @@ pub(super) struct MaterialTable {
     pub locking_angle: Option<Quantity<Angle>>,
     /// The test that found the locking angle.
     pub locking_test: Option<Located<String>>,
+    /// How its fibres are held together: "woven" (the default), or "unidirectional", which is refused so far.
+    pub fabric: Option<Located<FabricKey>>,
+}
+
+/// How the fibres of a ply are held together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "Fabric")]
+pub(super) enum FabricKey {
+    /// Two families of yarns that cross: it shears as a trellis.
+    Woven,
+    /// One family of fibres in a resin or a stitching: it shears along them.
+    Unidirectional,
 }
 
 /// Measured points (`angle` and `force`), or a `polynomial`.

@@ -220,7 +220,7 @@ fn middle_of_cell(cells: usize) -> f64 {
 /// Directions in plan (rad) in which the mold curves most and least, in the middle of the drape.
 fn principal_directions(scene: &Scene) -> Option<[f64; 2]> {
     let (mold, target) = (scene.mold.as_ref()?, scene.target.as_ref()?);
-    if matches!(mold, Mold::Plane(_)) {
+    if matches!(mold.bare(), Mold::Plane(_)) {
         return None;
     }
     let count = target.grippers.len() as f64;

@@ -3,15 +3,18 @@
 
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
-use crate::mold::{Formula, Graph, HeightGrid, Mold, Surface};
+use crate::mold::{Formula, Graph, HeightGrid, Mold, Raised, Surface};
 use crate::planner::tuning;
 use crate::scene::Scene;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// The scene with its mold tabulated, where that is a formula smooth enough; else as it is.
 #[must_use]
 pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
-    let Some(Mold::Graph(graph)) = &scene.mold else { return Cow::Borrowed(scene) };
+    let Some(Mold::Graph(graph)) = scene.mold.as_ref().map(Mold::bare) else {
+        return Cow::Borrowed(scene);
+    };
     let (Surface::Formula { z }, Some(target)) = (&graph.surface, &scene.target) else {
         return Cow::Borrowed(scene);
     };
@@ -25,8 +28,11 @@ pub fn tabulated(scene: &Scene) -> Cow<'_, Scene> {
     let tolerance = TUNING.front.table_error * tuning::cell(scene);
     let Some(heights) = table(z, domain, tolerance) else { return Cow::Borrowed(scene) };
     let surface = Surface::HeightGrid(heights);
-    let mold = Some(Mold::Graph(Graph { surface, ..graph.clone() }));
-    Cow::Owned(Scene { mold, ..scene.clone() })
+    let mut mold = Mold::Graph(Graph { surface, ..graph.clone() });
+    if let Some(Mold::Layered(layered)) = &scene.mold {
+        mold = Mold::Layered(Arc::new(Raised { mold, relief: layered.relief.clone() }));
+    }
+    Cow::Owned(Scene { mold: Some(mold), ..scene.clone() })
 }
 
 /// The formula as a table; none where its error exceeds a tolerance (m).
