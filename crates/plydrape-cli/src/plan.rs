@@ -339,7 +339,7 @@ fn text(
         short(*max_acceleration),
         short(*max_jerk),
     );
-    let mut text = format!("{found}\n\n{}\n{}", table::steps_table(result), table::verdict(result));
+    let mut text = format!("{found}\n\n{}", table::steps_and_verdict(result));
     text += broken_off.map_or("", BrokenOff::text);
     if result.summary.accepted
         && let Some(closest) = table::closest(result.deciding_limits())

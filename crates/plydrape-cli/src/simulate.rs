@@ -79,9 +79,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
         errors::judge(&mut result, &Robustness::of_simulated(&scene), &interrupt, quiet)
     };
     let files = write_into(folder, &result, &[], &scene.files)?;
-    let (title, steps) = (&result.scene.title, table::steps_table(&result));
-    let steps = if steps.is_empty() { steps } else { format!("{steps}\n") };
-    let mut text = format!("{title}\n\n{steps}{}", table::verdict(&result));
+    let title = &result.scene.title;
+    let mut text = format!("{title}\n\n{}", table::steps_and_verdict(&result));
     text += broken_off.map_or("", BrokenOff::text);
     results.print(quiet, &Printed::of(&result, solving, took), &text, &files)?;
     Ok(exit_code(&result, broken_off.is_some() || result.summary.interrupted()))

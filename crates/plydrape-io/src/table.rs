@@ -43,12 +43,9 @@ const COLUMNS: [&str; 9] = [
 /// One row a step: worst values and the share in contact.
 ///
 /// Of more than 40 steps it shows the first, the last, those where contact and shear begin, those of
-/// the worst values, and some evenly between. Empty where no catenaries hang, because all columns are theirs.
+/// the worst values, and some evenly between.
 #[must_use]
 pub fn steps_table(result: &ResultFile) -> String {
-    if !result.scene.ply.has_lines() {
-        return String::new();
-    }
     let shown = chosen(result);
     let mut rows = vec![header()];
     rows.extend(shown.iter().map(|index| row(&result.steps[*index])));
@@ -59,6 +56,17 @@ pub fn steps_table(result: &ResultFile) -> String {
     }
     text.push_str(&failed_solves(result));
     text
+}
+
+/// The table of steps, whose columns are those of catenaries, where these hang; then the verdict.
+#[must_use]
+pub fn steps_and_verdict(result: &ResultFile) -> String {
+    let verdict = verdict(result);
+    if result.scene.ply.has_lines() {
+        format!("{}\n{verdict}", steps_table(result))
+    } else {
+        verdict
+    }
 }
 
 fn header() -> Vec<String> {
