@@ -102,7 +102,9 @@ export class Motion {
   bounds(): { low: Place; high: Place } {
     const low: Place = [Infinity, Infinity, Infinity];
     const high: Place = [-Infinity, -Infinity, -Infinity];
-    for (const values of [this.surface.values, this.sheet?.positions.values ?? new Int32Array(0)]) {
+    const none = new Int32Array(0);
+    const parts = [this.surface.values, this.fibres?.values ?? none, this.sheet?.positions.values ?? none];
+    for (const values of parts) {
       for (let k = 0; k < values.length; k++) {
         const c = k % 3;
         const x = values[k]! * MICRO;
