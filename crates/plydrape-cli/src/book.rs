@@ -6,7 +6,7 @@
 use crate::failure::{Done, Failure};
 use crate::outcome;
 use crate::plan::{Arguments, Found};
-use crate::search::{Ended, Lines, Search, time_text};
+use crate::search::{Ended, Search, SharedLines};
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
 use plydrape::planner::infeasible_limits::infeasible_limits;
@@ -16,7 +16,7 @@ use plydrape_io::folder::write_together;
 use plydrape_io::scene::{Book, read_book};
 use plydrape_io::{Folder, Staged, plan, table};
 use serde::Serialize;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -189,8 +189,7 @@ fn text(plies: &[PlyRecord], interrupted: bool, time_s: f64) -> String {
 struct Eyes<'a> {
     interrupt: &'a Interrupt,
     bar: ProgressBar,
-    lines: Option<Mutex<Lines>>,
-    began: Instant,
+    lines: SharedLines,
     done: AtomicUsize,
     most: usize,
     /// One ply could not be planned: the others need not be.
@@ -203,9 +202,8 @@ impl<'a> Eyes<'a> {
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(500));
         }
-        let lines = (!quiet && !io::stderr().is_terminal()).then(Mutex::default);
-        let (began, done) = (Instant::now(), AtomicUsize::new(0));
-        Eyes { interrupt, bar, lines, began, done, most, failed: AtomicBool::new(false) }
+        let (lines, done) = (SharedLines::new(quiet), AtomicUsize::new(0));
+        Eyes { interrupt, bar, lines, done, most, failed: AtomicBool::new(false) }
     }
 
     /// Whether the search of one ply goes on.
@@ -225,14 +223,7 @@ impl<'a> Eyes<'a> {
 
     /// Prints the line of this minute, if it is due.
     fn line(&self) {
-        let elapsed = self.began.elapsed();
-        let due = self.lines.as_ref().and_then(|lines| lines.try_lock().ok());
-        if !due.is_some_and(|mut lines| lines.is_due(elapsed)) {
-            return;
-        }
-        let minutes = time_text(Duration::from_secs(elapsed.as_secs() / 60 * 60));
-        let (done, most) = (self.done.load(Ordering::Relaxed), self.most);
-        // where standard error cannot be written, the plans are no worse
-        let _ = writeln!(io::stderr(), "plydrape: {minutes}, {done} of {most} plies planned");
+        let done = self.done.load(Ordering::Relaxed);
+        self.lines.say(|| format!("{done} of {} plies planned", self.most));
     }
 }

@@ -1,14 +1,12 @@
 //! The drapes with errors behind a finished drape, under someone's eyes.
 
-use crate::search::{Lines, time_text};
+use crate::search::SharedLines;
 use crate::watch::{Interrupt, bar};
 use indicatif::ProgressBar;
 use plydrape::errors::{Robustness, Watch};
 use plydrape_io::ResultFile;
-use std::io::{self, IsTerminal, Write};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Which of the drapes with errors somebody broke off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,8 +51,7 @@ pub fn judge(
 struct Eyes<'a> {
     interrupt: &'a Interrupt,
     bar: ProgressBar,
-    lines: Option<Mutex<Lines>>,
-    began: Instant,
+    lines: SharedLines,
     done: AtomicUsize,
     /// Drapes in all; 0 where nobody knows.
     most: usize,
@@ -65,8 +62,7 @@ impl<'a> Eyes<'a> {
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(500));
         }
-        let lines = (!quiet && !io::stderr().is_terminal()).then(Mutex::default);
-        Eyes { interrupt, bar, lines, began: Instant::now(), done: AtomicUsize::new(0), most }
+        Eyes { interrupt, bar, lines: SharedLines::new(quiet), done: AtomicUsize::new(0), most }
     }
 
     /// What the drapes ask and tell.
@@ -86,18 +82,10 @@ impl<'a> Eyes<'a> {
 
     /// Prints the line of this minute, if it is due.
     fn line(&self) {
-        let elapsed = self.began.elapsed();
-        let due = self.lines.as_ref().and_then(|lines| lines.try_lock().ok());
-        if !due.is_some_and(|mut lines| lines.is_due(elapsed)) {
-            return;
-        }
-        let minutes = time_text(Duration::from_secs(elapsed.as_secs() / 60 * 60));
-        let (done, most) = (self.done.load(Ordering::Relaxed), self.most);
-        let what = match most {
+        let done = self.done.load(Ordering::Relaxed);
+        self.lines.say(|| match self.most {
             0 => "looking for the errors that it stands".into(),
             most => format!("draping {done} of {most} cells with errors"),
-        };
-        // where standard error cannot be written, the drapes are no worse
-        let _ = writeln!(io::stderr(), "plydrape: {minutes}, {what}");
+        });
     }
 }

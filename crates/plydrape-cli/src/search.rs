@@ -7,6 +7,7 @@ use plydrape::scene::{Plan, PlanMethod};
 use plydrape_io::table;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// Why a search was ended from outside.
@@ -112,6 +113,31 @@ impl Lines {
         let due = minutes > self.minutes;
         self.minutes = minutes;
         due
+    }
+}
+
+/// The plain lines of work on several threads, on standard error where nobody sees a bar.
+pub struct SharedLines {
+    lines: Option<Mutex<Lines>>,
+    began: Instant,
+}
+
+impl SharedLines {
+    /// From now on.
+    pub fn new(quiet: bool) -> Self {
+        let lines = (!quiet && !io::stderr().is_terminal()).then(Mutex::default);
+        SharedLines { lines, began: Instant::now() }
+    }
+
+    /// Prints the line of this minute, if it is due: the time, and what is being done.
+    pub fn say(&self, what: impl FnOnce() -> String) {
+        let elapsed = self.began.elapsed();
+        let due = self.lines.as_ref().and_then(|lines| lines.try_lock().ok());
+        if due.is_some_and(|mut lines| lines.is_due(elapsed)) {
+            let minutes = time_text(Duration::from_secs(elapsed.as_secs() / 60 * 60));
+            // where standard error cannot be written, the work is no worse
+            let _ = writeln!(io::stderr(), "plydrape: {minutes}, {}", what());
+        }
     }
 }
 

@@ -46,7 +46,7 @@ pub struct Ply {
     /// How it is cut and where it is held; none of a rectangle with a gripper at every node of its grid.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub cut: Option<Cut>,
-    /// Its lines, see [`Ply::lines`].
+    /// Its lines, see [`Ply::lines`]; empty until they are asked for. Whoever changes [`Self::cut`] of a ply empties it.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub found: FoundLines,
 }
