@@ -63,3 +63,55 @@ impl CutCell {
         out
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// Whole cells and what is drawn of those that the boundary cuts cover the ply once, a hole within one cell included; only
+    /// slivers that the sheet leaves out are missing.
+    #[test]
+    fn what_is_drawn_is_the_ply() {
+        let text = "[ply]\noutline = [[0, 0], [0.33, 0], [0.33, 0.15], [0.24, 0.23], [0, 0.23]]\n\
+            holes = [{ middle = [0.15, 0.12], diameter = 0.05 }, { middle = [0.0657, 0.0657], diameter = 0.004 }]\n\
+            grippers = [3, 2]\ncell = [0.12, 0.12]\narray = { partly = \"leave-off\" }\nmaterial = \"krogh2018\"\n\
+            [grippers]\nspacing = [0.118, 0.118]\nheight = 0.05\n";
+        let scene = crate::scene::parse(text, Path::new(""), "scene").unwrap().scene;
+        let fabric = Fabric::of(&scene.ply, &scene.settings).unwrap();
+        let mesh = SheetMesh {
+            places: fabric.places.clone().into(),
+            areas: fabric.areas.clone().into(),
+            segments: Vec::new().into(),
+            cells: fabric
+                .cells
+                .iter()
+                .filter(|cell| cell.is_ply())
+                .map(|cell| cell.nodes)
+                .collect(),
+            grippers: scene.ply.grippers(),
+        };
+        let cut = CutCell::all(&scene.ply, &scene.settings, &mesh);
+        assert!(cut.iter().any(|cell| cell.rings.len() == 2), "a cell with a hole in it");
+        let size = |nodes: [u32; 4]| {
+            let [low, high] = [nodes[0], nodes[2]].map(|n| fabric.places[n as usize]);
+            (high[0] - low[0]) * (high[1] - low[1])
+        };
+        let share = |points: &[[f64; 2]]| {
+            let next = points.iter().cycle().skip(1);
+            0.5 * points.iter().zip(next).map(|(p, q)| p[0] * q[1] - p[1] * q[0]).sum::<f64>()
+        };
+        let whole = fabric.cells.iter().map(|cell| cell.nodes);
+        let whole = whole.filter(|nodes| cut.iter().all(|other| other.nodes != *nodes));
+        let whole: f64 = whole.map(size).sum();
+        let parts: f64 = cut.iter().map(|cell| share(&cell.polygon()) * size(cell.nodes)).sum();
+        let area = scene.ply.cut.as_ref().unwrap().outline.area();
+        assert!((1.0 - (whole + parts) / area).abs() < 2e-3, "{whole} + {parts} of {area} m²");
+        for cell in &cut {
+            let rings: f64 = cell.rings.iter().map(|ring| share(ring)).sum();
+            assert!((rings - share(&cell.polygon())).abs() < 1e-12, "one ring has the same area");
+            let own = mesh.cells[cell.cell];
+            assert!(own.iter().any(|node| cell.nodes.contains(node)), "values of a cell beside it");
+        }
+    }
+}

@@ -23,7 +23,7 @@ pub fn hanging(span: &FreeSpan) -> Vec<Point> {
     (0..STATIONS).map(|n| span.point(n as f64 / (STATIONS - 1) as f64)).collect()
 }
 
-/// The curves of a step (m): for each catenary, one for each of its [`CatenaryState::spans`] from its first end to its
+/// The curves of a step (m): for each catenary, one for each of its [`crate::draping::record::CatenaryState::spans`] from its first end to its
 /// second. Slack of a lying segment is drawn as a ruck; a catenary that lies whole has its curve in its contact and none here.
 #[must_use]
 pub fn curves(
