@@ -190,12 +190,12 @@ pub fn tangents(
     positions: &[[f64; 3]],
     gripper: usize,
 ) -> [[f64; 3]; 2] {
-    let beside = neighbours.iter().filter(|pair| pair.grippers.contains(&gripper));
-    let [u, v] = fitted(beside.map(|pair| {
-        let other = pair.grippers[usize::from(pair.grippers[0] == gripper)];
-        let ([u, v], [p, q]) = (ply.place(gripper), ply.place(other));
-        ([p - u, q - v], sub(positions[other], positions[gripper]))
-    }));
+    let [u, v] = tangent_shares(ply, neighbours, gripper).map(|shares| {
+        let ways = shares
+            .iter()
+            .map(|(other, share)| sub(positions[*other], positions[gripper]).map(|c| share * c));
+        unit(ways.fold([0.0; 3], |sum, way| along(sum, 1.0, way)))
+    });
     let left = |way: [f64; 3]| unit([-way[1], way[0], 0.0]);
     match [u, v] {
         [Some(u), Some(v)] => [u, v],
@@ -205,6 +205,23 @@ pub fn tangents(
     }
 }
 
+/// The neighbours of a gripper, each with the share of the way to it in the tangent of u, and the same of v: [`tangents`] are
+/// along the sums. None across a single line of grippers.
+#[must_use]
+pub fn tangent_shares(
+    ply: &Ply,
+    neighbours: &[Neighbours],
+    gripper: usize,
+) -> [Vec<(usize, f64)>; 2] {
+    let beside = neighbours.iter().filter(|pair| pair.grippers.contains(&gripper));
+    let others: Vec<usize> =
+        beside.map(|pair| pair.grippers[usize::from(pair.grippers[0] == gripper)]).collect();
+    let [u, v] = ply.place(gripper);
+    let ways = others.iter().map(|other| ply.place(*other)).map(|[p, q]| [p - u, q - v]);
+    let shares = shares(&ways.collect::<Vec<_>>());
+    shares.map(|shares| others.iter().copied().zip(shares).collect())
+}
+
 /// Unit vectors along u and v of all grippers at positions (m), by least squares; none across a single line of grippers.
 #[must_use]
 pub fn directions(ply: &Ply, positions: &[[f64; 3]]) -> [Option<[f64; 3]>; 2] {
@@ -212,26 +229,24 @@ pub fn directions(ply: &Ply, positions: &[[f64; 3]]) -> [Option<[f64; 3]>; 2] {
     let middle = [0, 1, 2].map(|n| positions.iter().map(|p| p[n]).sum::<f64>() / count);
     let places: Vec<[f64; 2]> = (0..positions.len()).map(|n| ply.place(n)).collect();
     let origin = [0, 1].map(|n| places.iter().map(|place| place[n]).sum::<f64>() / count);
-    let off = |place: &[f64; 2]| [place[0] - origin[0], place[1] - origin[1]];
-    fitted(places.iter().zip(positions).map(|(place, p)| (off(place), sub(*p, middle))))
+    let off: Vec<[f64; 2]> =
+        places.iter().map(|place| [place[0] - origin[0], place[1] - origin[1]]).collect();
+    shares(&off).map(|shares| {
+        let ways = shares.iter().zip(positions).map(|(share, p)| (share, sub(*p, middle)));
+        unit(ways.fold([0.0; 3], |sum, (share, way)| along(sum, *share, way)))
+    })
 }
 
-/// The unit vectors along u and v that fit ways in space (m) over ways in the fabric (m) best; none of a direction in which
-/// there are none.
-fn fitted(ways: impl Iterator<Item = ([f64; 2], [f64; 3])>) -> [Option<[f64; 3]>; 2] {
-    let (mut moments, mut sums) = ([0.0; 3], [[0.0; 3]; 2]);
-    for ([u, v], way) in ways {
-        moments = [moments[0] + u * u, moments[1] + u * v, moments[2] + v * v];
-        sums = [along(sums[0], u, way), along(sums[1], v, way)];
-    }
-    let [uu, uv, vv] = moments;
+/// Shares of ways in space in the vectors along u and v that fit them over ways in the fabric (m) best, by least squares and but for
+/// a factor; none of a direction in which there are none.
+fn shares(ways: &[[f64; 2]]) -> [Vec<f64>; 2] {
+    let sum = |of: fn(&[f64; 2]) -> f64| ways.iter().map(of).sum::<f64>();
+    let (uu, uv, vv) = (sum(|[u, _]| u * u), sum(|[u, v]| u * v), sum(|[_, v]| v * v));
+    let each = |of: &dyn Fn([f64; 2]) -> f64| ways.iter().map(|way| of(*way)).collect();
     if uu * vv - uv * uv > 1e-9 * (uu + vv) * (uu + vv) {
-        return [
-            unit(along(sums[0].map(|c| vv * c), -uv, sums[1])),
-            unit(along(sums[1].map(|c| uu * c), -uv, sums[0])),
-        ];
+        return [each(&|[u, v]| vv * u - uv * v), each(&|[u, v]| uu * v - uv * u)];
     }
-    [unit(sums[0]).filter(|_| uu >= vv), unit(sums[1]).filter(|_| vv > uu)]
+    if uu >= vv { [each(&|[u, _]| u), Vec::new()] } else { [Vec::new(), each(&|[_, v]| v)] }
 }
 
 /// For each cup the next one that holds along its row and along its column: all rows first.

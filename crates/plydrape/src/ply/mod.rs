@@ -12,7 +12,7 @@ pub mod shear;
 mod tuning;
 
 pub use contact_segment::{ContactSegment, LandedCell};
-pub use cut::{Cut, Held, Neighbours, directions, tangents};
+pub use cut::{Cut, Held, Neighbours, directions, tangent_shares, tangents};
 pub use grid::{Catenary, Grid, GripperId, Kind};
 #[cfg(test)]
 pub(crate) use lines::tests::held;

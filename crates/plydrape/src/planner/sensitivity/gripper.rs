@@ -4,7 +4,7 @@ use super::{Quantity, Sensitivity};
 use crate::mold::vector::{sub, unit};
 use crate::planner::row::Row;
 use crate::planner::tuning::TUNING;
-use crate::ply::shear;
+use crate::ply::{Grid, shear, tangent_shares};
 use num_dual::{Dual64, DualNum};
 use std::collections::BTreeSet;
 
@@ -58,9 +58,22 @@ impl Sensitivity<'_> {
         for neighbour in [0, 1].map(|d| lines.neighbours(gripper, d)).as_flattened() {
             columns.extend(3 * neighbour..3 * neighbour + 3);
         }
+        for (neighbour, _) in self.neighbour_shares(gripper).into_iter().flatten().flatten() {
+            columns.extend(3 * neighbour..3 * neighbour + 3);
+        }
+        columns.extend(3 * gripper..3 * gripper + 3);
         let along = |column: usize| (column, self.tilt_along(gripper, Some(column)).eps);
         let gradient = columns.into_iter().map(along).filter(|(_, x)| *x != 0.0).collect();
         Quantity { value, gradient }
+    }
+
+    /// What says how a gripper is tilted along u and v where no fibre line runs through it in one of them; see
+    /// [`crate::draping::attitude::attitude`].
+    fn neighbour_shares(&self, gripper: usize) -> Option<[Vec<(usize, f64)>; 2]> {
+        let ply = &self.scene.ply;
+        let is_by_lines =
+            ply.grid != Grid::NONE || self.slopes[gripper].iter().all(Option::is_some);
+        (!is_by_lines).then(|| tangent_shares(ply, &ply.neighbours(), gripper))
     }
 
     fn tilt_along(&self, gripper: usize, column: Option<usize>) -> Dual64 {
@@ -76,14 +89,26 @@ impl Sensitivity<'_> {
             (square.re > 0.0).then(|| [x, y].map(|c| c / square.sqrt()))
         };
         let (one, zero) = (Dual64::from(1.0), Dual64::from(0.0));
-        let u = heading(0).unwrap_or([one, zero]);
-        let v = heading(1).unwrap_or([-u[1], u[0]]);
-        let [su, sv] = [0, 1].map(|d| match &self.slopes[gripper][d] {
-            Some(slope) => Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient.at(c))),
-            None => zero,
-        });
+        let shares = self.neighbour_shares(gripper);
+        let by_neighbours = |d: usize| {
+            let shares = shares.as_ref().map(|shares| &shares[d]).filter(|way| !way.is_empty())?;
+            Some([0, 1, 2].map(|axis| {
+                let here = position(gripper, axis);
+                let way = shares.iter().map(|(n, share)| (position(*n, axis) - here) * *share);
+                way.fold(zero, |sum, way| sum + way)
+            }))
+        };
+        let by_line = |d: usize| {
+            let slope = self.slopes[gripper][d].as_ref()?;
+            let [x, y] = heading(d)?;
+            Some([x, y, Dual64::new(slope.value, column.map_or(0.0, |c| slope.gradient.at(c)))])
+        };
+        let [u, v] = [0, 1].map(|d| by_line(d).or_else(|| by_neighbours(d)));
+        // across a single line it is level
+        let u = u.or_else(|| v.map(|[x, y, _]| [y, -x, zero])).unwrap_or([one, zero, zero]);
+        let v = v.unwrap_or([-u[1], u[0], zero]);
         // the normal is the cross product of both tangents
-        let (nx, ny) = (u[1] * sv - su * v[1], su * v[0] - u[0] * sv);
+        let (nx, ny) = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]);
         let nz = u[0] * v[1] - u[1] * v[0];
         let square = nx * nx + ny * ny;
         let horizontal = if square.re > 0.0 { square.sqrt() } else { zero };

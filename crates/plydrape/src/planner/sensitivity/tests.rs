@@ -2,8 +2,10 @@
 
 use super::{Quantity, Sensitivity};
 use crate::draping::Draping;
+use crate::draping::attitude::attitude;
 use crate::planner::stepwise::tests::scene;
-use crate::scene::SlopeRule;
+use crate::ply::held;
+use crate::scene::{Scene, SlopeRule};
 
 /// On an array that takes more than one gripper in each group, each gradient differs from the whole one by a few shares that
 /// count as negligible, and holds a fraction of its numbers.
@@ -38,5 +40,48 @@ fn gradients_of_distant_grippers_together_are_those_of_each_alone() {
             assert!(most <= 1e-3 * largest, "{slopes:?}: {most} beside {largest}");
         }
         assert!(3 * kept < all, "{slopes:?}: {kept} of {all}");
+    }
+}
+
+/// In an array at 45° to the yarns one family of yarns alone runs through the cups at its corners: their tilt is that of the drape
+/// there too, and its derivatives are central differences of it.
+#[test]
+fn tilts_of_cups_between_the_yarns_are_differentiated_as_they_are_draped() {
+    let ply = held([3, 3], 45.0, |_| true);
+    let place = |n: usize| {
+        let [u, v] = ply.place(n);
+        [0.985 * u, 0.98 * v, 0.3 + 2e-3 * (1.7 * n as f64).sin()]
+    };
+    let positions: Vec<[f64; 3]> = (0..ply.grippers()).map(place).collect();
+    let scene = Scene { ply, mold: None, target: None, ..scene(2) };
+    let neighbours = scene.ply.neighbours();
+    let tilts = |positions: &[[f64; 3]]| -> Vec<f64> {
+        let mut draping = Draping::new(&scene);
+        draping.move_to(positions);
+        let of = |n| attitude(&draping.solver, &scene.ply, &neighbours, positions, n, None).tilt;
+        (0..positions.len()).map(of).collect()
+    };
+    let mut draping = Draping::new(&scene);
+    let shape = draping.move_to(&positions);
+    let contacts = draping.contacts.clone();
+    let whole = Sensitivity::whole(&scene, &mut draping.solver, &shape, &positions, &contacts);
+    let here = tilts(&positions);
+    let found: Vec<Quantity> = (0..positions.len()).map(|n| whole.tilt(n)).collect();
+    for (found, draped) in found.iter().zip(&here) {
+        assert!((found.value - draped).abs() < 1e-12 && *draped > 1e-3, "{draped}");
+    }
+    let h = 1e-6;
+    for column in 0..3 * positions.len() {
+        let moved = |by: f64| {
+            let mut moved = positions.clone();
+            moved[column / 3][column % 3] += by;
+            tilts(&moved)
+        };
+        let (ahead, behind) = (moved(h), moved(-h));
+        for (n, found) in found.iter().enumerate() {
+            let central = (ahead[n] - behind[n]) / (2.0 * h);
+            let off = (found.gradient.at(column) - central).abs();
+            assert!(off < 1e-4 * central.abs().max(1.0), "cup {n}, {column}: {central}, off {off}");
+        }
     }
 }
