@@ -7,7 +7,7 @@
 
 import uPlot from "uplot";
 import { full, short, ticks, withUnit } from "../data/number";
-import type { Measure, PageData } from "../data/page_data";
+import { hasCatenaries, type Measure, type PageData } from "../data/page_data";
 import { byId, make, themeColour } from "./dom";
 import type { State } from "./state";
 

@@ -70,9 +70,9 @@ fn row(n: usize, ply: &PlyRecord) -> String {
 
 fn figure(book: &Book, n: usize, ply: &PlyRecord) -> String {
     let heading = match ply.warp_heading {
-        // a line has no sense: from 0° up to 180°
+        // a line has no sense: from 0° up to 180°, and no −0°
         Some(heading) => {
-            format!(", warp at {:.0}°", heading.to_degrees().round().rem_euclid(180.0))
+            format!(", warp at {:.0}°", heading.to_degrees().round().rem_euclid(180.0) + 0.0)
         }
         None => String::new(),
     };
