@@ -35,8 +35,7 @@ export class Charts {
   private later = 0;
 
   constructor(state: State, data: PageData) {
-    if (data.sheet !== null && !data.grid.includes(0))
-      byId("charts-model").textContent = ", by the catenaries";
+    if (data.sheet !== null && hasCatenaries(data)) byId("charts-model").textContent = ", by the catenaries";
     const rank = ({ key, limit }: Measure) => {
       const place = FIRST.indexOf(key);
       if (place >= 0) return place;
