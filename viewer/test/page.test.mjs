@@ -187,7 +187,8 @@ function resultOf(report, given) {
 async function sliderMoves(report, page) {
   const given = await pageData(page);
   const result = resultOf(report, given);
-  if (result === null) return;
+  // cups that are no whole array span no surface
+  if (result === null || given.grid.includes(0)) return;
   await page.evaluate(() => (window.plydrape.model = "catenaries"));
   const n = given.divisions;
   const columns = (given.grid[0] - 1) * n + 1;
@@ -272,8 +273,7 @@ async function sheetShows(report, page) {
     if (!isGripper) assert.ok(Math.abs(number(found.split("\n")[1]) - 1e3 * heights[node]) < 2e-2, found);
     const pad = forces.findIndex((force) => Math.hypot(...force) === most);
     const text = await hoverOver(page, grippers[pad]);
-    const columns = data.grid[0];
-    assert.ok(text.startsWith(`gripper [${pad % columns}, ${Math.floor(pad / columns)}]`), text);
+    assert.ok(text.startsWith(`gripper [${data.ids[pad].join(", ")}]`), text);
     assert.ok(Math.abs(number(text.split("force ")[1]) / most - 1) < 1e-3, text);
   }
   await page.keyboard.press("i");
@@ -396,7 +396,10 @@ async function coloursHaveLegends(page) {
     await rangesNarrow(page, legend);
   }
   const { grid } = await pageData(page);
-  assert.equal(titles.size, grid.includes(1) ? 0 : order.length, "no two legends are alike");
+  const model = await page.evaluate(() => window.plydrape.model);
+  // neither a strip nor lines of cups that are no whole array have cells to colour
+  const bare = grid.includes(1) || (model === "catenaries" && grid.includes(0));
+  assert.equal(titles.size, bare ? 0 : order.length, "no two legends are alike");
 }
 
 /** By R the legend spans the values of the step in view, which are among those of all steps. */
