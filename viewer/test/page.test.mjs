@@ -4,8 +4,8 @@
 // a browser the tests are skipped, loudly; where CI is set that is an error.
 
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { availableParallelism, loadavg, tmpdir } from "node:os";
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { deflateSync } from "node:zlib";
 import { after, before, describe, test } from "node:test";
@@ -62,13 +62,6 @@ describe("results page", { skip: missing ?? false }, () => {
     () => sampleIsShown(sheet),
   );
   test("without WebGL everything else works", () => worksWithoutWebgl(reports[0]));
-
-  const large = reports.find(({ name }) => name === "large");
-  test(
-    "a page of 20 × 20 grippers and 100 steps moves at 20 frames a second",
-    { skip: large ? false : "no folder “large”" },
-    (t) => movesSmoothly(large, t),
-  );
 });
 
 /** Whether a page shows a sheet. */
@@ -825,61 +818,4 @@ async function worksWithoutWebgl(report) {
   assert.equal(await page.evaluate(() => window.plydrape.step), steps[0]);
   assert.deepEqual(complaints, []);
   await plain.close();
-}
-
-/** Milliseconds of processor time that all processes below this one have used so far (Linux). */
-function processorTime() {
-  const rows = readdirSync("/proc")
-    .filter((name) => /^\d+$/.test(name))
-    .flatMap((pid) => {
-      try {
-        const stat = readFileSync(`/proc/${pid}/stat`, "utf8");
-        const fields = stat.slice(stat.lastIndexOf(")") + 2).split(" ");
-        // In ticks of 10 ms.
-        return [
-          {
-            pid: Number(pid),
-            parent: Number(fields[1]),
-            time: 10 * (Number(fields[11]) + Number(fields[12])),
-          },
-        ];
-      } catch {
-        return [];
-      }
-    });
-  const below = new Set([process.pid]);
-  for (let before = 0; before < below.size;) {
-    before = below.size;
-    for (const { pid, parent } of rows) if (below.has(parent)) below.add(pid);
-  }
-  below.delete(process.pid);
-  return rows.filter(({ pid }) => below.has(pid)).reduce((sum, { time }) => sum + time, 0);
-}
-
-async function movesSmoothly(report, t) {
-  const busy = loadavg()[0] / availableParallelism();
-  const { page, context } = await openReport(browser, report.file);
-  await page.waitForTimeout(500);
-  const run = (frames) =>
-    page.evaluate(async (count) => {
-      const { plydrape } = window;
-      const start = performance.now();
-      for (let k = 0; k < count; k++) {
-        plydrape.goto(plydrape.steps[k % plydrape.steps.length]);
-        await new Promise(requestAnimationFrame);
-      }
-      return (1000 * count) / (performance.now() - start);
-    }, frames);
-  await run(20);
-  const before = processorTime();
-  const rates = [await run(60), await run(60)];
-  const each = (processorTime() - before) / 120;
-  const best = Math.max(...rates);
-  t.diagnostic(
-    `${best.toFixed(1)} frames a second, ${each.toFixed(0)} ms of processor time a frame, load ${busy.toFixed(2)} a core`,
-  );
-  await context.close();
-  assert.ok(each <= 100, `${each} ms of processor time a frame: two cores cannot do 20 frames a second`);
-  if (busy > 0.3) console.error(`*** frame rate ${best.toFixed(1)}, not judged: the machine is busy ***`);
-  else assert.ok(best >= 20, `${best.toFixed(1)} frames a second`);
 }
