@@ -296,6 +296,7 @@ fn frame(grid: Grid) -> ResultFile {
                 duration: None,
             },
             errors: None,
+            tool: None,
         },
         plan: None,
         sheet_states: None,
@@ -326,6 +327,7 @@ fn frame(grid: Grid) -> ResultFile {
             sheet: None,
             sample: None,
             stands: None,
+            tool: None,
         },
     }
 }

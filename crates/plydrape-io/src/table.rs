@@ -5,6 +5,7 @@ mod comparison;
 mod errors;
 mod sheet;
 mod slack;
+mod tool;
 
 pub use book::book;
 pub use comparison::comparison;
@@ -178,7 +179,7 @@ pub fn verdict(result: &ResultFile) -> String {
                 + &sheet::verdict(summary, sheet)
         }
     };
-    text + &errors::errors(result)
+    text + &tool::tool(result) + &errors::errors(result)
 }
 
 /// Every limit in a row; of a sample with a column of what its share of the cells keeps.

@@ -61,6 +61,7 @@ fn main() {
         settings,
         plan: Plan::default(),
         errors: None,
+        tool: None,
     };
 
     let drape = simulate(&scene, |_| ControlFlow::Continue(()));

@@ -48,7 +48,8 @@
 //! 7. [`measure`]: what is measured of a step, limits, and the verdict;
 //! 8. [`motion`]: positions step by step become smooth in time, within limits of speed, acceleration, jerk;
 //! 9. [`planner`]: gripper trajectories, and limits that no trajectory can keep;
-//! 10. [`errors`]: how far a real cell may be from its scene, and the scene of one such cell.
+//! 10. [`tool`]: the frame and axes of a robot that carries the grippers, and the motion that it makes;
+//! 11. [`errors`]: how far a real cell may be from its scene, and the scene of one such cell.
 //!
 //! SI units throughout, z up, gravity along −z. This crate reads and writes no files; with the feature `serde` its types
 //! can be written by serde.
@@ -67,6 +68,7 @@ pub mod ply;
 pub mod preset;
 pub mod scene;
 pub mod sheet;
+pub mod tool;
 
 pub use draping::{Drape, simulate};
 pub use equilibrium::Solver;

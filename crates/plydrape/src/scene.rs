@@ -7,6 +7,7 @@ use crate::mold::Mold;
 use crate::net::Net;
 use crate::ply::Ply;
 use crate::preset::Preset;
+use crate::tool::Tool;
 use std::sync::Arc;
 
 /// A scene: everything that one drape needs.
@@ -30,6 +31,8 @@ pub struct Scene {
     pub plan: Plan,
     /// How far a real cell may be from this scene, if that is known.
     pub errors: Option<Errors>,
+    /// What carries the grippers; each moves by itself unless given.
+    pub tool: Option<Tool>,
 }
 
 /// How gripper trajectories are planned.

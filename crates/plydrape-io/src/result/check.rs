@@ -191,7 +191,8 @@ fn of_summary(result: &ResultFile) -> Option<String> {
     {
         return Some(format!("its summary names step {step} of {steps}"));
     }
-    if let Some(what) = of_sheet(result).or_else(|| super::check_errors::fault(result)) {
+    let others = || super::check_errors::fault(result).or_else(|| super::check_tool::fault(result));
+    if let Some(what) = of_sheet(result).or_else(others) {
         return Some(what);
     }
     let known = |id: GripperId| ply.index(id).is_some();

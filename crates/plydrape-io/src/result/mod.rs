@@ -5,6 +5,7 @@
 
 mod check;
 mod check_errors;
+mod check_tool;
 mod contact;
 pub mod document;
 mod mold;
@@ -20,6 +21,7 @@ use plydrape::motion::{Attitudes, MotionError, TimedMotion};
 use plydrape::planner::{Planned, PlannedSheet};
 use plydrape::ply::Ply;
 use plydrape::scene::{Limits, Model, Scene, Settings, Target};
+use plydrape::tool::Tool;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
@@ -69,6 +71,9 @@ pub struct SceneEcho {
     /// How far a real cell may be from the scene, if it says so.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<Errors>,
+    /// What carries the grippers, if they do not move by themselves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tool: Option<Tool>,
 }
 
 impl SceneEcho {
@@ -84,6 +89,7 @@ impl SceneEcho {
             settings: scene.settings,
             limits: scene.limits,
             errors: scene.errors,
+            tool: scene.tool.clone(),
         }
     }
 }

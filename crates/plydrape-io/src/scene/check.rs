@@ -11,7 +11,7 @@ use super::motion::{motion, unplanned};
 use super::plan::plan;
 use super::settings::settings;
 use super::trajectory::trajectory;
-use super::{SceneFile, cut, material, mold, named, sheet, start, target};
+use super::{SceneFile, cut, material, mold, named, sheet, start, target, tool};
 use crate::shown;
 use crate::size::{self, SizeError};
 use plydrape::mold::Mold;
@@ -63,6 +63,10 @@ pub(super) fn scene(
         Some(table) => Some(errors(table, &ply, mold.is_some(), document)?),
         None => None,
     };
+    let tool = match (&file.tool, motion.positions.first()) {
+        (Some(table), Some(start)) => Some(tool::tool(table, start, &limits, document)?),
+        _ => None,
+    };
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(file.grippers_span(), |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
@@ -70,7 +74,7 @@ pub(super) fn scene(
     let thickness =
         file.ply.value.thickness.as_ref().map(|thickness| thickness.size(document)).transpose()?;
     Ok(SceneFile {
-        scene: Scene { title, ply, mold, motion, target, settings, limits, plan, errors },
+        scene: Scene { title, ply, mold, motion, target, settings, limits, plan, errors, tool },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,

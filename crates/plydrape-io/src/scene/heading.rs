@@ -1,8 +1,9 @@
-//! Headings and coordinates.
+//! Headings, coordinates and poses.
 
 use super::error::{Document, SceneError};
-use super::located::Fixed;
+use super::located::{Fixed, Located};
 use super::quantity::{Angle, Length, Quantity};
+use plydrape::mold::Pose;
 
 /// A heading of at most one turn to either side (rad).
 pub(super) fn heading(angle: &Quantity<Angle>, document: &Document) -> Result<f64, SceneError> {
@@ -15,6 +16,25 @@ pub(super) fn heading(angle: &Quantity<Angle>, document: &Document) -> Result<f6
         format!("{} is more than a whole turn", document.quoted(&angle.span)),
         "plain numbers are radians; write degrees as \"90 deg\"",
     ))
+}
+
+/// A place and a turn about the fixed axes x, then y, then z; the origin unturned unless given.
+pub(super) fn pose(
+    position: Option<&Located<Fixed<Quantity<Length>, 3>>>,
+    rotation: Option<&Located<Fixed<Quantity<Angle>, 3>>>,
+    document: &Document,
+) -> Result<Pose, SceneError> {
+    let position = match position {
+        Some(position) => coordinates(&position.value, document)?,
+        None => [0.0; 3],
+    };
+    let mut angles = [0.0; 3];
+    if let Some(written) = rotation {
+        for (angle, quantity) in angles.iter_mut().zip(&written.value.0) {
+            *angle = heading(quantity, document)?;
+        }
+    }
+    Ok(Pose::new(position, angles))
 }
 
 /// Coordinates or distances from the origin (m).

@@ -41,6 +41,7 @@ mod settings;
 mod sheet;
 mod start;
 mod target;
+mod tool;
 mod trajectory;
 mod units;
 

@@ -50,6 +50,8 @@ measures! {
     Jerk: [JERK], "a jerk", "m/s^3", "10 m/s^3";
     /// Angular rate (rad/s).
     AngularRate: [ANGULAR_RATE], "an angular rate", "rad/s", "90 deg/s";
+    /// Angular acceleration (rad/s²).
+    AngularAcceleration: [ANGULAR_ACCELERATION], "an angular acceleration", "rad/s^2", "180 deg/s^2";
     /// Frequency (Hz).
     Frequency: [FREQUENCY], "a frequency", "Hz", "100 Hz";
     /// Acceleration (m/s²).

@@ -23,6 +23,7 @@ impl Dimension {
     pub const ACCELERATION: Self = Dimension([1, 0, -2, 0]);
     pub const JERK: Self = Dimension([1, 0, -3, 0]);
     pub const ANGULAR_RATE: Self = Dimension([0, 0, -1, 1]);
+    pub const ANGULAR_ACCELERATION: Self = Dimension([0, 0, -2, 1]);
     pub const FREQUENCY: Self = Dimension([0, 0, -1, 0]);
     pub const LINE_MASS: Self = Dimension([-1, 1, 0, 0]);
     pub const AREAL_MASS: Self = Dimension([-2, 1, 0, 0]);
@@ -42,7 +43,7 @@ impl Dimension {
 }
 
 /// The dimensions with a name of their own.
-const NAMES: [(Dimension, &str); 20] = [
+const NAMES: [(Dimension, &str); 21] = [
     (Dimension::NONE, "a number without a unit"),
     (Dimension::LENGTH, "a length"),
     (Dimension::MASS, "a mass"),
@@ -54,6 +55,7 @@ const NAMES: [(Dimension, &str); 20] = [
     (Dimension::ACCELERATION, "an acceleration"),
     (Dimension::JERK, "a jerk"),
     (Dimension::ANGULAR_RATE, "an angular rate"),
+    (Dimension::ANGULAR_ACCELERATION, "an angular acceleration"),
     (Dimension::FREQUENCY, "a frequency"),
     (Dimension::LINE_MASS, "a mass per length"),
     (Dimension::AREAL_MASS, "a mass per area"),

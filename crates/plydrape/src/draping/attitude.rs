@@ -11,7 +11,7 @@ use crate::ply::{Grid, Neighbours, Ply, tangents};
 pub struct Attitude {
     /// Slope along u and along v; none where the ply has no edge in that direction.
     pub slope: [Option<f64>; 2],
-    /// Angle between the ply's normal and the vertical (rad).
+    /// Angle between the ply's normal and the stem of the gripper, which is upright unless a tool turns it (rad).
     pub tilt: f64,
     /// Orientation (x, y, z, w): z axis along the ply's normal, x axis along u.
     pub quaternion: [f64; 4],

@@ -25,6 +25,8 @@ pub fn judge(
     most: usize,
     mut progress: impl FnMut(usize) -> ControlFlow<()>,
 ) -> Judged {
+    let (carried, _) = scene.carried();
+    let scene = &*carried;
     let mut draping = Draping::new(scene);
     draping.most = most;
     let mut judge = Judge::new(scene, false);

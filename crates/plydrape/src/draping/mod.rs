@@ -56,11 +56,15 @@ pub struct Drape {
     pub solving: Duration,
 }
 
-/// Drapes the ply of a scene along its motion.
+/// Drapes the ply of a scene along its motion, as its tool makes it.
 ///
 /// `progress` is called after each step with the number of steps done; when it breaks, the drape ends there, complete
 /// for the steps done. It also ends where no ply would survive, see `Summary::stopped`.
 pub fn simulate(scene: &Scene, mut progress: impl FnMut(usize) -> ControlFlow<()>) -> Drape {
-    let mut draping = Draping::new(scene);
-    draping.run(&mut progress).0
+    let (carried, record) = scene.carried();
+    let mut drape = Draping::new(&carried).run(&mut progress).0;
+    if let Some(record) = record {
+        drape.summary.follow_tool(scene, record);
+    }
+    drape
 }

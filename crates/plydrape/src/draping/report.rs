@@ -190,6 +190,7 @@ impl<'a> Report<'a> {
             sheet: None,
             sample: None,
             stands: None,
+            tool: None,
         }
     }
 }

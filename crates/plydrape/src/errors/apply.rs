@@ -32,11 +32,14 @@ impl Draw {
     /// that were drawn have no error of their own.
     #[must_use]
     pub fn apply(&self, scene: &Scene) -> Scene {
+        let (carried, _) = scene.carried();
         Scene {
             ply: self.ply(&scene.ply),
             mold: scene.mold.as_ref().map(|mold| self.mold(mold)),
-            motion: self.motion(scene),
+            motion: self.motion(&carried),
             errors: None,
+            // errors are of what the tool has made
+            tool: None,
             ..scene.clone()
         }
     }

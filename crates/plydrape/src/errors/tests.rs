@@ -78,6 +78,7 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
         limits,
         plan: Plan::default(),
         errors: Some(budget()),
+        tool: None,
     }
 }
 

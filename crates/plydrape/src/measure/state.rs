@@ -1,12 +1,13 @@
 //! The ply of one step, with results that several measures share; each is computed when it is first needed.
 
 use super::TUNING;
-use crate::draping::attitude::{Attitude, attitude};
+use crate::draping::attitude::{Attitude, attitude, normal};
 use crate::draping::landing::{Landing, landing};
 use crate::draping::misfit::{LyingSegment, Misfit, lying_segments, misfit};
 use crate::draping::spans::Point;
 use crate::draping::{Snapshot, stations};
 use crate::equilibrium::Solver;
+use crate::mold::vector::angle_between;
 use crate::ply::Grid;
 use crate::scene::Scene;
 use std::cell::OnceCell;
@@ -92,7 +93,14 @@ impl<'a> State<'a> {
                 }
                 own.landing(closest.distance, closest.normal, tolerance, before(n))
             };
-            (0..ply.grippers()).map(one).collect()
+            let mut attitudes: Vec<Attitude> = (0..ply.grippers()).map(one).collect();
+            if self.scene.tool.is_some() {
+                let stem = self.scene.stems(self.snapshot.commanded());
+                for attitude in &mut attitudes {
+                    attitude.tilt = angle_between(normal(attitude.quaternion), stem);
+                }
+            }
+            attitudes
         })
     }
 

@@ -1,4 +1,4 @@
-//! Tilt: the angle between the ply's normal at a gripper and the vertical.
+//! Tilt: the angle between the ply's normal at a gripper and its stem, which is upright unless a tool turns it.
 
 use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
 use crate::scene::Scene;

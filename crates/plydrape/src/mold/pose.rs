@@ -13,6 +13,23 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// In the origin, not turned.
+    pub const ORIGIN: Pose =
+        Pose { position: [0.0; 3], axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+
+    /// A pose given in this one's coordinates, in space.
+    #[must_use]
+    pub fn compose(&self, local: &Pose) -> Pose {
+        Pose { position: self.place(local.position), axes: local.axes.map(|axis| self.turn(axis)) }
+    }
+
+    /// The pose of space in this one's coordinates.
+    #[must_use]
+    pub fn inverse(&self) -> Pose {
+        let axes = Pose::ORIGIN.axes.map(|axis| self.turn_back(axis));
+        Pose { position: self.local([0.0; 3]), axes }
+    }
+
     /// Turns about the fixed axes x, then y, then z by `rotation` (rad), then moves to `position` (m).
     #[must_use]
     pub fn new(position: [f64; 3], rotation: [f64; 3]) -> Self {
@@ -50,7 +67,7 @@ impl Pose {
 
     /// A direction in space in local coordinates.
     #[must_use]
-    pub(super) fn turn_back(&self, d: [f64; 3]) -> [f64; 3] {
+    pub fn turn_back(&self, d: [f64; 3]) -> [f64; 3] {
         self.axes.map(|axis| super::vector::dot(axis, d))
     }
 }
@@ -71,5 +88,18 @@ mod tests {
         let p = [0.3, -0.2, 0.7];
         let pose = Pose::new([1.0, 2.0, 3.0], [0.4, -1.1, 2.2]);
         assert!(super::super::distance(pose.local(pose.place(p)), p) < 1e-15);
+    }
+
+    /// A pose after another places as both in turn, and after its inverse as none.
+    #[test]
+    fn poses_follow_each_other() {
+        let [a, b] =
+            [[0.4, -1.1, 2.2], [-2.0, 0.3, 0.1]].map(|turn| Pose::new([1.0, 2.0, 3.0], turn));
+        let p = [0.3, -0.2, 0.7];
+        let near =
+            |x: [f64; 3], y: [f64; 3]| assert!(super::super::distance(x, y) < 1e-14, "{x:?}");
+        near(a.compose(&b).place(p), a.place(b.place(p)));
+        near(a.inverse().place(a.place(p)), p);
+        near(a.compose(&a.inverse()).turn(p), p);
     }
 }

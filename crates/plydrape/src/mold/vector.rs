@@ -49,6 +49,12 @@ pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     (length > 1e-12).then(|| a.map(|x| x / length))
 }
 
+/// The angle between two unit vectors (rad).
+#[must_use]
+pub(crate) fn angle_between(a: [f64; 3], b: [f64; 3]) -> f64 {
+    dot(a, b).clamp(-1.0, 1.0).acos()
+}
+
 /// `v` turned about `w` by its length (rad), after Rodrigues.
 #[must_use]
 pub fn turned(w: [f64; 3], v: [f64; 3]) -> [f64; 3] {

@@ -10,6 +10,7 @@ use crate::draping::{self, Judged};
 use crate::motion::{Bounds, MotionError, TimedMotion};
 use crate::scene::{Model, Motion, Scene};
 use crate::sheet;
+use crate::tool::{Carried, ToolRecord};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -27,8 +28,10 @@ pub struct PlannedSheet {
 pub struct Decision {
     /// The strategy behind it, of a plan of whole trajectories.
     pub strategy: Option<Strategy>,
-    /// The positions that were planned (m), one list of all grippers a step.
+    /// The positions that were planned (m), one list of all grippers a step; of a tool, those that it brings its grippers to.
     pub positions: Vec<Vec<Point>>,
+    /// What the planned positions asked of the tool, if there is one.
+    pub asked: Option<ToolRecord>,
     /// The motion in time.
     pub motion: TimedMotion,
     /// The drape of the sheet, where that decides.
@@ -65,9 +68,16 @@ impl Decision {
         positions: Vec<Vec<Point>>,
         state: &SearchState,
     ) -> Result<Self, MotionError> {
+        let (positions, asked) = match &scene.tool {
+            Some(tool) => {
+                let Carried { positions, record, .. } = tool.carry(&positions);
+                (positions, Some(record))
+            }
+            None => (positions, None),
+        };
         let motion = TimedMotion::new(&positions, &Bounds::from(&scene.limits))?;
         let (sheet, drape, score) = decided(scene, &motion, state);
-        Ok(Decision { strategy, positions, motion, sheet, drape, score })
+        Ok(Decision { strategy, positions, asked, motion, sheet, drape, score })
     }
 
     /// The same in another time.

@@ -6,6 +6,7 @@
 
 use crate::draping::reach::{closest, outside};
 use crate::measure::{Name, Site, Verdict, Worst};
+use crate::mold::vector::angle_between;
 use crate::mold::{Mold, distance};
 use crate::net::Missing;
 use crate::ply::{LineCell, shear};
@@ -175,10 +176,11 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
 /// The mold's slope where a gripper is to stand on it: the gripper turns with the ply, and the ply follows the mold.
 fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     let tolerance = scene.settings.contact.tolerance;
+    let stem = scene.stems(&target.grippers);
     let tilt = |place: [f64; 3]| {
         let closest = mold.closest_point(place);
         let stands = !closest.beyond && closest.distance.abs() <= tolerance;
-        stands.then(|| closest.normal[2].clamp(-1.0, 1.0).acos())
+        stands.then(|| angle_between(closest.normal, stem))
     };
     let all = target.grippers.iter().enumerate();
     let found = largest(all.filter_map(|(n, place)| Some((tilt(*place)?, n)))).map(|(tilt, n)| {

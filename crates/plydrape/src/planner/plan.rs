@@ -14,6 +14,7 @@ use crate::draping::{Drape, simulate};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
 use crate::scene::{PlanMethod, Scene};
+use crate::tool::{Tool, ToolPeaks};
 use std::ops::ControlFlow;
 
 /// A finished plan.
@@ -143,12 +144,21 @@ pub(super) fn follow(
     let mut drape = along(&decision.motion);
     // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
     let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
-    let slowed = (TUNING.evaluation.tilt_rate_margin * fastest
-        / scene.limits.tilt_rate.to_degrees())
-    .max(1.0);
+    let turned = TUNING.evaluation.tilt_rate_margin * fastest / scene.limits.tilt_rate.to_degrees();
+    // and so where the tool would turn or move its axes too fast
+    let tool_peaks = |motion: &TimedMotion| {
+        let tool = scene.tool.as_ref()?;
+        Some((tool, tool.peaks(motion, scene.plan.rate).ok()?))
+    };
+    let carried = tool_peaks(&decision.motion)
+        .map_or(1.0, |(tool, peaks)| TUNING.evaluation.tool_margin * peaks.stretch(tool));
+    let slowed = turned.max(carried).max(1.0);
     if slowed > 1.0 {
         decision.slowed(scene, slowed, state);
         drape = along(&decision.motion);
+    }
+    if let (Some(asked), Some(made)) = (&decision.asked, drape.summary.tool.take()) {
+        drape.summary.follow_tool(scene, made.with_residual_of(asked));
     }
     // limits that no plan can keep come first
     let summary = &mut drape.summary;
@@ -157,6 +167,9 @@ pub(super) fn follow(
     summary.limits.extend(verdicts);
     let bounds = Bounds::from(&scene.limits);
     summary.judge_also(own_limits.into_iter().chain(rates(&decision.motion, &bounds, scene)));
+    if let Some((tool, peaks)) = tool_peaks(&decision.motion) {
+        summary.judge_also(tool_rates(tool, &peaks, &decision.motion, scene));
+    }
     Followed { drape, slowed }
 }
 
@@ -198,6 +211,32 @@ pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
         }
         Outcome::Arrived | Outcome::Interrupted | Outcome::NoTarget => Vec::new(),
     }
+}
+
+/// How fast a tool turns and its axes move, against their limits.
+fn tool_rates(tool: &Tool, peaks: &ToolPeaks, motion: &TimedMotion, scene: &Scene) -> Vec<Verdict> {
+    let ToolPeaks { turn_rate, turn_acceleration, axis_share, axis } = *peaks;
+    let [turn_rate, turn_acceleration] =
+        [turn_rate, turn_acceleration].map(|peak| Peak { value: peak.value.to_degrees(), ..peak });
+    let moved = tool.axes.get(axis).map(|axis| {
+        let gripper = Site::Gripper(axis_share.gripper).label(&scene.ply);
+        (Name::AxisSpeed, axis_share, format!("axis {} of {gripper}", axis.name))
+    });
+    let frame = || "frame of the tool".to_owned();
+    [
+        Some((Name::ToolTurnRate, turn_rate, frame())),
+        Some((Name::ToolTurnAcceleration, turn_acceleration, frame())),
+        moved,
+    ]
+    .into_iter()
+    .flatten()
+    .filter_map(|(name, peak, at)| {
+        let step = motion.times().partition_point(|t| *t < peak.time) + 1;
+        let worst = Worst { value: peak.value, at, place: None };
+        let limit = name.measure().limit(scene)?;
+        Some(Verdict::of(name, worst, limit, Some(step.min(motion.times().len()))))
+    })
+    .collect()
 }
 
 /// Largest speed, acceleration and jerk of the motion against their limits.

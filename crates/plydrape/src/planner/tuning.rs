@@ -47,6 +47,8 @@ pub struct Evaluation {
     /// How much faster grippers may turn between two steps of a plan than over the whole of both, within which the
     /// limit of the tilt rate is to hold for finer samples of the motion too.
     pub tilt_rate_margin: f64,
+    /// How much slower a motion is made than its tool would allow, because its samples fall elsewhere then.
+    pub tool_margin: f64,
 }
 
 /// Constants of derivatives.
@@ -89,6 +91,7 @@ pub const TUNING: Tuning = Tuning {
         most_equilibria: 12,
         missing_weight: 1e3,
         tilt_rate_margin: 1.5,
+        tool_margin: 1.001,
     },
     sensitivity: Sensitivity {
         negligible: 1e-4,

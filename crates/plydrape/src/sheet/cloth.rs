@@ -372,11 +372,13 @@ impl<'a> Cloth<'a> {
     /// New places of the mounts; rigid ones move their nodes in the first step.
     fn aim(&mut self, targets: &[[f64; 3]]) {
         self.system.moved.fill([0.0; 3]);
+        let stem = self.sheet.tool.as_ref().map(|tool| tool.direction(targets));
         let grippers = self.sheet.grippers.iter().zip(&self.held);
         for ((pad, target), (gripper, nodes)) in self.now.pads.iter_mut().zip(targets).zip(grippers)
         {
             let moved = sub(*target, pad.target);
             pad.target = *target;
+            pad.stem = stem.unwrap_or(pad.stem);
             if gripper.mount.is_none() {
                 for (node, _) in nodes {
                     self.system.moved[*node] = moved;
@@ -479,7 +481,7 @@ impl<'a> Cloth<'a> {
             self.system.stiffen_block(turn as usize, &diagonal([least; 3]));
             let beyond = pad.tilt() - gripper.max_tilt;
             if beyond > 0.0 {
-                let axis = cross([0.0, 0.0, 1.0], pad.normal());
+                let axis = cross(pad.stem, pad.normal());
                 let size = norm(axis).max(f64::MIN_POSITIVE);
                 let axis = axis.map(|c| c / size);
                 let k = self.tuning.tilt_stiffness * weight;

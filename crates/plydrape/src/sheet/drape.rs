@@ -47,7 +47,7 @@ pub struct Drape {
     pub duration: Duration,
 }
 
-/// Drapes the sheet of a scene along its motion. `see` is called with the state of each step and may end the drape, and so
+/// Drapes the sheet of a scene along its motion, as its tool makes it. `see` is called with the state of each step and may end the drape, and so
 /// may `stop`, which is asked before each time step.
 ///
 /// # Errors
@@ -59,6 +59,8 @@ pub fn drape(
     mut see: impl FnMut(&State) -> ControlFlow<()>,
 ) -> Result<Drape, SheetError> {
     let began = Instant::now();
+    let (carried, _) = scene.carried();
+    let scene = &*carried;
     let sheet = Sheet::new(scene)?;
     let steps = &scene.motion.positions;
     let grippers = sheet.grippers.len();

@@ -2,7 +2,7 @@
 
 use super::matrix3::{IDENTITY, Matrix3, orthonormal, outer, plus, product, rotation, times};
 use crate::draping::attitude::quaternion;
-use crate::mold::vector::{along, cross, dot, norm, sub};
+use crate::mold::vector::{along, angle_between, cross, dot, norm, sub};
 
 /// A gripper.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +70,8 @@ pub struct Pad {
     pub target: [f64; 3],
     /// How far the fabric has slid under it (m).
     pub slip: [f64; 3],
+    /// Direction of the stem that its joint tilts from (unit vector): upright unless a tool turns it.
+    pub stem: [f64; 3],
     /// Its turn: the rows of u, v and normal are the columns of this matrix.
     pub turn: Matrix3,
 }
@@ -77,7 +79,8 @@ pub struct Pad {
 impl Pad {
     /// At a place, not turned.
     pub fn new(position: [f64; 3]) -> Self {
-        Pad { position, target: position, slip: [0.0; 3], turn: IDENTITY }
+        let (slip, stem) = ([0.0; 3], [0.0, 0.0, 1.0]);
+        Pad { position, target: position, slip, stem, turn: IDENTITY }
     }
 
     /// The arm of a fabric point `off` (m) from the pad's middle.
@@ -101,8 +104,8 @@ impl Pad {
         quaternion([0, 1, 2].map(|axis| self.turn.map(|row| row[axis])))
     }
 
-    /// Angle between its normal and the vertical (rad).
+    /// Angle between its normal and its stem (rad).
     pub fn tilt(&self) -> f64 {
-        self.normal()[2].clamp(-1.0, 1.0).acos()
+        angle_between(self.normal(), self.stem)
     }
 }

@@ -6,6 +6,7 @@ use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
 use crate::ply::{Direction, Grid, GripperId, Neighbours, Outline, Ply};
 use crate::scene::{Friction, PadSettings, Scene, Settings};
+use crate::tool::Tool;
 
 /// Share of a cell that must be ply for the cell to count. Less of it is a sliver of fabric whose nodes hardly have a mass:
 /// with a mesh of 10 mm the boundary is half a millimetre off at most where slivers are left out.
@@ -40,6 +41,8 @@ pub struct Sheet {
     pub pitch: f64,
     /// Largest distance of neighbouring lines (m).
     pub mesh: f64,
+    /// What carries the grippers, if they do not move by themselves.
+    pub tool: Option<Tool>,
 }
 
 /// Why a scene has no sheet.
@@ -231,6 +234,7 @@ impl Sheet {
             tack: settings.contact.tack,
             pitch,
             mesh,
+            tool: scene.tool.clone(),
         };
         for (n, held) in sheet.held().iter().enumerate() {
             // one node may be held at the gripper's own point alone; a pad that turns needs three

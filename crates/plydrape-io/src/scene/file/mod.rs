@@ -9,6 +9,7 @@ mod mold;
 mod plan;
 mod sheet;
 mod target;
+mod tool;
 
 pub(super) use errors::{ErrorsTable, MoldErrorsTable, Term};
 pub(super) use limits::LimitsTable;
@@ -16,6 +17,7 @@ pub(super) use mold::{MoldKind, MoldTable, SideKey};
 pub(super) use plan::{MethodKey, PlanTable};
 pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
+pub(super) use tool::{AxisKey, AxisTable, PlacedTable, ToolTable};
 
 use super::choice::{Centred, Curve, FrictionChoice, MaterialChoice, Place, Positions};
 use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
@@ -64,6 +66,8 @@ pub(super) struct SceneKeys {
     pub plan: PlanTable,
     /// How far a real cell may be from this scene.
     pub errors: Option<ErrorsTable>,
+    /// How a robot carries the grippers; each moves by itself unless given.
+    pub tool: Option<ToolTable>,
 }
 
 impl SceneKeys {

@@ -8,7 +8,7 @@ mod round;
 
 use super::error::{Document, SceneError};
 use super::file::{MoldKind, MoldTable};
-use super::heading::{coordinates, heading};
+use super::heading::pose;
 use super::located::Located;
 use plydrape::mold::{MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
@@ -124,17 +124,7 @@ impl Keys<'_> {
 
     /// Where the mold stands and how it is turned.
     fn pose(&self) -> Result<Pose, SceneError> {
-        let position = match &self.table.position {
-            Some(position) => coordinates(&position.value, self.document)?,
-            None => [0.0; 3],
-        };
-        let mut rotation = [0.0; 3];
-        if let Some(written) = &self.table.rotation {
-            for (angle, quantity) in rotation.iter_mut().zip(&written.value.0) {
-                *angle = heading(quantity, self.document)?;
-            }
-        }
-        Ok(Pose::new(position, rotation))
+        pose(self.table.position.as_ref(), self.table.rotation.as_ref(), self.document)
     }
 
     /// A pose that leaves the mold's z axis pointing upwards.

@@ -64,7 +64,7 @@ pub struct Gripper {
     pub slope_u: Option<f64>,
     /// Slope of the ply along v, where there is one.
     pub slope_v: Option<f64>,
-    /// Angle between the ply's normal and the vertical (°).
+    /// Angle between the ply's normal and the stem of the gripper, which is upright unless a tool turns it (°).
     pub tilt_deg: f64,
     /// Orientation (x, y, z, w): z axis along the ply's normal, x axis along u.
     pub quaternion: [f64; 4],

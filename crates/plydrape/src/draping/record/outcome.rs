@@ -1,9 +1,11 @@
 //! How a drape came out: worst values of every step, limits, the verdict.
 
 use crate::errors::{SampleVerdict, Stands};
-use crate::measure::{Numbers, Subject, Verdict};
+use crate::measure::{Name, Numbers, Site, Subject, Verdict, Worst};
 use crate::ply::{GripperId, Kind};
+use crate::scene::Scene;
 use crate::sheet;
+use crate::tool::ToolRecord;
 
 /// A catenary by its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,6 +62,9 @@ pub struct Summary {
     /// The largest errors that the motion stands; none where it was not asked for.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stands: Option<Stands>,
+    /// What the motion takes of the tool; none where each gripper moves by itself.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub tool: Option<ToolRecord>,
 }
 
 impl Summary {
@@ -102,6 +107,18 @@ impl Summary {
     pub fn decide_by(&mut self, sheet: sheet::measure::Summary) {
         self.accepted = sheet.accepted && self.motion_accepted();
         self.sheet = Some(sheet);
+    }
+
+    /// Keeps what the motion takes of the tool of a scene, in place of what was kept before, and judges its residual if the
+    /// scene limits that.
+    pub fn follow_tool(&mut self, scene: &Scene, record: ToolRecord) {
+        self.limits.retain(|verdict| verdict.name != Name::ToolResidual);
+        if let Some(limit) = Name::ToolResidual.measure().limit(scene) {
+            let at = Site::Gripper(record.gripper).label(&scene.ply);
+            let worst = Worst { value: record.residual_mm, at, place: None };
+            self.judge_also([Verdict::of(Name::ToolResidual, worst, limit, Some(record.step))]);
+        }
+        self.tool = Some(record);
     }
 
     /// Judges the drape by more limits, such as those of the motion that it came from.

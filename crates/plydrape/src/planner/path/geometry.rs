@@ -2,7 +2,7 @@
 
 use crate::draping::reach::{closest, outside};
 use crate::draping::spans::Point;
-use crate::mold::vector::{cross, unit};
+use crate::mold::vector::{angle_between, cross, unit};
 use crate::ply::{Neighbours, Ply, tangents};
 use crate::scene::Scene;
 
@@ -13,7 +13,7 @@ pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
     let limits = &scene.limits;
     let neighbours = scene.ply.neighbours();
     let one = |step: &Vec<Point>| {
-        let tilt = tilt(&scene.ply, &neighbours, step) / limits.tilt;
+        let tilt = tilt(&scene.ply, &neighbours, step, scene.stems(step)) / limits.tilt;
         let workspace = limits.workspace.and_then(|box_| outside(step, box_, scene.ply.cell));
         let workspace = if workspace.is_some_and(|w| w.value > 0.0) { f64::INFINITY } else { 0.0 };
         let near = closest(step).map_or(0.0, |c| limits.gripper_distance * 1e3 / c.value);
@@ -22,11 +22,11 @@ pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
     positions.iter().map(one).fold(0.0, f64::max)
 }
 
-/// Largest angle (rad) between the vertical and the normal of the lines to neighbouring grippers.
-fn tilt(ply: &Ply, neighbours: &[Neighbours], positions: &[Point]) -> f64 {
+/// Largest angle (rad) between the stems (unit vector) and the normal of the lines to neighbouring grippers.
+fn tilt(ply: &Ply, neighbours: &[Neighbours], positions: &[Point], stem: Point) -> f64 {
     let one = |n: usize| {
         let [u, v] = tangents(ply, neighbours, positions, n);
-        unit(cross(u, v)).map_or(0.0, |normal| normal[2].clamp(-1.0, 1.0).acos())
+        unit(cross(u, v)).map_or(0.0, |normal| angle_between(normal, stem))
     };
     (0..ply.grippers()).map(one).fold(0.0, f64::max)
 }
@@ -52,7 +52,7 @@ mod tests {
                 };
                 let places: Vec<Point> = (0..grid.grippers()).map(place).collect();
                 let ply = cloth(grid);
-                let found = tilt(&ply, &ply.neighbours(), &places);
+                let found = tilt(&ply, &ply.neighbours(), &places, [0.0, 0.0, 1.0]);
                 assert!((found - inclination).abs() < 1e-7, "{nu} × {nv}: {found} {inclination}");
             }
         }

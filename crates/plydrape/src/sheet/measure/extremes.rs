@@ -6,7 +6,7 @@ use super::super::state::State;
 use super::super::stretch::strain;
 use super::{Most, Place, middle};
 use crate::mold::Mold;
-use crate::mold::vector::{along, cross, dot, norm, sub, unit};
+use crate::mold::vector::{along, angle_between, cross, dot, norm, sub, unit};
 
 /// Extremes over the steps that were seen.
 #[derive(Debug, Clone, Default)]
@@ -63,7 +63,7 @@ impl Extremes {
             self.along.meet(norm(along(*force, off, normal)), gripper.place, at, step);
             self.slide.meet(norm(pad.slip), gripper.place, at, step);
             let tilt = match gripper.radius {
-                0.0 => tilt(fabric, x, gripper.place, reach).unwrap_or(0.0),
+                0.0 => tilt(fabric, x, gripper.place, reach, pad.stem).unwrap_or(0.0),
                 _ => pad.tilt(),
             };
             self.tilt.meet(tilt, gripper.place, at, step);
@@ -122,10 +122,16 @@ impl Extremes {
 /// pitch is the size of a usual one, 40 mm of 100 mm.
 pub(in crate::sheet) const TILT_REACH: f64 = 0.2;
 
-/// Tilt (rad) of the fabric around a place: of the area vector of the cells whose middles are within `reach` (m) of it
+/// Tilt (rad) from a stem (unit vector) of the fabric around a place: of the area vector of the cells whose middles are within `reach` (m) of it
 /// along u and v, which depends on the boundary of that patch alone and so hardly on the mesh; none without cells.
 #[must_use]
-pub fn tilt(fabric: &Fabric, x: &[[f64; 3]], place: [f64; 2], reach: f64) -> Option<f64> {
+pub fn tilt(
+    fabric: &Fabric,
+    x: &[[f64; 3]],
+    place: [f64; 2],
+    reach: f64,
+    stem: [f64; 3],
+) -> Option<f64> {
     let mut sum = [0.0; 3];
     for cell in &fabric.cells {
         let at = middle(cell.nodes.map(|n| fabric.places[n as usize]));
@@ -138,5 +144,5 @@ pub fn tilt(fabric: &Fabric, x: &[[f64; 3]], place: [f64; 2], reach: f64) -> Opt
             sum[n] += normal[n];
         }
     }
-    unit(sum).map(|normal| normal[2].clamp(-1.0, 1.0).acos())
+    unit(sum).map(|normal| angle_between(normal, stem))
 }

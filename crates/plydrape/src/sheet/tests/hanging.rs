@@ -53,7 +53,9 @@ fn the_tilt_of_a_point_does_not_depend_on_the_mesh() {
         bring(&mut cloth, &to, 20, 0.1);
         let reach = TILT_REACH * sheet.pitch;
         let of = |place: &[f64; 2]| {
-            tilt(&sheet.fabric, &cloth.now.x, *place, reach).expect("cells").to_degrees()
+            tilt(&sheet.fabric, &cloth.now.x, *place, reach, [0.0, 0.0, 1.0])
+                .expect("cells")
+                .to_degrees()
         };
         held.iter().map(of).collect::<Vec<_>>()
     });

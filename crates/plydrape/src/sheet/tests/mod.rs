@@ -44,6 +44,7 @@ fn sheet(lines: [Vec<f64>; 2], held: &[[f64; 2]]) -> Sheet {
         tack: 0.0,
         pitch,
         mesh: 0.01,
+        tool: None,
     }
 }
 

@@ -116,6 +116,7 @@ fn scene(seed: u64) -> Scene {
         limits,
         plan: Plan::default(),
         errors: None,
+        tool: None,
     }
 }
 

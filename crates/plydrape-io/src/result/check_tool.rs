@@ -1,0 +1,33 @@
+//! What is impossible in what a result that was read says of its tool.
+
+use super::ResultFile;
+use plydrape::tool::Tool;
+
+/// What is impossible in the tool and in what the motion takes of it.
+pub(super) fn fault(result: &ResultFile) -> Option<String> {
+    let grippers = result.scene.ply.grippers();
+    let (tool, record) = match (&result.scene.tool, &result.summary.tool) {
+        (None, None) => return None,
+        (Some(tool), record) => (tool, record.as_ref()),
+        (None, Some(_)) => return Some("it has a motion of a tool, but no tool".into()),
+    };
+    if tool.mounts.len() != grippers {
+        return Some(format!("its tool carries {} grippers, not {grippers}", tool.mounts.len()));
+    }
+    if !is_sound(tool) {
+        return Some("the axes and rates of its tool are none".into());
+    }
+    let record = record?;
+    let known = record.gripper < grippers
+        && (1..=result.summary.steps_planned.max(1)).contains(&record.step)
+        && record.strokes_mm.len() == tool.axes.len();
+    (!known).then(|| "what its motion takes of the tool is not of this tool".into())
+}
+
+/// Whether strokes hold their start and all rates are above zero.
+fn is_sound(tool: &Tool) -> bool {
+    let axis = |axis: &plydrape::tool::Axis| {
+        axis.stroke[0] <= 0.0 && 0.0 <= axis.stroke[1] && axis.speed > 0.0
+    };
+    tool.axes.iter().all(axis) && tool.turn_rate > 0.0 && tool.turn_acceleration > 0.0
+}

@@ -1,0 +1,63 @@
+//! The keys of the table `[tool]`.
+
+use crate::scene::located::{Fixed, Located};
+use crate::scene::quantity::{Angle, AngularAcceleration, AngularRate, Length, Quantity, Speed};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A frame at the flange of a robot that carries all grippers. Its origin is in the middle of the grippers at the start, and its axes
+/// are those of the scene there. Without this table each gripper moves by itself.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Tool")]
+pub(in crate::scene) struct ToolTable {
+    /// Linear axes between the frame and each gripper, one for a direction; without them the grippers stand fast in the frame.
+    pub axes: Option<Located<Vec<Located<AxisTable>>>>,
+    /// Largest angular speed of the frame (rad/s), 45 deg/s unless given.
+    pub turn_rate: Option<Quantity<AngularRate>>,
+    /// Largest angular acceleration of the frame (rad/s²), 180 deg/s^2 unless given.
+    pub turn_acceleration: Option<Quantity<AngularAcceleration>>,
+    /// Farthest that the tool may bring a gripper from where it should be (m); no limit unless given.
+    pub residual: Option<Quantity<Length>>,
+    /// Where the flange of the robot is in the frame, for programs; in the frame's origin unless given.
+    pub flange: Option<PlacedTable>,
+    /// Where the origin of the scene is in the world of the robot, for programs; in its origin unless given.
+    pub world: Option<PlacedTable>,
+}
+
+/// A linear axis of each gripper.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Axis")]
+pub(in crate::scene) struct AxisTable {
+    /// Direction in the frame in which its stroke grows.
+    pub direction: Located<AxisKey>,
+    /// Smallest and largest stroke (m), from where the gripper is at the start.
+    pub stroke: Located<Fixed<Quantity<Length>, 2>>,
+    /// Largest speed (m/s), that of [limits] unless given.
+    pub speed: Option<Quantity<Speed>>,
+}
+
+/// A direction of the frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "Direction of an axis")]
+pub(in crate::scene) enum AxisKey {
+    /// Along the frame's x.
+    X,
+    /// Along the frame's y.
+    Y,
+    /// Along the frame's z, which is upwards at the start.
+    Z,
+}
+
+/// A place and a turn.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Placed")]
+pub(in crate::scene) struct PlacedTable {
+    /// Its origin (m).
+    pub position: Option<Located<Fixed<Quantity<Length>, 3>>>,
+    /// How it is turned: about the fixed axes x, then y, then z (rad).
+    pub rotation: Option<Located<Fixed<Quantity<Angle>, 3>>>,
+}

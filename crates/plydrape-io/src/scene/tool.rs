@@ -1,0 +1,85 @@
+//! How a robot carries the grippers.
+
+use super::error::{Document, SceneError};
+use super::file::{AxisKey, AxisTable, PlacedTable, ToolTable};
+use super::heading::{coordinates, pose};
+use super::located::Located;
+use plydrape::mold::Pose;
+use plydrape::scene::Limits;
+use plydrape::tool::{Axis, Tool};
+
+/// Smallest and largest angular speed (rad/s) and acceleration (rad/s²) of a frame.
+const TURNS: [f64; 2] = [1e-4, 1e4];
+/// Smallest and largest speed of an axis (m/s).
+const SPEEDS: [f64; 2] = [1e-5, 1e2];
+
+/// Checks the table `[tool]`; `start` is where the grippers start (m).
+pub(super) fn tool(
+    table: &ToolTable,
+    start: &[[f64; 3]],
+    limits: &Limits,
+    document: &Document,
+) -> Result<Tool, SceneError> {
+    let mut axes: Vec<Axis> = Vec::new();
+    for written in table.axes.iter().flat_map(|axes| &axes.value) {
+        let axis = axis(written, limits, document)?;
+        if axes.iter().any(|other| other.name == axis.name) {
+            return Err(document.error(
+                written.value.direction.span.clone(),
+                format!("each gripper has two axes along {}", axis.name),
+                "give each direction once: two axes along one are one with the stroke of both",
+            ));
+        }
+        axes.push(axis);
+    }
+    let usual = Tool::new(start, axes);
+    Ok(Tool {
+        turn_rate: match &table.turn_rate {
+            Some(rate) => rate.within_for(document, TURNS, "a frame")?,
+            None => usual.turn_rate,
+        },
+        turn_acceleration: match &table.turn_acceleration {
+            Some(rate) => rate.within_for(document, TURNS, "a frame")?,
+            None => usual.turn_acceleration,
+        },
+        residual: table.residual.as_ref().map(|limit| limit.size(document)).transpose()?,
+        flange: placed(table.flange.as_ref(), document)?,
+        world: placed(table.world.as_ref(), document)?,
+        ..usual
+    })
+}
+
+fn placed(table: Option<&PlacedTable>, document: &Document) -> Result<Pose, SceneError> {
+    match table {
+        Some(PlacedTable { position, rotation }) => {
+            pose(position.as_ref(), rotation.as_ref(), document)
+        }
+        None => Ok(Pose::ORIGIN),
+    }
+}
+
+fn axis(
+    written: &Located<AxisTable>,
+    limits: &Limits,
+    document: &Document,
+) -> Result<Axis, SceneError> {
+    let table = &written.value;
+    let stroke = coordinates(&table.stroke.value, document)?;
+    if !(stroke[0] <= 0.0 && 0.0 <= stroke[1] && stroke[0] < stroke[1]) {
+        return Err(document.error(
+            table.stroke.span.clone(),
+            "a stroke is counted from the start, and this one does not hold it",
+            "write how far the axis goes back and how far it goes on from there, as in stroke = [\"-20 mm\", \"120 mm\"]",
+        ));
+    }
+    let (name, direction) = match table.direction.value {
+        AxisKey::X => ("x", [1.0, 0.0, 0.0]),
+        AxisKey::Y => ("y", [0.0, 1.0, 0.0]),
+        AxisKey::Z => ("z", [0.0, 0.0, 1.0]),
+    };
+    let speed = match &table.speed {
+        Some(speed) => speed.within_for(document, SPEEDS, "an axis")?,
+        None => limits.speed,
+    };
+    Ok(Axis { name: name.into(), direction, stroke, speed })
+}

@@ -1,0 +1,99 @@
+//! A whole motion as a tool makes it.
+
+use super::{Posture, Tool};
+use crate::mold::vector::{distance, dot};
+use crate::scene::{Motion, Scene};
+use std::borrow::Cow;
+
+/// A motion that a tool makes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Carried {
+    /// The posture of each step.
+    pub postures: Vec<Posture>,
+    /// Where the grippers come to (m), one list a step.
+    pub positions: Vec<Vec<[f64; 3]>>,
+    /// What it takes of the tool.
+    pub record: ToolRecord,
+}
+
+/// What a motion takes of its tool.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct ToolRecord {
+    /// Largest distance between where a gripper should be and where the tool brings it (mm).
+    pub residual_mm: f64,
+    /// The gripper with that distance, by its number.
+    pub gripper: usize,
+    /// The step in which it has it, counted from 1.
+    pub step: usize,
+    /// Smallest and largest stroke of each axis (mm).
+    pub strokes_mm: Vec<[f64; 2]>,
+    /// Largest turn of the frame from its start (°).
+    pub turn_deg: f64,
+}
+
+impl ToolRecord {
+    /// The record of two motions in one, of which the first is that of the tool and the second only asked for places near it.
+    #[must_use]
+    pub fn with_residual_of(self, asked: &ToolRecord) -> Self {
+        let ToolRecord { residual_mm, gripper, step, .. } = *asked;
+        ToolRecord { residual_mm, gripper, step, ..self }
+    }
+}
+
+impl Tool {
+    /// The motion that the tool makes where one is asked for (m): one list of all grippers a step.
+    #[must_use]
+    pub fn carry(&self, asked: &[Vec<[f64; 3]>]) -> Carried {
+        let postures: Vec<Posture> = asked.iter().map(|places| self.posture(places)).collect();
+        let positions: Vec<Vec<[f64; 3]>> = postures.iter().map(|p| self.places(p)).collect();
+        let mut record = ToolRecord {
+            residual_mm: 0.0,
+            gripper: 0,
+            step: 1,
+            strokes_mm: vec![[0.0; 2]; self.axes.len()],
+            turn_deg: 0.0,
+        };
+        for (k, posture) in postures.iter().enumerate() {
+            for (n, (a, b)) in asked[k].iter().zip(&positions[k]).enumerate() {
+                let residual = 1e3 * distance(*a, *b);
+                if residual > record.residual_mm {
+                    (record.residual_mm, record.gripper, record.step) = (residual, n, k + 1);
+                }
+            }
+            for strokes in &posture.strokes {
+                for (range, stroke) in record.strokes_mm.iter_mut().zip(strokes) {
+                    *range = [range[0].min(1e3 * stroke), range[1].max(1e3 * stroke)];
+                }
+            }
+            let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            let turn = super::rates::turn_between(&unit, &posture.frame.axes);
+            record.turn_deg = record.turn_deg.max(dot(turn, turn).sqrt().to_degrees());
+        }
+        Carried { postures, positions, record }
+    }
+
+    /// The direction of the tool (unit vector, upwards along its stems) where it follows places of the grippers (m).
+    #[must_use]
+    pub fn direction(&self, places: &[[f64; 3]]) -> [f64; 3] {
+        self.posture(places).frame.axes[2]
+    }
+}
+
+impl Scene {
+    /// The scene with the motion that its tool makes, and what that takes of the tool; as it is where grippers move by themselves.
+    #[must_use]
+    pub fn carried(&self) -> (Cow<'_, Scene>, Option<ToolRecord>) {
+        let Some(tool) = &self.tool else { return (Cow::Borrowed(self), None) };
+        let Carried { positions, record, .. } = tool.carry(&self.motion.positions);
+        let motion = Motion { times: self.motion.times.clone(), positions };
+        (Cow::Owned(Scene { motion, ..self.clone() }), Some(record))
+    }
+
+    /// The direction of the stems of the grippers at places (m): upright unless a tool turns them.
+    #[must_use]
+    pub(crate) fn stems(&self, places: &[[f64; 3]]) -> [f64; 3] {
+        self.tool.as_ref().map_or([0.0, 0.0, 1.0], |tool| tool.direction(places))
+    }
+}

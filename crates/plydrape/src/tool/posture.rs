@@ -1,0 +1,185 @@
+//! The posture of a tool: the pose of its frame and the strokes of its axes.
+//!
+//! For places p_g of the grippers, the pose (R, t) and the strokes s_ga within their limits are sought that make
+//!
+//! `Σ_g |t + R (m_g + Σ_a s_ga d_a) − p_g|² + ε² Σ_ga s_ga²`
+//!
+//! smallest. The second term has no say but where the first leaves a choice: a lift of the frame and a stroke of all axes are
+//! the same to the grippers. Axes are at right angles, so for a given pose each stroke is the component of
+//! `y_g = Rᵀ(p_g − t) − m_g` along its axis, taken into its limits, and six unknowns are left. They are found by Gauss and Newton's
+//! method, first as if no axis moved and from there with the axes, so that a posture depends on the places alone and not on
+//! the way there.
+
+use super::tuning::{CONVERGED, FREE, HALVINGS, ROUNDING, STEPS, STROKE_COST};
+use super::{Axis, Tool};
+use crate::mold::Pose;
+use crate::mold::vector::{along, cross, dot, norm, sub, turned};
+use nalgebra::{SMatrix, SVector};
+
+type Matrix6 = SMatrix<f64, 6, 6>;
+type Vector6 = SVector<f64, 6>;
+
+/// Where a tool is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Posture {
+    /// The frame in the scene.
+    pub frame: Pose,
+    /// Strokes of each gripper (m), one for each axis.
+    pub strokes: Vec<Vec<f64>>,
+}
+
+impl Tool {
+    /// Where the grippers are in a posture (m).
+    #[must_use]
+    pub fn places(&self, posture: &Posture) -> Vec<[f64; 3]> {
+        let place = |(mount, strokes): (&[f64; 3], &Vec<f64>)| {
+            let moved = |at, (axis, stroke): (&Axis, &f64)| along(at, *stroke, axis.direction);
+            posture.frame.place(self.axes.iter().zip(strokes).fold(*mount, moved))
+        };
+        self.mounts.iter().zip(&posture.strokes).map(place).collect()
+    }
+
+    /// The posture that follows places of the grippers (m) best.
+    #[must_use]
+    pub fn posture(&self, places: &[[f64; 3]]) -> Posture {
+        let size = self.mounts.iter().map(|m| norm(*m)).fold(f64::MIN_POSITIVE, f64::max);
+        let count = places.len().max(1) as f64;
+        let middle = [0, 1, 2].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / count);
+        // first as if no axis moved: what is left then is within the strokes of most motions
+        let frame = self.fitted(Pose::new(middle, [0.0; 3]), &[], places, size);
+        let frame = self.fitted(frame, &self.axes, places, size);
+        let strokes = places.iter().zip(&self.mounts).map(|(p, m)| {
+            let off = sub(frame.local(*p), *m);
+            self.axes.iter().map(|axis| axis.stroke_to(off)).collect()
+        });
+        Posture { strokes: strokes.collect(), frame }
+    }
+
+    /// The pose of the frame that leaves least, found from a pose near it.
+    fn fitted(&self, mut frame: Pose, axes: &[Axis], places: &[[f64; 3]], size: f64) -> Pose {
+        let mut cost = self.cost(&frame, axes, places);
+        for _ in 0..STEPS {
+            let (matrix, slope) = self.linear(&frame, axes, places, size);
+            let Some(step) = solved(&matrix, &slope) else { break };
+            let mut share = 1.0;
+            let mut found = None;
+            for _ in 0..HALVINGS {
+                let tried = moved(&frame, &(share * step), size);
+                let now = self.cost(&tried, axes, places);
+                if now <= cost * (1.0 + ROUNDING) {
+                    found = Some((tried, now));
+                    break;
+                }
+                share *= 0.5;
+            }
+            let Some((tried, now)) = found else { break };
+            (frame, cost) = (tried, now);
+            if share * step.amax() <= CONVERGED {
+                break;
+            }
+        }
+        frame
+    }
+
+    /// What a pose of the frame leaves, squared (m²).
+    fn cost(&self, frame: &Pose, axes: &[Axis], places: &[[f64; 3]]) -> f64 {
+        let one = |(p, m): (&[f64; 3], &[f64; 3])| {
+            let off = sub(frame.local(*p), *m);
+            let mut left = off;
+            let mut strokes = 0.0;
+            for axis in axes {
+                let stroke = axis.stroke_to(off);
+                left = along(left, -stroke, axis.direction);
+                strokes += stroke * stroke;
+            }
+            dot(left, left) + STROKE_COST * STROKE_COST * strokes
+        };
+        places.iter().zip(&self.mounts).map(one).sum()
+    }
+
+    /// Gauss and Newton's matrix and slope of half the cost, to a move of the frame along its own axes (of `size`) and a turn about them.
+    fn linear(
+        &self,
+        frame: &Pose,
+        axes: &[Axis],
+        places: &[[f64; 3]],
+        size: f64,
+    ) -> (Matrix6, Vector6) {
+        let (mut matrix, mut slope) = (Matrix6::zeros(), Vector6::zeros());
+        let mut add = |residual: f64, row: Vector6| {
+            matrix += row * row.transpose();
+            slope += residual * row;
+        };
+        for (p, m) in places.iter().zip(&self.mounts) {
+            let local = frame.local(*p);
+            let off = sub(local, *m);
+            // a direction n of what is left: dn·y = −n·dt + n·(q × dw) = −n·dt + (n × q)·dw
+            let row = |n: [f64; 3]| {
+                let turn = cross(n, local);
+                Vector6::from([0, 1, 2, 3, 4, 5].map(|k: usize| match k {
+                    0..3 => -size * n[k],
+                    _ => turn[k - 3],
+                }))
+            };
+            let mut left = off;
+            // what a free axis takes is left by no direction along it
+            let mut directions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            for axis in axes {
+                let stroke = axis.stroke_to(off);
+                left = along(left, -stroke, axis.direction);
+                if axis.is_free(stroke) {
+                    for direction in &mut directions {
+                        let share = dot(*direction, axis.direction);
+                        *direction = along(*direction, -share, axis.direction);
+                    }
+                    add(STROKE_COST * stroke, STROKE_COST * row(axis.direction));
+                }
+            }
+            for (n, direction) in directions.iter().enumerate() {
+                add(left[n], row(*direction));
+            }
+        }
+        (matrix, slope)
+    }
+}
+
+impl Axis {
+    /// The stroke that comes nearest to a place off its zero (m).
+    fn stroke_to(&self, off: [f64; 3]) -> f64 {
+        dot(self.direction, off).clamp(self.stroke[0], self.stroke[1])
+    }
+
+    /// Whether a stroke is at neither limit.
+    fn is_free(&self, stroke: f64) -> bool {
+        self.stroke[0] < stroke && stroke < self.stroke[1]
+    }
+}
+
+/// The frame moved along its own axes and turned about them; the move is in shares of `size` (m).
+fn moved(frame: &Pose, step: &Vector6, size: f64) -> Pose {
+    let shift = frame.turn([step[0], step[1], step[2]].map(|c| size * c));
+    let turn = frame.turn([step[3], step[4], step[5]]);
+    let [x, y, _] = frame.axes.map(|axis| turned(turn, axis));
+    // at right angles again, whatever rounding has left
+    let z = cross(x, y);
+    let z = z.map(|c| c / norm(z));
+    let y = cross(z, x);
+    let y = y.map(|c| c / norm(y));
+    Pose { position: along(frame.position, 1.0, shift), axes: [cross(y, z), y, z] }
+}
+
+/// The step of least length that a symmetric positive matrix gives; none of numbers that are not finite.
+fn solved(matrix: &Matrix6, slope: &Vector6) -> Option<Vector6> {
+    if !(matrix.iter().all(|c| c.is_finite()) && slope.iter().all(|c| c.is_finite())) {
+        return None;
+    }
+    let parts = matrix.symmetric_eigen();
+    let largest = parts.eigenvalues.amax();
+    let mut step = Vector6::zeros();
+    for (value, vector) in parts.eigenvalues.iter().zip(parts.eigenvectors.column_iter()) {
+        if *value > FREE * largest {
+            step -= vector * (vector.dot(slope) / value);
+        }
+    }
+    Some(step)
+}

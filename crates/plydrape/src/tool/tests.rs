@@ -1,0 +1,169 @@
+//! A tool against rigid motions, closed forms, and small changes of its posture.
+
+use super::rates::turn_between;
+use super::{Axis, Posture, Tool};
+use crate::mold::Pose;
+use crate::mold::vector::{distance, norm, turned};
+use crate::motion::{Bounds, TimedMotion};
+use proptest::prelude::*;
+
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+fn axis(direction: [f64; 3], stroke: f64) -> Axis {
+    Axis { name: "a".into(), direction, stroke: [-stroke, stroke], speed: 0.1 }
+}
+
+/// Grippers 100 mm apart on a plane at a height of 0.3 m.
+fn start(nu: usize, nv: usize) -> Vec<[f64; 3]> {
+    let place = |n: usize| [0.1 * (n % nu) as f64, 0.1 * (n / nu) as f64, 0.3];
+    (0..nu * nv).map(place).collect()
+}
+
+fn farthest(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max)
+}
+
+/// At the start the tool is as it was set up: no stroke, no turn.
+#[test]
+fn at_the_start_a_tool_stands_with_its_strokes_at_zero() {
+    for axes in [vec![], vec![axis(Z, 0.05)]] {
+        let start = start(4, 3);
+        let tool = Tool::new(&start, axes);
+        let posture = tool.posture(&start);
+        assert!(farthest(&tool.places(&posture), &start) < 1e-15);
+        assert!(posture.strokes.iter().flatten().all(|s| s.abs() < 1e-15), "{posture:?}");
+    }
+}
+
+fn turn() -> impl Strategy<Value = [f64; 3]> {
+    [-0.8..0.8, -0.8..0.8, -0.8..0.8].prop_map(|w: [f64; 3]| w)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    /// What a rigid motion asks for, a tool does without strokes; whatever axes it has.
+    #[test]
+    fn a_rigid_motion_needs_no_strokes(w in turn(), shift in [-1.0..1.0, -1.0..1.0, 0.0..1.0]) {
+        let start = start(4, 3);
+        let asked: Vec<[f64; 3]> =
+            start.iter().map(|p| turned(w, *p)).map(|p| [0, 1, 2].map(|c| p[c] + shift[c])).collect();
+        for axes in [vec![], vec![axis(Z, 0.05)]] {
+            let tool = Tool::new(&start, axes);
+            let posture = tool.posture(&asked);
+            prop_assert!(farthest(&tool.places(&posture), &asked) < 1e-12);
+            prop_assert!(posture.strokes.iter().flatten().all(|s| s.abs() < 1e-10), "{:?}", posture.strokes);
+            let found = turn_between(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z], &posture.frame.axes);
+            prop_assert!(distance(found, w) < 1e-9, "{found:?} {w:?}");
+        }
+    }
+
+    /// With three axes at right angles, turned or not, places within reach are reached.
+    #[test]
+    fn three_axes_follow_any_places_in_their_reach(
+        w in turn(), own in turn(), off in prop::collection::vec([-0.03..0.03, -0.03..0.03, -0.03..0.03], 12)
+    ) {
+        let start = start(4, 3);
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z].map(|d| axis(turned(own, d), 0.1)).to_vec();
+        let tool = Tool::new(&start, axes);
+        let asked: Vec<[f64; 3]> = start
+            .iter()
+            .zip(&off)
+            .map(|(p, off)| turned(w, [0, 1, 2].map(|c| p[c] + off[c])))
+            .collect();
+        let off = farthest(&tool.places(&tool.posture(&asked)), &asked);
+        prop_assert!(off < 1e-12, "{off}");
+    }
+
+    /// What a tool has made, it makes again: to the square of a stroke's cost, 1e-8 of a stroke.
+    #[test]
+    fn a_motion_of_the_tool_is_followed_exactly(
+        w in turn(), strokes in prop::collection::vec(-0.04..0.04, 12)
+    ) {
+        let tool = Tool::new(&start(4, 3), vec![axis(Z, 0.05)]);
+        let frame = Pose { axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z].map(|d| turned(w, d)), position: [0.1; 3] };
+        let made = tool.places(&Posture { frame, strokes: strokes.iter().map(|s: &f64| vec![*s]).collect() });
+        let again = tool.places(&tool.posture(&made));
+        prop_assert!(farthest(&again, &made) < 1e-8, "{}", farthest(&again, &made));
+    }
+
+    /// No posture near the one that is found leaves less, with strokes at their limits or not.
+    #[test]
+    fn no_posture_nearby_follows_better(
+        off in prop::collection::vec([-0.03..0.03, -0.03..0.03, -0.08..0.08], 12), nudges in prop::collection::vec(turn(), 8)
+    ) {
+        let start = start(4, 3);
+        let tool = Tool::new(&start, vec![axis(Z, 0.02)]);
+        let asked: Vec<[f64; 3]> = start.iter().zip(&off).map(|(p, off)| [0, 1, 2].map(|c| p[c] + off[c])).collect();
+        let left = |frame: &Pose| {
+            // the best strokes of a pose, found here by themselves
+            asked.iter().zip(&tool.mounts).map(|(p, m)| {
+                let y = frame.local(*p);
+                let y = [0, 1, 2].map(|c| y[c] - m[c]);
+                let beyond = (y[2].abs() - 0.02).max(0.0);
+                y[0].powi(2) + y[1].powi(2) + beyond.powi(2)
+            }).sum::<f64>()
+        };
+        let posture = tool.posture(&asked);
+        let best = left(&posture.frame);
+        let direct = tool.places(&posture).iter().zip(&asked).map(|(a, b)| distance(*a, *b).powi(2)).sum::<f64>();
+        prop_assert!((best - direct).abs() < 1e-12 * best, "{best} {direct}");
+        for pair in nudges.chunks(2) {
+            for size in [1e-2, 1e-3] {
+                let position = [0, 1, 2].map(|c| posture.frame.position[c] + 0.1 * size * pair[0][c]);
+                let axes = posture.frame.axes.map(|d| turned(pair[1].map(|c| size * c), d));
+                let near = left(&Pose { position, axes });
+                // strokes cost 1e-8 of their squares, up to 5e-11 m² of 12 grippers
+                prop_assert!(near > best - 1e-10, "{near} {best}");
+            }
+        }
+    }
+}
+
+/// Axes along z alone cannot bring two grippers 10 mm nearer to each other: each is 5 mm off, and the tool says so.
+#[test]
+fn grippers_that_should_come_nearer_than_axes_allow_share_the_residual() {
+    let tool = Tool::new(&[[-0.05, 0.0, 0.2], [0.05, 0.0, 0.2]], vec![axis(Z, 0.1)]);
+    let asked = vec![[-0.045, 0.0, 0.2], [0.045, 0.0, 0.2]];
+    let record = tool.carry(&[asked]).record;
+    assert!((record.residual_mm - 5.0).abs() < 1e-6, "{record:?}");
+    assert_eq!((record.step, record.turn_deg), (1, 0.0));
+}
+
+/// Grippers in a row leave the turn about the row open: the frame does not turn so.
+#[test]
+fn a_row_of_grippers_does_not_turn_its_frame_about_itself() {
+    let start = start(5, 1);
+    let tool = Tool::new(&start, vec![axis(Z, 0.1)]);
+    let asked: Vec<[f64; 3]> = start.iter().map(|p| [p[0], p[1], p[2] + p[0] * p[0]]).collect();
+    let posture = tool.posture(&asked);
+    let turn = turn_between(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], Z], &posture.frame.axes);
+    assert!(turn[0].abs() < 1e-9 && turn[2].abs() < 1e-9, "{turn:?}");
+    assert!(posture.strokes.iter().flatten().all(|s| s.is_finite()));
+}
+
+/// Corners of a square that turns about its middle move as fast as it turns times half its diagonal; and the frame slows down as all
+/// of the motion does.
+#[test]
+fn the_frame_turns_as_fast_as_the_corners_of_a_turning_square_say() {
+    let corners = [[-0.2, -0.2, 0.0], [0.2, -0.2, 0.0], [-0.2, 0.2, 0.0], [0.2, 0.2, 0.0]];
+    let steps: Vec<Vec<[f64; 3]>> = (0..=40)
+        .map(|k| corners.iter().map(|p| turned([0.0, 0.0, 0.02 * f64::from(k)], *p)).collect())
+        .collect();
+    let motion =
+        TimedMotion::new(&steps, &Bounds { speed: 0.2, acceleration: 0.5, jerk: 5.0 }).unwrap();
+    let tool = Tool::new(&corners, vec![axis(Z, 0.1)]);
+    let peaks = tool.peaks(&motion, 500.0).unwrap();
+    let arm = norm(corners[0]);
+    assert!(
+        (peaks.turn_rate.value * arm / motion.peaks().speed.value - 1.0).abs() < 1e-3,
+        "{peaks:?}"
+    );
+    let slow = tool.peaks(&motion.slowed(2.0), 250.0).unwrap();
+    assert!((slow.turn_rate.value / peaks.turn_rate.value - 0.5).abs() < 1e-6);
+    assert!((slow.turn_acceleration.value / peaks.turn_acceleration.value - 0.25).abs() < 1e-6);
+    // so much longer, and the limit that is nearest is just kept
+    let stretch = peaks.stretch(&tool);
+    let kept = tool.peaks(&motion.slowed(stretch), 500.0 / stretch).unwrap();
+    assert!((kept.stretch(&tool) - 1.0).abs() < 1e-6, "{stretch} {kept:?}");
+}

@@ -1,0 +1,23 @@
+//! Numbers that no theory gives.
+
+/// Largest angular speed (°/s) and acceleration (°/s²) of a frame unless a scene says otherwise: a large robot that carries a frame
+/// in a cell with people nearby turns no faster. Our assumption, from no data sheet.
+pub const TURN: [f64; 2] = [45.0, 180.0];
+
+/// What a stroke costs beside a residual of the same length. Where some pose leaves no residual, the pose with the smallest
+/// strokes is taken; the square of this is the share of a stroke that may be left as a residual.
+pub const STROKE_COST: f64 = 1e-4;
+
+/// Most Newton steps to a posture, and most halvings of one.
+pub const STEPS: usize = 60;
+/// See [`STEPS`].
+pub const HALVINGS: usize = 20;
+
+/// A step this small, of the array's size, ends the search for a posture.
+pub const CONVERGED: f64 = 1e-13;
+
+/// Share of the largest pivot below which a direction is not held by the grippers, as the turn of a strip about itself.
+pub const FREE: f64 = 1e-14;
+
+/// Share of a cost that is rounding: near the least cost a step cannot be told to be worse.
+pub const ROUNDING: f64 = 1e-12;
