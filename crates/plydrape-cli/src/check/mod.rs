@@ -60,6 +60,7 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
     ];
     lines.extend(mold::mold(scene));
     lines.extend(way::way(scene));
+    lines.extend(rules::tool(scene));
     lines.extend(rules::rules(scene));
     lines.extend(sheet::sheet(scene));
     lines.extend(rules::plan(scene));

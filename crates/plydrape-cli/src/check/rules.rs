@@ -146,3 +146,16 @@ pub(super) fn plan(scene: &Scene) -> Option<Line> {
     );
     Some(("plan", text))
 }
+
+/// What carries the grippers, if they do not move by themselves.
+pub(super) fn tool(scene: &Scene) -> Option<Line> {
+    let tool = scene.tool.as_ref()?;
+    let axis = |axis: &plydrape::tool::Axis| {
+        let [least, most] = axis.stroke.map(millimetres);
+        format!("{} {least} to {most} mm", axis.name)
+    };
+    let axes: Vec<String> = tool.axes.iter().map(axis).collect();
+    let axes = if axes.is_empty() { "no axes".into() } else { format!("axes {}", axes.join(", ")) };
+    let [rate, acceleration] = [tool.turn_rate, tool.turn_acceleration].map(degrees);
+    Some(("tool", format!("one frame, {axes}; turns by {rate} deg/s, {acceleration} deg/s²")))
+}

@@ -35,5 +35,6 @@ mod sheet_shown;
 mod slack_limits;
 mod solve_status;
 mod stepwise;
+mod tool;
 mod transport;
 mod verdict;

@@ -1,0 +1,106 @@
+//! Grippers that a robot carries: what it cannot follow is not done, in both models, with errors or without.
+
+use plydrape::draping::simulate;
+use plydrape::measure::Name;
+use plydrape::scene::Scene;
+use plydrape::sheet;
+use plydrape_io::read;
+use plydrape_io::result::ResultFile;
+use plydrape_io::scene;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// 2 × 2 grippers, 98 mm apart, of which one row comes 18 mm nearer to the other and 30 mm lower.
+fn closing(tool: &str) -> Scene {
+    let text = format!(
+        "[model]\nkind = \"sheet\"\n[sheet]\nmesh = \"25 mm\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.2\n[target]\npositions = [[[0, 0, 0.2], [0.08, 0, 0.17]], [[0, 0.098, 0.2], [0.08, 0.098, 0.17]]]\n[motion]\nkind = \"straight\"\nsteps = 10\n[limits]\ntilt = \"89 deg\"\n{tool}\n"
+    );
+    scene::parse(&text, Path::new(""), "scene.toml").unwrap_or_else(|e| panic!("{e}")).scene
+}
+
+fn along_z() -> Scene {
+    closing("[tool]\nresidual = \"1 mm\"\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }]")
+}
+
+fn draped(scene: &Scene) -> ResultFile {
+    ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())))
+}
+
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Axes along z leave grippers as far apart in the frame as they were: the frame turns and is lower in its middle, each row stays
+/// beside where it should be, and the limit of the residual says so. With axes along x too nothing is left.
+#[test]
+fn what_the_axes_cannot_follow_is_not_done() {
+    let result = draped(&along_z());
+    let places: Vec<[f64; 3]> = result.steps[9].grippers.iter().map(|g| g.position).collect();
+    let width = apart(places[0], places[1]);
+    assert!(width > 0.0979, "{width}");
+    let record = result.summary.tool.clone().expect("a tool");
+    let asked = [[0.0, 0.0, 0.2], [0.08, 0.0, 0.17]];
+    let off = apart(places[0], asked[0]);
+    assert!((record.residual_mm - 1e3 * off).abs() < 1e-6 && off > 5e-3, "{record:?} {off}");
+    let verdict = result.summary.limits.iter().find(|v| v.name == Name::ToolResidual).unwrap();
+    assert!(!verdict.ok && !result.summary.accepted && verdict.step == Some(10), "{verdict:?}");
+
+    let both = closing(
+        "[tool]\nresidual = \"1 mm\"\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }, { direction = \"x\", stroke = [-0.02, 0.02] }]",
+    );
+    let result = draped(&both);
+    assert!(result.summary.tool.as_ref().unwrap().residual_mm < 1e-6);
+    for (gripper, asked) in result.steps[9].grippers.iter().zip(asked) {
+        assert!(apart(gripper.position, asked) < 1e-9);
+    }
+}
+
+/// The sheet hangs from the same places as the catenaries, and a pad tilts from the stem that the frame turns.
+#[test]
+fn both_models_hang_from_where_the_tool_brings_the_grippers() {
+    let scene = along_z();
+    let result = draped(&scene);
+    let drape =
+        sheet::drape(&scene, sheet::Tuning::default(), &|| false, |_| ControlFlow::Continue(()))
+            .unwrap();
+    let tool = scene.tool.as_ref().unwrap();
+    let places: Vec<[f64; 3]> = result.steps[9].grippers.iter().map(|g| g.position).collect();
+    let stem = tool.direction(&places);
+    assert!(stem[2] < 0.96, "{stem:?}");
+    for (pad, gripper) in drape.last.pads.iter().zip(&result.steps[9].grippers) {
+        assert!(apart(pad.target, gripper.position) < 1e-12);
+        assert!(apart(pad.stem, stem) < 1e-8);
+        let normal = gripper.normal();
+        let tilt = (0..3).map(|c| normal[c] * stem[c]).sum::<f64>().acos().to_degrees();
+        assert!((tilt - gripper.tilt_deg).abs() < 1e-5, "{tilt} {}", gripper.tilt_deg);
+    }
+}
+
+/// Errors are of grippers that the tool has brought somewhere, not of what it was asked for: it does not take them back.
+#[test]
+fn errors_come_after_the_tool() {
+    let errors = "[errors]\ngripper = { position = { deviation = \"1 mm\" } }";
+    let scene = along_z();
+    let with = closing(errors);
+    let draw = with.errors.unwrap().draw(3, 4);
+    let carried = scene.carried().0.into_owned();
+    let real = draw.apply(&scene);
+    assert!(real.tool.is_none());
+    assert_eq!(real.motion, draw.apply(&Scene { tool: None, ..carried }).motion);
+}
+
+/// A result keeps its tool and what the motion takes of it; one whose tool carries other grippers is refused.
+#[test]
+fn a_result_keeps_its_tool() {
+    let result = draped(&Scene { title: "tool".into(), ..along_z() });
+    let text = result.text().unwrap();
+    let back = read::parse(text.as_bytes(), Path::new("result.json")).unwrap();
+    assert_eq!(back.scene.tool, result.scene.tool);
+    assert_eq!(back.summary.tool, result.summary.tool);
+    let mut other = result.clone();
+    other.scene.tool.as_mut().unwrap().mounts.pop();
+    let fault = read::parse(other.text().unwrap().as_bytes(), Path::new("result.json"))
+        .unwrap_err()
+        .to_string();
+    assert!(fault.contains("its tool carries 3 grippers, not 4"), "{fault}");
+}
