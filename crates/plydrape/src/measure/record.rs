@@ -1,7 +1,7 @@
 //! What a result file keeps of the measures.
 
 use super::{Found, Name};
-use crate::ply::Ply;
+use crate::scene::Scene;
 
 /// A worst value and where it is.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,8 +20,8 @@ pub struct Worst {
 impl Worst {
     /// With its site as a label.
     #[must_use]
-    pub fn of(found: &Found, ply: &Ply) -> Worst {
-        Worst { value: found.value, at: found.site.label(ply), place: found.place }
+    pub fn of(found: &Found, scene: &Scene) -> Worst {
+        Worst { value: found.value, at: found.site.label(scene), place: found.place }
     }
 }
 

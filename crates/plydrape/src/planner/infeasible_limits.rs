@@ -66,7 +66,7 @@ fn places(
         (Name::GripperDistance, limits.gripper_distance * 1e3, closest(positions)),
     ];
     found.into_iter().filter_map(move |(name, limit, found)| {
-        let worst = Worst::of(&found?, &scene.ply);
+        let worst = Worst::of(&found?, scene);
         let worst = Worst { at: format!("{} {when}", worst.at), ..worst };
         Some(Verdict::of(name, worst, limit, step)).filter(|verdict| !verdict.ok)
     })
@@ -94,7 +94,7 @@ fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
     };
     let worst = largest((0..lines.edges()).map(|n| (share(n), n)));
     let found = worst.map(|(share, n)| {
-        (share, format!("{} at the target", Site::Catenary(n).label(&scene.ply)))
+        (share, format!("{} at the target", Site::Catenary(n).label(scene)))
     });
     beyond(Name::Overstretch, scene.limits.overstretch, found)
 }
@@ -167,7 +167,7 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
         } else {
             "inside it"
         };
-        (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(&scene.ply)))
+        (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(scene)))
     });
     beyond(Name::OffMold, scene.settings.contact.tolerance * 1e3, found)
 }
@@ -182,7 +182,7 @@ fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     };
     let all = target.grippers.iter().enumerate();
     let found = largest(all.filter_map(|(n, place)| Some((tilt(*place)?, n)))).map(|(tilt, n)| {
-        (tilt.to_degrees(), format!("mold at the target of {}", Site::Gripper(n).label(&scene.ply)))
+        (tilt.to_degrees(), format!("mold at the target of {}", Site::Gripper(n).label(scene)))
     });
     beyond(Name::Tilt, scene.limits.tilt.to_degrees(), found)
 }
@@ -196,7 +196,7 @@ fn reach(scene: &Scene, start: &[[f64; 3]], target: &Target) -> Option<Verdict> 
     let found = largest(distances.enumerate().map(|(n, far)| (far, n))).map(|(far, n)| {
         (
             far * 1e3,
-            format!("straight way of {} in {moves} moves", Site::Gripper(n).label(&scene.ply)),
+            format!("straight way of {} in {moves} moves", Site::Gripper(n).label(scene)),
         )
     });
     beyond(Name::MoveLimit, reach * 1e3, found)

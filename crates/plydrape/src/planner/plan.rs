@@ -188,7 +188,7 @@ pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
     match plan.outcome {
         Outcome::OutOfSteps(error) | Outcome::OutOfReach(error) => {
             let gripper = scene.ply.index(error.gripper).unwrap_or_default();
-            let at = Site::Gripper(gripper).label(&scene.ply);
+            let at = Site::Gripper(gripper).label(scene);
             let worst = Worst {
                 value: error.distance * 1e3,
                 at: format!("{at}, short of its target"),
@@ -207,7 +207,7 @@ fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
         let step = motion.times().partition_point(|t| *t < peak.time) + 1;
         let worst = Worst {
             value: peak.value,
-            at: Site::Gripper(peak.gripper).label(&scene.ply),
+            at: Site::Gripper(peak.gripper).label(scene),
             place: Some(motion.at(peak.time)[peak.gripper]),
         };
         Verdict::of(name, worst, limit, Some(step.min(motion.times().len())))

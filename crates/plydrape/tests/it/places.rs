@@ -110,6 +110,7 @@ fn a_drape_out_of_all_range_ends_and_is_not_accepted() {
                     target: None,
                     settings: settings(),
                     limits: limits(),
+                    bodies: plydrape::clearance::Bodies::default(),
                     plan: plydrape::scene::Plan::default(),
                     errors: None,
                 };
