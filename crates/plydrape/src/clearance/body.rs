@@ -36,14 +36,14 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The middle of the box around it (m), and its farthest distance from there (m).
+    /// The box around it: lowest and highest coordinates (m).
     #[must_use]
-    pub fn ball(&self) -> ([f64; 3], f64) {
+    pub fn bounds(&self) -> [[f64; 3]; 2] {
         match self {
-            Shape::Cylinder { radius, from, to } => {
-                ([0.0, 0.0, 0.5 * (from + to)], radius.hypot(0.5 * (to - from)))
+            Shape::Cylinder { radius: r, from, to } => [[-r, -r, *from], [*r, *r, *to]],
+            Shape::Box { size, at } => {
+                [-0.5, 0.5].map(|side| [0, 1, 2].map(|n| at[n] + side * size[n]))
             }
-            Shape::Box { size: [x, y, z], at } => (*at, 0.5 * x.hypot(*y).hypot(*z)),
             Shape::Mesh { vertices, .. } => {
                 let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
                 for p in vertices {
@@ -51,10 +51,24 @@ impl Shape {
                         (low[n], high[n]) = (low[n].min(p[n]), high[n].max(p[n]));
                     }
                 }
-                let middle = [0, 1, 2].map(|n| 0.5 * (low[n] + high[n]));
-                (middle, vertices.iter().map(|p| distance(*p, middle)).fold(0.0, f64::max))
+                [low, high]
             }
         }
+    }
+
+    /// The middle of the box around it (m), and its farthest distance from there (m).
+    #[must_use]
+    pub fn ball(&self) -> ([f64; 3], f64) {
+        let [low, high] = self.bounds();
+        let middle = [0, 1, 2].map(|n| 0.5 * (low[n] + high[n]));
+        let reach = match self {
+            Shape::Cylinder { radius, from, to } => radius.hypot(0.5 * (to - from)),
+            Shape::Box { size: [x, y, z], .. } => 0.5 * x.hypot(*y).hypot(*z),
+            Shape::Mesh { vertices, .. } => {
+                vertices.iter().map(|p| distance(*p, middle)).fold(0.0, f64::max)
+            }
+        };
+        (middle, reach)
     }
 }
 

@@ -120,6 +120,43 @@ impl Moves for Straight {
     }
 }
 
+/// Straight from step to step, the first at time 0, the next at time 1, and so on.
+pub(super) struct Legs(pub Vec<Straight>);
+
+impl Legs {
+    fn of(&self, time: f64) -> (&Straight, f64) {
+        let n = (time.max(0.0) as usize).min(self.0.len() - 1);
+        (&self.0[n], time - n as f64)
+    }
+
+    /// The leg of an interval within it, and the times in it.
+    fn within(&self, [from, to]: [f64; 2]) -> (&Straight, [f64; 2]) {
+        let (leg, begin) = self.of(from);
+        (leg, [begin, begin + to - from])
+    }
+}
+
+impl Moves for Legs {
+    fn pose(&self, of: Origin, time: f64) -> Pose {
+        let (leg, time) = self.of(time);
+        leg.pose(of, time)
+    }
+
+    fn way(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
+        let (leg, times) = self.within(times);
+        leg.way(of, seen_from, times)
+    }
+
+    fn turn(&self, of: Origin, times: [f64; 2]) -> f64 {
+        let (leg, times) = self.within(times);
+        leg.turn(of, times)
+    }
+
+    fn has_flange(&self) -> bool {
+        self.0[0].has_flange()
+    }
+}
+
 /// A planned motion in time, with stems upright.
 pub(crate) struct Planned<'a> {
     /// Where the grippers are.

@@ -6,14 +6,14 @@
 //! the bodies give the first bounds.
 
 use super::body::{Mount, Solids};
-use super::moves::{Moves, Origin, Planned, Straight};
+use super::moves::{Legs, Moves, Origin, Planned, Straight};
 use super::over_mold::OverMold;
 use super::poses::Poses;
 use super::solid::Apart;
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
-use crate::mold::{Pose, distance};
 use crate::mold::vector::norm;
+use crate::mold::{Pose, distance};
 use crate::motion::{Attitudes, TimedMotion};
 use crate::ply::Ply;
 use crate::scene::Scene;
@@ -96,6 +96,41 @@ pub(crate) fn between_steps(scene: &Scene, from: &Poses, to: &Poses) -> Option<N
     along(scene, &Straight::new(from, to), &[0.0, 1.0])
 }
 
+/// The nearest pair along the steps of a search, by the lines between the grippers; its time counts steps, from 0.
+#[must_use]
+pub(crate) fn along_positions(scene: &Scene, positions: &[Vec<Point>]) -> Option<Nearest> {
+    if scene.bodies.is_empty() {
+        return None;
+    }
+    let neighbours = scene.ply.neighbours();
+    let poses = |step: &Vec<Point>| Poses::by_neighbours(&scene.ply, &neighbours, step);
+    let poses: Vec<Poses> = positions.iter().map(poses).collect();
+    if let [only] = &poses[..] {
+        return at(scene, only);
+    }
+    let legs = poses.windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
+    let times: Vec<f64> = (0..positions.len()).map(|n| n as f64).collect();
+    along(scene, &Legs(legs), &times)
+}
+
+/// The distance of bodies from obstacles and mold (m) at one time, if it is below `least` (m); distances of bodies from each other
+/// do not count.
+#[must_use]
+pub(crate) fn from_what_stands(scene: &Scene, poses: &Poses, least: f64) -> Option<f64> {
+    let moves = Straight::new(poses, poses);
+    let mut search = Search::new(scene, &moves);
+    let balls = search.balls(0.0);
+    let mut found: Option<f64> = None;
+    for pair in search.near(&balls, 0.0) {
+        let most = found.unwrap_or(least);
+        if !matches!(pair.1, Other::Body(_)) && search.gap(pair, &balls) < most {
+            let distance = search.distance(pair, 0.0);
+            found = found.or(Some(distance).filter(|d| *d < least)).map(|d| d.min(distance));
+        }
+    }
+    found
+}
+
 impl Nearest {
     /// The nearest pair of a planned motion.
     #[must_use]
@@ -140,8 +175,8 @@ struct Search<'a> {
     moves: &'a dyn Moves,
     solids: &'a Solids,
     judged: Vec<Judged>,
-    /// Each obstacle: its pose, and a ball around it (m).
-    obstacles: Vec<(Pose, Point, f64)>,
+    /// Where each obstacle stands.
+    obstacles: Vec<Pose>,
     /// The mold, if a body could meet it.
     mold: Option<OverMold<'a>>,
     /// The limit (m).
@@ -182,16 +217,12 @@ impl<'a> Search<'a> {
                 Mount::Flange => {}
             }
         }
-        let obstacles = scene.bodies.obstacles().iter().zip(&solids.obstacles);
-        let obstacles = obstacles.map(|(obstacle, solid)| {
-            (obstacle.pose, obstacle.pose.place(solid.ball.0), solid.ball.1)
-        });
         let meets_mold = judged.iter().any(|body| body.mount != Mount::Pad);
         Search {
             moves,
             solids,
             judged,
-            obstacles: obstacles.collect(),
+            obstacles: scene.bodies.obstacles().iter().map(|obstacle| obstacle.pose).collect(),
             mold: scene.mold.as_ref().filter(|_| meets_mold).map(OverMold::new),
             limit: scene.limits.clearance,
             best: None,
@@ -258,14 +289,15 @@ impl<'a> Search<'a> {
         pairs
     }
 
-    /// A distance (m) that two do not fall short of, by the balls around them.
+    /// A distance (m) that two do not fall short of, by the balls around bodies and the boxes around obstacles.
     fn gap(&self, (body, other): Pair, balls: &Balls) -> f64 {
         let own = self.judged[body].ball.1;
         match other {
             Other::Body(b) => distance(balls[body], balls[b]) - own - self.judged[b].ball.1,
             Other::Obstacle(n) => {
-                let (_, middle, reach) = self.obstacles[n];
-                distance(balls[body], middle) - own - reach
+                let [low, high] = self.solids.obstacles[n].bounds;
+                let p = self.obstacles[n].local(balls[body]);
+                norm([0, 1, 2].map(|c| (low[c] - p[c]).max(p[c] - high[c]).max(0.0))) - own
             }
             Other::Mold => f64::NEG_INFINITY,
         }
@@ -284,7 +316,7 @@ impl<'a> Search<'a> {
                 (apart, Near::Part(other.part))
             }
             Other::Obstacle(n) => {
-                let apart = solid.apart(&own, &self.solids.obstacles[n], &self.obstacles[n].0);
+                let apart = solid.apart(&own, &self.solids.obstacles[n], &self.obstacles[n]);
                 (apart, Near::Obstacle(n))
             }
             Other::Mold => {

@@ -6,7 +6,7 @@
 use super::body::Shape;
 use crate::mold::Pose;
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
-use parry3d_f64::query::{self, ClosestPoints, PointQuery};
+use parry3d_f64::query::{self, ClosestPoints};
 use parry3d_f64::shape::{Cuboid, Cylinder, SharedShape, TriMesh, TriMeshFlags};
 use std::fmt;
 
@@ -18,6 +18,8 @@ pub(super) struct Solid {
     local: ParryPose,
     /// Middle of a ball around it (m), and the ball's radius (m).
     pub ball: ([f64; 3], f64),
+    /// The box around it: lowest and highest coordinates (m).
+    pub bounds: [[f64; 3]; 2],
     /// A point of it (m), of which one asks whether it is inside a closed mesh.
     point: [f64; 3],
     /// Whether it is a mesh that encloses a volume.
@@ -64,7 +66,7 @@ impl Solid {
             }
             _ => (ball.0, false),
         };
-        Solid { shape: parry, local, ball, point, closed }
+        Solid { shape: parry, local, ball, bounds: shape.bounds(), point, closed }
     }
 
     /// How far this shape, placed by a pose, is from another one.

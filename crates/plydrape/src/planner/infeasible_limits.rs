@@ -4,6 +4,8 @@
 //! start than the ply between them is long, and a start inside the mold, are not checked here, because reading the
 //! scene refuses them.
 
+use crate::clearance::{self, Poses};
+use crate::draping::attitude::{by_neighbours, on_normal};
 use crate::draping::reach::{closest, outside};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::mold::{Mold, distance};
@@ -34,6 +36,7 @@ pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
     if let Some(mold) = &scene.mold {
         out.extend(off_mold(scene, target, mold));
         out.extend(tilt(scene, target, mold));
+        out.extend(clearance_at_target(scene, target, mold));
     }
     out.extend(reach(scene, start, target));
     out
@@ -185,6 +188,27 @@ fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
         (tilt.to_degrees(), format!("mold at the target of {}", Site::Gripper(n).label(scene)))
     });
     beyond(Name::Tilt, scene.limits.tilt.to_degrees(), found)
+}
+
+/// Bodies too near to each other, to an obstacle or to the mold where all grippers stand on the mold: their pads have its normal.
+fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
+    if scene.bodies.is_empty() {
+        return None;
+    }
+    let neighbours = scene.ply.neighbours();
+    let own = by_neighbours(&scene.ply, &neighbours, &target.grippers);
+    let tolerance = scene.settings.contact.tolerance;
+    let stands = |(place, own): (&[f64; 3], [f64; 4])| {
+        let closest = mold.closest_point(*place);
+        let on_mold = !closest.beyond && closest.distance.abs() <= tolerance;
+        on_mold.then(|| on_normal(own, closest.normal))
+    };
+    let turned: Option<Vec<[f64; 4]>> = target.grippers.iter().zip(own).map(stands).collect();
+    let nearest = clearance::at(scene, &Poses::free(&target.grippers, &turned?, &target.grippers))?;
+    let at = format!("{} at the target", nearest.label(scene));
+    let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
+    let verdict = Verdict::of(Name::Clearance, worst, scene.limits.clearance * 1e3, None);
+    (!verdict.ok).then_some(verdict)
 }
 
 /// A distance to the target that is longer than the moves of all steps together.

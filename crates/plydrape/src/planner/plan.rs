@@ -9,7 +9,7 @@ use super::path;
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome, Stepwise, stepwise};
 use super::tuning::TUNING;
-use crate::draping::record::PlanRecord;
+use crate::draping::record::{PlanRecord, Summary};
 use crate::draping::{Drape, simulate};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
@@ -155,9 +155,24 @@ pub(super) fn follow(
     let verdicts = std::mem::take(&mut summary.limits);
     summary.judge_also(infeasible_limits(scene));
     summary.limits.extend(verdicts);
+    if let Ok(attitudes) = Attitudes::of(&drape.steps)
+        && let Some(whole) = evaluation::clearance_of_motion(scene, &decision.motion, &attitudes)
+    {
+        judge_whole(summary, whole);
+    }
     let bounds = Bounds::from(&scene.limits);
     summary.judge_also(own_limits.into_iter().chain(rates(&decision.motion, &bounds, scene)));
     Followed { drape, slowed }
+}
+
+/// Judges a drape by the whole of its motion in time where that is worse than straight ways from step to step.
+fn judge_whole(summary: &mut Summary, whole: Verdict) {
+    summary.accepted &= whole.ok;
+    match summary.limits.iter_mut().find(|verdict| verdict.name == whole.name) {
+        Some(verdict) if whole.ratio() > verdict.ratio() => *verdict = whole,
+        Some(_) => {}
+        None => summary.limits.push(whole),
+    }
 }
 
 /// A decision, and limits of the planner itself.

@@ -160,6 +160,7 @@ fn limits() -> plydrape::scene::Limits {
         grip_safety: 1.5,
         contact_share: 0.0,
         gripper_distance: 0.001,
+        clearance: 0.001,
         workspace: None,
         speed: wide,
         acceleration: wide,
