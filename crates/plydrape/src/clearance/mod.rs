@@ -25,3 +25,6 @@ pub use body::{Bodies, Body, Mount, Obstacle, Shape};
 pub use nearest::{Near, Nearest, Part, at};
 pub(crate) use nearest::{along_positions, between_steps, from_what_stands, label};
 pub use poses::Poses;
+
+#[cfg(test)]
+mod tests;

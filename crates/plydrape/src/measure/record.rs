@@ -1,6 +1,6 @@
 //! What a result file keeps of the measures.
 
-use super::{Found, Name};
+use super::{Found, Name, Site};
 use crate::scene::Scene;
 
 /// A worst value and where it is.
@@ -21,7 +21,14 @@ impl Worst {
     /// With its site as a label.
     #[must_use]
     pub fn of(found: &Found, scene: &Scene) -> Worst {
-        Worst { value: found.value, at: found.site.label(scene), place: found.place }
+        let at = match (found.site, found.place) {
+            (Site::Bodies { .. }, Some(place)) => {
+                let [x, y, z] = place.map(|c| c * 1e3);
+                format!("{} near ({x:.1}, {y:.1}, {z:.1}) mm", found.site.label(scene))
+            }
+            _ => found.site.label(scene),
+        };
+        Worst { value: found.value, at, place: found.place }
     }
 }
 

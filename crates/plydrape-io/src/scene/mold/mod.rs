@@ -9,11 +9,14 @@ mod round;
 use super::error::{Document, SceneError};
 use super::file::{MoldKind, MoldTable};
 use super::heading::{coordinates, heading};
-use super::located::Located;
+use super::located::{Fixed, Located};
+use super::quantity::{Angle, Length, Quantity};
 use plydrape::mold::{MeshReport, Mold, Pose};
 use plydrape::ply::Ply;
 use std::ops::Range;
 use std::path::Path;
+
+pub(super) use mesh::mesh_file;
 
 /// Least upward part of a unit normal: a mold this steep or steeper is a wall (89.9°).
 const UPWARD: f64 = 1.7e-3;
@@ -124,17 +127,8 @@ impl Keys<'_> {
 
     /// Where the mold stands and how it is turned.
     fn pose(&self) -> Result<Pose, SceneError> {
-        let position = match &self.table.position {
-            Some(position) => coordinates(&position.value, self.document)?,
-            None => [0.0; 3],
-        };
-        let mut rotation = [0.0; 3];
-        if let Some(written) = &self.table.rotation {
-            for (angle, quantity) in rotation.iter_mut().zip(&written.value.0) {
-                *angle = heading(quantity, self.document)?;
-            }
-        }
-        Ok(Pose::new(position, rotation))
+        let MoldTable { position, rotation, .. } = self.table;
+        pose(position.as_ref(), rotation.as_ref(), self.document)
     }
 
     /// A pose that leaves the mold's z axis pointing upwards.
@@ -149,6 +143,25 @@ impl Keys<'_> {
             _ => Ok(pose),
         }
     }
+}
+
+/// Where a mold or an obstacle stands and how it is turned: about the fixed axes x, then y, then z.
+pub(super) fn pose(
+    position: Option<&Located<Fixed<Quantity<Length>, 3>>>,
+    rotation: Option<&Located<Fixed<Quantity<Angle>, 3>>>,
+    document: &Document,
+) -> Result<Pose, SceneError> {
+    let position = match position {
+        Some(position) => coordinates(&position.value, document)?,
+        None => [0.0; 3],
+    };
+    let mut angles = [0.0; 3];
+    if let Some(written) = rotation {
+        for (angle, quantity) in angles.iter_mut().zip(&written.value.0) {
+            *angle = heading(quantity, document)?;
+        }
+    }
+    Ok(Pose::new(position, angles))
 }
 
 /// A list with commas and an `and`.
