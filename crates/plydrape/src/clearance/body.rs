@@ -113,6 +113,19 @@ pub struct Obstacle {
     pub shape: Shape,
 }
 
+impl Obstacle {
+    /// The box around it in the frame of the scene, as far as the box around its shape reaches: lowest and highest coordinates (m).
+    #[must_use]
+    pub fn bounds(&self) -> [[f64; 3]; 2] {
+        let own = self.shape.bounds();
+        let corner = |n: usize| self.pose.place([0, 1, 2].map(|c| own[n >> c & 1][c]));
+        let end = |start: f64, of: fn(f64, f64) -> f64| {
+            [0, 1, 2].map(|c| (0..8).map(|n| corner(n)[c]).fold(start, of))
+        };
+        [end(f64::INFINITY, f64::min), end(f64::NEG_INFINITY, f64::max)]
+    }
+}
+
 /// The bodies and obstacles of a scene.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

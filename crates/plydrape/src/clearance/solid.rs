@@ -1,13 +1,15 @@
 //! The distance of two shapes, by `parry3d-f64`. No other file knows its types.
 //!
 //! Distances of convex shapes are those of the algorithm of Gilbert, Johnson and Keerthi, depths those of the expanding polytope
-//! algorithm; of meshes the nearest or deepest triangle counts. A cylinder of parry is about its y axis, ours about z.
+//! algorithm; of meshes the nearest or deepest triangle counts. A cylinder of parry is about its y axis, ours about z. A box is the
+//! hull of its corners, because parry's own way from a cuboid to a triangle does not always find the nearest points: from the middle
+//! of a cube of triangles it finds those of two edges.
 
 use super::body::Shape;
 use crate::mold::Pose;
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
 use parry3d_f64::query::{self, ClosestPoints};
-use parry3d_f64::shape::{Cuboid, Cylinder, SharedShape, TriMesh, TriMeshFlags};
+use parry3d_f64::shape::{Cylinder, SharedShape, TriMesh, TriMeshFlags};
 use std::fmt;
 
 /// A shape that distances can be taken from.
@@ -51,8 +53,13 @@ impl Solid {
                 let local = ParryPose::from_parts(vector(ball.0), upright);
                 (SharedShape::new(Cylinder::new(0.5 * (to - from), *radius)), local)
             }
-            Shape::Box { size, at: middle } => {
-                (SharedShape::new(Cuboid::new(vector(size.map(|side| 0.5 * side)))), at(*middle))
+            Shape::Box { .. } => {
+                let [low, high] = shape.bounds();
+                let corner =
+                    |n: usize| vector([0, 1, 2].map(|c| if n >> c & 1 == 1 { high[c] } else { low[c] }));
+                let corners: Vec<Vector> = (0..8).map(corner).collect();
+                let hull = SharedShape::convex_hull(&corners);
+                (hull.unwrap_or_else(|| SharedShape::ball(0.0)), at([0.0; 3]))
             }
             Shape::Mesh { vertices, triangles } => {
                 let corners = vertices.iter().map(|p| vector(*p)).collect();

@@ -31,6 +31,10 @@ pub struct Clearance<'a> {
     own: f64,
     /// Height of the highest boundary of the mold that may be below the array on its way (m).
     boundary: f64,
+    /// Boxes around the obstacles: lowest and highest coordinates (m).
+    obstacles: Vec<[Point; 2]>,
+    /// Half of the distance between two points (m): an obstacle may be between them.
+    between: f64,
     /// Bodies that must stay clear of what stands in the cell.
     bodies: Option<Carried<'a>>,
 }
@@ -50,8 +54,7 @@ struct Carried<'a> {
 }
 
 impl<'a> Carried<'a> {
-    /// Those of a scene at its start (m); none without bodies or obstacles. A place that is planned may keep `margin` (m) more than the
-    /// limit.
+    /// Those of a scene at its start (m), which keep a margin (m) beside the limit; none without bodies or obstacles.
     fn new(scene: &'a Scene, start: &[Point], margin: f64) -> Option<Self> {
         let obstacles = scene.bodies.obstacles();
         if scene.bodies.is_empty() || obstacles.is_empty() {
@@ -60,11 +63,7 @@ impl<'a> Carried<'a> {
         let poses = Poses::by_neighbours(&scene.ply, &scene.ply.neighbours(), start);
         let wanted = scene.limits.clearance + margin;
         let own = from_what_stands(scene, &poses, wanted).unwrap_or(wanted);
-        let top = |obstacle: &Obstacle| {
-            let [low, high] = obstacle.shape.bounds();
-            let corner = |n: usize| [0, 1, 2].map(|c| if n >> c & 1 == 1 { high[c] } else { low[c] });
-            (0..8).map(|n| obstacle.pose.place(corner(n))[2]).fold(f64::NEG_INFINITY, f64::max)
-        };
+        let top = |obstacle: &Obstacle| obstacle.bounds()[1][2];
         let highest = obstacles.iter().map(top).fold(f64::NEG_INFINITY, f64::max);
         Some(Carried { scene, start: poses, wanted, own, highest })
     }
@@ -109,6 +108,8 @@ impl<'a> Clearance<'a> {
             margin: TUNING.transport.margin * tuning::cell(scene),
             table: None,
             own: f64::INFINITY,
+            obstacles: scene.bodies.obstacles().iter().map(Obstacle::bounds).collect(),
+            between: 0.5 * tuning::cell(scene) / TUNING.transport.divisions as f64,
             bodies: None,
             boundary: highest_boundary(mold, way, TUNING.transport.sampling * tuning::cell(scene)),
         };
@@ -184,10 +185,16 @@ impl<'a> Clearance<'a> {
         moves.map(|d| d[0].hypot(d[1])).fold(0.0, f64::max)
     }
 
-    /// Height of the ply that hangs from a place over the mold below it (m); none where there is no mold.
+    /// Height of the ply that hangs from a place over what is below it (m), the mold or the box around an obstacle; none where there
+    /// is neither.
     fn above(&self, place: Point) -> Option<f64> {
-        let top = self.mold.highest_point([place[0], place[1]])?;
-        Some(place[2] - self.hang - top[2])
+        let mold = self.mold.highest_point([place[0], place[1]]).map(|top| top[2]);
+        let over = |[low, high]: &&[Point; 2]| {
+            (0..2).all(|c| (low[c] - self.between..=high[c] + self.between).contains(&place[c]))
+        };
+        let obstacles = self.obstacles.iter().filter(over).map(|[_, high]| high[2]);
+        let top = obstacles.chain(mold).reduce(f64::max)?;
+        Some(place[2] - self.hang - top)
     }
 }
 
