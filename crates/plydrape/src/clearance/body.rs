@@ -2,7 +2,7 @@
 
 use super::solid::Solid;
 use super::surface::Surface;
-use crate::mold::{Pose, distance};
+use crate::mold::{Mesh, Pose, distance};
 use std::sync::{Arc, OnceLock};
 
 /// The shape of a body, in the coordinates of what it is mounted on.
@@ -177,6 +177,7 @@ impl Bodies {
                 bodies: self.bodies.iter().map(|body| solid(&body.shape)).collect(),
                 surfaces: self.bodies.iter().map(|body| Surface::new(&body.shape)).collect(),
                 obstacles: self.obstacles.iter().map(|body| solid(&body.shape)).collect(),
+                mold: OnceLock::new(),
             })
         })
     }
@@ -189,6 +190,20 @@ pub(super) struct Solids {
     /// The surface of each body.
     pub surfaces: Vec<Surface>,
     pub obstacles: Vec<Solid>,
+    /// The mold of triangles that was asked for first.
+    mold: OnceLock<(Arc<Mesh>, Arc<Solid>)>,
+}
+
+impl Solids {
+    /// A mold of triangles as a body.
+    pub fn of_mesh(&self, mesh: &Arc<Mesh>) -> Arc<Solid> {
+        let make = || {
+            let (vertices, triangles) = (mesh.vertices().to_vec(), mesh.triangles().to_vec());
+            Arc::new(Solid::new(&Shape::Mesh { vertices, triangles }))
+        };
+        let (made, solid) = self.mold.get_or_init(|| (Arc::clone(mesh), make()));
+        if Arc::ptr_eq(made, mesh) { Arc::clone(solid) } else { make() }
+    }
 }
 
 /// [`Solids`] once they are made; no part of what the bodies are.

@@ -223,7 +223,7 @@ impl<'a> Search<'a> {
             solids,
             judged,
             obstacles: scene.bodies.obstacles().iter().map(|obstacle| obstacle.pose).collect(),
-            mold: scene.mold.as_ref().filter(|_| meets_mold).map(OverMold::new),
+            mold: scene.mold.as_ref().filter(|_| meets_mold).map(|mold| OverMold::new(mold, solids)),
             limit: scene.limits.clearance,
             best: None,
         }
@@ -299,7 +299,9 @@ impl<'a> Search<'a> {
                 let p = self.obstacles[n].local(balls[body]);
                 norm([0, 1, 2].map(|c| (low[c] - p[c]).max(p[c] - high[c]).max(0.0))) - own
             }
-            Other::Mold => f64::NEG_INFINITY,
+            Other::Mold => {
+                self.mold.as_ref().map_or(f64::INFINITY, |mold| mold.gap(balls[body], own))
+            }
         }
     }
 
@@ -323,7 +325,7 @@ impl<'a> Search<'a> {
                 let Some(mold) = &self.mold else { return f64::INFINITY };
                 let surface = &self.solids.surfaces[one.part.body];
                 // half of it is for the motion
-                (mold.apart(surface, &own, 0.5 * self.resolution()), Near::Mold)
+                (mold.apart(solid, surface, &own, 0.5 * self.resolution()), Near::Mold)
             }
         };
         if distance < self.least() {

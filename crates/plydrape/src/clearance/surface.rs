@@ -5,7 +5,7 @@
 
 use super::body::Shape;
 use crate::mold::distance;
-use crate::mold::vector::between;
+use crate::mold::vector::{between, dot, sub};
 use std::f64::consts::TAU;
 
 /// A part of a surface.
@@ -127,6 +127,23 @@ impl Surface {
                 (middle, reach, true)
             }
             Patch::Node(n) => (self.tree[*n].middle, self.tree[*n].radius, false),
+        }
+    }
+
+    /// How far a part reaches at most from its middle against a unit vector (m).
+    pub fn extent(&self, patch: &Patch, along: [f64; 3]) -> f64 {
+        let (middle, reach, _) = self.ball(patch);
+        match patch {
+            Patch::Round { radius, height, angle } => {
+                let turn = (radius[0] + radius[1]) * (0.25 * (angle[1] - angle[0])).sin();
+                let across = 0.5 * (radius[1] - radius[0]) + turn;
+                along[0].hypot(along[1]) * across + along[2].abs() * 0.5 * (height[1] - height[0])
+            }
+            Patch::Triangle(corners) => {
+                let down = |p: &[f64; 3]| dot(sub(middle, *p), along);
+                corners.iter().map(down).fold(0.0, f64::max)
+            }
+            Patch::Node(_) => reach,
         }
     }
 

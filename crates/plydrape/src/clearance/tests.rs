@@ -7,7 +7,10 @@ use super::solid::Solid;
 use super::surface::Surface;
 use super::*;
 use crate::mold::vector::norm;
-use crate::mold::{Face, Graph, HeightGrid, Mold, Plane, Pose, Sphere, Surface as Height, distance};
+use crate::mold::{
+    Cylinder, Face, Graph, HeightGrid, Mold, Plane, Pose, Saddle, Sphere, Surface as Height, Torus,
+    distance,
+};
 use crate::motion::{Attitudes, Bounds, TimedMotion};
 use crate::ply::{Grid, cloth};
 use crate::scene::{Limits, Motion, Plan, Scene, Settings};
@@ -66,6 +69,12 @@ fn at(position: [f64; 3], rotation: [f64; 3]) -> Pose {
     Pose::new(position, rotation)
 }
 
+fn over(mold: &Mold, shape: &Shape, pose: Pose, resolution: f64) -> f64 {
+    let bodies = Bodies::new(Vec::new(), Vec::new());
+    let over = OverMold::new(mold, bodies.made());
+    over.apart(&Solid::new(shape), &Surface::new(shape), &pose, resolution).distance
+}
+
 /// Face to face, a vertical edge to a face, and a depth: cubes of 20 mm that are turned about z by 45° reach 10√2 mm along x.
 #[test]
 fn turned_boxes_are_as_far_apart_as_their_edges() {
@@ -119,8 +128,7 @@ fn a_body_inside_a_closed_mesh_is_not_clear_of_it() {
 fn a_cylinder_is_as_far_from_a_sphere_as_the_nearest_point_of_its_boundary() {
     let pose = Pose::upright([0.0, 0.0, -0.5]);
     let mold = Mold::Sphere(Sphere { pose, radius: 0.5, face: Face::Outside });
-    let surface = Surface::new(&cylinder(0.02, 0.03, 0.1));
-    let over = OverMold::new(&mold);
+    let shape = cylinder(0.02, 0.03, 0.1);
     let resolution = 1e-6;
     for (x, wanted) in [
         (0.0, 0.03),
@@ -128,7 +136,7 @@ fn a_cylinder_is_as_far_from_a_sphere_as_the_nearest_point_of_its_boundary() {
         (0.1, 0.08_f64.hypot(0.53) - 0.5),
         (-0.3, 0.28_f64.hypot(0.53) - 0.5),
     ] {
-        let found = over.apart(&surface, &Pose::upright([x, 0.0, 0.0]), resolution).distance;
+        let found = over(&mold, &shape, Pose::upright([x, 0.0, 0.0]), resolution);
         assert!((found - wanted).abs() <= resolution, "{x}: {found} {wanted}");
     }
 }
@@ -147,7 +155,7 @@ fn a_box_is_as_far_from_a_plane_as_its_nearest_corner() {
             mold.signed_distance(pose.place([0.01 + side(0), side(1), 0.02 + side(2)]))
         };
         let wanted = (0..8).map(corner).fold(f64::INFINITY, f64::min);
-        let found = OverMold::new(&mold).apart(&Surface::new(&shape), &pose, 1e-7).distance;
+        let found = over(&mold, &shape, pose, 1e-7);
         assert!((found - wanted).abs() <= 1e-7, "{height}: {found} {wanted}");
     }
 }
@@ -166,7 +174,7 @@ fn a_stem_in_a_trough_is_near_its_walls() {
     let mold = Mold::Graph(graph);
     let shape = cylinder(0.03, 0.0, 0.2);
     let pose = Pose::upright([0.07, 0.0, -0.02]);
-    let found = OverMold::new(&mold).apart(&Surface::new(&shape), &pose, 1e-6).distance;
+    let found = over(&mold, &shape, pose, 1e-6);
     let mut wanted = f64::INFINITY;
     for a in 0..720 {
         let (sin, cos) = (f64::from(a) * std::f64::consts::TAU / 720.0).sin_cos();
@@ -176,6 +184,62 @@ fn a_stem_in_a_trough_is_near_its_walls() {
         }
     }
     assert!(found <= wanted + 1e-6 && found > wanted - 1e-4, "{found} {wanted}");
+}
+
+/// A trough, a bowl, the hole of a ring, a ring-shaped channel and a saddle: a cylinder and a box anywhere over them, level or
+/// not, against points of their surfaces.
+#[test]
+fn bodies_over_hollow_molds_are_as_far_as_their_nearest_points() {
+    let still = Pose::upright([0.0; 3]);
+    let at_bottom = |radius: f64| Pose::upright([0.0, 0.0, radius]);
+    let saddle = Height::Saddle(Saddle { radii: [0.4, 0.3] });
+    let domain = Some([[-0.5, 0.5], [-0.5, 0.5]]);
+    let molds = [
+        Mold::Cylinder(Cylinder { pose: at_bottom(0.3), radius: 0.3, face: Face::Inside }),
+        Mold::Sphere(Sphere { pose: at_bottom(0.25), radius: 0.25, face: Face::Inside }),
+        Mold::Torus(Torus { pose: still, ring_radius: 0.3, tube_radius: 0.1, face: Face::Outside }),
+        Mold::Torus(Torus {
+            pose: at([0.2, 0.0, 0.1], [0.0; 3]),
+            ring_radius: 0.2,
+            tube_radius: 0.1,
+            face: Face::Inside,
+        }),
+        Mold::Graph(Graph { pose: still, surface: saddle, domain }),
+    ];
+    let bodies = [cylinder(0.02, 0.0, 0.05), Shape::Box { size: [0.06, 0.04, 0.02], at: [0.0; 3] }];
+    for (k, mold) in molds.iter().enumerate() {
+        for shape in &bodies {
+            for (n, height) in [0.01, 0.05, 0.12, 0.2].into_iter().enumerate() {
+                for tilt in [0.0, 0.3] {
+                    let x = 0.03 * n as f64;
+                    let pose = at([x, 0.02, height], [tilt, 0.5 * tilt, 0.0]);
+                    let found = over(mold, shape, pose, 1e-5);
+                    let near = points(shape).into_iter().map(|p| mold.signed_distance(pose.place(p)));
+                    let near = near.fold(f64::INFINITY, f64::min);
+                    // far away points are a twentieth of their distance apart
+                    let coarse = 1e-5 + 0.06 * near.abs();
+                    assert!(found <= near + coarse && found >= near - 1.6e-3, "{k} {n} {tilt}: {found} {near}");
+                }
+            }
+        }
+    }
+}
+
+/// A large box level over a plane and over a mesh of two triangles, in the air and beneath: as far as its bottom.
+#[test]
+fn a_level_box_is_as_far_as_its_bottom() {
+    let corners = vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
+    let (mesh, _) = crate::mold::Mesh::of_triangles(corners, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+    let plane = Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    let box_ = Shape::Box { size: [1.0, 0.8, 0.1], at: [0.0; 3] };
+    for mold in [Mold::Plane(plane), Mold::Mesh(std::sync::Arc::new(mesh))] {
+        let found = over(&mold, &box_, Pose::upright([0.1, 0.0, 0.25]), 1e-6);
+        assert!((found - 0.2).abs() < 1e-6, "{found}");
+        let found = over(&mold, &box_, Pose::upright([0.1, 0.0, 0.03]), 1e-6);
+        assert!((found + 0.02).abs() < 1e-6, "{found}");
+        let found = over(&mold, &box_, Pose::upright([0.1, 0.0, -0.3]), 1e-6);
+        assert!((found + 0.35).abs() < 1e-6, "{found}");
+    }
 }
 
 fn quaternion() -> impl Strategy<Value = [f64; 4]> {

@@ -8,10 +8,10 @@ pub(super) struct Tuning {
     pub resolution: f64,
     /// Times that an interval is halved at most: 2⁻³⁰ of a step is less than any resolution needs.
     pub halvings: u32,
-    /// Parts of a body's surface that are evaluated at most for one distance from the mold: a cylinder takes some hundred.
+    /// Parts of a body's surface that are divided at most for one distance from the mold: a cylinder takes some ten.
     pub patches: usize,
-    /// Size of a part of a body's surface, as a share of its distance from the mold, up to which it is divided where the
-    /// mold's distance is no exact one; only far from the mold is it none.
+    /// Reach of a part of a body's surface, as a share of its distance from the mold, to which it is divided farther from the mold than
+    /// the radius of its hollows, and as a share of the body's own for the depth in a mold of triangles.
     pub far: f64,
 }
 

@@ -76,7 +76,7 @@ impl Pose {
 
     /// A direction in space in local coordinates.
     #[must_use]
-    pub(super) fn turn_back(&self, d: [f64; 3]) -> [f64; 3] {
+    pub fn turn_back(&self, d: [f64; 3]) -> [f64; 3] {
         self.axes.map(|axis| super::vector::dot(axis, d))
     }
 }
