@@ -20,7 +20,13 @@ pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
         let [low, high] = obstacle.bounds();
         let side = |n: usize| format!("{} to {}", millimetres(low[n]), millimetres(high[n]));
         let name = shown::escaped(&obstacle.name);
-        format!("{name}: {}, x {}, y {}, z {} mm", shape(&obstacle.shape), side(0), side(1), side(2))
+        format!(
+            "{name}: {}, x {}, y {}, z {} mm",
+            shape(&obstacle.shape),
+            side(0),
+            side(1),
+            side(2)
+        )
     });
     let mut lines = numbered("bodies", bodies);
     if !lines.is_empty() {

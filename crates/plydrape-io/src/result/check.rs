@@ -125,7 +125,8 @@ fn of_bodies(bodies: &Bodies) -> Option<String> {
             })
         })
     };
-    let askew = bodies.obstacles().iter().any(|o| !turned(&o.pose.axes) || !is_near(&o.pose.position));
+    let askew =
+        bodies.obstacles().iter().any(|o| !turned(&o.pose.axes) || !is_near(&o.pose.position));
     fault.or(askew.then_some("an obstacle stands nowhere")).map(str::to_owned)
 }
 

@@ -22,7 +22,8 @@ fn passing(more: &str) -> String {
     )
 }
 
-const CUP: &str = "[[bodies]]\nname = \"cup\"\non = \"pad\"\ncylinder = { radius = \"15 mm\", to = \"30 mm\" }\n";
+const CUP: &str =
+    "[[bodies]]\nname = \"cup\"\non = \"pad\"\ncylinder = { radius = \"15 mm\", to = \"30 mm\" }\n";
 
 fn parse(text: &str) -> Result<Scene, SceneError> {
     let base = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -41,13 +42,17 @@ fn verdict(result: &ResultFile) -> Option<&Verdict> {
 /// stand in the verdict; at the steps nothing is near but the other cup, 68 mm away.
 #[test]
 fn an_obstacle_between_two_steps_is_met_and_named() {
-    let wall = "[[obstacles]]\nname = \"wall\"\nbox = { size = [0.002, 1, 1] }\nposition = [0.36, 0, 0]\n";
+    let wall =
+        "[[obstacles]]\nname = \"wall\"\nbox = { size = [0.002, 1, 1] }\nposition = [0.36, 0, 0]\n";
     let result = drape(&read(&passing(&format!("{CUP}{wall}"))));
     let found = verdict(&result).unwrap();
     assert!(!found.ok && found.value <= 0.0 && found.limit == 5.0 && found.is_least(), "{found:?}");
     assert!(!result.summary.accepted && !result.summary.motion_accepted());
     assert!(found.at.starts_with("cup of gripper ["), "{found:?}");
-    assert!(found.at.contains("] and obstacle wall at ") && found.at.contains(" s near ("), "{found:?}");
+    assert!(
+        found.at.contains("] and obstacle wall at ") && found.at.contains(" s near ("),
+        "{found:?}"
+    );
     assert!((found.place.unwrap()[0] - 0.36).abs() < 0.02, "{found:?}");
     let values: Vec<f64> =
         result.steps.iter().map(|step| step.measures.value(Name::Clearance).unwrap()).collect();
@@ -116,7 +121,8 @@ fn a_scene_without_bodies_says_nothing_of_clearances() {
     for text in files {
         assert!(!text.contains("clearance") && !text.contains("bodies"), "{text}");
     }
-    let wall = "[[obstacles]]\nname = \"wall\"\nbox = { size = [0.002, 1, 1] }\nposition = [0.36, 0, 0]\n";
+    let wall =
+        "[[obstacles]]\nname = \"wall\"\nbox = { size = [0.002, 1, 1] }\nposition = [0.36, 0, 0]\n";
     assert!(verdict(&drape(&read(&passing(wall)))).is_none());
 }
 
@@ -130,21 +136,28 @@ fn a_result_keeps_bodies_and_obstacles() {
     );
     let scene = read(&passing(&more));
     let result = drape(&scene);
-    let read = plydrape_io::result::read::parse(result.text().unwrap().as_bytes(), Path::new("result.json"))
-        .unwrap_or_else(|e| panic!("{e}"));
+    let read = plydrape_io::result::read::parse(
+        result.text().unwrap().as_bytes(),
+        Path::new("result.json"),
+    )
+    .unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(read.scene.bodies, scene.bodies);
     assert_eq!((read.scene.limits.clearance, read.summary.limits), (0.012, result.summary.limits));
     let cup = Shape::Cylinder { radius: 0.015, from: 0.0, to: 0.03 };
     assert_eq!(scene.bodies.bodies()[0], Body { name: "cup".into(), on: Mount::Pad, shape: cup });
     let stem = Shape::Box { size: [0.01, 0.02, 0.1], at: [0.0, 0.0, 0.09] };
-    assert_eq!(scene.bodies.bodies()[1], Body { name: "stem".into(), on: Mount::Stem, shape: stem });
+    assert_eq!(
+        scene.bodies.bodies()[1],
+        Body { name: "stem".into(), on: Mount::Stem, shape: stem }
+    );
     assert_eq!(scene.bodies.obstacles()[0].pose, Pose::new([0.2, 0.1, 0.0], [0.1, 0.0, 0.0]));
 }
 
 /// A damaged result whose body has no shape, or whose obstacle is askew, is no result.
 #[test]
 fn an_impossible_body_in_a_result_is_refused() {
-    let wall = "[[obstacles]]\nname = \"wall\"\nbox = { size = [0.002, 1, 1] }\nposition = [0.36, 0, 0]\n";
+    let wall =
+        "[[obstacles]]\nname = \"wall\"\nbox = { size = [0.002, 1, 1] }\nposition = [0.36, 0, 0]\n";
     let result = drape(&read(&passing(&format!("{CUP}{wall}"))));
     let refused = |change: &dyn Fn(&mut Vec<Body>, &mut Vec<clearance::Obstacle>)| {
         let mut result = result.clone();

@@ -223,7 +223,11 @@ impl<'a> Search<'a> {
             solids,
             judged,
             obstacles: scene.bodies.obstacles().iter().map(|obstacle| obstacle.pose).collect(),
-            mold: scene.mold.as_ref().filter(|_| meets_mold).map(|mold| OverMold::new(mold, solids)),
+            mold: scene
+                .mold
+                .as_ref()
+                .filter(|_| meets_mold)
+                .map(|mold| OverMold::new(mold, solids)),
             limit: scene.limits.clearance,
             best: None,
         }

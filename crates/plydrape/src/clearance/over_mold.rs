@@ -99,11 +99,8 @@ impl<'a> OverMold<'a> {
     pub fn gap(&self, middle: [f64; 3], radius: f64) -> f64 {
         let found = self.mold.separation(middle, f64::INFINITY);
         let known = found.beyond || found.distance <= 0.0 || !self.steepness.bend.is_finite();
-        let clear = if known {
-            found.distance
-        } else {
-            self.mold.clear(middle, found, self.steepness)
-        };
+        let clear =
+            if known { found.distance } else { self.mold.clear(middle, found, self.steepness) };
         clear - radius - self.raised
     }
 

@@ -55,8 +55,9 @@ impl Solid {
             }
             Shape::Box { .. } => {
                 let [low, high] = shape.bounds();
-                let corner =
-                    |n: usize| vector([0, 1, 2].map(|c| if n >> c & 1 == 1 { high[c] } else { low[c] }));
+                let corner = |n: usize| {
+                    vector([0, 1, 2].map(|c| if n >> c & 1 == 1 { high[c] } else { low[c] }))
+                };
                 let corners: Vec<Vector> = (0..8).map(corner).collect();
                 let hull = SharedShape::convex_hull(&corners);
                 (hull.unwrap_or_else(|| SharedShape::ball(0.0)), at([0.0; 3]))
@@ -99,7 +100,10 @@ impl Solid {
         // nothing more is known than that they touch, or that their balls are so far apart
         let [middle, its_middle] = [own.place(self.ball.0), its.place(other.ball.0)];
         let gap = crate::mold::distance(middle, its_middle) - self.ball.1 - other.ball.1;
-        Apart { distance: gap.max(0.0), place: crate::mold::vector::between(middle, its_middle, 0.5) }
+        Apart {
+            distance: gap.max(0.0),
+            place: crate::mold::vector::between(middle, its_middle, 0.5),
+        }
     }
 
     /// Whether a point (m) is inside a closed mesh.

@@ -44,11 +44,8 @@ impl Surface {
                     radius: [0.0, *radius],
                     height: [*z; 2],
                 });
-                let side = Patch::Round {
-                    angle: [0.0, TAU],
-                    radius: [*radius; 2],
-                    height: [*from, *to],
-                };
+                let side =
+                    Patch::Round { angle: [0.0, TAU], radius: [*radius; 2], height: [*from, *to] };
                 Surface { patches: vec![ends[0], ends[1], side], tree: Vec::new() }
             }
             Shape::Box { size, at } => {
@@ -153,7 +150,8 @@ impl Surface {
             Patch::Round { angle, radius, height } => {
                 let long = |[from, to]: [f64; 2]| to - from;
                 let around = radius[1] * long(angle);
-                let cut = |[from, to]: [f64; 2]| [[from, 0.5 * (from + to)], [0.5 * (from + to), to]];
+                let cut =
+                    |[from, to]: [f64; 2]| [[from, 0.5 * (from + to)], [0.5 * (from + to), to]];
                 if around >= long(radius).max(long(height)) {
                     cut(angle).map(|angle| Patch::Round { angle, radius, height })
                 } else if long(radius) >= long(height) {

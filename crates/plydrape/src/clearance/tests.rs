@@ -214,11 +214,15 @@ fn bodies_over_hollow_molds_are_as_far_as_their_nearest_points() {
                     let x = 0.03 * n as f64;
                     let pose = at([x, 0.02, height], [tilt, 0.5 * tilt, 0.0]);
                     let found = over(mold, shape, pose, 1e-5);
-                    let near = points(shape).into_iter().map(|p| mold.signed_distance(pose.place(p)));
+                    let near =
+                        points(shape).into_iter().map(|p| mold.signed_distance(pose.place(p)));
                     let near = near.fold(f64::INFINITY, f64::min);
                     // far away points are a twentieth of their distance apart
                     let coarse = 1e-5 + 0.06 * near.abs();
-                    assert!(found <= near + coarse && found >= near - 1.6e-3, "{k} {n} {tilt}: {found} {near}");
+                    assert!(
+                        found <= near + coarse && found >= near - 1.6e-3,
+                        "{k} {n} {tilt}: {found} {near}"
+                    );
                 }
             }
         }
@@ -338,7 +342,9 @@ proptest! {
 fn motion() -> (TimedMotion, Attitudes) {
     let rows: Vec<Vec<[f64; 3]>> = (0..9)
         .map(|k| f64::from(k) * 0.6)
-        .map(|x| vec![[0.3 * x.cos(), 0.3 * x.sin(), 0.1 * x], [0.0, 0.1 * x, 0.2 * (2.0 * x).sin()]])
+        .map(|x| {
+            vec![[0.3 * x.cos(), 0.3 * x.sin(), 0.1 * x], [0.0, 0.1 * x, 0.2 * (2.0 * x).sin()]]
+        })
         .collect();
     let motion =
         TimedMotion::new(&rows, &Bounds { speed: 0.3, acceleration: 1.0, jerk: 10.0 }).unwrap();

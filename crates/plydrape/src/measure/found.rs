@@ -1,8 +1,8 @@
 //! A worst value and the part of the ply that has it.
 
 use super::Sense;
-use crate::draping::spans::Point;
 use crate::clearance::{Near, Part, label};
+use crate::draping::spans::Point;
 use crate::ply::Fibres;
 use crate::scene::Scene;
 

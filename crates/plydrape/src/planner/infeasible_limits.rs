@@ -96,9 +96,8 @@ fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
         fabric(scene, a, b) / lines.flat_length(n, scene.ply.length_factor) - 1.0
     };
     let worst = largest((0..lines.edges()).map(|n| (share(n), n)));
-    let found = worst.map(|(share, n)| {
-        (share, format!("{} at the target", Site::Catenary(n).label(scene)))
-    });
+    let found = worst
+        .map(|(share, n)| (share, format!("{} at the target", Site::Catenary(n).label(scene))));
     beyond(Name::Overstretch, scene.limits.overstretch, found)
 }
 
@@ -218,10 +217,7 @@ fn reach(scene: &Scene, start: &[[f64; 3]], target: &Target) -> Option<Verdict> 
     let reach = plan.move_limit? * moves as f64;
     let distances = start.iter().zip(&target.grippers).map(|(a, b)| distance(*a, *b));
     let found = largest(distances.enumerate().map(|(n, far)| (far, n))).map(|(far, n)| {
-        (
-            far * 1e3,
-            format!("straight way of {} in {moves} moves", Site::Gripper(n).label(scene)),
-        )
+        (far * 1e3, format!("straight way of {} in {moves} moves", Site::Gripper(n).label(scene)))
     });
     beyond(Name::MoveLimit, reach * 1e3, found)
 }
