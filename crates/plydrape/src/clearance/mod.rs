@@ -23,7 +23,7 @@ mod tuning;
 
 pub use body::{Bodies, Body, Mount, Obstacle, Shape};
 pub use nearest::{Near, Nearest, Part, at};
-pub(crate) use nearest::{along_positions, between_steps, from_what_stands, label};
+pub(crate) use nearest::{along_positions, between_steps, from_obstacles, label};
 pub use poses::Poses;
 
 #[cfg(test)]

@@ -113,22 +113,22 @@ pub(crate) fn along_positions(scene: &Scene, positions: &[Vec<Point>]) -> Option
     along(scene, &Legs(legs), &times)
 }
 
-/// The distance of bodies from obstacles and mold (m) at one time, if it is below `least` (m); distances of bodies from each other
-/// do not count.
+/// The distance of bodies from obstacles (m) at one time, if it is below `least` (m).
 #[must_use]
-pub(crate) fn from_what_stands(scene: &Scene, poses: &Poses, least: f64) -> Option<f64> {
+pub(crate) fn from_obstacles(scene: &Scene, poses: &Poses, least: f64) -> Option<f64> {
     let moves = Straight::new(poses, poses);
-    let mut search = Search::new(scene, &moves);
+    let mut search = Search::among(scene, &moves, None);
     let balls = search.balls(0.0);
-    let mut found: Option<f64> = None;
-    for pair in search.near(&balls, 0.0) {
-        let most = found.unwrap_or(least);
-        if !matches!(pair.1, Other::Body(_)) && search.gap(pair, &balls) < most {
-            let distance = search.distance(pair, 0.0);
-            found = found.or(Some(distance).filter(|d| *d < least)).map(|d| d.min(distance));
+    let mut found = least;
+    for body in 0..balls.len() {
+        for obstacle in 0..search.obstacles.len() {
+            let pair = (body, Other::Obstacle(obstacle));
+            if search.gap(pair, &balls) < found {
+                found = found.min(search.distance(pair, 0.0));
+            }
         }
     }
-    found
+    (found < least).then_some(found)
 }
 
 impl Nearest {
@@ -201,6 +201,14 @@ type Balls = Vec<Point>;
 impl<'a> Search<'a> {
     fn new(scene: &'a Scene, moves: &'a dyn Moves) -> Self {
         let solids = scene.bodies.made();
+        let meets_mold = scene.bodies.bodies().iter().any(|body| body.on != Mount::Pad);
+        let mold = scene.mold.as_ref().filter(|_| meets_mold);
+        Search::among(scene, moves, mold.map(|mold| OverMold::new(mold, solids)))
+    }
+
+    /// Over a mold, if it counts.
+    fn among(scene: &'a Scene, moves: &'a dyn Moves, mold: Option<OverMold<'a>>) -> Self {
+        let solids = scene.bodies.made();
         let mut judged = Vec::new();
         for (n, body) in scene.bodies.bodies().iter().enumerate() {
             let ball = solids.bodies[n].ball;
@@ -217,17 +225,12 @@ impl<'a> Search<'a> {
                 Mount::Flange => {}
             }
         }
-        let meets_mold = judged.iter().any(|body| body.mount != Mount::Pad);
         Search {
             moves,
             solids,
             judged,
             obstacles: scene.bodies.obstacles().iter().map(|obstacle| obstacle.pose).collect(),
-            mold: scene
-                .mold
-                .as_ref()
-                .filter(|_| meets_mold)
-                .map(|mold| OverMold::new(mold, solids)),
+            mold,
             limit: scene.limits.clearance,
             best: None,
         }

@@ -1,7 +1,7 @@
 //! How far an array that is carried stays above the mold, and above the table that it was picked up from.
 
 use super::turn::{Rotation, centre, turned};
-use crate::clearance::{Obstacle, Poses, from_what_stands};
+use crate::clearance::{Obstacle, Poses, from_obstacles};
 use crate::draping::spans::Point;
 use crate::mold::Mold;
 use crate::mold::vector::{along, between, distance, norm, sub};
@@ -62,7 +62,7 @@ impl<'a> Carried<'a> {
         }
         let poses = Poses::by_neighbours(&scene.ply, &scene.ply.neighbours(), start);
         let wanted = scene.limits.clearance + margin;
-        let own = from_what_stands(scene, &poses, wanted).unwrap_or(wanted);
+        let own = from_obstacles(scene, &poses, wanted).unwrap_or(wanted);
         let top = |obstacle: &Obstacle| obstacle.bounds()[1][2];
         let highest = obstacles.iter().map(top).fold(f64::NEG_INFINITY, f64::max);
         Some(Carried { scene, start: poses, wanted, own, highest })
@@ -73,7 +73,7 @@ impl<'a> Carried<'a> {
     fn shortfall(&self, from: Point, centre: Point, rotation: &Rotation, moved: f64) -> f64 {
         let wanted = self.wanted.min(self.own + moved);
         let poses = self.start.carried(from, centre, rotation);
-        match from_what_stands(self.scene, &poses, wanted) {
+        match from_obstacles(self.scene, &poses, wanted) {
             // over all that stands there, and no less than the distance lacks: the way is lowered again as far as it may
             Some(distance) if distance < wanted => {
                 let lowest = poses.stems.iter().map(|pose| pose.position[2]);
