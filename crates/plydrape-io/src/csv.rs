@@ -22,20 +22,20 @@ use plydrape::ply::{GripperId, Ply};
 pub fn steps(result: &ResultFile) -> Result<String, Error> {
     let mut table = Writer::from_writer(Vec::new());
     let mut header = vec!["step", "t (s)"];
-    let columns = measured().map(|m| [header_of(m), format!("{} at", m.measure().label())]);
+    let columns = measured(result).map(|m| [header_of(m), format!("{} at", m.measure().label())]);
     let columns: Vec<String> = columns.flatten().collect();
     header.extend(columns.iter().map(String::as_str));
     header.extend(["solver status", "iterations", "residual", "equilibria", "contact status"]);
     table.write_record(&header)?;
     for step in &result.steps {
-        table.write_record(step_row(step))?;
+        table.write_record(step_row(result, step))?;
     }
     text(table)
 }
 
-fn step_row(step: &Step) -> Vec<String> {
+fn step_row(result: &ResultFile, step: &Step) -> Vec<String> {
     let mut row = vec![step.step.to_string(), number(step.time)];
-    for name in measured() {
+    for name in measured(result) {
         let worst = step.measures.get(name);
         row.push(worst.map(|w| number(w.value)).unwrap_or_default());
         row.push(worst.map(|w| w.at.clone()).unwrap_or_default());
@@ -48,9 +48,13 @@ fn step_row(step: &Step) -> Vec<String> {
     row
 }
 
-/// The measures that a step may have.
-fn measured() -> impl Iterator<Item = Name> {
-    Name::ALL.iter().copied().filter(|name| name.measure().scope() != Scope::Whole)
+/// The measures that a step may have; clearances where there are bodies.
+fn measured(result: &ResultFile) -> impl Iterator<Item = Name> {
+    let bodies = !result.scene.bodies.is_empty();
+    let known = move |name: &Name| {
+        name.measure().scope() != Scope::Whole && (bodies || *name != Name::Clearance)
+    };
+    Name::ALL.iter().copied().filter(known)
 }
 
 /// The column of a measure, its unit in brackets.

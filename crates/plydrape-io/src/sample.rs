@@ -2,6 +2,7 @@
 //! target, cut off where they meet the mold. They look like a drape and solve nothing.
 
 use crate::result::{ResultFile, SceneEcho};
+use plydrape::clearance::Bodies;
 use plydrape::draping::ContactStatus;
 use plydrape::draping::record::*;
 use plydrape::equilibrium::Status;
@@ -289,12 +290,14 @@ fn frame(grid: Grid) -> ResultFile {
                 grip_safety: 1.5,
                 contact_share: 0.9,
                 gripper_distance: 0.05,
+                clearance: 0.005,
                 workspace: None,
                 speed: 0.25,
                 acceleration: 1.0,
                 jerk: 10.0,
                 duration: None,
             },
+            bodies: Bodies::default(),
             errors: None,
             tool: None,
         },

@@ -213,11 +213,14 @@ fn limits(limits: &[Verdict], sample: Option<&SampleVerdict>) -> String {
     }
 }
 
-/// The limits of the catenaries, and where their drape ended early.
+/// The limits of the catenaries, which bodies come nearest to what, and where their drape ended early.
 fn catenaries(summary: &Summary, sample: Option<&SampleVerdict>) -> String {
     let mut text = limits(&summary.limits, sample);
     if let Some(words) = slack_in_words(summary) {
         let _ = writeln!(text, "slack at the end is {words}");
+    }
+    if let Some(nearest) = summary.limits.iter().find(|v| v.name == Name::Clearance) {
+        let _ = writeln!(text, "nearest: {}", nearest.at);
     }
     if let Some(reason) = &summary.stopped {
         let _ = writeln!(text, "stopped: {reason}");

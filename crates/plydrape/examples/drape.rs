@@ -59,6 +59,7 @@ fn main() {
         },
         target: Some(Target { grippers: end.clone(), drape: None }),
         settings,
+        bodies: plydrape::clearance::Bodies::default(),
         plan: Plan::default(),
         errors: None,
         tool: None,

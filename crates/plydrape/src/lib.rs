@@ -45,16 +45,18 @@
 //! 4. [`scene`], [`preset`]: everything that one drape needs, and named sets of limits;
 //! 5. [`equilibrium`]: all horizontal forces and shared slopes at given gripper positions;
 //! 6. [`draping`]: the motion step by step, with contact;
-//! 7. [`measure`]: what is measured of a step, limits, and the verdict;
-//! 8. [`motion`]: positions step by step become smooth in time, within limits of speed, acceleration, jerk;
-//! 9. [`planner`]: gripper trajectories, and limits that no trajectory can keep;
-//! 10. [`tool`]: the frame and axes of a robot that carries the grippers, and the motion that it makes;
-//! 11. [`errors`]: how far a real cell may be from its scene, and the scene of one such cell.
+//! 7. [`clearance`]: how far bodies of grippers and robot stay from mold, obstacles and each other;
+//! 8. [`measure`]: what is measured of a step, limits, and the verdict;
+//! 9. [`motion`]: positions step by step become smooth in time, within limits of speed, acceleration, jerk;
+//! 10. [`planner`]: gripper trajectories, and limits that no trajectory can keep;
+//! 11. [`tool`]: the frame and axes of a robot that carries the grippers, and the motion that it makes;
+//! 12. [`errors`]: how far a real cell may be from its scene, and the scene of one such cell.
 //!
 //! SI units throughout, z up, gravity along −z. This crate reads and writes no files; with the feature `serde` its types
 //! can be written by serde.
 
 pub mod catenary;
+pub mod clearance;
 pub mod draping;
 pub mod equilibrium;
 pub mod errors;

@@ -2,6 +2,7 @@
 //!
 //! What reads a scene from a file, and refuses it with the place of a fault, is the crate `plydrape-io`.
 
+use crate::clearance::Bodies;
 use crate::errors::Errors;
 use crate::mold::Mold;
 use crate::net::Net;
@@ -27,6 +28,8 @@ pub struct Scene {
     pub settings: Settings,
     /// Limits of an accepted drape.
     pub limits: Limits,
+    /// What moves with grippers and robot, and what stands in the cell.
+    pub bodies: Bodies,
     /// How a motion is planned, where none is followed.
     pub plan: Plan,
     /// How far a real cell may be from this scene, if that is known.
@@ -373,6 +376,12 @@ pub struct Limits {
     pub contact_share: f64,
     /// Smallest distance between grippers (m).
     pub gripper_distance: f64,
+    /// Smallest distance of the bodies of grippers and robot from mold, obstacles and each other (m).
+    #[cfg_attr(
+        feature = "serde",
+        serde(default = "usual_clearance", skip_serializing_if = "is_usual_clearance")
+    )]
+    pub clearance: f64,
     /// Box that the grippers can reach: [from, to] in x, y and z (m).
     pub workspace: Option<[[f64; 2]; 3]>,
     /// Speed of a gripper (m/s), of planned motions.
@@ -387,6 +396,21 @@ pub struct Limits {
 
 /// Safety of pads against slip and loss, unless a scene sets another: usual for vacuum cups that are moved slowly.
 const GRIP_SAFETY: f64 = 1.5;
+
+/// Clearance of bodies (m) unless a scene sets another: our assumption. It is to hold what a scene does not know, a fixture that is
+/// placed by hand within 2 mm, hoses and heads of screws of 2 mm, and the error of the robot of less than 1 mm.
+const CLEARANCE: f64 = 5e-3;
+
+#[cfg(feature = "serde")]
+fn usual_clearance() -> f64 {
+    CLEARANCE
+}
+
+#[cfg(feature = "serde")]
+/// The usual clearance is not written, so that files of scenes without bodies stay as they are.
+fn is_usual_clearance(value: &f64) -> bool {
+    *value == CLEARANCE
+}
 
 #[cfg(feature = "serde")]
 fn usual_grip_safety() -> f64 {
@@ -432,6 +456,7 @@ impl Limits {
             grip_safety: GRIP_SAFETY,
             contact_share: 0.95,
             gripper_distance: 0.5 * ply.cell[0].min(ply.cell[1]),
+            clearance: CLEARANCE,
             workspace: None,
             speed: 0.25,
             acceleration: 1.0,

@@ -1,5 +1,6 @@
 //! `plydrape check`: reads a scene, says what was understood, and warns of what cannot be meant.
 
+mod bodies;
 mod book;
 mod mold;
 mod rules;
@@ -61,6 +62,7 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
     lines.extend(mold::mold(scene));
     lines.extend(way::way(scene));
     lines.extend(rules::tool(scene));
+    lines.extend(bodies::bodies(scene));
     lines.extend(rules::rules(scene));
     lines.extend(sheet::sheet(scene));
     lines.extend(rules::plan(scene));

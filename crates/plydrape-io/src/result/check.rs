@@ -3,6 +3,7 @@
 use super::{ResultFile, SceneEcho};
 use crate::json::JsonError;
 use crate::shown;
+use plydrape::clearance::{Bodies, Shape};
 use plydrape::draping::record::CatenaryState;
 use plydrape::material::{Section, TensionLaw};
 use plydrape::ply::{FARTHEST, Grid, GripperId, Ply, is_near};
@@ -66,6 +67,9 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     {
         return Some("the tension of its material is no table of force over strain".into());
     }
+    if let Some(what) = of_bodies(&scene.bodies) {
+        return Some(what);
+    }
     let Settings { axial_stiffness, gravity, max_tilt, sheet, pad, contact, .. } = scene.settings;
     let friction = match contact.friction {
         Friction::Coulomb(coefficient) => coefficient,
@@ -92,6 +96,38 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
         }
         _ => target.iter().find_map(|place| far("a target", place)),
     }
+}
+
+/// What is impossible in bodies and obstacles.
+fn of_bodies(bodies: &Bodies) -> Option<String> {
+    let moving = bodies.bodies().iter().map(|body| (&body.name, &body.shape));
+    let standing = bodies.obstacles().iter().map(|body| (&body.name, &body.shape));
+    let fault = moving.chain(standing).find_map(|(name, shape)| {
+        let near = |place: &[f64; 3]| is_near(place);
+        let sound = match shape {
+            Shape::Cylinder { radius, from, to } => *radius > 0.0 && from < to,
+            Shape::Box { size, at } => size.iter().all(|side| *side > 0.0) && near(at),
+            Shape::Mesh { vertices, triangles } => {
+                let count = vertices.len();
+                !triangles.is_empty()
+                    && triangles.iter().flatten().all(|n| (*n as usize) < count)
+                    && vertices.iter().all(near)
+            }
+        };
+        let control = shown::control(name).map(|_| "a body has a name of more than plain text");
+        (!sound).then_some("a body has no shape").or(control)
+    });
+    let turned = |axes: &[[f64; 3]; 3]| {
+        (0..3).all(|a| {
+            (0..=a).all(|b| {
+                let product: f64 = (0..3).map(|n| axes[a][n] * axes[b][n]).sum();
+                (product - if a == b { 1.0 } else { 0.0 }).abs() < 1e-3
+            })
+        })
+    };
+    let askew =
+        bodies.obstacles().iter().any(|o| !turned(&o.pose.axes) || !is_near(&o.pose.position));
+    fault.or(askew.then_some("an obstacle stands nowhere")).map(str::to_owned)
 }
 
 /// What is impossible in how the ply is cut.

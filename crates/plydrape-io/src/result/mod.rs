@@ -13,6 +13,7 @@ pub mod read;
 mod step;
 
 use crate::sheet::{self, SheetDrape, SheetDrapeError, SheetKept};
+use plydrape::clearance::Bodies;
 use plydrape::draping::record::{PlanRecord, Step, Summary, Verdict};
 use plydrape::draping::{Drape, curves};
 use plydrape::errors::Errors;
@@ -68,6 +69,9 @@ pub struct SceneEcho {
     pub settings: Settings,
     /// Limits of an accepted drape.
     pub limits: Limits,
+    /// What moves with grippers and robot, and what stands in the cell.
+    #[serde(default, skip_serializing_if = "Bodies::is_nothing")]
+    pub bodies: Bodies,
     /// How far a real cell may be from the scene, if it says so.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<Errors>,
@@ -88,6 +92,7 @@ impl SceneEcho {
             target: scene.target.clone(),
             settings: scene.settings,
             limits: scene.limits,
+            bodies: scene.bodies.clone(),
             errors: scene.errors,
             tool: scene.tool.clone(),
         }

@@ -1,5 +1,6 @@
 //! From the keys of a file to a scene that makes sense.
 
+use super::bodies::bodies;
 use super::diagnostic::hint;
 use super::drawing::WarpChoice;
 use super::error::{Document, SceneError};
@@ -59,6 +60,7 @@ pub(super) fn scene(
     let limits = limits(&file.limits, &ply, &settings, document)?;
     let sheets = sheet::fits(file, &ply, &settings, motion.positions.len(), document)?;
     let plan = plan(&file.plan, ply.grippers(), document)?;
+    let bodies = bodies(file, document, base)?;
     let errors = match &file.errors {
         Some(table) => Some(errors(table, &ply, mold.is_some(), document)?),
         None => None,
@@ -74,7 +76,19 @@ pub(super) fn scene(
     let thickness =
         file.ply.value.thickness.as_ref().map(|thickness| thickness.size(document)).transpose()?;
     Ok(SceneFile {
-        scene: Scene { title, ply, mold, motion, target, settings, limits, plan, errors, tool },
+        scene: Scene {
+            title,
+            ply,
+            mold,
+            motion,
+            target,
+            settings,
+            limits,
+            bodies,
+            plan,
+            errors,
+            tool,
+        },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,

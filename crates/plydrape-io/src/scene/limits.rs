@@ -91,6 +91,10 @@ pub(super) fn limits(
             Some(distance) => distance.size(document)?,
             None => usual.gripper_distance,
         },
+        clearance: match &table.clearance {
+            Some(distance) => distance.size(document)?,
+            None => usual.clearance,
+        },
         workspace: match &table.workspace {
             Some(sides) => Some(workspace(sides, document)?),
             None => None,

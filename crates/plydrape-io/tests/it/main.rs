@@ -1,6 +1,7 @@
 //! What the engine does with scenes that are read from files, and what it writes, as one program.
 
 mod books;
+mod clearance;
 mod common;
 mod constraint;
 mod curved;

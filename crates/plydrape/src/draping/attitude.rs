@@ -69,6 +69,22 @@ pub fn attitude(
     across(tangent(u, slope[0]), tangent(v, slope[1]), slope, before)
 }
 
+/// How each gripper is turned (x, y, z, w) by the lines to its neighbours, whatever the ply between them does.
+#[must_use]
+pub fn by_neighbours(ply: &Ply, neighbours: &[Neighbours], positions: &[Point]) -> Vec<[f64; 4]> {
+    let one = |n: usize| {
+        let [u, v] = tangents(ply, neighbours, positions, n);
+        across(u, v, [None; 2], None).quaternion
+    };
+    (0..positions.len()).map(one).collect()
+}
+
+/// An orientation (x, y, z, w) turned so that its z axis is along a unit normal, its x axis as near to what it was as that allows.
+#[must_use]
+pub fn on_normal(turned: [f64; 4], normal: Point) -> [f64; 4] {
+    oriented(normal, x_axis(turned), None).quaternion
+}
+
 /// The attitude of a gripper at which u and v run along two tangents.
 fn across(
     along_u: Point,

@@ -54,6 +54,7 @@ fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2])
         target: None,
         settings,
         limits,
+        bodies: crate::clearance::Bodies::default(),
         plan: Plan::default(),
         errors: None,
         tool: None,

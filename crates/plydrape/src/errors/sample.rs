@@ -356,7 +356,7 @@ fn highest(scene: &Scene, places: &[[f64; 2]], spread: &[f64]) -> Option<Highest
     let off = |line: &Neighbours| off_line(place, line.grippers.map(|n| ply.place(n)));
     let lines = ply.neighbours();
     let line = lines.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-    let label = |n: usize| Site::Gripper(n).label(ply);
+    let label = |n: usize| Site::Gripper(n).label(scene);
     let [from, to] = line.map_or([gripper; 2], |line| line.grippers).map(label);
     Some(Highest {
         height_mm: height * 1e3,

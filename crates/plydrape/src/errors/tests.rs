@@ -76,6 +76,7 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
         target: Some(target),
         settings,
         limits,
+        bodies: crate::clearance::Bodies::default(),
         plan: Plan::default(),
         errors: Some(budget()),
         tool: None,

@@ -1,11 +1,13 @@
 //! A worst value and the part of the ply that has it.
 
 use super::Sense;
+use crate::clearance::{Near, Part, label};
 use crate::draping::spans::Point;
-use crate::ply::{Fibres, Ply};
+use crate::ply::Fibres;
+use crate::scene::Scene;
 
 /// A part of the ply.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Site {
     /// A catenary by its index.
     Catenary(usize),
@@ -13,6 +15,15 @@ pub enum Site {
     Gripper(usize),
     /// Two grippers by their indices.
     Grippers(usize, usize),
+    /// A body and what it is near to.
+    Bodies {
+        /// The body.
+        part: Part,
+        /// What it is near to.
+        near: Near,
+        /// When (s).
+        time: f64,
+    },
     /// A cell by its index.
     Cell(usize),
     /// All edges together.
@@ -26,7 +37,8 @@ pub enum Site {
 impl Site {
     /// As a label.
     #[must_use]
-    pub fn label(self, ply: &Ply) -> String {
+    pub fn label(self, scene: &Scene) -> String {
+        let ply = &scene.ply;
         let id = |n: usize| {
             let [i, j] = ply.id(n);
             format!("[{i},{j}]")
@@ -46,6 +58,9 @@ impl Site {
             }
             Site::Gripper(n) => format!("gripper {}", id(n)),
             Site::Grippers(a, b) => format!("grippers {} and {}", id(a), id(b)),
+            Site::Bodies { part, near, time } => {
+                format!("{} at {time:.2} s", label(scene, part, near))
+            }
             Site::Cell(n) => {
                 let [i, j] = ply.lines().cells()[n].id;
                 format!("cell [{i},{j}]")

@@ -17,6 +17,7 @@ mod tuning;
 mod unit;
 mod verdict;
 
+pub(crate) use clearance::found as clearance_found;
 pub(crate) use found::Most;
 pub use found::{Found, Site};
 pub use record::{ByName, Measures, Numbers, Worst};
@@ -159,6 +160,11 @@ pub trait Measure: Sync {
         self.description().subject
     }
 
+    /// Whether its values may be below zero, as depths among distances.
+    fn is_signed(&self) -> bool {
+        false
+    }
+
     /// Its limit in a scene, in its own unit; none where the scene sets none or it has no meaning there.
     fn limit(&self, _scene: &Scene) -> Option<f64> {
         None
@@ -228,6 +234,7 @@ measures! {
     slope: Slope,
     contact_share: ContactShare,
     gripper_distance: GripperDistance,
+    clearance: Clearance,
     equilibrium: Equilibrium,
     duration: Duration,
     speed: Speed,

@@ -1,7 +1,7 @@
 //! What a result file keeps of the measures.
 
-use super::{Found, Name};
-use crate::ply::Ply;
+use super::{Found, Name, Site};
+use crate::scene::Scene;
 
 /// A worst value and where it is.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,8 +20,15 @@ pub struct Worst {
 impl Worst {
     /// With its site as a label.
     #[must_use]
-    pub fn of(found: &Found, ply: &Ply) -> Worst {
-        Worst { value: found.value, at: found.site.label(ply), place: found.place }
+    pub fn of(found: &Found, scene: &Scene) -> Worst {
+        let at = match (found.site, found.place) {
+            (Site::Bodies { .. }, Some(place)) => {
+                let [x, y, z] = place.map(|c| c * 1e3);
+                format!("{} near ({x:.1}, {y:.1}, {z:.1}) mm", found.site.label(scene))
+            }
+            _ => found.site.label(scene),
+        };
+        Worst { value: found.value, at, place: found.place }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The ply of one step, with results that several measures share; each is computed when it is first needed.
 
 use super::TUNING;
+use crate::clearance::Poses;
 use crate::draping::attitude::{Attitude, attitude, normal};
 use crate::draping::landing::{Landing, landing};
 use crate::draping::misfit::{LyingSegment, Misfit, lying_segments, misfit};
@@ -20,10 +21,20 @@ pub(crate) struct Before {
     pub(crate) time: f64,
     /// Gripper positions (m).
     pub(crate) positions: Vec<Point>,
+    /// Where the robot holds the grippers (m).
+    pub(crate) commanded: Vec<Point>,
     /// Orientations of the grippers (x, y, z, w).
     pub(crate) quaternions: Vec<[f64; 4]>,
     /// Times (s) and orientations of earlier steps, back to `window` before this one and to the step before that.
     earlier: VecDeque<(f64, Vec<[f64; 4]>)>,
+}
+
+impl Before {
+    /// Where everything is that bodies are mounted on.
+    #[must_use]
+    pub(crate) fn poses(&self, scene: &Scene) -> Poses {
+        Poses::of(scene, &self.positions, &self.quaternions, &self.commanded)
+    }
 }
 
 /// Time (s) over which a rate is taken at least: a share of the whole motion.
@@ -104,6 +115,13 @@ impl<'a> State<'a> {
         })
     }
 
+    /// Where everything is that bodies are mounted on.
+    #[must_use]
+    pub(crate) fn poses(&self) -> Poses {
+        let turned: Vec<[f64; 4]> = self.attitudes().iter().map(|one| one.quaternion).collect();
+        Poses::of(self.scene, &self.snapshot.positions, &turned, self.snapshot.commanded())
+    }
+
     /// The state of this step that the next one needs.
     #[must_use]
     pub(crate) fn as_before(&self) -> Before {
@@ -120,6 +138,7 @@ impl<'a> State<'a> {
         Before {
             time,
             positions: self.snapshot.positions.clone(),
+            commanded: self.snapshot.commanded().to_vec(),
             quaternions: self.attitudes().iter().map(|attitude| attitude.quaternion).collect(),
             earlier,
         }

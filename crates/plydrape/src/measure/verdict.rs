@@ -51,7 +51,8 @@ impl Verdict {
     }
 
     /// The value as a multiple of its limit: up to 1 it holds. Of a least one, what is missing to the whole if it is
-    /// a share, else the limit as a multiple of the value.
+    /// a share, else the limit as a multiple of the value; where that may be below zero, 1 and what is missing as a multiple of
+    /// the limit.
     #[must_use]
     pub fn ratio(&self) -> f64 {
         let Verdict { value, limit, .. } = *self;
@@ -60,6 +61,8 @@ impl Verdict {
             return f64::INFINITY;
         }
         let ratio = match self.is_least() {
+            // at the limit as large as, and as steep as, the ratio of what keeps it
+            true if self.name.measure().is_signed() && value < limit => 2.0 - value / limit,
             true if whole != 1.0 => (whole - value) / (whole - limit).max(1e-5 * whole),
             true => limit / value.max(f64::MIN_POSITIVE),
             false if limit > 0.0 => value / limit,
@@ -119,14 +122,13 @@ impl<'a> Judge<'a> {
 
     /// Evaluates every measure of a step, and returns them.
     pub fn see_all(&mut self, state: &State) -> Measures {
-        let ply = &state.scene.ply;
         let mut out = Vec::with_capacity(Name::ALL.len());
         for name in Name::ALL {
             if self.has(*name)
                 && let Some(found) = name.measure().evaluate(state)
             {
                 self.meet(*name, state.snapshot.step, found);
-                out.push((*name, Worst::of(&found, ply)));
+                out.push((*name, Worst::of(&found, state.scene)));
             }
         }
         self.solved(state);
@@ -156,10 +158,9 @@ impl<'a> Judge<'a> {
     /// Every limit that applies, in the order of [`Name::ALL`].
     #[must_use]
     pub fn verdicts(&self) -> Vec<Verdict> {
-        let ply = &self.scene.ply;
         let judged = Name::ALL.iter().filter_map(|name| {
             let (limit, (step, found)) = (self.limit(*name)?, self.worst.get(*name)?);
-            Some(Verdict::of(*name, Worst::of(found, ply), limit, Some(*step)))
+            Some(Verdict::of(*name, Worst::of(found, self.scene), limit, Some(*step)))
         });
         let mut out: Vec<Verdict> = judged.collect();
         if let Some((step, residual, why)) = self.unfound {
@@ -196,7 +197,9 @@ pub(crate) fn last_numbers(measures: Option<&Measures>) -> Numbers {
 
 fn reported(value: impl Fn(Name) -> Option<f64>) -> Numbers {
     let names = Name::ALL.iter().filter(|name| name.measure().scope() != Scope::Whole);
-    names.map(|name| (*name, value(*name))).collect()
+    // clearances have no meaning in scenes without bodies, whose files say nothing of them
+    let shown = |(name, value): &(Name, Option<f64>)| value.is_some() || *name != Name::Clearance;
+    names.map(|name| (*name, value(*name))).filter(shown).collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Where a mold stands and how it is turned.
 
 use super::vector::{along, sub};
+use crate::draping::attitude::quaternion;
 
 /// A rigid placement: local coordinates are turned by `axes`, then moved to `position`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +44,31 @@ impl Pose {
             position,
             axes: [turn([1.0, 0.0, 0.0]), turn([0.0, 1.0, 0.0]), turn([0.0, 0.0, 1.0])],
         }
+    }
+
+    /// At a place (m), turned by a unit quaternion (x, y, z, w).
+    #[must_use]
+    pub fn of_quaternion(position: [f64; 3], [x, y, z, w]: [f64; 4]) -> Self {
+        Pose {
+            position,
+            axes: [
+                [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
+                [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
+                [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
+            ],
+        }
+    }
+
+    /// At a place (m), not turned.
+    #[must_use]
+    pub fn upright(position: [f64; 3]) -> Self {
+        Pose { position, axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] }
+    }
+
+    /// Its turn as a unit quaternion (x, y, z, w).
+    #[must_use]
+    pub fn quaternion(&self) -> [f64; 4] {
+        quaternion(self.axes)
     }
 
     /// A local point in space (m).

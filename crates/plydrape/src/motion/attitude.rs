@@ -76,10 +76,47 @@ impl Attitudes {
         let pairs = self.steps[after - 1].iter().zip(&self.steps[after]);
         pairs.map(|(a, b)| slerp(a, b, share)).collect()
     }
+
+    /// The quaternion of one gripper at a time (s), as in [`Self::at`].
+    #[must_use]
+    pub(crate) fn gripper_at(&self, gripper: usize, t: f64) -> [f64; 4] {
+        let after = self.times.partition_point(|time| *time <= t);
+        if after == 0 || after == self.times.len() {
+            return self.steps[after.saturating_sub(1)][gripper];
+        }
+        let (from, to) = (self.times[after - 1], self.times[after]);
+        let share = (t - from) / (to - from);
+        slerp(&self.steps[after - 1][gripper], &self.steps[after][gripper], share)
+    }
+
+    /// By how much a gripper turns between two times (rad).
+    #[must_use]
+    pub(crate) fn turn(&self, gripper: usize, [t0, t1]: [f64; 2]) -> f64 {
+        let first = self.times.partition_point(|time| *time <= t0).saturating_sub(1);
+        let mut turned = 0.0;
+        for n in first..self.times.len().saturating_sub(1) {
+            let [from, to] = [self.times[n], self.times[n + 1]];
+            if from >= t1 {
+                break;
+            }
+            let share = (t1.min(to) - t0.max(from)).max(0.0) / (to - from);
+            turned += share * turn(&self.steps[n][gripper], &self.steps[n + 1][gripper]);
+        }
+        turned
+    }
+}
+
+/// Angle (rad) of the shortest turn from one orientation to another, both unit quaternions of one sign.
+pub(crate) fn turn(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    let [sum, difference] = [1.0, -1.0].map(|sign| {
+        let c = [0, 1, 2, 3].map(|k| a[k] + sign * b[k]);
+        dot(&c, &c).sqrt()
+    });
+    4.0 * difference.atan2(sum)
 }
 
 /// A share of the way from one unit quaternion to another less than half a turn apart.
-fn slerp(a: &[f64; 4], b: &[f64; 4], share: f64) -> [f64; 4] {
+pub(crate) fn slerp(a: &[f64; 4], b: &[f64; 4], share: f64) -> [f64; 4] {
     // Half angles by the tangent: exact where the cosine is flat.
     let [sum, difference] = [1.0, -1.0].map(|sign| {
         let c = [0, 1, 2, 3].map(|k| a[k] + sign * b[k]);

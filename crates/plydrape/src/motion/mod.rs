@@ -21,11 +21,13 @@ mod timing;
 pub mod tuning;
 
 pub use attitude::Attitudes;
+pub(crate) use attitude::{slerp, turn};
 pub use check::{MOST_POSITIONS, MOST_STEPS};
 pub use error::MotionError;
 pub use peaks::{Peak, Peaks};
 pub(crate) use spacing::farthest;
 
+use crate::mold::vector::{norm, sub};
 use crate::scene::{self, Limits};
 use path::{Path, Vector};
 use time_law::{State, TimeLaw};
@@ -138,6 +140,38 @@ impl TimedMotion {
         let s = self.law.at(t)[0];
         let span = path.span(s);
         (0..path.grippers).map(|g| path.jet(span, g, s)[0]).collect()
+    }
+
+    /// Where one gripper is at a time (m), as in [`Self::at`].
+    #[must_use]
+    pub(crate) fn gripper_at(&self, gripper: usize, t: f64) -> [f64; 3] {
+        let Some(path) = &self.path else { return self.positions[0][gripper] };
+        let s = self.law.at(t)[0];
+        path.jet(path.span(s), gripper, s)[0]
+    }
+
+    /// How far a gripper goes at most between two times (m), as seen from another one or in space.
+    ///
+    /// Along a span of the path the derivative p' is a parabola, so |p'| is at most the larger one of its ends and |p'''| Δs²/8. The
+    /// difference of two grippers' paths is such a path, too.
+    #[must_use]
+    pub(crate) fn way(&self, gripper: usize, seen_from: Option<usize>, [t0, t1]: [f64; 2]) -> f64 {
+        let Some(path) = &self.path else { return 0.0 };
+        let [from, to] = [t0, t1].map(|t| self.law.at(t)[0]);
+        let mut way = 0.0;
+        for span in path.span(from)..=path.span(to) {
+            let begin = from.max(path.knots[span]);
+            let end = to.min(path.knots[span + 1]);
+            let slope = |s: f64| {
+                let own = path.jet(span, gripper, s);
+                let other = seen_from.map_or([[0.0; 3]; 4], |other| path.jet(span, other, s));
+                [1, 3].map(|order| norm(sub(own[order], other[order])))
+            };
+            let ([first, third], [last, _]) = (slope(begin), slope(end));
+            let parts = (end - begin).max(0.0);
+            way += parts * (first.max(last) + third * parts.powi(2) / 8.0);
+        }
+        way
     }
 
     /// Velocity of the grippers at a time from 0 to the end (m/s).

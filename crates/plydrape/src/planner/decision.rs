@@ -7,7 +7,8 @@ use super::search_state::SearchState;
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::draping::{self, Judged};
-use crate::motion::{Bounds, MotionError, TimedMotion};
+use crate::measure::Verdict;
+use crate::motion::{Attitudes, Bounds, MotionError, TimedMotion};
 use crate::scene::{Model, Motion, Scene};
 use crate::sheet;
 use crate::tool::{Carried, ToolRecord};
@@ -115,6 +116,8 @@ fn decided(
             })
         },
     );
+    let clearance = clearance(scene, motion);
+    drape = evaluation::also(drape, clearance.clone());
     let mut score = evaluation::score(&drape);
     if drape.accepted
         && let Some(between) = between
@@ -122,7 +125,7 @@ fn decided(
         if let Some(sheet) = &mut sheet {
             sheet.drape.summary.judge_between(&between);
         }
-        let judged = evaluation::judged(&between, between.steps);
+        let judged = evaluation::also(evaluation::judged(&between, between.steps), clearance);
         let worse = evaluation::score(&judged).max(score);
         if !judged.accepted || worse > score {
             (drape, score) = (judged, worse);
@@ -140,6 +143,18 @@ fn decided(
         score = evaluation::score(&drape);
     }
     (sheet, drape, score)
+}
+
+/// The verdict on the nearest pair of bodies along the whole motion, with pads turned as the motion file will say; none of a scene
+/// without bodies.
+fn clearance(scene: &Scene, motion: &TimedMotion) -> Option<Verdict> {
+    if scene.bodies.is_empty() {
+        return None;
+    }
+    let followed = evaluation::with_motion(scene, motion.steps());
+    let drape = draping::simulate(&followed, |_| ControlFlow::Continue(()));
+    let attitudes = Attitudes::of(&drape.steps).ok()?;
+    evaluation::clearance_of_motion(scene, motion, &attitudes)
 }
 
 /// The drape of the sheet along the motion with a step half-way between all its steps, because a good plan does not depend

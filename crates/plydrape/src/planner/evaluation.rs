@@ -3,9 +3,11 @@
 //! The model of the scene decides. A sheet is draped with a coarse mesh to rank candidates, with the scene's own where
 //! that ranking led to no plan, and with this one to decide (`decision`).
 
+use crate::clearance::{self, Nearest};
 use crate::draping::{self, Judged};
 use crate::errors::Errors;
-use crate::measure::{Name, Verdict, Worth};
+use crate::measure::{Name, Verdict, Worst, Worth, clearance_found};
+use crate::motion::{Attitudes, TimedMotion};
 use crate::planner::search_state::SearchState;
 use crate::planner::tuning::{Evaluation, TUNING};
 use crate::scene::{Model, Motion, Scene, SheetTime, Stepping};
@@ -103,7 +105,14 @@ fn ranked_sheet(mut scene: Scene, mesh: Mesh, state: &SearchState) -> Judged {
     let stop = || state.report().is_break();
     let tuning = sheet::Tuning::default();
     match sheet::drape(&scene, tuning, &stop, |_| ControlFlow::Continue(())) {
-        Ok(drape) => judged(&drape.summary, scene.motion.positions.len()),
+        Ok(drape) => {
+            let nearest = clearance::along_positions(&scene, &scene.motion.positions);
+            let verdict = nearest.map(|nearest| {
+                let step = nearest.time.ceil() as usize + 1;
+                clearance_verdict(&scene, &nearest, step)
+            });
+            also(judged(&drape.summary, scene.motion.positions.len()), verdict)
+        }
         // a scene without a sheet is refused before a search
         Err(_) => Judged { limits: Vec::new(), accepted: false, missing: 1.0, unsolved: 1 },
     }
@@ -118,6 +127,36 @@ pub fn judged(summary: &sheet::Summary, steps: usize) -> Judged {
         missing: 1.0 - summary.steps as f64 / steps.max(1) as f64,
         unsolved: usize::from(!summary.converged),
     }
+}
+
+/// The same, judged by one more limit.
+#[must_use]
+pub fn also(mut drape: Judged, verdict: Option<Verdict>) -> Judged {
+    if let Some(verdict) = verdict {
+        drape.accepted &= verdict.ok;
+        drape.limits.retain(|other| other.name != verdict.name);
+        drape.limits.push(verdict);
+    }
+    drape
+}
+
+/// The verdict on the nearest pair of bodies, which is nearest on the way to a step.
+#[must_use]
+pub fn clearance_verdict(scene: &Scene, nearest: &Nearest, step: usize) -> Verdict {
+    let worst = Worst::of(&clearance_found(nearest, nearest.time), scene);
+    Verdict::of(Name::Clearance, worst, scene.limits.clearance * 1e3, Some(step))
+}
+
+/// The verdict on the nearest pair of bodies along the whole of a motion in time; none of a scene without bodies.
+#[must_use]
+pub fn clearance_of_motion(
+    scene: &Scene,
+    motion: &TimedMotion,
+    attitudes: &Attitudes,
+) -> Option<Verdict> {
+    let nearest = Nearest::of_motion(scene, motion, attitudes)?;
+    let step = motion.times().partition_point(|t| *t < nearest.time) + 1;
+    Some(clearance_verdict(scene, &nearest, step.min(motion.times().len())))
 }
 
 /// Where a cubic B-spline passes the planned positions, which are its control points, if its knots are evenly
@@ -200,7 +239,6 @@ pub fn score_with(drape: &Judged, bias: &Bias) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::Worst;
 
     /// A search prefers a plan that misses a limit to one with a step that is no solution, and any whole one to one broken off.
     #[test]

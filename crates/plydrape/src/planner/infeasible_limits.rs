@@ -4,6 +4,8 @@
 //! start than the ply between them is long, and a start inside the mold, are not checked here, because reading the
 //! scene refuses them.
 
+use crate::clearance::{self, Poses};
+use crate::draping::attitude::{by_neighbours, on_normal};
 use crate::draping::reach::{closest, outside};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::mold::vector::angle_between;
@@ -35,6 +37,7 @@ pub fn infeasible_limits(scene: &Scene) -> Vec<Verdict> {
     if let Some(mold) = &scene.mold {
         out.extend(off_mold(scene, target, mold));
         out.extend(tilt(scene, target, mold));
+        out.extend(clearance_at_target(scene, target, mold));
     }
     out.extend(reach(scene, start, target));
     out
@@ -67,7 +70,7 @@ fn places(
         (Name::GripperDistance, limits.gripper_distance * 1e3, closest(positions)),
     ];
     found.into_iter().filter_map(move |(name, limit, found)| {
-        let worst = Worst::of(&found?, &scene.ply);
+        let worst = Worst::of(&found?, scene);
         let worst = Worst { at: format!("{} {when}", worst.at), ..worst };
         Some(Verdict::of(name, worst, limit, step)).filter(|verdict| !verdict.ok)
     })
@@ -94,9 +97,8 @@ fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
         fabric(scene, a, b) / lines.flat_length(n, scene.ply.length_factor) - 1.0
     };
     let worst = largest((0..lines.edges()).map(|n| (share(n), n)));
-    let found = worst.map(|(share, n)| {
-        (share, format!("{} at the target", Site::Catenary(n).label(&scene.ply)))
-    });
+    let found = worst
+        .map(|(share, n)| (share, format!("{} at the target", Site::Catenary(n).label(scene))));
     beyond(Name::Overstretch, scene.limits.overstretch, found)
 }
 
@@ -168,7 +170,7 @@ fn off_mold(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
         } else {
             "inside it"
         };
-        (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(&scene.ply)))
+        (far * 1e3, format!("target of {}, {side}", Site::Gripper(n).label(scene)))
     });
     beyond(Name::OffMold, scene.settings.contact.tolerance * 1e3, found)
 }
@@ -184,9 +186,30 @@ fn tilt(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
     };
     let all = target.grippers.iter().enumerate();
     let found = largest(all.filter_map(|(n, place)| Some((tilt(*place)?, n)))).map(|(tilt, n)| {
-        (tilt.to_degrees(), format!("mold at the target of {}", Site::Gripper(n).label(&scene.ply)))
+        (tilt.to_degrees(), format!("mold at the target of {}", Site::Gripper(n).label(scene)))
     });
     beyond(Name::Tilt, scene.limits.tilt.to_degrees(), found)
+}
+
+/// Bodies too near to each other, to an obstacle or to the mold where all grippers stand on the mold: their pads have its normal.
+fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Verdict> {
+    if scene.bodies.is_empty() {
+        return None;
+    }
+    let neighbours = scene.ply.neighbours();
+    let own = by_neighbours(&scene.ply, &neighbours, &target.grippers);
+    let tolerance = scene.settings.contact.tolerance;
+    let stands = |(place, own): (&[f64; 3], [f64; 4])| {
+        let closest = mold.closest_point(*place);
+        let on_mold = !closest.beyond && closest.distance.abs() <= tolerance;
+        on_mold.then(|| on_normal(own, closest.normal))
+    };
+    let turned: Option<Vec<[f64; 4]>> = target.grippers.iter().zip(own).map(stands).collect();
+    let nearest = clearance::at(scene, &Poses::of(scene, &target.grippers, &turned?, &target.grippers))?;
+    let at = format!("{} at the target", nearest.label(scene));
+    let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
+    let verdict = Verdict::of(Name::Clearance, worst, scene.limits.clearance * 1e3, None);
+    (!verdict.ok).then_some(verdict)
 }
 
 /// A distance to the target that is longer than the moves of all steps together.
@@ -196,10 +219,7 @@ fn reach(scene: &Scene, start: &[[f64; 3]], target: &Target) -> Option<Verdict> 
     let reach = plan.move_limit? * moves as f64;
     let distances = start.iter().zip(&target.grippers).map(|(a, b)| distance(*a, *b));
     let found = largest(distances.enumerate().map(|(n, far)| (far, n))).map(|(far, n)| {
-        (
-            far * 1e3,
-            format!("straight way of {} in {moves} moves", Site::Gripper(n).label(&scene.ply)),
-        )
+        (far * 1e3, format!("straight way of {} in {moves} moves", Site::Gripper(n).label(scene)))
     });
     beyond(Name::MoveLimit, reach * 1e3, found)
 }

@@ -9,7 +9,7 @@ use super::path;
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome, Stepwise, stepwise};
 use super::tuning::TUNING;
-use crate::draping::record::PlanRecord;
+use crate::draping::record::{PlanRecord, Summary};
 use crate::draping::{Drape, simulate};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
@@ -165,12 +165,27 @@ pub(super) fn follow(
     let verdicts = std::mem::take(&mut summary.limits);
     summary.judge_also(infeasible_limits(scene));
     summary.limits.extend(verdicts);
+    if let Ok(attitudes) = Attitudes::of(&drape.steps)
+        && let Some(whole) = evaluation::clearance_of_motion(scene, &decision.motion, &attitudes)
+    {
+        judge_whole(summary, whole);
+    }
     let bounds = Bounds::from(&scene.limits);
     summary.judge_also(own_limits.into_iter().chain(rates(&decision.motion, &bounds, scene)));
     if let Some((tool, peaks)) = tool_peaks(&decision.motion) {
         summary.judge_also(tool_rates(tool, &peaks, &decision.motion, scene));
     }
     Followed { drape, slowed }
+}
+
+/// Judges a drape by the whole of its motion in time where that is worse than straight ways from step to step.
+fn judge_whole(summary: &mut Summary, whole: Verdict) {
+    summary.accepted &= whole.ok;
+    match summary.limits.iter_mut().find(|verdict| verdict.name == whole.name) {
+        Some(verdict) if whole.ratio() > verdict.ratio() => *verdict = whole,
+        Some(_) => {}
+        None => summary.limits.push(whole),
+    }
 }
 
 /// A decision, and limits of the planner itself.
@@ -201,7 +216,7 @@ pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
     match plan.outcome {
         Outcome::OutOfSteps(error) | Outcome::OutOfReach(error) => {
             let gripper = scene.ply.index(error.gripper).unwrap_or_default();
-            let at = Site::Gripper(gripper).label(&scene.ply);
+            let at = Site::Gripper(gripper).label(scene);
             let worst = Worst {
                 value: error.distance * 1e3,
                 at: format!("{at}, short of its target"),
@@ -219,7 +234,7 @@ fn tool_rates(tool: &Tool, peaks: &ToolPeaks, motion: &TimedMotion, scene: &Scen
     let [turn_rate, turn_acceleration] =
         [turn_rate, turn_acceleration].map(|peak| Peak { value: peak.value.to_degrees(), ..peak });
     let moved = tool.axes.get(axis).map(|axis| {
-        let gripper = Site::Gripper(axis_share.gripper).label(&scene.ply);
+        let gripper = Site::Gripper(axis_share.gripper).label(scene);
         (Name::AxisSpeed, axis_share, format!("axis {} of {gripper}", axis.name))
     });
     let frame = || "frame of the tool".to_owned();
@@ -246,7 +261,7 @@ fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
         let step = motion.times().partition_point(|t| *t < peak.time) + 1;
         let worst = Worst {
             value: peak.value,
-            at: Site::Gripper(peak.gripper).label(&scene.ply),
+            at: Site::Gripper(peak.gripper).label(scene),
             place: Some(motion.at(peak.time)[peak.gripper]),
         };
         Verdict::of(name, worst, limit, Some(step.min(motion.times().len())))

@@ -65,6 +65,9 @@ pub(in crate::scene) struct LimitsTable {
     pub contact_share: Option<Quantity<Ratio>>,
     /// Smallest distance between any two grippers (m), half the shorter side of a cell unless given.
     pub gripper_distance: Option<Quantity<Length>>,
+    /// Smallest distance of the bodies of grippers and robot from mold, obstacles and each other (m), 5 mm unless given. It is
+    /// judged where there are `bodies`.
+    pub clearance: Option<Quantity<Length>>,
     /// Box that the grippers must stay in: [from, to] in x, y and z (m); none unless given.
     pub workspace: Option<Fixed<Fixed<Quantity<Length>, 2>, 3>>,
     /// Speed of a gripper (m/s), 0.25 unless given. It is kept by planned motions, as are the next two.

@@ -3,6 +3,7 @@
 //! These types say what is a key and what is not; [`super::check`] says what makes sense. Their
 //! comments are the descriptions of the JSON Schema.
 
+mod bodies;
 mod errors;
 mod limits;
 mod mold;
@@ -11,6 +12,7 @@ mod sheet;
 mod target;
 mod tool;
 
+pub(super) use bodies::{BodyTable, BoxTable, CylinderTable, MountKey, ObstacleTable};
 pub(super) use errors::{ErrorsTable, MoldErrorsTable, Term};
 pub(super) use limits::LimitsTable;
 pub(super) use mold::{MoldKind, MoldTable, SideKey};
@@ -58,6 +60,12 @@ pub(super) struct SceneKeys {
     /// How contact between ply and mold is found.
     #[serde(default)]
     pub contact: ContactTable,
+    /// What moves with grippers and robot.
+    #[serde(default)]
+    pub bodies: Vec<Located<BodyTable>>,
+    /// What stands in the cell.
+    #[serde(default)]
+    pub obstacles: Vec<Located<ObstacleTable>>,
     /// What an accepted drape keeps to.
     #[serde(default)]
     pub limits: LimitsTable,

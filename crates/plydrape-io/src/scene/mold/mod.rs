@@ -15,6 +15,8 @@ use plydrape::ply::Ply;
 use std::ops::Range;
 use std::path::Path;
 
+pub(super) use mesh::mesh_file;
+
 /// Least upward part of a unit normal: a mold this steep or steeper is a wall (89.9°).
 const UPWARD: f64 = 1.7e-3;
 
@@ -124,7 +126,8 @@ impl Keys<'_> {
 
     /// Where the mold stands and how it is turned.
     fn pose(&self) -> Result<Pose, SceneError> {
-        pose(self.table.position.as_ref(), self.table.rotation.as_ref(), self.document)
+        let MoldTable { position, rotation, .. } = self.table;
+        pose(position.as_ref(), rotation.as_ref(), self.document)
     }
 
     /// A pose that leaves the mold's z axis pointing upwards.

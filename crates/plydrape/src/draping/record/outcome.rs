@@ -114,7 +114,7 @@ impl Summary {
     pub fn follow_tool(&mut self, scene: &Scene, record: ToolRecord) {
         self.limits.retain(|verdict| verdict.name != Name::ToolResidual);
         if let Some(limit) = Name::ToolResidual.measure().limit(scene) {
-            let at = Site::Gripper(record.gripper).label(&scene.ply);
+            let at = Site::Gripper(record.gripper).label(scene);
             let worst = Worst { value: record.residual_mm, at, place: None };
             self.judge_also([Verdict::of(Name::ToolResidual, worst, limit, Some(record.step))]);
         }

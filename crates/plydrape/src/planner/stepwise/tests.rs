@@ -54,6 +54,7 @@ pub fn scene(count: usize) -> Scene {
         target: Some(target),
         settings,
         limits,
+        bodies: crate::clearance::Bodies::default(),
         plan: Plan::default(),
         errors: None,
         tool: None,

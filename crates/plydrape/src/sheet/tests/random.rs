@@ -114,6 +114,7 @@ fn scene(seed: u64) -> Scene {
         target: None,
         settings,
         limits,
+        bodies: crate::clearance::Bodies::default(),
         plan: Plan::default(),
         errors: None,
         tool: None,

@@ -39,7 +39,7 @@ type Control = (Point, f64);
 
 impl<'a> Carriage<'a> {
     /// The way of the grippers of a scene from its start to where they form a shape (m).
-    pub fn new(scene: &Scene, mold: &'a Mold, start: &[Point], shape: &[Point]) -> Self {
+    pub fn new(scene: &'a Scene, mold: &'a Mold, start: &[Point], shape: &[Point]) -> Self {
         let ends = [centre(start), centre(shape)];
         let clearance = Clearance::new(scene, mold, start, ends[1]);
         let turn = Turn::new(&scene.ply, start, shape);

@@ -1,6 +1,7 @@
 //! How far an array that is carried stays above the mold, and above the table that it was picked up from.
 
 use super::turn::{Rotation, centre, turned};
+use crate::clearance::{Obstacle, Poses, from_obstacles};
 use crate::draping::spans::Point;
 use crate::mold::Mold;
 use crate::mold::vector::{along, between, distance, norm, sub};
@@ -30,11 +31,63 @@ pub struct Clearance<'a> {
     own: f64,
     /// Height of the highest boundary of the mold that may be below the array on its way (m).
     boundary: f64,
+    /// Boxes around the obstacles: lowest and highest coordinates (m).
+    obstacles: Vec<[Point; 2]>,
+    /// Half of the distance between two points (m): an obstacle may be between them.
+    between: f64,
+    /// Bodies that must stay clear of what stands in the cell.
+    bodies: Option<Carried<'a>>,
+}
+
+/// Bodies that are carried with an array.
+#[derive(Debug)]
+struct Carried<'a> {
+    scene: &'a Scene,
+    /// Where they are mounted, at the start.
+    start: Poses,
+    /// Distance to keep (m).
+    wanted: f64,
+    /// Their distance at the start (m), as far as it is less than that.
+    own: f64,
+    /// Height of the highest obstacle (m).
+    highest: f64,
+}
+
+impl<'a> Carried<'a> {
+    /// Those of a scene at its start (m), which keep a margin (m) beside the limit; none without bodies or obstacles.
+    fn new(scene: &'a Scene, start: &[Point], margin: f64) -> Option<Self> {
+        let obstacles = scene.bodies.obstacles();
+        if scene.bodies.is_empty() || obstacles.is_empty() {
+            return None;
+        }
+        let poses = Poses::by_neighbours(scene, &scene.ply.neighbours(), start);
+        let wanted = scene.limits.clearance + margin;
+        let own = from_obstacles(scene, &poses, wanted).unwrap_or(wanted);
+        let top = |obstacle: &Obstacle| obstacle.bounds()[1][2];
+        let highest = obstacles.iter().map(top).fold(f64::NEG_INFINITY, f64::max);
+        Some(Carried { scene, start: poses, wanted, own, highest })
+    }
+
+    /// By how much the array must be higher at most to keep the distance (m), with its centre at a place (m) and turned; `from` is
+    /// its centre at the start (m), and it has `moved` so far (m).
+    fn shortfall(&self, from: Point, centre: Point, rotation: &Rotation, moved: f64) -> f64 {
+        let wanted = self.wanted.min(self.own + moved);
+        let poses = self.start.carried(from, centre, rotation);
+        match from_obstacles(self.scene, &poses, wanted) {
+            // over all that stands there, and no less than the distance lacks: the way is lowered again as far as it may
+            Some(distance) if distance < wanted => {
+                let lowest = poses.stems.iter().map(|pose| pose.position[2]);
+                let lowest = lowest.fold(f64::INFINITY, f64::min);
+                (wanted - distance).max(self.highest + wanted - lowest)
+            }
+            _ => f64::NEG_INFINITY,
+        }
+    }
 }
 
 impl<'a> Clearance<'a> {
     /// For the array of a scene that is carried from its start to another place of its centre (m).
-    pub fn new(scene: &Scene, mold: &'a Mold, start: &[Point], end: Point) -> Self {
+    pub fn new(scene: &'a Scene, mold: &'a Mold, start: &[Point], end: Point) -> Self {
         let ply = &scene.ply;
         let overhang = scene.settings.sheet.overhang;
         let middle = centre(start);
@@ -55,10 +108,14 @@ impl<'a> Clearance<'a> {
             margin: TUNING.transport.margin * tuning::cell(scene),
             table: None,
             own: f64::INFINITY,
+            obstacles: scene.bodies.obstacles().iter().map(Obstacle::bounds).collect(),
+            between: 0.5 * tuning::cell(scene) / TUNING.transport.divisions as f64,
+            bodies: None,
             boundary: highest_boundary(mold, way, TUNING.transport.sampling * tuning::cell(scene)),
         };
         let places: Vec<Point> = clearance.points.iter().map(|p| along(middle, 1.0, *p)).collect();
         clearance.own = clearance.over_mold(&places);
+        clearance.bodies = Carried::new(scene, start, clearance.margin);
         if places.iter().any(|place| clearance.above(*place).is_none()) {
             let lowest = start.iter().map(|p| p[2]).fold(f64::INFINITY, f64::min);
             clearance.table = Some(lowest - clearance.hang);
@@ -76,12 +133,19 @@ impl<'a> Clearance<'a> {
         over_table.max(self.shortfall_over_mold(centre, rotation))
     }
 
-    /// By how much it is too low over the mold alone (m). It shall keep the margin; where it has hardly moved, as much as it
+    /// By how much it is too low over the mold and the obstacles (m), the table that it was picked up from left out. It shall keep the margin; where it has hardly moved, as much as it
     /// had at the start and the distance that it has moved.
     pub fn shortfall_over_mold(&self, centre: Point, rotation: &Rotation) -> f64 {
         let wanted = self.margin.min(self.own + self.moved(centre, rotation));
         let places = self.points.iter().map(|p| along(centre, 1.0, turned(rotation, *p)));
-        wanted - self.over_mold(&places.collect::<Vec<Point>>())
+        let over_mold = wanted - self.over_mold(&places.collect::<Vec<Point>>());
+        match &self.bodies {
+            None => over_mold,
+            Some(bodies) => {
+                let moved = self.moved(centre, rotation);
+                over_mold.max(bodies.shortfall(self.start, centre, rotation, moved))
+            }
+        }
     }
 
     /// How far the ply with its points at places (m) is above the mold (m), also at the mold's boundary between two of
@@ -121,10 +185,16 @@ impl<'a> Clearance<'a> {
         moves.map(|d| d[0].hypot(d[1])).fold(0.0, f64::max)
     }
 
-    /// Height of the ply that hangs from a place over the mold below it (m); none where there is no mold.
+    /// Height of the ply that hangs from a place over what is below it (m), the mold or the box around an obstacle; none where there
+    /// is neither.
     fn above(&self, place: Point) -> Option<f64> {
-        let top = self.mold.highest_point([place[0], place[1]])?;
-        Some(place[2] - self.hang - top[2])
+        let mold = self.mold.highest_point([place[0], place[1]]).map(|top| top[2]);
+        let over = |[low, high]: &&[Point; 2]| {
+            (0..2).all(|c| (low[c] - self.between..=high[c] + self.between).contains(&place[c]))
+        };
+        let obstacles = self.obstacles.iter().filter(over).map(|[_, high]| high[2]);
+        let top = obstacles.chain(mold).reduce(f64::max)?;
+        Some(place[2] - self.hang - top)
     }
 }
 

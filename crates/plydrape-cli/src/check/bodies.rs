@@ -1,0 +1,58 @@
+//! What moves with grippers and robot, and what stands in the cell, as text.
+
+use super::Line;
+use crate::numbers::millimetres;
+use plydrape::clearance::{Mount, Shape};
+use plydrape::scene::Scene;
+use plydrape_io::shown;
+
+/// Bodies with their limit, then obstacles; nothing where there are none.
+pub(super) fn bodies(scene: &Scene) -> Vec<Line> {
+    let bodies = scene.bodies.bodies().iter().map(|body| {
+        let on = match body.on {
+            Mount::Pad => "each pad",
+            Mount::Stem => "each stem",
+            Mount::Flange => "the flange",
+        };
+        format!("{} on {on}: {}", shown::escaped(&body.name), shape(&body.shape))
+    });
+    let obstacles = scene.bodies.obstacles().iter().map(|obstacle| {
+        let [low, high] = obstacle.bounds();
+        let side = |n: usize| format!("{} to {}", millimetres(low[n]), millimetres(high[n]));
+        let name = shown::escaped(&obstacle.name);
+        format!(
+            "{name}: {}, x {}, y {}, z {} mm",
+            shape(&obstacle.shape),
+            side(0),
+            side(1),
+            side(2)
+        )
+    });
+    let mut lines = numbered("bodies", bodies);
+    if !lines.is_empty() {
+        let limit = millimetres(scene.limits.clearance);
+        lines.push(("", format!("clear by {limit} mm of mold, obstacles and each other")));
+    }
+    lines.extend(numbered("obstacles", obstacles));
+    lines
+}
+
+/// Lines under one noun.
+fn numbered(noun: &'static str, texts: impl Iterator<Item = String>) -> Vec<Line> {
+    texts.enumerate().map(|(n, text)| (if n == 0 { noun } else { "" }, text)).collect()
+}
+
+fn shape(shape: &Shape) -> String {
+    match shape {
+        Shape::Cylinder { radius, from, to } => format!(
+            "cylinder of {} mm radius, {} to {} mm",
+            millimetres(*radius),
+            millimetres(*from),
+            millimetres(*to)
+        ),
+        Shape::Box { size: [x, y, z], .. } => {
+            format!("box of {} × {} × {} mm", millimetres(*x), millimetres(*y), millimetres(*z))
+        }
+        Shape::Mesh { triangles, .. } => format!("mesh of {} triangles", triangles.len()),
+    }
+}

@@ -1,0 +1,176 @@
+//! What moves with grippers and robot, and what stands in the cell.
+
+use super::check::line;
+use super::error::{Document, SceneError};
+use super::file::{BodyTable, BoxTable, CylinderTable, MountKey, ObstacleTable, SceneKeys};
+use super::heading::{coordinates, pose};
+use super::located::Located;
+use super::mold::mesh_file;
+use plydrape::clearance::{Bodies, Body, Obstacle, Shape};
+use plydrape::mold::Pose;
+use std::ops::Range;
+use std::path::Path;
+
+/// Checks the tables `[[bodies]]` and `[[obstacles]]`; files that they name are relative to `base`.
+pub(super) fn bodies(
+    file: &SceneKeys,
+    document: &Document,
+    base: &Path,
+) -> Result<Bodies, SceneError> {
+    let reader = Reader { document, base, carried: file.tool.is_some() };
+    let mut names: Vec<&Located<String>> = Vec::new();
+    let mut bodies = Vec::with_capacity(file.bodies.len());
+    for table in &file.bodies {
+        names.push(&table.value.name);
+        bodies.push(reader.body(table)?);
+    }
+    let mut obstacles = Vec::with_capacity(file.obstacles.len());
+    for table in &file.obstacles {
+        names.push(&table.value.name);
+        obstacles.push(reader.obstacle(table)?);
+    }
+    for (n, name) in names.iter().enumerate() {
+        if names[..n].iter().any(|other| other.value == name.value) {
+            return Err(document.error(
+                name.span.clone(),
+                format!("two bodies or obstacles have the name {}", document.quoted(&name.span)),
+                "give each a name of its own: reports say by name who is near whom",
+            ));
+        }
+    }
+    Ok(Bodies::new(bodies, obstacles))
+}
+
+struct Reader<'a> {
+    document: &'a Document,
+    base: &'a Path,
+    /// Whether a robot carries the grippers by its flange.
+    carried: bool,
+}
+
+/// The keys of which a body takes one.
+struct ShapeKeys<'a> {
+    /// Where the table is.
+    table: Range<usize>,
+    cylinder: &'a Option<Located<CylinderTable>>,
+    cuboid: &'a Option<Located<BoxTable>>,
+    mesh: &'a Option<Located<String>>,
+    unit: &'a Option<Located<String>>,
+}
+
+impl Reader<'_> {
+    fn body(&self, table: &Located<BodyTable>) -> Result<Body, SceneError> {
+        let BodyTable { name, on, cylinder, cuboid, mesh, unit } = &table.value;
+        self.check_carried(on)?;
+        let keys = ShapeKeys { table: name.span.clone(), cylinder, cuboid, mesh, unit };
+        Ok(Body { name: self.name(name)?, on: on.value.into(), shape: self.shape(&keys)? })
+    }
+
+    fn obstacle(&self, table: &Located<ObstacleTable>) -> Result<Obstacle, SceneError> {
+        let ObstacleTable { name, cylinder, cuboid, mesh, unit, position, rotation } = &table.value;
+        let keys = ShapeKeys { table: name.span.clone(), cylinder, cuboid, mesh, unit };
+        Ok(Obstacle {
+            name: self.name(name)?,
+            pose: pose(position.as_ref(), rotation.as_ref(), self.document)?,
+            shape: self.shape(&keys)?,
+        })
+    }
+
+    /// Refuses a body of the flange where no robot carries the grippers by a flange.
+    fn check_carried(&self, on: &Located<MountKey>) -> Result<(), SceneError> {
+        match on.value {
+            MountKey::Pad | MountKey::Stem => Ok(()),
+            MountKey::Flange if self.carried => Ok(()),
+            MountKey::Flange => Err(self.document.error(
+                on.span.clone(),
+                "no robot carries the grippers of this scene by its flange: each gripper moves by itself",
+                "say in [tool] how a robot carries them, or mount the body on = \"stem\" or on = \"pad\" of every gripper",
+            )),
+        }
+    }
+
+    fn name(&self, name: &Located<String>) -> Result<String, SceneError> {
+        match line(name, self.document)? {
+            text if text.trim().is_empty() => Err(self.document.error(
+                name.span.clone(),
+                "this name is empty",
+                "reports say by name who is near whom: name = \"clamp\"",
+            )),
+            text => Ok(text),
+        }
+    }
+
+    fn shape(&self, keys: &ShapeKeys) -> Result<Shape, SceneError> {
+        let document = self.document;
+        let given: Vec<&Range<usize>> = [
+            keys.cylinder.as_ref().map(|key| &key.span),
+            keys.cuboid.as_ref().map(|key| &key.span),
+            keys.mesh.as_ref().map(|key| &key.span),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        if let [_, second, ..] = given[..] {
+            return Err(document.error(
+                second.clone(),
+                format!("{} has two shapes", document.quoted(&keys.table)),
+                "keep one of `cylinder`, `box` and `mesh`, and make another body of the other one",
+            ));
+        }
+        if let (Some(unit), None) = (keys.unit, keys.mesh) {
+            return Err(document.error(
+                unit.span.clone(),
+                "`unit` belongs to a `mesh`",
+                "remove it: other sizes carry their own unit, as in \"30 mm\"",
+            ));
+        }
+        match (keys.cylinder, keys.cuboid, keys.mesh) {
+            (Some(table), ..) => self.cylinder(&table.value),
+            (_, Some(table), _) => self.cuboid(&table.value),
+            (.., Some(file)) => {
+                let own = Pose::upright([0.0; 3]);
+                let (mesh, _) =
+                    mesh_file(file, keys.unit.as_ref(), "body", &own, document, self.base)?;
+                let (vertices, triangles) = (mesh.vertices().to_vec(), mesh.triangles().to_vec());
+                Ok(Shape::Mesh { vertices, triangles })
+            }
+            _ => Err(document.error(
+                keys.table.clone(),
+                format!("{} has no shape", document.quoted(&keys.table)),
+                "add cylinder = { radius = \"15 mm\", to = \"40 mm\" }, box = { size = [\"1 m\", \"0.5 m\", \"20 mm\"] } or mesh = \"frame.stl\"",
+            )),
+        }
+    }
+
+    fn cylinder(&self, table: &CylinderTable) -> Result<Shape, SceneError> {
+        let radius = table.radius.size(self.document)?;
+        let from = match &table.from {
+            Some(from) => from.coordinate(self.document)?,
+            None => 0.0,
+        };
+        let to = table.to.coordinate(self.document)?;
+        if to <= from {
+            return Err(self.document.error(
+                table.to.span.clone(),
+                format!(
+                    "the cylinder ends at {}, not above where it begins",
+                    self.document.quoted(&table.to.span)
+                ),
+                "its axis is z: give a `to` above `from`, which is 0 unless given",
+            ));
+        }
+        Ok(Shape::Cylinder { radius, from, to })
+    }
+
+    fn cuboid(&self, table: &BoxTable) -> Result<Shape, SceneError> {
+        let mut size = [0.0; 3];
+        for (size, side) in size.iter_mut().zip(&table.size.0) {
+            *size = side.size(self.document)?;
+        }
+        let at = match &table.at {
+            Some(at) => coordinates(at, self.document)?,
+            None => [0.0; 3],
+        };
+        Ok(Shape::Box { size, at })
+    }
+}

@@ -1,0 +1,200 @@
+//! How what bodies are mounted on moves between two times, and bounds of it.
+
+use super::poses::Poses;
+use crate::mold::Pose;
+use crate::mold::vector::{between, norm, sub};
+use crate::motion::{Attitudes, TimedMotion, slerp, turn};
+
+/// What a body is mounted on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// The pad of a gripper.
+    Pad(usize),
+    /// The stem of a gripper.
+    Stem(usize),
+    /// The flange.
+    Flange,
+}
+
+/// A motion of everything that bodies are mounted on.
+pub(crate) trait Moves {
+    /// Where something is at a time.
+    fn pose(&self, of: Origin, time: f64) -> Pose;
+
+    /// How far something goes at most between two times (m), as seen from another thing that is not turned, or in space.
+    fn way(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64;
+
+    /// By how much something turns at most between two times (rad).
+    fn turn(&self, of: Origin, times: [f64; 2]) -> f64;
+
+    /// Whether there is a flange.
+    fn has_flange(&self) -> bool;
+}
+
+/// Straight from some poses at time 0 to others at time 1, turned along the shortest way.
+pub(crate) struct Straight {
+    pads: Vec<Leg>,
+    stems: Vec<Leg>,
+    flange: Option<Leg>,
+}
+
+/// A straight way.
+struct Leg {
+    ends: [Pose; 2],
+    quaternions: [[f64; 4]; 2],
+    /// How much it turns (rad).
+    turn: f64,
+}
+
+impl Leg {
+    fn new([from, to]: [&Pose; 2]) -> Self {
+        let [a, mut b] = [from.quaternion(), to.quaternion()];
+        if a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
+            b = b.map(|c| -c);
+        }
+        Leg { ends: [*from, *to], quaternions: [a, b], turn: turn(&a, &b) }
+    }
+
+    fn at(&self, time: f64) -> Pose {
+        let [from, to] = &self.ends;
+        if time <= 0.0 {
+            return *from;
+        }
+        if time >= 1.0 {
+            return *to;
+        }
+        let position = between(from.position, to.position, time);
+        if self.turn == 0.0 {
+            return Pose { position, ..*from };
+        }
+        let [a, b] = &self.quaternions;
+        Pose::of_quaternion(position, slerp(a, b, time))
+    }
+
+    fn way(&self) -> [f64; 3] {
+        sub(self.ends[1].position, self.ends[0].position)
+    }
+}
+
+impl Straight {
+    /// Between the poses of two steps.
+    #[must_use]
+    pub fn new(from: &Poses, to: &Poses) -> Self {
+        let legs = |a: &[Pose], b: &[Pose]| -> Vec<Leg> {
+            a.iter().zip(b).map(|(a, b)| Leg::new([a, b])).collect()
+        };
+        let flange = from.flange.as_ref().zip(to.flange.as_ref());
+        Straight {
+            pads: legs(&from.pads, &to.pads),
+            stems: legs(&from.stems, &to.stems),
+            flange: flange.map(|(a, b)| Leg::new([a, b])),
+        }
+    }
+
+    fn leg(&self, of: Origin) -> &Leg {
+        match of {
+            Origin::Pad(n) => &self.pads[n],
+            Origin::Stem(n) => &self.stems[n],
+            // a body of the flange is judged only where there is one
+            Origin::Flange => self.flange.as_ref().unwrap_or(&self.stems[0]),
+        }
+    }
+}
+
+impl Moves for Straight {
+    fn pose(&self, of: Origin, time: f64) -> Pose {
+        self.leg(of).at(time)
+    }
+
+    fn way(&self, of: Origin, seen_from: Option<Origin>, [from, to]: [f64; 2]) -> f64 {
+        let other = seen_from.map_or([0.0; 3], |other| self.leg(other).way());
+        norm(sub(self.leg(of).way(), other)) * (to - from)
+    }
+
+    fn turn(&self, of: Origin, [from, to]: [f64; 2]) -> f64 {
+        self.leg(of).turn * (to - from)
+    }
+
+    fn has_flange(&self) -> bool {
+        self.flange.is_some()
+    }
+}
+
+/// Straight from step to step, the first at time 0, the next at time 1, and so on.
+pub(super) struct Legs(pub Vec<Straight>);
+
+impl Legs {
+    fn of(&self, time: f64) -> (&Straight, f64) {
+        let n = (time.max(0.0) as usize).min(self.0.len() - 1);
+        (&self.0[n], time - n as f64)
+    }
+
+    /// The leg of an interval within it, and the times in it.
+    fn within(&self, [from, to]: [f64; 2]) -> (&Straight, [f64; 2]) {
+        let (leg, begin) = self.of(from);
+        (leg, [begin, begin + to - from])
+    }
+}
+
+impl Moves for Legs {
+    fn pose(&self, of: Origin, time: f64) -> Pose {
+        let (leg, time) = self.of(time);
+        leg.pose(of, time)
+    }
+
+    fn way(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
+        let (leg, times) = self.within(times);
+        leg.way(of, seen_from, times)
+    }
+
+    fn turn(&self, of: Origin, times: [f64; 2]) -> f64 {
+        let (leg, times) = self.within(times);
+        leg.turn(of, times)
+    }
+
+    fn has_flange(&self) -> bool {
+        self.0[0].has_flange()
+    }
+}
+
+/// A planned motion in time, with stems upright.
+pub(crate) struct Planned<'a> {
+    /// Where the grippers are.
+    pub motion: &'a TimedMotion,
+    /// How their pads are turned.
+    pub attitudes: &'a Attitudes,
+}
+
+impl Planned<'_> {
+    fn gripper(of: Origin) -> usize {
+        match of {
+            Origin::Pad(n) | Origin::Stem(n) => n,
+            Origin::Flange => 0,
+        }
+    }
+}
+
+impl Moves for Planned<'_> {
+    fn pose(&self, of: Origin, time: f64) -> Pose {
+        let position = self.motion.gripper_at(Self::gripper(of), time);
+        match of {
+            Origin::Pad(n) => Pose::of_quaternion(position, self.attitudes.gripper_at(n, time)),
+            Origin::Stem(_) | Origin::Flange => Pose::upright(position),
+        }
+    }
+
+    fn way(&self, of: Origin, seen_from: Option<Origin>, times: [f64; 2]) -> f64 {
+        self.motion.way(Self::gripper(of), seen_from.map(Self::gripper), times)
+    }
+
+    fn turn(&self, of: Origin, times: [f64; 2]) -> f64 {
+        match of {
+            Origin::Pad(n) => self.attitudes.turn(n, times),
+            Origin::Stem(_) | Origin::Flange => 0.0,
+        }
+    }
+
+    fn has_flange(&self) -> bool {
+        false
+    }
+}
