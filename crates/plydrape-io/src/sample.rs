@@ -296,6 +296,7 @@ fn frame(grid: Grid) -> ResultFile {
                 duration: None,
             },
             errors: None,
+            release: None,
         },
         plan: None,
         sheet_states: None,
@@ -382,6 +383,7 @@ pub(super) fn sheet_summary() -> sheet::measure::Summary {
         solves: 30,
         smallest_step: 0.5,
         limits: Vec::new(),
+        events: Vec::new(),
     }
 }
 

@@ -61,6 +61,7 @@ fn main() {
         settings,
         plan: Plan::default(),
         errors: None,
+        release: None,
     };
 
     let drape = simulate(&scene, |_| ControlFlow::Continue(()));

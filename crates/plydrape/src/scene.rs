@@ -30,6 +30,30 @@ pub struct Scene {
     pub plan: Plan,
     /// How far a real cell may be from this scene, if that is known.
     pub errors: Option<Errors>,
+    /// When the pads let go of the ply; none if they hold it to the end.
+    pub release: Option<Release>,
+}
+
+/// When the pads let go of the ply.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Release {
+    /// Which of them, and after what.
+    pub order: ReleaseOrder,
+    /// How long a pad presses before it lets go (s).
+    pub dwell: f64,
+}
+
+/// The order in which pads let go of the ply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum ReleaseOrder {
+    /// All at once, after the motion.
+    End,
+    /// Each when the ply around it lies, the others after the motion.
+    Landed,
 }
 
 /// How gripper trajectories are planned.

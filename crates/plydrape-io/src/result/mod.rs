@@ -19,7 +19,8 @@ use plydrape::mold::Mold;
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
 use plydrape::planner::{Planned, PlannedSheet};
 use plydrape::ply::Ply;
-use plydrape::scene::{Limits, Model, Scene, Settings, Target};
+use plydrape::scene::{Limits, Model, Release, Scene, Settings, Target};
+use plydrape::sheet::Event;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::sync::Arc;
@@ -69,6 +70,9 @@ pub struct SceneEcho {
     /// How far a real cell may be from the scene, if it says so.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<Errors>,
+    /// When the pads let go of the ply; none where they hold it to the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub release: Option<Release>,
 }
 
 impl SceneEcho {
@@ -84,6 +88,7 @@ impl SceneEcho {
             settings: scene.settings,
             limits: scene.limits,
             errors: scene.errors,
+            release: scene.release,
         }
     }
 }
@@ -159,6 +164,12 @@ impl ResultFile {
     #[must_use]
     pub fn deciding_limits(&self) -> &[Verdict] {
         self.summary.sheet.as_ref().map_or(&self.summary.limits, |sheet| &sheet.limits)
+    }
+
+    /// When pads grip, press and let go, in the order of time; nothing where they hold the ply from first to last.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        self.summary.sheet.as_ref().map_or(&[], |sheet| &sheet.events)
     }
 
     /// The curves of a step (m): for each catenary, one for each of its spans, see [`plydrape::draping::curves`].

@@ -9,6 +9,7 @@ use super::limits::limits;
 use super::located::{Count, Fixed, Located, Whole};
 use super::motion::{motion, unplanned};
 use super::plan::plan;
+use super::release::release;
 use super::settings::settings;
 use super::trajectory::trajectory;
 use super::{SceneFile, cut, material, mold, named, sheet, start, target};
@@ -63,6 +64,10 @@ pub(super) fn scene(
         Some(table) => Some(errors(table, &ply, mold.is_some(), document)?),
         None => None,
     };
+    let release = match &file.release {
+        Some(table) => Some(release(table, settings.model, mold.is_some(), document)?),
+        None => None,
+    };
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(file.grippers_span(), |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
@@ -70,7 +75,7 @@ pub(super) fn scene(
     let thickness =
         file.ply.value.thickness.as_ref().map(|thickness| thickness.size(document)).transpose()?;
     Ok(SceneFile {
-        scene: Scene { title, ply, mold, motion, target, settings, limits, plan, errors },
+        scene: Scene { title, ply, mold, motion, target, settings, limits, plan, errors, release },
         input: Some(document.text.clone()),
         files: named(document, base),
         mesh,

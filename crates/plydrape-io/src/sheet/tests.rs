@@ -21,6 +21,7 @@ fn mesh(nu: usize, nv: usize) -> SheetMesh<'static> {
             .map(|(i, j)| [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)])
             .collect(),
         grippers: 4,
+        releases: false,
     }
 }
 
@@ -39,6 +40,7 @@ fn state(mesh: &SheetMesh, step: u32) -> SheetState<'static> {
         grippers: vec![[t, 2.0 * t, 3.0 * t]; mesh.grippers].into(),
         pad_forces: vec![[0.1, -0.2, t]; mesh.grippers].into(),
         pad_rotation: vec![[0.0, 0.6, 0.0, 0.8]; mesh.grippers].into(),
+        pad_holds: mesh.releases.then(|| (0..mesh.grippers as u32).map(|n| n >= step).collect()),
     }
 }
 

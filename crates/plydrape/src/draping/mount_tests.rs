@@ -56,6 +56,7 @@ fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2])
         limits,
         plan: Plan::default(),
         errors: None,
+        release: None,
     }
 }
 

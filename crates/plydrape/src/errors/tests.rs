@@ -77,6 +77,7 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
         settings,
         limits,
         plan: Plan::default(),
+        release: None,
         errors: Some(budget()),
     }
 }

@@ -7,6 +7,7 @@ mod errors;
 mod limits;
 mod mold;
 mod plan;
+mod release;
 mod sheet;
 mod target;
 
@@ -14,6 +15,7 @@ pub(super) use errors::{ErrorsTable, MoldErrorsTable, Term};
 pub(super) use limits::LimitsTable;
 pub(super) use mold::{MoldKind, MoldTable, SideKey};
 pub(super) use plan::{MethodKey, PlanTable};
+pub(super) use release::{OrderKey, ReleaseTable};
 pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 
@@ -64,6 +66,8 @@ pub(super) struct SceneKeys {
     pub plan: PlanTable,
     /// How far a real cell may be from this scene.
     pub errors: Option<ErrorsTable>,
+    /// When the pads let go of the ply. Without it they hold it to the end.
+    pub release: Option<Located<ReleaseTable>>,
 }
 
 impl SceneKeys {

@@ -56,6 +56,7 @@ pub fn scene(count: usize) -> Scene {
         limits,
         plan: Plan::default(),
         errors: None,
+        release: None,
     }
 }
 
