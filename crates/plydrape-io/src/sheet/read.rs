@@ -48,7 +48,10 @@ impl SheetStates {
         // what it holds
         let archive = ZipArchive::new(BufReader::new(file)).map_err(|e| changed(e.to_string()))?;
         let (file, sizes, starts) = layout(archive, seal.length).map_err(changed)?;
-        let memory: f64 = arrays(sizes.releases).iter().map(|a| (a.count(&sizes) * a.scalar.bytes()) as f64).sum();
+        let memory: f64 = arrays(sizes.releases)
+            .iter()
+            .map(|a| (a.count(&sizes) * a.scalar.bytes()) as f64)
+            .sum();
         size::check(memory, || format!("a state of a sheet of {} nodes", sizes.nodes))
             .map_err(|source| ReadError::TooLarge { path: path.clone(), source })?;
         let empty = SheetMesh {

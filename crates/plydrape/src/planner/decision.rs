@@ -74,9 +74,9 @@ impl Decision {
     pub fn slowed(&mut self, scene: &Scene, factor: f64, state: &SearchState) {
         let end = *self.motion.times().last().unwrap_or(&0.0);
         self.motion = self.motion.slowed(factor);
-        let dwells_on_the_way = scene.release.is_some_and(|release| {
-            release.order == ReleaseOrder::Landed && release.dwell > 0.0
-        });
+        let dwells_on_the_way = scene
+            .release
+            .is_some_and(|release| release.order == ReleaseOrder::Landed && release.dwell > 0.0);
         if scene.settings.sheet.time == crate::scene::SheetTime::Real || dwells_on_the_way {
             (self.sheet, self.drape, self.score) = decided(scene, &self.motion, state);
             state.record(&self.drape, self.score, true);
