@@ -143,7 +143,7 @@ fn sampled(
 
 /// What the column of the vacuum is made of; none where pads hold to the end.
 fn vacuum(result: &ResultFile) -> Option<&[Event]> {
-    result.scene.release.map(|_| result.events())
+    result.scene.release.as_ref().map(|_| result.events())
 }
 
 /// When the last pads let go (s), if that is after a time.

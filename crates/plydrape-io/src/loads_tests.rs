@@ -189,7 +189,7 @@ fn tables_switch_the_vacuum_at_the_release() {
     let (mut held, _kept) = draped(&scene);
     held.plan = Some(record.clone());
     let dwell = 0.31;
-    scene.release = Some(Release { order: ReleaseOrder::End, dwell });
+    scene.release = Some(Release::new(ReleaseOrder::End, dwell));
     let (mut result, _dir) = draped(&scene);
     result.plan = Some(record);
     let end = motion.duration();

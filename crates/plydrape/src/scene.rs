@@ -35,7 +35,7 @@ pub struct Scene {
 }
 
 /// When the pads let go of the ply.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Release {
@@ -43,6 +43,18 @@ pub struct Release {
     pub order: ReleaseOrder,
     /// How long a pad presses before it lets go (s).
     pub dwell: f64,
+    /// When each pad lets go (s), as an earlier drape along the same motion has found it: a robot does so at that time, wherever
+    /// the ply is. None to find that out.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub times: Option<Arc<[f64]>>,
+}
+
+impl Release {
+    /// In an order, after a dwell (s).
+    #[must_use]
+    pub fn new(order: ReleaseOrder, dwell: f64) -> Self {
+        Release { order, dwell, times: None }
+    }
 }
 
 /// The order in which pads let go of the ply.

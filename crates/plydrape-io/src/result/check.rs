@@ -82,7 +82,7 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     if !mounts.iter().flatten().all(|value| *value > 0.0) {
         return Some("what mounts and pads bear must be above zero".into());
     }
-    if scene.release.is_some_and(|release| release.dwell.is_nan() || release.dwell < 0.0) {
+    if scene.release.as_ref().is_some_and(|release| release.dwell.is_nan() || release.dwell < 0.0) {
         return Some("its pads must not press for less than no time".into());
     }
     if !(max_tilt > 0.0 && max_tilt < std::f64::consts::FRAC_PI_2) {

@@ -88,7 +88,7 @@ impl SceneEcho {
             settings: scene.settings,
             limits: scene.limits,
             errors: scene.errors,
-            release: scene.release,
+            release: scene.release.clone(),
         }
     }
 }

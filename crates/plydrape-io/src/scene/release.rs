@@ -37,5 +37,5 @@ pub(super) fn release(
             _ => dwell.within_for(document, DWELLS, "a dwell")?,
         },
     };
-    Ok(Release { order: order.map_or(ReleaseOrder::End, OrderKey::into), dwell })
+    Ok(Release::new(order.map_or(ReleaseOrder::End, OrderKey::into), dwell))
 }

@@ -32,9 +32,9 @@ fn the_table_release_says_order_and_dwell() {
     let read = |more: &str| flat(more).release;
     assert_eq!(read(""), None);
     let end = ReleaseOrder::End;
-    assert_eq!(read("[release]\n"), Some(Release { order: end, dwell: 0.0 }));
-    assert_eq!(read("[release]\ndwell = \"2 s\"\n"), Some(Release { order: end, dwell: 2.0 }));
-    let landed = Release { order: ReleaseOrder::Landed, dwell: 0.5 };
+    assert_eq!(read("[release]\n"), Some(Release::new(end, 0.0)));
+    assert_eq!(read("[release]\ndwell = \"2 s\"\n"), Some(Release::new(end, 2.0)));
+    let landed = Release::new(ReleaseOrder::Landed, 0.5);
     assert_eq!(read("[release]\norder = \"landed\"\ndwell = \"500 ms\"\n"), Some(landed));
 }
 

@@ -76,6 +76,7 @@ impl Decision {
         self.motion = self.motion.slowed(factor);
         let dwells_on_the_way = scene
             .release
+            .as_ref()
             .is_some_and(|release| release.order == ReleaseOrder::Landed && release.dwell > 0.0);
         if scene.settings.sheet.time == crate::scene::SheetTime::Real || dwells_on_the_way {
             (self.sheet, self.drape, self.score) = decided(scene, &self.motion, state);
@@ -132,7 +133,9 @@ fn decided(
         }
     }
     if drape.accepted && scene.settings.model == Model::Sheet {
-        let scene = evaluation::with_motion(scene, motion.steps());
+        let events = sheet.as_ref().map_or(&[][..], |sheet| &sheet.drape.summary.events);
+        let scene = sheet::event::at_these_times(scene, events);
+        let scene = evaluation::with_motion(&scene, motion.steps());
         drape = evaluation::with_errors(&scene, drape, |cell| {
             let stop = || state.report().is_break();
             let along = |_: &sheet::State| ControlFlow::Continue(());

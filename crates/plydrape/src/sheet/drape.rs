@@ -75,10 +75,7 @@ pub fn drape(
         sheet: &sheet,
         tuning,
         cloth,
-        releases: scene.release.map(|rule| {
-            let touching = scene.settings.contact.tolerance;
-            Releases::new(rule, &scene.ply, &sheet, touching, scene.motion.times[0])
-        }),
+        releases: Releases::of(scene, &sheet),
         stop,
         targets: placed.clone(),
         share: 1.0,
@@ -179,7 +176,7 @@ impl Run<'_> {
             if see(&state).is_break() || (self.stop)() {
                 return (Status::Interrupted, state);
             }
-            let (all, time) = releases.end(motion.times[steps - 1]);
+            let (all, time) = releases.end();
             self.cloth.release(&all);
             resting = self.rest(&motion.positions[steps - 1], true);
             state = self.see(steps, time);

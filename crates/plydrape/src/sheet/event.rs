@@ -1,6 +1,7 @@
 //! What the vacuum of the pads does along a motion.
 
 use crate::ply::GripperId;
+use crate::scene::Scene;
 
 /// What happens to the hold of some pads, all at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +27,22 @@ pub enum EventKind {
     Press,
     /// The vacuum is off: the pad is gone.
     Release,
+}
+
+/// The scene in which pads let go when a drape along its motion has found that they do.
+#[must_use]
+pub fn at_these_times(scene: &Scene, events: &[Event]) -> Scene {
+    let mut scene = scene.clone();
+    if let Some(release) = &mut scene.release {
+        let mut times = vec![f64::INFINITY; scene.ply.grippers()];
+        for event in events.iter().filter(|event| event.kind == EventKind::Release) {
+            for n in event.grippers.iter().filter_map(|id| scene.ply.index(*id)) {
+                times[n] = event.time;
+            }
+        }
+        release.times = Some(times.into());
+    }
+    scene
 }
 
 /// Whether a gripper's pad holds the ply at a time (s); one that lets go at that time does not.

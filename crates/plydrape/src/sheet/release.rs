@@ -1,26 +1,28 @@
 //! When pads let go: the rule of the scene, applied to the ply as it comes to lie.
 //!
 //! A pad's *surroundings* are the nodes of ply no farther from its middle, in the fabric, than neighbouring grippers stand
-//! apart, those that it holds among them. They lie when the height of each over the mold is within the scene's contact
-//! tolerance; ply that hangs beyond the mold never does. With [`ReleaseOrder::Landed`] a pad whose surroundings have lain
+//! apart, those that it holds among them. They lie when the height of each over the mold is one that the scene accepts at
+//! the end; ply that hangs beyond the mold never does. With [`ReleaseOrder::Landed`] a pad whose surroundings have lain
 //! for the dwell, in the time of the motion, lets go. After the motion all pads that still hold press for the dwell, lying
-//! or not, and let go together.
+//! or not, and let go together. Where the scene says when pads let go, as in drapes of cells with errors, they do so then.
 
 use super::cloth::Cloth;
 use super::event::{Event, EventKind};
 use super::model::Sheet;
 use crate::mold::Mold;
 use crate::ply::Ply;
-use crate::scene::{Release, ReleaseOrder};
+use crate::scene::{Release, ReleaseOrder, Scene};
 
 /// What pads have done so far, and what they do next.
 #[derive(Debug)]
 pub struct Releases<'a> {
-    rule: Release,
+    rule: &'a Release,
+    /// The end of the motion (s).
+    end: f64,
     ply: &'a Ply,
     mold: Option<&'a Mold>,
     /// Height (m) up to which a node lies.
-    touching: f64,
+    low: f64,
     /// The nodes around each gripper, the farthest first, because they come to lie last.
     surroundings: Vec<Vec<usize>>,
     /// Since when they lie (s).
@@ -31,28 +33,42 @@ pub struct Releases<'a> {
 }
 
 impl<'a> Releases<'a> {
-    /// By a rule, for the pads of a sheet that grip the ply at a time (s).
-    pub fn new(rule: Release, ply: &'a Ply, sheet: &'a Sheet, touching: f64, grip: f64) -> Self {
+    /// By the rule of a scene, for the pads of its sheet, which grip the ply as the motion begins; none if they hold it to the
+    /// end.
+    pub fn of(scene: &'a Scene, sheet: &'a Sheet) -> Option<Self> {
+        let (rule, ply) = (scene.release.as_ref()?, &scene.ply);
+        let times = &scene.motion.times;
         let grippers = sheet.grippers.len();
         let mut releases = Releases {
             rule,
+            end: times[times.len() - 1],
             ply,
             mold: sheet.mold.as_ref(),
-            touching,
+            low: scene.limits.height.max(scene.settings.contact.tolerance),
             surroundings: (0..grippers).map(|n| surroundings(sheet, n)).collect(),
             lying_since: vec![None; grippers],
             holds: vec![true; grippers],
             events: Vec::new(),
         };
-        releases.note(grip, EventKind::Grip, (0..grippers).collect());
-        releases
+        releases.note(times[0], EventKind::Grip, (0..grippers).collect());
+        Some(releases)
     }
 
-    /// The earliest time (s) at which a pad lets go if what lies goes on lying.
+    /// The earliest time (s) at which a pad lets go on the way if what lies goes on lying.
     pub fn due(&self) -> Option<f64> {
-        let pads = self.lying_since.iter().zip(&self.holds).filter(|(_, holds)| **holds);
-        let times = pads.filter_map(|(since, _)| since.map(|since| since + self.rule.dwell));
-        times.min_by(f64::total_cmp)
+        let pressing = (0..self.holds.len()).filter_map(|n| self.presses_since(n));
+        pressing.map(|since| since + self.rule.dwell).min_by(f64::total_cmp)
+    }
+
+    /// Since when the pad of a gripper presses that lets go on the way (s); none if it holds on, or has let go.
+    fn presses_since(&self, gripper: usize) -> Option<f64> {
+        let since = match &self.rule.times {
+            Some(times) => {
+                Some(times[gripper]).filter(|t| *t < self.end).map(|t| t - self.rule.dwell)
+            }
+            None => self.lying_since[gripper],
+        };
+        since.filter(|_| self.holds[gripper] && self.rule.order == ReleaseOrder::Landed)
     }
 
     /// Looks at the ply at a time (s) of the motion; returns the grippers that let go now. What is due within `rounding` (s)
@@ -63,31 +79,29 @@ impl<'a> Releases<'a> {
         };
         let lies = |node: usize| {
             let closest = mold.closest_point(cloth.now.x[node]);
-            !closest.beyond && closest.distance <= self.touching
+            !closest.beyond && closest.distance <= self.low
         };
         for (n, since) in self.lying_since.iter_mut().enumerate() {
-            if self.holds[n] {
+            if self.holds[n] && self.rule.times.is_none() {
                 let lying = self.surroundings[n].iter().all(|node| lies(*node));
                 *since = lying.then(|| since.unwrap_or(time));
             }
         }
-        let is_due = |n: &usize| {
-            let since = self.lying_since[*n].filter(|_| self.holds[*n]);
-            since.is_some_and(|since| since + self.rule.dwell <= time + rounding)
-        };
-        let due: Vec<usize> = (0..self.holds.len()).filter(is_due).collect();
-        for n in &due {
-            let since = self.lying_since[*n].unwrap_or(time);
-            self.let_go(vec![*n], since);
+        let is_due = |since: f64| since + self.rule.dwell <= time + rounding;
+        let pressing = (0..self.holds.len()).map(|n| (n, self.presses_since(n)));
+        let due = pressing.filter_map(|(n, since)| Some((n, since.filter(|t| is_due(*t))?)));
+        let due: Vec<(usize, f64)> = due.collect();
+        for (n, since) in &due {
+            self.let_go(vec![*n], *since);
         }
-        due
+        due.into_iter().map(|(n, _)| n).collect()
     }
 
-    /// Ends the motion at a time (s): all that still hold press and let go. Returns them, and when they do (s).
-    pub fn end(&mut self, time: f64) -> (Vec<usize>, f64) {
+    /// Ends the motion: all that still hold press and let go. Returns them, and when they do (s).
+    pub fn end(&mut self) -> (Vec<usize>, f64) {
         let all: Vec<usize> = (0..self.holds.len()).filter(|n| self.holds[*n]).collect();
-        self.let_go(all.clone(), time);
-        (all, time + self.rule.dwell)
+        self.let_go(all.clone(), self.end);
+        (all, self.end + self.rule.dwell)
     }
 
     /// Everything so far, in the order of time.

@@ -133,8 +133,8 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
         let mut scene = scene(seed);
         scene.release = match seed % 3 {
             0 => None,
-            1 => Some(Release { order: ReleaseOrder::End, dwell: 0.0 }),
-            _ => Some(Release { order: ReleaseOrder::Landed, dwell: 0.05 }),
+            1 => Some(Release::new(ReleaseOrder::End, 0.0)),
+            _ => Some(Release::new(ReleaseOrder::Landed, 0.05)),
         };
         let left = std::cell::Cell::new(100);
         let stop = || {
