@@ -846,6 +846,14 @@ class Result:
         """
         Whether every equilibrium was found, by the model that decides.
         """
+    @property
+    def events(self, /) -> list[dict[str, Any]]:
+        """
+        When the pads grip, press and let go, in the order of time; empty where they hold the ply from first to last.
+
+        Each event is a dict: its `time` in the motion (s), its `kind` ("grip", "press" or "release"), and its `grippers` as
+        [i, j]. The last release comes later than the last step where pads dwell.
+        """
     def export(
         self,
         /,
@@ -1275,6 +1283,7 @@ class Scene:
         limits: What an accepted drape keeps to.
         plan: How a motion is planned.
         errors: How far a real cell may be from the scene.
+        release: When the pads let go of the ply.
         title: Name for reports.
         base: Folder of files that the tables name.
 
@@ -1306,6 +1315,7 @@ class Scene:
         limits: dict[str, typing.Any] | None = None,
         plan: dict[str, typing.Any] | None = None,
         errors: dict[str, typing.Any] | None = None,
+        release: dict[str, typing.Any] | None = None,
         title: str | None = None,
         base: str | PathLike[str] = ...,
     ) -> Scene: ...
@@ -1555,6 +1565,12 @@ class Sheet:
         Force of the ply on each pad (N), shape (states, grippers, 3).
         """
     @property
+    def pad_holds(self, /) -> NDArray[bool_]:
+        """
+        Whether each pad holds the ply, shape (states, grippers). Where pads let go, the last step has two states: one held, and one
+        at rest after the release.
+        """
+    @property
     def pad_quaternions(self, /) -> NDArray[float64]:
         """
         Orientations of the pads as quaternions x, y, z, w, shape (states, grippers, 4): z along the pad's normal, x along u.
@@ -1582,7 +1598,7 @@ class Sheet:
     @property
     def steps(self, /) -> NDArray[int64]:
         """
-        The steps that were kept, shape (states,): they count from 1, the start.
+        The steps that were kept, shape (states,): they count from 1, the start. The state after a release is of the last step too.
         """
     @property
     def summary(self, /) -> dict[str, Any]:

@@ -4,7 +4,8 @@
 //! a step leaves its cells empty.
 //!
 //! Beside the poses stand the expected loads of the ply on the grippers where they are known, and where mounts yield their
-//! preload and stiffness, see `loads.rs`.
+//! preload and stiffness, see `loads.rs`. Where the scene says when pads let go, the column `vacuum` is 1 as long as a gripper
+//! holds and 0 from its release on; the tables then end with the last release.
 
 use super::OutputError;
 use super::loads::{Load, Loads, Stiffness};
@@ -14,6 +15,8 @@ use plydrape::draping::record::Step;
 use plydrape::measure::{Name, Scope};
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
 use plydrape::ply::{GripperId, Ply};
+use plydrape::sheet::event::holds;
+use plydrape::sheet::{Event, EventKind};
 
 /// One row a step: time (s), every measure and where it is, share in contact, how the solver ended.
 ///
@@ -63,22 +66,26 @@ fn header_of(name: Name) -> String {
     format!("{} ({})", measure.label(), measure.unit().recorded)
 }
 
-/// One row a gripper and step: time (s), gripper `i-j`, where the robot holds it (m), orientation (x, y, z, w), and the load
-/// on it where that is known.
+/// One row a gripper and step: time (s), gripper `i-j`, where the robot holds it (m), orientation (x, y, z, w), the load
+/// on it where that is known, and its vacuum where pads let go; a last one at the release where that is later.
 ///
 /// # Errors
 /// [`OutputError`] if the states of the sheet cannot be read.
 pub fn trajectory(result: &ResultFile) -> Result<String, OutputError> {
     let loads = Loads::of(result)?;
-    let mut table = Poses::new(loads.as_ref())?;
-    for step in &result.steps {
+    let mut table = Poses::new(loads.as_ref(), vacuum(result))?;
+    let end = result.steps.last().map(|step| step.time);
+    let released = end.and_then(|end| result.steps.last().zip(release_after(result, end)));
+    let steps = result.steps.iter().map(|step| (step, step.time));
+    for (step, time) in steps.chain(released) {
         let poses = step.grippers.iter().map(|g| (g.id, g.commanded(), g.quaternion));
-        table.add(step.time, poses)?;
+        table.add(time, poses)?;
     }
     Ok(text(table.table)?)
 }
 
-/// The table of [`motion`] for a plan at its rate, with the loads where they are known; none of a simulated drape.
+/// The table of [`motion`] for a plan at its rate, with the loads where they are known and the vacuum where pads let go, until
+/// they do; none of a simulated drape.
 ///
 /// # Errors
 /// As [`motion`], if plan and steps do not belong together, or [`OutputError`] if the states of the sheet cannot be read.
@@ -86,7 +93,9 @@ pub fn planned_motion(result: &ResultFile) -> Result<Option<String>, OutputError
     match (&result.plan, result.motion()?) {
         (Some(plan), Some((timed, attitudes))) => {
             let (ply, loads) = (&result.scene.ply, Loads::of(result)?);
-            sampled(&timed, &attitudes, ply, plan.rate, loads.as_ref()).map(Some)
+            let table = Poses::new(loads.as_ref(), vacuum(result))?;
+            let until = release_after(result, timed.duration());
+            sampled(&timed, &attitudes, ply, plan.rate, table, until).map(Some)
         }
         _ => Ok(None),
     }
@@ -105,7 +114,7 @@ pub fn motion(
     ply: &Ply,
     rate: f64,
 ) -> Result<String, OutputError> {
-    sampled(motion, attitudes, ply, rate, None)
+    sampled(motion, attitudes, ply, rate, Poses::new(None, None)?, None)
 }
 
 fn sampled(
@@ -113,19 +122,38 @@ fn sampled(
     attitudes: &Attitudes,
     ply: &Ply,
     rate: f64,
-    loads: Option<&Loads>,
+    mut table: Poses,
+    until: Option<f64>,
 ) -> Result<String, OutputError> {
     for found in [motion.grippers(), attitudes.grippers()] {
         if found != ply.grippers() {
             return Err(MotionError::Grippers { found, expected: ply.grippers() }.into());
         }
     }
-    let mut table = Poses::new(loads)?;
-    for time in motion.samples(rate)? {
-        let poses = motion.at(time).into_iter().zip(attitudes.at(time)).enumerate();
+    let mut times = motion.samples(rate)?;
+    let end = motion.duration();
+    if let Some(until) = until {
+        // grippers stand while they press
+        times.extend(motion.standing_samples(rate, until - end)?);
+        times.push(until);
+    }
+    for time in times {
+        let at = time.min(end);
+        let poses = motion.at(at).into_iter().zip(attitudes.at(at)).enumerate();
         table.add(time, poses.map(|(n, (place, quaternion))| (ply.id(n), place, quaternion)))?;
     }
     Ok(text(table.table)?)
+}
+
+/// What the column of the vacuum is made of; none where pads hold to the end.
+fn vacuum(result: &ResultFile) -> Option<&[Event]> {
+    result.scene.release.as_ref().map(|_| result.events())
+}
+
+/// When the last pads let go (s), if that is after a time.
+fn release_after(result: &ResultFile, end: f64) -> Option<f64> {
+    let last = result.events().iter().rfind(|event| event.kind == EventKind::Release)?;
+    (last.time > end).then_some(last.time)
 }
 
 /// The columns of a gripper's pose at a time.
@@ -141,22 +169,27 @@ const MOUNT: [&str; 5] = [
     "axial stiffness (N/mm)",
 ];
 
-/// A table of poses under way, with the loads beside them.
+/// The column of its vacuum.
+const VACUUM: &str = "vacuum";
+
+/// A table of poses under way, with the loads and what switches the vacuum beside them.
 struct Poses<'a> {
     table: Writer<Vec<u8>>,
     loads: Option<&'a Loads>,
+    vacuum: Option<&'a [Event]>,
 }
 
 impl<'a> Poses<'a> {
-    fn new(loads: Option<&'a Loads>) -> Result<Self, Error> {
+    fn new(loads: Option<&'a Loads>, vacuum: Option<&'a [Event]>) -> Result<Self, Error> {
         let mut header = POSE.to_vec();
         if let Some(loads) = loads {
             header.extend(LOAD);
             header.extend(loads.mounts.iter().flat_map(|_| MOUNT));
         }
+        header.extend(vacuum.map(|_| VACUUM));
         let mut table = Writer::from_writer(Vec::new());
         table.write_record(header)?;
-        Ok(Poses { table, loads })
+        Ok(Poses { table, loads, vacuum })
     }
 
     /// Adds a row for the pose of each gripper at a time (s).
@@ -170,9 +203,12 @@ impl<'a> Poses<'a> {
             let mut row = vec![number(time), format!("{i}-{j}")];
             row.extend(position.map(number));
             row.extend(quaternion.map(number));
+            let on = self.vacuum.is_none_or(|events| holds(events, [i, j], time));
             if let Some(loads) = self.loads {
-                row.extend(load_row(known.as_ref().map(|all| &all[n]), loads.mounts.as_ref()));
+                let load = known.as_ref().map(|all| if on { &all[n] } else { &Load::NONE });
+                row.extend(load_row(load, loads.mounts.as_ref()));
             }
+            row.extend(self.vacuum.map(|_| u8::from(on).to_string()));
             self.table.write_record(&row)?;
         }
         Ok(())

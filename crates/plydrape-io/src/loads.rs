@@ -91,6 +91,9 @@ impl Loads {
 }
 
 impl Load {
+    /// That of a gripper that has let go.
+    pub const NONE: Load = Load { force: [0.0; 3], preload: [0.0; 3] };
+
     /// A share of the way to another.
     fn towards(&self, other: &Load, share: f64) -> Load {
         let mix = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|c| (1.0 - share) * a[c] + share * b[c]);
@@ -104,8 +107,15 @@ fn of_sheet(result: &ResultFile, yields: bool) -> Result<(Vec<f64>, Vec<Vec<Load
     let Some(kept) = &result.sheet_states else { return Ok((times, steps)) };
     let motion = result.motion()?;
     let mut file = kept.open()?;
-    for (step, n) in file.steps()? {
+    let mut before = None;
+    for n in 0..file.states() {
         let Some(state) = file.state(n)? else { continue };
+        let step = state.step as usize;
+        // after the last step grippers bear the same until they let go
+        if let (true, Some(last)) = (before.replace(step) == Some(step), steps.last().cloned()) {
+            times.push(state.time);
+            steps.push(last);
+        }
         // where the robot holds the mounts
         let recorded = result.steps.get(step - 1).map(|step| {
             step.grippers.iter().map(|gripper| gripper.commanded()).collect::<Vec<_>>()

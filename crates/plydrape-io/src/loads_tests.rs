@@ -2,7 +2,7 @@ use super::*;
 use crate::{csv, scene};
 use plydrape::draping::record::PlanRecord;
 use plydrape::draping::simulate;
-use plydrape::scene::{Model, PlanMethod, Scene};
+use plydrape::scene::{Model, PlanMethod, Release, ReleaseOrder, Scene};
 use plydrape::sheet::{self, State, Tuning};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -174,4 +174,61 @@ fn rigid_grippers_have_loads_of_the_sheet_alone() {
     scene.settings.model = Model::Catenaries;
     let (result, _dir) = draped(&scene);
     assert_eq!(header(&result), pose);
+}
+
+/// Where pads let go, both tables have a column for the vacuum and end with the release: loads stay as they are while pads press,
+/// and are nothing from the release on. Without its column and the rows after the motion, the table is that of pads that hold.
+#[test]
+fn tables_switch_the_vacuum_at_the_release() {
+    let mut scene = dome(MOUNTS, 60);
+    let path = scene.motion.positions.clone();
+    let (method, rate) = (PlanMethod::Path, 20.0);
+    let record = PlanRecord { method, evaluations: 1, rate, slowed: 1.0, path };
+    let motion = record.motion(&scene.limits).unwrap();
+    scene.motion.times = motion.times().to_vec();
+    let (mut held, _kept) = draped(&scene);
+    held.plan = Some(record.clone());
+    let dwell = 0.31;
+    scene.release = Some(Release::new(ReleaseOrder::End, dwell));
+    let (mut result, _dir) = draped(&scene);
+    result.plan = Some(record);
+    let end = motion.duration();
+    let all = |table: fn(&ResultFile) -> String| [&held, &result].map(table);
+    let tables = [
+        (all(|result| csv::trajectory(result).unwrap()), 1),
+        // twenty a second, and the release itself
+        (all(|result| csv::planned_motion(result).unwrap().unwrap()), 7),
+    ];
+    for ([held, released], more) in tables {
+        let (before, now) = (rows(&held), rows(&released));
+        assert_eq!(now.len(), before.len() + 9 * more);
+        let same: String = released
+            .lines()
+            .take(before.len() + 1)
+            .map(|line| line.rsplit_once(',').unwrap().0.to_owned() + "\n")
+            .collect();
+        assert_eq!(same, held);
+        for row in &now {
+            let (time, load) = (row["t (s)"].unwrap(), vector(row, "load", "N"));
+            let on = time < end + dwell;
+            assert_eq!(row["vacuum"], Some(if on { 1.0 } else { 0.0 }), "{time}");
+            assert!(on || load == [0.0; 3], "{time}: {load:?}");
+        }
+        assert!(now.is_sorted_by_key(|row| row["t (s)"]));
+        let last: Vec<_> = now.iter().rev().take(9).collect();
+        assert!(last.iter().all(|row| row["t (s)"] == Some(end + dwell)));
+        // grippers stand, and bear what they bore, until they let go
+        for row in now[before.len()..].iter().filter(|row| row["vacuum"] == Some(1.0)) {
+            let twin = before
+                .iter()
+                .rev()
+                .take(9)
+                .find(|twin| ["x (m)", "y (m)"].iter().all(|name| twin[*name] == row[*name]));
+            let twin = twin.expect("it stands where the motion ends");
+            let [load, same] = [row, twin].map(|row| vector(row, "load", "N"));
+            for c in 0..3 {
+                assert!((load[c] - same[c]).abs() < 1e-12, "{load:?} {same:?}");
+            }
+        }
+    }
 }

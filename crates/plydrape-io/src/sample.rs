@@ -300,6 +300,7 @@ fn frame(grid: Grid) -> ResultFile {
             bodies: Bodies::default(),
             errors: None,
             tool: None,
+            release: None,
         },
         plan: None,
         sheet_states: None,
@@ -387,6 +388,7 @@ pub(super) fn sheet_summary() -> sheet::measure::Summary {
         solves: 30,
         smallest_step: 0.5,
         limits: Vec::new(),
+        events: Vec::new(),
     }
 }
 

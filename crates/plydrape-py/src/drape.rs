@@ -83,6 +83,11 @@ pub fn for_model(scene: &Arc<SceneFile>, model: Option<&str>) -> PyResult<Arc<Sc
                 model=\"sheet\"";
             return Err(PyValueError::new_err(text));
         }
+        Some("catenaries") if scene.release.is_some() => {
+            let text = "catenaries hang from grippers that hold them: they cannot follow a ply that pads let go of: \
+                drape it with model=\"sheet\", or leave out `release`";
+            return Err(PyValueError::new_err(text));
+        }
         Some("catenaries") => Arc::make_mut(&mut scene).settings.model = Model::Catenaries,
         Some(other) => {
             let text = format!("model is {other:?}; \"sheet\" or \"catenaries\" is wanted");

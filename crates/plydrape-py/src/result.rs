@@ -224,6 +224,15 @@ impl Result {
         Json::of(&self.0.summary)
     }
 
+    /// When the pads grip, press and let go, in the order of time; empty where they hold the ply from first to last.
+    ///
+    /// Each event is a dict: its `time` in the motion (s), its `kind` ("grip", "press" or "release"), and its `grippers` as
+    /// [i, j]. The last release comes later than the last step where pads dwell.
+    #[getter]
+    fn events(&self) -> PyResult<Vec<Json>> {
+        self.0.events().iter().map(Json::of).collect()
+    }
+
     /// Every limit of the catenaries, judged: dicts with name, value, limit, unit, ok, step, where and place.
     #[getter]
     fn limits(&self) -> PyResult<Vec<Json>> {

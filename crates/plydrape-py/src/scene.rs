@@ -35,6 +35,7 @@ use toml::map::Map;
 ///     limits: What an accepted drape keeps to.
 ///     plan: How a motion is planned.
 ///     errors: How far a real cell may be from the scene.
+///     release: When the pads let go of the ply.
 ///     title: Name for reports.
 ///     base: Folder of files that the tables name.
 ///
@@ -65,7 +66,7 @@ impl Scene {
         motion: "dict[str, typing.Any] | None" = None, model: "dict[str, typing.Any] | None" = None,
         sheet: "dict[str, typing.Any] | None" = None, contact: "dict[str, typing.Any] | None" = None,
         limits: "dict[str, typing.Any] | None" = None, plan: "dict[str, typing.Any] | None" = None,
-        errors: "dict[str, typing.Any] | None" = None,
+        errors: "dict[str, typing.Any] | None" = None, release: "dict[str, typing.Any] | None" = None,
         title = None, base = PathBuf::new()
     ))]
     #[expect(clippy::too_many_arguments, reason = "the tables of a scene file")]
@@ -82,6 +83,7 @@ impl Scene {
         limits: Table<'_, '_>,
         plan: Table<'_, '_>,
         errors: Table<'_, '_>,
+        release: Table<'_, '_>,
         title: Option<String>,
         base: PathBuf,
     ) -> PyResult<Self> {
@@ -113,6 +115,7 @@ impl Scene {
             ("limits", limits),
             ("plan", plan),
             ("errors", errors),
+            ("release", release),
         ];
         for (name, dict) in others {
             if let Some(dict) = dict {

@@ -65,7 +65,7 @@ fn nodes(states: &SheetStates) -> usize {
 
 #[pymethods]
 impl Sheet {
-    /// The steps that were kept, shape (states,): they count from 1, the start.
+    /// The steps that were kept, shape (states,): they count from 1, the start. The state after a release is of the last step too.
     #[getter]
     fn steps(&self, py: Python<'_>) -> PyResult<Array<i64>> {
         self.states(py, |_| vec![], |state, out| out.push(i64::from(state.step)))
@@ -193,6 +193,20 @@ impl Sheet {
             py,
             |states| vec![states.mesh().grippers, 4],
             |state, out| out.extend_from_slice(state.pad_rotation.as_flattened()),
+        )
+    }
+
+    /// Whether each pad holds the ply, shape (states, grippers). Where pads let go, the last step has two states: one held, and one
+    /// at rest after the release.
+    #[getter]
+    fn pad_holds(&self, py: Python<'_>) -> PyResult<Array<bool>> {
+        self.states(
+            py,
+            |states| vec![states.mesh().grippers],
+            |state, out| match &state.pad_holds {
+                Some(holds) => out.extend_from_slice(holds),
+                None => out.extend(state.grippers.iter().map(|_| true)),
+            },
         )
     }
 

@@ -63,6 +63,7 @@ fn main() {
         plan: Plan::default(),
         errors: None,
         tool: None,
+        release: None,
     };
 
     let drape = simulate(&scene, |_| ControlFlow::Continue(()));

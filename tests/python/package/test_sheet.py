@@ -184,3 +184,24 @@ def test_an_interrupt_ends_the_drape_of_a_sheet_at_once() -> None:
     with pytest.raises(KeyboardInterrupt):
         plydrape.simulate(fine, model="sheet")
     assert time.perf_counter() - sent[0] < 0.2
+
+
+def test_pads_let_go_at_the_time_of_their_events() -> None:
+    """All after the motion and a dwell: one state more than steps, held by nothing."""
+    scene = plydrape.Scene.parse(
+        COARSE.replace('kind = "catenaries"', 'kind = "sheet"') + '\n[release]\ndwell = "2 s"\n'
+    )
+    result = plydrape.simulate(scene)
+    kinds = [(event["time"], event["kind"], len(event["grippers"])) for event in result.events]
+    assert kinds == [(0.0, "grip", 8), (29.0, "press", 8), (31.0, "release", 8)]
+    sheet = sheet_of(result)
+    assert sheet.steps[-2:].tolist() == [30, 30] and sheet.times[-2:].tolist() == [29.0, 31.0]
+    assert sheet.pad_holds[:-1].all() and not sheet.pad_holds[-1].any()
+    assert not sheet.pad_forces[-1].any()
+    with pytest.raises(ValueError, match="leave out `release`"):
+        plydrape.simulate(scene, model="catenaries")
+
+
+def test_pads_hold_to_the_end_without_a_release(result: plydrape.Result) -> None:
+    """No events, and every state is held."""
+    assert result.events == [] and sheet_of(result).pad_holds.all()

@@ -111,6 +111,7 @@ mod tests {
             segments: vec![[0, 1], [1, 2]].into(),
             cells: Vec::new().into(),
             grippers: 2,
+            releases: false,
         }
     }
 

@@ -86,6 +86,9 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
     if !mounts.iter().flatten().all(|value| *value > 0.0) {
         return Some("what mounts and pads bear must be above zero".into());
     }
+    if scene.release.as_ref().is_some_and(|release| release.dwell.is_nan() || release.dwell < 0.0) {
+        return Some("its pads must not press for less than no time".into());
+    }
     if !(max_tilt > 0.0 && max_tilt < std::f64::consts::FRAC_PI_2) {
         return Some(format!("there is no largest tilt of {max_tilt} rad"));
     }
@@ -250,6 +253,15 @@ fn of_sheet(result: &ResultFile) -> Option<String> {
     }
     if sheet.nodes == 0 {
         return Some("its sheet has no node".into());
+    }
+    let ply = &result.scene.ply;
+    let times = sheet.events.iter().map(|event| event.time);
+    if !times.clone().is_sorted() || times.clone().next().is_some_and(|first| first < 0.0) {
+        return Some("the events of its pads are not in the order of time".into());
+    }
+    let mut pads = sheet.events.iter().flat_map(|event| &event.grippers);
+    if let Some(id) = pads.find(|id| ply.index(**id).is_none()) {
+        return Some(format!("an event of its pads names gripper {id:?}"));
     }
     let judged = sheet.limits.iter().map(|verdict| verdict.step);
     let mut named = judged.chain([sheet.first_contact_step]).flatten();

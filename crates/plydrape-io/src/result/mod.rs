@@ -21,7 +21,8 @@ use plydrape::mold::Mold;
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
 use plydrape::planner::{Planned, PlannedSheet};
 use plydrape::ply::Ply;
-use plydrape::scene::{Limits, Model, Scene, Settings, Target};
+use plydrape::scene::{Limits, Model, Release, Scene, Settings, Target};
+use plydrape::sheet::Event;
 use plydrape::tool::Tool;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -78,6 +79,9 @@ pub struct SceneEcho {
     /// What carries the grippers, if they do not move by themselves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tool: Option<Tool>,
+    /// When the pads let go of the ply; none where they hold it to the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub release: Option<Release>,
 }
 
 impl SceneEcho {
@@ -95,6 +99,7 @@ impl SceneEcho {
             bodies: scene.bodies.clone(),
             errors: scene.errors,
             tool: scene.tool.clone(),
+            release: scene.release.clone(),
         }
     }
 }
@@ -170,6 +175,12 @@ impl ResultFile {
     #[must_use]
     pub fn deciding_limits(&self) -> &[Verdict] {
         self.summary.sheet.as_ref().map_or(&self.summary.limits, |sheet| &sheet.limits)
+    }
+
+    /// When pads grip, press and let go, in the order of time; nothing where they hold the ply from first to last.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        self.summary.sheet.as_ref().map_or(&[], |sheet| &sheet.events)
     }
 
     /// The curves of a step (m): for each catenary, one for each of its spans, see [`plydrape::draping::curves`].

@@ -10,6 +10,7 @@ use super::limits::limits;
 use super::located::{Count, Fixed, Located, Whole};
 use super::motion::{motion, unplanned};
 use super::plan::plan;
+use super::release::release;
 use super::settings::settings;
 use super::trajectory::trajectory;
 use super::{SceneFile, cut, material, mold, named, sheet, start, target, tool};
@@ -69,6 +70,10 @@ pub(super) fn scene(
         (Some(table), Some(start)) => Some(tool::tool(table, start, &limits, document)?),
         _ => None,
     };
+    let release = match &file.release {
+        Some(table) => Some(release(table, settings.model, mold.is_some(), document)?),
+        None => None,
+    };
     let unplanned = file.motion.as_ref().and_then(|table| unplanned(&table.value, document));
     let steps = file.plan.steps.as_ref().map_or(file.grippers_span(), |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
@@ -88,6 +93,7 @@ pub(super) fn scene(
             plan,
             errors,
             tool,
+            release,
         },
         input: Some(document.text.clone()),
         files: named(document, base),

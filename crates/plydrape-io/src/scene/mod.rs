@@ -6,7 +6,7 @@
 //! 1. `read`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
 //! 3. `check` with `bodies`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`,
-//!    `sheet`, `plan`, `errors`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
+//!    `sheet`, `plan`, `errors`, `tool`, `release`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
 //! `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
 
@@ -37,6 +37,7 @@ mod plan;
 mod quantity;
 mod read;
 mod rectangle;
+mod release;
 mod schema;
 mod settings;
 mod sheet;

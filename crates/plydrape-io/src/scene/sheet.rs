@@ -30,7 +30,8 @@ pub(super) fn fits(
     let around = Around { file, ply, settings, document };
     around.pads()?;
     let mesh = around.mesh()?;
-    let states = settings.sheet.keep.min(steps);
+    // and the one after a release
+    let states = settings.sheet.keep.min(steps) + usize::from(file.release.is_some());
     let nodes = around.nodes(mesh);
     size::sheet(nodes, states).map_err(|fault| {
         let span = around.mesh_span().unwrap_or_else(|| file.grippers_span().clone());

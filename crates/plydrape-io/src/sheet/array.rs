@@ -48,8 +48,8 @@ pub struct Array {
 use Extent::{Cells, Grippers, Nodes, Of, Segments, States};
 use Scalar::{Flag, Index, Real};
 
-/// All arrays, in the order of the file: those of the mesh first.
-pub const ARRAYS: [Array; 15] = [
+/// All arrays, in the order of the file: those of the mesh first. The last one is left out of a sheet whose pads all hold to the end.
+pub const ARRAYS: [Array; 16] = [
     Array { name: "places", scalar: Real, shape: &[Nodes, Of(2)] },
     Array { name: "areas", scalar: Real, shape: &[Nodes] },
     Array { name: "segments", scalar: Index, shape: &[Segments, Of(2)] },
@@ -65,10 +65,16 @@ pub const ARRAYS: [Array; 15] = [
     Array { name: "grippers", scalar: Real, shape: &[States, Grippers, Of(3)] },
     Array { name: "pad_forces", scalar: Real, shape: &[States, Grippers, Of(3)] },
     Array { name: "pad_rotation", scalar: Real, shape: &[States, Grippers, Of(4)] },
+    Array { name: "pad_holds", scalar: Flag, shape: &[States, Grippers] },
 ];
 
 /// How many of [`ARRAYS`] belong to the mesh.
 pub(super) const OF_MESH: usize = 5;
+
+/// The arrays of a sheet, whose states say which pads hold (`releases`) or need not.
+pub(super) fn arrays(releases: bool) -> &'static [Array] {
+    &ARRAYS[..ARRAYS.len() - usize::from(!releases)]
+}
 
 /// How many there are of everything.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -78,6 +84,8 @@ pub(super) struct Sizes {
     pub segments: usize,
     pub cells: usize,
     pub grippers: usize,
+    /// Whether states say which pads hold.
+    pub releases: bool,
 }
 
 impl Sizes {
@@ -195,8 +203,8 @@ impl SheetMesh<'_> {
 
 impl SheetState<'_> {
     /// Its numbers, in the order of [`ARRAYS`].
-    pub(super) fn values(&self) -> [Values<'_>; ARRAYS.len() - OF_MESH] {
-        [
+    pub(super) fn values(&self) -> impl Iterator<Item = Values<'_>> {
+        let always = [
             Values::Index(std::slice::from_ref(&self.step)),
             Values::Real(std::slice::from_ref(&self.time)),
             Values::Real(self.positions.as_flattened()),
@@ -207,6 +215,7 @@ impl SheetState<'_> {
             Values::Real(self.grippers.as_flattened()),
             Values::Real(self.pad_forces.as_flattened()),
             Values::Real(self.pad_rotation.as_flattened()),
-        ]
+        ];
+        always.into_iter().chain(self.pad_holds.as_deref().map(Values::Flag))
     }
 }

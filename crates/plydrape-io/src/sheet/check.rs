@@ -1,6 +1,6 @@
 //! What the numbers of a sheet must be, when they are written and when they are read.
 
-use super::array::{ARRAYS, Array, OF_MESH, Sizes, Values};
+use super::array::{ARRAYS, Array, OF_MESH, Sizes, Values, arrays};
 use super::{SheetError, SheetMesh, SheetState};
 
 /// Largest number in size: its square and its cube are far from overflow.
@@ -18,6 +18,7 @@ pub(super) fn sizes(mesh: &SheetMesh) -> Sizes {
         segments: mesh.segments.len(),
         cells: mesh.cells.len(),
         grippers: mesh.grippers,
+        releases: mesh.releases,
     }
 }
 
@@ -44,8 +45,14 @@ pub(super) fn state(
     sizes: &Sizes,
     after: Option<(u32, f64)>,
 ) -> Result<(), SheetError> {
-    for (array, values) in ARRAYS[OF_MESH..].iter().zip(state.values()) {
+    let releases = state.pad_holds.is_some();
+    for (array, values) in arrays(releases)[OF_MESH..].iter().zip(state.values()) {
         sound(array, values, sizes)?;
+    }
+    if sizes.releases != releases {
+        let of = |releases: bool| if releases { sizes.grippers } else { 0 };
+        let (expected, found) = (of(sizes.releases), of(releases));
+        return Err(SheetError::Length { array: "pad_holds", expected, found });
     }
     for (n, q) in state.pad_rotation.iter().enumerate() {
         let length = q.iter().map(|q| q * q).sum::<f64>().sqrt();

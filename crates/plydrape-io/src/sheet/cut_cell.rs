@@ -90,6 +90,7 @@ mod tests {
                 .map(|cell| cell.nodes)
                 .collect(),
             grippers: scene.ply.grippers(),
+            releases: false,
         };
         let cut = CutCell::all(&scene.ply, &scene.settings, &mesh);
         assert!(cut.iter().any(|cell| cell.rings.len() == 2), "a cell with a hole in it");

@@ -82,7 +82,9 @@ impl SheetSize {
 
 /// Most states that the drape of a scene keeps.
 fn kept(scene: &Scene) -> usize {
-    scene.settings.sheet.keep.min(scene.motion.positions.len())
+    // and the one after a release
+    let released = usize::from(scene.release.is_some());
+    scene.settings.sheet.keep.min(scene.motion.positions.len()) + released
 }
 
 /// Drapes the sheet of a scene along its motion. Its states are kept in a hidden folder within `dir`; `progress` is called
@@ -98,13 +100,14 @@ pub fn drape(
 ) -> Result<SheetDrape, SheetDrapeError> {
     SheetSize::of(scene)?;
     let sheet = Sheet::new(scene)?;
-    let mut spool = SheetSpool::new(dir, mesh(&sheet))?;
+    let releases = scene.release.is_some();
+    let mut spool = SheetSpool::new(dir, mesh(&sheet, releases))?;
     let (steps, keep) = (scene.motion.positions.len(), scene.settings.sheet.keep);
     let (mut last, mut fault) = (0, None);
     let draped = sheet::drape(scene, Tuning::default(), stop, |seen| {
         progress(seen.step);
         if is_kept(seen.step, steps, keep) {
-            if let Err(refused) = spool.push(&state(seen, &sheet.fabric)) {
+            if let Err(refused) = spool.push(&state(seen, &sheet.fabric, releases)) {
                 fault = Some(refused);
                 return ControlFlow::Break(());
             }
@@ -115,7 +118,7 @@ pub fn drape(
     if let Some(fault) = fault {
         return Err(fault.into());
     }
-    finished(draped, last, spool)
+    finished(draped, last, spool, releases)
 }
 
 /// The drape that decided on a plan, with the states that it keeps. They go into a hidden folder within `dir`, as those of
@@ -125,32 +128,34 @@ pub fn drape(
 /// [`SheetDrapeError`] if the disk refuses.
 pub fn keep(planned: PlannedSheet, dir: &Path) -> Result<SheetDrape, SheetDrapeError> {
     let PlannedSheet { drape, states } = planned;
-    let mut spool = SheetSpool::new(dir, mesh(&drape.sheet))?;
+    let releases = !drape.summary.events.is_empty();
+    let mut spool = SheetSpool::new(dir, mesh(&drape.sheet, releases))?;
     let last = states.last().map_or(0, |kept| kept.step);
     for kept in states {
-        spool.push(&state(&kept, &drape.sheet.fabric))?;
+        spool.push(&state(&kept, &drape.sheet.fabric, releases))?;
     }
-    finished(drape, last, spool)
+    finished(drape, last, spool, releases)
 }
 
-/// The drape whose states are in the spool, up to the one of step `last`.
+/// The drape whose states are in the spool, up to the one of step `last`; with `releases` they say which pads hold.
 fn finished(
     draped: Drape,
     last: usize,
     mut spool: SheetSpool,
+    releases: bool,
 ) -> Result<SheetDrape, SheetDrapeError> {
     let Drape { sheet, summary, landing_step, last: end, duration, .. } = draped;
     if end.step != last {
         // where the drape ended early, its end is kept too
-        spool.push(&state(&end, &sheet.fabric))?;
+        spool.push(&state(&end, &sheet.fabric, releases))?;
     }
     let landed: Vec<u32> = landing_step.iter().map(|step| step.map_or(0, |n| n as u32)).collect();
     let states = SheetKept::made(spool.finish(&landed)?);
     Ok(SheetDrape { summary, states, duration })
 }
 
-/// What is the same in all states of a sheet.
-fn mesh(sheet: &Sheet) -> SheetMesh<'static> {
+/// What is the same in all states of a sheet; with `releases` these say which pads hold.
+fn mesh(sheet: &Sheet, releases: bool) -> SheetMesh<'static> {
     let fabric = &sheet.fabric;
     SheetMesh {
         places: fabric.places.clone().into(),
@@ -158,11 +163,12 @@ fn mesh(sheet: &Sheet) -> SheetMesh<'static> {
         segments: fabric.segments.iter().map(|segment| segment.nodes).collect(),
         cells: fabric.cells.iter().filter(|cell| cell.is_ply()).map(|cell| cell.nodes).collect(),
         grippers: sheet.grippers.len(),
+        releases,
     }
 }
 
-/// A state as it is kept: with the cells that are ply by half or more.
-fn state<'a>(state: &'a State, fabric: &Fabric) -> SheetState<'a> {
+/// A state as it is kept: with the cells that are ply by half or more, and where pads let go with those that hold.
+fn state<'a>(state: &'a State, fabric: &Fabric, releases: bool) -> SheetState<'a> {
     let all = fabric.cells.iter().all(Cell::is_ply);
     let of_ply = || fabric.cells.iter().zip(&state.shear).filter(|(cell, _)| cell.is_ply());
     let unknown = || vec![f64::NAN; state.positions.len()].into();
@@ -183,5 +189,6 @@ fn state<'a>(state: &'a State, fabric: &Fabric) -> SheetState<'a> {
         grippers: state.pads.iter().map(|pad| pad.position).collect(),
         pad_forces: (&state.forces).into(),
         pad_rotation: state.pads.iter().map(|pad| pad.quaternion()).collect(),
+        pad_holds: releases.then(|| (&state.holds).into()),
     }
 }

@@ -1,6 +1,7 @@
 //! `sheet.npz`: the states of a sheet over its steps, as NumPy's arrays in a zip archive, beside `result.json`.
 //!
-//! `numpy.load` reads it; [`ARRAYS`] lists what it holds, little-endian and not compressed. States are written and read one at
+//! `numpy.load` reads it; [`ARRAYS`] lists what it holds, little-endian and not compressed; the last of them is there only where
+//! pads let go. States are written and read one at
 //! a time, so that a long drape takes the memory of a few: [`SheetSpool`] spools each array into a file of its own and then
 //! puts them together, [`SheetStates`] reads single states. Same states, same bytes.
 //!
@@ -49,6 +50,8 @@ pub struct SheetMesh<'a> {
     pub cells: Cow<'a, [[u32; 4]]>,
     /// How many grippers hold the sheet.
     pub grippers: usize,
+    /// Whether pads let go of it, so that its states say which of them hold.
+    pub releases: bool,
 }
 
 /// The sheet at one moment.
@@ -74,6 +77,8 @@ pub struct SheetState<'a> {
     pub pad_forces: Cow<'a, [[f64; 3]]>,
     /// Rotation of each pad, as a quaternion x, y, z, w.
     pub pad_rotation: Cow<'a, [[f64; 4]]>,
+    /// Whether each pad holds the sheet; none where all of them always do.
+    pub pad_holds: Option<Cow<'a, [bool]>>,
 }
 
 #[cfg(test)]

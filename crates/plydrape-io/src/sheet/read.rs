@@ -1,6 +1,6 @@
 //! Reading: the file that a result names, unchanged, one state at a time.
 
-use super::array::{ARRAYS, BEFORE, MAGIC, OF_MESH, Sizes};
+use super::array::{ARRAYS, BEFORE, MAGIC, OF_MESH, Sizes, arrays};
 use super::{SheetMesh, SheetSeal, SheetState, check};
 use crate::read::ReadError;
 use crate::{input, size};
@@ -48,7 +48,10 @@ impl SheetStates {
         // what it holds
         let archive = ZipArchive::new(BufReader::new(file)).map_err(|e| changed(e.to_string()))?;
         let (file, sizes, starts) = layout(archive, seal.length).map_err(changed)?;
-        let memory: f64 = ARRAYS.iter().map(|a| (a.count(&sizes) * a.scalar.bytes()) as f64).sum();
+        let memory: f64 = arrays(sizes.releases)
+            .iter()
+            .map(|a| (a.count(&sizes) * a.scalar.bytes()) as f64)
+            .sum();
         size::check(memory, || format!("a state of a sheet of {} nodes", sizes.nodes))
             .map_err(|source| ReadError::TooLarge { path: path.clone(), source })?;
         let empty = SheetMesh {
@@ -57,6 +60,7 @@ impl SheetStates {
             segments: Cow::default(),
             cells: Cow::default(),
             grippers: sizes.grippers,
+            releases: sizes.releases,
         };
         let mut states = SheetStates {
             file,
@@ -129,6 +133,10 @@ impl SheetStates {
             grippers: pairs(self.reals(OF_MESH + 7, n)?),
             pad_forces: pairs(self.reals(OF_MESH + 8, n)?),
             pad_rotation: pairs(self.reals(OF_MESH + 9, n)?),
+            pad_holds: match self.sizes.releases {
+                true => Some(self.flags(OF_MESH + 10, n)?.into()),
+                false => None,
+            },
         })
     }
 
@@ -166,14 +174,16 @@ fn layout(
     mut archive: ZipArchive<BufReader<File>>,
     bytes: u64,
 ) -> Result<(BufReader<File>, Sizes, Vec<u64>), String> {
-    if archive.len() != ARRAYS.len() {
+    let releases = archive.len() == ARRAYS.len();
+    let arrays = arrays(releases);
+    if archive.len() != arrays.len() {
         let found = archive.len();
-        return Err(format!("it holds {found} arrays, not {}", ARRAYS.len()));
+        return Err(format!("it holds {found} arrays, not {}", arrays.len()));
     }
-    let mut sizes = Sizes::default();
-    let mut starts = Vec::with_capacity(ARRAYS.len());
-    let mut headers = Vec::with_capacity(ARRAYS.len());
-    for (n, array) in ARRAYS.iter().enumerate() {
+    let mut sizes = Sizes { releases, ..Sizes::default() };
+    let mut starts = Vec::with_capacity(arrays.len());
+    let mut headers = Vec::with_capacity(arrays.len());
+    for (n, array) in arrays.iter().enumerate() {
         let other = |what: &str| format!("its array {n} {what}");
         let mut entry = archive.by_index(n).map_err(|fault| other(&fault.to_string()))?;
         if !entry.name().is_ok_and(|name| name == format!("{}.npy", array.name)) {
@@ -203,7 +213,7 @@ fn layout(
         }
         headers.push((header, entry.size()));
     }
-    for (array, (header, size)) in ARRAYS.iter().zip(headers) {
+    for (array, (header, size)) in arrays.iter().zip(headers) {
         let length = array.data(&sizes).and_then(|data| data.checked_add(header.len() as u64));
         if header != array.header(&sizes) || length != Some(size) {
             return Err(format!("its array `{}` has another type or shape", array.name));

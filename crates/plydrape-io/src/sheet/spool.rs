@@ -1,6 +1,6 @@
 //! Writing: states come one at a time, each array into a file of its own; at the end they become one file.
 
-use super::array::{ARRAYS, OF_MESH, Sizes};
+use super::array::{OF_MESH, Sizes, arrays};
 use super::latch::Latch;
 use super::{NAME, SheetError, SheetMesh, SheetSeal, SheetState, check};
 use crate::folder::Content;
@@ -19,7 +19,7 @@ pub struct SheetSpool {
     dir: TempDir,
     mesh: SheetMesh<'static>,
     sizes: Sizes,
-    /// The files of the arrays of states, in the order of [`ARRAYS`].
+    /// The files of the arrays of states, in the order of [`ARRAYS`](super::ARRAYS).
     files: Vec<BufWriter<File>>,
     /// Step and time of the state before.
     last: Option<(u32, f64)>,
@@ -36,8 +36,10 @@ impl SheetSpool {
         check::mesh(&mesh, &vec![0; sizes.nodes], &sizes)?;
         let dir = tempfile::Builder::new().prefix(".sheet-").tempdir_in(dir)?;
         let spool = |name: &str| File::create_new(dir.path().join(name)).map(BufWriter::new);
-        let files =
-            ARRAYS[OF_MESH..].iter().map(|array| spool(array.name)).collect::<io::Result<_>>()?;
+        let files = arrays(mesh.releases)[OF_MESH..]
+            .iter()
+            .map(|array| spool(array.name))
+            .collect::<io::Result<_>>()?;
         Ok(SheetSpool { dir, mesh, sizes, files, last: None })
     }
 
@@ -78,7 +80,9 @@ impl SheetSpool {
         let path = dir.path().join(NAME);
         let mut archive = ZipWriter::new(Latch::new(BufWriter::new(File::create_new(&path)?)));
         let values = mesh.values(landing_step).map(Some).into_iter();
-        for (array, values) in ARRAYS.iter().zip(values.chain(std::iter::repeat(None))) {
+        for (array, values) in
+            arrays(mesh.releases).iter().zip(values.chain(std::iter::repeat(None)))
+        {
             let header = array.header(&sizes);
             let length = array.data(&sizes).map(|data| data + header.len() as u64);
             start(&mut archive, array.name, length)?;

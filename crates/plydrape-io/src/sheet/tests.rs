@@ -21,6 +21,7 @@ fn mesh(nu: usize, nv: usize) -> SheetMesh<'static> {
             .map(|(i, j)| [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)])
             .collect(),
         grippers: 4,
+        releases: false,
     }
 }
 
@@ -39,6 +40,7 @@ fn state(mesh: &SheetMesh, step: u32) -> SheetState<'static> {
         grippers: vec![[t, 2.0 * t, 3.0 * t]; mesh.grippers].into(),
         pad_forces: vec![[0.1, -0.2, t]; mesh.grippers].into(),
         pad_rotation: vec![[0.0, 0.6, 0.0, 0.8]; mesh.grippers].into(),
+        pad_holds: mesh.releases.then(|| (0..mesh.grippers as u32).map(|n| n >= step).collect()),
     }
 }
 
@@ -80,6 +82,26 @@ fn states_that_are_read_are_those_that_were_written() {
         assert_eq!(shown(&found), shown(&state(&mesh, n as u32 + 1)));
     }
     assert!(states.state(5).unwrap().is_none());
+}
+
+/// A sheet whose pads let go has one array more; states that do not say which pads hold are none of it, and the other way round.
+#[test]
+fn states_say_which_pads_hold_where_some_let_go() {
+    let dir = tempfile::tempdir().unwrap();
+    let (held, released) = (mesh(4, 3), SheetMesh { releases: true, ..mesh(4, 3) });
+    let file = finished(dir.path(), &released, 3);
+    let mut states = SheetStates::open(file.path().parent().unwrap(), file.seal()).unwrap();
+    assert_eq!(states.mesh(), &released);
+    for n in 0..3 {
+        let found = states.state(n).unwrap().unwrap();
+        assert_eq!(shown(&found), shown(&state(&released, n as u32 + 1)));
+        let expected: Vec<bool> = (0..4).map(|pad| pad > n).collect();
+        assert_eq!(found.pad_holds.as_deref(), Some(&expected[..]));
+    }
+    for (mesh, other) in [(&held, &released), (&released, &held)] {
+        let mut spool = SheetSpool::new(dir.path(), mesh.clone()).unwrap();
+        assert!(spool.push(&state(other, 1)).unwrap_err().to_string().contains("pad_holds"));
+    }
 }
 
 /// NumPy of the Python tests, where it is installed: names, types, shapes and numbers.

@@ -27,6 +27,7 @@ mod pattern;
 mod plans;
 mod preload;
 mod reach;
+mod release;
 mod results;
 mod scaled;
 mod scenes;

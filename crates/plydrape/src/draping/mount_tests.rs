@@ -58,6 +58,7 @@ fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2])
         plan: Plan::default(),
         errors: None,
         tool: None,
+        release: None,
     }
 }
 

@@ -6,6 +6,7 @@
 use super::{Errors, Stands, Watch};
 use crate::draping::record::Summary;
 use crate::scene::{Motion, Scene, Stepping};
+use crate::sheet::event::at_these_times;
 
 /// With which errors a finished drape is judged.
 #[derive(Debug, Clone)]
@@ -48,9 +49,15 @@ impl Robustness {
     /// because nobody knows whether enough of its cells are.
     pub fn judge_sample(&self, summary: &mut Summary, watch: &Watch) -> bool {
         let Some(errors) = &self.sample else { return true };
-        summary.sample = errors.judge(&self.scene, watch);
+        summary.sample = errors.judge(&self.scene_of(summary), watch);
         summary.accepted &= summary.sample.as_ref().is_some_and(|sample| sample.ok);
         summary.sample.is_some()
+    }
+
+    /// The scene with pads that let go when the drape that is judged found that they do: a robot knows no other time.
+    fn scene_of(&self, summary: &Summary) -> Scene {
+        let events = summary.sheet.as_ref().map_or(&[][..], |sheet| &sheet.events);
+        at_these_times(&self.scene, events)
     }
 
     /// Finds the errors that the motion stands: none at all if it is not accepted without errors. Returns whether that was
@@ -58,7 +65,7 @@ impl Robustness {
     pub fn judge_stands(&self, summary: &mut Summary, watch: &Watch) -> bool {
         let Some(errors) = &self.stands else { return true };
         summary.stands = match summary.accepted_without_errors() {
-            true => errors.stands(&self.scene, watch),
+            true => errors.stands(&self.scene_of(summary), watch),
             false => Some(Stands::nothing(errors)),
         };
         summary.stands.is_some()

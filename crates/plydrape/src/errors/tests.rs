@@ -78,6 +78,7 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
         limits,
         bodies: crate::clearance::Bodies::default(),
         plan: Plan::default(),
+        release: None,
         errors: Some(budget()),
         tool: None,
     }

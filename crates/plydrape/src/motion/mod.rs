@@ -220,6 +220,17 @@ impl TimedMotion {
         check::samples(rate, self.duration(), self.grippers())
     }
 
+    /// Times (s) at a rate (Hz) after its end for which the grippers stand there for so long (s), without the first and the last
+    /// moment.
+    ///
+    /// # Errors
+    /// Those of [`Self::samples`].
+    pub fn standing_samples(&self, rate: f64, standing: f64) -> Result<Vec<f64>, MotionError> {
+        let times = check::samples(rate, standing, self.grippers())?;
+        let between = times.get(1..times.len().saturating_sub(1)).unwrap_or_default();
+        Ok(between.iter().map(|t| self.duration() + t).collect())
+    }
+
     /// The motion at [`Self::samples`]; more steps than were planned, or fewer.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use crate::draping::spans::Point;
 use crate::draping::{self, Judged};
 use crate::measure::Verdict;
 use crate::motion::{Attitudes, Bounds, MotionError, TimedMotion};
-use crate::scene::{Model, Motion, Scene};
+use crate::scene::{Model, Motion, ReleaseOrder, Scene};
 use crate::sheet;
 use crate::tool::{Carried, ToolRecord};
 use std::ops::ControlFlow;
@@ -83,13 +83,27 @@ impl Decision {
 
     /// The same in another time.
     pub fn slowed(&mut self, scene: &Scene, factor: f64, state: &SearchState) {
+        let end = *self.motion.times().last().unwrap_or(&0.0);
         self.motion = self.motion.slowed(factor);
-        if scene.settings.sheet.time == crate::scene::SheetTime::Real {
+        let dwells_on_the_way = scene
+            .release
+            .as_ref()
+            .is_some_and(|release| release.order == ReleaseOrder::Landed && release.dwell > 0.0);
+        if scene.settings.sheet.time == crate::scene::SheetTime::Real || dwells_on_the_way {
             (self.sheet, self.drape, self.score) = decided(scene, &self.motion, state);
             state.record(&self.drape, self.score, true);
         } else if let Some(sheet) = &mut self.sheet {
             for state in sheet.states.iter_mut().chain([&mut sheet.drape.last]) {
-                state.time = self.motion.times()[state.step - 1];
+                let after = (state.time - end).max(0.0);
+                state.time = self.motion.times()[state.step - 1] + after;
+            }
+            let slowed = *self.motion.times().last().unwrap_or(&0.0);
+            for event in &mut sheet.drape.summary.events {
+                event.time = match event.time < end {
+                    true => event.time * factor,
+                    // how long pads press after the motion is the scene's
+                    false => slowed + (event.time - end),
+                };
             }
         }
     }
@@ -132,7 +146,9 @@ fn decided(
         }
     }
     if drape.accepted && scene.settings.model == Model::Sheet {
-        let scene = evaluation::with_motion(scene, motion.steps());
+        let events = sheet.as_ref().map_or(&[][..], |sheet| &sheet.drape.summary.events);
+        let scene = sheet::event::at_these_times(scene, events);
+        let scene = evaluation::with_motion(&scene, motion.steps());
         drape = evaluation::with_errors(&scene, drape, |cell| {
             let stop = || state.report().is_break();
             let along = |_: &sheet::State| ControlFlow::Continue(());

@@ -100,8 +100,11 @@ fn ranked_sheet(mut scene: Scene, mesh: Mesh, state: &SearchState) -> Judged {
         let own = scene.settings.sheet.mesh.unwrap_or(0.0);
         scene.settings.sheet.mesh = Some(own.max(coarse));
     }
-    // in its own time a motion is draped once it has one
+    // in its own time a motion is draped once it has one, and only then pads can dwell on the way
     scene.settings.sheet.time = SheetTime::QuasiStatic;
+    if let Some(release) = &mut scene.release {
+        release.dwell = 0.0;
+    }
     let stop = || state.report().is_break();
     let tuning = sheet::Tuning::default();
     match sheet::drape(&scene, tuning, &stop, |_| ControlFlow::Continue(())) {

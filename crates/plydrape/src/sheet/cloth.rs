@@ -96,15 +96,28 @@ pub struct Cloth<'a> {
 }
 
 impl<'a> Cloth<'a> {
-    /// Flat, with its grippers at `positions` (m), where the fabric's place (0, 0) of each is.
+    /// At rest with its nodes at `x` (m), held by all of its pads.
     pub fn new(sheet: &'a Sheet, tuning: Tuning, x: Vec<[f64; 3]>, pads: Vec<Pad>) -> Self {
+        let v = vec![[0.0; 3]; x.len()];
+        Cloth::held_at(sheet, tuning, Motion { x, v, pads }, sheet.held())
+    }
+
+    /// In motion, with the nodes that each gripper holds; one that holds none has let go.
+    fn held_at(
+        sheet: &'a Sheet,
+        tuning: Tuning,
+        now: Motion,
+        held: Vec<Vec<(usize, [f64; 2])>>,
+    ) -> Self {
         let fabric = &sheet.fabric;
         let nodes = fabric.places.len();
-        let held = sheet.held();
         let mut carriers = vec![None; nodes];
         let mut blocks: Vec<[f64; 2]> = Vec::with_capacity(nodes);
         for (gripper, (g, nodes)) in sheet.grippers.iter().zip(&held).enumerate() {
             let gripper = gripper as u32;
+            if nodes.is_empty() {
+                continue;
+            }
             if nodes.len() == 1 {
                 if g.mount.is_none() {
                     carriers[nodes[0].0] = Some(Carrier::Held { gripper });
@@ -160,7 +173,6 @@ impl<'a> Cloth<'a> {
             gripped[*node] = true;
         }
         let still = vec![[0.0; 3]; nodes];
-        let now = Motion { x, v: still.clone(), pads };
         Cloth {
             stretch: Stretch::new(&fabric.segments, sheet.tension.clone(), &system),
             shear: Shear::new(&fabric.cells, sheet.shear.clone(), &system),
@@ -188,6 +200,32 @@ impl<'a> Cloth<'a> {
         }
     }
 
+    /// Lets go of the ply with the pads of some grippers, from now on. Their nodes move and touch as all others do; those of
+    /// them that lie on the mold now stay where they are as far as friction holds them.
+    pub fn release(&mut self, grippers: &[usize]) {
+        let (mut held, mut now) = (self.held.clone(), self.now.clone());
+        let mut quiet = self.quiet.clone();
+        for gripper in grippers {
+            for (node, _) in held[*gripper].drain(..) {
+                quiet[node] = 0;
+            }
+            let pad = &mut now.pads[*gripper];
+            (pad.position, pad.slip) = (pad.target, [0.0; 3]);
+        }
+        let mut cloth = Cloth::held_at(self.sheet, self.tuning, now, held);
+        match (&mut cloth.contact, &self.contact) {
+            (Some(contact), Some(before)) => contact.take_over(before, &self.now.x),
+            (contact, _) => *contact = None,
+        }
+        (cloth.quiet, cloth.leaves_out, cloth.solves) = (quiet, self.leaves_out, self.solves);
+        *self = cloth;
+    }
+
+    /// Whether each gripper's pad holds the ply.
+    pub fn holds(&self) -> Vec<bool> {
+        self.held.iter().map(|nodes| !nodes.is_empty()).collect()
+    }
+
     /// Energy without inertia (J).
     pub fn energy(&self) -> f64 {
         let x = &self.now.x;
@@ -195,6 +233,9 @@ impl<'a> Cloth<'a> {
         let weight: f64 = self.masses.iter().zip(x).map(height).sum();
         let mounts = self.sheet.grippers.iter().zip(&self.now.pads).zip(&self.held);
         let mount = |((g, pad), nodes): Held| {
+            if nodes.is_empty() {
+                return 0.0;
+            }
             let at = if nodes.len() == 1 { x[nodes[0].0] } else { pad.position };
             let off = sub(sub(at, pad.target), pad.slip);
             g.mount.map_or(0.0, |k| (0..3).map(|n| 0.5 * k[n] * off[n] * off[n]).sum())
@@ -243,6 +284,9 @@ impl<'a> Cloth<'a> {
         for ((gripper, nodes), pad) in
             self.sheet.grippers.iter().zip(&self.held).zip(&mut self.now.pads)
         {
+            if nodes.is_empty() {
+                continue;
+            }
             let at = if nodes.len() == 1 { self.now.x[nodes[0].0] } else { pad.position };
             if let Some(hold) = gripper.hold(pad, at) {
                 add(&mut pad.slip, 1.0, hold.slides);
@@ -379,6 +423,9 @@ impl<'a> Cloth<'a> {
             let moved = sub(*target, pad.target);
             pad.target = *target;
             pad.stem = stem.unwrap_or(pad.stem);
+            if nodes.is_empty() {
+                pad.position = *target;
+            }
             if gripper.mount.is_none() {
                 for (node, _) in nodes {
                     self.system.moved[*node] = moved;
@@ -554,7 +601,7 @@ impl<'a> Cloth<'a> {
         self.add_energies();
     }
 
-    /// Force of the ply on each gripper (N).
+    /// Force of the ply on each gripper (N); none on one that has let go.
     pub fn forces(&mut self) -> Vec<[f64; 3]> {
         self.evaluate();
         let gripper = |((gripper, pad), nodes): Held| match nodes.as_slice() {

@@ -83,6 +83,36 @@ impl<'a> Contact<'a> {
         }
     }
 
+    /// Goes on from the contact of the same ply with its nodes at `x` (m), before pads let go of some of them. Those that pads
+    /// had pressed on the mold, as near as a node that is not clear of it, are anchored where they are.
+    pub fn take_over(&mut self, before: &Contact, x: &[[f64; 3]]) {
+        let mut known = before.points.iter().peekable();
+        for n in 0..self.points.len() {
+            let (node, rubs) = (self.points[n].node, self.points[n].rubs);
+            while known.next_if(|old| old.node < node).is_some() {}
+            if let Some(old) = known.peek().filter(|old| old.node == node && old.rubs == rubs) {
+                self.points[n] = (*old).clone();
+                continue;
+            }
+            let closest = self.mold.closest_point(x[node]);
+            if rubs && !closest.beyond && closest.distance <= self.release {
+                let bound = self.bound(-closest.distance, self.points[n].area);
+                let point = &mut self.points[n];
+                point.anchor = Some(Anchor { point: closest.point, normal: closest.normal });
+                point.bound = bound;
+            }
+        }
+    }
+
+    /// Largest force (N) of the spring along the mold of a node with its area (m²) at a depth (m).
+    fn bound(&self, depth: f64, area: f64) -> f64 {
+        let pressure = self.stiffness * depth.max(0.0);
+        match self.friction {
+            Friction::Coulomb(mu) => (self.tack + mu * pressure) * area,
+            Friction::Stick | Friction::StickForEver => f64::INFINITY,
+        }
+    }
+
     /// Energy (J) of depth and of springs along the mold.
     pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
         let one = |point: &Point| {
@@ -185,11 +215,7 @@ impl<'a> Contact<'a> {
             }
             let closest = self.mold.closest_point(at);
             let depth = if closest.beyond { f64::NEG_INFINITY } else { -closest.distance };
-            let pressure = self.stiffness * depth.max(0.0);
-            let bound = match self.friction {
-                Friction::Coulomb(mu) => (self.tack + mu * pressure) * point.area,
-                Friction::Stick | Friction::StickForEver => f64::INFINITY,
-            };
+            let bound = self.bound(depth, point.area);
             let anchor = match point.anchor {
                 Some(anchor) if self.friction == Friction::StickForEver => Some(anchor),
                 Some(_) if depth < -self.release => None,

@@ -1,12 +1,14 @@
 //! A whole drape of the sheet: from the flat to the start, along the motion, to rest.
 //!
 //! The motion is stretched in time until the speed of the grippers is of no matter (or taken as it is), and followed in
-//! shares of its steps: a share that is not solved is halved, one that is solved easily is followed by a longer one.
+//! shares of its steps: a share that is not solved is halved, one that is solved easily is followed by a longer one. Pads
+//! let go on the way or after it, as the scene says.
 
 use super::cloth::Cloth;
 use super::gripper::Pad;
 use super::measure::{Effort, Extremes, Summary};
 use super::model::{Sheet, SheetError};
+use super::release::Releases;
 use super::shear::angle;
 use super::state::State;
 use super::tuning::Tuning;
@@ -75,6 +77,7 @@ pub fn drape(
         sheet: &sheet,
         tuning,
         cloth,
+        releases: Releases::of(scene, &sheet),
         stop,
         targets: placed.clone(),
         share: 1.0,
@@ -91,8 +94,9 @@ pub fn drape(
         smallest_step: run.smallest_step,
     };
     let clear = tuning.release * sheet.pitch;
-    let summary = Summary::new(scene, &sheet, clear, &run.extremes, &last, status, effort);
-    let Run { landing_step, landing_shear, .. } = run;
+    let mut summary = Summary::new(scene, &sheet, clear, &run.extremes, &last, status, effort);
+    let Run { landing_step, landing_shear, releases, .. } = run;
+    summary.events = releases.map(Releases::events).unwrap_or_default();
     Ok(Drape { sheet, summary, landing_step, landing_shear, last, duration: began.elapsed() })
 }
 
@@ -116,6 +120,8 @@ struct Run<'a> {
     sheet: &'a Sheet,
     tuning: Tuning,
     cloth: Cloth<'a>,
+    /// When pads let go; none if they hold to the end.
+    releases: Option<Releases<'a>>,
     stop: &'a dyn Fn() -> bool,
     /// Where grippers go in the next time step (m).
     targets: Vec<[f64; 3]>,
@@ -127,6 +133,9 @@ struct Run<'a> {
     landing_step: Vec<Option<usize>>,
     landing_shear: Vec<Option<f64>>,
 }
+
+/// Share of a step of the motion that is no time.
+const ROUNDING: f64 = 1e-6;
 
 /// Why a motion was not followed to its end.
 enum Ended {
@@ -146,23 +155,33 @@ impl Run<'_> {
         let hung = self.follow(placed, &motion.positions[0], None);
         self.cloth.contact = contact;
         if let Err(ended) = hung {
-            return (ended.status(), self.state(1));
+            return (ended.status(), self.state(1, motion.times[0]));
         }
-        let mut resting = self.rest(&motion.positions[0]);
-        let mut state = self.see(1);
+        let mut resting = self.rest(&motion.positions[0], false);
+        let mut state = self.see(1, motion.times[0]);
         for step in 2..=motion.positions.len() {
             if see(&state).is_break() {
                 return (Status::Interrupted, state);
             }
             let [from, to] = [step - 2, step - 1].map(|n| &motion.positions[n]);
-            let takes = motion.times[step - 1] - motion.times[step - 2];
-            if let Err(ended) = self.follow(from, to, Some(takes)) {
+            let times = [step - 2, step - 1].map(|n| motion.times[n]);
+            if let Err(ended) = self.follow(from, to, Some(times)) {
                 return (ended.status(), state);
             }
             if step == motion.positions.len() {
-                resting = self.rest(to);
+                resting = self.rest(to, false);
             }
-            state = self.see(step);
+            state = self.see(step, times[1]);
+        }
+        let steps = motion.positions.len();
+        if let Some(releases) = &mut self.releases {
+            if see(&state).is_break() || (self.stop)() {
+                return (Status::Interrupted, state);
+            }
+            let (all, time) = releases.end();
+            self.cloth.release(&all);
+            resting = self.rest(&motion.positions[steps - 1], true);
+            state = self.see(steps, time);
         }
         match see(&state) {
             ControlFlow::Break(()) => (Status::Interrupted, state),
@@ -172,9 +191,9 @@ impl Run<'_> {
         }
     }
 
-    /// Evaluates the state of a step.
-    fn see(&mut self, step: usize) -> State {
-        let state = self.state(step);
+    /// Evaluates the state of a step at a time (s).
+    fn see(&mut self, step: usize, time: f64) -> State {
+        let state = self.state(step, time);
         let touching = self.scene.settings.contact.tolerance;
         self.extremes.see(self.sheet, &self.cloth.gripped, &state, touching);
         for (landed, touches) in self.landing_step.iter_mut().zip(&state.contact) {
@@ -188,15 +207,16 @@ impl Run<'_> {
         state
     }
 
-    /// Moves the grippers from one place to another (m), in a step of the motion that takes so much time (s).
+    /// Moves the grippers from one place to another (m), in a step of the motion between two times (s).
     fn follow(
         &mut self,
         from: &[[f64; 3]],
         to: &[[f64; 3]],
-        takes: Option<f64>,
+        times: Option<[f64; 2]>,
     ) -> Result<(), Ended> {
         let way = from.iter().zip(to).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
         let stretched = self.stretched(way);
+        let takes = times.map(|[begin, end]| end - begin);
         let (duration, longest) = match (self.scene.settings.sheet.time, takes) {
             (SheetTime::Real, Some(takes)) => {
                 (takes, self.tuning.real_step * (self.sheet.pitch / self.sheet.gravity).sqrt())
@@ -221,7 +241,15 @@ impl Run<'_> {
             let share = (self.cloth.longest_step(most * duration) / duration).max(least).min(most);
             // steps of one length to the end
             let share = (1.0 - done) / ((1.0 - done) / share - 1e-9).ceil();
-            let next = if done + share > 1.0 - 1e-9 { 1.0 } else { done + share };
+            let mut next = if done + share > 1.0 - 1e-9 { 1.0 } else { done + share };
+            let mut share = share;
+            if let (Some(releases), Some([begin, end])) = (&self.releases, times)
+                && let Some(due) = releases.due().map(|due| (due - begin) / (end - begin))
+                && (done + ROUNDING..next).contains(&due)
+            {
+                // a pad lets go at the end of its dwell, not later
+                (next, share) = (due, due - done);
+            }
             for (target, (a, b)) in self.targets.iter_mut().zip(from.iter().zip(to)) {
                 *target = between(*a, *b, next);
             }
@@ -230,6 +258,9 @@ impl Run<'_> {
                     self.time_steps += 1;
                     self.smallest_step = self.smallest_step.min(share);
                     done = next;
+                    if let Some([begin, end]) = times {
+                        self.let_go(begin + done * (end - begin), ROUNDING * (end - begin));
+                    }
                     if iterations <= self.tuning.easy_iterations {
                         self.share = (2.0 * self.share).min(1.0);
                     }
@@ -253,15 +284,32 @@ impl Run<'_> {
         (way / speed).max(lift / speed)
     }
 
-    /// Holds the grippers until nothing moves any more.
-    fn rest(&mut self, at: &[[f64; 3]]) -> bool {
+    /// Lets go at a time (s) with the pads that are due by then, give or take the rounding (s).
+    fn let_go(&mut self, time: f64, rounding: f64) {
+        let Some(releases) = &mut self.releases else { return };
+        let gone = releases.see(time, rounding, &self.cloth);
+        if !gone.is_empty() {
+            self.cloth.release(&gone);
+        }
+    }
+
+    /// Holds the grippers until nothing moves any more. A ply that may fall (`falls`) goes no farther in a time step than it
+    /// is from the mold.
+    fn rest(&mut self, at: &[[f64; 3]], falls: bool) -> bool {
         let tolerance = self.tuning.rest_tolerance * self.sheet.mesh;
         let longest = self.stretched(self.sheet.pitch);
         self.cloth.leaves_out = false;
         let mut dt = 0.01 * longest;
+        if falls {
+            // the time of a fall by the way that a node may land with
+            dt = dt.min((self.tuning.contact_way * self.sheet.pitch / self.sheet.gravity).sqrt());
+        }
         for _ in 0..self.tuning.rest_steps {
             if (self.stop)() {
                 return false;
+            }
+            if falls {
+                dt = self.cloth.longest_step(dt);
             }
             match self.cloth.advance(at, dt, tolerance) {
                 Ok(_) => {
@@ -279,7 +327,7 @@ impl Run<'_> {
         false
     }
 
-    fn state(&mut self, step: usize) -> State {
+    fn state(&mut self, step: usize, time: f64) -> State {
         let fabric = &self.sheet.fabric;
         let positions = self.cloth.now.x.clone();
         let height = |mold: &crate::mold::Mold| {
@@ -298,8 +346,7 @@ impl Run<'_> {
         let shear = shear.collect();
         let tension = (0..fabric.segments.len()).map(|n| self.cloth.tension(n)).collect();
         let forces = self.cloth.forces();
-        let time = self.scene.motion.times[step - 1];
-        let pads = self.cloth.now.pads.clone();
+        let (pads, holds) = (self.cloth.now.pads.clone(), self.cloth.holds());
         let (energy, kinetic_energy) = (self.cloth.energy(), self.cloth.kinetic_energy());
         State {
             step,
@@ -310,6 +357,7 @@ impl Run<'_> {
             shear,
             tension,
             pads,
+            holds,
             forces,
             energy,
             kinetic_energy,

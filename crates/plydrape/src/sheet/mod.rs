@@ -3,7 +3,7 @@
 //! The catenaries are right along the lines between grippers and blind inside the cells, where a woven ply hangs lower
 //! and touches first. The sheet has nodes where the fabric's own lines cross; between neighbours along a line are yarn
 //! segments that stretch (`stretch`), three in a row bend (`bending`), and four around a cell shear (`shear`). Pads
-//! hold their nodes (`gripper`), the mold carries what touches it and friction holds it (`contact`). Implicit
+//! hold their nodes (`gripper`) until they let go (`release`, `event`), the mold carries what touches it and friction holds it (`contact`). Implicit
 //! time steps with real mass (`cloth`) follow the motion of the grippers (`drape`).
 //!
 //! What is measured of it is in [`measure`]. Lengths in metres, forces in newtons, angles in radians.
@@ -13,11 +13,13 @@ pub mod cholesky;
 mod cloth;
 mod contact;
 mod drape;
+pub mod event;
 pub mod fabric;
 mod gripper;
 mod matrix3;
 pub mod measure;
 mod model;
+mod release;
 mod shear;
 mod state;
 mod stretch;
@@ -25,6 +27,7 @@ mod system;
 mod tuning;
 
 pub use drape::{Drape, Status, drape, is_kept};
+pub use event::{Event, EventKind};
 pub use fabric::Fabric;
 pub use gripper::{Gripper, Pad};
 pub use measure::Summary;

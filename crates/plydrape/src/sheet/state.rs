@@ -7,7 +7,7 @@ use super::gripper::Pad;
 pub struct State {
     /// Counts from 1, the start.
     pub step: usize,
-    /// Time of the motion (s).
+    /// Time of the motion (s); after its end that of the release.
     pub time: f64,
     /// Positions of the nodes (m).
     pub positions: Vec<[f64; 3]>,
@@ -21,7 +21,9 @@ pub struct State {
     pub tension: Vec<f64>,
     /// The grippers' pads.
     pub pads: Vec<Pad>,
-    /// Force of the ply on each gripper (N).
+    /// Whether each of them holds the ply.
+    pub holds: Vec<bool>,
+    /// Force of the ply on each gripper (N); none on one that has let go.
     pub forces: Vec<[f64; 3]>,
     /// Energy of the ply without its motion (J): weight, stretch, shear, bending, contact and mounts.
     pub energy: f64,

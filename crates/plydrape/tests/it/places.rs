@@ -114,6 +114,7 @@ fn a_drape_out_of_all_range_ends_and_is_not_accepted() {
                     plan: plydrape::scene::Plan::default(),
                     errors: None,
                     tool: None,
+                    release: None,
                 };
                 let drape = draping::simulate(&scene, |_| std::ops::ControlFlow::Continue(()));
                 assert!(!drape.summary.accepted, "{mold:?} {value} {who:?}");

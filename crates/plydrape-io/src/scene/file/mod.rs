@@ -8,6 +8,7 @@ mod errors;
 mod limits;
 mod mold;
 mod plan;
+mod release;
 mod sheet;
 mod target;
 mod tool;
@@ -17,6 +18,7 @@ pub(super) use errors::{ErrorsTable, MoldErrorsTable, Term};
 pub(super) use limits::LimitsTable;
 pub(super) use mold::{MoldKind, MoldTable, SideKey};
 pub(super) use plan::{MethodKey, PlanTable};
+pub(super) use release::{OrderKey, ReleaseTable};
 pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
 pub(super) use tool::{AxisKey, AxisTable, PlacedTable, ToolTable};
@@ -76,6 +78,8 @@ pub(super) struct SceneKeys {
     pub errors: Option<ErrorsTable>,
     /// How a robot carries the grippers; each moves by itself unless given.
     pub tool: Option<ToolTable>,
+    /// When the pads let go of the ply. Without it they hold it to the end.
+    pub release: Option<Located<ReleaseTable>>,
 }
 
 impl SceneKeys {

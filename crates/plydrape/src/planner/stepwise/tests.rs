@@ -58,6 +58,7 @@ pub fn scene(count: usize) -> Scene {
         plan: Plan::default(),
         errors: None,
         tool: None,
+        release: None,
     }
 }
 

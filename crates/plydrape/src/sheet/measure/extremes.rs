@@ -52,7 +52,10 @@ impl Extremes {
             let turn = norm(cross(first, second)).atan2(dot(first, second));
             self.fold.meet(turn, fabric.places[b], x[b], step);
         }
-        for ((gripper, pad), force) in sheet.grippers.iter().zip(&state.pads).zip(&state.forces) {
+        let pads = state.pads.iter().zip(&state.forces).zip(&state.holds);
+        for (gripper, ((pad, force), _)) in
+            sheet.grippers.iter().zip(pads).filter(|(_, (_, holds))| **holds)
+        {
             let at = pad.position;
             self.force.meet(norm(*force), gripper.place, at, step);
             self.lateral.meet(force[0].hypot(force[1]), gripper.place, at, step);

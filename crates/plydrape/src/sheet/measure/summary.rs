@@ -1,6 +1,7 @@
 //! How a drape of the sheet came out.
 
 use super::super::drape::Status;
+use super::super::event::Event;
 use super::super::model::Sheet;
 use super::super::state::State;
 use super::direction::directions;
@@ -81,6 +82,9 @@ pub struct Summary {
     pub smallest_step: f64,
     /// Every limit, judged.
     pub limits: Vec<Verdict>,
+    /// When pads grip, press and let go, in the order of time; nothing where they hold to the end.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub events: Vec<Event>,
 }
 
 /// What a drape took.
@@ -198,6 +202,7 @@ impl Summary {
             solves,
             smallest_step,
             limits,
+            events: Vec::new(),
         }
     }
 
@@ -271,6 +276,7 @@ mod tests {
             solves: 1,
             smallest_step: 1.0,
             limits,
+            events: Vec::new(),
         }
     }
 

@@ -83,7 +83,7 @@ fn a_strip_hangs_as_the_elastica() {
 
 /// Tip (m) of a heavy inextensible cantilever that leaves its clamp level: θ'' = (w/EI) (L − s) cos θ, θ(0) = 0,
 /// θ'(L) = 0, by Runge–Kutta steps and bisection of θ'(0).
-fn cantilever(length: f64, load_per_rigidity: f64) -> [f64; 2] {
+pub(super) fn cantilever(length: f64, load_per_rigidity: f64) -> [f64; 2] {
     let shoot = |start: f64| {
         let steps = 2000;
         let h = length / steps as f64;

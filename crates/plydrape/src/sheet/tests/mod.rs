@@ -5,6 +5,7 @@ mod hanging;
 mod mounts;
 mod on_mold;
 mod random;
+mod release;
 
 use super::cloth::Cloth;
 use super::gripper::{Gripper, Pad};

@@ -4,7 +4,9 @@ use super::*;
 use crate::material::{Material, Section};
 use crate::mold::{Cylinder, Face, Pose, Sphere};
 use crate::ply::{Direction, Grid, Ply};
-use crate::scene::{Limits, Model, Motion, PadSettings, Plan, Scene, Settings, SheetTime};
+use crate::scene::{
+    Limits, Model, Motion, PadSettings, Plan, Release, ReleaseOrder, Scene, Settings, SheetTime,
+};
 use crate::sheet::{SheetError, Status, drape};
 use std::ops::ControlFlow;
 
@@ -118,6 +120,7 @@ fn scene(seed: u64) -> Scene {
         plan: Plan::default(),
         errors: None,
         tool: None,
+        release: None,
     }
 }
 
@@ -129,7 +132,12 @@ fn random_sheets_answer_with_numbers_and_an_honest_status() {
     let tuning = Tuning { iterations: 12, ..Tuning::default() };
     let (mut solved, mut refused) = (0, 0);
     for seed in 0..200 {
-        let scene = scene(seed);
+        let mut scene = scene(seed);
+        scene.release = match seed % 3 {
+            0 => None,
+            1 => Some(Release::new(ReleaseOrder::End, 0.0)),
+            _ => Some(Release::new(ReleaseOrder::Landed, 0.05)),
+        };
         let left = std::cell::Cell::new(100);
         let stop = || {
             left.set(left.get() - 1);

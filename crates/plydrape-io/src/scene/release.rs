@@ -1,0 +1,41 @@
+//! When the pads let go of the ply.
+
+use super::error::{Document, SceneError};
+use super::file::{OrderKey, ReleaseTable};
+use super::located::Located;
+use plydrape::scene::{Model, Release, ReleaseOrder};
+
+/// Shortest and longest dwell (s).
+const DWELLS: [f64; 2] = [1e-6, 3600.0];
+
+/// Checks the table `[release]` of a scene that this model drapes; `on_mold` says whether it has a mold.
+pub(super) fn release(
+    table: &Located<ReleaseTable>,
+    model: Model,
+    on_mold: bool,
+    document: &Document,
+) -> Result<Release, SceneError> {
+    let Located { value: ReleaseTable { order, dwell }, span } = table;
+    if model == Model::Catenaries {
+        return Err(document.error(
+            span.clone(),
+            "catenaries hang from grippers that hold them: they cannot follow a ply that pads let go of",
+            "drape it with the sheet, as kind = \"sheet\" in [model] does, or leave out [release]",
+        ));
+    }
+    if !on_mold {
+        return Err(document.error(
+            span.clone(),
+            "the scene has no mold on which the ply could lie when the pads let go of it",
+            "say what the mold is in [mold], or leave out [release]",
+        ));
+    }
+    let dwell = match dwell {
+        None => 0.0,
+        Some(dwell) => match dwell.not_negative(document)? {
+            0.0 => 0.0,
+            _ => dwell.within_for(document, DWELLS, "a dwell")?,
+        },
+    };
+    Ok(Release::new(order.map_or(ReleaseOrder::End, OrderKey::into), dwell))
+}

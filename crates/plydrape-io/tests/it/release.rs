@@ -1,0 +1,108 @@
+//! When pads let go: from the scene file to the result and its states.
+
+use plydrape::draping::simulate;
+use plydrape::scene::{Release, ReleaseOrder, Scene};
+use plydrape::sheet::{Event, EventKind, Status};
+use plydrape_io::{ResultFile, csv, read, scene, write_all};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// A ply of 4 × 2 grippers that is lowered on a plane, sheared by 10°, with more tables.
+fn flat(more: &str) -> Scene {
+    let text = format!(
+        "[ply]\ngrippers = [4, 2]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"plane\"\n\
+        [grippers]\nspacing = [0.098, 0.098]\nheight = 0.03\n[target]\nshear = \"10 deg\"\n\
+        [motion]\nkind = \"straight\"\nsteps = 8\n[sheet]\nmesh = 0.025\nkeep = 3\n\
+        [contact]\nfriction = 0.3\n{more}"
+    );
+    scene::parse(&text, Path::new("."), "flat").unwrap_or_else(|fault| panic!("{fault}")).scene
+}
+
+/// The result of a scene, with its states in a folder that lives as long.
+fn draped(scene: &Scene) -> (ResultFile, tempfile::TempDir) {
+    let dir = tempfile::tempdir().unwrap();
+    let mut result = ResultFile::new(scene, None, simulate(scene, |_| ControlFlow::Continue(())));
+    result.drape_sheet(scene, dir.path(), &|| false, |_| {}).unwrap();
+    (result, dir)
+}
+
+/// What the table says, and what it does not say.
+#[test]
+fn the_table_release_says_order_and_dwell() {
+    let read = |more: &str| flat(more).release;
+    assert_eq!(read(""), None);
+    let end = ReleaseOrder::End;
+    assert_eq!(read("[release]\n"), Some(Release::new(end, 0.0)));
+    assert_eq!(read("[release]\ndwell = \"2 s\"\n"), Some(Release::new(end, 2.0)));
+    let landed = Release::new(ReleaseOrder::Landed, 0.5);
+    assert_eq!(read("[release]\norder = \"landed\"\ndwell = \"500 ms\"\n"), Some(landed));
+}
+
+/// The result has the events, its sheet one state more, held before and at rest without pads, and the file reads back to the same
+/// bytes.
+#[test]
+fn a_result_has_the_events_and_the_state_after_the_release() {
+    let (result, dir) = draped(&flat("[release]\ndwell = \"2 s\"\n"));
+    let end = result.steps.last().unwrap().time;
+    let all: Vec<_> = (0..8).map(|n| result.scene.ply.id(n)).collect();
+    let event = |time, kind| Event { time, kind, grippers: all.clone() };
+    let expected = [
+        event(0.0, EventKind::Grip),
+        event(end, EventKind::Press),
+        event(end + 2.0, EventKind::Release),
+    ];
+    assert_eq!(result.events(), expected);
+    let sheet = result.summary.sheet.as_ref().unwrap();
+    assert_eq!((sheet.status, sheet.steps), (Status::Converged, 8));
+
+    let folder = dir.path().join("out");
+    write_all(&result, &folder).unwrap();
+    let back = read::read(&folder.join("result.json")).unwrap();
+    assert_eq!(back.text().unwrap(), result.text().unwrap());
+    assert_eq!(back.events(), expected);
+    let mut states = back.sheet_states.as_ref().unwrap().open().unwrap();
+    let kept: Vec<_> = (0..states.states()).map(|n| states.state(n).unwrap().unwrap()).collect();
+    let of: Vec<_> = kept.iter().map(|state| (state.step, state.time)).collect();
+    assert_eq!(of.len(), 4);
+    assert_eq!(of[2..], [(8, end), (8, end + 2.0)]);
+    for (n, state) in kept.iter().enumerate() {
+        let holds = state.pad_holds.as_ref().unwrap();
+        assert!(holds.iter().all(|holds| *holds == (n < 3)));
+        let bears = state.pad_forces.iter().any(|force| *force != [0.0; 3]);
+        assert_eq!(bears, n < 3);
+    }
+}
+
+/// Without the table nothing says anything of it, and what was draped before the release is the same.
+#[test]
+fn a_scene_without_a_release_is_draped_as_before() {
+    let ((held, _kept), (released, _dir)) = (draped(&flat("")), draped(&flat("[release]\n")));
+    assert!(held.events().is_empty());
+    let text = held.text().unwrap();
+    assert!(!text.contains("\"release\"") && !text.contains("\"events\""));
+    assert!(!csv::trajectory(&held).unwrap().contains("vacuum"));
+    let [mut a, mut b] =
+        [&held, &released].map(|result| result.sheet_states.as_ref().unwrap().open().unwrap());
+    assert_eq!((a.states(), b.states()), (3, 4));
+    for n in 0..3 {
+        let [a, b] = [&mut a, &mut b].map(|states| states.state(n).unwrap().unwrap());
+        assert_eq!(a.pad_holds, None);
+        assert_eq!((a.positions, a.pad_forces, a.time), (b.positions, b.pad_forces, b.time));
+    }
+}
+
+/// Events of a gripper that the ply has not, and events out of order, are no result.
+#[test]
+fn a_result_with_impossible_events_is_refused() {
+    let (result, _dir) = draped(&flat("[release]\n"));
+    for (change, what) in [
+        ((|events| events[1].grippers[0] = [9, 9]) as fn(&mut Vec<Event>), "names gripper [9, 9]"),
+        (|events| events.reverse(), "not in the order of time"),
+    ] {
+        let mut result = result.clone();
+        change(&mut result.summary.sheet.as_mut().unwrap().events);
+        let text = result.text().unwrap();
+        let fault = read::parse(text.as_bytes(), Path::new("result.json")).unwrap_err();
+        assert!(fault.to_string().contains(what), "{fault}");
+    }
+}

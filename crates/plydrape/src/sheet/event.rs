@@ -1,0 +1,55 @@
+//! What the vacuum of the pads does along a motion.
+
+use crate::ply::GripperId;
+use crate::scene::Scene;
+
+/// What happens to the hold of some pads, all at one time.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Event {
+    /// When it happens, in the time of the motion (s); the release after its end comes later than its last step.
+    pub time: f64,
+    /// What happens.
+    pub kind: EventKind,
+    /// The grippers whose pads they are, in the order of [`crate::ply::Ply::index`].
+    pub grippers: Vec<GripperId>,
+}
+
+/// What happens to the hold of a pad.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum EventKind {
+    /// The vacuum is on, at the pick-up.
+    Grip,
+    /// The pad begins to press the ply before it lets go; there is none where it does not dwell.
+    Press,
+    /// The vacuum is off: the pad is gone.
+    Release,
+}
+
+/// The scene in which pads let go when a drape along its motion has found that they do.
+#[must_use]
+pub fn at_these_times(scene: &Scene, events: &[Event]) -> Scene {
+    let mut scene = scene.clone();
+    if let Some(release) = &mut scene.release {
+        let mut times = vec![f64::INFINITY; scene.ply.grippers()];
+        for event in events.iter().filter(|event| event.kind == EventKind::Release) {
+            for n in event.grippers.iter().filter_map(|id| scene.ply.index(*id)) {
+                times[n] = event.time;
+            }
+        }
+        release.times = Some(times.into());
+    }
+    scene
+}
+
+/// Whether a gripper's pad holds the ply at a time (s); one that lets go at that time does not.
+#[must_use]
+pub fn holds(events: &[Event], gripper: GripperId, time: f64) -> bool {
+    let gone = |event: &Event| {
+        event.kind == EventKind::Release && event.time <= time && event.grippers.contains(&gripper)
+    };
+    !events.iter().any(gone)
+}

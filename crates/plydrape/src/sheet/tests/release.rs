@@ -1,0 +1,325 @@
+//! Pads that let go of the ply.
+
+use super::hanging::cantilever;
+use super::*;
+use crate::material::{Material, Section};
+use crate::mold::distance;
+use crate::ply::{Direction, Grid, GripperId, Ply};
+use crate::scene::{Limits, Model, Motion, Plan, Release, ReleaseOrder, Scene, Settings};
+use crate::sheet::event::{at_these_times, holds};
+use crate::sheet::{Drape, EventKind, State, Status, drape};
+use std::ops::ControlFlow;
+
+/// 4 × 2 grippers above a floor, which hold cells of 100 mm of the paper's ply.
+const GRID: Grid = Grid { nu: 4, nv: 2 };
+
+/// The ply of [`GRID`] where its grippers take the places (m) of each step, a second apart.
+fn scene(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> Scene {
+    let material = Material {
+        name: "paper".into(),
+        source: "Krogh et al. 2018, per area".into(),
+        section: Section::Areal { mass: 3.143, warp_rigidity: 9e-5, weft_rigidity: 9e-5 },
+        shear_curve: Some(linear(5.0)),
+        tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
+        locking_angle: None,
+    };
+    let ply = Ply {
+        grid: GRID,
+        cell: [0.1; 2],
+        material,
+        warp: Direction::U,
+        length_factor: 1.0,
+        cut: None,
+        found: Default::default(),
+    };
+    let mut settings = Settings { model: Model::Sheet, ..Settings::default() };
+    settings.sheet.mesh = Some(0.02);
+    let limits = Limits::of(&ply, &settings);
+    let times = (0..positions.len()).map(|step| step as f64).collect();
+    Scene {
+        title: "released".into(),
+        ply,
+        mold: Some(plane(0.0)),
+        motion: Motion { times, positions },
+        target: None,
+        settings,
+        limits,
+        plan: Plan::default(),
+        errors: None,
+        release,
+    }
+}
+
+/// Grippers that roll the ply on the floor along u: behind the front it lies, ahead of it it rises by 0.6 along 0.8. The front
+/// is at every gripper in one of the 34 steps, so that no step cuts the corner of a path.
+fn rolled() -> Vec<Vec<[f64; 3]>> {
+    let place = |n: usize, front: f64| {
+        let [u, v] = GRID.id(n).map(|k| 0.1 * k as f64);
+        let ahead = (u - front).max(0.0);
+        [u.min(front) + 0.8 * ahead, v, 0.6 * ahead]
+    };
+    let front = |step: usize| 0.01 * (step as f64 - 3.0);
+    (0..34).map(|step| (0..8).map(|n| place(n, front(step))).collect()).collect()
+}
+
+fn release(order: ReleaseOrder, dwell: f64) -> Option<Release> {
+    Some(Release::new(order, dwell))
+}
+
+/// The drape of a scene and all of its states.
+fn draped(scene: &Scene) -> (Drape, Vec<State>) {
+    let mut states = Vec::new();
+    let keep = |state: &State| {
+        states.push(state.clone());
+        ControlFlow::Continue(())
+    };
+    let drape = drape(scene, Tuning::default(), &|| false, keep).expect("a sheet");
+    (drape, states)
+}
+
+/// When each gripper lets go (s).
+fn released(drape: &Drape) -> Vec<(GripperId, f64)> {
+    let events = drape.summary.events.iter().filter(|event| event.kind == EventKind::Release);
+    events.flat_map(|event| event.grippers.iter().map(|id| (*id, event.time))).collect()
+}
+
+/// A ply that sticks to the mold where its pads have put it stays there when all of them let go, to the contact tolerance; the
+/// states before are those of a drape without a release, to the last bit.
+#[test]
+fn a_ply_that_sticks_stays_where_it_was_laid() {
+    let scene = |release| scene(rolled(), release);
+    let (held, before) = draped(&scene(None));
+    assert!(held.summary.events.is_empty() && held.summary.status == Status::Converged);
+    let (drape, states) = draped(&scene(release(ReleaseOrder::End, 2.0)));
+    assert_eq!(drape.summary.status, Status::Converged);
+    let (last, states) = states.split_last().expect("states");
+    assert_eq!(states, before);
+    assert_eq!((last.step, last.time), (34, 35.0));
+    assert!(last.holds.iter().all(|holds| !holds) && last.forces.iter().all(|f| *f == [0.0; 3]));
+    let tolerance = scene(None).settings.contact.tolerance;
+    for (now, then) in last.positions.iter().zip(&held.last.positions) {
+        let off = distance(*now, *then);
+        assert!(off < tolerance, "{then:?} moves by {off} m");
+    }
+    // what decides is the ply at rest without pads
+    assert_eq!(drape.last, *last);
+}
+
+/// The first event is the pick-up of all; at the end all press for the dwell and let go together. A dwell delays the release by
+/// exactly itself and changes nothing else.
+#[test]
+fn a_dwell_delays_the_release_by_itself() {
+    let of = |dwell: f64| draped(&scene(rolled(), release(ReleaseOrder::End, dwell)));
+    let ((none, without), (some, with)) = (of(0.0), of(1.25));
+    let kinds = |drape: &Drape| {
+        let events = drape.summary.events.iter();
+        events.map(|event| (event.time, event.kind, event.grippers.len())).collect::<Vec<_>>()
+    };
+    use EventKind::{Grip, Press, Release};
+    assert_eq!(kinds(&none), [(0.0, Grip, 8), (33.0, Release, 8)]);
+    assert_eq!(kinds(&some), [(0.0, Grip, 8), (33.0, Press, 8), (34.25, Release, 8)]);
+    assert_eq!(without.len(), with.len());
+    for (a, b) in without.iter().zip(&with) {
+        assert_eq!(a.positions, b.positions);
+        let later = if a.holds[0] { 0.0 } else { 1.25 };
+        assert_eq!(a.time + later, b.time);
+    }
+
+    let first = |dwell: f64| {
+        let mut scene = scene(rolled(), release(ReleaseOrder::Landed, dwell));
+        scene.settings.contact.friction = Friction::Coulomb(0.3);
+        released(&draped(&scene).0)[0]
+    };
+    let ((gripper, time), (same, later)) = (first(0.0), first(0.75));
+    assert!(time < 30.0, "{time}");
+    assert_eq!((gripper, time + 0.75), (same, later));
+}
+
+/// A pad that lets go on the way does so when all nodes within a cell have lain for the dwell, told from the states of the steps:
+/// these surround the moment by a step. Pads that are left do at the end, and no pad holds after it has let go.
+#[test]
+fn a_pad_lets_go_once_its_surroundings_have_lain_for_the_dwell() {
+    let dwell = 1.5;
+    let mut scene = scene(rolled(), release(ReleaseOrder::Landed, dwell));
+    // what friction holds as it slides lies flat
+    scene.settings.contact.friction = Friction::Coulomb(0.3);
+    let (drape, states) = draped(&scene);
+    assert_eq!(drape.summary.status, Status::Converged);
+    let released = released(&drape);
+    let mut all: Vec<GripperId> = released.iter().map(|(id, _)| *id).collect();
+    all.sort_unstable();
+    let mut expected: Vec<GripperId> = (0..8).map(|n| GRID.id(n)).collect();
+    expected.sort_unstable();
+    assert_eq!(all, expected);
+    let (end, places) = (33.0, &drape.sheet.fabric.places);
+    let mut early = 0;
+    for (id, time) in released {
+        let [u, v] = id.map(|k| 0.1 * k as f64);
+        let near: Vec<usize> = (0..places.len())
+            .filter(|n| (places[*n][0] - u).hypot(places[*n][1] - v) < 0.1 + 1e-9)
+            .collect();
+        let lies = |state: &State| near.iter().all(|n| state.heights[*n] <= scene.limits.height);
+        if time > end {
+            assert_eq!(time, end + dwell);
+            continue;
+        }
+        early += 1;
+        let landed = states.iter().position(lies).expect("it lies in some step");
+        let [before, after] = [landed - 1, landed].map(|n| states[n].time + dwell);
+        assert!(before < time && time <= after, "{id:?}: {before} {time} {after}");
+    }
+    assert!(early >= 4, "{early} pads let go on the way");
+    for state in states.iter().filter(|state| state.time < end) {
+        for (n, held) in state.holds.iter().enumerate() {
+            assert_eq!(*held, holds(&drape.summary.events, GRID.id(n), state.time));
+            assert!(*held || state.forces[n] == [0.0; 3]);
+        }
+    }
+}
+
+/// Cells with errors let go when the drape without errors found it, wherever their own ply is: with grippers 5 mm higher pads still
+/// let go at these times, and with the same motion the ply ends as it did.
+#[test]
+fn a_cell_with_errors_lets_go_at_the_times_of_the_program() {
+    let mut scene = scene(rolled(), release(ReleaseOrder::Landed, 0.5));
+    scene.settings.contact.friction = Friction::Coulomb(0.3);
+    let (drape, _) = draped(&scene);
+    let events = &drape.summary.events;
+    let same = draped(&at_these_times(&scene, events)).0;
+    // time steps may end elsewhere, where a pad began to press and did not go on
+    for (a, b) in same.last.positions.iter().zip(&drape.last.positions) {
+        assert!(distance(*a, *b) < scene.settings.contact.tolerance, "{a:?} {b:?}");
+    }
+    let mut higher = at_these_times(&scene, events);
+    for p in higher.motion.positions.iter_mut().flatten() {
+        p[2] += 5e-3;
+    }
+    let higher = draped(&higher).0;
+    let times = |drape: &Drape| released(drape).into_iter().map(|(id, t)| (id, (1e9 * t).round()));
+    assert!(times(&drape).eq(times(&higher)));
+}
+
+/// Without friction a taut ply draws together when its pads are gone. It may come to rest there or not, but it is never taken for
+/// the ply that the pads held.
+#[test]
+fn a_ply_that_slides_after_the_release_is_seen_to() {
+    let mut scene = scene(rolled(), release(ReleaseOrder::End, 0.0));
+    scene.mold = Some(plane(0.2));
+    for p in scene.motion.positions.iter_mut().flatten() {
+        let [x, y, z] = *p;
+        let (c, s) = (0.2_f64.cos(), 0.2_f64.sin());
+        *p = [c * x - s * z, y, s * x + c * z];
+    }
+    scene.settings.contact.friction = Friction::Coulomb(0.05);
+    let (drape, states) = draped(&scene);
+    assert!(drape.summary.status != Status::Converged && !drape.summary.accepted);
+    let [held, free] = [states.len() - 2, states.len() - 1].map(|n| states[n].positions[0]);
+    assert!(distance(held, free) > 0.05, "it slides down the incline: {held:?} {free:?}");
+}
+
+/// A strip that is clamped level at one end and held level at the other hangs as the heavy cantilever when this pad lets go, and
+/// has lost energy.
+#[test]
+fn a_strip_whose_end_is_let_go_hangs_as_a_cantilever() {
+    let (length, spacings) = (0.03, 48);
+    let h = length / spacings as f64;
+    let lines = (0..=spacings + 1).map(|n| h * n as f64).collect();
+    let end = length + h;
+    let mut sheet = sheet([lines, vec![0.0]], &[[0.0, 0.0], [h, 0.0], [end, 0.0]]);
+    sheet.mesh = h;
+    for mount in [None, Some([2e3; 3])] {
+        sheet.grippers[2].mount = mount;
+        let mut cloth = flat(&sheet, 0.0);
+        let held: Vec<[f64; 3]> = cloth.now.pads.iter().map(|pad| pad.position).collect();
+        rest(&mut cloth, &held);
+        let before = cloth.energy();
+        cloth.release(&[2]);
+        assert_eq!(cloth.holds(), [true, true, false]);
+        rest(&mut cloth, &held);
+        assert!(cloth.energy() < before, "{} {before}", cloth.energy());
+        let tip = cloth.now.x[spacings + 1];
+        let free = length + 0.5 * h;
+        let [x, z] = cantilever(free, 3.143 * G / 9e-5);
+        let off = [tip[0] - 0.5 * h - x, tip[2] - z];
+        assert!(off.iter().all(|c| c.abs() < 5e-3 * free), "{tip:?} {x} {z}");
+        assert_eq!(cloth.forces()[2], [0.0; 3]);
+        // the clamp bears what the pad bore too
+        let borne: f64 = cloth.forces().iter().map(|force| -force[2]).sum();
+        let weight = 3.143 * G * sheet.fabric.areas.iter().sum::<f64>();
+        assert!((borne / weight - 1.0).abs() < 1e-6, "{borne} {weight}");
+    }
+}
+
+/// Once all pads have let go the mold alone bears the ply: the derivative of the energy of contact and friction to a shift of the
+/// whole ply is its weight, on an inclined plane too.
+#[test]
+fn the_mold_bears_the_weight_of_a_ply_without_pads() {
+    let held: Vec<[f64; 2]> =
+        (0..8).map(|n| [0.1 * (n % 4) as f64, 0.1 * (n / 4) as f64]).collect();
+    for (angle, radius) in [(0.0, 0.0), (0.15, 0.0), (0.15, 0.02)] {
+        let mut sheet = sheet([even(0.34, 17), even(0.14, 7)], &[]);
+        sheet.grippers = held
+            .iter()
+            .map(|[u, v]| Gripper {
+                place: [u + 0.02, v + 0.02],
+                radius,
+                mount: (radius > 0.0).then_some([2e3; 3]),
+                slip_force: None,
+                max_tilt: 0.7,
+            })
+            .collect();
+        sheet.mesh = 0.02;
+        let mold = plane(angle);
+        let on = |[u, v]: [f64; 2], height: f64| {
+            let (c, s) = (angle.cos(), angle.sin());
+            [u * c - height * s, v, u * s + height * c]
+        };
+        sheet.mold = Some(mold);
+        let at = |height: f64| sheet.grippers.iter().map(move |g| on(g.place, height));
+        let mut cloth = flat(&sheet, 0.0);
+        for (x, place) in cloth.now.x.iter_mut().zip(&sheet.fabric.places) {
+            *x = on(*place, 1e-4);
+        }
+        cloth.now.pads = at(1e-4).map(|p| Pad { turn: turned(angle), ..Pad::new(p) }).collect();
+        let down: Vec<[f64; 3]> = at(0.0).collect();
+        bring(&mut cloth, &down, 4, 1.0);
+        let reaction = |cloth: &Cloth| {
+            let contact = cloth.contact.as_ref().expect("a mold");
+            let shifted = |way: f64| {
+                let x: Vec<[f64; 3]> =
+                    cloth.now.x.iter().map(|[x, y, z]| [*x, *y, z + way]).collect();
+                contact.energy(&x)
+            };
+            let way = 1e-11;
+            -(shifted(way) - shifted(-way)) / (2.0 * way)
+        };
+        let weight = 3.143 * G * sheet.fabric.areas.iter().sum::<f64>();
+        let pads: f64 = cloth.forces().iter().map(|force| -force[2]).sum();
+        let shared = reaction(&cloth) + pads;
+        assert!((shared / weight - 1.0).abs() < 1e-3, "{angle} {radius}: {shared} {weight}");
+        cloth.release(&(0..8).collect::<Vec<_>>());
+        rest(&mut cloth, &down);
+        let alone = reaction(&cloth);
+        assert!((alone / weight - 1.0).abs() < 1e-3, "{angle} {radius}: {alone} {weight}");
+        assert!(cloth.forces().iter().all(|force| *force == [0.0; 3]));
+    }
+}
+
+/// The turn of a pad on an incline about y.
+fn turned(angle: f64) -> [[f64; 3]; 3] {
+    let (c, s) = (angle.cos(), angle.sin());
+    [[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]]
+}
+
+/// Loads count only while a pad holds: after it has let go, neither force nor tilt of its gripper are measured.
+#[test]
+fn a_pad_that_is_gone_has_no_loads() {
+    let mut scene = scene(rolled(), release(ReleaseOrder::Landed, 0.0));
+    scene.settings.contact.friction = Friction::Coulomb(0.3);
+    let (drape, states) = draped(&scene);
+    let gone = states.iter().flat_map(|state| state.holds.iter().zip(&state.forces));
+    let (gone, held): (Vec<_>, Vec<_>) = gone.partition(|(holds, _)| !**holds);
+    assert!(gone.len() > 20 && gone.iter().all(|(_, force)| **force == [0.0; 3]));
+    let most = held.iter().map(|(_, f)| crate::mold::vector::norm(**f)).fold(0.0, f64::max);
+    assert_eq!(drape.summary.gripper_force_max_n, most);
+}
