@@ -118,7 +118,7 @@ def test_the_yaml_holds_the_numbers_of_the_table(either: Exported) -> None:
     times, poses = table(either)
     assert list(message) == ["header", "joint_names", "points"]
     assert message["header"] == {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "mold"}
-    assert message["joint_names"] == [f"gripper_{i}_{j}" for i, j in either.result.ids]
+    assert message["joint_names"] == [f"g{i}_{j}" for i, j in either.result.ids]
     found = [
         [[*t["translation"].values(), *t["rotation"].values()] for t in point["transforms"]]
         for point in message["points"]
@@ -135,7 +135,7 @@ def test_rosbags_decodes_the_numbers_of_the_table(either: Exported) -> None:
     [(time, message)] = either.decoded("/plydrape/trajectory")
     times, poses = table(either)
     assert time == 0 and message.header.frame_id == "mold"
-    assert message.joint_names == [f"gripper_{i}_{j}" for i, j in either.result.ids]
+    assert message.joint_names == [f"g{i}_{j}" for i, j in either.result.ids]
     found = np.array([[pose(t) for t in point.transforms] for point in message.points])
     assert np.array_equal(found, poses)
     clock = [nanoseconds(point.time_from_start) for point in message.points]
@@ -199,7 +199,7 @@ def test_loads_are_those_of_the_table_and_of_the_springs(mounted: Exported) -> N
     [(time, message)] = mounted.decoded("/plydrape/loads")
     assert time == 0 and message.header.frame_id == "mold"
     ids = mounted.result.ids
-    assert message.joint_names == [f"gripper_{i}_{j}_{axis}" for i, j in ids for axis in "xyz"]
+    assert message.joint_names == [f"g{i}_{j}_{axis}" for i, j in ids for axis in "xyz"]
     with (mounted.result.folder / "trajectory.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     for name, unit, factor in [("load", "N", 1.0), ("preload", "mm", 1e-3)]:

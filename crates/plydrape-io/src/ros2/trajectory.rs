@@ -13,6 +13,7 @@ use crate::OutputError;
 use crate::result::ResultFile;
 use plydrape::draping::record::{Gripper, Step};
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
+use plydrape::ply::gripper_name;
 
 /// The trajectory of a result.
 ///
@@ -28,10 +29,7 @@ pub(super) fn trajectory(result: &ResultFile) -> Result<MultiDofJointTrajectory,
     };
     // a time of 0: begin when the message is received
     let header = Header { frame_id: FRAME.into(), ..Header::default() };
-    let joint = |k| {
-        let [i, j] = ply.id(k);
-        format!("gripper_{i}_{j}")
-    };
+    let joint = |k| gripper_name(ply.id(k));
     Ok(MultiDofJointTrajectory {
         header,
         joint_names: (0..ply.grippers()).map(joint).collect(),

@@ -2,7 +2,7 @@
 
 use super::Sense;
 use crate::draping::spans::Point;
-use crate::ply::{Fibres, Ply};
+use crate::ply::{Fibres, Ply, gripper_name};
 
 /// A part of the ply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,10 +27,7 @@ impl Site {
     /// As a label.
     #[must_use]
     pub fn label(self, ply: &Ply) -> String {
-        let id = |n: usize| {
-            let [i, j] = ply.id(n);
-            format!("[{i},{j}]")
-        };
+        let id = |n: usize| gripper_name(ply.id(n));
         match self {
             Site::Catenary(n) => {
                 let lines = ply.lines();
@@ -42,7 +39,7 @@ impl Site {
                     (false, true) => "bias line",
                     (false, false) => "diagonal",
                 };
-                format!("{kind} [{},{}]–[{},{}]", c.from[0], c.from[1], c.to[0], c.to[1])
+                format!("{kind} {}–{}", gripper_name(c.from), gripper_name(c.to))
             }
             Site::Gripper(n) => format!("gripper {}", id(n)),
             Site::Grippers(a, b) => format!("grippers {} and {}", id(a), id(b)),
