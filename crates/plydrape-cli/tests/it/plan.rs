@@ -150,7 +150,7 @@ fn impossible_limits_are_named_with_amount_and_place_and_exit_with_one() {
     let workspace = "\n[limits]\nworkspace = [[-1, \"300 mm\"], [-1, 1], [-1, 1]]\n";
     for (text, message, place) in [
         (sheared + shear, "shear 20° against 15°", "net cell ["),
-        (far + workspace, "workspace 300 mm against 0 mm", "] at the target"),
+        (far + workspace, "workspace 300 mm against 0 mm", "gripper g1_1 at the target"),
         (slow, "move limit 75.", "gripper g1_1 in 11 moves"),
     ] {
         let folder = tempfile::tempdir().unwrap();
