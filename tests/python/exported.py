@@ -80,7 +80,8 @@ class Result:
         home = self.folder.parent / f"alone_{self.folder.name}_{kind}"
         home.mkdir()
         (home / "result.json").write_bytes((self.folder / "result.json").read_bytes())
-        run("export", str(home / "result.json"), "--to", kind, "-o", str(home / kind))
+        options = ["--to", kind, "-o", str(home / kind), "--even-if-rejected"]
+        run("export", str(home / "result.json"), *options)
         return home / kind
 
 

@@ -129,7 +129,8 @@ mod tests {
             let turn = |v| plydrape::mold::vector::turned(vector, v);
             prop_assert!(length <= std::f64::consts::PI + 1e-12);
             let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            prop_assert!(near(&Pose { axes: unit.map(turn), ..pose }, &pose));
+            let again = Pose { axes: unit.map(turn), ..pose };
+            prop_assert!(near(&again, &pose), "{again:?}");
         }
     }
 

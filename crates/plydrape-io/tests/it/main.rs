@@ -25,6 +25,7 @@ mod outlines;
 mod pattern;
 mod plans;
 mod preload;
+mod programs;
 mod reach;
 mod results;
 mod scaled;
