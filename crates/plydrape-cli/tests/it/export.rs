@@ -41,8 +41,8 @@ fn every_format_is_made_from_the_result_alone() {
         let names = files(&beside);
         assert!(!names.is_empty() && text(&output.stdout).matches("wrote ").count() == names.len());
         let folder = asked.to_str().unwrap();
-        let asked = ["export", "--to", format, "-o", folder, "--even-if-rejected"];
-        succeeds(&plydrape(&asked, &result));
+        let again = ["export", "--to", format, "-o", folder, "--even-if-rejected"];
+        succeeds(&plydrape(&again, &result));
         for name in names {
             let [one, two] = [&beside, &asked].map(|dir| std::fs::read(dir.join(&name)).unwrap());
             assert!(one == two && !one.is_empty(), "{name}");

@@ -188,7 +188,7 @@ fn a_cut_ply_is_written_to_every_file() {
     assert!(export::files(&read, Format::Inp, &any).is_err());
 
     let pattern = export::files(&read, Format::Pattern, &any).unwrap();
-    let any = Options::new(1e-4);
+    let options = Options::new(1e-4);
     let layers = Some(vec!["CUT".into(), "HOLES".into()]);
     let again =
         outline::read_dxf("pattern.dxf", &pattern[0].1, &Options { layers, ..options }).unwrap();
