@@ -61,10 +61,8 @@ impl Blocks {
             let duration = times[pair[1]] - times[pair[0]];
             let found = events(pair[1]);
             let rests = track.rests(pair[0], pair[1], tolerance);
-            if rests || !open {
-                open = false;
-            }
             if rests {
+                open = false;
                 // the list begins with the start
                 if let Some(last) = blocks.last_mut() {
                     last.wait += duration;

@@ -40,7 +40,7 @@ pub(super) struct Context {
     pub separate_axes: bool,
     /// The signal that starts them.
     pub start_output: usize,
-    /// Whether the cell stops where this part ends.
+    /// The vacuum of each gripper.
     pub grippers: Vec<Signal>,
     /// Largest speed of the tool's centre (m/s).
     pub speed: f64,
@@ -136,14 +136,14 @@ pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Cont
         1 => vec![name.clone()],
         many => (1..=many).map(|n| format!("{name}_{n}")).collect(),
     };
-    let separate = program.axes.len() > limits.axes;
+    let separate = !track.moves_axes;
     let grippers: Vec<Signal> = program
         .grippers()
         .into_iter()
         .enumerate()
         .map(|(n, gripper)| Signal { gripper, output: n + limits.first_output })
         .collect();
-    let maker = Maker { track, own_axes: !separate, grippers: &grippers };
+    let maker = Maker { track, grippers: &grippers };
 
     let mut from = 0;
     let mut contexts: Vec<Context> = Vec::with_capacity(split.len());
@@ -203,7 +203,6 @@ fn axis(axis: &super::Axis) -> AxisOf {
 /// Makes blocks and points.
 struct Maker<'a> {
     track: &'a Track<'a>,
-    own_axes: bool,
     grippers: &'a [Signal],
 }
 
@@ -232,8 +231,9 @@ impl Maker<'_> {
         let pose = |k: usize| centre.as_ref().map_or(super::pose::NONE, |centre| centre[k]);
         let [before, now] = [*from, sample].map(pose);
         let rate = |way: f64| if duration > 0.0 { way / duration } else { 0.0 };
-        let ways = program.axes.iter().map(|axis| axis.values[sample] - axis.values[*from]);
-        let farthest = ways.map(f64::abs).fold(0.0, f64::max);
+        let own = || program.axes.iter().filter(|_| self.track.moves_axes);
+        let ways = own().map(|axis| (axis.values[sample] - axis.values[*from]).abs());
+        let farthest = ways.fold(0.0, f64::max);
         *from = sample;
         PointOf {
             number,
@@ -244,10 +244,7 @@ impl Maker<'_> {
             turn_rate: rate(angle(&before, &now)),
             axis_speed: rate(farthest),
             pose: PoseOf::of(&now),
-            axes: match self.own_axes {
-                true => program.axes.iter().map(|axis| axis.values[sample]).collect(),
-                false => Vec::new(),
-            },
+            axes: own().map(|axis| axis.values[sample]).collect(),
             radius: passed.radius,
             stop: passed.radius == 0.0,
         }
@@ -291,7 +288,7 @@ fn head(track: &Track, blocks: &Blocks, robot: Robot, [part, parts]: [usize; 2])
     lines.push(limits.units.into());
     match program.axes.len() {
         0 => {}
-        count if count <= limits.axes => {
+        _ if track.moves_axes => {
             let names: Vec<_> = program.axes.iter().zip(limits.axis_names).collect();
             let pairs = names.iter().map(|(axis, letter)| format!("{letter} = {}", axis.name));
             lines.push(format!("External axes: {}", pairs.collect::<Vec<_>>().join(", ")));
@@ -310,7 +307,26 @@ fn head(track: &Track, blocks: &Blocks, robot: Robot, [part, parts]: [usize; 2])
             );
         }
     }
-    lines.iter().map(|line| ascii(line)).collect()
+    lines.iter().flat_map(|line| wrapped(&ascii(line))).collect()
+}
+
+/// Longest line of a head: that of KRL has 471 letters, and a head is there to be read.
+const WIDTH: usize = 100;
+
+/// A line in pieces of whole words, those behind the first indented.
+fn wrapped(line: &str) -> Vec<String> {
+    let indent = &line[..line.len() - line.trim_start().len()];
+    let mut lines = vec![String::new()];
+    for word in line.split_whitespace() {
+        let last = lines.len() - 1;
+        let room = WIDTH.saturating_sub(lines[last].len() + 1);
+        match lines[last].is_empty() {
+            true => lines[last] = format!("{indent}{word}"),
+            false if word.len() <= room => lines[last] += &format!(" {word}"),
+            false => lines.push(format!("{indent}  {word}")),
+        }
+    }
+    lines
 }
 
 /// What a file of a motion that is not accepted says first.
@@ -324,7 +340,7 @@ const LONGEST: usize = 16;
 /// A title as a name: letters, digits and `_`, a letter first.
 pub(super) fn identifier(title: &str) -> String {
     let mut name = String::new();
-    for letter in title.to_ascii_lowercase().chars() {
+    for letter in ascii(title).to_ascii_lowercase().chars() {
         match letter {
             'a'..='z' | '0'..='9' => name.push(letter),
             _ if name.ends_with('_') || name.is_empty() => {}
@@ -362,6 +378,10 @@ pub(super) fn ascii(text: &str) -> String {
             'ö' | 'ó' | 'ô' | 'ø' => plain.push('o'),
             'ü' | 'ú' => plain.push('u'),
             'é' | 'è' | 'ê' => plain.push('e'),
+            'Ä' | 'Å' => plain.push('A'),
+            'Ö' | 'Ø' => plain.push('O'),
+            'Ü' => plain.push('U'),
+            'É' | 'È' => plain.push('E'),
             'ß' => plain.push_str("ss"),
             '…' => plain.push_str("..."),
             _ if letter.is_whitespace() => plain.push(' '),
@@ -381,9 +401,9 @@ mod tests {
         for (title, name) in [
             ("Flat mold, sheared target", "flat_mold_sheare"),
             ("3rd ply", "ply_3rd_ply"),
-            ("", "ply_"),
+            ("", "ply_ply"),
             ("Main", "ply_main"),
-            ("Über-Form", "ber_form"),
+            ("Über-Form", "uber_form"),
             ("a", "ply_a"),
         ] {
             assert_eq!(identifier(title), name);

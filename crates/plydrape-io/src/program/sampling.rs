@@ -88,6 +88,8 @@ const REST: f64 = 1e-6;
 #[derive(Debug)]
 pub(crate) struct Track<'a> {
     pub program: &'a Program,
+    /// Whether the controller moves the axes too.
+    pub moves_axes: bool,
     /// The centre of the tool in the frame of the mold, if there is a flange.
     pub centre: Option<Vec<Pose>>,
     /// For each gripper its pad, if it has one, and its axes.
@@ -95,13 +97,13 @@ pub(crate) struct Track<'a> {
 }
 
 impl<'a> Track<'a> {
-    pub fn new(program: &'a Program) -> Self {
+    pub fn new(program: &'a Program, moves_axes: bool) -> Self {
         let tool = &program.frames.tool;
         let centre = program.flange.as_ref();
         let centre = centre.map(|flange| flange.iter().map(|pose| after(pose, tool)).collect());
         let mut names = program.grippers();
         let mut grippers: Vec<_> = (0..names.len()).map(|n| (Some(n), Vec::new())).collect();
-        for (n, axis) in program.axes.iter().enumerate() {
+        for (n, axis) in program.axes.iter().enumerate().filter(|_| moves_axes) {
             let name = gripper_name(axis.gripper);
             let known = names.iter().position(|other| *other == name).unwrap_or_else(|| {
                 names.push(name);
@@ -110,7 +112,7 @@ impl<'a> Track<'a> {
             });
             grippers[known].1.push(n);
         }
-        Track { program, centre, grippers }
+        Track { program, moves_axes, centre, grippers }
     }
 
     /// The error at sample k of what is interpolated from sample a to sample b.
@@ -146,7 +148,8 @@ impl<'a> Track<'a> {
 
     /// The largest movement from sample a to sample b: of the centre or an axis (m), and the turn (rad).
     pub fn movement(&self, a: usize, b: usize) -> Deviation {
-        let axes = self.program.axes.iter().map(|axis| (axis.values[b] - axis.values[a]).abs());
+        let own = self.program.axes.iter().filter(|_| self.moves_axes);
+        let axes = own.map(|axis| (axis.values[b] - axis.values[a]).abs());
         let axes = axes.fold(0.0, f64::max);
         self.centre.as_ref().map_or(Deviation { position: axes, angle: 0.0 }, |centre| Deviation {
             position: axes.max(distance(centre[a].position, centre[b].position)),

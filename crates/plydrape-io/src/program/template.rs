@@ -164,7 +164,7 @@ pub fn files(
         return Err(ProgramError::Outputs { format: robot.name(), most, needed }.into());
     }
 
-    let track = Track::new(program);
+    let track = Track::new(program, !separate);
     let blocks = Blocks::new(&track, tolerance, limits.radii);
     let environment = environment();
     let mut files = Vec::new();
@@ -259,8 +259,14 @@ fn each(value: &Value, factor: f64, digits: usize) -> Result<Value, Error> {
         let zero = text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.'));
         return Ok(if zero { text.trim_start_matches('-').into() } else { text.into() });
     }
-    let list = value.try_iter().map_err(|_| {
-        Error::new(ErrorKind::InvalidOperation, format!("{value} is no number and no list of them"))
-    })?;
+    let refused = || {
+        let what = format!("{value} is no number and no list of them");
+        Error::new(ErrorKind::InvalidOperation, what)
+    };
+    // a text would be a list of its letters
+    if value.as_str().is_some() {
+        return Err(refused());
+    }
+    let list = value.try_iter().map_err(|_| refused())?;
     list.map(|item| each(&item, factor, digits)).collect()
 }

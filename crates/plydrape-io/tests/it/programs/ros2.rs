@@ -265,7 +265,8 @@ fn a_bag_played_without_ros_is_the_program() {
             let values = message.get("interface_values").list();
             assert_eq!(groups.len(), values.len());
             assert!(values.iter().all(|v| v.get("interface_names").list()[0].text() == "vacuum"));
-            (*time, groups.len(), values[0].get("values").list()[0].number())
+            let milliseconds = (time * 1e3).round() / 1e3;
+            (milliseconds, groups.len(), values[0].get("values").list()[0].number())
         })
         .collect();
     assert_eq!(vacuum, [(0.0, 4, 1.0), (4.8, 1, 0.0), (7.0, 1, 0.0), (DURATION, 2, 0.0)]);
