@@ -857,6 +857,793 @@ class Result:
     def export(
         self,
         /,
+        to: typing.Literal[
+            "vtk",
+            "inp",
+            "ros2",
+            "rapid",
+            "krl",
+            "urscript",
+            "csv",
+            "svg",
+            "pattern",
+            "boundary",
+        ],
+        folder: str | PathLike[str],
+        *,
+        even_if_rejected: bool = False,
+        position_error: float | None = None,
+        templates: Sequence[str | PathLike[str]] = ...,
+    ) -> list[Path]:
+        """
+        Writes files for another program or a machine into a folder, all or none, and returns their paths.
+
+        Args:
+            to: "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
+            folder: Where they go; other files there stay.
+            even_if_rejected: Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
+                result is not accepted; the files say so in their heads.
+            position_error: How far straight lines between points may be from the motion (m); 0.1 mm unless given.
+            templates: Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
+
+        Raises:
+            OutputError: If that cannot be done.
+            ValueError: If there is no such format.
+
+        Example:
+            >>> import tempfile, pathlib
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> with tempfile.TemporaryDirectory() as folder:
+            ...     sorted(path.name for path in result.export("csv", folder))
+            ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
+        """
+    @property
+    def forces(self, /) -> NDArray[float64]:
+        """
+        Horizontal forces (N), shape (n, catenaries); nan of stretched diagonals and straight catenaries.
+        """
+    @property
+    def iterations(self, /) -> NDArray[int64]:
+        """
+        Iterations on the shared slopes, shape (n,).
+        """
+    @property
+    def shear(self, /) -> NDArray[float64]:
+        """
+        Shear angles (rad), shape (n, cells); 0 where no diagonal is stretched.
+        """
+    @property
+    def slopes(self, /) -> NDArray[float64]:
+        """
+        Slopes at the ends of each catenary, shape (n, catenaries, 2).
+        """
+
+@final
+class Equilibrium:
+    """
+    A ply that hangs: forces, slopes, shape, and how they change.
+
+    Catenaries are counted as in `Ply`.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+        >>> equilibrium.forces.round(4)
+        array([0.4177])
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def early_ends(self, /) -> dict[str, int]:
+        """
+        How often a part of the solve ended early or was replaced, by name; all zero in a plain solve.
+        """
+    @property
+    def forces(self, /) -> NDArray[float64]:
+        """
+        Horizontal force of each catenary (N), shape (catenaries,); nan of a stretched diagonal or a straight one.
+        """
+    @property
+    def iterations(self, /) -> int:
+        """
+        Iterations on the shared slopes.
+        """
+    def jacobian(self, /, *, wrt: typing.Literal["grippers", "lengths", "material"]) -> Jacobian:
+        """
+        Exact derivatives of the equilibrium, by the implicit function theorem.
+
+        They hold where the equilibrium is smooth: not where a diagonal just begins to shear, or a slope just
+        reaches its limit.
+
+        Args:
+            wrt: To what: grippers, their positions (m), axes (grippers, 3); "lengths", the fabric of a cell along
+                u and v (m), axis (2,); "material", its `names`, axis (names,): mass and rigidities in SI units.
+
+        Raises:
+            ValueError: If there is no such `wrt`, or the derivatives would take more memory than allowed.
+            SolveError: If the equilibrium was not found, or a rigidity is zero: it has no neighbourhood.
+
+        Example:
+            >>> ply = plydrape.Ply(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018")
+            >>> equilibrium = plydrape.Solver(ply).solve([[0, 0, 0], [0.098, 0, 0]])
+            >>> jacobian = equilibrium.jacobian(wrt="grippers")
+            >>> jacobian.forces.shape, jacobian.points(5).shape
+            ((1, 2, 3), (1, 5, 3, 2, 3))
+        """
+    @property
+    def length_residual(self, /) -> float:
+        """
+        Largest error of a fabric length, as a share of it.
+        """
+    def points(self, /, stations: SupportsIndex = 17) -> NDArray[float64]:
+        """
+        Points along each catenary (m) at equal parts of its run, shape (catenaries, stations, 3).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+            >>> lowest = equilibrium.points(5)[0, 2]
+            >>> (lowest * 1e3).round(1)
+            array([49. ,  0. , -8.7])
+        """
+    @property
+    def positions(self, /) -> NDArray[float64]:
+        """
+        Positions of the grippers (m), shape (grippers, 3).
+        """
+    @property
+    def residual(self, /) -> float:
+        """
+        What is left of the rule of the slopes, scaled to a slope.
+        """
+    @property
+    def shear(self, /) -> NDArray[float64]:
+        """
+        Shear angle of each cell (rad), shape (cells,), those along u first; 0 where no diagonal is stretched.
+        """
+    @property
+    def slopes(self, /) -> NDArray[float64]:
+        """
+        Slopes at the ends of each catenary, shape (catenaries, 2).
+        """
+    @property
+    def status(self, /) -> str:
+        """
+        How the solve ended: converged, "stalled", "iteration-limit" or "length-not-met".
+        """
+
+@final
+class Jacobian:
+    """
+    Derivatives of an `Equilibrium`: each array has the axes of what is differentiated, then those of `wrt`.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+        >>> jacobian = equilibrium.jacobian(wrt="lengths")
+        >>> jacobian.names, jacobian.forces.shape, jacobian.slopes.shape
+        (['u', 'v'], (1, 2), (1, 2, 2))
+    """
+    @property
+    def forces(self, /) -> NDArray[float64]:
+        """
+        Derivatives of the forces (N), shape (catenaries, …); nan where there is no force.
+        """
+    @property
+    def names(self, /) -> list[str]:
+        """
+        What the last axis stands for: x, "y", "z"; "u", "v"; or keys of the material.
+        """
+    def points(self, /, stations: SupportsIndex = 17) -> NDArray[float64]:
+        """
+        Derivatives of the points (m) at fixed parts of the runs, shape (catenaries, stations, 3, …).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+            >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+            >>> equilibrium.jacobian(wrt="material").points(5).shape
+            (1, 5, 3, 2)
+        """
+    @property
+    def shear(self, /) -> NDArray[float64]:
+        """
+        Derivatives of the shear angles (rad), shape (cells, …); 0 where no diagonal is stretched.
+        """
+    @property
+    def slopes(self, /) -> NDArray[float64]:
+        """
+        Derivatives of the end slopes, shape (catenaries, 2, …).
+        """
+
+@final
+class Material:
+    """
+    What a ply is made of: mass, flexural rigidity, tension, shear curve and locking angle.
+
+    Example:
+        >>> material = plydrape.Material.shipped("krogh2018")
+        >>> material.mass, material.flexural_rigidity
+        (0.3143, 9e-06)
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def areal(self, /) -> bool:
+        """
+        Whether its numbers are per area; else they belong to each catenary, as in Krogh et al. 2018.
+        """
+    @property
+    def bending_rigidity(self, /) -> tuple[float, float] | None:
+        """
+        Bending rigidity per width along warp and weft (N·m); None unless `areal`.
+        """
+    @property
+    def flexural_rigidity(self, /) -> float | None:
+        """
+        Flexural rigidity EI of a catenary (N·m²); None if `areal`.
+        """
+    @property
+    def locking_angle(self, /) -> float | None:
+        """
+        Shear angle at which the weave locks (rad), where it is known.
+        """
+    @property
+    def mass(self, /) -> float:
+        """
+        Mass per length (kg/m), or per area (kg/m²) if `areal`.
+        """
+    @property
+    def name(self, /) -> str:
+        """
+        Its name for reports.
+        """
+    def shear_force(self, /, angles: ArrayLike) -> NDArray[float64] | None:
+        """
+        Shear force per length (N/m) at shear angles (rad), shape (n,); None if the material has no shear curve.
+
+        Example:
+            >>> curve = {"angle": [0, "20 deg"], "force": [0, "10 N/m"]}
+            >>> material = {"mass": 0.3, "flexural_rigidity": 9e-6, "shear_curve": curve}
+            >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material=material)
+            >>> ply.material.shear_force(np.deg2rad([0, 10, 20]))
+            array([ 0.,  5., 10.])
+        """
+    @staticmethod
+    def shipped(name: str) -> Material:
+        """
+        A material that comes with plydrape, see `materials`.
+
+        Raises:
+            ValueError: If there is none of that name.
+
+        Example:
+            >>> plydrape.Material.shipped("krogh2018").name
+            'krogh2018'
+        """
+    @property
+    def source(self, /) -> str:
+        """
+        Where its numbers come from.
+        """
+    def tension(self, /, strains: ArrayLike) -> NDArray[float64] | None:
+        """
+        Tension per width (N/m) at strains, shape (n,); None if the material does not say it.
+
+        Example:
+            >>> plydrape.Material.shipped("krogh2018").tension(np.array([0, 0.001]))
+            array([   0., 1000.])
+        """
+    @staticmethod
+    def text(name: str) -> str:
+        """
+        The file of a material that comes with plydrape: TOML.
+
+        Raises:
+            ValueError: If there is none of that name.
+
+        Example:
+            >>> "source" in plydrape.Material.text("krogh2018")
+            True
+        """
+
+@final
+class Measure:
+    """
+    Something that is measured of a drape: what it is called, in which unit, and how a limit bounds it.
+
+    Example:
+        >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
+        >>> [(measure.label, measure.shown) for measure in shares]
+        [('contact share', '%'), ('gripper distance', 'mm')]
+    """
+    def __eq__(self, value: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def factor(self, /) -> float:
+        """
+        From a value in `unit` to the same in `shown`.
+        """
+    @property
+    def key(self, /) -> str:
+        """
+        Its key in `Result.measures` and in each step of a result, the unit at its end where it has one.
+        """
+    @property
+    def label(self, /) -> str:
+        """
+        What it is called in tables and charts.
+        """
+    @property
+    def name(self, /) -> str:
+        """
+        Name of its limit: its key in `limits` of a scene that sets one, and its name in `Result.limits`.
+        """
+    @property
+    def scope(self, /) -> str:
+        """
+        When it counts: "every-step"; the last step alone, "end"; "time" only of a motion with times; "whole" of a
+        motion or plan in one, so that no step has it.
+        """
+    @property
+    def sense(self, /) -> str:
+        """
+        Which way a limit bounds it: "at-most" or "at-least".
+        """
+    @property
+    def shown(self, /) -> str:
+        """
+        Unit that it is shown in, which is that of its limit in `Result.limits`: mm, "°", "N", "%".
+        """
+    @property
+    def unit(self, /) -> str:
+        """
+        Unit of its values in `Result.measures`: mm, "deg", "N"; "1" of ratios and shares.
+        """
+
+@final
+class Mold:
+    """
+    What a ply is laid on. Scenes have one; triangles of your own make one.
+
+    Example:
+        >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+        >>> mold.kind
+        'sphere'
+    """
+    def __repr__(self, /) -> str: ...
+    def closest_points(self, /, points: ArrayLike) -> ClosestPoints:
+        """
+        What lies closest to points (m), shape (n, 3).
+
+        Example:
+            >>> mold = plydrape.Scene.read("examples/03_tilted_plane/scene.toml").mold
+            >>> closest = mold.closest_points([[0, 0, 1]])
+            >>> closest.points.shape, closest.distances.shape
+            ((1, 3), (1,))
+        """
+    def heights(self, /, places: ArrayLike) -> NDArray[float64]:
+        """
+        Height of its highest point over places of the plan (m), nan where there is none.
+
+        Args:
+            places: x and y (m), shape (n, 2).
+
+        Example:
+            >>> mold = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml").mold
+            >>> mold.heights([[0, 0], [0.3, 0.1]])
+            array([0., 0.])
+        """
+    @property
+    def kind(self, /) -> str:
+        """
+        Its kind: plane, "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
+        of a scene laid waves on it.
+        """
+    def patch(
+        self,
+        /,
+        low: SupportsLenAndGetItem[SupportsFloat | SupportsIndex],
+        high: SupportsLenAndGetItem[SupportsFloat | SupportsIndex],
+        *,
+        most: SupportsIndex = 20000,
+    ) -> tuple[NDArray[float64], NDArray[uint32]]:
+        """
+        The mold over a rectangle of the plan as triangles.
+
+        Args:
+            low: Lowest x and y (m).
+            high: Highest x and y (m).
+            most: About how many triangles at most.
+
+        Returns:
+            Points (m), shape (n, 3), and the indices of each triangle's corners, shape (m, 3).
+
+        Example:
+            >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+            >>> points, triangles = mold.patch((-0.1, -0.1), (0.1, 0.1), most=200)
+            >>> points.shape[1], triangles.shape[1], len(triangles) <= 200
+            (3, 3, True)
+        """
+    @staticmethod
+    def triangles(points: ArrayLike, triangles: numpy.typing.ArrayLike) -> Mold:
+        """
+        A mold of triangles, such as a mesher or a CAD reader makes them; vertices at one place are merged and
+        triangles turned to one side.
+
+        Args:
+            points: Corners (m), shape (n, 3).
+            triangles: Indices of each triangle's corners, shape (m, 3).
+
+        Raises:
+            ValueError: If the triangles are no mold: empty, without area, or not a surface.
+
+        Example:
+            >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+            >>> mold = plydrape.Mold.triangles(square, [[0, 1, 2], [0, 2, 3]])
+            >>> mold.heights([[0.5, 0.25]])
+            array([0.])
+        """
+
+@final
+class Net:
+    """
+    The ideal drape: the fabric as a pin-jointed net on the mold.
+
+    Example:
+        >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
+        >>> net.nodes.shape
+        (24, 24, 3)
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def largest_edge_error(self, /) -> float:
+        """
+        Largest error of a length between neighbouring nodes (m).
+        """
+    @property
+    def mesh(self, /) -> tuple[float, float]:
+        """
+        Fabric between neighbouring nodes along u and v (m).
+        """
+    @property
+    def missing(self, /) -> list[tuple[tuple[int, int], str]]:
+        """
+        Why each node of the ply without a place has none, those closest to the seed first: indices and reason.
+        """
+    @property
+    def nodes(self, /) -> NDArray[float64]:
+        """
+        Places of the nodes (m), shape (along u, along v, 3); nan where a node has no place on the mold.
+        """
+    @property
+    def on_ply(self, /) -> NDArray[bool_]:
+        """
+        Whether each node is on the ply, shape (along u, along v); the net of a ply that is cut covers the box around it.
+        """
+    @staticmethod
+    def read(path: str | PathLike[str]) -> Net:
+        """
+        Lays the ply of a scene file on its mold, whether or not grippers could bring it there, as `plydrape net`
+        does.
+
+        Raises:
+            SceneError: If the file has no `[ply]`, `[mold]` and `[target]` that make sense.
+
+        Example:
+            >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
+            >>> float(net.shear_deg.max().round(3))
+            38.005
+        """
+    @property
+    def shear_deg(self, /) -> NDArray[float64]:
+        """
+        Shear angle of each cell (°), shape (along u − 1, along v − 1); nan where a corner has no place, and in cells of which
+        less than half is on the ply.
+        """
+
+@final
+class Outcome:
+    """
+    The last step of a drape with its derivatives to where the grippers are in it.
+
+    Fabric in contact by then is held: the derivatives are those of the outcome to the grippers' targets as
+    long as a slightly different last step catches nothing more, and exact where the state is smooth.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> outcome = plydrape.outcome(scene)
+        >>> worst = outcome.overstretch.argmax()
+        >>> outcome.overstretch_jacobian[worst].shape
+        (8, 3)
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def forces(self, /) -> NDArray[float64]:
+        """
+        Horizontal force of each catenary (N), shape (catenaries,); nan where there is none.
+        """
+    @property
+    def forces_jacobian(self, /) -> NDArray[float64]:
+        """
+        Its derivatives to the grippers' positions (N/m), shape (catenaries, grippers, 3).
+        """
+    @property
+    def overstretch(self, /) -> NDArray[float64]:
+        """
+        Taut path of each catenary's tightest free segment beyond its fabric (m), negative where it is slack, shape
+        (catenaries,): straight where it hangs, along the mold where it lies.
+        """
+    @property
+    def overstretch_jacobian(self, /) -> NDArray[float64]:
+        """
+        Its derivatives to the grippers' positions, shape (catenaries, grippers, 3).
+        """
+    @property
+    def result(self, /) -> Result:
+        """
+        The drape.
+        """
+    @property
+    def shear(self, /) -> NDArray[float64]:
+        """
+        Shear angle of each cell (rad), shape (cells,), those along u first; nan where it does not shear.
+        """
+    @property
+    def shear_jacobian(self, /) -> NDArray[float64]:
+        """
+        Its derivatives to the grippers' positions (rad/m), shape (cells, grippers, 3).
+        """
+    @property
+    def tilts(self, /) -> NDArray[float64]:
+        """
+        Angle between the ply's normal at each gripper and the vertical (rad), shape (grippers,).
+        """
+    @property
+    def tilts_jacobian(self, /) -> NDArray[float64]:
+        """
+        Its derivatives to the grippers' positions (rad/m), shape (grippers, grippers, 3); 0 at a level gripper.
+        """
+
+@final
+class Plan:
+    """
+    A planned motion, and the drape along it.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plan = plydrape.plan(scene, without_errors=True)
+        >>> plan.accepted, plan.positions.shape[1:]
+        (True, (8, 3))
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def accepted(self, /) -> bool:
+        """
+        Whether every limit is kept, by the model that decides, and in enough cells of the sample where the scene has errors.
+        """
+    @property
+    def checkpoint(self, /) -> str:
+        """
+        The checkpoint from which a later search continues: the text of plan.json.
+        """
+    @property
+    def decisions(self, /) -> int:
+        """
+        How many of these drapes decided on a plan, with the mesh of the scene where the sheet decides; the others ranked
+        candidates.
+        """
+    @property
+    def duration(self, /) -> float:
+        """
+        How long the motion takes (s).
+        """
+    @property
+    def evaluations(self, /) -> int:
+        """
+        Drapes that the search took; of the stepwise planner, steps.
+        """
+    @property
+    def method(self, /) -> str:
+        """
+        The planner: "path" or "stepwise".
+        """
+    def motion(self, /, times: ArrayLike) -> dict[str, NDArray[float64]]:
+        """
+        The grippers at any times of the motion.
+
+        Args:
+            times: Times (s), shape (n,).
+
+        Returns:
+            "positions", "velocities", "accelerations" and "jerks" (m, s), each of shape (n, grippers, 3).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> plan = plydrape.plan(scene, without_errors=True)
+            >>> motion = plan.motion(np.linspace(0, plan.duration, 101))
+            >>> speeds = np.linalg.norm(motion["velocities"], axis=2)
+            >>> bool(speeds.max() < 0.25), bool(speeds[[0, -1]].max() < 1e-9)
+            (True, True)
+        """
+    @property
+    def positions(self, /) -> NDArray[float64]:
+        """
+        Planned positions of the grippers (m), shape (steps, grippers, 3): control points of the smooth motion.
+        """
+    @property
+    def result(self, /) -> Result:
+        """
+        The drape along the planned motion, with all limits judged.
+        """
+    @property
+    def time_over(self, /) -> bool:
+        """
+        Whether the search ended because its time was over.
+        """
+    @property
+    def times(self, /) -> NDArray[float64]:
+        """
+        Time of each planned step (s), shape (steps,).
+        """
+    def write(self, /, folder: str | PathLike[str]) -> list[Path]:
+        """
+        Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html, plan.json, and of a sheet sheet.npz, into a
+        folder, all or none, and returns their paths.
+
+        Raises:
+            OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+
+        Example:
+            >>> import tempfile
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> plan = plydrape.plan(scene, without_errors=True)
+            >>> with tempfile.TemporaryDirectory() as folder:
+            ...     sorted(path.name for path in plan.write(folder))
+            ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
+        """
+
+@final
+class Ply:
+    """
+    A woven ply held by grippers: a rectangle held by an array of them, or, from a scene, as it is cut.
+
+    Grippers are counted with i, along u, running fastest. Catenaries are counted: edges along u, edges along
+    v, then two diagonals a cell, the one from `[i, j]` to `[i + 1, j + 1]` first.
+
+    Args:
+        grippers: How many there are along u and v; `[n, 1]` is a strip.
+        cell: Fabric length between neighbours along u and v, in m or as str with a unit.
+        material: Name of a shipped material, path of a .toml file, or a dict of its keys.
+        warp: Grid direction of the warp, "u" or "v".
+        base: Folder of a material file.
+
+    Raises:
+        SceneError: If a value makes no sense.
+
+    Example:
+        >>> ply = plydrape.Ply(grippers=[4, 2], cell=["100 mm", "100 mm"], material="krogh2018")
+        >>> len(ply.catenaries)
+        16
+    """
+    def __new__(
+        cls,
+        /,
+        *,
+        grippers: typing.Sequence[int],
+        cell: typing.Sequence[float | str],
+        material: str | dict[str, typing.Any],
+        warp: str = "u",
+        base: str | PathLike[str] = ...,
+    ) -> Ply: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def catenaries(self, /) -> NDArray[int64]:
+        """
+        Grippers at the ends of each catenary, shape (catenaries, 2).
+        """
+    @property
+    def cell(self, /) -> tuple[float, float]:
+        """
+        Fabric length of a cell along u and v (m).
+        """
+    @property
+    def grippers(self, /) -> tuple[int, int]:
+        """
+        Grippers along u and v; zeros where they are no whole array along the yarns.
+        """
+    @property
+    def holes(self, /) -> list[NDArray[float64]]:
+        """
+        Holes of a ply that is cut, each as `outline`, clockwise.
+        """
+    @property
+    def ids(self, /) -> NDArray[int64]:
+        """
+        Indices i, j of each gripper, which are its name in files and pages, shape (grippers, 2).
+        """
+    @property
+    def lengths(self, /) -> NDArray[float64]:
+        """
+        Fabric length of each catenary of the flat ply (m), shape (catenaries,).
+        """
+    @property
+    def material(self, /) -> Material:
+        """
+        What it is made of.
+        """
+    @property
+    def outline(self, /) -> NDArray[float64] | None:
+        """
+        Outline of a ply that is cut, fabric coordinates (m), shape (points, 2), counterclockwise; None of one that ends at its
+        grippers or a margin beyond them.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/13_cut_ply/scene.toml")
+            >>> scene.ply.outline.shape, len(scene.ply.holes), len(scene.ply.places)
+            ((5, 2), 1, 15)
+        """
+    @property
+    def places(self, /) -> NDArray[float64]:
+        """
+        Fabric coordinates u, v of each gripper (m), shape (grippers, 2), in the order of all arrays of grippers.
+        """
+    @property
+    def warp(self, /) -> str:
+        """
+        Grid direction of the warp: "u" or "v".
+        """
+
+@final
+class Result:
+    """
+    A drape: every force, shape, contact and measure of every step, and the verdict.
+
+    Arrays are in m, N, s unless the name says otherwise. Grippers are counted with i running fastest,
+    catenaries as in `Ply`. Steps count from 1, the start; −1 is the last.
+
+    Example:
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> result.positions.shape, result.summary["first_contact_step"]
+        ((30, 8, 3), 26)
+    """
+    def __repr__(self, /) -> str: ...
+    @property
+    def accepted(self, /) -> bool:
+        """
+        Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries; and in enough
+        cells of the sample, if there is one.
+        """
+    @property
+    def cell(self, /) -> tuple[float, float]:
+        """
+        Fabric length of a cell along u and v (m).
+        """
+    @property
+    def contact(self, /) -> NDArray[float64]:
+        """
+        Fabric length of each catenary that is in contact (m), shape (steps, catenaries).
+        """
+    def contact_lines(self, /, step: SupportsIndex) -> list[NDArray[float64]]:
+        """
+        The lines in which the ply touches the mold in a step (m), one for each catenary that does, arrays of
+        shape (n, 3).
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> result = plydrape.simulate(scene)
+            >>> len(result.contact_lines(1)), len(result.contact_lines(26))
+            (0, 3)
+        """
+    @property
+    def converged(self, /) -> bool:
+        """
+        Whether every equilibrium was found, by the model that decides.
+        """
+    def export(
+        self,
+        /,
         to: typing.Literal["vtk", "inp", "ros2", "csv", "svg", "pattern", "boundary"],
         folder: str | PathLike[str],
     ) -> list[Path]:

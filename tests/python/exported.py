@@ -70,7 +70,7 @@ class Result:
         with (self.folder / name).open(newline="") as file:
             rows = list(csv.reader(file))[1:]
         count = len(self.ids)
-        assert [row[1] for row in rows[:count]] == [f"{i}-{j}" for i, j in self.ids]
+        assert [row[1] for row in rows[:count]] == [f"g{i}_{j}" for i, j in self.ids]
         numbers = np.array([[float(row[0]), *map(float, row[2:9])] for row in rows])
         numbers = numbers.reshape(-1, count, 8)
         return numbers[:, 0, 0], numbers[:, :, 1:]
@@ -80,7 +80,8 @@ class Result:
         home = self.folder.parent / f"alone_{self.folder.name}_{kind}"
         home.mkdir()
         (home / "result.json").write_bytes((self.folder / "result.json").read_bytes())
-        run("export", str(home / "result.json"), "--to", kind, "-o", str(home / kind))
+        options = ["--to", kind, "-o", str(home / kind), "--even-if-rejected"]
+        run("export", str(home / "result.json"), *options)
         return home / kind
 
 

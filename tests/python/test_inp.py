@@ -173,14 +173,14 @@ def test_a_clamped_strip_bends_as_its_rigidity_says(strip: Drape, tmp_path: Path
         "*STEP",
         "*STATIC",
         "*BOUNDARY",
-        "GRIPPER_0_0, 1, 6",
+        "g0_0, 1, 6",
         "*DLOAD",
         f"PLY, GRAV, {GRAVITY}, 0, 0, -1",
-        "*NODE PRINT, NSET=GRIPPER_1_0",
+        "*NODE PRINT, NSET=g1_0",
         "U",
         "*END STEP",
     ]
-    tip = -ccx(model + "\n".join([*load, ""]), tmp_path)["GRIPPER_1_0 U"][:, 3]
+    tip = -ccx(model + "\n".join([*load, ""]), tmp_path)["G1_0 U"][:, 3]
     assert tip == pytest.approx(AREAL_MASS * GRAVITY * 0.1**4 / (8 * RIGIDITY), rel=0.01)
 
 
@@ -207,7 +207,7 @@ def test_tables_lead_the_grippers_through_every_step(
     }
     assert moves
     for k, first in enumerate(drape.result["steps"][0]["grippers"]):
-        gripper = "GRIPPER_{}_{}".format(*first["id"])
+        gripper = "G{}_{}".format(*first["id"])
         (node,) = drape.deck.node_set(gripper)
         for axis in range(3):
             due = [step["grippers"][k]["position"][axis] for step in drape.result["steps"]]

@@ -14,7 +14,7 @@ import record
 from exported import RADIUS, SCENE, Numbers, Result, made, pieces
 from scipy.spatial.transform import Rotation
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkCommand
+from vtkmodules.vtkCommonCore import vtkCommand, vtkStringArray
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 DIRECTIONS = {"u": 0, "v": 1, "rising": 2, "falling": 3}
@@ -43,10 +43,15 @@ def cells(array: Any) -> list[list[int]]:
 
 
 def named(data: Any) -> dict[str, Any]:
-    """Arrays by name, none of them with a number that is none."""
-    arrays = [data.GetArray(k) for k in range(data.GetNumberOfArrays())]
-    found = {array.GetName(): vtk_to_numpy(array) for array in arrays}
-    assert all(np.isfinite(values).all() for values in found.values())
+    """Arrays by name, none of them with a number that is none; lists of texts."""
+    found: dict[str, Any] = {}
+    for array in [data.GetAbstractArray(k) for k in range(data.GetNumberOfArrays())]:
+        if isinstance(array, vtkStringArray):
+            count = array.GetNumberOfValues()
+            found[array.GetName()] = [array.GetValue(k) for k in range(count)]
+            continue
+        found[array.GetName()] = values = vtk_to_numpy(array)
+        assert np.isfinite(values).all()
     return found
 
 
@@ -195,6 +200,7 @@ def test_grippers_are_those_of_the_result(drape: Exported) -> None:
         data = poly.at_points
         assert np.array_equal(poly.points, [g["position"] for g in grippers])
         assert np.array_equal(np.column_stack([data["i"], data["j"]]), [g["id"] for g in grippers])
+        assert data["name"] == ["g{}_{}".format(*g["id"]) for g in grippers]
         quaternions = [g["quaternion"] for g in grippers]
         assert np.array_equal(data["quaternion"], quaternions)
         assert data["tilt_deg"].tolist() == [g["tilt_deg"] for g in grippers]

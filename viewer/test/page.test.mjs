@@ -266,7 +266,7 @@ async function sheetShows(report, page) {
     if (!isGripper) assert.ok(Math.abs(number(found.split("\n")[1]) - 1e3 * heights[node]) < 2e-2, found);
     const pad = forces.findIndex((force) => Math.hypot(...force) === most);
     const text = await hoverOver(page, grippers[pad]);
-    assert.ok(text.startsWith(`gripper [${data.ids[pad].join(", ")}]`), text);
+    assert.ok(text.startsWith(`gripper g${data.ids[pad].join("_")}`), text);
     assert.ok(Math.abs(number(text.split("force ")[1]) / most - 1) < 1e-3, text);
   }
   await page.keyboard.press("i");
@@ -648,7 +648,7 @@ function parts(report) {
 
 async function fewerStepsAreSaid(report) {
   const [head, data, tail] = parts(report);
-  const reason = "edge [2,1]–[3,1] is stretched by 12 % in step 3: no ply survives that";
+  const reason = "edge g2_1–g3_1 is stretched by 12 % in step 3: no ply survives that";
   const cases = {
     stopped: [{ interrupted: false, stopped: reason }, `. Stopped: ${reason}`],
     interrupted: [{ interrupted: true, stopped: null }, ". Interrupted: fewer steps than planned"],
@@ -708,8 +708,8 @@ async function sampleIsShown(report) {
   const named = {
     height_mm: 0.46,
     uv_mm: [50, 25],
-    line: "gripper [0, 0] to gripper [2, 0]",
-    gripper: "gripper [1, 0]",
+    line: "gripper g0_0 to gripper g2_0",
+    gripper: "gripper g1_0",
     node,
   };
   const limits = page0.sheet.limits.slice(0, 2);

@@ -1,18 +1,24 @@
-//! `plydrape export`: files for other programs, from a result alone.
+//! `plydrape export`: files for other programs and for machines, from a result alone.
 
-use crate::failure::Done;
+use crate::argument::value;
+use crate::failure::{Done, Failure};
 use crate::results;
 use clap::ValueEnum;
-use plydrape_io::{export, read};
+use plydrape_io::program::{Robot, Template, Tolerance};
+use plydrape_io::scene::Measured;
+use plydrape_io::{export, input, read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Make files for other programs from a result.json.
+/// Make files for other programs and for machines from a result.json.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 The result must be as `plydrape simulate` or `plydrape plan` wrote it, by this version. Files of the \
 same name in the folder that plydrape did not write, or that were edited since, are never \
-overwritten; all others stay.")]
+overwritten; all others stay.
+
+csv, ros2, rapid, krl and urscript drive machines: of a result that is not accepted they are only \
+written with --even-if-rejected.")]
 pub struct Arguments {
     /// The result.json of an earlier run.
     result: PathBuf,
@@ -24,12 +30,25 @@ pub struct Arguments {
     /// Folder of the files; beside the result, with the format's name, unless given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
+
+    /// Write what drives a machine although the result is not accepted; the files say so in their heads.
+    #[arg(long)]
+    even_if_rejected: bool,
+
+    /// How far straight lines between the points of rapid, krl, urscript and ros2 may be from the motion; 0.1 mm unless given.
+    #[arg(long, value_name = "LENGTH")]
+    position_error: Option<String>,
+
+    /// A template of your own for rapid, krl or urscript, such as a changed copy of what `plydrape template` prints; its name ends
+    /// as in cell.mod.j2. May be given several times.
+    #[arg(long, value_name = "FILE")]
+    template: Vec<PathBuf>,
 }
 
 /// What a result is made into.
-#[derive(Debug, Clone, Copy, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// Tables: steps.csv, trajectory.csv, and motion.csv of a plan.
+    /// Tables: steps.csv, trajectory.csv, motion_wide.csv, and motion.csv of a plan.
     Csv,
     /// The figure: figure.svg.
     Svg,
@@ -39,8 +58,14 @@ enum Format {
     Pattern,
     /// The boundary of the ply at the end, for a laser projector: boundary.csv and boundary.dxf.
     Boundary,
-    /// ROS 2: trajectory.yaml, and trajectory.mcap, a bag with the ply's shape in it.
+    /// ROS 2: axes, flange and vacuum as YAML, and trajectory.mcap, a bag with frames and the ply's shape in it.
     Ros2,
+    /// ABB: a RAPID module.
+    Rapid,
+    /// KUKA: a KRL program, .src and .dat.
+    Krl,
+    /// Universal Robots: a URScript.
+    Urscript,
     /// ParaView: drape.pvd and its parts.
     Vtk,
 }
@@ -54,6 +79,9 @@ impl Format {
             Format::Pattern => export::Format::Pattern,
             Format::Boundary => export::Format::Boundary,
             Format::Ros2 => export::Format::Ros2,
+            Format::Rapid => export::Format::Robot(Robot::Rapid),
+            Format::Krl => export::Format::Robot(Robot::Krl),
+            Format::Urscript => export::Format::Robot(Robot::Urscript),
             Format::Vtk => export::Format::Vtk,
         }
     }
@@ -66,19 +94,61 @@ impl Format {
             Format::Pattern => "pattern",
             Format::Boundary => "boundary",
             Format::Ros2 => "ros2",
+            Format::Rapid => Robot::Rapid.name(),
+            Format::Krl => Robot::Krl.name(),
+            Format::Urscript => Robot::Urscript.name(),
             Format::Vtk => "vtk",
         }
     }
 }
 
+/// Range of the position error (m): below it doubles and controllers cannot tell, above it no motion is left.
+const POSITION_ERRORS: [f64; 2] = [1e-7, 1.0];
+/// Largest template that is read (bytes).
+const LARGEST_TEMPLATE: u64 = 1 << 20;
+
 /// Reads the result and writes the files.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
+    let options = options(arguments)?;
     let result = read::read(&arguments.result)?;
     let beside = || arguments.result.parent().unwrap_or(Path::new("")).join(arguments.to.folder());
     let folder = arguments.output.clone().unwrap_or_else(beside);
-    let files = export::write(&result, arguments.to.of(), &folder)?;
+    let files = export::write(&result, arguments.to.of(), &options, &folder)?;
     if !quiet {
         results::list(&files)?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn options(arguments: &Arguments) -> Result<export::Options, Failure> {
+    let is_robot = matches!(arguments.to.of(), export::Format::Robot(_));
+    if !is_robot && !arguments.template.is_empty() {
+        return Err(Failure::Argument {
+            message: format!("there are no templates for {}", arguments.to.folder()),
+            help: "rapid, krl and urscript are written by templates".into(),
+        });
+    }
+    if let (Some(text), false) =
+        (&arguments.position_error, is_robot || arguments.to == Format::Ros2)
+    {
+        let fault = format!("has no meaning for {}", arguments.to.folder());
+        let help = "it is for rapid, krl, urscript and ros2, whose points are thinned out";
+        return Err(crate::argument::refused("--position-error", text, &fault, help));
+    }
+    let mut tolerance = Tolerance::default();
+    if let Some(text) = &arguments.position_error {
+        let help = "give a length from 0.0001 mm to 1 m, as in --position-error \"0.1 mm\"";
+        tolerance.position =
+            value("--position-error", text, Measured::Length, POSITION_ERRORS, help)?;
+    }
+    let read = |path: &PathBuf| {
+        let text = input::text(path, LARGEST_TEMPLATE).map_err(|error| Failure::Argument {
+            message: format!("the template `{}` cannot be read: {error}", path.display()),
+            help: "`plydrape template rapid > cell.mod.j2` makes one that you can change".into(),
+        })?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Template { name, text })
+    };
+    let templates = arguments.template.iter().map(read).collect::<Result<_, Failure>>()?;
+    Ok(export::Options { even_if_rejected: arguments.even_if_rejected, tolerance, templates })
 }

@@ -22,6 +22,7 @@ mod sheet;
 mod simulate;
 mod span;
 mod study;
+mod template;
 mod watch;
 
 use clap::{Parser, Subcommand};
@@ -58,6 +59,7 @@ enum Command {
     Check(check::Arguments),
     Report(report::Arguments),
     Export(export::Arguments),
+    Template(template::Arguments),
     Span(span::Arguments),
     New(new::Arguments),
     Limits(limits::Arguments),
@@ -76,6 +78,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Report(arguments) => report::run(&arguments, quiet),
         Command::Export(arguments) => export::run(&arguments, quiet),
+        Command::Template(arguments) => template::run(&arguments),
         Command::Span(arguments) => span::run(&arguments),
         Command::New(arguments) => new::run(&arguments, quiet),
         Command::Limits(arguments) => limits::run(&arguments),

@@ -14,7 +14,7 @@ use ::csv::{Error, Writer};
 use plydrape::draping::record::Step;
 use plydrape::measure::{Name, Scope};
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
-use plydrape::ply::{GripperId, Ply};
+use plydrape::ply::{GripperId, Ply, gripper_name};
 use plydrape::sheet::event::holds;
 use plydrape::sheet::{Event, EventKind};
 
@@ -66,7 +66,7 @@ fn header_of(name: Name) -> String {
     format!("{} ({})", measure.label(), measure.unit().recorded)
 }
 
-/// One row a gripper and step: time (s), gripper `i-j`, where the robot holds it (m), orientation (x, y, z, w), the load
+/// One row a gripper and step: time (s), gripper `g2_0`, where the robot holds it (m), orientation (x, y, z, w), the load
 /// on it where that is known, and its vacuum where pads let go; a last one at the release where that is later.
 ///
 /// # Errors
@@ -199,11 +199,11 @@ impl<'a> Poses<'a> {
         poses: impl Iterator<Item = (GripperId, [f64; 3], [f64; 4])>,
     ) -> Result<(), Error> {
         let known = self.loads.and_then(|loads| loads.at(time));
-        for (n, ([i, j], position, quaternion)) in poses.enumerate() {
-            let mut row = vec![number(time), format!("{i}-{j}")];
+        for (n, (id, position, quaternion)) in poses.enumerate() {
+            let mut row = vec![number(time), gripper_name(id)];
             row.extend(position.map(number));
             row.extend(quaternion.map(number));
-            let on = self.vacuum.is_none_or(|events| holds(events, [i, j], time));
+            let on = self.vacuum.is_none_or(|events| holds(events, id, time));
             if let Some(loads) = self.loads {
                 let load = known.as_ref().map(|all| if on { &all[n] } else { &Load::NONE });
                 row.extend(load_row(load, loads.mounts.as_ref()));
@@ -267,7 +267,7 @@ mod tests {
         for step in &result.steps {
             for gripper in &step.grippers {
                 let row = rows.next().unwrap();
-                assert_eq!(row[1], format!("{}-{}", gripper.id[0], gripper.id[1]));
+                assert_eq!(row[1], gripper_name(gripper.id));
                 let written: Vec<f64> =
                     [0, 2, 3, 4, 5, 6, 7, 8].map(|k| row[k].parse().unwrap()).to_vec();
                 let mut expected = vec![step.time];
@@ -280,11 +280,11 @@ mod tests {
         assert!(rows.next().is_none());
     }
 
-    /// A place is words and may hold commas; an unknown measure is an empty cell.
+    /// A place is words and may hold commas, as "edge …, second span"; an unknown measure is an empty cell.
     #[test]
-    fn steps_hold_places_with_commas_and_empty_cells() {
+    fn steps_hold_places_as_they_are_and_empty_cells() {
         let mut result = sample::draped(4, 2, 3);
-        let at = "edge [0, 0]–[1, 0], second span";
+        let at = "edge g0_0–g1_0, second span";
         let worst = Worst { value: 1.25, at: at.into(), place: Some([0.0; 3]) };
         result.steps[0].measures.set(Name::Slack, Some(worst));
         result.steps[0].measures.set(Name::Bridging, None);

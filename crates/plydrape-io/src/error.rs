@@ -3,6 +3,7 @@
 use super::figure::FigureError;
 use super::inp::InpError;
 use super::json::JsonError;
+use super::program::ProgramError;
 use super::read::ReadError;
 use super::ros2::Ros2Error;
 use super::sheet::SheetError;
@@ -87,6 +88,9 @@ pub enum OutputError {
     /// The result has no ROS 2 messages.
     #[error(transparent)]
     Ros2(#[from] Ros2Error),
+    /// There is no program for a machine.
+    #[error(transparent)]
+    Program(#[from] ProgramError),
     /// The figure could not be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),

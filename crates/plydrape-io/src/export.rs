@@ -1,5 +1,9 @@
 //! Files for other programs, all made from a result alone.
+//!
+//! Some of them drive machines: robots and axes follow them as they are. Of a motion that is not accepted these are written
+//! only if the caller says so, see [`Options::even_if_rejected`].
 
+use super::program::{Program, ProgramError, Robot, Template, Tolerance, template, wide};
 use super::{OutputError, csv, figure, folder, inp, pattern, ros2, vtk};
 use crate::result::ResultFile;
 use std::path::{Path, PathBuf};
@@ -7,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// What a result is made into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Tables: `steps.csv`, `trajectory.csv`, for a plan `motion.csv`.
+    /// Tables: `steps.csv`, `trajectory.csv`, `motion_wide.csv`, for a plan `motion.csv`.
     Csv,
     /// The figure: `figure.svg`.
     Svg,
@@ -17,33 +21,68 @@ pub enum Format {
     Pattern,
     /// The boundary of the ply on the mold at the end, for a laser projector: `boundary.csv` and `boundary.dxf`.
     Boundary,
-    /// ROS 2: the trajectory as YAML, and a bag of it with the ply's markers.
+    /// ROS 2: the motion of axes, flange and vacuum as YAML, and a bag of it with the ply's markers.
     Ros2,
+    /// A program for the controller of a robot.
+    Robot(Robot),
     /// VTK: series of ply, catenaries and grippers, and the mold.
     Vtk,
+}
+
+impl Format {
+    /// Whether a machine follows its files as they are.
+    #[must_use]
+    pub fn drives(self) -> bool {
+        match self {
+            Format::Csv | Format::Ros2 | Format::Robot(_) => true,
+            Format::Svg | Format::Inp | Format::Pattern | Format::Boundary | Format::Vtk => false,
+        }
+    }
+}
+
+/// How files are made.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Options {
+    /// Write what drives a machine also of a motion that is not accepted. Such files say so in their heads.
+    pub even_if_rejected: bool,
+    /// How far what a controller interpolates may be from the motion.
+    pub tolerance: Tolerance,
+    /// Templates of the user's own, in place of shipped ones; for robots alone.
+    pub templates: Vec<Template>,
 }
 
 /// Files by plain name, with their contents.
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// The files of a format. Same result, same bytes.
+/// The files of a format. Same result, same options, same bytes.
 ///
 /// # Errors
-/// [`OutputError`] if the result cannot be shown in the format.
-pub fn files(result: &ResultFile, format: Format) -> Result<Files, OutputError> {
+/// [`OutputError`] if the result cannot be shown in the format, or is not accepted and the format drives a machine.
+pub fn files(result: &ResultFile, format: Format, options: &Options) -> Result<Files, OutputError> {
+    if format.drives() && !result.summary.accepted && !options.even_if_rejected {
+        let verdict = Program::verdict(result);
+        return Err(ProgramError::Rejected { verdict }.into());
+    }
     let text = |name: &str, text: String| (name.to_owned(), text.into_bytes());
     Ok(match format {
         Format::Csv => {
+            let program = Program::of(result)?;
             let mut files = vec![
                 text("steps.csv", csv::steps(result)?),
                 text("trajectory.csv", csv::trajectory(result)?),
             ];
-            files.extend(csv::planned_motion(result)?.map(|motion| text("motion.csv", motion)));
+            let motion = csv::planned_motion(result)?;
+            files.extend(motion.map(|motion| text("motion.csv", wide::head(&program) + &motion)));
+            files.push(text(wide::FILE, wide::text(&program)?));
             files
         }
         Format::Pattern => pattern::result::flat(result),
         Format::Boundary => pattern::result::boundary(result)?,
-        Format::Ros2 => ros2::files(result)?,
+        Format::Ros2 => ros2::files(result, &options.tolerance)?,
+        Format::Robot(robot) => {
+            let program = Program::of(result)?;
+            template::files(&program, robot, &options.templates, &options.tolerance)?
+        }
         Format::Vtk => vtk::files(result)?,
         Format::Inp => vec![text("ply.inp", inp::text(result)?)],
         Format::Svg => {
@@ -56,9 +95,14 @@ pub fn files(result: &ResultFile, format: Format) -> Result<Files, OutputError> 
 /// of the same names only make way if plydrape wrote them and nobody has changed them since.
 ///
 /// # Errors
-/// [`OutputError`], as for [`super::write_all`].
-pub fn write(result: &ResultFile, format: Format, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
-    let files = files(result, format)?;
+/// [`OutputError`], as for [`files`] and [`super::write_all`].
+pub fn write(
+    result: &ResultFile,
+    format: Format,
+    options: &Options,
+    dir: &Path,
+) -> Result<Vec<PathBuf>, OutputError> {
+    let files = files(result, format, options)?;
     let files: Vec<(&str, &[u8])> =
         files.iter().map(|(name, content)| (name.as_str(), content.as_slice())).collect();
     folder::add(dir, "export", &files)

@@ -71,7 +71,7 @@ fn step(grid: Grid, step: usize, time: f64, at: &[[f64; 3]], mold: Option<f64>) 
         .map(|k| catenary(graph.catenary(k), lengths[k], &shapes[k], mold))
         .collect();
     let grippers = (0..at.len()).map(|k| gripper(grid, k, at)).collect();
-    let worst = |value| Worst { value, at: "edge [0, 0]–[1, 0]".into(), place: Some(at[0]) };
+    let worst = |value| Worst { value, at: "edge g0_0–g1_0".into(), place: Some(at[0]) };
     Step {
         step,
         time,
@@ -324,7 +324,7 @@ fn frame(grid: Grid) -> ResultFile {
                 unit: "°".into(),
                 ok: true,
                 step: Some(1),
-                at: "gripper [0, 0]".into(),
+                at: "gripper g0_0".into(),
                 place: None,
             }],
             equilibria: 30,
@@ -399,7 +399,7 @@ pub(super) fn sample_verdict() -> SampleVerdict {
         height_mm: Some(height),
         ratio: 2.0 * height,
     };
-    let [from, to] = ["gripper [0,1]", "gripper [3,1]"];
+    let [from, to] = ["gripper g0_1", "gripper g3_1"];
     SampleVerdict {
         errors: Errors { samples: 4, share: 0.75, ..errors() },
         needed: 3,

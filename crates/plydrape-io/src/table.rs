@@ -336,7 +336,7 @@ mod tests {
     }
 
     fn limit(name: Name, value: f64, limit: f64, ok: bool) -> Verdict {
-        let (unit, at) = ("mm".into(), "gripper [0,0]".into());
+        let (unit, at) = ("mm".into(), "gripper g0_0".into());
         Verdict { name, value, limit, unit, ok, step: Some(30), at, place: None }
     }
 
@@ -375,7 +375,7 @@ mod tests {
             limit(Name::ContactShare, 10.0, 90.0, false),
         ];
         let text = verdict(&result);
-        let worst = "not accepted: contact share 10 mm against 90 mm in step 30, gripper [0,0]\n";
+        let worst = "not accepted: contact share 10 mm against 90 mm in step 30, gripper g0_0\n";
         assert!(text.ends_with(worst), "{text}");
         assert!(widest(&text) <= 100);
         result.summary.limits.truncate(1);
@@ -394,10 +394,10 @@ mod tests {
         ];
         assert_eq!(closest(&limits).map(|v| v.name), Some(Name::Tilt));
         assert_eq!(limiting(&limits).map(|v| v.name), Some(Name::SlackRatio));
-        assert_eq!(verdict_text(&limits[1]), "tilt 38 mm against 40 mm in step 30, gripper [0,0]");
+        assert_eq!(verdict_text(&limits[1]), "tilt 38 mm against 40 mm in step 30, gripper g0_0");
         assert_eq!(
             infeasible_limits(&limits[3..]),
-            "no plan can keep these limits:\n  slack ratio 0.05 mm against 0.05 mm in step 30, gripper [0,0]\n"
+            "no plan can keep these limits:\n  slack ratio 0.05 mm against 0.05 mm in step 30, gripper g0_0\n"
         );
         assert_eq!(infeasible_limits(&[]), "");
     }

@@ -15,6 +15,7 @@ use plydrape::errors::Term;
 use plydrape::measure::{Name, Scope};
 use plydrape::ply::Grid;
 use plydrape_io::mold_patch::mold_patch;
+use plydrape_io::program::{Robot, Template, Tolerance};
 use plydrape_io::{ResultFile, export, figure, folder, page, read, surface};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
@@ -421,11 +422,15 @@ impl Result {
             .map_err(|fault| error::output(&fault))
     }
 
-    /// Writes files for another program into a folder, all or none, and returns their paths.
+    /// Writes files for another program or a machine into a folder, all or none, and returns their paths.
     ///
     /// Args:
-    ///     to: "vtk", "inp", "ros2", "csv" or "svg".
+    ///     to: "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
     ///     folder: Where they go; other files there stay.
+    ///     even_if_rejected: Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
+    ///         result is not accepted; the files say so in their heads.
+    ///     position_error: How far straight lines between points may be from the motion (m); 0.1 mm unless given.
+    ///     templates: Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
     ///
     /// Raises:
     ///     OutputError: If that cannot be done.
@@ -437,25 +442,51 @@ impl Result {
     ///     >>> result = plydrape.simulate(scene)
     ///     >>> with tempfile.TemporaryDirectory() as folder:
     ///     ...     sorted(path.name for path in result.export("csv", folder))
-    ///     ['steps.csv', 'trajectory.csv']
-    #[pyo3(signature = (to: "typing.Literal['vtk', 'inp', 'ros2', 'csv', 'svg', 'pattern', 'boundary']", folder))]
-    fn export(&self, py: Python<'_>, to: &str, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
+    ///     ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
+    #[pyo3(signature = (
+        to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'csv', 'svg', 'pattern', 'boundary']",
+        folder, *, even_if_rejected = false, position_error = None, templates = Vec::new()
+    ))]
+    fn export(
+        &self,
+        py: Python<'_>,
+        to: &str,
+        folder: PathBuf,
+        even_if_rejected: bool,
+        position_error: Option<f64>,
+        templates: Vec<PathBuf>,
+    ) -> PyResult<Vec<PathBuf>> {
         let format = match to {
             "vtk" => export::Format::Vtk,
             "inp" => export::Format::Inp,
             "ros2" => export::Format::Ros2,
+            "rapid" => export::Format::Robot(Robot::Rapid),
+            "krl" => export::Format::Robot(Robot::Krl),
+            "urscript" => export::Format::Robot(Robot::Urscript),
             "csv" => export::Format::Csv,
             "svg" => export::Format::Svg,
             "pattern" => export::Format::Pattern,
             "boundary" => export::Format::Boundary,
             other => {
                 let text = format!(
-                    "there is no export to {other:?}: vtk, inp, ros2, csv, svg, pattern and boundary are possible"
+                    "there is no export to {other:?}: vtk, inp, ros2, rapid, krl, urscript, csv, svg, pattern and boundary are possible"
                 );
                 return Err(PyValueError::new_err(text));
             }
         };
-        py.detach(|| export::write(&self.0, format, &folder)).map_err(|fault| error::output(&fault))
+        let default = Tolerance::default();
+        let position = position_error.unwrap_or(default.position);
+        let read = |path: &PathBuf| -> PyResult<Template> {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            Ok(Template { name, text: std::fs::read_to_string(path)? })
+        };
+        let options = export::Options {
+            even_if_rejected,
+            tolerance: Tolerance { position, ..default },
+            templates: templates.iter().map(read).collect::<PyResult<_>>()?,
+        };
+        py.detach(|| export::write(&self.0, format, &options, &folder))
+            .map_err(|fault| error::output(&fault))
     }
 
     /// The page of `plydrape report`: one HTML file for any browser.

@@ -198,12 +198,13 @@ def pattern(text: str) -> str:
     """An error's text without its numbers, so that the same trouble counts as one.
 
     Example:
-        >>> pattern("grippers [0, 1] are 100.2 mm apart")
-        'grippers [·, ·] are · mm apart'
+        >>> pattern("grippers g0_0 and g1_0 are 100.2 mm apart")
+        'grippers g·_· and g·_· are · mm apart'
 
     """
     import re
 
+    text = re.sub(r"\bg\d+_\d+\b", "g·_·", text)
     return re.sub(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.]*\d)", "·", text)
 
 

@@ -57,7 +57,7 @@ def test_a_sample_is_the_drapes_of_its_cells(tmp_path: Path) -> None:
     on_mold = third > 1e-3
     np.testing.assert_allclose(sample.spread_mm[on_mold], third[on_mold], rtol=1e-3)
     highest = sample.highest
-    assert highest is not None and highest["gripper"].startswith("gripper [")
+    assert highest is not None and highest["gripper"].startswith("gripper g")
     np.testing.assert_allclose(highest["height_mm"], sample.spread_mm.max(), rtol=1e-3)
 
     result.write(tmp_path)

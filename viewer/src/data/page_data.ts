@@ -6,6 +6,8 @@
  */
 
 export type Place = [number, number, number];
+/** Column and row of a gripper. */
+export type GripperId = [number, number];
 export type FieldKey =
   "height" | "gap" | "shear" | "direction" | "over_mold" | "spread" | "strain" | "landing";
 /** The two models of the ply. */
@@ -170,7 +172,7 @@ export interface PageData {
   /** Grippers along u and v; zeros where catenaries make no surface. */
   grid: [number, number];
   /** Column and row of each gripper. */
-  ids: [number, number][];
+  ids: GripperId[];
   divisions: number;
   limits: Limit[];
   /** What published data say of such angles, for information, and what they are not. */
@@ -318,4 +320,9 @@ function checkSheet(data: PageData, sheet: SheetData): void {
 /** What colours can tell of a model. */
 export function fieldsOf(data: PageData, model: Model): Field[] {
   return model === "sheet" && data.sheet !== null ? data.sheet.fields : data.fields;
+}
+
+/** The name of a gripper, as in all files: `g2_0`. */
+export function gripperName([i, j]: GripperId): string {
+  return `g${String(i)}_${String(j)}`;
 }

@@ -2,7 +2,7 @@
 
 import type { Motion } from "../data/motion";
 import { short, withUnit } from "../data/number";
-import type { Place } from "../data/page_data";
+import { gripperName, type Place } from "../data/page_data";
 import type { Scene3d } from "../scene/scene3d";
 import type { Found } from "../scene/sheet_picture";
 import { byId, make } from "./dom";
@@ -79,7 +79,7 @@ function ofNode(motion: Motion, state: number, { number }: Found): string[] {
 }
 
 function ofGripper(motion: Motion, state: number, { number }: Found): string[] {
-  const [i, j] = motion.data.ids[number]!;
+  const id = motion.data.ids[number]!;
   const sheet = motion.sheet!;
   const force = sheet.force(state, number);
   const [along, across] = sheet.loads(state, number);
@@ -89,7 +89,7 @@ function ofGripper(motion: Motion, state: number, { number }: Found): string[] {
   const normals = sheet.normals.at(state);
   const up = across.reduce((sum, f, c) => sum + f * normals[3 * number + c]!, 0);
   return [
-    `gripper [${String(i)}, ${String(j)}]`,
+    `gripper ${gripperName(id)}`,
     `force ${newtons(force)}${of(allowed.whole)}`,
     `${newtons(along)} along the ply${of(allowed.along)}`,
     up > 0

@@ -4,6 +4,7 @@ use super::way::longest;
 use crate::numbers::{millimetres, short};
 use plydrape::material::Section;
 use plydrape::mold::Mold;
+use plydrape::ply::gripper_name;
 use plydrape::scene::Scene;
 
 /// Straight way of a gripper, in diagonals of the ply, beyond which a place must be a slip: even a table on the other
@@ -26,13 +27,14 @@ fn far(scene: &Scene) -> Option<String> {
     let [low, high] = ply.bounds(0.0);
     let sides = [0, 1].map(|n| high[n] - low[n]);
     let diagonal = sides[0].hypot(sides[1]);
-    let ([i, j], way) = longest(scene).filter(|(_, way)| *way > FAR * diagonal)?;
+    let (gripper, way) = longest(scene).filter(|(_, way)| *way > FAR * diagonal)?;
     let (to, keys) = match scene.target {
         Some(_) => ("its target", "[grippers], [target] and [mold]"),
         None => ("where its motion ends", "the motion's file"),
     };
     Some(format!(
-        "gripper [{i}, {j}] starts {} m from {to}, {:.0} times the diagonal of the ply; see whether the units and origins in {keys} are right",
+        "gripper {} starts {} m from {to}, {:.0} times the diagonal of the ply; see whether the units and origins in {keys} are right",
+        gripper_name(gripper),
         short(rounded(way)),
         way / diagonal
     ))
@@ -93,10 +95,7 @@ fn below(scene: &Scene) -> Vec<String> {
         return Vec::new();
     };
     let mut out = Vec::new();
-    let name = |gripper: usize| {
-        let [i, j] = scene.ply.id(gripper);
-        format!("gripper [{i}, {j}]")
-    };
+    let name = |gripper: usize| format!("gripper {}", gripper_name(scene.ply.id(gripper)));
     let mm = |depth: f64| millimetres(rounded(depth));
     let mut allowed = scene.limits.penetration;
     let target = scene.target.as_ref().and_then(|target| deepest(mold, &target.grippers));

@@ -2,7 +2,7 @@
 
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};
-use plydrape::ply::GripperId;
+use plydrape::ply::{GripperId, gripper_name};
 use plydrape::scene::Scene;
 use std::fmt::Write as _;
 
@@ -14,10 +14,13 @@ pub(super) fn way(scene: &Scene) -> Vec<Line> {
         lines.push(("", place(&target.grippers)));
     }
     if let Some((gripper, way)) = longest(scene) {
-        let [i, j] = gripper;
         lines.push((
             "way",
-            format!("{} mm in a straight line at most, of gripper [{i}, {j}]", millimetres(way)),
+            format!(
+                "{} mm in a straight line at most, of gripper {}",
+                millimetres(way),
+                gripper_name(gripper)
+            ),
         ));
     }
     lines

@@ -52,7 +52,7 @@ fn in_unit(unit: &str) -> String {
     SCENE.replace("LL", unit)
 }
 
-/// The start as the keys say, the target as the fabric is; of all ways that of gripper [0, 1] is the longest, from
+/// The start as the keys say, the target as the fabric is; of all ways that of gripper g0_1 is the longest, from
 /// (10, 78, 75) to (0, 100, 0) mm.
 #[test]
 fn start_and_target_are_shown_in_x_y_z_with_the_longest_way() {
@@ -66,7 +66,7 @@ fn start_and_target_are_shown_in_x_y_z_with_the_longest_way() {
         assert!(shown.contains(line), "{shown}");
     }
     let way = (10f64 * 10.0 + 22.0 * 22.0 + 75.0 * 75.0).sqrt();
-    let line = format!("way {way:.4} mm in a straight line at most, of gripper [0, 1]");
+    let line = format!("way {way:.4} mm in a straight line at most, of gripper g0_1");
     assert!(shown.contains(&line), "{line}\n{shown}");
 }
 
@@ -90,7 +90,7 @@ fn a_start_many_plies_off_is_warned_of_at_any_scale() {
         let near = warnings(&at(19.0));
         assert!(near.is_empty(), "{unit}: {near:?}");
         let far = warning(&at(21.0));
-        assert!(far.contains("gripper [3, 1] starts") && far.contains("21 times"), "{far}");
+        assert!(far.contains("gripper g3_1 starts") && far.contains("21 times"), "{far}");
     }
     let kilometres = warning(&in_unit("mm").replace("\"10 mm\"", "5000"));
     assert!(kilometres.contains("5000 m from its target"), "{kilometres}");

@@ -35,13 +35,14 @@ fn every_format_is_made_from_the_result_alone() {
     let result = result(home.path(), "01_flat_sheared_mold");
     let asked = home.path().join("asked");
     for format in ["csv", "inp", "ros2", "svg", "vtk"] {
-        let output = plydrape(&["export", "--to", format], &result);
+        let output = plydrape(&["export", "--to", format, "--even-if-rejected"], &result);
         succeeds(&output);
         let beside = result.with_file_name(format);
         let names = files(&beside);
         assert!(!names.is_empty() && text(&output.stdout).matches("wrote ").count() == names.len());
         let folder = asked.to_str().unwrap();
-        succeeds(&plydrape(&["export", "--to", format, "-o", folder], &result));
+        let again = ["export", "--to", format, "-o", folder, "--even-if-rejected"];
+        succeeds(&plydrape(&again, &result));
         for name in names {
             let [one, two] = [&beside, &asked].map(|dir| std::fs::read(dir.join(&name)).unwrap());
             assert!(one == two && !one.is_empty(), "{name}");
@@ -56,7 +57,8 @@ fn every_format_is_made_from_the_result_alone() {
 fn exports_are_what_the_simulation_wrote() {
     let home = tempfile::tempdir().unwrap();
     let result = result(home.path(), "05_cylinder");
-    for arguments in [&["export", "--to", "csv"][..], &["export", "--to", "svg"], &["report"]] {
+    let csv = &["export", "--to", "csv", "--even-if-rejected"][..];
+    for arguments in [csv, &["export", "--to", "svg"], &["report"]] {
         succeeds(&plydrape(arguments, &result));
     }
     for (dir, name) in [
@@ -117,9 +119,71 @@ fn a_file_in_the_way_keeps_all_others_away() {
     let folder = result.with_file_name("csv");
     std::fs::create_dir(&folder).unwrap();
     std::fs::write(folder.join("trajectory.csv"), "mine").unwrap();
-    let output = plydrape(&["export", "--to", "csv"], &result);
+    let output = plydrape(&["export", "--to", "csv", "--even-if-rejected"], &result);
     assert_eq!(output.status.code(), Some(2));
     assert!(one_line(&output.stderr).contains("trajectory.csv was not written by plydrape"));
     assert_eq!(files(&folder), ["trajectory.csv"]);
     assert_eq!(std::fs::read_to_string(folder.join("trajectory.csv")).unwrap(), "mine");
+}
+
+/// What drives a machine along a motion that is not accepted is refused with 2, the verdict and what to do; with the option
+/// it says so in its head. Pictures and models are written without it.
+#[test]
+fn a_rejected_motion_drives_no_machine_unless_asked() {
+    let home = tempfile::tempdir().unwrap();
+    let result = result(home.path(), "01_flat_sheared_mold");
+    for format in ["csv", "ros2", "rapid", "krl", "urscript"] {
+        let output = plydrape(&["export", "--to", format], &result);
+        let message = one_line(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{format}: {message}");
+        assert!(message.contains("slack ratio 1.352 %"), "{format}: {message}");
+        assert!(message.contains("--even-if-rejected"), "{format}: {message}");
+        assert!(!result.with_file_name(format).exists());
+    }
+    for format in ["inp", "svg", "vtk", "pattern"] {
+        succeeds(&plydrape(&["export", "--to", format], &result));
+    }
+    for (format, name) in [("csv", "motion_wide.csv"), ("ros2", "trajectory.yaml")] {
+        succeeds(&plydrape(&["export", "--to", format, "--even-if-rejected"], &result));
+        let text = std::fs::read_to_string(result.with_file_name(format).join(name)).unwrap();
+        let head = text.lines().next().unwrap();
+        assert!(head.starts_with("# NOT ACCEPTED: "), "{head}");
+        assert!(head.contains("slack ratio 1.352 % against 0.05 %"), "{head}");
+    }
+}
+
+/// A program for one arm needs an arm; options that mean nothing for a format, templates that cannot be read and errors that
+/// cannot be kept are refused.
+#[test]
+fn options_of_programs_are_refused_where_they_mean_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let result = result(home.path(), "01_flat_sheared_mold");
+    for (arguments, what) in [
+        (&["--to", "rapid", "--even-if-rejected"][..], "say in [tool] how the array is carried"),
+        (&["--to", "csv", "--position-error", "1 mm"], "has no meaning for csv"),
+        (&["--to", "krl", "--position-error", "0 mm"], "is zero"),
+        (&["--to", "krl", "--position-error", "1 kg"], "is a mass"),
+        (&["--to", "vtk", "--template", "x.mod.j2"], "there are no templates for vtk"),
+        (&["--to", "rapid", "--template", "none.mod.j2"], "`none.mod.j2` cannot be read"),
+    ] {
+        let output = plydrape(&[&["export"], arguments].concat(), &result);
+        let message = one_line(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+        assert!(message.contains(what), "{arguments:?}: {message}");
+    }
+}
+
+/// The shipped templates are printed as they are.
+#[test]
+fn templates_are_printed_for_copying() {
+    for (name, begin) in [
+        ("rapid", "{#- ABB RAPID"),
+        ("krl-src", "{#- KUKA KRL, the program"),
+        ("krl-dat", "{#- KUKA KRL, the data"),
+        ("urscript", "{#- Universal Robots URScript"),
+    ] {
+        let output = command().args(["template", name]).output().unwrap();
+        succeeds(&output);
+        assert!(text(&output.stdout).starts_with(begin), "{name}");
+    }
 }

@@ -123,7 +123,7 @@ fn what_no_plan_can_keep_is_said_first_and_the_plan_is_written_all_the_same() {
     assert_eq!(output.status.code(), Some(1));
     let shown = text(&output.stdout);
     let first =
-        "no plan can keep these limits:\n  workspace 15 mm against 0 mm in step 1, gripper [0,0]";
+        "no plan can keep these limits:\n  workspace 15 mm against 0 mm in step 1, gripper g0_0";
     let place = shown.find(first).unwrap_or_else(|| panic!("{shown}"));
     assert!(place < shown.find("\nstep ").unwrap(), "{shown}");
     assert!(shown.contains("\nnot accepted: workspace 15 mm"), "{shown}");
@@ -133,9 +133,9 @@ fn what_no_plan_can_keep_is_said_first_and_the_plan_is_written_all_the_same() {
     assert_eq!(printed["accepted"], false);
     let limits = printed["limits"].as_array().unwrap();
     // what was known before stands first; the drape finds it too
-    assert_eq!(limits[0]["where"], "gripper [0,0] at the start", "{limits:?}");
+    assert_eq!(limits[0]["where"], "gripper g0_0 at the start", "{limits:?}");
     let found: Vec<&Value> = limits.iter().filter(|limit| limit["name"] == "workspace").collect();
-    assert!(found.len() == 2 && found[1]["where"] == "gripper [0,0]", "{limits:?}");
+    assert!(found.len() == 2 && found[1]["where"] == "gripper g0_0", "{limits:?}");
 }
 
 /// Limits that no plan can keep, from plane geometry: which, by how much and where, before anything is searched;
@@ -150,8 +150,8 @@ fn impossible_limits_are_named_with_amount_and_place_and_exit_with_one() {
     let workspace = "\n[limits]\nworkspace = [[-1, \"300 mm\"], [-1, 1], [-1, 1]]\n";
     for (text, message, place) in [
         (sheared + shear, "shear 20° against 15°", "net cell ["),
-        (far + workspace, "workspace 300 mm against 0 mm", "] at the target"),
-        (slow, "move limit 75.", "gripper [1,1] in 11 moves"),
+        (far + workspace, "workspace 300 mm against 0 mm", "gripper g1_1 at the target"),
+        (slow, "move limit 75.", "gripper g1_1 in 11 moves"),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let output = plan(&scene(folder.path(), &text), &[]);

@@ -119,9 +119,10 @@ fn a_result_with_a_sheet_is_reported_and_exported() {
     let out = home.path().join("out");
     run("simulate", &scene(home.path(), ""), &out, &["--quiet"]);
     let file = out.join("result.json");
-    for (arguments, made) in
-        [(vec!["report"], "report.html"), (vec!["export", "--to", "csv"], "steps.csv")]
-    {
+    for (arguments, made) in [
+        (vec!["report"], "report.html"),
+        (vec!["export", "--to", "csv", "--even-if-rejected"], "steps.csv"),
+    ] {
         let place = home.path().join(arguments[0]);
         let output = command().args(&arguments).arg(&file).arg("-o").arg(&place).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));

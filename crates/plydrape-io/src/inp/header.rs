@@ -62,7 +62,7 @@ pub(super) fn write(
     paragraph(
         deck,
         &format!(
-            "Grippers: sets GRIPPER_i_j, {held} each, moved by tables, free to turn. Step HANG ({HANG} s): gravity grows for {LOAD} s, then they go from the flat ply to step 1 of the result; step LAY follows the result's steps in its own time, {HANG} s later."
+            "Grippers: sets g2_0 and so on, {held} each, moved by tables, free to turn. Step HANG ({HANG} s): gravity grows for {LOAD} s, then they go from the flat ply to step 1 of the result; step LAY follows the result's steps in its own time, {HANG} s later."
         ),
     );
     match mold {

@@ -11,7 +11,7 @@ use super::mesh::Mesh;
 use super::pose::Pose;
 use super::text::{Deck, number};
 use crate::result::ResultFile;
-use plydrape::ply::GripperId;
+use plydrape::ply::{GripperId, gripper_name};
 
 /// Time in which the ply comes to hang (s).
 pub(super) const HANG: f64 = 1.0;
@@ -73,7 +73,7 @@ impl Tracks {
         let mut all = Vec::new();
         for track in &self.tracks {
             let nodes = mesh.gripper(track.id);
-            deck.node_set(&name(track.id), &nodes);
+            deck.node_set(&gripper_name(track.id), &nodes);
             all.extend(nodes);
         }
         deck.node_set("GRIPPERS", &all);
@@ -101,7 +101,7 @@ impl Tracks {
     pub fn boundary(&self, deck: &mut Deck) {
         for track in &self.tracks {
             for c in 0..3 {
-                let (set, dof) = (name(track.id), c + 1);
+                let (set, dof) = (gripper_name(track.id), c + 1);
                 if track.goes(c) {
                     deck.line(&format!("*BOUNDARY, AMPLITUDE={}", table(track.id, c)));
                     deck.line(&format!("{set}, {dof}, {dof}, 1.0"));
@@ -126,12 +126,8 @@ pub(super) fn fabric([i, j]: GripperId, [a, b]: [f64; 2]) -> [f64; 2] {
     [i as f64 * a, j as f64 * b]
 }
 
-fn name([i, j]: GripperId) -> String {
-    format!("GRIPPER_{i}_{j}")
-}
-
-fn table([i, j]: GripperId, c: usize) -> String {
-    format!("MOVE_{i}_{j}_{}", ["X", "Y", "Z"][c])
+fn table(id: GripperId, c: usize) -> String {
+    format!("{}_{}", gripper_name(id), ["x", "y", "z"][c])
 }
 
 #[cfg(test)]

@@ -83,8 +83,8 @@ mod tests {
         let highest = errors::Highest {
             height_mm: 0.4,
             uv_mm: [290.0, 12.0],
-            line: "gripper [3, 0] to gripper [3, 1]".into(),
-            gripper: "gripper [3, 0]".into(),
+            line: "gripper g3_0 to gripper g3_1".into(),
+            gripper: "gripper g3_0".into(),
         };
         result.summary.sample = Some(SampleVerdict {
             errors: Errors { share: 0.75, samples: 4, ..Errors::default() },

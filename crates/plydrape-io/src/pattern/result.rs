@@ -4,7 +4,7 @@ use super::{Gripper, Line, Pattern, boundary, dxf, pdf};
 use crate::OutputError;
 use crate::export::Files;
 use crate::result::ResultFile;
-use plydrape::ply::{Direction, Outline};
+use plydrape::ply::{Direction, Outline, gripper_name};
 use plydrape::sheet::Fabric;
 
 /// The ply in the flat: `pattern.dxf` and `pattern.pdf`, in the coordinates of its drawing. A ply that is not cut has those of
@@ -16,13 +16,10 @@ pub fn flat(result: &ResultFile) -> Files {
     let outline = outline(result);
     let drawn = |uv| ply.cut.as_ref().map_or(uv, |cut| cut.drawn(uv));
     let across = if ply.warp == Direction::V { std::f64::consts::FRAC_PI_2 } else { 0.0 };
-    let gripper = |n: usize| {
-        let [i, j] = ply.id(n);
-        Gripper {
-            name: format!("g{i}_{j}"),
-            place: drawn(ply.place(n)),
-            radius: scene.settings.pad.radius,
-        }
+    let gripper = |n: usize| Gripper {
+        name: gripper_name(ply.id(n)),
+        place: drawn(ply.place(n)),
+        radius: scene.settings.pad.radius,
     };
     let grippers: Vec<Gripper> = (0..ply.grippers()).map(gripper).collect();
     let pattern = Pattern {

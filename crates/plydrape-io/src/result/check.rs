@@ -6,7 +6,7 @@ use crate::shown;
 use plydrape::clearance::{Bodies, Shape};
 use plydrape::draping::record::CatenaryState;
 use plydrape::material::{Section, TensionLaw};
-use plydrape::ply::{FARTHEST, Grid, GripperId, Ply, is_near};
+use plydrape::ply::{FARTHEST, Grid, GripperId, Ply, gripper_name, is_near};
 use plydrape::scene::{Friction, Settings};
 
 /// What is impossible in a result, in words: a file whose check sum was made anew may hold anything, and everything made of
@@ -147,7 +147,7 @@ fn of_cut(ply: &Ply) -> Option<String> {
         return Some("its grippers are both an array along the yarns and none".into());
     }
     let off = cut.held.iter().find(|held| !held.place.iter().all(|x| x.abs() <= FARTHEST));
-    off.map(|held| format!("gripper {:?} holds no point of the ply", held.id))
+    off.map(|held| format!("gripper {} holds no point of the ply", gripper_name(held.id)))
 }
 
 fn of_net(scene: &SceneEcho) -> Option<String> {
@@ -187,8 +187,8 @@ fn of_steps(result: &ResultFile) -> Option<String> {
             let length = gripper.quaternion.iter().map(|q| q * q).sum::<f64>().sqrt();
             if (length - 1.0).abs() > 1e-3 {
                 return Some(format!(
-                    "the quaternion of gripper {:?} has the length {length}",
-                    gripper.id
+                    "the quaternion of gripper {} has the length {length}",
+                    gripper_name(gripper.id)
                 ));
             }
             let mount = gripper.mount.and_then(|mount| far("a mount", &mount.commanded));
@@ -200,7 +200,8 @@ fn of_steps(result: &ResultFile) -> Option<String> {
 }
 
 fn of_catenary(line: &CatenaryState) -> Option<String> {
-    let named = |what: String| Some(format!("catenary {:?}–{:?} has {what}", line.from, line.to));
+    let ends = [line.from, line.to].map(gripper_name).join("–");
+    let named = |what: String| Some(format!("catenary {ends} has {what}"));
     if line.length <= 0.0 {
         return named(format!("the length {}", line.length));
     }
@@ -237,7 +238,8 @@ fn of_summary(result: &ResultFile) -> Option<String> {
     let known = |id: GripperId| ply.index(id).is_some();
     let unknown =
         summary.first_contact.iter().find(|line| !(known(line.from) && known(line.to)))?;
-    Some(format!("its summary names a catenary from {:?} to {:?}", unknown.from, unknown.to))
+    let ends = [unknown.from, unknown.to].map(gripper_name).join("–");
+    Some(format!("its summary names a catenary {ends}"))
 }
 
 /// What is impossible in the outcome of the sheet.

@@ -17,6 +17,8 @@ pub(super) const VOLATILE: u8 = 2;
 pub(super) struct Bag {
     writer: Writer<Cursor<Vec<u8>>>,
     channels: BTreeMap<&'static str, Channel>,
+    /// The messages, until all of them can be written in the order of time.
+    messages: Vec<(MessageHeader, Vec<u8>)>,
 }
 
 struct Channel {
@@ -29,7 +31,7 @@ impl Bag {
     pub fn new() -> Result<Self, Ros2Error> {
         let options = WriteOptions::new().profile("ros2").library(crate::PROGRAM).compression(None);
         let writer = options.create(Cursor::new(Vec::new()))?;
-        Ok(Bag { writer, channels: BTreeMap::new() })
+        Ok(Bag { writer, channels: BTreeMap::new(), messages: Vec::new() })
     }
 
     /// Adds a topic of a durability.
@@ -72,7 +74,8 @@ impl Bag {
             publish_time: time,
         };
         channel.messages += 1;
-        Ok(self.writer.write_to_known_channel(&header, &cdr::bytes(message)?)?)
+        self.messages.push((header, cdr::bytes(message)?));
+        Ok(())
     }
 
     /// Adds a record of names and values.
@@ -87,6 +90,10 @@ impl Bag {
 
     /// The whole file.
     pub fn finish(mut self) -> Result<Vec<u8>, Ros2Error> {
+        self.messages.sort_by_key(|(header, _)| header.log_time);
+        for (header, bytes) in &self.messages {
+            self.writer.write_to_known_channel(header, bytes)?;
+        }
         self.writer.finish()?;
         Ok(self.writer.into_inner().into_inner())
     }

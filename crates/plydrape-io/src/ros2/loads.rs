@@ -1,29 +1,21 @@
 //! Expected loads on the grippers, at the times of their trajectory: for grippers that control a force.
 //!
-//! `trajectory_msgs` has no forces on a `MultiDOFJointTrajectory`. A `JointTrajectory` has efforts, so each mount is three
-//! sliding joints, along x, y and z: the effort is the load of the ply on the gripper (N), the position the preload of the
+//! A `JointTrajectory` has efforts, so each mount is three sliding joints, along x, y and z: the effort is the load of the ply on the gripper (N), the position the preload of the
 //! mount (m). Rigid grippers have no positions.
 
 use super::FRAME;
-use super::message::{
-    Header, JointTrajectory, JointTrajectoryPoint, MultiDofJointTrajectory,
-    MultiDofJointTrajectoryPoint,
-};
-use crate::OutputError;
+use super::message::{Header, JointTrajectory, JointTrajectoryPoint};
+use super::{Ros2Error, time};
 use crate::loads::{Load, Loads, Stiffness};
-use crate::result::ResultFile;
+use crate::program::Program;
 
-/// The loads at the points of a trajectory, as far as they are known.
-pub(super) fn loads(
-    result: &ResultFile,
-    loads: &Loads,
-    trajectory: &MultiDofJointTrajectory,
-) -> Result<JointTrajectory, OutputError> {
-    let times = match (&result.plan, result.motion()?) {
-        (Some(plan), Some((motion, _))) => motion.samples(plan.rate)?,
-        _ => result.steps.iter().map(|step| step.time).collect(),
-    };
-    let point = |(t, at): (&f64, &MultiDofJointTrajectoryPoint)| {
+/// The loads at the times of a program, as far as they are known.
+///
+/// # Errors
+/// [`Ros2Error`] if a time is none that ROS 2 can say.
+pub(super) fn loads(program: &Program, loads: &Loads) -> Result<JointTrajectory, Ros2Error> {
+    let clock = time::clock(&program.times)?;
+    let point = |(t, at): (&f64, &u64)| {
         let all = loads.at(*t)?;
         let flat = |vector: fn(&Load) -> [f64; 3]| all.iter().flat_map(vector).collect::<Vec<_>>();
         Some(JointTrajectoryPoint {
@@ -31,16 +23,16 @@ pub(super) fn loads(
             velocities: Vec::new(),
             accelerations: Vec::new(),
             effort: flat(|load| load.force),
-            time_from_start: at.time_from_start,
+            time_from_start: time::duration(*at),
         })
     };
-    let names = trajectory.joint_names.iter();
+    let names = program.pads.iter().map(|pad| &pad.name);
     Ok(JointTrajectory {
         header: Header { frame_id: FRAME.into(), ..Header::default() },
         joint_names: names
             .flat_map(|name| ["x", "y", "z"].map(|c| format!("{name}_{c}")))
             .collect(),
-        points: times.iter().zip(&trajectory.points).map_while(point).collect(),
+        points: program.times.iter().zip(&clock).map_while(point).collect(),
     })
 }
 

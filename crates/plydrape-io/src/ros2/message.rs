@@ -47,13 +47,6 @@ pub(super) struct Transform {
     pub rotation: Quaternion,
 }
 
-/// `geometry_msgs/msg/Twist`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub(super) struct Twist {
-    pub linear: Vector3,
-    pub angular: Vector3,
-}
-
 /// `geometry_msgs/msg/Pose`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub(super) struct Pose {
@@ -61,21 +54,47 @@ pub(super) struct Pose {
     pub orientation: Quaternion,
 }
 
-/// `trajectory_msgs/msg/MultiDOFJointTrajectory`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct MultiDofJointTrajectory {
+/// `geometry_msgs/msg/PoseStamped`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct PoseStamped {
     pub header: Header,
-    pub joint_names: Vec<String>,
-    pub points: Vec<MultiDofJointTrajectoryPoint>,
+    pub pose: Pose,
 }
 
-/// `trajectory_msgs/msg/MultiDOFJointTrajectoryPoint`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct MultiDofJointTrajectoryPoint {
-    pub transforms: Vec<Transform>,
-    pub velocities: Vec<Twist>,
-    pub accelerations: Vec<Twist>,
-    pub time_from_start: Duration,
+/// `nav_msgs/msg/Path`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct Path {
+    pub header: Header,
+    pub poses: Vec<PoseStamped>,
+}
+
+/// `geometry_msgs/msg/TransformStamped`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct TransformStamped {
+    pub header: Header,
+    pub child_frame_id: String,
+    pub transform: Transform,
+}
+
+/// `tf2_msgs/msg/TFMessage`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct TfMessage {
+    pub transforms: Vec<TransformStamped>,
+}
+
+/// `control_msgs/msg/InterfaceValue`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct InterfaceValue {
+    pub interface_names: Vec<String>,
+    pub values: Vec<f64>,
+}
+
+/// `control_msgs/msg/DynamicInterfaceGroupValues`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub(super) struct DynamicInterfaceGroupValues {
+    pub header: Header,
+    pub interface_groups: Vec<String>,
+    pub interface_values: Vec<InterfaceValue>,
 }
 
 /// `trajectory_msgs/msg/JointTrajectory`.

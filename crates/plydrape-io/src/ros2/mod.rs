@@ -1,7 +1,9 @@
-//! A result for ROS 2: the grippers' trajectory as a message in YAML, and a bag of it with the ply's shape.
+//! A result for ROS 2: what its axes, its flange and its vacuum do, as messages in YAML, and a bag of it with the ply's shape.
 //!
-//! - `trajectory.yaml`: one `trajectory_msgs/msg/MultiDOFJointTrajectory`, in the block style that
-//!   `ros2 topic echo` prints and `ros2 topic pub` reads;
+//! - `trajectory.yaml`: one `trajectory_msgs/msg/JointTrajectory` of the axes, in the block style that `ros2 topic echo`
+//!   prints and `ros2 topic pub` reads;
+//! - `flange.yaml`, if one arm holds the array: one `nav_msgs/msg/Path` of its flange;
+//! - `vacuum.yaml`: what the vacuum does, one `control_msgs/msg/DynamicInterfaceGroupValues` behind the other;
 //! - `loads.yaml`, where they are known: the expected loads on the grippers at the same times, and the preload of their
 //!   mounts, as one `trajectory_msgs/msg/JointTrajectory`;
 //! - `trajectory.mcap`: a bag that `ros2 bag play` and viewers open, with the topics
@@ -9,13 +11,18 @@
 //! | topic | message | when |
 //! |---|---|---|
 //! | [`TRAJECTORY`] | the same trajectory | once, at the start |
+//! | [`PATH`] | the same path | once, at the start, if there is a flange |
+//! | [`POSE`] | `geometry_msgs/msg/PoseStamped`, the flange | over time, if there is one |
+//! | [`VACUUM`] | the same commands | each at its time |
+//! | `/tf_static` | `tf2_msgs/msg/TFMessage`: the mold in the world, the tool at the flange | once, at the start |
+//! | `/tf` | `tf2_msgs/msg/TFMessage`: the flange and every pad, by its gripper's name, at the mold | over time |
 //! | [`LOADS`] | the same loads | once, at the start, if they are known |
 //! | [`MOLD`] | `visualization_msgs/msg/MarkerArray`, the mold | once, at the start, if there is a mold |
 //! | [`PLY`] | `visualization_msgs/msg/MarkerArray`: surface, catenaries, contact, grippers | every step, at its time |
 //!
 //! Metres, seconds, radians; z up; the frame [`FRAME`] is that of the scene. `message` holds the messages as
-//! Rust types, `cdr` and `bag` their bytes, `schema` their definitions; `trajectory` and `markers` fill them from a
-//! result.
+//! Rust types, `cdr` and `bag` their bytes, `schema` their definitions; `trajectory`, `poses` and `vacuum` fill them from a
+//! program, `loads` and `markers` from a result.
 
 mod bag;
 mod cdr;
@@ -23,24 +30,41 @@ mod error;
 mod loads;
 mod markers;
 mod message;
+mod poses;
 mod schema;
 mod time;
 mod trajectory;
-mod turning;
+mod vacuum;
 
 pub use error::Ros2Error;
 
 use super::loads::Loads;
 use super::{OutputError, finite};
+use crate::export::Files;
+use crate::program::{Program, Tolerance, wide};
 use crate::result::ResultFile;
 use bag::Bag;
 
 /// The frame of all positions: the scene's own.
 pub const FRAME: &str = "mold";
-/// Topic of the grippers' trajectory.
+/// The frame in which the mold stands.
+pub const WORLD: &str = "world";
+/// The frame of the flange.
+pub const FLANGE: &str = "flange";
+/// The frame of the tool's centre.
+pub const TOOL: &str = "tool";
+/// Topic of the trajectory of the axes.
 pub const TRAJECTORY: &str = "/plydrape/trajectory";
+/// Topic of the path of the flange.
+pub const PATH: &str = "/plydrape/flange";
+/// Topic of the flange over time.
+pub const POSE: &str = "/plydrape/flange_pose";
+/// Topic of what the vacuum does.
+pub const VACUUM: &str = "/plydrape/vacuum";
 /// Topic of the expected loads.
 pub const LOADS: &str = "/plydrape/loads";
+/// Name of the bag's record of the verdict and of the errors of what it holds.
+pub const PROGRAM: &str = "plydrape_program";
 /// Name of the bag's record of the mounts' stiffness.
 pub const MOUNTS: &str = "plydrape_mounts";
 /// Topic of the mold's marker.
@@ -48,29 +72,24 @@ pub const MOLD: &str = "/plydrape/mold";
 /// Topic of the ply's markers.
 pub const PLY: &str = "/plydrape/ply";
 
-/// `trajectory.yaml`, `trajectory.mcap`, and where loads are known `loads.yaml`: names and contents. Same result, same bytes.
+/// The files of a result: names and contents. Same result, same bytes.
 ///
 /// # Errors
 /// [`OutputError`] if a number is not finite, a time is none that ROS 2 can say, or the states of the sheet cannot be read.
-pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError> {
-    let trajectory = trajectory::trajectory(result)?;
-    finite::check(&trajectory)?;
-    let yaml = yaml(&trajectory)?;
+pub fn files(result: &ResultFile, tolerance: &Tolerance) -> Result<Files, OutputError> {
+    let program = Program::of(result)?;
+    let (mut bag, mut files) = motion(&program, tolerance)?;
 
-    let mut bag = Bag::new()?;
-    bag.latched(TRAJECTORY, schema::TRAJECTORY, &trajectory)?;
-    let known = Loads::of(result)?;
-    let mut more = Vec::new();
-    if let Some(known) = &known {
-        let loads = loads::loads(result, known, &trajectory)?;
+    if let Some(known) = &Loads::of(result)? {
+        let loads = loads::loads(&program, known)?;
         finite::check(&loads)?;
-        bag.latched(LOADS, schema::LOADS, &loads)?;
-        let mut text = String::new();
+        bag.latched(LOADS, schema::JOINTS, &loads)?;
+        let mut text = wide::head(&program);
         if let Some(mounts) = known.mounts {
-            text = loads::head(mounts);
+            text += &loads::head(mounts);
             bag.note(MOUNTS, loads::stiffness(mounts))?;
         }
-        more.push(("loads.yaml".into(), (text + &self::yaml(&loads)?).into_bytes()));
+        files.push(("loads.yaml".into(), (text + &yaml(&loads)?).into_bytes()));
     }
     if let Some(mold) = markers::mold(result) {
         bag.latched(MOLD, schema::MARKERS, &mold)?;
@@ -82,12 +101,80 @@ pub fn files(result: &ResultFile) -> Result<Vec<(String, Vec<u8>)>, OutputError>
         finite::check(&ply)?;
         bag.write(PLY, time::nanoseconds(step.step, step.time)?, &ply)?;
     }
-    let mut files = vec![
-        ("trajectory.yaml".into(), yaml.into_bytes()),
-        ("trajectory.mcap".into(), bag.finish()?),
-    ];
-    files.extend(more);
+    files.push(("trajectory.mcap".into(), bag.finish()?));
     Ok(files)
+}
+
+/// The files of a program alone, without loads and without the shape of the ply.
+///
+/// # Errors
+/// As [`files`].
+pub fn program_files(program: &Program, tolerance: &Tolerance) -> Result<Files, OutputError> {
+    let (bag, mut files) = motion(program, tolerance)?;
+    files.push(("trajectory.mcap".into(), bag.finish()?));
+    Ok(files)
+}
+
+/// The bag of a program under way, and its other files.
+fn motion(program: &Program, tolerance: &Tolerance) -> Result<(Bag, Files), OutputError> {
+    program.check()?;
+    tolerance.check()?;
+    let mut bag = Bag::new()?;
+    let mut files: Files = Vec::new();
+    let head = wide::head(program);
+
+    if !program.axes.is_empty() {
+        let trajectory = trajectory::trajectory(program)?;
+        finite::check(&trajectory)?;
+        bag.latched(TRAJECTORY, schema::JOINTS, &trajectory)?;
+        let text = head.clone() + &yaml(&trajectory)?;
+        files.push(("trajectory.yaml".into(), text.into_bytes()));
+    }
+
+    let sampling = poses::sampling(program, tolerance);
+    let millimetres = format!("{:.4}", sampling.error.position * 1e3);
+    let degrees = format!("{:.4}", sampling.error.angle.to_degrees());
+    if let Some(path) = poses::flange(program, &sampling.kept)? {
+        finite::check(&path)?;
+        bag.latched(PATH, schema::PATH, &path)?;
+        bag.channel(POSE, schema::POSE, bag::VOLATILE)?;
+        for (pose, k) in path.poses.iter().zip(&sampling.kept) {
+            bag.write(POSE, time::nanoseconds(k + 1, program.times[*k])?, pose)?;
+        }
+        let error = format!(
+            "# Straight lines between the poses stay within {millimetres} mm and {degrees} deg of the motion\n"
+        );
+        let text = head.clone() + &error + &yaml(&path)?;
+        files.push(("flange.yaml".into(), text.into_bytes()));
+    }
+    bag.latched("/tf_static", schema::FRAMES, &poses::fixed(program)?)?;
+    bag.channel("/tf", schema::FRAMES, bag::VOLATILE)?;
+    for k in &sampling.kept {
+        let frames = poses::moving(program, *k)?;
+        finite::check(&frames)?;
+        bag.write("/tf", time::nanoseconds(k + 1, program.times[*k])?, &frames)?;
+    }
+
+    let commands = vacuum::commands(program)?;
+    if !commands.is_empty() {
+        bag.channel(VACUUM, schema::OUTPUTS, bag::VOLATILE)?;
+        let mut texts = Vec::new();
+        for (at, command) in &commands {
+            bag.write(VACUUM, *at, command)?;
+            texts.push(yaml(command)?);
+        }
+        files.push(("vacuum.yaml".into(), (head + &texts.join("---\n")).into_bytes()));
+    }
+    bag.note(
+        PROGRAM,
+        [
+            ("accepted", program.accepted.to_string()),
+            ("verdict", program.verdict.clone()),
+            ("position_error_mm", millimetres),
+            ("angle_error_deg", degrees),
+        ],
+    )?;
+    Ok((bag, files))
 }
 
 /// A message as `ros2 topic echo` prints it.
@@ -108,14 +195,15 @@ mod tests {
     use super::*;
     use crate::sample;
 
-    /// Two files, and the same bytes again from the same result.
+    /// The same bytes again from the same result.
     #[test]
     fn the_same_result_gives_the_same_bytes() {
         let result = sample::draped(3, 2, 4);
-        let first = files(&result).unwrap();
+        let tolerance = Tolerance::default();
+        let first = files(&result, &tolerance).unwrap();
         let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names, ["trajectory.yaml", "trajectory.mcap"]);
-        assert!(first == files(&result).unwrap());
+        assert_eq!(names, ["trajectory.yaml", "vacuum.yaml", "trajectory.mcap"]);
+        assert!(first == files(&result, &tolerance).unwrap());
     }
 
     /// A step that is not later than the one before has no place in a trajectory.
@@ -123,11 +211,11 @@ mod tests {
     fn times_that_do_not_grow_are_refused() {
         let mut result = sample::draped(2, 2, 3);
         result.steps[2].time = result.steps[1].time + 1e-10;
-        let fault = files(&result).unwrap_err().to_string();
+        let fault = files(&result, &Tolerance::default()).unwrap_err().to_string();
         assert!(fault.contains("nanosecond"), "{fault}");
         result.steps[0].time = -1.0;
-        let fault = files(&result).unwrap_err().to_string();
-        assert!(fault.contains("-1"), "{fault}");
+        let fault = files(&result, &Tolerance::default()).unwrap_err().to_string();
+        assert!(fault.contains("no point at 0 s"), "{fault}");
     }
 
     /// Every number has a point, and a sign before its exponent: Python reads it as a number.
@@ -135,8 +223,9 @@ mod tests {
     fn numbers_are_numbers_for_readers_of_either_version() {
         let mut result = sample::draped(2, 2, 2);
         result.steps[0].grippers[0].position = [1e-7, -1e22, 3.0];
-        let text = String::from_utf8(files(&result).unwrap().remove(0).1).unwrap();
-        for wanted in ["x: 1.0e-7\n", "y: -1.0e+22\n", "z: 3.0\n"] {
+        let files = files(&result, &Tolerance::default()).unwrap();
+        let text = String::from_utf8(files[0].1.clone()).unwrap();
+        for wanted in ["- 1.0e-7\n", "- -1.0e+22\n", "- 3.0\n"] {
             assert!(text.contains(wanted), "{wanted} is not in\n{text}");
         }
     }

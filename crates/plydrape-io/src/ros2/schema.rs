@@ -1,7 +1,8 @@
 //! Definitions of the messages, as a bag carries them: each followed by those it is made of.
 //!
-//! Those of `trajectory_msgs`, `visualization_msgs` and what they need (Apache-2.0, Open Robotics and others),
-//! without their comments; the same in ROS 2 Humble and later.
+//! Those of `trajectory_msgs`, `nav_msgs`, `tf2_msgs`, `control_msgs`, `visualization_msgs` and what they need (Apache-2.0, Open
+//! Robotics and others), without their comments; the same in ROS 2 Humble and later, but for that of `control_msgs`, which is
+//! that of Jazzy and later.
 
 /// A message's full name and definition.
 #[derive(Debug, Clone, Copy)]
@@ -10,13 +11,12 @@ pub(super) struct Schema {
     pub text: &'static str,
 }
 
-/// A motion of several bodies.
-pub(super) const TRAJECTORY: Schema = Schema {
-    name: "trajectory_msgs/msg/MultiDOFJointTrajectory",
+/// A pose with its time.
+pub(super) const POSE: Schema = Schema {
+    name: "geometry_msgs/msg/PoseStamped",
     text: "\
 std_msgs/Header header
-string[] joint_names
-trajectory_msgs/MultiDOFJointTrajectoryPoint[] points
+geometry_msgs/Pose pose
 ================================================================================
 MSG: std_msgs/Header
 builtin_interfaces/Time stamp
@@ -26,11 +26,77 @@ MSG: builtin_interfaces/Time
 int32 sec
 uint32 nanosec
 ================================================================================
-MSG: trajectory_msgs/MultiDOFJointTrajectoryPoint
-geometry_msgs/Transform[] transforms
-geometry_msgs/Twist[] velocities
-geometry_msgs/Twist[] accelerations
-builtin_interfaces/Duration time_from_start
+MSG: geometry_msgs/Pose
+geometry_msgs/Point position
+geometry_msgs/Quaternion orientation
+================================================================================
+MSG: geometry_msgs/Point
+float64 x
+float64 y
+float64 z
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x
+float64 y
+float64 z
+float64 w
+",
+};
+
+/// Poses one after the other.
+pub(super) const PATH: Schema = Schema {
+    name: "nav_msgs/msg/Path",
+    text: "\
+std_msgs/Header header
+geometry_msgs/PoseStamped[] poses
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+================================================================================
+MSG: geometry_msgs/PoseStamped
+std_msgs/Header header
+geometry_msgs/Pose pose
+================================================================================
+MSG: geometry_msgs/Pose
+geometry_msgs/Point position
+geometry_msgs/Quaternion orientation
+================================================================================
+MSG: geometry_msgs/Point
+float64 x
+float64 y
+float64 z
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x
+float64 y
+float64 z
+float64 w
+",
+};
+
+/// Frames.
+pub(super) const FRAMES: Schema = Schema {
+    name: "tf2_msgs/msg/TFMessage",
+    text: "\
+geometry_msgs/TransformStamped[] transforms
+================================================================================
+MSG: geometry_msgs/TransformStamped
+std_msgs/Header header
+string child_frame_id
+geometry_msgs/Transform transform
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
 ================================================================================
 MSG: geometry_msgs/Transform
 geometry_msgs/Vector3 translation
@@ -46,19 +112,33 @@ float64 x
 float64 y
 float64 z
 float64 w
-================================================================================
-MSG: geometry_msgs/Twist
-geometry_msgs/Vector3 linear
-geometry_msgs/Vector3 angular
-================================================================================
-MSG: builtin_interfaces/Duration
-int32 sec
-uint32 nanosec
 ",
 };
 
-/// Positions and efforts of joints.
-pub(super) const LOADS: Schema = Schema {
+/// Values of digital outputs.
+pub(super) const OUTPUTS: Schema = Schema {
+    name: "control_msgs/msg/DynamicInterfaceGroupValues",
+    text: "\
+std_msgs/Header header
+string[] interface_groups
+control_msgs/InterfaceValue[] interface_values
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+================================================================================
+MSG: control_msgs/InterfaceValue
+string[] interface_names
+float64[] values
+",
+};
+
+/// Positions, velocities and efforts of joints.
+pub(super) const JOINTS: Schema = Schema {
     name: "trajectory_msgs/msg/JointTrajectory",
     text: "\
 std_msgs/Header header

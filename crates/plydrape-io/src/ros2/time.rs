@@ -1,7 +1,7 @@
 //! Times as ROS 2 says them: whole nanoseconds.
 
 use super::Ros2Error;
-use super::message::Duration;
+use super::message::{Duration, Time};
 
 const NANO: u64 = 1_000_000_000;
 
@@ -21,6 +21,28 @@ pub(super) fn nanoseconds(point: usize, time: f64) -> Result<u64, Ros2Error> {
 pub(super) fn duration(nanoseconds: u64) -> Duration {
     // checked above: below 2³¹ s
     Duration { sec: (nanoseconds / NANO) as i32, nanosec: (nanoseconds % NANO) as u32 }
+}
+
+/// The same time as a stamp.
+pub(super) fn stamp(nanoseconds: u64) -> Time {
+    let Duration { sec, nanosec } = duration(nanoseconds);
+    Time { sec, nanosec }
+}
+
+/// Times (s) in whole nanoseconds, each after the one before.
+///
+/// # Errors
+/// [`Ros2Error`] if one is not.
+pub(super) fn clock(times: &[f64]) -> Result<Vec<u64>, Ros2Error> {
+    let mut clock: Vec<u64> = Vec::with_capacity(times.len());
+    for (k, time) in times.iter().enumerate() {
+        let now = nanoseconds(k + 1, *time)?;
+        if clock.last().is_some_and(|before| now <= *before) {
+            return Err(Ros2Error::Order { point: k + 1, time: *time });
+        }
+        clock.push(now);
+    }
+    Ok(clock)
 }
 
 #[cfg(test)]

@@ -1,117 +1,59 @@
-//! The grippers' trajectory: one joint a gripper, free in all six degrees, in the order of the grid.
+//! The axes that carry the grippers, as a trajectory of joints.
 //!
-//! A planned motion is known at every time: it is sampled at the plan's rate, with velocity and acceleration.
-//! A simulated drape knows only its steps: their poses are given, velocities and accelerations are left empty,
-//! as the message allows. Orientations between steps turn at a constant rate; see `turning.rs` for what that
-//! makes of their velocity and acceleration.
+//! A planned motion has the velocity of each axis too, by differences of second order between its samples, and 0 at both
+//! ends, where it rests. A simulated drape knows only its steps: velocities are left empty, as the message allows.
 
-use super::message::{
-    Header, MultiDofJointTrajectory, MultiDofJointTrajectoryPoint, Transform, Twist,
-};
-use super::{FRAME, Ros2Error, time, turning};
-use crate::OutputError;
-use crate::result::ResultFile;
-use plydrape::draping::record::{Gripper, Step};
-use plydrape::motion::{Attitudes, MotionError, TimedMotion};
+use super::message::{Header, JointTrajectory, JointTrajectoryPoint};
+use super::{FRAME, Ros2Error, time};
+use crate::program::Program;
 
-/// The trajectory of a result.
+/// The trajectory of the axes of a program.
 ///
 /// # Errors
-/// [`OutputError`] if a time is none that ROS 2 can say, or the plan is not one of this result.
-pub(super) fn trajectory(result: &ResultFile) -> Result<MultiDofJointTrajectory, OutputError> {
-    let ply = &result.scene.ply;
-    let points = match (&result.plan, result.motion()?) {
-        (Some(plan), Some((motion, attitudes))) => {
-            samples(&motion, &attitudes, ply.grippers(), plan.rate)?
-        }
-        _ => steps(&result.steps)?,
-    };
-    // a time of 0: begin when the message is received
-    let header = Header { frame_id: FRAME.into(), ..Header::default() };
-    let joint = |k| {
-        let [i, j] = ply.id(k);
-        format!("gripper_{i}_{j}")
-    };
-    Ok(MultiDofJointTrajectory {
-        header,
-        joint_names: (0..ply.grippers()).map(joint).collect(),
-        points,
-    })
-}
-
-/// The steps of a drape, without velocities.
-fn steps(steps: &[Step]) -> Result<Vec<MultiDofJointTrajectoryPoint>, Ros2Error> {
-    let times: Vec<f64> = steps.iter().map(|step| step.time).collect();
-    let points = steps.iter().zip(clock(&times)?).map(|(step, time)| {
-        let transform = |g: &Gripper| Transform {
-            translation: g.commanded().into(),
-            rotation: g.quaternion.into(),
-        };
-        MultiDofJointTrajectoryPoint {
-            transforms: step.grippers.iter().map(transform).collect(),
-            velocities: Vec::new(),
-            accelerations: Vec::new(),
-            time_from_start: time::duration(time),
-        }
-    });
-    Ok(points.collect())
-}
-
-/// Samples of a motion at a rate (Hz), from rest to rest.
-fn samples(
-    motion: &TimedMotion,
-    attitudes: &Attitudes,
-    grippers: usize,
-    rate: f64,
-) -> Result<Vec<MultiDofJointTrajectoryPoint>, OutputError> {
-    for found in [motion.grippers(), attitudes.grippers()] {
-        if found != grippers {
-            return Err(MotionError::Grippers { found, expected: grippers }.into());
-        }
-    }
-    let times = motion.samples(rate)?;
-    let clock = clock(&times)?;
-    let turned: Vec<Vec<[f64; 4]>> = times.iter().map(|t| attitudes.at(*t)).collect();
+/// [`Ros2Error`] if a time is none that ROS 2 can say.
+pub(super) fn trajectory(program: &Program) -> Result<JointTrajectory, Ros2Error> {
+    let clock = time::clock(&program.times)?;
+    let last = clock.len() - 1;
     let point = |k: usize| {
-        let inner = k > 0 && k + 1 < times.len();
-        let turning = |g: usize| match inner {
-            true => {
+        let velocity = |values: &[f64]| match k {
+            _ if k == 0 || k == last => 0.0,
+            _ => {
                 let around = [k - 1, k, k + 1];
-                turning::rates(around.map(|n| turned[n][g]), around.map(|n| times[n]))
+                slope(around.map(|n| program.times[n]), around.map(|n| values[n]))
             }
-            false => [[0.0; 3]; 2],
         };
-        let turning: Vec<_> = (0..grippers).map(turning).collect();
-        let transform = |(place, quaternion): ([f64; 3], &[f64; 4])| Transform {
-            translation: place.into(),
-            rotation: (*quaternion).into(),
-        };
-        let twists = |linear: Vec<[f64; 3]>, order: usize| {
-            let twist = |(linear, angular): ([f64; 3], &[[f64; 3]; 2])| Twist {
-                linear: linear.into(),
-                angular: angular[order].into(),
-            };
-            linear.into_iter().zip(&turning).map(twist).collect()
-        };
-        MultiDofJointTrajectoryPoint {
-            transforms: motion.at(times[k]).into_iter().zip(&turned[k]).map(transform).collect(),
-            velocities: twists(motion.velocity(times[k]), 0),
-            accelerations: twists(motion.acceleration(times[k]), 1),
+        let velocities = program.axes.iter().map(|axis| velocity(&axis.values));
+        JointTrajectoryPoint {
+            positions: program.axes.iter().map(|axis| axis.values[k]).collect(),
+            velocities: if program.rate.is_some() { velocities.collect() } else { Vec::new() },
+            accelerations: Vec::new(),
+            effort: Vec::new(),
             time_from_start: time::duration(clock[k]),
         }
     };
-    Ok((0..times.len()).map(point).collect())
+    Ok(JointTrajectory {
+        // a time of 0: begin when the message is received
+        header: Header { frame_id: FRAME.into(), ..Header::default() },
+        joint_names: program.axes.iter().map(|axis| axis.name.clone()).collect(),
+        points: (0..=last).map(point).collect(),
+    })
 }
 
-/// Times (s) in whole nanoseconds, each after the one before.
-fn clock(times: &[f64]) -> Result<Vec<u64>, Ros2Error> {
-    let mut clock: Vec<u64> = Vec::with_capacity(times.len());
-    for (k, time) in times.iter().enumerate() {
-        let now = time::nanoseconds(k + 1, *time)?;
-        if clock.last().is_some_and(|before| now <= *before) {
-            return Err(Ros2Error::Order { point: k + 1, time: *time });
-        }
-        clock.push(now);
+/// The slope of the parabola through three values in the middle of them.
+fn slope([before, now, after]: [f64; 3], [p, q, r]: [f64; 3]) -> f64 {
+    let (h, k) = (now - before, after - now);
+    ((q - p) / h * k + (r - q) / k * h) / (h + k)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A parabola has its own slope, at uneven times too.
+    #[test]
+    fn the_slope_of_a_parabola_is_exact() {
+        let at = |t: f64| 0.3 + 0.5 * t - 0.2 * t * t;
+        let times = [0.5, 0.8, 1.5];
+        assert!((slope(times, times.map(at)) - (0.5 - 0.4 * 0.8)).abs() < 1e-15);
     }
-    Ok(clock)
 }

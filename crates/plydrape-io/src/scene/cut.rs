@@ -10,7 +10,9 @@ use super::file::{ArrayTable, CircleTable, PartlyKey, PlyTable};
 use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
 use crate::shown::millimetres;
-use plydrape::ply::{Cut, Direction, Grid, Held, Outline, OutlineError, Ring, RingId};
+use plydrape::ply::{
+    Cut, Direction, Grid, Held, Outline, OutlineError, Ring, RingId, gripper_name,
+};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::Range;
 use std::path::Path;
@@ -226,14 +228,14 @@ fn array(
         if wanted.is_none() && (leave || depth <= -radius) {
             continue;
         }
-        let [i, j] = cup.id;
         let [x, y] = cup.place.map(millimetres);
         let off = if depth < 0.0 { "beyond" } else { "inside" };
         let place = keys.holds.as_ref().map_or(span, |rows| &rows.span);
         return Err(document.error(
             place.clone(),
             format!(
-                "the cup [{i}, {j}] at ({x}, {y}) mm of the drawing is {} mm {off} the boundary, and needs {} mm of ply around its middle",
+                "the cup {} at ({x}, {y}) mm of the drawing is {} mm {off} the boundary, and needs {} mm of ply around its middle",
+                gripper_name(cup.id),
                 millimetres(depth.abs()), millimetres(radius + margin)
             ),
             "move the array, give it another pitch or a smaller `margin`, or write partly = \"leave-off\" in `array`: such cups then do not hold",

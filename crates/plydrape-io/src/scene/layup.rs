@@ -235,7 +235,7 @@ impl Seed {
         Err(document.error(
             written.span.clone(),
             "the seed is no point of the ply",
-            format!("fabric points go from [0, 0] at gripper [0, 0] to [\"{u} mm\", \"{v} mm\"] at the last one; seed = \"middle\" is halfway"),
+            format!("fabric points go from [0, 0] at gripper g0_0 to [\"{u} mm\", \"{v} mm\"] at the last one; seed = \"middle\" is halfway"),
         ))
     }
 

@@ -7,7 +7,7 @@ use super::located::Located;
 use super::quantity::rounded;
 use super::read;
 use super::units::Dimension;
-use plydrape::ply::{Grid, GripperId, PlaceError, Ply};
+use plydrape::ply::{Grid, GripperId, PlaceError, Ply, gripper_name};
 use std::ops::Range;
 use std::path::Path;
 
@@ -80,11 +80,11 @@ impl Places {
             if distance <= length * (1.0 + TAUT) {
                 return Ok(());
             }
-            let [a, b] = pair.grippers.map(|n| ply.id(n));
+            let [a, b] = pair.grippers.map(|n| gripper_name(ply.id(n)));
             Err(self.error(
                 pair.grippers[1],
                 format!(
-                    "grippers {a:?} and {b:?} are {:.2} mm apart at the start; the ply between them is {:.2} mm",
+                    "grippers {a} and {b} are {:.2} mm apart at the start; the ply between them is {:.2} mm",
                     distance * 1e3,
                     length * 1e3
                 ),
@@ -99,7 +99,9 @@ impl Places {
             PlaceError::Steep { a, b, run, length, .. } => self.error(
                 ply.index(b).unwrap_or(0),
                 format!(
-                    "grippers {a:?} and {b:?} are only {:.3} mm apart in plan {when}; the ply between them is {:.2} mm",
+                    "grippers {} and {} are only {:.3} mm apart in plan {when}; the ply between them is {:.2} mm",
+                    gripper_name(a),
+                    gripper_name(b),
                     run * 1e3,
                     length * 1e3
                 ),
@@ -107,7 +109,10 @@ impl Places {
             ),
             PlaceError::Far { gripper, position, .. } => self.error(
                 ply.index(gripper).unwrap_or(0),
-                format!("gripper {gripper:?} is at {position:?} m {when}, out of all scale"),
+                format!(
+                    "gripper {} is at {position:?} m {when}, out of all scale",
+                    gripper_name(gripper)
+                ),
                 "coordinates are finite numbers: is the unit right?",
             ),
             other => self.document.error_anywhere(other.to_string(), "give every gripper one position"),
@@ -193,7 +198,7 @@ fn from_csv(document: Document, ply: &Ply) -> Result<Places, SceneError> {
             if points[index].is_some() {
                 return Err(row.fault(
                     0,
-                    format!("gripper {gripper:?} stands here for the second time"),
+                    format!("gripper {} stands here for the second time", gripper_name(gripper)),
                     "give every gripper one row",
                 ));
             }
@@ -205,7 +210,7 @@ fn from_csv(document: Document, ply: &Ply) -> Result<Places, SceneError> {
     if let Some(missing) = points.iter().position(Option::is_none) {
         return Err(document.error(
             header,
-            format!("gripper {:?} has no row", ply.id(missing)),
+            format!("gripper {} has no row", gripper_name(ply.id(missing))),
             format!("give every one of the {} grippers one row", ply.grippers()),
         ));
     }
@@ -219,23 +224,22 @@ pub(super) fn index(gripper: GripperId, ply: &Ply) -> Result<usize, (String, Str
     }
     let grid = ply.grid;
     if grid == Grid::NONE {
-        let message = format!("no gripper {gripper:?} holds the ply");
+        let message = format!("no gripper {} holds the ply", gripper_name(gripper));
         let last = ply.grippers() - 1;
-        let (first, last) = (ply.id(0), ply.id(last));
+        let (first, last) = (gripper_name(ply.id(0)), gripper_name(ply.id(last)));
         let help = format!(
-            "{} cups hold it, from {first:?} to {last:?}; `plydrape check` shows them",
+            "{} cups hold it, from {first} to {last}; `plydrape check` shows them",
             ply.grippers()
         );
         return Err((message, help));
     }
     Err((
-        format!("there is no gripper {gripper:?}"),
+        format!("there is no gripper {}", gripper_name(gripper)),
         format!(
-            "the ply has {} × {} grippers, from [0, 0] to [{}, {}]",
+            "the ply has {} × {} grippers, from g0_0 to {}",
             grid.nu,
             grid.nv,
-            grid.nu - 1,
-            grid.nv - 1
+            gripper_name([grid.nu - 1, grid.nv - 1])
         ),
     ))
 }

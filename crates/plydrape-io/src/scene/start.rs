@@ -11,7 +11,7 @@ use super::quantity::{Length, Quantity};
 use super::rectangle::Rectangle;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::Net;
-use plydrape::ply::{Grid, Ply, directions};
+use plydrape::ply::{Grid, Ply, directions, gripper_name};
 use plydrape::scene::Target;
 use std::ops::Range;
 
@@ -113,7 +113,7 @@ fn rectangle(
         },
         (None, None) => 0.0,
     };
-    // gripper [0, 0] as far from the middle as without a shift
+    // gripper g0_0 as far from the middle as without a shift
     let shift = |[x, y]: [f64; 2]| {
         let unmoved = Rectangle::on(&plane, [0.0; 2], direction).grippers(ply, distances);
         let here = middle(&unmoved);
@@ -126,7 +126,7 @@ fn rectangle(
             return Err(document.error(
                 place.span.clone(),
                 "the grippers have an `origin` and a `middle`",
-                "keep one of them: `origin` is the place of gripper [0, 0], `middle` that of the middle of all grippers",
+                "keep one of them: `origin` is the place of gripper g0_0, `middle` that of the middle of all grippers",
             ));
         }
         (Some(origin), None) => match (&origin.value, target) {
@@ -136,7 +136,7 @@ fn rectangle(
                 return Err(document.error(
                     origin.span.clone(),
                     "the start shall be centred above the target, and the scene has no target",
-                    "add [target], or give the place [x, y] of gripper [0, 0]",
+                    "add [target], or give the place [x, y] of gripper g0_0",
                 ));
             }
         },
@@ -216,11 +216,11 @@ pub(super) fn check(places: &Places, around: &Surroundings) -> Result<(), SceneE
     else {
         return Ok(());
     };
-    let id = ply.id(index);
+    let id = gripper_name(ply.id(index));
     let depth_mm = depth(point) * 1e3;
     let message = match mold {
-        Mold::Plane(_) => format!("gripper {id:?} starts {depth_mm:.2} mm below the mold"),
-        _ => format!("gripper {id:?} starts inside the mold, {depth_mm:.2} mm from its surface"),
+        Mold::Plane(_) => format!("gripper {id} starts {depth_mm:.2} mm below the mold"),
+        _ => format!("gripper {id} starts inside the mold, {depth_mm:.2} mm from its surface"),
     };
     let mut help = "start above the mold: raise the grippers or lower the mold".to_string();
     // a level start clears the mold above its highest point under a gripper

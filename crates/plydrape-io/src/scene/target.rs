@@ -8,7 +8,7 @@ use super::located::Located;
 use super::places::{Places, X, Y, Z, csv_file, point};
 use plydrape::mold::Mold;
 use plydrape::net::{CurveError, Free, LayupError, Missing, Net, Reason, Seeds, Wanted};
-use plydrape::ply::Ply;
+use plydrape::ply::{Ply, gripper_name};
 use plydrape::scene::Target;
 use std::path::Path;
 use std::sync::Arc;
@@ -170,7 +170,7 @@ fn at_grippers(
     let Some(first) = places.iter().position(Option::is_none) else {
         return Ok(places.into_iter().flatten().collect());
     };
-    let id = ply.id(first);
+    let id = gripper_name(ply.id(first));
     // of the node that is nearest in the fabric
     let [u, v] = ply.place(first);
     let away = |missing: &&Missing| {
@@ -201,7 +201,7 @@ fn at_grippers(
     let have = if missing == 1 { "gripper has" } else { "grippers have" };
     Err(document.error(
         header(table, document),
-        format!("{missing} of {count} {have} no place on the mold: gripper {id:?} {reason}"),
+        format!("{missing} of {count} {have} no place on the mold: gripper {id} {reason}"),
         help,
     ))
 }

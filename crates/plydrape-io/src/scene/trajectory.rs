@@ -8,7 +8,7 @@ use super::motion::DURATIONS;
 use super::places::{Places, X, Y, Z, csv_file, index, point};
 use super::units::Dimension;
 use plydrape::motion::{MOST_POSITIONS, MOST_STEPS};
-use plydrape::ply::{GripperId, Ply};
+use plydrape::ply::{GripperId, Ply, gripper_name, read_gripper_name};
 use plydrape::scene::Motion;
 use std::ops::Range;
 use std::path::Path;
@@ -117,7 +117,10 @@ impl<'a> Steps<'a> {
         if std::mem::replace(&mut self.seen[index], true) {
             return Err(row.fault(
                 1,
-                format!("gripper {gripper:?} stands here for the second time at t = {written} s"),
+                format!(
+                    "gripper {} stands here for the second time at t = {written} s",
+                    gripper_name(gripper)
+                ),
                 "give every gripper one row at every time",
             ));
         }
@@ -167,8 +170,8 @@ impl<'a> Steps<'a> {
         Err(self.document.error(
             self.last_row.clone(),
             format!(
-                "gripper {:?} has no row at t = {} s",
-                self.ply.id(missing),
+                "gripper {} has no row at t = {} s",
+                gripper_name(self.ply.id(missing)),
                 time + self.first_time
             ),
             format!("give every one of the {} grippers one row at every time", self.ply.grippers()),
@@ -187,13 +190,11 @@ impl<'a> Steps<'a> {
     }
 }
 
-/// A gripper written as "i-j".
+/// A gripper by its name, see [`read_gripper_name`].
 fn gripper_id(row: &Row) -> Result<GripperId, SceneError> {
     let text = row.text(1)?;
-    let indices = text
-        .split_once('-')
-        .and_then(|(i, j)| Some([i.trim().parse().ok()?, j.trim().parse().ok()?]));
-    indices.ok_or_else(|| {
-        row.fault(1, format!("`{text}` is no gripper"), "write grippers as \"i-j\", from 0-0")
+    read_gripper_name(text).ok_or_else(|| {
+        let help = "write grippers as g2_0, from g0_0; 2-0 and gripper_2_0 are read too";
+        row.fault(1, format!("`{text}` is no gripper"), help)
     })
 }

@@ -139,7 +139,7 @@ mod tests {
     fn a_sample_that_keeps_too_few_cells_refuses_the_verdict() {
         let mut result = sample::draped(4, 2, 3);
         let limit = |value: f64, ok: bool| {
-            let (unit, at) = ("°".into(), "gripper [0,0]".into());
+            let (unit, at) = ("°".into(), "gripper g0_0".into());
             Verdict {
                 name: Name::Tilt,
                 value,
@@ -164,8 +164,8 @@ mod tests {
         let wanted = [
             "accepted without errors",
             "not accepted with errors: in 2 of 4 cells (3 needed); 75 % end at most 0.6 mm high",
-            "  75 % of them: tilt 41.5° against 40° in step 3, gripper [0,0]",
-            "highest on the line gripper [0,1] to gripper [3,1], near gripper [3,1]",
+            "  75 % of them: tilt 41.5° against 40° in step 3, gripper g0_0",
+            "highest on the line gripper g0_1 to gripper g3_1, near gripper g3_1",
         ];
         assert_eq!(&lines[2..], &wanted, "{text}");
 

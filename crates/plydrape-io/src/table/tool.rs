@@ -2,7 +2,7 @@
 
 use super::significant;
 use crate::result::ResultFile;
-use plydrape::measure::Site;
+use plydrape::ply::gripper_name;
 use std::fmt::Write;
 
 /// A line that says how far the tool is from where the grippers should be, and how far it turns and strokes; empty where each
@@ -12,7 +12,7 @@ pub(super) fn tool(result: &ResultFile) -> String {
         return String::new();
     };
     let mm = |value: f64| significant(if value.abs() < 1e-3 { 0.0 } else { value });
-    let gripper = Site::Gripper(record.gripper).label(&result.scene.ply);
+    let gripper = gripper_name(result.scene.ply.id(record.gripper));
     let mut text = format!("the tool leaves {} mm", mm(record.residual_mm));
     if record.residual_mm >= 1e-3 {
         let _ = write!(text, " ({gripper}, step {})", record.step);

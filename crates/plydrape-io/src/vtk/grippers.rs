@@ -2,6 +2,7 @@
 //!
 //! | point data | |
 //! |---|---|
+//! | `name` | name, `g2_0` |
 //! | `i`, `j` | grid indices |
 //! | `tilt_deg` | angle between the ply's normal and the vertical (°) |
 //! | `Normals` | the ply's normal, the gripper's z axis |
@@ -10,6 +11,7 @@
 
 use super::polydata::{Array, Kind, PolyData};
 use plydrape::draping::record::{Gripper, Step};
+use plydrape::ply::gripper_name;
 
 /// The grippers of a step.
 pub(super) fn grippers(step: &Step) -> PolyData {
@@ -24,6 +26,7 @@ pub(super) fn grippers(step: &Step) -> PolyData {
         kind: Kind::Verts,
         cells: (0..grippers.len()).map(|k| vec![k]).collect(),
         at_points: vec![
+            Array::texts("name", grippers.iter().map(|g| gripper_name(g.id))),
             Array::whole("i", grippers.iter().map(|g| g.id[0])),
             Array::whole("j", grippers.iter().map(|g| g.id[1])),
             numbers("tilt_deg", |g| g.tilt_deg),

@@ -39,6 +39,8 @@ enum Values {
     Doubles(Vec<f64>),
     Whole(Vec<i64>),
     Bytes(Vec<u8>),
+    /// Each behind the other, each with a zero at its end.
+    Texts(String),
 }
 
 impl Array {
@@ -67,11 +69,18 @@ impl Array {
         Array { name, width: 1, values: Values::Bytes(values) }
     }
 
+    /// Texts.
+    pub fn texts(name: &'static str, values: impl IntoIterator<Item = String>) -> Self {
+        let joined = values.into_iter().map(|text| text + "\0").collect();
+        Array { name, width: 1, values: Values::Texts(joined) }
+    }
+
     fn kind(&self) -> &'static str {
         match self.values {
             Values::Doubles(_) => "Float64",
             Values::Whole(_) => "Int64",
             Values::Bytes(_) => "UInt8",
+            Values::Texts(_) => "String",
         }
     }
 
@@ -80,6 +89,7 @@ impl Array {
             Values::Doubles(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
             Values::Whole(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
             Values::Bytes(values) => values.clone(),
+            Values::Texts(text) => text.clone().into_bytes(),
         }
     }
 }

@@ -174,19 +174,20 @@ fn a_cut_ply_is_written_to_every_file() {
     plydrape_io::write_all(&result, &results).unwrap_or_else(|error| panic!("{error}"));
     let read = plydrape_io::read::read(&results.join("result.json")).unwrap();
     assert_eq!(read.scene.ply, scene.ply);
+    let any = export::Options { even_if_rejected: true, ..export::Options::default() };
     for format in
         [Format::Csv, Format::Svg, Format::Ros2, Format::Vtk, Format::Pattern, Format::Boundary]
     {
-        let files =
-            export::files(&read, format).unwrap_or_else(|error| panic!("{format:?}: {error}"));
+        let files = export::files(&read, format, &any)
+            .unwrap_or_else(|error| panic!("{format:?}: {error}"));
         assert!(
             !files.is_empty() && files.iter().all(|(_, bytes)| !bytes.is_empty()),
             "{format:?}"
         );
     }
-    assert!(export::files(&read, Format::Inp).is_err());
+    assert!(export::files(&read, Format::Inp, &any).is_err());
 
-    let pattern = export::files(&read, Format::Pattern).unwrap();
+    let pattern = export::files(&read, Format::Pattern, &any).unwrap();
     let options = Options::new(1e-4);
     let layers = Some(vec!["CUT".into(), "HOLES".into()]);
     let again =
@@ -197,7 +198,7 @@ fn a_cut_ply_is_written_to_every_file() {
 
     let (mold, net) = (scene.mold.as_ref().unwrap(), scene.target.as_ref().unwrap());
     let net = net.drape.as_ref().unwrap();
-    let boundary = export::files(&read, Format::Boundary).unwrap();
+    let boundary = export::files(&read, Format::Boundary, &any).unwrap();
     let text = String::from_utf8(boundary[0].1.clone()).unwrap();
     let mut places = cut.outline.rings().flat_map(|ring| ring.iter().copied());
     let near = |place: [f64; 3]| {

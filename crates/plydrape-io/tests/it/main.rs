@@ -26,6 +26,7 @@ mod outlines;
 mod pattern;
 mod plans;
 mod preload;
+mod programs;
 mod reach;
 mod release;
 mod results;

@@ -197,7 +197,7 @@ fn a_pick_up_has_its_middle_and_heading_where_the_scene_says() {
         assert!((middle(0) - 1.0).abs() < 1e-12 && (middle(1) + 0.2).abs() < 1e-12, "{keys}");
         let [x, y] = [0, 1].map(|k| points[3][k] - points[0][k]);
         assert!((y.atan2(x) - heading.to_radians()).abs() < 1e-12, "{keys}");
-        // an origin puts gripper [0, 0] there, with the same heading
+        // an origin puts gripper g0_0 there, with the same heading
         let turned = keys.replace("middle = [1, -0.2]", "origin = [1, -0.2]");
         let corner = start(&turned)[0];
         assert!((corner[0] - 1.0).abs() < 1e-12 && (corner[1] + 0.2).abs() < 1e-12, "{turned}");

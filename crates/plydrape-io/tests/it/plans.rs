@@ -337,8 +337,8 @@ fn what_cannot_be_kept_is_in_the_verdict_of_the_plan() {
     let plan = "steps = 20\nevaluations = 2\n";
     for (limits, more, name, value, limit, at) in [
         ("shear = \"15 deg\"", "", "shear", 20.0, 15.0, ""),
-        (workspace, "", "workspace", 100.0 * sin - 30.0, 0.0, "gripper [3,1]"),
-        ("", "move_limit = \"1 mm\"", "move_limit", way, 19.0, "gripper [3,1] in 19 moves"),
+        (workspace, "", "workspace", 100.0 * sin - 30.0, 0.0, "gripper g3_1"),
+        ("", "move_limit = \"1 mm\"", "move_limit", way, 19.0, "gripper g3_1 in 19 moves"),
     ] {
         let example = Example::of("01_flat_sheared_mold")
             .with_table("limits", |_| None, limits)

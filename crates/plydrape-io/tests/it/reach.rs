@@ -30,7 +30,7 @@ fn the_distance_of_grippers_counts_where_it_is_smallest() {
         let verdict = verdict(&result, "gripper_distance").unwrap();
         assert!((verdict.value - 80.0).abs() < 1e-9, "{verdict:?}");
         assert_eq!((verdict.ok, verdict.step), (ok, Some(10)), "{verdict:?}");
-        assert_eq!(verdict.at, "grippers [0,0] and [1,0]");
+        assert_eq!(verdict.at, "grippers g0_0 and g1_0");
         assert_eq!(result.summary.accepted, ok);
     }
 }
@@ -42,7 +42,7 @@ fn the_workspace_counts_in_every_step() {
     let outside = verdict(&result, "workspace").unwrap();
     assert!((outside.value - 8.0).abs() < 1e-9, "{outside:?}");
     assert_eq!((outside.ok, outside.limit, outside.step), (false, 0.0, Some(1)));
-    assert_eq!(outside.at, "gripper [1,0]");
+    assert_eq!(outside.at, "gripper g1_0");
     let last = result.steps[9].measures.get(Name::Workspace).unwrap();
     assert_eq!((last.value, last.at.as_str()), (0.0, "nowhere"));
 

@@ -15,7 +15,7 @@ use crate::draping::spans::Point;
 use crate::mold::vector::norm;
 use crate::mold::{Pose, distance};
 use crate::motion::{Attitudes, TimedMotion};
-use crate::ply::Ply;
+use crate::ply::{Ply, gripper_name};
 use crate::scene::Scene;
 
 /// A body of one gripper, or of the flange.
@@ -76,10 +76,7 @@ pub(crate) fn label(scene: &Scene, part: Part, near: Near) -> String {
 fn part_label(Part { body, gripper }: Part, scene: &Scene, ply: &Ply) -> String {
     let name = &scene.bodies.bodies()[body].name;
     match gripper {
-        Some(n) => {
-            let [i, j] = ply.id(n);
-            format!("{name} of gripper [{i},{j}]")
-        }
+        Some(n) => format!("{name} of {}", gripper_name(ply.id(n))),
         None => name.clone(),
     }
 }

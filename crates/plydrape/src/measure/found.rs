@@ -3,7 +3,7 @@
 use super::Sense;
 use crate::clearance::{Near, Part, label};
 use crate::draping::spans::Point;
-use crate::ply::Fibres;
+use crate::ply::{Fibres, gripper_name};
 use crate::scene::Scene;
 
 /// A part of the ply.
@@ -39,10 +39,7 @@ impl Site {
     #[must_use]
     pub fn label(self, scene: &Scene) -> String {
         let ply = &scene.ply;
-        let id = |n: usize| {
-            let [i, j] = ply.id(n);
-            format!("[{i},{j}]")
-        };
+        let id = |n: usize| gripper_name(ply.id(n));
         match self {
             Site::Catenary(n) => {
                 let lines = ply.lines();
@@ -54,7 +51,7 @@ impl Site {
                     (false, true) => "bias line",
                     (false, false) => "diagonal",
                 };
-                format!("{kind} [{},{}]–[{},{}]", c.from[0], c.from[1], c.to[0], c.to[1])
+                format!("{kind} {}–{}", gripper_name(c.from), gripper_name(c.to))
             }
             Site::Gripper(n) => format!("gripper {}", id(n)),
             Site::Grippers(a, b) => format!("grippers {} and {}", id(a), id(b)),

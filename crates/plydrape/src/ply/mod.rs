@@ -5,6 +5,7 @@ mod contact_segment;
 mod cut;
 mod grid;
 mod lines;
+mod name;
 mod outline;
 mod places;
 mod ruck;
@@ -17,6 +18,7 @@ pub use grid::{Catenary, Grid, GripperId, Kind};
 #[cfg(test)]
 pub(crate) use lines::tests::held;
 pub use lines::{BiasLines, Fibres, FoundLines, LineCell, Lines};
+pub use name::{gripper_name, read_gripper_name};
 pub use outline::{Outline, OutlineError, Ring, RingId};
 pub use places::{FARTHEST, PlaceError, STEEPEST, is_near};
 pub use ruck::Ruck;

@@ -3,7 +3,7 @@
 //! Scene files, tables and programs are held to the same: coordinates are finite and up to [`FARTHEST`], neighbours stand a
 //! horizontal distance apart, because a span straight up has no horizontal force, and times ascend.
 
-use super::{Catenary, GripperId, Ply};
+use super::{Catenary, GripperId, Ply, gripper_name};
 
 /// Largest coordinate of a gripper (m): far beyond any robot, and far from where squares of distances overflow.
 pub const FARTHEST: f64 = 1e6;
@@ -25,7 +25,7 @@ pub enum PlaceError {
         expected: usize,
     },
     /// A coordinate is NaN, infinite or farther than any robot reaches.
-    #[error("gripper {gripper:?} is at {position:?} m{}: coordinates are finite numbers up to {FARTHEST:e} m", in_step(.step))]
+    #[error("gripper {} is at {position:?} m{}: coordinates are finite numbers up to {FARTHEST:e} m", gripper_name(*gripper), in_step(.step))]
     Far {
         /// Counts from 1; none of positions that belong to no step.
         step: Option<usize>,
@@ -36,8 +36,8 @@ pub enum PlaceError {
     },
     /// Neighbours are (all but) straight above each other, or at one place.
     #[error(
-        "grippers {a:?} and {b:?} are only {:.3} mm apart in plan{}; the ply between them is {:.2} mm: move them apart, because a span needs a horizontal distance of 1 % of its fabric or more",
-        run * 1e3, in_step(.step), length * 1e3
+        "grippers {} and {} are only {:.3} mm apart in plan{}; the ply between them is {:.2} mm: move them apart, because a span needs a horizontal distance of 1 % of its fabric or more",
+        gripper_name(*a), gripper_name(*b), run * 1e3, in_step(.step), length * 1e3
     )]
     Steep {
         /// Counts from 1; none of positions that belong to no step.

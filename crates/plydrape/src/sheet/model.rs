@@ -4,7 +4,7 @@ use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
 use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
-use crate::ply::{Direction, Grid, GripperId, Neighbours, Outline, Ply};
+use crate::ply::{Direction, Grid, GripperId, Neighbours, Outline, Ply, gripper_name};
 use crate::scene::{Friction, PadSettings, Scene, Settings};
 use crate::tool::Tool;
 
@@ -96,7 +96,8 @@ pub enum SheetError {
     },
     /// A pad that is not on the ply as a whole.
     #[error(
-        "the pad of gripper {gripper:?} has a radius of {radius_mm:.3} mm and its middle is {inside_mm:.3} mm inside the boundary of the ply"
+        "the pad of gripper {} has a radius of {radius_mm:.3} mm and its middle is {inside_mm:.3} mm inside the boundary of the ply",
+        gripper_name(*gripper)
     )]
     PadOff {
         /// The gripper.
@@ -108,7 +109,8 @@ pub enum SheetError {
     },
     /// A pad between lines of nodes that holds too few of them.
     #[error(
-        "the pad of gripper {gripper:?}, of {radius_mm:.3} mm radius, holds no three nodes of a mesh of {mesh_mm:.3} mm: grippers that do not stand in rows along the yarns need pads larger than the mesh"
+        "the pad of gripper {}, of {radius_mm:.3} mm radius, holds no three nodes of a mesh of {mesh_mm:.3} mm: grippers that do not stand in rows along the yarns need pads larger than the mesh",
+        gripper_name(*gripper)
     )]
     PadSmall {
         /// The gripper.

@@ -74,7 +74,7 @@ fn times_that_do_not_ascend_are_refused_with_their_step() {
     let mut far = motion(&[0.0, 1.0]);
     far.positions[1][5][2] = 1e200;
     let fault = ply.check_motion(&far).unwrap_err().to_string();
-    assert!(fault.contains("gripper [2, 1]") && fault.contains("in step 2"), "{fault}");
+    assert!(fault.contains("gripper g2_1") && fault.contains("in step 2"), "{fault}");
     let none = Motion { times: vec![], positions: vec![] };
     assert!(matches!(ply.check_motion(&none), Err(PlaceError::Steps { .. })));
 }

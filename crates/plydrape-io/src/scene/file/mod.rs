@@ -243,7 +243,7 @@ pub(super) struct GrippersTable {
     pub spacing: Option<Fixed<Quantity<Length>, 2>>,
     /// Height z of all grippers; above the mold, with `parallel_to_mold` (m).
     pub height: Option<Quantity<Length>>,
-    /// Place x, y of gripper [0, 0] (m), the origin unless given; with `parallel_to_mold`, of the mold point
+    /// Place x, y of gripper g0_0 (m), the origin unless given; with `parallel_to_mold`, of the mold point
     /// below it. Or "centred": the rectangle's middle is above the middle of the target.
     pub origin: Option<Located<Place<Centred>>>,
     /// Place x, y of the middle of all grippers (m), instead of the `origin`: where the ply is picked up.
@@ -280,7 +280,7 @@ pub(super) struct MotionTable {
     /// Time from the first to the last step of a straight motion (s), a second a step unless given. `plydrape plan`
     /// refuses it: what a plan keeps is the `duration` of [limits].
     pub duration: Option<Quantity<Time>>,
-    /// CSV file with columns t, gripper ("i-j"), x, y, z, relative to the scene.
+    /// CSV file with columns t, gripper ("g2_0"), x, y, z, relative to the scene.
     pub file: Option<Located<String>>,
 }
 

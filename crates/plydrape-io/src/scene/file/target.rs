@@ -17,7 +17,7 @@ pub(in crate::scene) struct TargetTable {
     pub direction: Option<Located<HeadingChoice>>,
     /// Shear angle there (rad): v stands at 90° minus this angle from u.
     pub shear: Option<Quantity<Angle>>,
-    /// The fabric point [u, v] (m) that is laid first, gripper [0, 0] unless given, of a ply that is cut a point of its drawing and
+    /// The fabric point [u, v] (m) that is laid first, gripper g0_0 unless given, of a ply that is cut a point of its drawing and
     /// its middle unless given; or "middle". With "best" the middle of the ply lies at `origin`, and the yarns that are laid first
     /// are those with which the ply shears least.
     pub seed: Option<Located<SeedChoice>>,

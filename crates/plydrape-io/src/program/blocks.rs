@@ -1,0 +1,158 @@
+//! The points of a program between its stops, and how each is passed.
+//!
+//! The cell stops where the vacuum switches, where it rests, and at its end. Between two stops a controller passes each
+//! point in a zone around it, in which it turns from one straight way into the next along a parabola. With the ways that
+//! lie within the zone before and behind the point, p and q, the parabola passes the point at the distance |q − p| / 4.
+
+use super::sampling::{Deviation, Sampling, Tolerance, Track, nearest};
+use plydrape::mold::vector::norm;
+
+/// A point and how it is passed.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Passed {
+    /// Which sample it is.
+    pub sample: usize,
+    /// How long the way to it takes (s).
+    pub duration: f64,
+    /// Radius of the zone in which it is passed (m); 0 where the cell stops.
+    pub radius: f64,
+}
+
+/// The points up to a stop, and what happens there.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Block {
+    /// The points behind the one at which the block before ended.
+    pub points: Vec<Passed>,
+    /// Events at the last one, by their numbers.
+    pub events: Vec<usize>,
+    /// How long the cell rests there then (s).
+    pub wait: f64,
+}
+
+/// A program in blocks.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Blocks {
+    /// What happens at the first point; it has no points.
+    pub start: Block,
+    pub blocks: Vec<Block>,
+    /// The largest error of what is interpolated between the points.
+    pub error: Deviation,
+    /// The largest distance at which a point is passed (m).
+    pub corner: f64,
+    /// The tolerance of both.
+    pub tolerance: Tolerance,
+}
+
+impl Blocks {
+    /// Of a track, within a tolerance, with zones of some radii (m), of which the first is the smallest.
+    pub fn new(track: &Track, tolerance: &Tolerance, radii: &[f64]) -> Self {
+        let program = track.program;
+        let times = &program.times;
+        let at: Vec<usize> = program.events.iter().map(|e| nearest(times, e.time)).collect();
+        let Sampling { kept, error } = track.sampling(&at, tolerance);
+        let events = |sample: usize| -> Vec<usize> {
+            (0..at.len()).filter(|event| at[*event] == sample).collect()
+        };
+
+        // a block ends at events, and before a rest
+        let mut blocks = vec![Block { events: events(0), ..Block::default() }];
+        let mut open = false;
+        for pair in kept.windows(2) {
+            let duration = times[pair[1]] - times[pair[0]];
+            let found = events(pair[1]);
+            let rests = track.rests(pair[0], pair[1], tolerance);
+            if rests {
+                open = false;
+                // the list begins with the start
+                if let Some(last) = blocks.last_mut() {
+                    last.wait += duration;
+                }
+                if !found.is_empty() {
+                    blocks.push(Block { events: found, ..Block::default() });
+                }
+                continue;
+            }
+            if !open {
+                blocks.push(Block::default());
+            }
+            open = found.is_empty();
+            if let Some(last) = blocks.last_mut() {
+                last.points.push(Passed { sample: pair[1], duration, radius: 0.0 });
+                last.events = found;
+            }
+        }
+
+        let mut corner: f64 = 0.0;
+        let mut from = 0;
+        for block in &mut blocks {
+            for n in 0..block.points.len() {
+                let sample = block.points[n].sample;
+                if let Some(next) = block.points.get(n + 1).map(|next| next.sample) {
+                    let (radius, off) =
+                        zone(track, [from, sample, next], tolerance.position, radii);
+                    block.points[n].radius = radius;
+                    corner = corner.max(off);
+                }
+                from = sample;
+            }
+        }
+        let start = blocks.remove(0);
+        Blocks { start, blocks, error, corner, tolerance: *tolerance }
+    }
+
+    /// Numbers of points, the start not among them.
+    pub fn points(&self) -> usize {
+        self.blocks.iter().map(|block| block.points.len()).sum()
+    }
+
+    /// In parts of so many points at most. A block that is longer than that is cut, and the cell stops there.
+    pub fn parts(&self, most: usize) -> Vec<Vec<Block>> {
+        let mut parts: Vec<Vec<Block>> = vec![Vec::new()];
+        let mut room = most;
+        for block in &self.blocks {
+            let mut points = &block.points[..];
+            if points.len() > room && room < most {
+                parts.push(Vec::new());
+                room = most;
+            }
+            while points.len() > room {
+                let (now, later) = points.split_at(room);
+                let mut cut = Block { points: now.to_vec(), ..Block::default() };
+                cut.points.iter_mut().skip(room - 1).for_each(|last| last.radius = 0.0);
+                parts.last_mut().into_iter().for_each(|part| part.push(cut.clone()));
+                parts.push(Vec::new());
+                (points, room) = (later, most);
+            }
+            room -= points.len();
+            let rest = Block { points: points.to_vec(), ..block.clone() };
+            parts.last_mut().into_iter().for_each(|part| part.push(rest.clone()));
+        }
+        parts
+    }
+}
+
+/// The largest radius of the zone of a sample between two others, and the distance at which it is passed (m), both at most
+/// as large as they may be. The smallest radius is always taken: a controller makes it as small as it needs.
+fn zone(track: &Track, [from, at, to]: [usize; 3], most: f64, radii: &[f64]) -> (f64, f64) {
+    let lengths = [track.movement(from, at).position, track.movement(at, to).position];
+    let half = 0.5 * lengths[0].min(lengths[1]);
+    let off = |radius: f64| {
+        let within = radius.min(half);
+        let shares = lengths.map(|length| if length > 0.0 { within / length } else { 0.0 });
+        let change = |before: f64, now: f64, then: f64| {
+            0.25 * (shares[1] * (then - now) - shares[0] * (now - before))
+        };
+        let axes = track.largest(|axis| {
+            let values = &track.program.axes[axis].values;
+            change(values[from], values[at], values[to])
+        });
+        let centre = track.centre.as_ref().map_or(0.0, |centre| {
+            let [p, q, r] = [from, at, to].map(|k| centre[k].position);
+            norm([0, 1, 2].map(|n| change(p[n], q[n], r[n])))
+        });
+        centre + axes
+    };
+    let fits = radii.iter().skip(1).rev().find(|radius| **radius <= half && off(**radius) <= most);
+    let radius = fits.or(radii.first()).copied().unwrap_or_default();
+    (radius, off(radius))
+}

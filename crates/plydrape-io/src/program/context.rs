@@ -1,0 +1,417 @@
+//! The variables that a template sees. All lengths are in metres, times in seconds and angles in radians; filters change units.
+
+use super::blocks::{Block, Blocks, Passed};
+use super::pose::{angle, euler_zyx, quaternion, rotation_vector};
+use super::sampling::Track;
+use super::template::Robot;
+use super::{EventKind, Program, wide};
+use plydrape::mold::Pose;
+use plydrape::mold::vector::distance;
+use plydrape::ply::gripper_name;
+use serde::Serialize;
+
+/// Everything.
+#[derive(Debug, Serialize)]
+pub(super) struct Context {
+    /// This program and its version.
+    pub program: &'static str,
+    /// The scene's title, in ASCII.
+    pub title: String,
+    /// The title as a name that every controller takes.
+    pub name: String,
+    /// The name of this file's program: `name`, or of several parts `name_1` and so on.
+    pub part: String,
+    /// The names of all parts.
+    pub parts: Vec<String>,
+    /// Whether this is the first part, which begins, and the last one, which ends.
+    pub first: bool,
+    pub last: bool,
+    pub accepted: bool,
+    /// The verdict, in ASCII.
+    pub verdict: String,
+    /// What the head of the file shall say, line by line, in ASCII.
+    pub head: Vec<String>,
+    pub duration: f64,
+    pub mold: PoseOf,
+    pub tool: PoseOf,
+    /// The external axes that this program moves.
+    pub axes: Vec<AxisOf>,
+    /// Whether another controller moves the axes of the array.
+    pub separate_axes: bool,
+    /// The signal that starts them.
+    pub start_output: usize,
+    /// The vacuum of each gripper.
+    pub grippers: Vec<Signal>,
+    /// Largest speed of the tool's centre (m/s).
+    pub speed: f64,
+    /// Largest rate of turning (rad/s).
+    pub turn_rate: f64,
+    pub start: BlockOf,
+    pub blocks: Vec<BlockOf>,
+}
+
+/// A pose in every form.
+#[derive(Debug, Serialize)]
+pub(super) struct PoseOf {
+    pub position: [f64; 3],
+    /// x, y, z, w.
+    pub quaternion: [f64; 4],
+    /// About z, the new y, the new x.
+    pub euler_zyx: [f64; 3],
+    pub rotation_vector: [f64; 3],
+}
+
+impl PoseOf {
+    fn of(pose: &Pose) -> Self {
+        PoseOf {
+            position: pose.position,
+            quaternion: quaternion(pose),
+            euler_zyx: euler_zyx(pose),
+            rotation_vector: rotation_vector(pose),
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct AxisOf {
+    pub name: String,
+    pub gripper: String,
+    pub stroke: Option<[f64; 2]>,
+    pub speed: f64,
+}
+
+/// The vacuum of a gripper.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Signal {
+    /// The gripper, `g2_0`.
+    pub gripper: String,
+    /// Number of its output.
+    pub output: usize,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct EventOf {
+    pub kind: EventKind,
+    pub time: f64,
+    pub grippers: Vec<Signal>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct BlockOf {
+    pub points: Vec<PointOf>,
+    pub duration: f64,
+    pub events: Vec<EventOf>,
+    pub wait: f64,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct PointOf {
+    /// Counts through the file from 1.
+    pub number: usize,
+    pub time: f64,
+    pub duration: f64,
+    /// The share of its block's duration.
+    pub share: f64,
+    #[serde(flatten)]
+    pub pose: PoseOf,
+    /// Values of the external axes.
+    pub axes: Vec<f64>,
+    /// Mean speeds on the way here: of the centre, of turning, of the fastest axis.
+    pub speed: f64,
+    pub turn_rate: f64,
+    pub axis_speed: f64,
+    /// Radius of the zone.
+    pub radius: f64,
+    /// Whether the cell stops here.
+    pub stop: bool,
+}
+
+/// The contexts of all parts of a program.
+pub(super) fn contexts(track: &Track, blocks: &Blocks, robot: Robot) -> Vec<Context> {
+    let program = track.program;
+    let limits = robot.limits();
+    let name = identifier(&program.name);
+    let split = blocks.parts(limits.points);
+    let parts: Vec<String> = match split.len() {
+        1 => vec![name.clone()],
+        many => (1..=many).map(|n| format!("{name}_{n}")).collect(),
+    };
+    let separate = !track.moves_axes;
+    let grippers: Vec<Signal> = program
+        .grippers()
+        .into_iter()
+        .enumerate()
+        .map(|(n, gripper)| Signal { gripper, output: n + limits.first_output })
+        .collect();
+    let maker = Maker { track, grippers: &grippers };
+
+    let mut from = 0;
+    let mut contexts: Vec<Context> = Vec::with_capacity(split.len());
+    for (n, part) in split.iter().enumerate() {
+        let mut number = 1;
+        // each part begins where the one before ends
+        let start = match n {
+            0 => blocks.start.clone(),
+            _ => Block::default(),
+        };
+        let beginning = Passed { sample: from, duration: 0.0, radius: 0.0 };
+        let mut start = maker.block(&start, &mut from, &mut number);
+        let mut first = from;
+        start.points.push(maker.point(&beginning, &mut first, 1, 0.0));
+        let of_part: Vec<BlockOf> =
+            part.iter().map(|block| maker.block(block, &mut from, &mut number)).collect();
+        contexts.push(Context {
+            program: crate::PROGRAM,
+            title: ascii(&program.name),
+            name: name.clone(),
+            part: parts[n].clone(),
+            first: n == 0,
+            last: n + 1 == split.len(),
+            parts: parts.clone(),
+            accepted: program.accepted,
+            verdict: ascii(&program.verdict),
+            head: head(track, blocks, robot, [n, split.len()]),
+            duration: program.times.last().copied().unwrap_or_default(),
+            mold: PoseOf::of(&program.frames.mold),
+            tool: PoseOf::of(&program.frames.tool),
+            axes: if separate { Vec::new() } else { program.axes.iter().map(axis).collect() },
+            separate_axes: separate,
+            start_output: limits.first_output + grippers.len(),
+            grippers: grippers.clone(),
+            speed: 0.0,
+            turn_rate: 0.0,
+            start,
+            blocks: of_part,
+        });
+    }
+    let points = || contexts.iter().flat_map(|c| &c.blocks).flat_map(|b| &b.points);
+    let speed = points().map(|point| point.speed).fold(0.0, f64::max);
+    let turn_rate = points().map(|point| point.turn_rate).fold(0.0, f64::max);
+    contexts.iter_mut().for_each(|c| (c.speed, c.turn_rate) = (speed, turn_rate));
+    contexts
+}
+
+fn axis(axis: &super::Axis) -> AxisOf {
+    AxisOf {
+        name: axis.name.clone(),
+        gripper: gripper_name(axis.gripper),
+        stroke: axis.stroke,
+        speed: axis.speed,
+    }
+}
+
+/// Makes blocks and points.
+struct Maker<'a> {
+    track: &'a Track<'a>,
+    grippers: &'a [Signal],
+}
+
+impl Maker<'_> {
+    /// A block that begins at the sample `from`, its points numbered behind `number`.
+    fn block(&self, block: &Block, from: &mut usize, number: &mut usize) -> BlockOf {
+        let duration: f64 = block.points.iter().map(|point| point.duration).sum();
+        let points = block.points.iter().map(|point| {
+            *number += 1;
+            self.point(point, from, *number, point.duration / duration)
+        });
+        let points = points.collect();
+        let event = |n: &usize| {
+            let event = &self.track.program.events[*n];
+            let names: Vec<String> = event.grippers.iter().map(|id| gripper_name(*id)).collect();
+            let known = self.grippers.iter().filter(|signal| names.contains(&signal.gripper));
+            EventOf { kind: event.kind, time: event.time, grippers: known.cloned().collect() }
+        };
+        let events = block.events.iter().map(event).collect();
+        BlockOf { points, duration, events, wait: block.wait }
+    }
+
+    fn point(&self, passed: &Passed, from: &mut usize, number: usize, share: f64) -> PointOf {
+        let Track { program, centre, .. } = self.track;
+        let (sample, duration) = (passed.sample, passed.duration);
+        let pose = |k: usize| centre.as_ref().map_or(super::pose::NONE, |centre| centre[k]);
+        let [before, now] = [*from, sample].map(pose);
+        let rate = |way: f64| if duration > 0.0 { way / duration } else { 0.0 };
+        let own = || program.axes.iter().filter(|_| self.track.moves_axes);
+        let ways = own().map(|axis| (axis.values[sample] - axis.values[*from]).abs());
+        let farthest = ways.fold(0.0, f64::max);
+        *from = sample;
+        PointOf {
+            number,
+            time: program.times[sample],
+            duration,
+            share,
+            speed: rate(distance(before.position, now.position)),
+            turn_rate: rate(angle(&before, &now)),
+            axis_speed: rate(farthest),
+            pose: PoseOf::of(&now),
+            axes: own().map(|axis| axis.values[sample]).collect(),
+            radius: passed.radius,
+            stop: passed.radius == 0.0,
+        }
+    }
+}
+
+/// What every file says at its beginning.
+fn head(track: &Track, blocks: &Blocks, robot: Robot, [part, parts]: [usize; 2]) -> Vec<String> {
+    let program = track.program;
+    let limits = robot.limits();
+    let mut lines = vec![format!("{}, made by {}", program.name, crate::PROGRAM)];
+    if !program.accepted {
+        lines.push(rejected(program));
+    }
+    lines.push(format!("Verdict: {}", program.verdict));
+    let parted = match parts {
+        1 => String::new(),
+        _ => format!(", part {} of {parts}; the robot stops between parts", part + 1),
+    };
+    lines.push(format!(
+        "{:.3} s, {} points of {} samples{parted}",
+        program.times.last().copied().unwrap_or_default(),
+        blocks.points() + 1,
+        program.times.len(),
+    ));
+    lines.push(format!(
+        "Straight lines between the points stay within {:.4} mm and {:.4} deg of the motion",
+        blocks.error.position * 1e3,
+        blocks.error.angle.to_degrees(),
+    ));
+    if limits.zones {
+        lines.push(format!(
+            "Zones pass points at {:.4} mm or less; the robot stops where the vacuum switches",
+            blocks.corner * 1e3
+        ));
+    } else {
+        lines.push("The robot stops where the vacuum switches".into());
+    }
+    lines.push(format!("Frames: world > mold ({}) > tool", limits.mold));
+    lines.push(format!("        flange > tool ({})", limits.tool));
+    lines.push(limits.units.into());
+    match program.axes.len() {
+        0 => {}
+        _ if track.moves_axes => {
+            let names: Vec<_> = program.axes.iter().zip(limits.axis_names).collect();
+            let pairs = names.iter().map(|(axis, letter)| format!("{letter} = {}", axis.name));
+            lines.push(format!("External axes: {}", pairs.collect::<Vec<_>>().join(", ")));
+        }
+        count => {
+            lines.push(format!(
+                "The {count} axes of the array are more than the {} that this controller moves with the arm:",
+                limits.axes
+            ));
+            lines.push(format!(
+                "their own controller follows {}, from the time when array_start is set.",
+                wide::FILE
+            ));
+            lines.push(
+                "Both keep time by themselves; nothing holds them together on the way".into(),
+            );
+        }
+    }
+    lines.iter().flat_map(|line| wrapped(&ascii(line))).collect()
+}
+
+/// Longest line of a head: that of KRL has 471 letters, and a head is there to be read.
+const WIDTH: usize = 100;
+
+/// A line in pieces of whole words, those behind the first indented.
+fn wrapped(line: &str) -> Vec<String> {
+    let indent = &line[..line.len() - line.trim_start().len()];
+    let mut lines = vec![String::new()];
+    for word in line.split_whitespace() {
+        let last = lines.len() - 1;
+        let room = WIDTH.saturating_sub(lines[last].len() + 1);
+        match lines[last].is_empty() {
+            true => lines[last] = format!("{indent}{word}"),
+            false if word.len() <= room => lines[last] += &format!(" {word}"),
+            false => lines.push(format!("{indent}  {word}")),
+        }
+    }
+    lines
+}
+
+/// What a file of a motion that is not accepted says first.
+pub(crate) fn rejected(program: &Program) -> String {
+    format!("NOT ACCEPTED: {}", program.verdict)
+}
+
+/// Longest name, so that names of points behind it are still short enough for every controller.
+const LONGEST: usize = 16;
+
+/// A title as a name: letters, digits and `_`, a letter first.
+pub(super) fn identifier(title: &str) -> String {
+    let mut name = String::new();
+    for letter in ascii(title).to_ascii_lowercase().chars() {
+        match letter {
+            'a'..='z' | '0'..='9' => name.push(letter),
+            _ if name.ends_with('_') || name.is_empty() => {}
+            _ => name.push('_'),
+        }
+    }
+    if !name.starts_with(|letter: char| letter.is_ascii_lowercase()) {
+        name.insert_str(0, "ply_");
+    }
+    name.truncate(LONGEST);
+    let name = name.trim_end_matches('_');
+    // what is left must be no word of a controller's language
+    if name.len() < 4 || WORDS.contains(&name) { format!("ply_{name}") } else { name.into() }
+}
+
+/// Words of the languages that a title may well be, of four letters and more.
+const WORDS: [&str; 20] = [
+    "module", "proc", "main", "move", "movel", "movej", "test", "wait", "stop", "trap", "func",
+    "local", "spline", "signal", "global", "frame", "tool", "base", "thread", "world",
+];
+
+/// A text of printable ASCII, with what comes near to other letters.
+pub(super) fn ascii(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            ' '..='~' => plain.push(letter),
+            '°' => plain.push_str(" deg"),
+            'µ' | 'μ' => plain.push('u'),
+            '²' => plain.push_str("^2"),
+            '³' => plain.push_str("^3"),
+            '–' | '—' | '−' => plain.push('-'),
+            '×' => plain.push('x'),
+            'ä' | 'á' | 'à' | 'â' | 'å' => plain.push('a'),
+            'ö' | 'ó' | 'ô' | 'ø' => plain.push('o'),
+            'ü' | 'ú' => plain.push('u'),
+            'é' | 'è' | 'ê' => plain.push('e'),
+            'Ä' | 'Å' => plain.push('A'),
+            'Ö' | 'Ø' => plain.push('O'),
+            'Ü' => plain.push('U'),
+            'É' | 'È' => plain.push('E'),
+            'ß' => plain.push_str("ss"),
+            '…' => plain.push_str("..."),
+            _ if letter.is_whitespace() => plain.push(' '),
+            _ => plain.push('?'),
+        }
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Names are short, in small letters, and no word of a language.
+    #[test]
+    fn a_title_becomes_a_name_that_controllers_take() {
+        for (title, name) in [
+            ("Flat mold, sheared target", "flat_mold_sheare"),
+            ("3rd ply", "ply_3rd_ply"),
+            ("", "ply_ply"),
+            ("Main", "ply_main"),
+            ("Über-Form", "uber_form"),
+            ("a", "ply_a"),
+        ] {
+            assert_eq!(identifier(title), name);
+        }
+    }
+
+    #[test]
+    fn a_head_is_plain_ascii() {
+        assert_eq!(ascii("57.1° – 3 µm² × 2\tü"), "57.1 deg - 3 um^2 x 2 u");
+    }
+}

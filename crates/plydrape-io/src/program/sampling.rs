@@ -1,0 +1,290 @@
+//! Adaptive sampling: which samples of a motion a controller needs, so that what it interpolates between them is near enough.
+//!
+//! Controllers go from point to point on straight lines, turn on the shortest way, and move external axes along with it. From
+//! one point that is kept the next is the farthest for which all samples between them are met at their own times:
+//!
+//! - the position error is that of the tool's centre and of every pad. A pad that the error turns with the tool is
+//!   displaced by its lever arm, so far pads need more points; the errors of its own axes, which are at right angles, are added;
+//! - the angle error is that of the tool.
+//!
+//! The largest of both are measured over all samples and stand in the heads of the files.
+
+use super::pose::{after, angle, interpolated, local};
+use super::{Program, ProgramError};
+use plydrape::mold::Pose;
+use plydrape::mold::vector::distance;
+use plydrape::ply::gripper_name;
+
+/// How far interpolated poses may be from the program's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Of the tool's centre and of the pads (m). As a default 0.1 mm: large robots come back to a point to within 0.05 mm to
+    /// 0.1 mm (the repeatability of ISO 9283 in their data sheets), so that less could not be told from it, and it is a
+    /// small share of the error of 0.5 mm or so that a plan has to stand in any cell.
+    pub position: f64,
+    /// Of the tool's orientation (rad). As a default 0.1°: what it does to the pads counts in the position already, so
+    /// this matters only for a tool without pads far from its centre.
+    pub angle: f64,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Tolerance { position: 1e-4, angle: 0.1_f64.to_radians() }
+    }
+}
+
+impl Tolerance {
+    /// Refuses what no sampling could keep.
+    ///
+    /// # Errors
+    /// [`ProgramError::Tolerance`].
+    pub fn check(&self) -> Result<(), ProgramError> {
+        for (what, value) in [("position error", self.position), ("angle error", self.angle)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(ProgramError::Tolerance { what, value });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Error of what is interpolated between samples.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Deviation {
+    /// Of a place (m).
+    pub position: f64,
+    /// Of an orientation (rad).
+    pub angle: f64,
+}
+
+impl Deviation {
+    /// The larger ones.
+    pub fn or(self, other: Self) -> Self {
+        Deviation {
+            position: self.position.max(other.position),
+            angle: self.angle.max(other.angle),
+        }
+    }
+
+    /// Whether both are small enough.
+    fn is_within(self, tolerance: &Tolerance) -> bool {
+        self.position <= tolerance.position && self.angle <= tolerance.angle
+    }
+}
+
+/// The samples that are kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sampling {
+    /// Their indices, the first and the last sample among them.
+    pub kept: Vec<usize>,
+    /// The largest error between them.
+    pub error: Deviation,
+}
+
+/// A movement this small, as a share of the tolerance, is none: the cell rests.
+const REST: f64 = 1e-6;
+
+/// A program by what a controller interpolates: the centre of the tool and the axes.
+#[derive(Debug)]
+pub(crate) struct Track<'a> {
+    pub program: &'a Program,
+    /// Whether the controller moves the axes too.
+    pub moves_axes: bool,
+    /// The centre of the tool in the frame of the mold, if there is a flange.
+    pub centre: Option<Vec<Pose>>,
+    /// For each gripper its pad, if it has one, and its axes.
+    grippers: Vec<(Option<usize>, Vec<usize>)>,
+}
+
+impl<'a> Track<'a> {
+    pub fn new(program: &'a Program, moves_axes: bool) -> Self {
+        let tool = &program.frames.tool;
+        let centre = program.flange.as_ref();
+        let centre = centre.map(|flange| flange.iter().map(|pose| after(pose, tool)).collect());
+        let mut names = program.grippers();
+        let mut grippers: Vec<_> = (0..names.len()).map(|n| (Some(n), Vec::new())).collect();
+        for (n, axis) in program.axes.iter().enumerate().filter(|_| moves_axes) {
+            let name = gripper_name(axis.gripper);
+            let known = names.iter().position(|other| *other == name).unwrap_or_else(|| {
+                names.push(name);
+                grippers.push((None, Vec::new()));
+                grippers.len() - 1
+            });
+            grippers[known].1.push(n);
+        }
+        Track { program, moves_axes, centre, grippers }
+    }
+
+    /// The error at sample k of what is interpolated from sample a to sample b.
+    pub fn deviation(&self, a: usize, b: usize, k: usize) -> Deviation {
+        let Program { times, axes, pads, .. } = self.program;
+        let share = (times[k] - times[a]) / (times[b] - times[a]);
+        let off = |axis: usize| {
+            let values = &axes[axis].values;
+            values[a] + share * (values[b] - values[a]) - values[k]
+        };
+        let Some(centre) = &self.centre else {
+            return Deviation { position: self.largest(off), angle: 0.0 };
+        };
+        let pose = interpolated(&centre[a], &centre[b], share);
+        let of_gripper = |(pad, own): &(Option<usize>, Vec<usize>)| {
+            let carried = pad.map_or(0.0, |pad| {
+                let place = pads[pad].poses[k].position;
+                distance(pose.place(local(&centre[k], place)), place)
+            });
+            carried + length(own, &off)
+        };
+        let pads = self.grippers.iter().map(of_gripper).fold(0.0, f64::max);
+        Deviation {
+            position: pads.max(distance(pose.position, centre[k].position)),
+            angle: angle(&pose, &centre[k]),
+        }
+    }
+
+    /// The largest displacement of a gripper by its axes, from that of each axis.
+    pub fn largest(&self, of_axis: impl Fn(usize) -> f64) -> f64 {
+        self.grippers.iter().map(|(_, own)| length(own, &of_axis)).fold(0.0, f64::max)
+    }
+
+    /// The largest movement from sample a to sample b: of the centre or an axis (m), and the turn (rad).
+    pub fn movement(&self, a: usize, b: usize) -> Deviation {
+        let own = self.program.axes.iter().filter(|_| self.moves_axes);
+        let axes = own.map(|axis| (axis.values[b] - axis.values[a]).abs());
+        let axes = axes.fold(0.0, f64::max);
+        self.centre.as_ref().map_or(Deviation { position: axes, angle: 0.0 }, |centre| Deviation {
+            position: axes.max(distance(centre[a].position, centre[b].position)),
+            angle: angle(&centre[a], &centre[b]),
+        })
+    }
+
+    /// Whether the cell rests from sample a to sample b.
+    pub fn rests(&self, a: usize, b: usize, tolerance: &Tolerance) -> bool {
+        let small = |t: f64| REST * t;
+        let rest = Tolerance { position: small(tolerance.position), angle: small(tolerance.angle) };
+        (a..b).all(|k| self.movement(a, k + 1).is_within(&rest))
+    }
+
+    /// The samples that are kept, those at the `forced` indices and at both ends of each rest among them.
+    pub fn sampling(&self, forced: &[usize], tolerance: &Tolerance) -> Sampling {
+        let count = self.program.times.len();
+        let mut forced = forced.to_vec();
+        let mut from = 0;
+        for k in 1..=count {
+            if k < count && self.rests(k - 1, k, tolerance) {
+                continue;
+            }
+            // a rest of one interval alone is the beginning or the end of a movement
+            if k - from > 2 {
+                forced.extend([from, k - 1]);
+            }
+            from = k;
+        }
+        thin(count, &forced, tolerance, |a, b, k| self.deviation(a, b, k))
+    }
+}
+
+/// The length of a way along some axes at right angles to each other.
+fn length(axes: &[usize], of_axis: &impl Fn(usize) -> f64) -> f64 {
+    axes.iter().map(|axis| of_axis(*axis).powi(2)).sum::<f64>().sqrt()
+}
+
+/// The sample nearest to a time (s).
+pub(crate) fn nearest(times: &[f64], time: f64) -> usize {
+    let after = times.partition_point(|t| *t < time).min(times.len() - 1);
+    if after > 0 && time - times[after - 1] <= times[after] - time { after - 1 } else { after }
+}
+
+/// The fewest samples, taken from the first on, between which `deviation(a, b, k)` of all others is within a tolerance; those
+/// at the `forced` indices among them.
+pub(crate) fn thin(
+    count: usize,
+    forced: &[usize],
+    tolerance: &Tolerance,
+    deviation: impl Fn(usize, usize, usize) -> Deviation,
+) -> Sampling {
+    let mut stops: Vec<usize> = forced.iter().copied().filter(|k| *k < count).collect();
+    stops.push(count - 1);
+    stops.sort_unstable();
+    stops.dedup();
+    let is_near = |a: usize, b: usize| (a + 1..b).all(|k| deviation(a, b, k).is_within(tolerance));
+    let (mut kept, mut a) = (vec![0], 0);
+    for stop in stops {
+        while a < stop {
+            // the way that is near enough doubles until one is not, and is then halved in on
+            let (mut good, mut step) = (a + 1, 2);
+            let mut bad = None;
+            while good < stop && bad.is_none() {
+                let next = (a + step).min(stop);
+                if is_near(a, next) {
+                    good = next
+                } else {
+                    bad = Some(next)
+                }
+                step *= 2;
+            }
+            while let Some(far) = bad.filter(|far| far - good > 1) {
+                let middle = good + (far - good) / 2;
+                if is_near(a, middle) { good = middle } else { bad = Some(middle) }
+            }
+            kept.push(good);
+            a = good;
+        }
+    }
+    let mut error = Deviation::default();
+    for pair in kept.windows(2) {
+        for k in pair[0] + 1..pair[1] {
+            error = error.or(deviation(pair[0], pair[1], k));
+        }
+    }
+    Sampling { kept, error }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A chord over the angle θ of a circle of radius r is r (1 − cos θ/2) from it, so as many points are needed as chords
+    /// of that height go round.
+    #[test]
+    fn a_circle_gets_as_many_chords_as_its_sagitta_needs() {
+        let (radius, count) = (0.5, 20_001);
+        let at = |k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / (count - 1) as f64;
+            [radius * angle.cos(), radius * angle.sin()]
+        };
+        let off = |a: usize, b: usize, k: usize| {
+            let share = (k - a) as f64 / (b - a) as f64;
+            let [p, q, r] = [a, b, k].map(at);
+            let off = [0, 1].map(|n| p[n] + share * (q[n] - p[n]) - r[n]);
+            Deviation { position: off[0].hypot(off[1]), angle: 0.0 }
+        };
+        for position in [1e-3, 1e-4, 1e-5] {
+            let tolerance = Tolerance { position, ..Tolerance::default() };
+            let sampling = thin(count, &[], &tolerance, off);
+            let chord = 2.0 * (1.0 - position / radius).acos();
+            let needed = std::f64::consts::TAU / chord;
+            let found = (sampling.kept.len() - 1) as f64;
+            // the last chord may be short, and each is cut to whole samples
+            assert!((needed..1.02 * needed + 1.0).contains(&found), "{found} {needed}");
+            assert!(sampling.error.position <= position);
+            assert!(sampling.error.position > 0.95 * position);
+        }
+    }
+
+    /// Forced samples are kept, and a straight way needs no others.
+    #[test]
+    fn a_straight_way_keeps_its_ends_and_what_is_forced() {
+        let none = |_, _, _| Deviation::default();
+        let kept = |forced: &[usize]| thin(1000, forced, &Tolerance::default(), none).kept;
+        assert_eq!(kept(&[]), [0, 999]);
+        assert_eq!(kept(&[700, 0, 30, 700]), [0, 30, 700, 999]);
+        assert_eq!(thin(1, &[], &Tolerance::default(), none).kept, [0]);
+    }
+
+    #[test]
+    fn the_nearest_sample_is_on_either_side() {
+        let times = [0.0, 1.0, 2.0, 4.0];
+        let found = [-1.0, 0.4, 0.6, 2.9, 3.1, 9.0].map(|time| nearest(&times, time));
+        assert_eq!(found, [0, 0, 1, 2, 3, 3]);
+    }
+}

@@ -1,0 +1,184 @@
+//! Programs for controllers, read back by readers that know the languages and not the templates.
+//!
+//! Each reader refuses whatever it does not know, and plays what it has read: where the centre of the tool, the external
+//! axes and the vacuum are at which time. What is played is compared with the program at every sample.
+
+mod cell;
+mod krl;
+mod rapid;
+mod ros2;
+mod tokens;
+mod urscript;
+
+use cell::{Played, cell, rejected, text};
+use plydrape_io::export::Files;
+use plydrape_io::program::{Program, Robot, Template, Tolerance, template, wide};
+
+fn files(program: &Program, robot: Robot, position: f64) -> Files {
+    let tolerance = Tolerance { position, ..Tolerance::default() };
+    template::files(program, robot, &[], &tolerance).unwrap()
+}
+
+fn names(files: &Files) -> Vec<&str> {
+    files.iter().map(|(name, _)| name.as_str()).collect()
+}
+
+fn played(robot: Robot, files: &Files) -> Played {
+    match robot {
+        Robot::Rapid => rapid::play(files),
+        Robot::Krl => krl::play(files),
+        Robot::Urscript => urscript::play(files),
+    }
+}
+
+/// Each controller's file, played, is where the program is, to within the error that its head states; frames, vacuum and
+/// the six external axes are those of the program.
+#[test]
+fn what_a_controller_reads_is_the_program_within_the_stated_error() {
+    for (robot, axes) in
+        [(Robot::Rapid, 6), (Robot::Krl, 6), (Robot::Urscript, 0), (Robot::Rapid, 0)]
+    {
+        let program = cell(axes, 1001);
+        for position in [1e-3, 1e-4, 1e-5] {
+            let files = files(&program, robot, position);
+            let played = played(robot, &files);
+            let stated = cell::stated(&files);
+            assert!(stated.position <= position, "{robot:?} {stated:?}");
+            played.compare(&program, stated);
+            let count = played.points.len();
+            assert!((10..1010).contains(&count), "{robot:?} {position} {count}");
+        }
+    }
+}
+
+/// A controller that moves fewer axes than the array has gets none of them; they stand in a table beside it, which holds
+/// every number of the program to the last bit.
+#[test]
+fn axes_beyond_a_controllers_own_go_to_a_table_beside_it() {
+    for (robot, axes) in [(Robot::Rapid, 7), (Robot::Krl, 12), (Robot::Urscript, 4)] {
+        let program = cell(axes, 1001);
+        let files = files(&program, robot, 1e-4);
+        assert_eq!(names(&files).last(), Some(&wide::FILE));
+        let head = text(&files, 0);
+        assert!(head.contains("nothing holds them together on the way"), "{head}");
+        let played = played(robot, &files);
+        assert!(played.points.iter().all(|point| point.axes.is_empty()));
+        assert!(played.starts_array);
+        played.compare(&program, cell::stated(&files));
+        cell::compare_wide(&text(&files, files.len() - 1), &program);
+    }
+}
+
+/// 5000 points are the most of a file: what needs more is in parts, which play as one motion.
+#[test]
+fn a_program_of_too_many_points_is_split() {
+    let program = cell(6, 20_001);
+    for robot in Robot::ALL {
+        let program = if robot == Robot::Urscript { cell(0, 20_001) } else { program.clone() };
+        let files = files(&program, robot, 1e-8);
+        let per_part = robot.shipped().len();
+        assert!(files.len() >= 2 * per_part, "{:?}", names(&files));
+        assert!(text(&files, 0).contains("part 1 of"));
+        let played = played(robot, &files);
+        assert!(played.points.len() > 5000);
+        played.compare(&program, cell::stated(&files));
+    }
+}
+
+/// The head of a motion that is not accepted says so first.
+#[test]
+fn a_rejected_motion_says_so_in_its_head() {
+    let program = rejected(cell(0, 1001));
+    for robot in Robot::ALL {
+        let files = files(&program, robot, 1e-4);
+        for n in 0..files.len() {
+            let text = text(&files, n);
+            let head: Vec<&str> = text.lines().take(6).collect();
+            assert!(
+                head.iter().any(|line| line.contains("NOT ACCEPTED: tilt 57.1 deg")),
+                "{head:?}"
+            );
+        }
+        played(robot, &files).compare(&program, cell::stated(&files));
+    }
+    let table = wide::text(&program).unwrap();
+    assert!(table.starts_with("# NOT ACCEPTED: tilt 57.1°"), "{table}");
+}
+
+/// Same program, same bytes.
+#[test]
+fn a_program_is_written_alike_every_time() {
+    let program = cell(6, 1001);
+    for robot in Robot::ALL {
+        assert!(files(&program, robot, 1e-4) == files(&program, robot, 1e-4));
+    }
+}
+
+fn refused(program: &Program, robot: Robot, templates: &[Template]) -> String {
+    template::files(program, robot, templates, &Tolerance::default()).unwrap_err().to_string()
+}
+
+/// Free grippers have no arm; a motion needs a time 0; a tolerance is above 0; an array needs as many outputs as it has
+/// grippers. Each refusal says what to do.
+#[test]
+fn what_cannot_be_a_program_is_refused_with_a_remedy() {
+    let program = cell(2, 101);
+    let free = Program { flange: None, ..program.clone() };
+    assert!(refused(&free, Robot::Rapid, &[]).contains("say in [tool] how the array is carried"));
+
+    let late =
+        Program { times: program.times.iter().map(|t| t + 1.0).collect(), ..program.clone() };
+    assert!(refused(&late, Robot::Krl, &[]).contains("no point at 0 s"));
+    let mut short = program.clone();
+    short.axes[0].values.pop();
+    assert!(refused(&short, Robot::Krl, &[]).contains("g0_0_z has not one finite value"));
+
+    let none = Tolerance { position: 0.0, ..Tolerance::default() };
+    let fault = template::files(&program, Robot::Rapid, &[], &none).unwrap_err().to_string();
+    assert!(fault.contains("position error of 0"), "{fault}");
+
+    let mut many = program.clone();
+    let pad = many.pads[0].clone();
+    many.pads.resize(18, pad);
+    let fault = refused(&many, Robot::Urscript, &[]);
+    assert!(fault.contains("18 digital outputs") && fault.contains("19 are needed"), "{fault}");
+}
+
+/// A copy that is changed takes the place of the shipped one; one with another ending is used alone.
+#[test]
+fn templates_of_the_user_are_used() {
+    let program = cell(2, 101);
+    let made = |robot, name: &str, text: &str| {
+        let own = Template { name: name.into(), text: text.into() };
+        template::files(&program, robot, &[own], &Tolerance::default())
+    };
+    let (_, shipped) = Robot::Rapid.shipped()[0];
+    let changed = shipped.replace("v50", "v20");
+    let copy = made(Robot::Rapid, "cell.mod.j2", &changed).unwrap();
+    assert_eq!(text(&copy, 0), text(&files(&program, Robot::Rapid, 1e-4), 0).replace("v50", "v20"));
+
+    let both = made(Robot::Krl, "my.dat.j2", "{{ part }}\n").unwrap();
+    assert_eq!(names(&both), ["cell_of_the_test.src", "cell_of_the_test.dat"]);
+    assert_eq!(text(&both, 1), "cell_of_the_test\n");
+
+    let other = "{% for block in blocks %}{% for p in block.points %}{{ p.position|mm(1)|join(' ') }}\n{% endfor %}{% endfor %}";
+    let other = made(Robot::Krl, "cell.ls.j2", other).unwrap();
+    assert_eq!(names(&other), ["cell_of_the_test.ls"]);
+    assert!(text(&other, 0).lines().all(|line| line.split(' ').count() == 3));
+}
+
+/// A fault in a template is named with its line.
+#[test]
+fn a_template_with_a_fault_is_refused_with_its_line() {
+    let program = cell(0, 101);
+    for (text, what) in [
+        ("\n{{ nothing }}\n", "line 2"),
+        ("\n\n{% if %}\n", "line 3"),
+        ("{{ head|mm }}", "is no number"),
+        ("{{ title|unknown }}", "unknown"),
+    ] {
+        let own = Template { name: "cell.mod.j2".into(), text: text.into() };
+        let fault = refused(&program, Robot::Rapid, &[own]);
+        assert!(fault.contains("cell.mod.j2") && fault.contains(what), "{fault}");
+    }
+}
