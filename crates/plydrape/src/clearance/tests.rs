@@ -36,6 +36,8 @@ fn scene(grid: Grid, bodies: Vec<Body>, obstacles: Vec<Obstacle>) -> Scene {
         bodies: Bodies::new(bodies, obstacles),
         plan: Plan::default(),
         errors: None,
+        release: None,
+        tool: None,
     }
 }
 

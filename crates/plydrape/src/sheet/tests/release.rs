@@ -46,6 +46,8 @@ fn scene(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> Scene {
         limits,
         plan: Plan::default(),
         errors: None,
+        bodies: crate::clearance::Bodies::default(),
+        tool: None,
         release,
     }
 }
