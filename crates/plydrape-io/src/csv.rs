@@ -130,19 +130,34 @@ fn sampled(
             return Err(MotionError::Grippers { found, expected: ply.grippers() }.into());
         }
     }
-    let mut times = motion.samples(rate)?;
-    let end = motion.duration();
-    if let Some(until) = until {
-        // grippers stand while they press
-        times.extend(motion.standing_samples(rate, until - end)?);
-        times.push(until);
-    }
-    for time in times {
-        let at = time.min(end);
+    for time in times(motion, rate, until)? {
+        let at = time.min(motion.duration());
         let poses = motion.at(at).into_iter().zip(attitudes.at(at)).enumerate();
         table.add(time, poses.map(|(n, (place, quaternion))| (ply.id(n), place, quaternion)))?;
     }
     Ok(text(table.table)?)
+}
+
+/// The times (s) at which the motion of a plan is written: at a rate (Hz) to its end, and on until the last pads let go.
+///
+/// # Errors
+/// As [`TimedMotion::samples`].
+pub(super) fn written_times(
+    result: &ResultFile,
+    motion: &TimedMotion,
+    rate: f64,
+) -> Result<Vec<f64>, MotionError> {
+    times(motion, rate, release_after(result, motion.duration()))
+}
+
+fn times(motion: &TimedMotion, rate: f64, until: Option<f64>) -> Result<Vec<f64>, MotionError> {
+    let mut times = motion.samples(rate)?;
+    if let Some(until) = until {
+        // grippers stand while they press
+        times.extend(motion.standing_samples(rate, until - motion.duration())?);
+        times.push(until);
+    }
+    Ok(times)
 }
 
 /// What the column of the vacuum is made of; none where pads hold to the end.

@@ -20,12 +20,14 @@ pub use error::ProgramError;
 pub use sampling::Tolerance;
 pub use template::{Robot, Template};
 
-use crate::OutputError;
+use crate::{OutputError, csv};
 use crate::result::ResultFile;
 use crate::table;
 use plydrape::mold::Pose;
 use plydrape::motion::MotionError;
 use plydrape::ply::{GripperId, gripper_name};
+pub use plydrape::sheet::{Event, EventKind};
+use plydrape::tool::{Posture, Tool};
 
 /// What a cell does over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,29 +79,6 @@ pub struct Pad {
     pub poses: Vec<Pose>,
 }
 
-/// What the vacuum does at a time.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Event {
-    /// When (s).
-    pub time: f64,
-    /// What.
-    pub kind: EventKind,
-    /// Of which grippers.
-    pub grippers: Vec<GripperId>,
-}
-
-/// What the vacuum does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum EventKind {
-    /// It is switched on.
-    Grip,
-    /// The pads press the ply against the mold, the vacuum stays on.
-    Press,
-    /// It is switched off.
-    Release,
-}
-
 /// The frames of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frames {
@@ -128,9 +107,19 @@ impl Program {
         let all: Vec<GripperId> = (0..ply.grippers()).map(|n| ply.id(n)).collect();
         let event = |time, kind| Event { time, kind, grippers: all.clone() };
 
-        // No scene says yet how its array is carried, so every gripper is a gantry of its own. A tool gives its flange, its
-        // strokes and its frames here.
-        let (flange, axes) = (None, gantries(&pads, &all, result.scene.limits.speed));
+        let (flange, axes, frames) = match &result.scene.tool {
+            Some(tool) => {
+                let (flange, axes) = carried(tool, &pads, &all);
+                let frames = Frames { mold: tool.world, tool: tool.flange.inverse() };
+                (Some(flange), axes, frames)
+            }
+            // every gripper is a gantry of its own
+            None => (None, gantries(&pads, &all, result.scene.limits.speed), Frames::default()),
+        };
+        let events = match result.events() {
+            [] => vec![event(0.0, EventKind::Grip), event(end, EventKind::Release)],
+            events => events.to_vec(),
+        };
 
         let program = Program {
             name: result.scene.title.clone(),
@@ -141,8 +130,8 @@ impl Program {
             flange,
             axes,
             pads,
-            events: vec![event(0.0, EventKind::Grip), event(end, EventKind::Release)],
-            frames: Frames::default(),
+            events,
+            frames,
         };
         program.check()?;
         Ok(program)
@@ -204,7 +193,7 @@ fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), OutputError> {
                     return Err(MotionError::Grippers { found, expected: ply.grippers() }.into());
                 }
             }
-            let times = motion.samples(plan.rate)?;
+            let times = csv::written_times(result, &motion, plan.rate)?;
             times.iter().for_each(|t| add(motion.at(*t), attitudes.at(*t)));
             times
         }
@@ -218,6 +207,23 @@ fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), OutputError> {
         }
     };
     Ok((times, pads))
+}
+
+/// The flange and the strokes of a tool that brings the pads to their places.
+fn carried(tool: &Tool, pads: &[Pad], ids: &[GripperId]) -> (Vec<Pose>, Vec<Axis>) {
+    let count = pads.first().map_or(0, |pad| pad.poses.len());
+    let places = |k: usize| pads.iter().map(|pad| pad.poses[k].position).collect::<Vec<_>>();
+    let postures: Vec<Posture> = (0..count).map(|k| tool.posture(&places(k))).collect();
+    let flange = postures.iter().map(|posture| posture.frame.compose(&tool.flange)).collect();
+    let axis = |n: usize, a: usize| Axis {
+        name: format!("{}_{}", pads[n].name, tool.axes[a].name),
+        gripper: ids[n],
+        values: postures.iter().map(|posture| posture.strokes[n][a]).collect(),
+        stroke: Some(tool.axes[a].stroke),
+        speed: tool.axes[a].speed,
+    };
+    let each = (0..pads.len()).flat_map(|n| (0..tool.axes.len()).map(move |a| (n, a)));
+    (flange, each.map(|(n, a)| axis(n, a)).collect())
 }
 
 /// Three axes a gripper, along the axes of the mold's frame.
