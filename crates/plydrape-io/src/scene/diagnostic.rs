@@ -146,7 +146,7 @@ pub(super) fn hint(key: &str) -> String {
 fn suggestion(word: &str, known: &[&str]) -> String {
     let nearest = known.iter().map(|candidate| (edits(word, candidate), *candidate)).min();
     match nearest {
-        Some((distance, candidate)) if distance <= (word.chars().count() / 3).max(1) => {
+        Some((distance, candidate)) if distance <= ((1 + word.chars().count()) / 3).max(1) => {
             format!("did you mean `{candidate}`? ")
         }
         _ => String::new(),
