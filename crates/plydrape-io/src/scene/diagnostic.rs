@@ -95,6 +95,9 @@ fn starts_a_line(document: &Document, at: usize) -> bool {
 fn remedy(expected: &str) -> String {
     match expected.split_once(", e.g. ") {
         _ if expected == "a string" => "a text in double quotes is wanted".into(),
+        _ if expected == "a sequence" => {
+            "a list is wanted: write [[name]], with two brackets, over each of its tables".into()
+        }
         Some((what, example)) => format!("{what} is wanted, e.g. {example}"),
         None => format!("{expected} is wanted"),
     }

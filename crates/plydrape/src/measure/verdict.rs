@@ -222,6 +222,19 @@ mod tests {
         assert!(!workspace.ok && workspace.ratio() == 4.0);
     }
 
+    /// Of a clearance, which may be a depth, what is missing counts evenly: a search sees which of two plans through an obstacle is nearer
+    /// to none. At the limit the ratio is as large and as steep from both sides.
+    #[test]
+    fn a_depth_has_a_ratio_too() {
+        let ratio = |value: f64| verdict(Name::Clearance, value, 5.0).ratio();
+        for (value, wanted) in [(20.0, 0.25), (5.0, 1.0), (0.0, 2.0), (-5.0, 3.0), (-50.0, 12.0)] {
+            assert!((ratio(value) - wanted).abs() < 1e-12, "{value}: {}", ratio(value));
+        }
+        let slope = |from: f64, to: f64| (ratio(to) - ratio(from)) / (to - from);
+        assert!((slope(4.99, 5.0) - slope(5.0, 5.01)).abs() < 1e-3);
+        assert!(!verdict(Name::Clearance, -1.0, 5.0).ok && verdict(Name::Clearance, 5.0, 5.0).ok);
+    }
+
     /// NaN compares with no number, and an infinite value says that something overflowed: neither keeps a limit, whichever way it
     /// bounds, not even one that is infinite itself.
     #[test]
