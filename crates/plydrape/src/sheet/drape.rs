@@ -241,15 +241,11 @@ impl Run<'_> {
             let share = (self.cloth.longest_step(most * duration) / duration).max(least).min(most);
             // steps of one length to the end
             let share = (1.0 - done) / ((1.0 - done) / share - 1e-9).ceil();
-            let mut next = if done + share > 1.0 - 1e-9 { 1.0 } else { done + share };
-            let mut share = share;
-            if let (Some(releases), Some([begin, end])) = (&self.releases, times)
-                && let Some(due) = releases.due().map(|due| (due - begin) / (end - begin))
-                && (done + ROUNDING..next).contains(&due)
-            {
-                // a pad lets go at the end of its dwell, not later
-                (next, share) = (due, due - done);
-            }
+            let next = if done + share > 1.0 - 1e-9 { 1.0 } else { done + share };
+            // a pad lets go at the end of its dwell, not later
+            let due =
+                self.due(times).filter(|due| (done + ROUNDING..next - ROUNDING).contains(due));
+            let (next, share) = due.map_or((next, share), |due| (due, due - done));
             for (target, (a, b)) in self.targets.iter_mut().zip(from.iter().zip(to)) {
                 *target = between(*a, *b, next);
             }
@@ -267,7 +263,7 @@ impl Run<'_> {
                 }
                 Err(_) => {
                     self.share = 0.5 * share;
-                    if self.share < self.tuning.smallest_step {
+                    if self.share < self.tuning.smallest_step && due.is_none() {
                         return Err(Ended::NotSolved);
                     }
                 }
@@ -282,6 +278,12 @@ impl Run<'_> {
         let lift = self.tuning.lift * self.sheet.pitch;
         let speed = (2.0 * self.sheet.gravity * lift).sqrt();
         (way / speed).max(lift / speed)
+    }
+
+    /// Share of a step between two times (s) at which the next pad lets go, if what lies goes on lying.
+    fn due(&self, times: Option<[f64; 2]>) -> Option<f64> {
+        let (due, [begin, end]) = (self.releases.as_ref()?.due()?, times?);
+        Some((due - begin) / (end - begin))
     }
 
     /// Lets go at a time (s) with the pads that are due by then, give or take the rounding (s).
