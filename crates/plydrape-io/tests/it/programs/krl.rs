@@ -16,6 +16,9 @@ struct Data {
     external: BTreeSet<String>,
 }
 
+/// A spline block: its points with their shares of its time, and its time (s) once that is known.
+type Spline = (Vec<(String, f64)>, Option<f64>);
+
 /// Reads all programs, and plays the first, which calls the others.
 pub fn play(files: &Files) -> Played {
     let of = |ending: &str| -> Vec<(String, String)> {
@@ -152,8 +155,7 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
     let mut used: BTreeSet<String> = BTreeSet::new();
     let mut set: BTreeSet<String> = BTreeSet::new();
     let (mut loops, mut ended) = (0, false);
-    // points of a spline block with their shares, and whether its time is counted
-    let mut block: Option<(Vec<(String, f64)>, Option<f64>)> = None;
+    let mut block: Option<Spline> = None;
     for mut line in lines {
         assert!(!ended);
         if line.takes("$") {
