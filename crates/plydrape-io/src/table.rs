@@ -219,7 +219,7 @@ fn catenaries(summary: &Summary, sample: Option<&SampleVerdict>) -> String {
     if let Some(words) = slack_in_words(summary) {
         let _ = writeln!(text, "slack at the end is {words}");
     }
-    if let Some(nearest) = summary.limits.iter().find(|v| v.name == Name::Clearance) {
+    if let Some(nearest) = summary.limits.iter().rfind(|v| v.name == Name::Clearance) {
         let _ = writeln!(text, "nearest: {}", nearest.at);
     }
     if let Some(reason) = &summary.stopped {

@@ -56,6 +56,23 @@ fn a_scene_that_can_be_draped_has_no_obstacle() {
     assert!(with_targets(SQUARE, "").is_empty());
 }
 
+/// Cups of 15 mm that stand upright on a flat mold, and a clamp whose side is 3 mm from the nearest two.
+#[test]
+fn an_obstacle_too_near_to_the_target_is_named() {
+    let bodies = |side: f64| {
+        format!(
+            "[[bodies]]\nname = \"cup\"\non = \"pad\"\ncylinder = {{ radius = 0.015, to = 0.03 }}\n\
+             [[obstacles]]\nname = \"clamp\"\nbox = {{ size = [0.1, 1, 0.1], at = [{}, 0, 0] }}\n",
+            side + 0.05
+        )
+    };
+    let found = with_targets(SQUARE, &bodies(0.118));
+    let at = only(&found, "clearance", 3.0, 5.0, None);
+    assert!(at.starts_with("cup of gripper [1,"), "{at}");
+    assert!(at.ends_with(" and obstacle clamp at the target"), "{at}");
+    assert!(with_targets(SQUARE, &bodies(0.1201)).is_empty());
+}
+
 /// A limit that is met exactly is none: the target is sheared by 20°.
 #[test]
 fn the_shear_of_the_ideal_drape_is_known_before_the_plan() {

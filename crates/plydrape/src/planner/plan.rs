@@ -181,7 +181,12 @@ pub(super) fn follow(
 /// Judges a drape by the whole of its motion in time where that is worse than straight ways from step to step.
 fn judge_whole(summary: &mut Summary, whole: Verdict) {
     summary.accepted &= whole.ok;
-    match summary.limits.iter_mut().find(|verdict| verdict.name == whole.name) {
+    // what no plan can keep stands before what was measured
+    match summary
+        .limits
+        .iter_mut()
+        .rfind(|verdict| verdict.name == whole.name && verdict.step.is_some())
+    {
         Some(verdict) if whole.ratio() > verdict.ratio() => *verdict = whole,
         Some(_) => {}
         None => summary.limits.push(whole),
