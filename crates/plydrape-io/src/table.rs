@@ -18,7 +18,7 @@ use crate::shown;
 use plydrape::draping::record::{Step, Summary, Verdict};
 use plydrape::equilibrium::Status;
 use plydrape::errors::SampleVerdict;
-use plydrape::measure::Name;
+use plydrape::measure::{Name, Subject};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -180,6 +180,26 @@ pub fn verdict(result: &ResultFile) -> String {
         }
     };
     text + &tool::tool(result) + &errors::errors(result)
+}
+
+/// The verdict alone, in one line: which model accepts the drape, or what is exceeded furthest.
+#[must_use]
+pub fn verdict_in_a_line(result: &ResultFile) -> String {
+    let summary = &result.summary;
+    let model = if summary.sheet.is_some() { "the sheet" } else { "the catenaries" };
+    if summary.accepted {
+        return format!("accepted by {model}");
+    }
+    let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
+    let motion: Vec<Verdict> = summary.limits.iter().filter(of_motion).cloned().collect();
+    let worst = limiting(result.deciding_limits()).or_else(|| limiting(&motion));
+    match worst {
+        Some(worst) => format!("not accepted by {model}: {}", verdict_text(worst)),
+        None if summary.accepted_without_errors() => {
+            "not accepted with the errors of the scene".into()
+        }
+        None => format!("not accepted by {model}, which did not come to its end at rest"),
+    }
 }
 
 /// Every limit in a row; of a sample with a column of what its share of the cells keeps.
@@ -378,9 +398,12 @@ mod tests {
         let worst = "not accepted: contact share 10 mm against 90 mm in step 30, gripper g0_0\n";
         assert!(text.ends_with(worst), "{text}");
         assert!(widest(&text) <= 100);
+        let line = "not accepted by the catenaries: contact share 10 mm against 90 mm in step 30, ";
+        assert!(verdict_in_a_line(&result).starts_with(line), "{}", verdict_in_a_line(&result));
         result.summary.limits.truncate(1);
         result.summary.accepted = true;
         assert!(verdict(&result).ends_with("accepted\n"));
+        assert_eq!(verdict_in_a_line(&result), "accepted by the catenaries");
     }
 
     /// 38° of 40° is nearer to its limit than 60 mm, where 50 mm is the least; a limit of zero is never near.

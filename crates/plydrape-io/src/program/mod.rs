@@ -20,9 +20,9 @@ pub use error::ProgramError;
 pub use sampling::Tolerance;
 pub use template::{Robot, Template};
 
-use crate::{OutputError, csv};
 use crate::result::ResultFile;
 use crate::table;
+use crate::{OutputError, csv};
 use plydrape::mold::Pose;
 use plydrape::motion::MotionError;
 use plydrape::ply::{GripperId, gripper_name};
@@ -139,7 +139,7 @@ impl Program {
 
     /// The verdict on a result, in one line.
     pub(crate) fn verdict(result: &ResultFile) -> String {
-        table::verdict(result).split_whitespace().collect::<Vec<_>>().join(" ")
+        table::verdict_in_a_line(result)
     }
 
     /// Refuses a program whose lists differ in length, whose times do not ascend from 0, or whose numbers are not finite.

@@ -68,7 +68,7 @@ fn an_obstacle_too_near_to_the_target_is_named() {
     };
     let found = with_targets(SQUARE, &bodies(0.118));
     let at = only(&found, "clearance", 3.0, 5.0, None);
-    assert!(at.starts_with("cup of gripper [1,"), "{at}");
+    assert!(at.starts_with("cup of g1_"), "{at}");
     assert!(at.ends_with(" and obstacle clamp at the target"), "{at}");
     assert!(with_targets(SQUARE, &bodies(0.1201)).is_empty());
 }

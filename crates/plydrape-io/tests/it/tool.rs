@@ -4,6 +4,7 @@ use plydrape::draping::simulate;
 use plydrape::measure::Name;
 use plydrape::scene::Scene;
 use plydrape::sheet;
+use plydrape_io::program::Program;
 use plydrape_io::read;
 use plydrape_io::result::ResultFile;
 use plydrape_io::scene;
@@ -103,4 +104,28 @@ fn a_result_keeps_its_tool() {
         .unwrap_err()
         .to_string();
     assert!(fault.contains("its tool carries 3 grippers, not 4"), "{fault}");
+}
+
+/// The flange of a program, the place of the tool in it and the strokes bring each pad to where the motion has it; the mold stands
+/// in the world where the scene says.
+#[test]
+fn flange_and_strokes_of_a_program_bring_the_pads_to_their_places() {
+    let scene = closing(
+        "[tool]\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }]\nflange = { position = [0, 0, 0.2], rotation = [\"180 deg\", 0, 0.3] }\nworld = { position = [1, 0, 0.5] }",
+    );
+    let program = Program::of(&draped(&scene)).unwrap();
+    assert_eq!(program.frames.mold.position, [1.0, 0.0, 0.5]);
+    let names: Vec<&str> = program.axes.iter().map(|axis| axis.name.as_str()).collect();
+    assert_eq!(names, ["g0_0_z", "g1_0_z", "g0_1_z", "g1_1_z"]);
+    let (flange, mounts) = (program.flange.as_ref().unwrap(), &scene.tool.as_ref().unwrap().mounts);
+    for k in 0..program.times.len() {
+        // the flange looks down
+        assert!(flange[k].axes[2][2] < -0.9);
+        let frame = flange[k].compose(&program.frames.tool);
+        for (n, pad) in program.pads.iter().enumerate() {
+            let [x, y, z] = mounts[n];
+            let place = frame.place([x, y, z + program.axes[n].values[k]]);
+            assert!(apart(place, pad.poses[k].position) < 1e-8, "step {k}, {}", pad.name);
+        }
+    }
 }

@@ -205,7 +205,8 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
         on_mold.then(|| on_normal(own, closest.normal))
     };
     let turned: Option<Vec<[f64; 4]>> = target.grippers.iter().zip(own).map(stands).collect();
-    let nearest = clearance::at(scene, &Poses::of(scene, &target.grippers, &turned?, &target.grippers))?;
+    let nearest =
+        clearance::at(scene, &Poses::of(scene, &target.grippers, &turned?, &target.grippers))?;
     let at = format!("{} at the target", nearest.label(scene));
     let worst = Worst { value: nearest.distance * 1e3, at, place: Some(nearest.place) };
     let verdict = Verdict::of(Name::Clearance, worst, scene.limits.clearance * 1e3, None);
