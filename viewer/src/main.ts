@@ -42,6 +42,7 @@ async function open(): Promise<void> {
       stepRange: false,
       diagonals: true,
       mold: true,
+      cell: true,
       forces: true,
       playing: false,
       dark: systemIsDark(),

@@ -4,10 +4,16 @@
 
 import { unpack, type Frames } from "./block";
 import { MICRO } from "./micro";
-import { BrokenData, type Field, type PageData, type Place } from "./page_data";
+import { BrokenData, type CellData, type Field, type PageData, type Place } from "./page_data";
 import { SheetStates } from "./sheet_states";
 
 export { MICRO };
+
+/** The cell with where everything in it is. */
+export interface CellFrames {
+  data: CellData;
+  origins: Frames;
+}
 
 export class Motion {
   /** The smallest distance of neighbouring grippers in the first step (m): the scale for what is drawn. */
@@ -26,6 +32,7 @@ export class Motion {
     private readonly contactPoints: Frames,
     private readonly contactStarts: number[],
     readonly sheet: SheetStates | null,
+    readonly cell: CellFrames | null,
   ) {
     this.spacing = this.leastSpacing();
   }
@@ -50,6 +57,9 @@ export class Motion {
       await unpack(g.contacts.points, "contacts"),
       starts,
       data.sheet === null ? null : await SheetStates.unpack(data.sheet, data.steps),
+      data.cell === null
+        ? null
+        : { data: data.cell, origins: await unpack(data.cell.origins, "bodies of the cell") },
     );
   }
 

@@ -87,6 +87,31 @@ export interface Geometry {
   mold: { vertices: number[]; triangles: number[] } | null;
 }
 
+/** A body of triangles with a name (m). */
+export interface Solid {
+  name: string;
+  vertices: number[];
+  triangles: number[];
+}
+
+/** What the grippers carry, what stands in the cell, and the tool of a robot. */
+export interface CellData {
+  /** In the coordinates of what they move with. */
+  bodies: (Solid & { on: "pad" | "stem" | "flange" })[];
+  obstacles: Solid[];
+  /** Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange; null without a tool. */
+  mounts: number[] | null;
+  /** The pads, the stems, and of a tool the flange: a place in micrometres and a quaternion in millionths. */
+  origins: Block;
+}
+
+/** What the vacuum of some grippers does at a time (s). */
+export interface VacuumEvent {
+  time: number;
+  kind: "grip" | "press" | "release";
+  grippers: string[];
+}
+
 /** The ply as a sheet. Micrometres, hundredths of a degree, millionths of strain, mN/m and micronewtons. */
 export interface SheetData {
   /** All of its own limits hold, and it is at rest. */
@@ -180,6 +205,9 @@ export interface PageData {
   measures: Measure[];
   fields: Field[];
   geometry: Geometry;
+  cell: CellData | null;
+  /** When pads grip, press and let go; empty where they hold the ply from first to last. */
+  events: VacuumEvent[];
   /** The sheet, which decides, if it was draped. */
   sheet: SheetData | null;
   sample: SampleData | null;
@@ -198,7 +226,18 @@ export const hasSurface = (data: PageData): boolean => data.grid.every((count) =
 /** Data that cannot be shown; the message completes the sentence "This page cannot be shown: …". */
 export class BrokenData extends Error {}
 
-const LISTS = ["facts", "steps", "times", "grid", "ids", "limits", "measures", "fields", "left_out"] as const;
+const LISTS = [
+  "facts",
+  "steps",
+  "times",
+  "grid",
+  "ids",
+  "limits",
+  "measures",
+  "fields",
+  "events",
+  "left_out",
+] as const;
 const BLOCKS = ["surface", "diagonals", "grippers", "normals", "shear", "direction"] as const;
 
 /** The page's data from its text, checked as far as a wrong file would show. */
@@ -224,9 +263,17 @@ export function readPageData(text: string): PageData {
   }
   checkLengths(data);
   checkGeometry(data);
+  if (data.cell !== null) checkCell(data, data.cell);
   if (data.sheet !== null) checkSheet(data, data.sheet);
   if (data.sample !== null) checkSample(data.sample);
   return data;
+}
+
+function checkCell(data: PageData, cell: CellData): void {
+  const expected = 2 * data.ids.length + (cell.mounts === null ? 0 : 1);
+  if (cell.origins.count !== expected || cell.origins.steps !== data.steps.length) {
+    throw new BrokenData("the bodies of its cell do not fit its grippers and steps");
+  }
 }
 
 function checkLengths(data: PageData): void {

@@ -18,7 +18,7 @@ const HELP: [string, string][] = [
   ["+ −", "nearer, farther"],
   ["Shift + arrows", "turn the view"],
   ["R", "colours over the range of this step, or of all steps"],
-  ["D, M, P", "diagonals, mold, forces on the pads on or off"],
+  ["D, M, B, P", "diagonals, mold, bodies of the cell, forces on the pads on or off"],
   ["L", "light or dark"],
   ["Escape", "take the marker away"],
   ["?", "this list"],
@@ -39,7 +39,7 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
   });
 
   const find = (key: string): (() => void) | undefined => {
-    const { index, stepRange, diagonals, mold, forces, model } = state.now;
+    const { index, stepRange, diagonals, mold, cell, forces, model } = state.now;
     const mode = modes(data, model)[Number(key) - 1];
     if (mode !== undefined) return () => state.set({ colour: mode[0] });
     const view = VIEWS[key.toLowerCase()];
@@ -57,6 +57,7 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
       r: () => state.set({ stepRange: !stepRange }),
       d: () => state.set({ diagonals: !diagonals }),
       m: () => state.set({ mold: !mold }),
+      b: () => state.set({ cell: !cell }),
       p: () => state.set({ forces: !forces }),
       c: () => {
         if (data.sheet !== null && hasCatenaries(data))

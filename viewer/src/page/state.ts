@@ -22,6 +22,8 @@ export interface Choice {
   stepRange: boolean;
   diagonals: boolean;
   mold: boolean;
+  /** Bodies, obstacles and tool. */
+  cell: boolean;
   /** Forces of the sheet on the pads. */
   forces: boolean;
   playing: boolean;

@@ -47,7 +47,7 @@ export function linkTimeline(state: State, player: Player, motion: Motion): void
   });
 }
 
-/** Marks over the slider: the first contact, and steps in which a limit is exceeded most. */
+/** Marks over the slider: the first contact, pads that press or let go, and steps in which a limit is exceeded most. */
 function addMarks(state: State, motion: Motion): void {
   const { data } = motion;
   const host = byId("marks");
@@ -67,6 +67,13 @@ function addMarks(state: State, motion: Motion): void {
   const contact = motion.sheet === null ? motion.firstContact : motion.sheet.firstContact;
   if (contact !== null && contact > 0) {
     mark(contact, "mark-contact", `First contact: step ${data.steps[contact]!}`);
+  }
+  for (const { time, kind, grippers } of data.events) {
+    if (kind === "grip") continue;
+    const step = data.times.findIndex((t) => t >= time);
+    const who = grippers.length === data.ids.length ? "all pads" : grippers.join(", ");
+    const what = kind === "press" ? "press" : "let go";
+    mark(step < 0 ? last : step, "mark-vacuum", `${short(time)} s: ${who} ${what}`);
   }
   const failed = new Map<number, string[]>();
   for (const limit of deciding(data)) {

@@ -85,8 +85,10 @@ export function linkToolbar(state: State, data: PageData, eye: Eye | null): void
 
   linkCheck(state, "diagonals");
   linkCheck(state, "mold");
+  linkCheck(state, "cell");
   linkCheck(state, "forces");
   byId("show-mold").parentElement!.hidden = data.geometry.mold === null;
+  byId("show-cell").parentElement!.hidden = data.cell === null;
 }
 
 function colour(state: State, key: FieldKey, name: string, k: number): HTMLElement {
@@ -100,7 +102,7 @@ function colour(state: State, key: FieldKey, name: string, k: number): HTMLEleme
   );
 }
 
-function linkCheck(state: State, key: "diagonals" | "mold" | "forces"): void {
+function linkCheck(state: State, key: "diagonals" | "mold" | "cell" | "forces"): void {
   const input = byId<HTMLInputElement>(`show-${key}`);
   input.addEventListener("change", () => state.set({ [key]: input.checked }));
   state.listen((now) => (input.checked = now[key]));

@@ -11,6 +11,7 @@ import type { Choice, State } from "../page/state";
 import { AxesBox } from "./axes_box";
 import { Eye } from "./camera";
 import { Catenaries } from "./catenaries";
+import { Cell } from "./cell";
 import { Contacts } from "./contacts";
 import { USES } from "./forces";
 import { Grippers } from "./grippers";
@@ -35,6 +36,7 @@ export class Scene3d {
   private readonly grippers: Grippers;
   private readonly contacts: Contacts;
   private readonly mold: Mold | null;
+  private readonly cell: Cell | null;
   readonly sheet: SheetPicture | null;
   private readonly box: AxesBox;
   private readonly overlay: Overlay;
@@ -68,7 +70,8 @@ export class Scene3d {
     this.grippers = new Grippers(motion, Math.min(0.1 * motion.spacing, 0.03 * size), -0.004 * size);
     this.contacts = new Contacts(motion, -0.003 * size);
     this.mold = mold === null ? null : new Mold(mold, 0.02 * size);
-    const { sheet } = motion;
+    const { sheet, cell } = motion;
+    this.cell = cell === null ? null : new Cell(cell, motion.grippers.count, 0.001 * size);
     this.sheet = sheet === null ? null : new SheetPicture(sheet, size, motion.spacing);
     this.box = new AxesBox(bounds, 0.03 * size);
     this.catenaries.order = 3;
@@ -82,6 +85,7 @@ export class Scene3d {
       this.grippers.mesh,
     );
     if (this.mold !== null) this.scene.add(this.mold.group);
+    if (this.cell !== null) this.scene.add(this.cell.group);
     if (this.sheet !== null) this.scene.add(this.sheet.group);
 
     const overlay = host.querySelector<HTMLCanvasElement>("#labels")!;
@@ -116,6 +120,7 @@ export class Scene3d {
     sheet?.showForces(now.forces);
     this.catenaries.showDiagonals(now.diagonals);
     if (this.mold !== null) this.mold.group.visible = now.mold;
+    if (this.cell !== null) this.cell.group.visible = now.cell;
     if (now.pointer !== null && now.pointer !== before.pointer) this.eye.lookAt(now.pointer.place);
     this.draw();
   }
@@ -134,6 +139,7 @@ export class Scene3d {
       this.catenaries.moveTo(index);
       this.contacts.moveTo(index);
     } else sheet.moveTo(index);
+    this.cell?.moveTo(index);
     this.grippers.moveTo(
       ...(sheet?.pads() ?? [this.motion.grippers.at(index), this.motion.normals.at(index)]),
     );
@@ -146,6 +152,7 @@ export class Scene3d {
     this.sheet?.ink(USES.map(({ colour }) => themeColour(colour)));
     this.grippers.ink(themeColour("disc"), themeColour("disc-rim"));
     this.mold?.ink(themeColour("mold"), themeColour("mold-line"));
+    this.cell?.ink(themeColour("cell"), themeColour("cell-line"));
     this.box.ink(themeColour("box-line"));
     this.renderer.setClearColor(new Color(themeColour("surface")));
   }

@@ -21,7 +21,7 @@ const MARKS: f64 = 8.0;
 const SMALL: usize = 64;
 
 /// Micrometres in a metre.
-const MICRO: f64 = 1e6;
+pub(super) const MICRO: f64 = 1e6;
 
 /// How finely a result is drawn, and what is left out for it.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -5,6 +5,7 @@
 //! surface and the mold in triangles. The page computes no mechanics.
 
 mod block;
+mod cell;
 mod facts;
 mod geometry;
 mod margin;
@@ -15,6 +16,7 @@ use super::OutputError;
 use crate::result::ResultFile;
 use crate::strength;
 use crate::table::slack_in_words;
+use cell::{Cell, VacuumEvent, cell, events};
 use facts::{Fact, facts};
 use geometry::{Detail, Geometry, Ranges};
 use plydrape::draping::record::{Step, Worst};
@@ -56,6 +58,10 @@ struct Page<'a> {
     measures: Vec<Course<'a>>,
     fields: Vec<Field>,
     geometry: Geometry,
+    /// What the grippers carry and what stands in the cell, if the scene says so.
+    cell: Option<Cell<'a>>,
+    /// When pads grip, press and let go; nothing where they hold the ply from first to last.
+    events: Vec<VacuumEvent>,
     /// The ply as a sheet, which decides, if it was draped.
     sheet: Option<Sheet<'a>>,
     /// The verdict over a sample of cells, if there is one.
@@ -197,6 +203,8 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
         measures: courses(result, &shown),
         fields: fields(result, &ranges),
         geometry,
+        cell: cell(result, &shown),
+        events: events(result),
         sheet,
         sample,
         stands: stands(result),
