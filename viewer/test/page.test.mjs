@@ -64,6 +64,27 @@ describe("results page", { skip: missing ?? false }, () => {
   test("without WebGL everything else works", () => worksWithoutWebgl(reports[0]));
 });
 
+/** What the grippers carry and what stands there can be hidden; the timeline marks when pads press and let go. */
+async function cellShows(report, page) {
+  const { cell } = JSON.parse(parts(report)[1]);
+  const { scene, summary } = JSON.parse(readFileSync(join(report.folder, "result.json"), "utf8"));
+  const { bodies, obstacles } = scene.bodies ?? { bodies: [], obstacles: [] };
+  const names = (list) => list.map(({ name }) => name);
+  assert.equal(cell !== null, bodies.length + obstacles.length > 0 || scene.tool !== undefined);
+  const check = page.locator("#show-cell");
+  assert.equal(await check.isVisible(), cell !== null);
+  const marked = (summary.sheet?.events ?? []).filter(({ kind }) => kind !== "grip");
+  assert.equal(await page.locator(".mark-vacuum").count(), marked.length);
+  if (cell === null) return;
+  assert.deepEqual(names(cell.bodies), names(bodies));
+  assert.deepEqual(names(cell.obstacles), names(obstacles));
+  const shown = await page.locator("#view").screenshot();
+  await check.uncheck();
+  await page.waitForTimeout(200);
+  assert.ok(!shown.equals(await page.locator("#view").screenshot()), "the picture is without them");
+  await check.check();
+}
+
 /** Whether a page shows a sheet. */
 function hasSheet(report) {
   return missing === null && JSON.parse(parts(report)[1]).sheet !== null;
@@ -86,6 +107,8 @@ function shows(report, first) {
   after(() => opened?.context.close());
   test("opens without a complaint and asks for nothing", () => opens(report, opened));
   test("shows nothing of a sample that the result does not have", () => saysNoSample(opened.page));
+  test("bodies, obstacles and what the vacuum does are those of the result", () =>
+    cellShows(report, opened.page));
   if (hasSheet(report)) {
     test("the sheet has the nodes, heights and forces of its states", () => sheetShows(report, opened.page));
   }
