@@ -145,7 +145,8 @@ fn triangles(shape: &Shape) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
         }
         Shape::Cylinder { radius, from, to } => {
             let place = |k: u32, z: f64| {
-                let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(SIDES)).sin_cos();
+                let (sin, cos) =
+                    (std::f64::consts::TAU * f64::from(k) / f64::from(SIDES)).sin_cos();
                 [radius * cos, radius * sin, z]
             };
             let mut vertices: Vec<[f64; 3]> =

@@ -228,7 +228,7 @@ impl Maker<'_> {
     fn point(&self, passed: &Passed, from: &mut usize, number: usize, share: f64) -> PointOf {
         let Track { program, centre, .. } = self.track;
         let (sample, duration) = (passed.sample, passed.duration);
-        let pose = |k: usize| centre.as_ref().map_or(super::pose::NONE, |centre| centre[k]);
+        let pose = |k: usize| centre.as_ref().map_or(Pose::ORIGIN, |centre| centre[k]);
         let [before, now] = [*from, sample].map(pose);
         let rate = |way: f64| if duration > 0.0 { way / duration } else { 0.0 };
         let own = || program.axes.iter().filter(|_| self.track.moves_axes);

@@ -90,7 +90,7 @@ pub struct Frames {
 
 impl Default for Frames {
     fn default() -> Self {
-        Frames { mold: pose::NONE, tool: pose::NONE }
+        Frames { mold: Pose::ORIGIN, tool: Pose::ORIGIN }
     }
 }
 

@@ -1,41 +1,18 @@
 //! An orientation in the words of each controller, and what is between two poses.
 
 use plydrape::mold::Pose;
-use plydrape::mold::vector::{between, dot};
-
-/// No turn and no way.
-pub(crate) const NONE: Pose =
-    Pose { position: [0.0; 3], axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+use plydrape::mold::vector::between;
 
 /// A pose from a place (m) and a quaternion (x, y, z, w) of any length but 0.
 pub(crate) fn of_quaternion(position: [f64; 3], quaternion: [f64; 4]) -> Pose {
     let length = quaternion.iter().map(|q| q * q).sum::<f64>().sqrt();
-    let [x, y, z, w] = quaternion.map(|q| q / length);
-    Pose {
-        position,
-        axes: [
-            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
-            [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
-            [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
-        ],
-    }
+    Pose::of_quaternion(position, quaternion.map(|q| q / length))
 }
 
-/// The unit quaternion (x, y, z, w) with w ≥ 0, from the largest of its four numbers (Shepperd 1978).
+/// The unit quaternion (x, y, z, w) with w ≥ 0.
 pub(crate) fn quaternion(pose: &Pose) -> [f64; 4] {
-    let [[a, b, c], [d, e, f], [g, h, i]] = pose.axes;
-    // four times each square: of x, y, z and w
-    let squares = [1.0 + a - e - i, 1.0 - a + e - i, 1.0 - a - e + i, 1.0 + a + e + i];
-    let largest = (0..4).max_by(|m, n| squares[*m].total_cmp(&squares[*n])).unwrap_or(3);
-    let four = match largest {
-        0 => [squares[0], b + d, c + g, f - h],
-        1 => [b + d, squares[1], f + h, g - c],
-        2 => [c + g, f + h, squares[2], b - d],
-        _ => [f - h, g - c, b - d, squares[3]],
-    };
-    let length = four.iter().map(|q| q * q).sum::<f64>().sqrt();
-    let sign = if four[3] < 0.0 { -1.0 } else { 1.0 };
-    four.map(|q| sign * q / length)
+    let quaternion = pose.quaternion();
+    if quaternion[3] < 0.0 { quaternion.map(|q| -q) } else { quaternion }
 }
 
 /// The angles (rad) A about z, B about the new y and C about the new x, as KRL has them; of the two at a pole that with
@@ -56,11 +33,6 @@ pub(crate) fn rotation_vector(pose: &Pose) -> [f64; 3] {
     let sine = (x * x + y * y + z * z).sqrt();
     let stretch = if sine < 1e-12 { 2.0 } else { 2.0 * sine.atan2(w) / sine };
     [x, y, z].map(|q| stretch * q)
-}
-
-/// The pose with another one behind it: `then` stands in the frame of `first`.
-pub(crate) fn after(first: &Pose, then: &Pose) -> Pose {
-    Pose { position: first.place(then.position), axes: then.axes.map(|axis| first.turn(axis)) }
 }
 
 /// The angle between two orientations (rad).
@@ -90,12 +62,6 @@ pub(crate) fn interpolated(from: &Pose, to: &Pose, share: f64) -> Pose {
     of_quaternion(between(from.position, to.position, share), mixed)
 }
 
-/// A place in space in the coordinates of a pose (m).
-pub(crate) fn local(pose: &Pose, place: [f64; 3]) -> [f64; 3] {
-    let way = [0, 1, 2].map(|n| place[n] - pose.position[n]);
-    pose.axes.map(|axis| dot(axis, way))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,7 +88,7 @@ mod tests {
             let pose = Pose::new([0.1, -0.2, 0.3], [x, y, z]);
             prop_assert!(near(&of_quaternion(pose.position, quaternion(&pose)), &pose));
             let [a, b, c] = euler_zyx(&pose);
-            let turned = after(&after(&about(2, a), &about(1, b)), &about(0, c));
+            let turned = about(2, a).compose(&about(1, b)).compose(&about(0, c));
             prop_assert!(near(&turned, &pose), "{turned:?} {pose:?}");
             let vector = rotation_vector(&pose);
             let length = vector.iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -9,7 +9,7 @@
 //!
 //! The largest of both are measured over all samples and stand in the heads of the files.
 
-use super::pose::{after, angle, interpolated, local};
+use super::pose::{angle, interpolated};
 use super::{Program, ProgramError};
 use plydrape::mold::Pose;
 use plydrape::mold::vector::distance;
@@ -100,7 +100,7 @@ impl<'a> Track<'a> {
     pub fn new(program: &'a Program, moves_axes: bool) -> Self {
         let tool = &program.frames.tool;
         let centre = program.flange.as_ref();
-        let centre = centre.map(|flange| flange.iter().map(|pose| after(pose, tool)).collect());
+        let centre = centre.map(|flange| flange.iter().map(|pose| pose.compose(tool)).collect());
         let mut names = program.grippers();
         let mut grippers: Vec<_> = (0..names.len()).map(|n| (Some(n), Vec::new())).collect();
         for (n, axis) in program.axes.iter().enumerate().filter(|_| moves_axes) {
@@ -130,7 +130,7 @@ impl<'a> Track<'a> {
         let of_gripper = |(pad, own): &(Option<usize>, Vec<usize>)| {
             let carried = pad.map_or(0.0, |pad| {
                 let place = pads[pad].poses[k].position;
-                distance(pose.place(local(&centre[k], place)), place)
+                distance(pose.place(centre[k].local(place)), place)
             });
             carried + length(own, &off)
         };
