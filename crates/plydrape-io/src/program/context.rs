@@ -331,7 +331,8 @@ fn wrapped(line: &str) -> Vec<String> {
 
 /// What a file of a motion that is not accepted says first.
 pub(crate) fn rejected(program: &Program) -> String {
-    format!("NOT ACCEPTED: {}", program.verdict)
+    let verdict = &program.verdict;
+    format!("NOT ACCEPTED: {}", verdict.strip_prefix("not accepted ").unwrap_or(verdict))
 }
 
 /// Longest name, so that names of points behind it are still short enough for every controller.
