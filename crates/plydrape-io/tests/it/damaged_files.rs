@@ -308,7 +308,8 @@ fn a_million_grippers_are_refused_before_their_ideal_drape_is_sought() {
     let began = Instant::now();
     let refused = parse(&dome.replace("[4, 4]", "[1000, 1000]")).unwrap_err();
     assert!(refused.message.contains("a single step with 1000000 grippers"), "{refused}");
-    assert!(began.elapsed() < Duration::from_secs(2), "{:?}", began.elapsed());
+    // that drape has 10⁸ nodes and takes minutes; a busy machine may take seconds for the refusal
+    assert!(began.elapsed() < Duration::from_secs(30), "{:?}", began.elapsed());
 }
 
 /// Texts for people are plain; names of files, which a user may not choose, are shown escaped.
