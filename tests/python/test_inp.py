@@ -207,7 +207,7 @@ def test_tables_lead_the_grippers_through_every_step(
     }
     assert moves
     for k, first in enumerate(drape.result["steps"][0]["grippers"]):
-        gripper = "G{}_{}".format(*first["id"])
+        gripper = "g{}_{}".format(*first["id"])
         (node,) = drape.deck.node_set(gripper)
         for axis in range(3):
             due = [step["grippers"][k]["position"][axis] for step in drape.result["steps"]]

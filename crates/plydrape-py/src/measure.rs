@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 /// Example:
 ///     >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
 ///     >>> [(measure.label, measure.shown) for measure in shares]
-///     [('contact share', '%'), ('gripper distance', 'mm')]
+///     [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm')]
 #[pyclass(frozen, eq, hash, module = "plydrape")]
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Measure(Name);

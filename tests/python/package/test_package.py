@@ -111,7 +111,9 @@ def test_measures_are_what_results_hold() -> None:
     result = plydrape.simulate(plydrape.Scene.read(EXAMPLE))
     measures = plydrape.measures()
     stepwise = [measure.key for measure in measures if measure.scope != "whole"]
-    assert list(result.measures) == list(result.summary["worst"]) == stepwise
+    assert list(result.measures) == stepwise
+    # nothing is carried in this cell, so that nothing is near
+    assert list(result.summary["worst"]) == [key for key in stepwise if key != "clearance_mm"]
     assert {key for step in result.to_dict()["steps"] for key in step["measures"]} <= {*stepwise}
     by_name = {measure.name: measure for measure in measures}
     assert len(by_name) == len({measure.key for measure in measures}) == len(measures)
