@@ -425,7 +425,7 @@ impl Result {
     /// Writes files for another program or a machine into a folder, all or none, and returns their paths.
     ///
     /// Args:
-    ///     to: "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
+    ///     to: One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
     ///     folder: Where they go; other files there stay.
     ///     even_if_rejected: Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
     ///         result is not accepted; the files say so in their heads.
@@ -445,7 +445,8 @@ impl Result {
     ///     ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
     #[pyo3(signature = (
         to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'csv', 'svg', 'pattern', 'boundary']",
-        folder, *, even_if_rejected = false, position_error = None, templates = Vec::new()
+        folder, *, even_if_rejected = false, position_error = None,
+        templates: "typing.Sequence[str | PathLike[str]]" = Vec::new()
     ))]
     fn export(
         &self,
