@@ -858,28 +858,19 @@ class Result:
         self,
         /,
         to: typing.Literal[
-            "vtk",
-            "inp",
-            "ros2",
-            "rapid",
-            "krl",
-            "urscript",
-            "csv",
-            "svg",
-            "pattern",
-            "boundary",
+            "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern", "boundary"
         ],
         folder: str | PathLike[str],
         *,
         even_if_rejected: bool = False,
-        position_error: float | None = None,
+        position_error: SupportsFloat | SupportsIndex | None = None,
         templates: typing.Sequence[str | PathLike[str]] = ...,
     ) -> list[Path]:
         """
         Writes files for another program or a machine into a folder, all or none, and returns their paths.
 
         Args:
-            to: "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
+            to: One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
             folder: Where they go; other files there stay.
             even_if_rejected: Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
                 result is not accepted; the files say so in their heads.
