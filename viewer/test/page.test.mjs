@@ -83,6 +83,8 @@ async function cellShows(report, page) {
   await page.waitForTimeout(200);
   assert.ok(!shown.equals(await page.locator("#view").screenshot()), "the picture is without them");
   await check.check();
+  // keys are for the page again
+  await check.blur();
 }
 
 /** Whether a page shows a sheet. */
@@ -274,9 +276,14 @@ async function sheetShows(report, page) {
       return [Math.hypot(...force.map((f, c) => f - up * normal[c])), Math.abs(up)];
     });
     const longest = Math.max(...parts);
-    const note = await page.locator("#force-scale").innerText();
-    const said = parseFloat(note.split("arrow")[1]);
-    assert.ok(Math.abs(said / longest - 1) < 1e-3, `${note} is not ${longest} N`);
+    const scale = page.locator("#force-scale");
+    // pads that have let go have no loads
+    assert.equal(await scale.isVisible(), longest > 0);
+    if (longest > 0) {
+      const note = await scale.innerText();
+      const said = parseFloat(note.split("arrow")[1]);
+      assert.ok(Math.abs(said / longest - 1) < 1e-3, `${note} is not ${longest} N`);
+    }
 
     if (Number(step) !== data.steps.at(-1)) continue;
     // from above the node that is highest over the mold, and the gripper with the largest force
@@ -290,7 +297,7 @@ async function sheetShows(report, page) {
     const pad = forces.findIndex((force) => Math.hypot(...force) === most);
     const text = await hoverOver(page, grippers[pad]);
     assert.ok(text.startsWith(`gripper g${data.ids[pad].join("_")}`), text);
-    assert.ok(Math.abs(number(text.split("force ")[1]) / most - 1) < 1e-3, text);
+    if (most > 0) assert.ok(Math.abs(number(text.split("force ")[1]) / most - 1) < 1e-3, text);
   }
   await page.keyboard.press("i");
 

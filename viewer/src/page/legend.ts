@@ -59,17 +59,16 @@ function showForceScale(motion: Motion, now: Choice): void {
   const note = byId("force-scale");
   const state = motion.sheet?.stateOf(now.index) ?? null;
   const shown = now.model === "sheet" && now.forces && state !== null;
-  note.hidden = !shown;
-  if (!shown) return;
+  const load = shown ? motion.sheet!.mostLoad(state) : 0;
+  // pads that have let go have no loads
+  note.hidden = load === 0;
+  if (load === 0) return;
   const uses = USES.map(({ colour, text }) => {
     const swatch = make("i", { class: "swatch", "aria-hidden": "true" });
     swatch.style.background = `var(--${colour})`;
     return make("span", {}, swatch, text);
   });
-  note.replaceChildren(
-    make("b", {}, `longest arrow ${withUnit(short(motion.sheet!.mostLoad(state)), "N")}`),
-    ...uses,
-  );
+  note.replaceChildren(make("b", {}, `longest arrow ${withUnit(short(load), "N")}`), ...uses);
 }
 
 /** The ends of a scale of orders stand for everything beyond them too. */
