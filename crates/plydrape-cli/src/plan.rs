@@ -9,6 +9,7 @@ use crate::results::Results;
 use crate::search::{Ended, Search, time_text};
 use crate::watch::Interrupt;
 use clap::{ValueEnum, value_parser};
+use plydrape::draping::record::LimitedBy;
 use plydrape::errors::Robustness;
 use plydrape::planner::infeasible_limits::infeasible_limits;
 use plydrape::planner::{self, Checkpoint, Planned};
@@ -123,6 +124,7 @@ struct Motion {
     max_speed: f64,
     max_acceleration: f64,
     max_jerk: f64,
+    limited_by: Vec<LimitedBy>,
 }
 
 impl Motion {
@@ -133,6 +135,7 @@ impl Motion {
             max_speed: peaks.speed.value,
             max_acceleration: peaks.acceleration.value,
             max_jerk: peaks.jerk.value,
+            limited_by: planned.record.limited_by.clone(),
         }
     }
 }
@@ -331,7 +334,7 @@ fn text(
         }
         _ => String::new(),
     };
-    let Motion { duration_s, max_speed, max_acceleration, max_jerk } = &printed.motion;
+    let Motion { duration_s, max_speed, max_acceleration, max_jerk, .. } = &printed.motion;
     let found = format!(
         "{tried} in {:.1} s{ended}\nmotion of {duration_s:.1} s, at most {} m/s, {} m/s², {} m/s³",
         printed.plan_time_s,
@@ -339,7 +342,8 @@ fn text(
         short(*max_acceleration),
         short(*max_jerk),
     );
-    let mut text = format!("{found}\n\n{}", table::steps_and_verdict(result));
+    let limited_by = table::limited_by(result);
+    let mut text = format!("{found}\n{limited_by}\n{}", table::steps_and_verdict(result));
     text += broken_off.map_or("", BrokenOff::text);
     if result.summary.accepted
         && let Some(closest) = table::closest(result.deciding_limits())

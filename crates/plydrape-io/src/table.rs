@@ -3,6 +3,7 @@
 mod book;
 mod comparison;
 mod errors;
+mod limited_by;
 mod sheet;
 mod slack;
 mod tool;
@@ -11,6 +12,7 @@ pub use book::book;
 pub use comparison::comparison;
 pub(crate) use comparison::verdict as verdict_on;
 pub(crate) use errors::{share, stands_in_words};
+pub use limited_by::limited_by;
 pub(crate) use slack::slack_in_words;
 
 use crate::result::ResultFile;

@@ -32,7 +32,7 @@ use std::time::Duration;
 /// Name of the format, the first key of every result file.
 pub const FORMAT: &str = "plydrape-result";
 /// Version of the format; it grows when a key changes its meaning.
-pub const VERSION: u32 = 7;
+pub const VERSION: u32 = 8;
 
 /// A whole result.
 #[derive(Debug, Clone)]
@@ -196,7 +196,7 @@ impl ResultFile {
     /// [`MotionError`] if plan and steps are none that a planner has written.
     pub fn motion(&self) -> Result<Option<(TimedMotion, Attitudes)>, MotionError> {
         let Some(plan) = &self.plan else { return Ok(None) };
-        Ok(Some((plan.motion(&self.scene.limits)?, self.attitudes()?)))
+        Ok(Some((plan.motion()?, self.attitudes()?)))
     }
 
     /// Orientations of the grippers between the steps.

@@ -53,6 +53,9 @@ pub enum MotionError {
         /// Largest value (SI).
         most: f64,
     },
+    /// A recorded time law is none of the recorded path.
+    #[error("the recorded time law does not belong to the recorded path: plan again")]
+    Law,
     /// A rate is no number above zero.
     #[error("{rate} samples a second: give a rate above 0 Hz")]
     Rate {

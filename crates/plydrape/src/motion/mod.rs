@@ -5,7 +5,8 @@
 //! 3. `time_law`: the parameter over time, from rest to rest with bounded jerk;
 //! 4. `peaks`: the largest speed, acceleration and jerk of the grippers, and the least stretch of time that keeps the limits;
 //! 5. `timing`: the shortest motion of a few spacings and time laws;
-//! 6. `attitude`: orientations between the steps.
+//! 6. `quickest`: the time-optimal law of the same path, under all that bounds it;
+//! 7. `attitude`: orientations between the steps.
 //!
 //! All grippers share the parameter, so the shapes of the ply come in the planned order at any speed.
 
@@ -14,6 +15,7 @@ mod check;
 mod error;
 mod path;
 mod peaks;
+mod quickest;
 mod recorded;
 mod spacing;
 mod time_law;
@@ -25,12 +27,14 @@ pub(crate) use attitude::{slerp, turn};
 pub use check::{MOST_POSITIONS, MOST_STEPS};
 pub use error::MotionError;
 pub use peaks::{Peak, Peaks};
+pub use quickest::{Course, Limiting, Moving};
 pub(crate) use spacing::farthest;
 
 use crate::mold::vector::{norm, sub};
 use crate::scene::{self, Limits};
 use path::{Path, Vector};
 use time_law::{State, TimeLaw};
+use tuning::TUNING;
 
 /// Bounds that no gripper exceeds at any time; of the norms of vectors in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,16 +81,48 @@ impl TimedMotion {
         let steps = check::moving(planned);
         let [.., target] = steps[..] else { return Err(MotionError::Empty) };
         if steps.len() == 1 {
-            return Ok(TimedMotion {
-                path: None,
-                law: TimeLaw::rest(),
-                times: vec![0.0],
-                positions: vec![target.to_vec()],
-                peaks: Peaks::default(),
-            });
+            return Ok(Self::resting(target));
         }
 
-        let (path, law, peaks) = timing::fastest(&steps, bounds).ok_or(MotionError::Empty)?;
+        let (path, law) = timing::fastest(&steps, bounds).ok_or(MotionError::Empty)?;
+        Ok(Self::timed(path, law))
+    }
+
+    /// A motion that was timed before: planned positions (m) as in [`Self::new`], the distances of the knots of their path, and rows
+    /// of the time law, see [`Self::spacing`] and [`Self::law`].
+    ///
+    /// # Errors
+    /// Those of positions as [`Self::new`], and [`MotionError::Law`] if knots and rows are none of a motion of these positions.
+    pub fn recorded(
+        planned: &[Vec<[f64; 3]>],
+        spacing: &[f64],
+        law: &[[f64; 5]],
+    ) -> Result<Self, MotionError> {
+        check::positions(planned)?;
+        let steps = check::moving(planned);
+        if spacing.is_empty() && law.is_empty() && steps.len() == 1 {
+            return Ok(Self::resting(steps[0]));
+        }
+        let positive = spacing.iter().all(|h| *h > 0.0 && h.is_finite());
+        if spacing.len() + 1 != steps.len() || steps.len() < 2 || !positive {
+            return Err(MotionError::Law);
+        }
+        let path = Path::new(&steps, spacing);
+        let law = TimeLaw::of_rows(law, path.length()).ok_or(MotionError::Law)?;
+        Ok(Self::timed(path, law))
+    }
+
+    fn resting(places: &[Vector]) -> Self {
+        TimedMotion {
+            path: None,
+            law: TimeLaw::rest(),
+            times: vec![0.0],
+            positions: vec![places.to_vec()],
+            peaks: Peaks::default(),
+        }
+    }
+
+    fn timed(path: Path, law: TimeLaw) -> Self {
         let last = path.knots.len() - 1;
         let mut times: Vec<f64> = path.knots.iter().map(|u| law.time(*u)).collect();
         times[last] = law.duration;
@@ -95,7 +131,28 @@ impl TimedMotion {
             (0..path.grippers).map(place).collect()
         };
         let positions = (0..=last).map(places).collect();
-        Ok(TimedMotion { times, positions, law, peaks, path: Some(path) })
+        let peaks = peaks::peaks(&path, &law, TUNING.tolerance);
+        TimedMotion { times, positions, law, peaks, path: Some(path) }
+    }
+
+    /// Distances of the knots of the path (m), one less than steps that move; empty where nothing moves.
+    #[must_use]
+    pub fn spacing(&self) -> Vec<f64> {
+        let knots = self.path.as_ref().map_or(&[][..], |path| &path.knots);
+        knots.windows(2).map(|pair| pair[1] - pair[0]).collect()
+    }
+
+    /// Rows of the time law: beginning (s) of each of its phases, and there the path's parameter (m), its first and second derivative to
+    /// time (m/s, m/s²), and its third one (m/s³), which is constant in the phase. The last row is the end. Empty where nothing moves.
+    #[must_use]
+    pub fn law(&self) -> Vec<[f64; 5]> {
+        self.path.as_ref().map_or_else(Vec::new, |_| self.law.rows())
+    }
+
+    /// The motion that goes through the same places at a time of another motion along the same path (s): the time here.
+    #[must_use]
+    pub fn same_place(&self, of: &TimedMotion, t: f64) -> f64 {
+        self.law.time(of.law.at(t)[0])
     }
 
     /// The same motion over a time λ times as long: the same shapes of the ply, in the same order.
@@ -192,11 +249,15 @@ impl TimedMotion {
         self.rate(t, 2)
     }
 
-    fn rate(&self, t: f64, order: usize) -> Vec<Vector> {
-        let Some(path) = &self.path else { return vec![[0.0; 3]; self.grippers()] };
+    /// The velocity, acceleration or jerk of one gripper at a time.
+    fn rate_of(&self, gripper: usize, t: f64, order: usize) -> Vector {
+        let Some(path) = &self.path else { return [0.0; 3] };
         let state = self.law.at(t);
-        let span = path.span(state[0]);
-        (0..path.grippers).map(|g| rates(&path.jet(span, g, state[0]), &state)[order]).collect()
+        rates(&path.jet(path.span(state[0]), gripper, state[0]), &state)[order]
+    }
+
+    fn rate(&self, t: f64, order: usize) -> Vec<Vector> {
+        (0..self.grippers()).map(|g| self.rate_of(g, t, order)).collect()
     }
 
     /// The largest speed, acceleration and jerk, and where they are.

@@ -1,17 +1,30 @@
-//! The motion of a recorded drape, made again from its plan and its steps.
+//! The motion of a recorded drape, read from its plan and its steps.
 
-use super::{Attitudes, Bounds, MotionError, TimedMotion};
-use crate::draping::record::{PlanRecord, Step};
-use crate::scene::Limits;
+use super::{Attitudes, MotionError, TimedMotion};
+use crate::draping::record::{LimitedBy, PlanRecord, Step};
+use crate::scene::PlanMethod;
 
 impl PlanRecord {
-    /// The motion at any time, under the limits that it was planned for.
+    /// The record of a motion of planned positions.
+    #[must_use]
+    pub fn of(
+        method: PlanMethod,
+        evaluations: usize,
+        rate: f64,
+        path: Vec<Vec<[f64; 3]>>,
+        motion: &TimedMotion,
+        limited_by: Vec<LimitedBy>,
+    ) -> Self {
+        let (spacing, law) = (motion.spacing(), motion.law());
+        PlanRecord { method, evaluations, rate, limited_by, path, spacing, law }
+    }
+
+    /// The motion at any time.
     ///
     /// # Errors
     /// [`MotionError`] if the plan is none that a planner has made.
-    pub fn motion(&self, limits: &Limits) -> Result<TimedMotion, MotionError> {
-        let motion = TimedMotion::new(&self.path, &Bounds::from(limits))?;
-        Ok(if self.slowed > 1.0 { motion.slowed(self.slowed) } else { motion })
+    pub fn motion(&self) -> Result<TimedMotion, MotionError> {
+        TimedMotion::recorded(&self.path, &self.spacing, &self.law)
     }
 }
 

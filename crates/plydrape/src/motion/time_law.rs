@@ -1,27 +1,29 @@
-//! The time law s(t) of all grippers: from rest to rest, with bounded speed, acceleration and jerk.
+//! The time law s(t) of all grippers: from rest to rest, with constant jerk in each of its phases.
 //!
-//! The fastest such time law over a length L is the seven-phase profile of robotics (Biagiotti and Melchiorri 2008,
-//! section 3.4): the jerk is j, 0, −j while it speeds up, 0 while it cruises, and −j, 0, j while it slows down.
+//! The fastest one over a length L with bounded speed, acceleration and jerk is the seven-phase profile of robotics (Biagiotti and
+//! Melchiorri 2008, section 3.4): the jerk is j, 0, −j while it speeds up, 0 while it cruises, and −j, 0, j while it slows down.
 //! With the duration T_j of a phase of jerk, T_a of the phase of constant acceleration and T_v of cruising, the
 //! acceleration reaches jT_j, the speed jT_j(T_j + T_a), and `L = jT_j(T_j + T_a)(2T_j + T_a + T_v)`. Each limit that is
-//! reached gives one of the durations; the others are 0 or follow from L.
+//! reached gives one of the durations; the others are 0 or follow from L. This law is its own mirror image,
+//! `s(T − t) = L − s(t)`.
 //!
-//! The time law is its own mirror image, `s(T − t) = L − s(t)`, so only the first half is kept: it ends as exactly at
-//! rest as it begins.
+//! A law that goes through given states (`through`) has three phases of the same length between two of them: their three jerks
+//! are those that lead from one state to the next.
 
 use super::Bounds;
+use super::tuning::TUNING;
 
 /// The state of the time law at a time: s (m), ṡ (m/s), s̈ (m/s²) and s⃛ (m/s³).
 pub(super) type State = [f64; 4];
 
-/// A symmetric time law from rest to rest.
+/// A time law from rest to rest.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TimeLaw {
-    /// Where it ends S (m).
-    length: f64,
     /// How long it takes T (s).
     pub duration: f64,
-    /// Beginning (s) and state of every phase of the first half.
+    /// Where it ends S (m).
+    length: f64,
+    /// Beginning (s) and state of every phase.
     phases: Vec<(f64, State)>,
 }
 
@@ -47,19 +49,77 @@ impl TimeLaw {
             steady = ((length / acceleration + 0.25 * ramp * ramp).sqrt() - 1.5 * ramp).max(0.0);
         }
 
-        let mut phases: Vec<(f64, State)> = Vec::with_capacity(4);
-        let (mut begin, mut state) = (0.0, [0.0; 4]);
-        for (time, jerk) in
+        let half: Vec<(f64, f64)> =
             [(jerking, jerk), (steady, 0.0), (jerking, -jerk), (0.5 * cruising, 0.0)]
-        {
-            if time > 0.0 {
+                .into_iter()
+                .filter(|(time, _)| *time > 0.0)
+                .collect();
+        let mut phases: Vec<(f64, State)> = Vec::with_capacity(2 * half.len());
+        let (mut begin, mut state) = (0.0, [0.0; 4]);
+        let mut ends = Vec::with_capacity(half.len());
+        for (time, jerk) in half {
+            state[3] = jerk;
+            phases.push((begin, state));
+            state = advance(state, time);
+            begin += time;
+            ends.push((begin, state));
+        }
+        let duration = 2.0 * begin;
+        // the second half is the mirror image of the first
+        phases.extend(
+            ends.iter().rev().map(|(end, [s, v, a, j])| (duration - end, [length - s, *v, -a, *j])),
+        );
+        TimeLaw { length, duration, phases }
+    }
+
+    /// The time law through states s, ṡ, s̈ at times (s), the first at 0, the first and the last at rest.
+    pub fn through(states: &[(f64, [f64; 3])]) -> Self {
+        let mut phases = Vec::with_capacity(3 * states.len());
+        for pair in states.windows(2) {
+            let ((begin, from), (end, to)) = (pair[0], pair[1]);
+            let third = (end - begin) / 3.0;
+            let mut state = [from[0], from[1], from[2], 0.0];
+            for (n, jerk) in jerks(from, to, third).into_iter().enumerate() {
                 state[3] = jerk;
-                phases.push((begin, state));
-                state = advance(state, time);
-                begin += time;
+                phases.push((begin + third * n as f64, state));
+                state = advance(state, third);
             }
         }
-        TimeLaw { length, duration: 2.0 * begin, phases }
+        let (duration, [length, ..]) = states.last().copied().unwrap_or_default();
+        TimeLaw { length, duration, phases }
+    }
+
+    /// The time law of rows of time (s) and state, one for each phase, and a last one for the end; none of rows that are no such
+    /// law over a length (m).
+    pub fn of_rows(rows: &[[f64; 5]], length: f64) -> Option<Self> {
+        let [phases @ .., last] = rows else { return None };
+        let first = phases.first()?;
+        let finite = rows.iter().flatten().all(|x| x.is_finite());
+        let ascend =
+            rows.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] <= pair[1][1]);
+        // what a phase leads to is where the next one begins, to rounding
+        let near = |a: f64, b: f64, size: f64| (a - b).abs() <= TUNING.law_rounding * size;
+        let largest = |n: usize| rows.iter().map(|row| row[n].abs()).fold(0.0, f64::max);
+        let sizes = [1, 2, 3].map(largest);
+        let meets = rows.windows(2).all(|pair| {
+            let [begin, state @ ..] = pair[0];
+            let reached = advance(state, pair[1][0] - begin);
+            (0..3).all(|n| near(reached[n], pair[1][n + 1], sizes[n]))
+        });
+        let rests = first[..4] == [0.0; 4] && last[2..] == [0.0; 3];
+        if !(finite && ascend && meets && rests && near(last[1], length, length)) {
+            return None;
+        }
+        let phases = phases.iter().map(|[begin, state @ ..]| (*begin, *state)).collect();
+        Some(TimeLaw { length, duration: last[0], phases })
+    }
+
+    /// Its rows, see [`Self::of_rows`].
+    pub fn rows(&self) -> Vec<[f64; 5]> {
+        let row = |(begin, [s, v, a, j]): &(f64, State)| [*begin, *s, *v, *a, *j];
+        let mut rows: Vec<[f64; 5]> = self.phases.iter().map(row).collect();
+        rows.push([self.duration, self.length, 0.0, 0.0, 0.0]);
+        rows
     }
 
     /// The same time law over a time λ times as long.
@@ -76,19 +136,14 @@ impl TimeLaw {
 
     /// The state at a time (s), which is taken into 0 … T; where the jerk jumps, that after the jump.
     pub fn at(&self, t: f64) -> State {
-        let t = t.max(0.0).min(self.duration);
-        if t < 0.5 * self.duration {
-            return self.first_half(t, |begin| begin <= t);
-        }
-        let t = self.duration - t;
-        let [s, v, a, j] = self.first_half(t, |begin| begin < t);
-        [self.length - s, v, -a, j]
-    }
-
-    fn first_half(&self, t: f64, begun: impl Fn(f64) -> bool) -> State {
-        let phase = self.phases.partition_point(|(begin, _)| begun(*begin)).saturating_sub(1);
+        let t = t.max(0.0);
+        let phase = self.phases.partition_point(|(begin, _)| *begin <= t).saturating_sub(1);
         let (begin, state) = self.phases[phase];
-        advance(state, t - begin)
+        if t >= self.duration {
+            return [self.length, 0.0, 0.0, state[3]];
+        }
+        let [s, v, a, j] = advance(state, t - begin);
+        [s.min(self.length), v, a, j]
     }
 
     /// The time at which it passes s (m).
@@ -96,12 +151,14 @@ impl TimeLaw {
         if s <= 0.0 {
             return 0.0;
         }
-        if s > 0.5 * self.length {
-            return self.duration - self.time(self.length - s);
+        if s >= self.length {
+            return self.duration;
         }
+        let phase = self.phases.partition_point(|(_, state)| state[0] <= s).saturating_sub(1);
         // s grows: halve until the doubles have no middle, which takes fewer times than they have exponents and digits
         const HALVINGS: usize = 2200;
-        let (mut low, mut high) = (0.0, 0.5 * self.duration);
+        let mut low = self.phases[phase].0;
+        let mut high = self.phases.get(phase + 1).map_or(self.duration, |(end, _)| *end);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
@@ -118,15 +175,23 @@ impl TimeLaw {
 
     /// Times at which the jerk may jump (s), ascending, with 0 and T.
     pub fn breaks(&self) -> Vec<f64> {
-        let half = self.phases.iter().map(|(begin, _)| *begin);
-        let mirrored = self.phases.iter().rev().map(|(begin, _)| self.duration - begin);
-        half.chain(mirrored).collect()
+        self.phases.iter().map(|(begin, _)| *begin).chain([self.duration]).collect()
     }
 }
 
 /// A state after some time (s) of constant jerk.
 pub(super) fn advance([s, v, a, j]: State, t: f64) -> State {
     [s + t * (v + t * (a / 2.0 + t * (j / 6.0))), v + t * (a + t * (j / 2.0)), a + t * j, j]
+}
+
+/// The jerks of three phases of the same time (s) that lead from one state to another.
+fn jerks(from: [f64; 3], to: [f64; 3], third: f64) -> [f64; 3] {
+    let [s, v, a, _] = advance([from[0], from[1], from[2], 0.0], 3.0 * third);
+    // what the jerks have to add: to s̈ their sum, to ṡ and s what they have grown to at the end
+    let [x, y, z] = [(to[2] - a) / third, (to[1] - v) / third.powi(2), (to[0] - s) / third.powi(3)];
+    let first = z - y + x / 3.0;
+    let second = y - 0.5 * x - 2.0 * first;
+    [first, second, x - first - second]
 }
 
 #[cfg(test)]

@@ -7,13 +7,13 @@
 
 use super::Bounds;
 use super::path::{Path, Vector};
-use super::peaks::{Peaks, peaks};
+use super::peaks::peaks;
 use super::spacing::spacing;
 use super::time_law::TimeLaw;
 use super::tuning::TUNING;
 
-/// Path, time law and peaks of the shortest motion found; none without shares to try.
-pub(super) fn fastest(steps: &[&[Vector]], bounds: &Bounds) -> Option<(Path, TimeLaw, Peaks)> {
+/// Path and time law of the shortest motion found; none without shares to try.
+pub(super) fn fastest(steps: &[&[Vector]], bounds: &Bounds) -> Option<(Path, TimeLaw)> {
     let tries =
         TUNING.cruise.iter().flat_map(|cruise| TUNING.bend.map(|bend| [*cruise, bend, bend]));
     let motions = tries.filter_map(|shares| {
@@ -28,8 +28,7 @@ pub(super) fn fastest(steps: &[&[Vector]], bounds: &Bounds) -> Option<(Path, Tim
     let tolerance = TUNING.tolerance;
     let stretch = peaks(&path, &law, tolerance).stretch(bounds);
     let law = law.stretched(stretch * (1.0 + tolerance));
-    let peaks = peaks(&path, &law, tolerance);
-    Some((path, law, peaks))
+    Some((path, law))
 }
 
 /// The shortest time law along a path with a top speed ṡ (m/s), all but within bounds.

@@ -35,6 +35,22 @@ pub struct Tuning {
     pub tolerance: f64,
     /// Times that an interval is halved at most: 2⁻²⁴ of a piece is less than any tolerance needs.
     pub halvings: u32,
+    /// Share of the largest value by which the states of a time law that was read may miss each other: rounding of its rows.
+    pub law_rounding: f64,
+    /// Shortest and longest part of the pace of the quickest motion, whose square is a parabola in each, as shares of the motion.
+    pub pace_parts: [f64; 2],
+    /// Where the bounds are looked at in a part of the pace, from both its ends, as a share of it.
+    pub pace_inside: f64,
+    /// Most programs that are solved for the pace, and the share of time that one must gain for another.
+    pub pace_rounds: usize,
+    /// See [`Self::pace_rounds`].
+    pub pace_gain: f64,
+    /// A bound is put into the program when it is this near to its limit, as a share of the nearest one.
+    pub pace_near: f64,
+    /// Most iterations of the solver of a program, and its tolerance.
+    pub pace_iterations: u32,
+    /// See [`Self::pace_iterations`].
+    pub pace_tolerance: f64,
     /// Angle (rad) below which its sine is the angle to the last digit, and the chord is the arc.
     pub small_angle: f64,
 }
@@ -57,5 +73,13 @@ pub const TUNING: Tuning = Tuning {
     trial_tolerance: 1e-2,
     tolerance: 1e-4,
     halvings: 24,
+    law_rounding: 1e-9,
+    pace_parts: [1e-5, 5e-3],
+    pace_inside: 0.02,
+    pace_rounds: 20,
+    pace_gain: 1e-3,
+    pace_near: 0.7,
+    pace_iterations: 100,
+    pace_tolerance: 1e-6,
     small_angle: 1e-8,
 };

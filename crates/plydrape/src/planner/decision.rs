@@ -81,10 +81,9 @@ impl Decision {
         Ok(Decision { strategy, positions, asked, motion, sheet, drape, score })
     }
 
-    /// The same in another time.
-    pub fn slowed(&mut self, scene: &Scene, factor: f64, state: &SearchState) {
-        let end = *self.motion.times().last().unwrap_or(&0.0);
-        self.motion = self.motion.slowed(factor);
+    /// The same places in another time.
+    pub fn retimed(&mut self, scene: &Scene, motion: TimedMotion, state: &SearchState) {
+        let before = std::mem::replace(&mut self.motion, motion);
         let dwells_on_the_way = scene
             .release
             .as_ref()
@@ -93,16 +92,16 @@ impl Decision {
             (self.sheet, self.drape, self.score) = decided(scene, &self.motion, state);
             state.record(&self.drape, self.score, true);
         } else if let Some(sheet) = &mut self.sheet {
+            let (end, now) = (before.duration(), self.motion.duration());
             for state in sheet.states.iter_mut().chain([&mut sheet.drape.last]) {
                 let after = (state.time - end).max(0.0);
                 state.time = self.motion.times()[state.step - 1] + after;
             }
-            let slowed = *self.motion.times().last().unwrap_or(&0.0);
             for event in &mut sheet.drape.summary.events {
                 event.time = match event.time < end {
-                    true => event.time * factor,
+                    true => self.motion.same_place(&before, event.time),
                     // how long pads press after the motion is the scene's
-                    false => slowed + (event.time - end),
+                    false => now + (event.time - end),
                 };
             }
         }

@@ -6,10 +6,10 @@ use super::decision::{Decision, PlannedSheet};
 use super::evaluation;
 use super::infeasible_limits::infeasible_limits;
 use super::path;
+use super::quickest::{Quickest, quickest};
 use super::search_state::{SearchState, Watcher};
 use super::stepwise::{Outcome, Stepwise, stepwise};
-use super::tuning::TUNING;
-use crate::draping::record::{PlanRecord, Summary};
+use crate::draping::record::{LimitedBy, PlanRecord, Summary};
 use crate::draping::{Drape, simulate};
 use crate::measure::{Name, Site, Verdict, Worst};
 use crate::motion::{Attitudes, Bounds, MotionError, Peak, TimedMotion};
@@ -101,19 +101,14 @@ pub fn plan(
     };
     state.finish();
 
-    let Followed { drape, slowed } = follow(scene, &mut decision, own_limits, &state);
+    let Followed { drape, limited_by } = follow(scene, &mut decision, own_limits, &state);
     let Decision { strategy, positions, motion, sheet, .. } = decision;
     let evaluations = match scene.plan.method {
         PlanMethod::Path => state.candidates() + state.decisions(),
         PlanMethod::Stepwise => state.candidates(),
     };
-    let record = PlanRecord {
-        method: scene.plan.method,
-        evaluations,
-        rate: scene.plan.rate,
-        slowed,
-        path: positions.clone(),
-    };
+    let (method, rate) = (scene.plan.method, scene.plan.rate);
+    let record = PlanRecord::of(method, evaluations, rate, positions.clone(), &motion, limited_by);
     let attitudes = Attitudes::of(&drape.steps)?;
     let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations);
     let checkpoint = Checkpoint::new(scene, before + evaluations, strategy, positions);
@@ -126,11 +121,11 @@ pub fn plan(
 pub(super) struct Followed {
     /// The drape by catenaries along its motion, with the verdicts of all limits but those of the sheet.
     pub drape: Drape,
-    /// How many times as long the motion takes so that no gripper turns too fast.
-    pub slowed: f64,
+    /// What limits the time of the motion.
+    pub limited_by: Vec<LimitedBy>,
 }
 
-/// Drapes by catenaries along the motion of a decision, which is made slower where a gripper would turn too fast.
+/// Drapes by catenaries along the motion of a decision, which gets the least time under all limits.
 pub(super) fn follow(
     scene: &Scene,
     decision: &mut Decision,
@@ -142,19 +137,10 @@ pub(super) fn follow(
         simulate(&followed, |_| ControlFlow::Continue(()))
     };
     let mut drape = along(&decision.motion);
-    // the shapes of the ply do not depend on time: where a gripper would turn too fast, all of it takes longer
-    let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
-    let turned = TUNING.evaluation.tilt_rate_margin * fastest / scene.limits.tilt_rate.to_degrees();
-    // and so where the tool would turn or move its axes too fast
-    let tool_peaks = |motion: &TimedMotion| {
-        let tool = scene.tool.as_ref()?;
-        Some((tool, tool.peaks(motion, scene.plan.rate).ok()?))
-    };
-    let carried = tool_peaks(&decision.motion)
-        .map_or(1.0, |(tool, peaks)| TUNING.evaluation.tool_margin * peaks.stretch(tool));
-    let slowed = turned.max(carried).max(1.0);
-    if slowed > 1.0 {
-        decision.slowed(scene, slowed, state);
+    // the shapes of the ply do not depend on time: only how fast everything goes does
+    let Quickest { motion, limited_by } = quickest(scene, &decision.motion, &drape);
+    if motion != decision.motion {
+        decision.retimed(scene, motion, state);
         drape = along(&decision.motion);
     }
     if let (Some(asked), Some(made)) = (&decision.asked, drape.summary.tool.take()) {
@@ -172,10 +158,12 @@ pub(super) fn follow(
     }
     let bounds = Bounds::from(&scene.limits);
     summary.judge_also(own_limits.into_iter().chain(rates(&decision.motion, &bounds, scene)));
-    if let Some((tool, peaks)) = tool_peaks(&decision.motion) {
+    if let Some(tool) = &scene.tool
+        && let Ok(peaks) = tool.peaks(&decision.motion, scene.plan.rate)
+    {
         summary.judge_also(tool_rates(tool, &peaks, &decision.motion, scene));
     }
-    Followed { drape, slowed }
+    Followed { drape, limited_by }
 }
 
 /// Judges a drape by the whole of its motion in time where that is worse than straight ways from step to step.

@@ -22,6 +22,7 @@ mod tuning;
 pub use carried::{Carried, ToolRecord};
 pub use posture::Posture;
 pub use rates::ToolPeaks;
+pub(crate) use rates::turn_between;
 
 use crate::mold::Pose;
 use crate::mold::vector::sub;

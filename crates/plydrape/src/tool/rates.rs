@@ -73,7 +73,7 @@ impl Tool {
 
 /// The turn (rotation vector, rad) that takes three axes at right angles to three others.
 #[must_use]
-pub(super) fn turn_between(from: &[[f64; 3]; 3], to: &[[f64; 3]; 3]) -> [f64; 3] {
+pub(crate) fn turn_between(from: &[[f64; 3]; 3], to: &[[f64; 3]; 3]) -> [f64; 3] {
     // twice the axis times the sine, and one plus twice the cosine
     let mut sine = [0.0; 3];
     let mut trace = 0.0;

@@ -13,6 +13,7 @@ pub use outcome::{CatenaryId, Summary};
 
 use crate::draping::ContactStatus;
 use crate::equilibrium::Status;
+use crate::measure::Name;
 use crate::ply::{GripperId, Kind};
 use crate::scene::PlanMethod;
 
@@ -27,11 +28,27 @@ pub struct PlanRecord {
     pub evaluations: usize,
     /// Samples a second of the motion as it is written (Hz).
     pub rate: f64,
-    /// How many times longer the motion takes than its speed, acceleration and jerk need, so that no gripper turns faster
-    /// than its limit; 1 where that is no matter.
-    pub slowed: f64,
+    /// What limits the time of the motion, that of the longest time first.
+    pub limited_by: Vec<LimitedBy>,
     /// Planned positions of all grippers (m): control points of the smooth path, one list a step.
     pub path: Vec<Vec<[f64; 3]>>,
+    /// Distances of the knots of the path (m).
+    pub spacing: Vec<f64>,
+    /// The time law: a row for each phase, see [`TimedMotion::law`](crate::motion::TimedMotion::law).
+    pub law: Vec<[f64; 5]>,
+}
+
+/// For how long a limit is what the speed of a motion is limited by.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct LimitedBy {
+    /// The measure that is nearest to its limit.
+    pub name: Name,
+    /// For how long (s).
+    pub time_s: f64,
+    /// The gripper with which it is that for the longest, by its number; none of the frame of a tool.
+    pub gripper: Option<usize>,
 }
 
 /// The ply in one step.

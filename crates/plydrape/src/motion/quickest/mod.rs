@@ -1,0 +1,197 @@
+//! The time-optimal law: the same path in the least time that everything which moves with it allows.
+//!
+//! A motion q(τ) that keeps its limits is run at another pace: with the square of the pace, `b(τ) = (dτ/dt)²`, the chain rule gives
+//!
+//! `q̇ = √b q'`, `q̈ = b q'' + ½ b' q'`, `q⃛ = √b (b q''' + 3/2 b' q'' + ½ b'' q')`,
+//!
+//! and the time is `∫ dτ/√b`. Bounds of q̇ and q̈ are convex in b, and so is the time (Verscheure et al. 2009). A bound of q⃛ is the
+//! difference of two convex functions, `|b q''' + 3/2 b' q'' + ½ b'' q'| ≤ J/√b`: its right side is replaced by its tangent, which
+//! lies below it, and the program is solved again from where it came to. So each solution keeps the bounds, and none takes longer
+//! than the one before. The motion itself is b = 1. It begins and ends at rest, and at any pace it still does.
+//!
+//! 1. `pace`: b as a spline of parabolas;
+//! 2. `program`: one convex program;
+//! 3. here: what moves with the motion, the rounds, and the time law that comes of a pace.
+
+mod pace;
+mod program;
+#[cfg(test)]
+mod tests;
+
+use super::path::Vector;
+use super::peaks::peaks;
+use super::time_law::TimeLaw;
+use super::tuning::TUNING;
+use super::{Bounds, TimedMotion};
+use crate::mold::vector::norm;
+use pace::{Jet, Pace};
+use program::Program;
+
+/// What moves with a motion, and how fast it may.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moving {
+    /// First, second and third derivative to the time of the motion as it is, at each of [`Course::times`].
+    pub rates: Vec<[[f64; 3]; 3]>,
+    /// Largest norm of each; infinite where there is no limit.
+    pub bounds: [f64; 3],
+}
+
+/// Which bound is nearest to its limit, at a time of the quickest motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limiting {
+    /// How long it is (s).
+    pub time: f64,
+    /// Which of those that move.
+    pub moving: usize,
+    /// 0 for its first derivative, 1 for its second, 2 for its third.
+    pub order: usize,
+    /// Share of the limit.
+    pub share: f64,
+}
+
+/// The motion that is to be made quicker, and the times at which its bounds are looked at.
+#[derive(Debug)]
+pub struct Course<'a> {
+    motion: &'a TimedMotion,
+    pace: Pace,
+    /// Three in each part of the pace.
+    times: Vec<f64>,
+}
+
+impl<'a> Course<'a> {
+    /// The course of a motion that takes some time; none of a motion of duration 0.
+    #[must_use]
+    pub fn new(motion: &'a TimedMotion) -> Option<Self> {
+        let path = motion.path.as_ref()?;
+        let mut at = motion.law.breaks();
+        at.extend(path.knots.iter().map(|u| motion.law.time(*u)));
+        at.sort_by(f64::total_cmp);
+        let pace = Pace::over(&at, TUNING.pace_parts.map(|share| share * motion.duration()))?;
+        let inside = TUNING.pace_inside;
+        let times = pace.parts().flat_map(|(begin, end)| {
+            [inside, 0.5, 1.0 - inside].map(|share| begin + share * (end - begin))
+        });
+        Some(Course { motion, times: times.collect(), pace })
+    }
+
+    /// Times of the motion as it is (s), ascending: where the rates of what moves are asked for.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The grippers, each under the bounds.
+    #[must_use]
+    pub fn grippers(&self, bounds: &Bounds) -> Vec<Moving> {
+        let bounds = [bounds.speed, bounds.acceleration, bounds.jerk];
+        let one = |g: usize| {
+            let rates = self.times.iter().map(|t| [0, 1, 2].map(|n| self.motion.rate_of(g, *t, n)));
+            Moving { rates: rates.collect(), bounds }
+        };
+        (0..self.motion.grippers()).map(one).collect()
+    }
+
+    /// The quickest motion found along the same path, and what limits it; the motion as it is where none is quicker.
+    ///
+    /// Grippers keep `bounds` at every time; what else moves does at the times of the course.
+    #[must_use]
+    pub fn quickest(&self, bounds: &Bounds, moving: &[Moving]) -> (TimedMotion, Vec<Limiting>) {
+        let pace = self.fastest_pace(moving);
+        let law = self.law(&pace);
+        match law.and_then(|law| self.within(law, bounds)) {
+            Some((motion, longer)) if motion.duration() < self.motion.duration() => {
+                let limiting = self.limiting(&pace, moving, longer);
+                (motion, limiting)
+            }
+            _ => (self.motion.clone(), self.limiting(&self.pace, moving, 1.0)),
+        }
+    }
+
+    /// The pace that takes the least time.
+    fn fastest_pace(&self, moving: &[Moving]) -> Pace {
+        let mut pace = self.pace.clone();
+        let mut program = Program::new(&self.times, moving);
+        for _ in 0..TUNING.pace_rounds {
+            program.meet(&pace);
+            let Some(found) = program.solve(&pace) else { break };
+            let gained = 1.0 - found.time() / pace.time();
+            pace = found;
+            if gained < TUNING.pace_gain {
+                break;
+            }
+        }
+        pace
+    }
+
+    /// The time law of a pace; none of one that stands still.
+    fn law(&self, pace: &Pace) -> Option<TimeLaw> {
+        let mut time = 0.0;
+        let mut states = Vec::new();
+        for (part, (begin, end)) in pace.parts().enumerate() {
+            if part == 0 {
+                states.push((0.0, self.state(pace, begin)));
+            }
+            time += pace.time_of(part);
+            states.push((time, self.state(pace, end)));
+        }
+        let last = states.len().checked_sub(1)?;
+        let length = self.motion.path.as_ref()?.length();
+        states[0].1 = [0.0; 3];
+        states[last].1 = [length, 0.0, 0.0];
+        let law = TimeLaw::through(&states);
+        TimeLaw::of_rows(&law.rows(), length)
+    }
+
+    /// The state of the path's parameter at a time of the motion as it is, at a pace.
+    fn state(&self, pace: &Pace, t: f64) -> [f64; 3] {
+        let [s, v, a, _] = self.motion.law.at(t);
+        let Jet { value, slope, .. } = pace.at(t);
+        [s, v * value.sqrt(), a * value + 0.5 * v * slope]
+    }
+
+    /// The motion with a time law, so much longer that no gripper passes its bounds, and how much that is.
+    fn within(&self, law: TimeLaw, bounds: &Bounds) -> Option<(TimedMotion, f64)> {
+        let path = self.motion.path.as_ref()?;
+        let tolerance = TUNING.tolerance;
+        let stretch = peaks(path, &law, tolerance).stretch(bounds) * (1.0 + tolerance);
+        let longer = stretch.max(1.0);
+        Some((TimedMotion::timed(path.clone(), law.stretched(longer)), longer))
+    }
+
+    /// What is nearest to its limit, at each time of the course.
+    fn limiting(&self, pace: &Pace, moving: &[Moving], longer: f64) -> Vec<Limiting> {
+        let jets = self.times.iter().map(|t| pace.at(*t));
+        let lasts = pace.parts().enumerate().flat_map(|(part, _)| [pace.time_of(part) / 3.0; 3]);
+        let nearest = |(n, (jet, lasts)): (usize, (Jet, f64))| {
+            let mut most = Limiting { time: lasts * longer, moving: 0, order: 0, share: 0.0 };
+            for (k, one) in moving.iter().enumerate() {
+                for (order, share) in jet.shares(&one.rates[n], &one.bounds).into_iter().enumerate()
+                {
+                    let share = share / longer.powi(order as i32 + 1);
+                    if share > most.share {
+                        most = Limiting { moving: k, order, share, ..most };
+                    }
+                }
+            }
+            most
+        };
+        jets.zip(lasts).enumerate().map(nearest).collect()
+    }
+}
+
+impl Jet {
+    /// Derivatives to time at this pace, as shares of their bounds.
+    fn shares(&self, [first, second, third]: &[Vector; 3], bounds: &[f64; 3]) -> [f64; 3] {
+        let Jet { value, slope, curvature } = *self;
+        let root = value.max(0.0).sqrt();
+        let sum = |x: f64, y: f64, z: f64| {
+            norm([0, 1, 2].map(|c| x * first[c] + y * second[c] + z * third[c]))
+        };
+        let rates = [
+            root * sum(1.0, 0.0, 0.0),
+            sum(0.5 * slope, value, 0.0),
+            root * sum(0.5 * curvature, 1.5 * slope, value),
+        ];
+        [0, 1, 2].map(|n| rates[n] / bounds[n])
+    }
+}

@@ -1,0 +1,176 @@
+//! The least time of a planned motion: its time-optimal law under the limits of grippers, joints and tool.
+
+use super::tuning::TUNING;
+use crate::draping::Drape;
+use crate::draping::attitude::normal;
+use crate::draping::record::{LimitedBy, Step};
+use crate::measure::Name;
+use crate::mold::vector::{cross, dot, norm, sub};
+use crate::motion::{Bounds, Course, Limiting, Moving, TimedMotion};
+use crate::scene::Scene;
+use crate::tool::Tool;
+
+/// A motion with the least time that was found, and what limits it.
+pub(super) struct Quickest {
+    /// The motion.
+    pub motion: TimedMotion,
+    /// What limits its time, that of the longest time first.
+    pub limited_by: Vec<LimitedBy>,
+}
+
+/// Something that moves, with the measures of its derivatives, and which gripper it is of.
+struct Limited {
+    moving: Moving,
+    names: [Name; 3],
+    gripper: Option<usize>,
+}
+
+/// The quickest motion along the path of a motion, with the drape along that.
+pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Quickest {
+    // first so slow as a whole that all limits are kept
+    let fastest = drape.summary.worst.value(Name::TiltRate).unwrap_or(0.0);
+    let turned = TUNING.evaluation.tilt_rate_margin * fastest / scene.limits.tilt_rate.to_degrees();
+    let carried = tool_stretch(scene, motion);
+    let slowed = turned.max(carried).max(1.0);
+    let motion = if slowed > 1.0 { motion.slowed(slowed) } else { motion.clone() };
+    let Some(course) = Course::new(&motion) else {
+        return Quickest { motion, limited_by: Vec::new() };
+    };
+
+    let bounds = Bounds::from(&scene.limits);
+    let mut limited: Vec<Limited> = Vec::new();
+    for (gripper, moving) in course.grippers(&bounds).into_iter().enumerate() {
+        let names = [Name::Speed, Name::Acceleration, Name::Jerk];
+        limited.push(Limited { moving, names, gripper: Some(gripper) });
+    }
+    limited.extend(tilting(scene, &course, &drape.steps, slowed));
+    if let Some(tool) = &scene.tool {
+        limited.extend(carrying(tool, &motion, &course));
+    }
+    let moving: Vec<Moving> = limited.iter().map(|one| one.moving.clone()).collect();
+    let (mut quickest, limiting) = course.quickest(&bounds, &moving);
+    // a tool is looked at between the samples of the written motion: what the course did not see there takes longer
+    let longer = tool_stretch(scene, &quickest);
+    if longer > 1.0 {
+        quickest = quickest.slowed(longer);
+    }
+    Quickest { limited_by: by_name(&limited, &limiting, longer.max(1.0)), motion: quickest }
+}
+
+/// How many times longer a motion must take for its tool to keep its limits; at most 1 if it does.
+fn tool_stretch(scene: &Scene, motion: &TimedMotion) -> f64 {
+    let peaks = scene
+        .tool
+        .as_ref()
+        .and_then(|tool| Some((tool, tool.peaks(motion, scene.plan.rate).ok()?)));
+    peaks.map_or(0.0, |(tool, peaks)| {
+        let stretch = peaks.stretch(tool);
+        if stretch > 1.0 { TUNING.evaluation.tool_margin * stretch } else { stretch }
+    })
+}
+
+/// How far the normal of a gripper turns from one step to the next (rad).
+fn turn(from: &Step, to: &Step, gripper: usize) -> f64 {
+    let [a, b] = [from, to].map(|step| normal(step.grippers[gripper].quaternion));
+    norm(cross(a, b)).atan2(dot(a, b))
+}
+
+/// The tilts of the grippers, which turn evenly from step to step of a motion that is so much slower than these steps say.
+fn tilting(scene: &Scene, course: &Course, steps: &[Step], slowed: f64) -> Vec<Limited> {
+    let bound = scene.limits.tilt_rate / TUNING.evaluation.tilt_rate_margin;
+    let one = |gripper: usize| {
+        let rates = course.times().iter().map(|t| {
+            let after = steps.partition_point(|step| step.time * slowed <= *t);
+            let pair = after.checked_sub(1).and_then(|before| steps.get(before..=after));
+            let rate = pair.map_or(0.0, |pair| {
+                turn(&pair[0], &pair[1], gripper) / (slowed * (pair[1].time - pair[0].time))
+            });
+            [[rate, 0.0, 0.0], [0.0; 3], [0.0; 3]]
+        });
+        Limited {
+            moving: Moving {
+                rates: rates.collect(),
+                bounds: [bound, f64::INFINITY, f64::INFINITY],
+            },
+            names: [Name::TiltRate; 3],
+            gripper: Some(gripper),
+        }
+    };
+    (0..steps.first().map_or(0, |step| step.grippers.len())).map(one).collect()
+}
+
+/// The frame of a tool, and its axes.
+fn carrying(tool: &Tool, motion: &TimedMotion, course: &Course) -> Vec<Limited> {
+    let times = course.times();
+    let apart = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
+    let step = 0.5 * apart;
+    let postures: Vec<_> = times
+        .iter()
+        .map(|t| [t - step, *t, t + step].map(|t| tool.posture(&motion.at(t))))
+        .collect();
+    let frame = postures.iter().map(|[before, here, after]| {
+        let [first, last] = [
+            crate::tool::turn_between(&before.frame.axes, &here.frame.axes),
+            crate::tool::turn_between(&here.frame.axes, &after.frame.axes),
+        ];
+        let rate = [0, 1, 2].map(|c| (first[c] + last[c]) / (2.0 * step));
+        let gain = sub(last, first).map(|c| c / (step * step));
+        [rate, gain, [0.0; 3]]
+    });
+    let mut limited = vec![Limited {
+        moving: Moving {
+            rates: frame.collect(),
+            bounds: [tool.turn_rate, tool.turn_acceleration, f64::INFINITY],
+        },
+        names: [Name::ToolTurnRate, Name::ToolTurnAcceleration, Name::ToolTurnAcceleration],
+        gripper: None,
+    }];
+    for (n, axis) in tool.axes.iter().enumerate() {
+        for gripper in 0..tool.mounts.len() {
+            let rates = postures.iter().map(|[before, _, after]| {
+                let moved = after.strokes[gripper][n] - before.strokes[gripper][n];
+                [[moved / (2.0 * step), 0.0, 0.0], [0.0; 3], [0.0; 3]]
+            });
+            limited.push(Limited {
+                moving: Moving {
+                    rates: rates.collect(),
+                    bounds: [axis.speed, f64::INFINITY, f64::INFINITY],
+                },
+                names: [Name::AxisSpeed; 3],
+                gripper: Some(gripper),
+            });
+        }
+    }
+    limited
+}
+
+/// For how long each measure limits a motion that is so much longer.
+fn by_name(limited: &[Limited], limiting: &[Limiting], longer: f64) -> Vec<LimitedBy> {
+    let mut found: Vec<(Name, f64, Vec<(Option<usize>, f64)>)> = Vec::new();
+    for Limiting { time, moving, order, share } in limiting {
+        if *share <= 0.0 {
+            continue;
+        }
+        let Limited { names, gripper, .. } = &limited[*moving];
+        let (name, time) = (names[*order], longer * time);
+        if !found.iter().any(|(other, ..)| *other == name) {
+            found.push((name, 0.0, Vec::new()));
+        }
+        for (other, total, grippers) in &mut found {
+            if *other != name {
+                continue;
+            }
+            *total += time;
+            match grippers.iter_mut().find(|(other, _)| other == gripper) {
+                Some((_, of_gripper)) => *of_gripper += time,
+                None => grippers.push((*gripper, time)),
+            }
+        }
+    }
+    found.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    let one = |(name, time_s, grippers): (Name, f64, Vec<(Option<usize>, f64)>)| {
+        let longest = grippers.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+        LimitedBy { name, time_s, gripper: longest.and_then(|(gripper, _)| gripper) }
+    };
+    found.into_iter().map(one).collect()
+}
