@@ -1,5 +1,6 @@
 //! `plydrape.simulate` and `plydrape.plan`.
 
+use crate::json::Json;
 use crate::arrays::{Array, List, Named, list};
 use crate::error;
 use crate::result::Result;
@@ -306,6 +307,15 @@ impl Plan {
     #[getter]
     fn duration(&self) -> f64 {
         self.planned.motion.duration()
+    }
+
+    /// What limits the time of the motion, that of the longest time first.
+    ///
+    /// Each limit is a dict: its `name`, for how long it is the one that is nearest to its limit (`time_s`), and the `gripper` with
+    /// which it is that for the longest as [i, j], None of the frame of a tool.
+    #[getter]
+    fn limited_by(&self) -> PyResult<Vec<Json>> {
+        self.planned.record.limited_by.iter().map(Json::of).collect()
     }
 
     /// Time of each planned step (s), shape (steps,).

@@ -14,9 +14,9 @@ pub fn limited_by(result: &ResultFile) -> String {
         return String::new();
     }
     let row = |LimitedBy { name, time_s, gripper }: &LimitedBy| {
-        let who = gripper.map_or_else(
+        let who = gripper.as_ref().map_or_else(
             || "frame of the tool".to_owned(),
-            |gripper| format!("gripper {}", gripper_name(result.scene.ply.id(gripper))),
+            |gripper| format!("gripper {}", gripper_name(*gripper)),
         );
         let share = format!("{:.0} %", 100.0 * time_s / whole);
         vec![name.measure().label().to_owned(), format!("{time_s:.2}"), share, who]

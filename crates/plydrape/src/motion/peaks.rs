@@ -78,6 +78,9 @@ pub(super) fn peaks(path: &Path, law: &TimeLaw, tolerance: f64) -> Peaks {
     let mut times = law.breaks();
     times.extend(path.knots.iter().map(|u| law.time(*u)));
     times.sort_by(f64::total_cmp);
+    // a knot and a jump of the law at the same place are one, whatever rounding makes of their times
+    let rounding = TUNING.law_rounding * law.duration;
+    times.dedup_by(|later, earlier| *later - *earlier <= rounding);
     let mut search = Search { path, tolerance, found: [Peak::default(); 3] };
     let pieces = times.windows(2).filter(|pair| pair[1] > pair[0]).map(|pair| {
         // Which span and which jerk: those in the middle.

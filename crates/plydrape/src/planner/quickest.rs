@@ -54,7 +54,7 @@ pub(super) fn quickest(scene: &Scene, motion: &TimedMotion, drape: &Drape) -> Qu
     if longer > 1.0 {
         quickest = quickest.slowed(longer);
     }
-    Quickest { limited_by: by_name(&limited, &limiting, longer.max(1.0)), motion: quickest }
+    Quickest { limited_by: by_name(scene, &limited, &limiting, longer.max(1.0)), motion: quickest }
 }
 
 /// How many times longer a motion must take for its tool to keep its limits; at most 1 if it does.
@@ -145,7 +145,12 @@ fn carrying(tool: &Tool, motion: &TimedMotion, course: &Course) -> Vec<Limited> 
 }
 
 /// For how long each measure limits a motion that is so much longer.
-fn by_name(limited: &[Limited], limiting: &[Limiting], longer: f64) -> Vec<LimitedBy> {
+fn by_name(
+    scene: &Scene,
+    limited: &[Limited],
+    limiting: &[Limiting],
+    longer: f64,
+) -> Vec<LimitedBy> {
     let mut found: Vec<(Name, f64, Vec<(Option<usize>, f64)>)> = Vec::new();
     for Limiting { time, moving, order, share } in limiting {
         if *share <= 0.0 {
@@ -170,7 +175,8 @@ fn by_name(limited: &[Limited], limiting: &[Limiting], longer: f64) -> Vec<Limit
     found.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     let one = |(name, time_s, grippers): (Name, f64, Vec<(Option<usize>, f64)>)| {
         let longest = grippers.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-        LimitedBy { name, time_s, gripper: longest.and_then(|(gripper, _)| gripper) }
+        let gripper = longest.and_then(|(gripper, _)| gripper).map(|n| scene.ply.id(n));
+        LimitedBy { name, time_s, gripper }
     };
     found.into_iter().map(one).collect()
 }

@@ -47,8 +47,8 @@ pub struct LimitedBy {
     pub name: Name,
     /// For how long (s).
     pub time_s: f64,
-    /// The gripper with which it is that for the longest, by its number; none of the frame of a tool.
-    pub gripper: Option<usize>,
+    /// The gripper with which it is that for the longest; none of the frame of a tool.
+    pub gripper: Option<GripperId>,
 }
 
 /// The ply in one step.

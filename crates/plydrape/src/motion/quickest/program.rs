@@ -1,7 +1,7 @@
 //! One convex program for the pace: the least time under the bounds, with the bounds of the third derivative as tangents.
 //!
 //! Unknowns are the control values of b, and for each part a c and a d with `c² ≤ b` and `c d ≥ 1` in its middle, so that d is at
-//! least 1/√b. All bounds are second-order cones (Lobo et al. 1998), solved by Clarabel's interior point method.
+//! least 1/√b. All bounds are second-order cones, solved by Clarabel's interior point method.
 //!
 //! Grippers of an array move much alike. A bound is only put into the program while it is near the nearest one of its time, or once
 //! it has been passed.

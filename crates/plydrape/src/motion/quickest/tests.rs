@@ -74,6 +74,10 @@ fn no_sample_passes_a_bound_and_the_places_stay() {
         motion.duration()
     );
     let limits = [BOUNDS.speed, BOUNDS.acceleration, BOUNDS.jerk];
+    let peaks = found.peaks();
+    let peaks = [peaks.speed, peaks.acceleration, peaks.jerk].map(|peak| peak.value);
+    assert!((0..3).all(|n| peaks[n] <= limits[n] * (1.0 + 1e-9)), "{peaks:?}");
+    assert!((0..3).any(|n| peaks[n] >= limits[n] * (1.0 - 1e-3)), "{peaks:?}");
     for k in 0..=20_000 {
         let t = found.duration() * f64::from(k) / 20_000.0;
         for (n, limit) in limits.into_iter().enumerate() {
