@@ -3,13 +3,16 @@
 use super::error::{Document, SceneError};
 use super::file::{AxisKey, AxisTable, PlacedTable, ToolTable};
 use super::heading::{coordinates, pose};
+use super::layup::round;
 use super::located::Located;
-use plydrape::mold::Pose;
+use plydrape::mold::{Pose, distance};
 use plydrape::scene::Limits;
 use plydrape::tool::{Axis, Tool};
 
 /// Smallest and largest angular speed (rad/s) and acceleration (rad/s²) of a frame.
 const TURNS: [f64; 2] = [1e-4, 1e4];
+/// Longest stroke, as a multiple of the way from one end of the array to the other: a longer one is a slip of the unit.
+const LONGEST: f64 = 10.0;
 /// Smallest and largest speed of an axis (m/s).
 const SPEEDS: [f64; 2] = [1e-5, 1e2];
 
@@ -22,7 +25,7 @@ pub(super) fn tool(
 ) -> Result<Tool, SceneError> {
     let mut axes: Vec<Axis> = Vec::new();
     for written in table.axes.iter().flat_map(|axes| &axes.value) {
-        let axis = axis(written, limits, document)?;
+        let axis = axis(written, start, limits, document)?;
         if axes.iter().any(|other| other.name == axis.name) {
             return Err(document.error(
                 written.value.direction.span.clone(),
@@ -60,6 +63,7 @@ fn placed(table: Option<&PlacedTable>, document: &Document) -> Result<Pose, Scen
 
 fn axis(
     written: &Located<AxisTable>,
+    start: &[[f64; 3]],
     limits: &Limits,
     document: &Document,
 ) -> Result<Axis, SceneError> {
@@ -70,6 +74,20 @@ fn axis(
             table.stroke.span.clone(),
             "a stroke is counted from the start, and this one does not hold it",
             "write how far the axis goes back and how far it goes on from there, as in stroke = [\"-20 mm\", \"120 mm\"]",
+        ));
+    }
+    let others = |n: usize| start[n + 1..].iter().map(move |other| distance(start[n], *other));
+    let across = (0..start.len()).flat_map(others).fold(0.0, f64::max);
+    let length = stroke[1] - stroke[0];
+    if across > 0.0 && length > LONGEST * across {
+        return Err(document.error(
+            table.stroke.span.clone(),
+            format!(
+                "a stroke of {} m is out of all scale for an array {} m across",
+                round(length),
+                round(across)
+            ),
+            "plain numbers are metres: write millimetres with their unit, as in stroke = [\"-20 mm\", \"120 mm\"]",
         ));
     }
     let (name, direction) = match table.direction.value {
