@@ -29,7 +29,7 @@ fn text(tool: &str) -> String {
 /// The same with pads that have a size.
 fn padded(tool: &str) -> Scene {
     let text = text(tool).replace("height = 0.2", "height = 0.2\npad_radius = 0.01");
-    scene_of(&text.replace("mesh =", "overhang = 0.01\nmesh ="))
+    scene_of(&text.replace("[ply]", "[ply]\noverhang = 0.01"))
 }
 
 fn along_z() -> Scene {
@@ -129,7 +129,8 @@ fn pads_without_joints_are_turned_as_the_frame() {
             let pad = &program.pads[n].poses[k];
             assert!((0..3).all(|axis| apart(pad.axes[axis], frame.axes[axis]) < 1e-9), "{pad:?}");
         }
-        let [lines, tilts] = [step, with_joints].map(|step| step.measures.value(Name::Tilt).unwrap());
+        let [lines, tilts] =
+            [step, with_joints].map(|step| step.measures.value(Name::Tilt).unwrap());
         let most = with_joints.grippers.iter().map(|gripper| gripper.tilt_deg).fold(0.0, f64::max);
         assert!((lines - tilts).abs() < 1e-9 && (tilts - most).abs() < 1e-9, "{lines} {tilts}");
     }

@@ -95,8 +95,8 @@ fn a_drape_out_of_all_range_ends_and_is_not_accepted() {
                     place[0] = value;
                 }
                 let motion = Motion { times: vec![0.0, 1.0], positions: vec![level(), last] };
-                let (mold, limits) = (Some(mold.clone()), limits());
-                let scene = Scene { mold, limits, ..Scene::new(ply(), settings(), motion) };
+                let (wanted, limits) = (Some(mold.clone()), limits());
+                let scene = Scene { mold: wanted, limits, ..Scene::new(ply(), settings(), motion) };
                 let drape = draping::simulate(&scene, |_| std::ops::ControlFlow::Continue(()));
                 assert!(!drape.summary.accepted, "{mold:?} {value} {who:?}");
             }
