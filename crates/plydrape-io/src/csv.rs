@@ -15,8 +15,8 @@ use plydrape::draping::record::Step;
 use plydrape::measure::{Name, Scope};
 use plydrape::motion::{Attitudes, MotionError, TimedMotion};
 use plydrape::ply::{GripperId, Ply, gripper_name};
-use plydrape::sheet::event::holds;
-use plydrape::sheet::{Event, EventKind};
+use plydrape::sheet::Event;
+use plydrape::sheet::event::{holds, last_release};
 
 /// One row a step: time (s), every measure and where it is, share in contact, how the solver ended.
 ///
@@ -167,8 +167,7 @@ fn vacuum(result: &ResultFile) -> Option<&[Event]> {
 
 /// When the last pads let go (s), if that is after a time.
 fn release_after(result: &ResultFile, end: f64) -> Option<f64> {
-    let last = result.events().iter().rfind(|event| event.kind == EventKind::Release)?;
-    (last.time > end).then_some(last.time)
+    last_release(result.events()).filter(|last| *last > end)
 }
 
 /// The columns of a gripper's pose at a time.

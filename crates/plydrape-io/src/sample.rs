@@ -10,7 +10,7 @@ use plydrape::errors::{CellVerdict, Errors, Highest, SampleVerdict};
 use plydrape::material::{Material, Section};
 use plydrape::measure::Name;
 use plydrape::mold::{Mold, Plane};
-use plydrape::ply::{Catenary, Direction, Grid, Kind, Lines, Ply};
+use plydrape::ply::{Catenary, Grid, Kind, Lines, Ply};
 use plydrape::scene::{ContactEnd, ContactSettings, Limits, Settings, SlopeRule, Stepping, Target};
 use plydrape::sheet;
 
@@ -233,10 +233,10 @@ fn frame(grid: Grid) -> ResultFile {
         scene: SceneEcho {
             title: "Flat sheared mold".into(),
             input: None,
-            ply: Ply {
+            ply: Ply::of_array(
                 grid,
-                cell: [CELL, CELL],
-                material: Material {
+                [CELL, CELL],
+                Material {
                     name: "fabric".into(),
                     source: "made up".into(),
                     section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
@@ -244,11 +244,7 @@ fn frame(grid: Grid) -> ResultFile {
                     tension: None,
                     locking_angle: None,
                 },
-                warp: Direction::U,
-                length_factor: 1.0,
-                cut: None,
-                found: Default::default(),
-            },
+            ),
             mold: None,
             target: None,
             settings: Settings {

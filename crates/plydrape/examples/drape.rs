@@ -5,10 +5,8 @@
 
 use plydrape::material::Section;
 use plydrape::mold::Plane;
-use plydrape::ply::{Direction, Grid};
-use plydrape::{
-    Limits, Material, Mold, Motion, Plan, Ply, Scene, Settings, Target, plan, simulate,
-};
+use plydrape::ply::Grid;
+use plydrape::{Material, Mold, Motion, Ply, Scene, Settings, Target, plan, simulate};
 use std::ops::ControlFlow;
 
 /// Gripper positions (m), i running fastest.
@@ -22,10 +20,10 @@ fn grid(grid: Grid, spacing: f64, shear: f64, height: f64) -> Vec<[f64; 3]> {
 }
 
 fn main() {
-    let ply = Ply {
-        grid: Grid { nu: 4, nv: 2 },
-        cell: [0.1, 0.1],
-        material: Material {
+    let ply = Ply::of_array(
+        Grid { nu: 4, nv: 2 },
+        [0.1, 0.1],
+        Material {
             name: "krogh2018".into(),
             source: "Krogh et al. 2018, Table 1".into(),
             section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
@@ -33,11 +31,7 @@ fn main() {
             tension: None,
             locking_angle: None,
         },
-        warp: Direction::U,
-        length_factor: 1.0,
-        cut: None,
-        found: Default::default(),
-    };
+    );
     // 2 mm closer than the fabric and 75 mm up at the start, sheared by 20 degrees on the mold at the end
     let start = grid(ply.grid, 0.098, 0.0, 0.075);
     let end = grid(ply.grid, 0.1, 20_f64.to_radians(), 0.0);
@@ -48,22 +42,15 @@ fn main() {
         way.map(|(a, b)| [0, 1, 2].map(|c| a[c] + t * (b[c] - a[c]))).collect()
     };
     let settings = Settings::default();
+    let motion = Motion {
+        times: (0..steps).map(|k| k as f64).collect(),
+        positions: (0..steps).map(between).collect(),
+    };
     let scene = Scene {
         title: "Flat mold".into(),
-        limits: Limits::of(&ply, &settings),
-        ply,
         mold: Some(Mold::Plane(Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] })),
-        motion: Motion {
-            times: (0..steps).map(|k| k as f64).collect(),
-            positions: (0..steps).map(between).collect(),
-        },
         target: Some(Target { grippers: end.clone(), drape: None }),
-        settings,
-        bodies: plydrape::clearance::Bodies::default(),
-        plan: Plan::default(),
-        errors: None,
-        tool: None,
-        release: None,
+        ..Scene::new(ply, settings, motion)
     };
 
     let drape = simulate(&scene, |_| ControlFlow::Continue(()));

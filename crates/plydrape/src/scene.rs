@@ -40,6 +40,28 @@ pub struct Scene {
     pub release: Option<Release>,
 }
 
+impl Scene {
+    /// A ply along a motion by the rules of the model, with the usual limits and nothing else: no mold, no target, and grippers that each
+    /// move by themselves.
+    #[must_use]
+    pub fn new(ply: Ply, settings: Settings, motion: Motion) -> Self {
+        Scene {
+            title: String::new(),
+            limits: Limits::of(&ply, &settings),
+            ply,
+            mold: None,
+            motion,
+            target: None,
+            settings,
+            bodies: Bodies::default(),
+            plan: Plan::default(),
+            errors: None,
+            tool: None,
+            release: None,
+        }
+    }
+}
+
 /// When the pads let go of the ply.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

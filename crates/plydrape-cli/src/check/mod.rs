@@ -63,6 +63,7 @@ fn summary(scene: &SceneFile) -> Vec<Line> {
     lines.extend(way::way(scene));
     lines.extend(rules::tool(scene));
     lines.extend(bodies::bodies(scene));
+    lines.extend(rules::release(scene));
     lines.extend(rules::rules(scene));
     lines.extend(sheet::sheet(scene));
     lines.extend(rules::plan(scene));

@@ -3,7 +3,9 @@
 use super::Line;
 use crate::numbers::{degrees, millimetres, short};
 use plydrape::measure::angle_of_slack;
-use plydrape::scene::{ContactEnd, Limits, Model, PlanMethod, Scene, SlopeRule, Stepping};
+use plydrape::scene::{
+    ContactEnd, Limits, Model, PlanMethod, Release, ReleaseOrder, Scene, SlopeRule, Stepping,
+};
 
 /// Rules of the model, contact and limits.
 pub(super) fn rules(scene: &Scene) -> [Line; 7] {
@@ -147,6 +149,27 @@ pub(super) fn plan(scene: &Scene) -> Option<Line> {
     Some(("plan", text))
 }
 
+/// When pads let go, if they do not hold the ply to the end.
+pub(super) fn release(scene: &Scene) -> Option<Line> {
+    let Release { order, dwell, .. } = scene.release.as_ref()?;
+    let presses = *dwell > 0.0;
+    let dwell = short(*dwell);
+    let when = match (order, presses) {
+        (ReleaseOrder::End, false) => "all pads let go as the motion ends".into(),
+        (ReleaseOrder::End, true) => {
+            format!("all pads press for {dwell} s after the motion and then let go")
+        }
+        (ReleaseOrder::Landed, false) => {
+            "each pad lets go as soon as the ply around it lies, the others as the motion ends"
+                .into()
+        }
+        (ReleaseOrder::Landed, true) => format!(
+            "each pad lets go when the ply around it has lain for {dwell} s; the others press for {dwell} s after the motion"
+        ),
+    };
+    Some(("release", format!("{when}; the verdict is that of the ply without pads")))
+}
+
 /// What carries the grippers, if they do not move by themselves.
 pub(super) fn tool(scene: &Scene) -> Option<Line> {
     let tool = scene.tool.as_ref()?;
@@ -157,5 +180,9 @@ pub(super) fn tool(scene: &Scene) -> Option<Line> {
     let axes: Vec<String> = tool.axes.iter().map(axis).collect();
     let axes = if axes.is_empty() { "no axes".into() } else { format!("axes {}", axes.join(", ")) };
     let [rate, acceleration] = [tool.turn_rate, tool.turn_acceleration].map(degrees);
-    Some(("tool", format!("one frame, {axes}; turns by {rate} deg/s, {acceleration} deg/s²")))
+    let joints = if scene.tilts() { "" } else { ", pads without joints" };
+    Some((
+        "tool",
+        format!("one frame, {axes}{joints}; turns by {rate} deg/s, {acceleration} deg/s²"),
+    ))
 }

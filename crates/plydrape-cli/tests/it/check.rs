@@ -31,6 +31,39 @@ fn check(scene: &str, flags: &[&str]) -> Output {
     command().arg("check").arg(&file).args(flags).output().unwrap()
 }
 
+/// The line of a table `[release]` says the order and the dwell; without the table there is none.
+#[test]
+fn the_line_of_a_release_says_which_pads_let_go_when() {
+    let scene = in_unit("mm").replace("\"catenaries\"", "\"sheet\"");
+    let scene = scene.replace("material = {", "material = { tension = 1e6, shear_curve = 5,");
+    let line = |release: &str| {
+        let output = check(&format!("{scene}{release}"), &[]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let shown = text(&output.stdout);
+        let found = shown.lines().find_map(|line| line.strip_prefix("  release   "));
+        found.map(str::to_string)
+    };
+    let ends = "; the verdict is that of the ply without pads";
+    assert_eq!(line(""), None);
+    for (table, expected) in [
+        ("[release]\n", "all pads let go as the motion ends"),
+        (
+            "[release]\ndwell = \"500 ms\"\n",
+            "all pads press for 0.5 s after the motion and then let go",
+        ),
+        (
+            "[release]\norder = \"landed\"\n",
+            "each pad lets go as soon as the ply around it lies, the others as the motion ends",
+        ),
+        (
+            "[release]\norder = \"landed\"\ndwell = \"2 s\"\n",
+            "each pad lets go when the ply around it has lain for 2 s; the others press for 2 s after the motion",
+        ),
+    ] {
+        assert_eq!(line(table), Some(format!("{expected}{ends}")));
+    }
+}
+
 /// The warnings about a scene that passes.
 fn warnings(scene: &str) -> Vec<String> {
     let output = check(scene, &[]);

@@ -94,6 +94,9 @@ pub(super) fn write(
         deck,
         "The grippers' size, mass and tilt limit: a gripper is a point (of a strip, a line).",
     );
+    if scene.tool.as_ref().is_some_and(|tool| tool.fixed_pads.is_some()) {
+        paragraph(deck, "Pads without joints, which hold the ply in the direction of the tool.");
+    }
     paragraph(deck, "Damping, rate effects, plastic bending, tack, prepreg cure.");
     paragraph(
         deck,

@@ -117,73 +117,10 @@ fn short(c: f64) -> f64 {
 
 /// A shape in triangles, placed.
 fn solid<'a>(name: &'a str, shape: &Shape, pose: &Pose) -> Solid<'a> {
-    let (vertices, triangles) = triangles(shape);
+    let (vertices, triangles) = shape.triangles(SIDES);
     Solid {
         name,
         vertices: vertices.iter().flat_map(|p| pose.place(*p).map(short)).collect(),
         triangles: triangles.into_iter().flatten().collect(),
-    }
-}
-
-/// Corners (m) and triangles, counterclockwise as seen from outside.
-fn triangles(shape: &Shape) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
-    match shape {
-        Shape::Mesh { vertices, triangles } => (vertices.clone(), triangles.clone()),
-        Shape::Box { .. } => {
-            let ends = shape.bounds();
-            let corner = |n: usize| [0, 1, 2].map(|c| ends[n >> c & 1][c]);
-            let faces: [[u32; 4]; 6] = [
-                [0, 2, 3, 1],
-                [4, 5, 7, 6],
-                [0, 1, 5, 4],
-                [2, 6, 7, 3],
-                [0, 4, 6, 2],
-                [1, 3, 7, 5],
-            ];
-            let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-            ((0..8).map(corner).collect(), faces.into_iter().flat_map(halves).collect())
-        }
-        Shape::Cylinder { radius, from, to } => {
-            let place = |k: u32, z: f64| {
-                let (sin, cos) =
-                    (std::f64::consts::TAU * f64::from(k) / f64::from(SIDES)).sin_cos();
-                [radius * cos, radius * sin, z]
-            };
-            let mut vertices: Vec<[f64; 3]> =
-                (0..SIDES).flat_map(|k| [place(k, *from), place(k, *to)]).collect();
-            let [low, high] = [2 * SIDES, 2 * SIDES + 1];
-            vertices.extend([[0.0, 0.0, *from], [0.0, 0.0, *to]]);
-            let side = |k: u32| {
-                let [a, b] = [2 * k, 2 * ((k + 1) % SIDES)];
-                [[a, b, b + 1], [a, b + 1, a + 1], [b, a, low], [a + 1, b + 1, high]]
-            };
-            (vertices, (0..SIDES).flat_map(side).collect())
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Six times the volume that triangles enclose: positive if they are counterclockwise from outside, all of them.
-    fn volume(shape: &Shape) -> f64 {
-        let (vertices, triangles) = triangles(shape);
-        let of = |t: &[u32; 3]| {
-            let [[a, b, c], [d, e, f], [g, h, i]] = t.map(|n| vertices[n as usize]);
-            a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
-        };
-        triangles.iter().map(of).sum::<f64>() / 6.0
-    }
-
-    /// A box encloses the product of its sides, and a cylinder that of its height and a regular polygon.
-    #[test]
-    fn bodies_enclose_their_volume() {
-        let found = volume(&Shape::Box { size: [0.2, 0.3, 0.5], at: [1.0, -2.0, 0.4] });
-        assert!((found - 0.03).abs() < 1e-12, "{found}");
-        let found = volume(&Shape::Cylinder { radius: 0.1, from: 0.3, to: 0.8 });
-        let sides = f64::from(SIDES);
-        let polygon = 0.5 * sides * 0.01 * (std::f64::consts::TAU / sides).sin();
-        assert!((found - 0.5 * polygon).abs() < 1e-12, "{found}");
     }
 }

@@ -1,6 +1,7 @@
 //! What is impossible in what a result that was read says of its tool.
 
 use super::ResultFile;
+use plydrape::mold::vector::dot;
 use plydrape::tool::Tool;
 
 /// What is impossible in the tool and in what the motion takes of it.
@@ -24,10 +25,15 @@ pub(super) fn fault(result: &ResultFile) -> Option<String> {
     (!known).then(|| "what its motion takes of the tool is not of this tool".into())
 }
 
-/// Whether strokes hold their start and all rates are above zero.
+/// Whether strokes hold their start, all rates are above zero, and axes of pads are at right angles.
 fn is_sound(tool: &Tool) -> bool {
     let axis = |axis: &plydrape::tool::Axis| {
         axis.stroke[0] <= 0.0 && 0.0 <= axis.stroke[1] && axis.speed > 0.0
     };
-    tool.axes.iter().all(axis) && tool.turn_rate > 0.0 && tool.turn_acceleration > 0.0
+    let fixed = tool.fixed_pads.is_none_or(|pads| {
+        let unit = |n: usize, m: usize| if n == m { 1.0 } else { 0.0 };
+        let right = |n: usize, m: usize| (dot(pads[n], pads[m]) - unit(n, m)).abs() < 1e-6;
+        (0..3).all(|n| (0..3).all(|m| right(n, m)))
+    });
+    fixed && tool.axes.iter().all(axis) && tool.turn_rate > 0.0 && tool.turn_acceleration > 0.0
 }

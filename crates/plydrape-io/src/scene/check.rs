@@ -67,7 +67,9 @@ pub(super) fn scene(
         None => None,
     };
     let tool = match (&file.tool, motion.positions.first()) {
-        (Some(table), Some(start)) => Some(tool::tool(table, start, &limits, document)?),
+        (Some(table), Some(start)) => {
+            Some(tool::tool(table, &ply, start, &settings, &limits, document)?)
+        }
         _ => None,
     };
     let release = match &file.release {

@@ -1,28 +1,34 @@
 //! How a robot carries the grippers.
 
 use super::error::{Document, SceneError};
-use super::file::{AxisKey, AxisTable, PlacedTable, ToolTable};
+use super::file::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 use super::heading::{coordinates, pose};
+use super::layup::round;
 use super::located::Located;
 use plydrape::mold::Pose;
-use plydrape::scene::Limits;
+use plydrape::ply::Ply;
+use plydrape::scene::{Limits, Settings};
 use plydrape::tool::{Axis, Tool};
 
 /// Smallest and largest angular speed (rad/s) and acceleration (rad/s²) of a frame.
 const TURNS: [f64; 2] = [1e-4, 1e4];
+/// Longest stroke, as a multiple of the size of the array: a longer one is a slip of the unit.
+const LONGEST: f64 = 10.0;
 /// Smallest and largest speed of an axis (m/s).
 const SPEEDS: [f64; 2] = [1e-5, 1e2];
 
-/// Checks the table `[tool]`; `start` is where the grippers start (m).
+/// Checks the table `[tool]`; `start` is where the grippers of the ply start (m).
 pub(super) fn tool(
     table: &ToolTable,
+    ply: &Ply,
     start: &[[f64; 3]],
+    settings: &Settings,
     limits: &Limits,
     document: &Document,
 ) -> Result<Tool, SceneError> {
     let mut axes: Vec<Axis> = Vec::new();
     for written in table.axes.iter().flat_map(|axes| &axes.value) {
-        let axis = axis(written, limits, document)?;
+        let axis = axis(written, start, limits, document)?;
         if axes.iter().any(|other| other.name == axis.name) {
             return Err(document.error(
                 written.value.direction.span.clone(),
@@ -42,11 +48,34 @@ pub(super) fn tool(
             Some(rate) => rate.within_for(document, TURNS, "a frame")?,
             None => usual.turn_acceleration,
         },
+        fixed_pads: fixed_pads(table, ply, start, settings, document)?,
         residual: table.residual.as_ref().map(|limit| limit.size(document)).transpose()?,
         flange: placed(table.flange.as_ref(), document)?,
         world: placed(table.world.as_ref(), document)?,
         ..usual
     })
+}
+
+/// The axes of pads without joints: those of the array as it stands at the start.
+fn fixed_pads(
+    table: &ToolTable,
+    ply: &Ply,
+    start: &[[f64; 3]],
+    settings: &Settings,
+    document: &Document,
+) -> Result<Option<[[f64; 3]; 3]>, SceneError> {
+    let Some(joints) = table.joints.as_ref().filter(|joints| joints.value == JointsKey::None)
+    else {
+        return Ok(None);
+    };
+    if settings.pad.radius == 0.0 {
+        return Err(document.error(
+            joints.span.clone(),
+            "a pad without a joint holds the ply in its direction, and these pads are points",
+            "give the size of the pads, as in pad_radius = \"15 mm\" in [grippers]",
+        ));
+    }
+    Ok(Some(ply.flat_axes(start)))
 }
 
 fn placed(table: Option<&PlacedTable>, document: &Document) -> Result<Pose, SceneError> {
@@ -60,6 +89,7 @@ fn placed(table: Option<&PlacedTable>, document: &Document) -> Result<Pose, Scen
 
 fn axis(
     written: &Located<AxisTable>,
+    start: &[[f64; 3]],
     limits: &Limits,
     document: &Document,
 ) -> Result<Axis, SceneError> {
@@ -72,6 +102,19 @@ fn axis(
             "write how far the axis goes back and how far it goes on from there, as in stroke = [\"-20 mm\", \"120 mm\"]",
         ));
     }
+    let across = diagonal(start);
+    let length = stroke[1] - stroke[0];
+    if across > 0.0 && length > LONGEST * across {
+        return Err(document.error(
+            table.stroke.span.clone(),
+            format!(
+                "a stroke of {} m is out of all scale for an array {} m across",
+                round(length),
+                round(across)
+            ),
+            "plain numbers are metres: write millimetres with their unit, as in stroke = [\"-20 mm\", \"120 mm\"]",
+        ));
+    }
     let (name, direction) = match table.direction.value {
         AxisKey::X => ("x", [1.0, 0.0, 0.0]),
         AxisKey::Y => ("y", [0.0, 1.0, 0.0]),
@@ -82,4 +125,14 @@ fn axis(
         None => limits.speed,
     };
     Ok(Axis { name: name.into(), direction, stroke, speed })
+}
+
+/// Length of the diagonal of the box around places (m).
+fn diagonal(places: &[[f64; 3]]) -> f64 {
+    let side = |n: usize| {
+        let ends = places.iter().map(|p| p[n]);
+        let low = ends.clone().fold(f64::INFINITY, f64::min);
+        ends.fold(f64::NEG_INFINITY, f64::max) - low
+    };
+    side(0).hypot(side(1)).hypot(side(2))
 }

@@ -23,7 +23,7 @@ mod spool;
 pub use array::{ARRAYS, Array, Extent, Scalar};
 pub(crate) use cut_cell::CutCell;
 pub use drape::{SheetDrape, SheetDrapeError, SheetSize, drape, keep};
-pub(crate) use ended::ended;
+pub(crate) use ended::{ended, overstrained};
 pub use error::SheetError;
 pub use kept::SheetKept;
 pub use read::SheetStates;

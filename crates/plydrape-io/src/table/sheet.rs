@@ -1,7 +1,7 @@
 //! The outcome of the sheet as plain text.
 
 use super::{WIDTH, limiting, limits, significant, verdict_text};
-use crate::sheet::ended;
+use crate::sheet::{ended, overstrained};
 use crate::shown;
 use plydrape::draping::record::{Summary, Verdict};
 use plydrape::measure::Subject;
@@ -12,7 +12,8 @@ pub(super) fn verdict(summary: &Summary, sheet: &sheet::measure::Summary) -> Str
     let mut text = format!("the whole ply as a sheet of {} nodes:\n", sheet.nodes);
     text += &limits(&sheet.limits, summary.sample.as_ref());
     let planned = summary.steps_planned;
-    for said in [heights(sheet), landing(sheet), ended(sheet, planned)].into_iter().flatten() {
+    let said = [heights(sheet), landing(sheet), ended(sheet, planned)];
+    for said in said.into_iter().flatten().chain(overstrained(sheet).into_iter().flatten()) {
         text += &shown::excerpt(&said, WIDTH);
         text.push('\n');
     }

@@ -4,7 +4,7 @@ use plydrape::catenary::{EndCondition, Profile};
 use plydrape::draping::simulate;
 use plydrape::equilibrium::{End, SlopeSource, Solver};
 use plydrape::material::{Material, Section};
-use plydrape::ply::{ContactSegment, Direction, Grid, Ply};
+use plydrape::ply::{ContactSegment, Grid, Ply};
 use plydrape::scene::{ContactEnd, ContactSettings, Scene, Settings, SlopeRule, Stepping};
 use plydrape_io::ResultFile;
 use std::ops::ControlFlow;
@@ -36,10 +36,10 @@ pub fn distance(a: Point, b: Point) -> f64 {
 
 /// The ply of Krogh et al. 2018, Table 1, in cells of 100 mm.
 pub fn paper_ply(nu: usize, nv: usize) -> Ply {
-    Ply {
-        grid: Grid { nu, nv },
-        cell: [0.1; 2],
-        material: Material {
+    Ply::of_array(
+        Grid { nu, nv },
+        [0.1; 2],
+        Material {
             name: "krogh2018".into(),
             source: "Krogh et al. 2018, Table 1".into(),
             section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
@@ -47,11 +47,7 @@ pub fn paper_ply(nu: usize, nv: usize) -> Ply {
             tension: None,
             locking_angle: None,
         },
-        warp: Direction::U,
-        length_factor: 1.0,
-        cut: None,
-        found: Default::default(),
-    }
+    )
 }
 
 /// Nothing of the ply is on a mold.

@@ -1,6 +1,7 @@
 //! When pads let go: from the scene file to the result and its states.
 
 use plydrape::draping::simulate;
+use plydrape::measure::Name;
 use plydrape::scene::{Release, ReleaseOrder, Scene};
 use plydrape::sheet::{Event, EventKind, Status};
 use plydrape_io::{ResultFile, csv, read, scene, write_all};
@@ -71,6 +72,37 @@ fn a_result_has_the_events_and_the_state_after_the_release() {
         let bears = state.pad_forces.iter().any(|force| *force != [0.0; 3]);
         assert_eq!(bears, n < 3);
     }
+}
+
+/// How long the motion takes counts to the release: a limit that the motion alone keeps is exceeded by the dwell, and the result says
+/// the time at which its trajectory ends. Steps keep their own times.
+#[test]
+fn the_duration_of_a_motion_ends_with_the_release() {
+    let of = |limit: &str| {
+        flat(&format!("[limits]\nduration = \"{limit}\"\n[release]\ndwell = \"2 s\"\n"))
+    };
+    let (result, _dir) = draped(&of("8 s"));
+    let end = result.steps.last().unwrap().time;
+    assert_eq!(end, 7.0);
+    let verdict = |result: &ResultFile| {
+        let mut limits = result.summary.limits.iter();
+        let found = limits.find(|verdict| verdict.name == Name::Duration).expect("a verdict");
+        (found.value, found.ok)
+    };
+    assert_eq!(verdict(&result), (9.0, false));
+    assert!(!result.summary.motion_accepted() && !result.summary.accepted);
+    let summary = &result.summary;
+    let both = [&summary.worst, &summary.last].map(|numbers| numbers.value(Name::Duration));
+    assert_eq!(both, [Some(9.0); 2]);
+    assert_eq!(result.steps.last().unwrap().measures.value(Name::Duration), Some(end));
+    assert!(csv::trajectory(&result).unwrap().lines().last().unwrap().starts_with("9.0,g3_1,"));
+    let back = read::parse(result.text().unwrap().as_bytes(), Path::new("result.json")).unwrap();
+    assert_eq!(verdict(&back), (9.0, false));
+    let enough = of("9 s");
+    let motion = simulate(&enough, |_| ControlFlow::Continue(()));
+    let mut kept = ResultFile::new(&enough, None, motion);
+    kept.summary.decide_by(result.summary.sheet.clone().unwrap());
+    assert_eq!(verdict(&kept), (9.0, true));
 }
 
 /// Without the table nothing says anything of it, and what was draped before the release is the same.

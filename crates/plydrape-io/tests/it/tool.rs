@@ -13,10 +13,23 @@ use std::path::Path;
 
 /// 2 × 2 grippers, 98 mm apart, of which one row comes 18 mm nearer to the other and 30 mm lower.
 fn closing(tool: &str) -> Scene {
-    let text = format!(
+    scene_of(&text(tool))
+}
+
+fn scene_of(text: &str) -> Scene {
+    scene::parse(text, Path::new(""), "scene.toml").unwrap_or_else(|e| panic!("{e}")).scene
+}
+
+fn text(tool: &str) -> String {
+    format!(
         "[model]\nkind = \"sheet\"\n[sheet]\nmesh = \"25 mm\"\n[ply]\ngrippers = [2, 2]\ncell = [\"100 mm\", \"100 mm\"]\nmaterial = \"krogh2018\"\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.2\n[target]\npositions = [[[0, 0, 0.2], [0.08, 0, 0.17]], [[0, 0.098, 0.2], [0.08, 0.098, 0.17]]]\n[motion]\nkind = \"straight\"\nsteps = 10\n[limits]\ntilt = \"89 deg\"\n{tool}\n"
-    );
-    scene::parse(&text, Path::new(""), "scene.toml").unwrap_or_else(|e| panic!("{e}")).scene
+    )
+}
+
+/// The same with pads that have a size.
+fn padded(tool: &str) -> Scene {
+    let text = text(tool).replace("height = 0.2", "height = 0.2\npad_radius = 0.01");
+    scene_of(&text.replace("[ply]", "[ply]\noverhang = 0.01"))
 }
 
 fn along_z() -> Scene {
@@ -86,8 +99,49 @@ fn errors_come_after_the_tool() {
     let draw = with.errors.unwrap().draw(3, 4);
     let carried = scene.carried().0.into_owned();
     let real = draw.apply(&scene);
-    assert!(real.tool.is_none());
     assert_eq!(real.motion, draw.apply(&Scene { tool: None, ..carried }).motion);
+    // the tool is still there, for the direction of its stems, and leaves the errors as they are
+    let (made, record) = real.carried();
+    assert_eq!(
+        (made.motion.clone(), record.expect("a tool").residual_mm),
+        (real.motion.clone(), 0.0)
+    );
+}
+
+/// Pads without joints turn with the frame: results and programs have its orientation and no tilt of the pads, and the tilt of a step is
+/// how far the lines of the ply are from it. The frame turns as it does with ball joints.
+#[test]
+fn pads_without_joints_are_turned_as_the_frame() {
+    let axes = "[tool]\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }]";
+    let ball = draped(&padded(axes));
+    let scene = padded(&format!("{axes}\njoints = \"none\""));
+    assert!(!scene.tilts());
+    let result = draped(&scene);
+    let program = Program::of(&result).unwrap();
+    for (k, (step, with_joints)) in result.steps.iter().zip(&ball.steps).enumerate() {
+        let frame = program.flange.as_ref().unwrap()[k];
+        for (n, gripper) in step.grippers.iter().enumerate() {
+            assert_eq!(
+                (gripper.tilt_deg, gripper.position),
+                (0.0, with_joints.grippers[n].position)
+            );
+            assert!(apart(gripper.normal(), frame.axes[2]) < 1e-9);
+            let pad = &program.pads[n].poses[k];
+            assert!((0..3).all(|axis| apart(pad.axes[axis], frame.axes[axis]) < 1e-9), "{pad:?}");
+        }
+        let [lines, tilts] =
+            [step, with_joints].map(|step| step.measures.value(Name::Tilt).unwrap());
+        let most = with_joints.grippers.iter().map(|gripper| gripper.tilt_deg).fold(0.0, f64::max);
+        assert!((lines - tilts).abs() < 1e-9 && (tilts - most).abs() < 1e-9, "{lines} {tilts}");
+    }
+    let verdicts = |result: &ResultFile| {
+        result.summary.limits.iter().map(|verdict| verdict.name).collect::<Vec<_>>()
+    };
+    assert!(
+        verdicts(&ball).contains(&Name::TiltRate) && !verdicts(&result).contains(&Name::TiltRate)
+    );
+    let back = read::parse(result.text().unwrap().as_bytes(), Path::new("result.json")).unwrap();
+    assert_eq!(back.scene.tool, result.scene.tool);
 }
 
 /// A result keeps its tool and what the motion takes of it; one whose tool carries other grippers is refused.

@@ -5,7 +5,7 @@
 //! 2. `poses`: where the pads, the stems and the flange are at one time;
 //! 3. `moves`: how they move between two times, with bounds of how far and how much they turn;
 //! 4. `solid`: the distance of two shapes, by the crate `parry` (this is the only file that knows it);
-//! 5. `surface`, `over_mold`: the distance of a body from the mold, by the mold's own distance from points of the body;
+//! 5. `surface`, `triangles`, `over_mold`: the distance of a body from the mold, by the mold's own distance from points of the body;
 //! 6. `nearest`: the nearest pair along a motion, found with a bound that no sampling misses.
 //!
 //! Judged are: every body against every obstacle, bodies of different grippers against each other, and all but pads against the
@@ -19,6 +19,7 @@ mod over_mold;
 mod poses;
 mod solid;
 mod surface;
+mod triangles;
 mod tuning;
 
 pub use body::{Bodies, Body, Mount, Obstacle, Shape};

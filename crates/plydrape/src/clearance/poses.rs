@@ -46,14 +46,18 @@ impl Poses {
         Poses { stems, flange: Some(frame.compose(&tool.flange)), ..free }
     }
 
-    /// Of grippers with rigid mounts (m), whose pads are turned by the lines to their neighbours: before any drape.
+    /// Of grippers with rigid mounts (m), whose pads are turned by the lines to their neighbours, or with the frame where they have no
+    /// joints: before any drape.
     #[must_use]
     pub(crate) fn by_neighbours(
         scene: &Scene,
         neighbours: &[Neighbours],
         positions: &[[f64; 3]],
     ) -> Self {
-        let turned = by_neighbours(&scene.ply, neighbours, positions);
+        let turned = match scene.fixed_pads(positions) {
+            Some(fixed) => vec![fixed; positions.len()],
+            None => by_neighbours(&scene.ply, neighbours, positions),
+        };
         Poses::of(scene, positions, &turned, positions)
     }
 

@@ -48,22 +48,8 @@ impl Surface {
                     Patch::Round { angle: [0.0, TAU], radius: [*radius; 2], height: [*from, *to] };
                 Surface { patches: vec![ends[0], ends[1], side], tree: Vec::new() }
             }
-            Shape::Box { size, at } => {
-                let corner = |n: usize| {
-                    [0, 1, 2].map(|c| at[c] + if n >> c & 1 == 1 { 0.5 } else { -0.5 } * size[c])
-                };
-                let faces: [[usize; 4]; 6] = [
-                    [0, 1, 3, 2],
-                    [4, 5, 7, 6],
-                    [0, 1, 5, 4],
-                    [2, 3, 7, 6],
-                    [0, 2, 6, 4],
-                    [1, 3, 7, 5],
-                ];
-                let halves = faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
-                Surface::of_triangles(halves.map(|corners| corners.map(corner)).collect())
-            }
-            Shape::Mesh { vertices, triangles } => {
+            Shape::Box { .. } | Shape::Mesh { .. } => {
+                let (vertices, triangles) = shape.triangles(0);
                 let corners = triangles.iter().map(|t| t.map(|n| vertices[n as usize]));
                 Surface::of_triangles(corners.collect())
             }

@@ -13,7 +13,7 @@ use crate::mold::{
 };
 use crate::motion::{Attitudes, Bounds, TimedMotion};
 use crate::ply::{Grid, cloth};
-use crate::scene::{Limits, Motion, Plan, Scene, Settings};
+use crate::scene::{Motion, Scene, Settings};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
@@ -25,20 +25,8 @@ fn scene(grid: Grid, bodies: Vec<Body>, obstacles: Vec<Obstacle>) -> Scene {
         [i, j, 0.2]
     };
     let positions = vec![(0..grid.grippers()).map(place).collect()];
-    Scene {
-        title: "cell".into(),
-        limits: Limits::of(&ply, &settings),
-        ply,
-        mold: None,
-        motion: Motion { times: vec![0.0], positions },
-        target: None,
-        settings,
-        bodies: Bodies::new(bodies, obstacles),
-        plan: Plan::default(),
-        errors: None,
-        release: None,
-        tool: None,
-    }
+    let motion = Motion { times: vec![0.0], positions };
+    Scene { bodies: Bodies::new(bodies, obstacles), ..Scene::new(ply, settings, motion) }
 }
 
 fn body(name: &str, on: Mount, shape: Shape) -> Body {

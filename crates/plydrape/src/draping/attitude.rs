@@ -1,4 +1,4 @@
-//! How a gripper is tilted: its ball joint follows the ply.
+//! How a gripper is tilted: its ball joint follows the ply, and a pad without a joint the frame that carries it.
 
 use super::spans::Point;
 use super::tuning::TUNING;
@@ -11,9 +11,10 @@ use crate::ply::{Grid, Neighbours, Ply, tangents};
 pub struct Attitude {
     /// Slope along u and along v; none where the ply has no edge in that direction.
     pub slope: [Option<f64>; 2],
-    /// Angle between the ply's normal and the stem of the gripper, which is upright unless a tool turns it (rad).
+    /// Angle between the ply's normal and the stem of the gripper, which is upright unless a tool turns it (rad), or the normal of its
+    /// pad where that has no joint.
     pub tilt: f64,
-    /// Orientation (x, y, z, w): z axis along the ply's normal, x axis along u.
+    /// Orientation of the pad (x, y, z, w): z axis along the ply's normal, x axis along u; that of the frame where it has no joint.
     pub quaternion: [f64; 4],
 }
 
@@ -103,13 +104,18 @@ fn across(
 fn oriented(normal: Point, along: Point, before: Option<[f64; 4]>) -> Attitude {
     let aside = dot(along, normal);
     let x = unit([0, 1, 2].map(|n| along[n] - aside * normal[n])).unwrap_or([1.0, 0.0, 0.0]);
-    let mut quaternion = quaternion([x, cross(normal, x), normal]);
-    if let Some(before) = before
-        && quaternion.iter().zip(before).map(|(a, b)| a * b).sum::<f64>() < 0.0
-    {
-        quaternion = quaternion.map(|c| -c);
-    }
+    let quaternion = continued(quaternion([x, cross(normal, x), normal]), before);
     Attitude { slope: [None; 2], tilt: normal[2].clamp(-1.0, 1.0).acos(), quaternion }
+}
+
+/// An orientation (x, y, z, w) with the sign that continues the one before.
+#[must_use]
+pub fn continued(quaternion: [f64; 4], before: Option<[f64; 4]>) -> [f64; 4] {
+    let cosine = |before: [f64; 4]| quaternion.iter().zip(before).map(|(a, b)| a * b).sum::<f64>();
+    if before.is_some_and(|before| cosine(before) < 0.0) {
+        return quaternion.map(|c| -c);
+    }
+    quaternion
 }
 
 /// The x axis of an orientation (x, y, z, w).

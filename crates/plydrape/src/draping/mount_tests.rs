@@ -6,8 +6,8 @@ use crate::equilibrium::{Continuation, MountedSolver, Solver, Status};
 use crate::material::{Material, Section};
 use crate::measure::Name;
 use crate::mold::{Mold, Plane};
-use crate::ply::{Direction, Grid, Ply};
-use crate::scene::{Limits, Model, Motion, PadSettings, Plan, Scene, Settings};
+use crate::ply::{Grid, Ply};
+use crate::scene::{Model, Motion, PadSettings, Scene, Settings};
 use std::ops::ControlFlow;
 
 fn plane() -> Mold {
@@ -24,17 +24,8 @@ fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2])
         tension: None,
         locking_angle: None,
     };
-    let ply = Ply {
-        grid,
-        cell: [0.1; 2],
-        material,
-        warp: Direction::U,
-        length_factor: 1.0,
-        cut: None,
-        found: Default::default(),
-    };
+    let ply = Ply::of_array(grid, [0.1; 2], material);
     let settings = Settings { model: Model::Catenaries, pad, ..Settings::default() };
-    let limits = Limits::of(&ply, &settings);
     let share = |step: usize| step as f64 / (heights.len() - 1).max(1) as f64;
     let place = |n: usize, step: usize| {
         let spacing = first + share(step) * (last - first);
@@ -43,23 +34,11 @@ fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2])
         [spacing * (i as f64 - middle[0]), spacing * (j as f64 - middle[1]), heights[step]]
     };
     let positions = |step| (0..grid.grippers()).map(|n| place(n, step)).collect();
-    Scene {
-        title: "mounts".into(),
-        motion: Motion {
-            times: (0..heights.len()).map(|n| n as f64).collect(),
-            positions: (0..heights.len()).map(positions).collect(),
-        },
-        ply,
-        mold: Some(plane()),
-        target: None,
-        settings,
-        limits,
-        bodies: crate::clearance::Bodies::default(),
-        plan: Plan::default(),
-        errors: None,
-        tool: None,
-        release: None,
-    }
+    let motion = Motion {
+        times: (0..heights.len()).map(|n| n as f64).collect(),
+        positions: (0..heights.len()).map(positions).collect(),
+    };
+    Scene { mold: Some(plane()), ..Scene::new(ply, settings, motion) }
 }
 
 fn draped(scene: &Scene) -> Drape {

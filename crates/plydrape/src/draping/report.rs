@@ -38,6 +38,7 @@ impl<'a> Report<'a> {
         let (scene, ply) = (self.scene, &self.scene.ply);
         let state = State::new(scene, snapshot, solver, self.before.as_ref());
         let measures = self.judge.see_all(&state);
+        let tilts = scene.tilts();
         let mut grippers = Vec::with_capacity(ply.grippers());
         for (n, attitude) in state.attitudes().iter().enumerate() {
             let position = snapshot.positions[n];
@@ -47,7 +48,7 @@ impl<'a> Report<'a> {
                 position,
                 slope_u: attitude.slope[0],
                 slope_v: attitude.slope[1],
-                tilt_deg: attitude.tilt.to_degrees(),
+                tilt_deg: if tilts { attitude.tilt.to_degrees() } else { 0.0 },
                 quaternion: attitude.quaternion,
                 target_distance_mm: target,
                 mount: snapshot.mounts.as_ref().map(|mounts| Mount {

@@ -19,6 +19,7 @@ use crate::mold::vector::{along, sub, turned};
 use crate::mold::{Mold, Raised};
 use crate::ply::{Ply, tangents};
 use crate::scene::{Motion, Scene};
+use crate::tool::Tool;
 use std::sync::Arc;
 
 /// Least share of a nominal value of the ply that an error leaves of it: a normal law has no bound, and a ply without
@@ -38,8 +39,8 @@ impl Draw {
             mold: scene.mold.as_ref().map(|mold| self.mold(mold)),
             motion: self.motion(&carried),
             errors: None,
-            // errors are of what the tool has made
-            tool: None,
+            // errors are of what the tool has made: it does not take them back
+            tool: scene.tool.clone().map(|tool| Tool { with_errors: true, ..tool }),
             ..scene.clone()
         }
     }

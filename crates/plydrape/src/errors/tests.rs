@@ -2,13 +2,15 @@
 
 use super::*;
 use crate::catenary::{EndCondition, Span};
+use crate::clearance::Poses;
 use crate::equilibrium::Solver;
 use crate::material::{Material, Section, ShearCurve, TensionLaw};
 use crate::mold::vector::{along, sub, turned};
 use crate::mold::{Relief, distance};
-use crate::ply::{Direction, Grid, Ply};
-use crate::scene::{Limits, Model, Motion, Plan, Scene, Settings, Target};
+use crate::ply::{Grid, Ply};
+use crate::scene::{Model, Motion, Scene, Settings, Target};
 use crate::sheet::Sheet;
+use crate::tool::{Axis, Tool};
 use rayon::prelude::*;
 
 /// Every term has an error.
@@ -46,15 +48,7 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
         tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
         locking_angle: None,
     };
-    let ply = Ply {
-        grid,
-        cell: [0.1, 0.08],
-        material,
-        warp: Direction::U,
-        length_factor: 1.0,
-        cut: None,
-        found: Default::default(),
-    };
+    let ply = Ply::of_array(grid, [0.1, 0.08], material);
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
     let step = |k: usize| {
         let near = 0.97 + 0.005 * k as f64;
@@ -67,21 +61,9 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
     };
     let positions: Vec<_> = (0..3).map(step).collect();
     let target = Target { grippers: positions[2].clone(), drape: None };
-    let limits = Limits::of(&ply, &settings);
-    Scene {
-        title: "array".into(),
-        ply,
-        mold: None,
-        motion: Motion { times: vec![0.0, 1.0, 2.0], positions },
-        target: Some(target),
-        settings,
-        limits,
-        bodies: crate::clearance::Bodies::default(),
-        plan: Plan::default(),
-        release: None,
-        errors: Some(budget()),
-        tool: None,
-    }
+    let motion = Motion { times: vec![0.0, 1.0, 2.0], positions };
+    let (target, errors) = (Some(target), Some(budget()));
+    Scene { target, errors, ..Scene::new(ply, settings, motion) }
 }
 
 /// No error.
@@ -268,6 +250,42 @@ fn a_frame_error_is_a_rigid_motion() {
         let [was, is] = [before, after].map(|step| sub(step[3], step[0]));
         assert!(distance(turned(turn, was), is) < 1e-15);
     }
+}
+
+/// A cell keeps the tool of its scene: stems and flange are turned as the frame is, with the error of its angle, and no errors are taken
+/// back, those of single grippers that axes along z cannot make either.
+#[test]
+fn a_cell_stands_as_its_tool_does_with_the_errors_of_its_frame() {
+    let plain = scene(4, 3);
+    let lean = |step: &Vec<[f64; 3]>| step.iter().map(|p| turned([0.3, 0.0, 0.0], *p)).collect();
+    let mut positions = plain.motion.positions.clone();
+    positions[2] = lean(&positions[1]);
+    let (name, direction, stroke) = ("z".into(), [0.0, 0.0, 1.0], [-0.1, 0.1]);
+    let axis = Axis { name, direction, stroke, speed: 1.0 };
+    let tool = Some(Tool::new(&positions[0], vec![axis]));
+    let scene = Scene { tool, motion: Motion { positions, ..plain.motion.clone() }, ..plain };
+    let (made, _) = scene.carried();
+    let turn = [0.02, -0.01, 0.03];
+    let frame = RigidError { turn, ..RigidError::default() };
+    let mut draw = Draw { frame, ..none(12) };
+    let poses = |scene: &Scene, step: usize| {
+        let places = &scene.motion.positions[step];
+        let level = vec![[0.0, 0.0, 0.0, 1.0]; places.len()];
+        Poses::of(scene, places, &level, places)
+    };
+    let real = draw.apply(&scene);
+    for step in 0..3 {
+        let [was, is] = [&*made, &real].map(|scene| poses(scene, step).flange.expect("a flange"));
+        for (a, b) in was.axes.iter().zip(is.axes) {
+            assert!(distance(turned(turn, *a), b) < 1e-9, "{step}: {a:?} {b:?}");
+        }
+        let stem = poses(&real, step).stems[5];
+        assert!(distance(stem.axes[2], real.stems(&real.motion.positions[step])) < 1e-12);
+        assert!(stem.axes[2][2] < 0.9999, "{stem:?}");
+    }
+    draw.grippers[4].position = [1e-3, -1e-3, 1e-3];
+    let real = draw.apply(&scene);
+    assert_eq!(real.carried().0.motion, real.motion);
 }
 
 /// A mold that is moved one way is a motion that is moved the other way; turned about the middle of the target, where the

@@ -1,4 +1,5 @@
-//! Duration: how long the motion has taken.
+//! Duration: how long the motion has taken. Where pads let go after its end, it ends when they do: until then the cell is busy and the
+//! ply is held. The catenaries know no releases; [`crate::draping::record::Summary::decide_by`] takes that time from the sheet.
 
 use super::{Description, Found, Measure, Scope, Site, State, Subject, Unit, Worth};
 use crate::scene::Scene;

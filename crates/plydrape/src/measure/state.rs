@@ -2,7 +2,7 @@
 
 use super::TUNING;
 use crate::clearance::Poses;
-use crate::draping::attitude::{Attitude, attitude, normal};
+use crate::draping::attitude::{Attitude, attitude, continued, normal};
 use crate::draping::landing::{Landing, landing};
 use crate::draping::misfit::{LyingSegment, Misfit, lying_segments, misfit};
 use crate::draping::spans::Point;
@@ -106,9 +106,14 @@ impl<'a> State<'a> {
             };
             let mut attitudes: Vec<Attitude> = (0..ply.grippers()).map(one).collect();
             if self.scene.tool.is_some() {
-                let stem = self.scene.stems(self.snapshot.commanded());
-                for attitude in &mut attitudes {
+                let commanded = self.snapshot.commanded();
+                let stem = self.scene.stems(commanded);
+                let fixed = self.scene.fixed_pads(commanded);
+                for (n, attitude) in attitudes.iter_mut().enumerate() {
                     attitude.tilt = angle_between(normal(attitude.quaternion), stem);
+                    if let Some(turned) = fixed {
+                        attitude.quaternion = continued(turned, before(n));
+                    }
                 }
             }
             attitudes

@@ -1,4 +1,7 @@
 //! Tilt: the angle between the ply's normal at a gripper and its stem, which is upright unless a tool turns it.
+//!
+//! A pad without a joint does not tilt, and the lines of catenaries are not clamped at it: there it is how far they are from the
+//! direction of the pad.
 
 use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
 use crate::scene::Scene;

@@ -2,7 +2,7 @@
 //!
 //! Orientations turn evenly between two steps, so over a step the rate is that of the written motion. A landing takes place at once in the
 //! model, and a gripper turns with it: over ever shorter steps that would be ever faster. So the rate is taken over a hundredth of the motion at
-//! least, which is about a step of a plan.
+//! least, which is about a step of a plan. Pads without joints turn with the frame alone, whose rate has a limit of its own.
 
 use super::state::window;
 use super::{Description, Found, Measure, Most, Scope, Site, State, Unit, Worth};
@@ -23,10 +23,13 @@ impl Measure for TiltRate {
     }
 
     fn limit(&self, scene: &Scene) -> Option<f64> {
-        Some(scene.limits.tilt_rate.to_degrees())
+        scene.tilts().then(|| scene.limits.tilt_rate.to_degrees())
     }
 
     fn evaluate(&self, state: &State) -> Option<Found> {
+        if !state.scene.tilts() {
+            return None;
+        }
         let (since, shortest) = (state.since(), window(state.scene));
         let mut most = Most::default();
         for (n, attitude) in state.attitudes().iter().enumerate() {

@@ -198,11 +198,12 @@ fn clearance_at_target(scene: &Scene, target: &Target, mold: &Mold) -> Option<Ve
     }
     let neighbours = scene.ply.neighbours();
     let own = by_neighbours(&scene.ply, &neighbours, &target.grippers);
+    let fixed = scene.fixed_pads(&target.grippers);
     let tolerance = scene.settings.contact.tolerance;
     let stands = |(place, own): (&[f64; 3], [f64; 4])| {
         let closest = mold.closest_point(*place);
         let on_mold = !closest.beyond && closest.distance.abs() <= tolerance;
-        on_mold.then(|| on_normal(own, closest.normal))
+        on_mold.then(|| fixed.unwrap_or_else(|| on_normal(own, closest.normal)))
     };
     let turned: Option<Vec<[f64; 4]>> = target.grippers.iter().zip(own).map(stands).collect();
     let nearest =

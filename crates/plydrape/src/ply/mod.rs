@@ -3,6 +3,7 @@
 mod cells;
 mod contact_segment;
 mod cut;
+mod flat;
 mod grid;
 mod lines;
 mod name;
@@ -14,6 +15,7 @@ mod tuning;
 
 pub use contact_segment::{ContactSegment, LandedCell};
 pub use cut::{Cut, Held, Neighbours, directions, tangent_shares, tangents};
+pub(crate) use flat::flat_axes;
 pub use grid::{Catenary, Grid, GripperId, Kind};
 #[cfg(test)]
 pub(crate) use lines::tests::held;
@@ -77,6 +79,14 @@ pub enum Direction {
 }
 
 impl Ply {
+    /// A rectangle of a material that is held at every node of an array, with cells of so much fabric along u and v (m) and its warp
+    /// along u.
+    #[must_use]
+    pub fn of_array(grid: Grid, cell: [f64; 2], material: Material) -> Self {
+        let (warp, found) = (Direction::U, FoundLines::default());
+        Ply { grid, cell, material, warp, length_factor: 1.0, cut: None, found }
+    }
+
     /// Length of the fabric along the sides of a cell (m): those of [`Self::cell`] times [`Self::length_factor`].
     #[must_use]
     pub fn fabric_cell(&self) -> [f64; 2] {
@@ -148,6 +158,5 @@ pub(crate) fn cloth(grid: Grid) -> Ply {
         shear_curve: None,
         locking_angle: None,
     };
-    let (cell, warp) = ([0.1; 2], Direction::U);
-    Ply { grid, cell, material, warp, length_factor: 1.0, cut: None, found: FoundLines::default() }
+    Ply::of_array(grid, [0.1; 2], material)
 }

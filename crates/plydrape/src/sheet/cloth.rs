@@ -9,7 +9,7 @@ use super::Sheet;
 use super::bending::Bending;
 use super::contact::Contact;
 use super::gripper::{Gripper, Pad};
-use super::matrix3::{Matrix3, outer, scaled};
+use super::matrix3::{Matrix3, outer, plus, scaled, times, transposed};
 use super::shear::Shear;
 use super::stretch::{Stretch, direction};
 use super::system::{Carrier, System, add};
@@ -113,6 +113,7 @@ impl<'a> Cloth<'a> {
         let nodes = fabric.places.len();
         let mut carriers = vec![None; nodes];
         let mut blocks: Vec<[f64; 2]> = Vec::with_capacity(nodes);
+        let tilts = sheet.tool.as_ref().is_none_or(|tool| tool.fixed_pads.is_none());
         for (gripper, (g, nodes)) in sheet.grippers.iter().zip(&held).enumerate() {
             let gripper = gripper as u32;
             if nodes.is_empty() {
@@ -128,7 +129,7 @@ impl<'a> Cloth<'a> {
                 blocks.push(g.place);
                 blocks.len() as u32 - 1
             };
-            let turn = block();
+            let turn = tilts.then(&mut block);
             let shift = g.mount.map(|_| block());
             for (node, _) in nodes {
                 carriers[*node] = Some(Carrier::Pad { gripper, turn, shift });
@@ -416,7 +417,9 @@ impl<'a> Cloth<'a> {
     /// New places of the mounts; rigid ones move their nodes in the first step.
     fn aim(&mut self, targets: &[[f64; 3]]) {
         self.system.moved.fill([0.0; 3]);
-        let stem = self.sheet.tool.as_ref().map(|tool| tool.direction(targets));
+        let tool = self.sheet.tool.as_ref();
+        let stem = tool.map(|tool| tool.direction(targets));
+        let fixed = tool.and_then(|tool| tool.pads(targets)).map(|axes| transposed(&axes));
         let grippers = self.sheet.grippers.iter().zip(&self.held);
         for ((pad, target), (gripper, nodes)) in self.now.pads.iter_mut().zip(targets).zip(grippers)
         {
@@ -429,6 +432,13 @@ impl<'a> Cloth<'a> {
             if gripper.mount.is_none() {
                 for (node, _) in nodes {
                     self.system.moved[*node] = moved;
+                }
+            }
+            if let Some(turn) = fixed {
+                let before = std::mem::replace(&mut pad.turn, turn);
+                let swings = plus(&turn, -1.0, &before);
+                for (node, off) in nodes {
+                    add(&mut self.system.moved[*node], 1.0, times(&swings, [off[0], off[1], 0.0]));
                 }
             }
         }
@@ -489,10 +499,16 @@ impl<'a> Cloth<'a> {
                 Carrier::Free { block } => system.step(block),
                 Carrier::Held { .. } => system.moved[node],
                 Carrier::Pad { gripper, turn, shift } => {
-                    let moved = shift.map_or(system.moved[node], |shift| system.step(shift));
+                    let shift = shift.map_or([0.0; 3], |shift| system.step(shift));
+                    let moved = along(system.moved[node], 1.0, shift);
                     let arm = sub(self.now.x[node], self.now.pads[gripper as usize].position);
-                    self.turns[gripper as usize] = (system.step(turn), moved);
-                    sub(moved, cross(arm, system.step(turn)))
+                    // the arms of a pad without a joint have swung with the frame, its middle has not
+                    let (turn, middle) = match turn {
+                        Some(turn) => (system.step(turn), moved),
+                        None => ([0.0; 3], shift),
+                    };
+                    self.turns[gripper as usize] = (turn, middle);
+                    sub(moved, cross(arm, turn))
                 }
             };
         }
@@ -523,6 +539,7 @@ impl<'a> Cloth<'a> {
                 self.system.stiffen_block(shift as usize, &hold.stiffness);
                 self.own.push((shift, hold.force));
             }
+            let Some(turn) = turn else { continue };
             // nodes on one line leave a turn about it free, which a small stiffness holds
             let least = self.tuning.turn_stiffness * weight;
             self.system.stiffen_block(turn as usize, &diagonal([least; 3]));
@@ -546,9 +563,14 @@ impl<'a> Cloth<'a> {
             self.now.pads.iter_mut().zip(&self.held).zip(&self.turns)
         {
             let Some((node, _)) = nodes.first() else { continue };
-            if let Carrier::Pad { .. } = self.system.carrier(*node) {
-                add(&mut pad.position, share, *moved);
-                pad.rotate(turn.map(|c| share * c));
+            if let Carrier::Pad { turn: joint, shift, .. } = self.system.carrier(*node) {
+                match (joint, shift) {
+                    (None, None) => pad.position = pad.target,
+                    _ => add(&mut pad.position, share, *moved),
+                }
+                if joint.is_some() {
+                    pad.rotate(turn.map(|c| share * c));
+                }
                 for (node, off) in nodes {
                     self.now.x[*node] = along(pad.position, 1.0, pad.arm(*off));
                 }

@@ -12,7 +12,8 @@ use super::release::Releases;
 use super::shear::angle;
 use super::state::State;
 use super::tuning::Tuning;
-use crate::mold::vector::{between, cross, distance, dot, sub, unit};
+use crate::mold::vector::{between, distance};
+use crate::ply::flat_axes;
 use crate::scene::{Scene, SheetTime};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -381,28 +382,11 @@ fn flat(sheet: &Sheet, at: &[[f64; 3]]) -> (Vec<[f64; 3]>, Vec<Pad>) {
     let count = at.len() as f64;
     let middle = [0, 1, 2].map(|n| at.iter().map(|p| p[n]).sum::<f64>() / count);
     let origin = [0, 1].map(|n| sheet.grippers.iter().map(|g| g.place[n]).sum::<f64>() / count);
-    // the directions of u and v in space, by least squares
-    let [u, v] = [0, 1].map(|n| {
-        let mut sum = [0.0; 3];
-        for (gripper, p) in sheet.grippers.iter().zip(at) {
-            super::system::add(&mut sum, gripper.place[n] - origin[n], sub(*p, middle));
-        }
-        unit(sum)
-    });
-    let u = u.unwrap_or([1.0, 0.0, 0.0]);
-    let aside = unit(cross([0.0, 0.0, 1.0], u)).unwrap_or([0.0, 1.0, 0.0]);
-    let v = v.filter(|v| dot(*v, u).abs() < 0.999).unwrap_or(aside);
-    // turned alike from both to a right angle
-    let sum = unit([0, 1, 2].map(|n| u[n] + v[n])).unwrap_or(u);
-    let off = unit(sub(u, v)).unwrap_or(aside);
-    let half = std::f64::consts::FRAC_1_SQRT_2;
-    let u = [0, 1, 2].map(|n| half * (sum[n] + off[n]));
-    let v = [0, 1, 2].map(|n| half * (sum[n] - off[n]));
-
+    let held: Vec<[f64; 2]> = sheet.grippers.iter().map(|gripper| gripper.place).collect();
+    let [u, v, normal] = flat_axes(&held, at);
     let place = |[a, b]: [f64; 2]| {
         [0, 1, 2].map(|n| middle[n] + (a - origin[0]) * u[n] + (b - origin[1]) * v[n])
     };
-    let normal = cross(u, v);
     let turn = [0, 1, 2].map(|n| [u[n], v[n], normal[n]]);
     let pad = |gripper: &super::Gripper| Pad { turn, ..Pad::new(place(gripper.place)) };
     let nodes = sheet.fabric.places.iter().map(|uv| place(*uv)).collect();

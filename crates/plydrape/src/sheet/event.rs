@@ -45,6 +45,12 @@ pub fn at_these_times(scene: &Scene, events: &[Event]) -> Scene {
     scene
 }
 
+/// When the last pads let go (s); none if they hold to the end.
+#[must_use]
+pub fn last_release(events: &[Event]) -> Option<f64> {
+    events.iter().rfind(|event| event.kind == EventKind::Release).map(|event| event.time)
+}
+
 /// Whether a gripper's pad holds the ply at a time (s); one that lets go at that time does not.
 #[must_use]
 pub fn holds(events: &[Event], gripper: GripperId, time: f64) -> bool {

@@ -120,6 +120,15 @@ pub enum SheetError {
         /// The mesh (mm).
         mesh_mm: f64,
     },
+    /// A pad without a joint that holds a point alone, which has no direction.
+    #[error(
+        "pads without joints hold the ply in their direction, and the pad of gripper {} holds one point of it",
+        gripper_name(*gripper)
+    )]
+    PadPoint {
+        /// The gripper.
+        gripper: GripperId,
+    },
     /// A number that is not one, or has the wrong sign.
     #[error("{what} is {value}; it must be {range}")]
     Range {
@@ -238,7 +247,11 @@ impl Sheet {
             mesh,
             tool: scene.tool.clone(),
         };
+        let fixed = sheet.tool.as_ref().is_some_and(|tool| tool.fixed_pads.is_some());
         for (n, held) in sheet.held().iter().enumerate() {
+            if fixed && held.len() < 2 {
+                return Err(SheetError::PadPoint { gripper: ply.id(n) });
+            }
             // one node may be held at the gripper's own point alone; a pad that turns needs three
             if sheet.fabric.node_at(ply.place(n)).is_none() && !spans_an_area(held) {
                 let [radius_mm, mesh_mm] = [radius, mesh].map(|x| x * 1e3);

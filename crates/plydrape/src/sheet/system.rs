@@ -1,7 +1,8 @@
 //! The linear system of one Newton step: elements add to nodes, what carries a node decides which unknowns these are.
 //!
 //! A free node has a block of three unknowns. A node that a gripper holds follows the gripper. A node of a pad follows
-//! the pad's turn δθ by δx = δθ × a, a its arm, and the pad's shift where its mount is not rigid.
+//! the pad's turn δθ by δx = δθ × a, a its arm, and the pad's shift where its mount is not rigid; a pad without a joint has no turn of
+//! its own.
 
 use super::cholesky::{BlockMatrix, Cholesky, NotPositiveDefinite, Slot};
 use super::matrix3::{
@@ -26,8 +27,8 @@ pub enum Carrier {
     Pad {
         /// The gripper.
         gripper: u32,
-        /// Block of the pad's turn.
-        turn: u32,
+        /// Block of the pad's turn; none if it has no joint.
+        turn: Option<u32>,
         /// Block of the pad's shift; none if its mount is rigid.
         shift: Option<u32>,
     },
@@ -81,7 +82,7 @@ impl System {
             }
         }
         for carrier in &carriers {
-            if let Carrier::Pad { turn, shift: Some(shift), .. } = carrier {
+            if let Carrier::Pad { turn: Some(turn), shift: Some(shift), .. } = carrier {
                 coupled.push([*turn, *shift]);
             }
         }
@@ -211,10 +212,14 @@ impl System {
         if let Carrier::Pad { turn, shift, .. } = carrier {
             let arm = skew(self.arms[node]);
             let turned = product(&arm, k);
-            let both = product(&turned, &transposed(&arm));
-            self.matrix.add_diagonal(turn as usize, &both);
+            if let Some(turn) = turn {
+                let both = product(&turned, &transposed(&arm));
+                self.matrix.add_diagonal(turn as usize, &both);
+            }
             if let Some(shift) = shift {
                 self.matrix.add_diagonal(shift as usize, k);
+            }
+            if let (Some(turn), Some(shift)) = (turn, shift) {
                 let slot = self.matrix.slot(turn as usize, shift as usize);
                 self.matrix.add(slot, &turned);
             }
@@ -243,11 +248,13 @@ impl System {
                 Carrier::Held { .. } => {}
                 Carrier::Pad { turn, shift, .. } => {
                     let arm = self.arms[node];
-                    add_at(&mut self.right, turn, cross(arm, g));
+                    if let Some(turn) = turn {
+                        add_at(&mut self.right, turn, cross(arm, g));
+                        self.matrix.add_diagonal(turn as usize, &lever(force, arm, whole));
+                    }
                     if let Some(shift) = shift {
                         add_at(&mut self.right, shift, g);
                     }
-                    self.matrix.add_diagonal(turn as usize, &lever(force, arm, whole));
                 }
             }
         }
@@ -307,7 +314,7 @@ fn blocks(carrier: Carrier) -> [Option<u32>; 2] {
     match carrier {
         Carrier::Free { block } => [Some(block), None],
         Carrier::Held { .. } => [None, None],
-        Carrier::Pad { turn, shift, .. } => [Some(turn), shift],
+        Carrier::Pad { turn, shift, .. } => [turn, shift],
     }
 }
 

@@ -1,6 +1,7 @@
 //! A whole motion as a tool makes it.
 
 use super::{Posture, Tool};
+use crate::draping::attitude::quaternion;
 use crate::mold::vector::{distance, dot};
 use crate::scene::{Motion, Scene};
 use std::borrow::Cow;
@@ -47,7 +48,10 @@ impl Tool {
     #[must_use]
     pub fn carry(&self, asked: &[Vec<[f64; 3]>]) -> Carried {
         let postures: Vec<Posture> = asked.iter().map(|places| self.posture(places)).collect();
-        let positions: Vec<Vec<[f64; 3]>> = postures.iter().map(|p| self.places(p)).collect();
+        let positions: Vec<Vec<[f64; 3]>> = match self.with_errors {
+            true => asked.to_vec(),
+            false => postures.iter().map(|p| self.places(p)).collect(),
+        };
         let mut record = ToolRecord {
             residual_mm: 0.0,
             gripper: 0,
@@ -74,10 +78,21 @@ impl Tool {
         Carried { postures, positions, record }
     }
 
-    /// The direction of the tool (unit vector, upwards along its stems) where it follows places of the grippers (m).
+    /// The direction that pads tilt from (unit vector) where the tool follows places of the grippers (m): upwards along its stems, or
+    /// that of pads without joints.
     #[must_use]
     pub fn direction(&self, places: &[[f64; 3]]) -> [f64; 3] {
-        self.posture(places).frame.axes[2]
+        let frame = self.posture(places).frame;
+        self.fixed_pads.map_or(frame.axes[2], |pads| frame.turn(pads[2]))
+    }
+
+    /// The axes of all pads in the scene where the tool follows places of the grippers (m); none where ball joints let each follow the
+    /// ply.
+    #[must_use]
+    pub fn pads(&self, places: &[[f64; 3]]) -> Option<[[f64; 3]; 3]> {
+        let pads = self.fixed_pads?;
+        let frame = self.posture(places).frame;
+        Some(pads.map(|axis| frame.turn(axis)))
     }
 }
 
@@ -91,7 +106,19 @@ impl Scene {
         (Cow::Owned(Scene { motion, ..self.clone() }), Some(record))
     }
 
-    /// The direction of the stems of the grippers at places (m): upright unless a tool turns them.
+    /// Whether joints let the pads tilt.
+    #[must_use]
+    pub fn tilts(&self) -> bool {
+        self.tool.as_ref().is_none_or(|tool| tool.fixed_pads.is_none())
+    }
+
+    /// How the pads of grippers at places (m) are turned (x, y, z, w) where no joints let them tilt.
+    #[must_use]
+    pub(crate) fn fixed_pads(&self, places: &[[f64; 3]]) -> Option<[f64; 4]> {
+        self.tool.as_ref()?.pads(places).map(quaternion)
+    }
+
+    /// The direction that the pads of grippers at places (m) tilt from: upright unless a tool turns it.
     #[must_use]
     pub(crate) fn stems(&self, places: &[[f64; 3]]) -> [f64; 3] {
         self.tool.as_ref().map_or([0.0, 0.0, 1.0], |tool| tool.direction(places))

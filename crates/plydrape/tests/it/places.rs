@@ -3,8 +3,8 @@
 use plydrape::draping;
 use plydrape::material::{Material, Section};
 use plydrape::mold::{Cylinder, Face, Graph, Mold, Plane, Pose, Saddle, Sphere, Surface, Torus};
-use plydrape::ply::{Direction, Grid, PlaceError, Ply};
-use plydrape::scene::Motion;
+use plydrape::ply::{Grid, PlaceError, Ply};
+use plydrape::scene::{Motion, Scene};
 
 fn ply() -> Ply {
     let material = Material {
@@ -15,15 +15,7 @@ fn ply() -> Ply {
         tension: None,
         locking_angle: None,
     };
-    Ply {
-        grid: Grid { nu: 3, nv: 2 },
-        cell: [0.1, 0.1],
-        material,
-        warp: Direction::U,
-        length_factor: 1.0,
-        cut: None,
-        found: Default::default(),
-    }
+    Ply::of_array(Grid { nu: 3, nv: 2 }, [0.1, 0.1], material)
 }
 
 fn level() -> Vec<[f64; 3]> {
@@ -102,20 +94,9 @@ fn a_drape_out_of_all_range_ends_and_is_not_accepted() {
                 for place in &mut last[who.clone()] {
                     place[0] = value;
                 }
-                let scene = plydrape::scene::Scene {
-                    title: String::new(),
-                    ply: ply(),
-                    mold: Some(mold.clone()),
-                    motion: Motion { times: vec![0.0, 1.0], positions: vec![level(), last] },
-                    target: None,
-                    settings: settings(),
-                    limits: limits(),
-                    bodies: plydrape::clearance::Bodies::default(),
-                    plan: plydrape::scene::Plan::default(),
-                    errors: None,
-                    tool: None,
-                    release: None,
-                };
+                let motion = Motion { times: vec![0.0, 1.0], positions: vec![level(), last] };
+                let (wanted, limits) = (Some(mold.clone()), limits());
+                let scene = Scene { mold: wanted, limits, ..Scene::new(ply(), settings(), motion) };
                 let drape = draping::simulate(&scene, |_| std::ops::ControlFlow::Continue(()));
                 assert!(!drape.summary.accepted, "{mold:?} {value} {who:?}");
             }

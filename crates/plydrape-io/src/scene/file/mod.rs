@@ -21,7 +21,7 @@ pub(super) use plan::{MethodKey, PlanTable};
 pub(super) use release::{OrderKey, ReleaseTable};
 pub(super) use sheet::{MountTable, SheetTable, TensionTable, TimeKey};
 pub(super) use target::{EdgesKey, GeneratorsKey, TargetTable};
-pub(super) use tool::{AxisKey, AxisTable, PlacedTable, ToolTable};
+pub(super) use tool::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 
 use super::choice::{Centred, Curve, FrictionChoice, MaterialChoice, Place, Positions};
 use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};

@@ -13,6 +13,8 @@ use serde::Deserialize;
 pub(in crate::scene) struct ToolTable {
     /// Linear axes between the frame and each gripper, one for a direction; without them the grippers stand fast in the frame.
     pub axes: Option<Located<Vec<Located<AxisTable>>>>,
+    /// What lets the pads tilt: "ball" joints, by which each follows the ply, unless given; with "none" they turn with the frame alone.
+    pub joints: Option<Located<JointsKey>>,
     /// Largest angular speed of the frame (rad/s), 45 deg/s unless given.
     pub turn_rate: Option<Quantity<AngularRate>>,
     /// Largest angular acceleration of the frame (rad/s²), 180 deg/s^2 unless given.
@@ -49,6 +51,17 @@ pub(in crate::scene) enum AxisKey {
     Y,
     /// Along the frame's z, which is upwards at the start.
     Z,
+}
+
+/// What lets the pads of a tool tilt.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "Joints of the pads")]
+pub(in crate::scene) enum JointsKey {
+    /// A passive ball joint at each pad, which follows the ply.
+    Ball,
+    /// Nothing: the pads stand as the array does at the start, and turn with the frame alone.
+    None,
 }
 
 /// A place and a turn.

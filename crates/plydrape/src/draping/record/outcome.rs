@@ -5,6 +5,7 @@ use crate::measure::{Name, Numbers, Site, Subject, Verdict, Worst};
 use crate::ply::{GripperId, Kind};
 use crate::scene::Scene;
 use crate::sheet;
+use crate::sheet::event::last_release;
 use crate::tool::ToolRecord;
 
 /// A catenary by its ends.
@@ -103,10 +104,31 @@ impl Summary {
         }
     }
 
-    /// Lets the sheet decide: the drape is accepted if all limits of the sheet and of the motion hold.
+    /// Lets the sheet decide: the drape is accepted if all limits of the sheet and of the motion hold. The motion takes until the last
+    /// pads have let go.
     pub fn decide_by(&mut self, sheet: sheet::measure::Summary) {
+        if let Some(released) = last_release(&sheet.events) {
+            self.takes_until(released);
+        }
         self.accepted = sheet.accepted && self.motion_accepted();
         self.sheet = Some(sheet);
+    }
+
+    /// Takes a later end of the motion (s) for how long it takes, and judges that if the scene limits it.
+    fn takes_until(&mut self, end: f64) {
+        let later = |time: f64| time < end;
+        for numbers in [&mut self.worst, &mut self.last] {
+            if numbers.value(Name::Duration).is_some_and(later) {
+                numbers.set(Name::Duration, Some(Some(end)));
+            }
+        }
+        for verdict in self.limits.iter_mut().filter(|verdict| verdict.name == Name::Duration) {
+            let Verdict { value, limit, step, at, place, .. } = verdict.clone();
+            if later(value) {
+                *verdict =
+                    Verdict::of(Name::Duration, Worst { value: end, at, place }, limit, step);
+            }
+        }
     }
 
     /// Keeps what the motion takes of the tool of a scene, in place of what was kept before, and judges its residual if the

@@ -4,16 +4,16 @@ use super::{Continuation, MountedSolver, Standing};
 use crate::catenary::{EndCondition, Span};
 use crate::equilibrium::{Direction, Equilibrium, Property, Solver, Status, Tuning};
 use crate::material::{Material, Section, ShearCurve};
-use crate::ply::{Direction as Along, Grid, Ply};
+use crate::ply::{Grid, Ply};
 use crate::scene::{PadSettings, Settings, SlopeRule};
 
 const RULES: [SlopeRule; 2] = [SlopeRule::MinForce, SlopeRule::MomentBalance];
 
 fn ply(nu: usize, nv: usize) -> Ply {
-    Ply {
-        grid: Grid { nu, nv },
-        cell: [0.1; 2],
-        material: Material {
+    Ply::of_array(
+        Grid { nu, nv },
+        [0.1; 2],
+        Material {
             name: "krogh2018".into(),
             source: "Krogh et al. 2018, Table 1".into(),
             section: Section::Line { mass: 0.3143, flexural_rigidity: 9e-6 },
@@ -21,11 +21,7 @@ fn ply(nu: usize, nv: usize) -> Ply {
             tension: None,
             locking_angle: None,
         },
-        warp: Along::U,
-        length_factor: 1.0,
-        cut: None,
-        found: Default::default(),
-    }
+    )
 }
 
 fn pads(lateral: Option<f64>, axial: Option<f64>) -> PadSettings {

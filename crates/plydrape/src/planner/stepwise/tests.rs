@@ -6,8 +6,8 @@ use crate::draping::Draping;
 use crate::material::{Material, Section};
 use crate::mold::{Face, Mold, Pose, Sphere};
 use crate::planner::sensitivity::Sensitivity;
-use crate::ply::{Direction, Grid, Ply};
-use crate::scene::{Limits, Model, Motion, Plan, Scene, Settings, Target};
+use crate::ply::{Grid, Ply};
+use crate::scene::{Model, Motion, Scene, Settings, Target};
 
 /// The paper's ply with `count` × `count` grippers, 2 % slack, above a flat dome.
 pub fn scene(count: usize) -> Scene {
@@ -20,15 +20,7 @@ pub fn scene(count: usize) -> Scene {
         tension: None,
         locking_angle: None,
     };
-    let ply = Ply {
-        grid,
-        cell: [0.1; 2],
-        material,
-        warp: Direction::U,
-        length_factor: 1.0,
-        cut: None,
-        found: Default::default(),
-    };
+    let ply = Ply::of_array(grid, [0.1; 2], material);
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
     let pose = Pose::new([0.0, 0.0, -10.0], [0.0; 3]);
     let mold = Mold::Sphere(Sphere { pose, radius: 10.0, face: Face::Outside });
@@ -45,21 +37,11 @@ pub fn scene(count: usize) -> Scene {
     };
     let positions = vec![(0..grid.grippers()).map(start).collect()];
     let target = Target { grippers: (0..grid.grippers()).map(end).collect(), drape: None };
-    let limits = Limits { force: Some(1e3), ..Limits::of(&ply, &settings) };
-    Scene {
-        title: "dome".into(),
-        ply,
-        mold: Some(mold),
-        motion: Motion { times: vec![0.0], positions },
-        target: Some(target),
-        settings,
-        limits,
-        bodies: crate::clearance::Bodies::default(),
-        plan: Plan::default(),
-        errors: None,
-        tool: None,
-        release: None,
-    }
+    let target = Some(target);
+    let motion = Motion { times: vec![0.0], positions };
+    let mut scene = Scene { mold: Some(mold), target, ..Scene::new(ply, settings, motion) };
+    scene.limits.force = Some(1e3);
+    scene
 }
 
 /// Numbers that the program of the first step holds.

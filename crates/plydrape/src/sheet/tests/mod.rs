@@ -1,6 +1,7 @@
 //! What the sheet must agree with: closed forms, the elastica, printed figures, invariants.
 
 mod derivatives;
+mod fixed_pads;
 mod hanging;
 mod mounts;
 mod on_mold;

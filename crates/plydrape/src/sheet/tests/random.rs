@@ -3,11 +3,10 @@
 use super::*;
 use crate::material::{Material, Section};
 use crate::mold::{Cylinder, Face, Pose, Sphere};
-use crate::ply::{Direction, Grid, Ply};
-use crate::scene::{
-    Limits, Model, Motion, PadSettings, Plan, Release, ReleaseOrder, Scene, Settings, SheetTime,
-};
+use crate::ply::{Grid, Ply};
+use crate::scene::{Model, Motion, PadSettings, Release, ReleaseOrder, Scene, Settings, SheetTime};
 use crate::sheet::{SheetError, Status, drape};
+use crate::tool::Tool;
 use std::ops::ControlFlow;
 
 /// Numbers between 0 and 1 from a seed.
@@ -54,15 +53,7 @@ fn scene(seed: u64) -> Scene {
         tension: Some(r.one(&[TensionLaw::Linear { stiffness: 1e6 }, table])),
         locking_angle: None,
     };
-    let ply = Ply {
-        grid,
-        cell,
-        material,
-        warp: Direction::U,
-        length_factor: 1.0,
-        cut: None,
-        found: Default::default(),
-    };
+    let ply = Ply::of_array(grid, cell, material);
     let side = cell[0].min(cell[1]);
     let mut settings = Settings { model: Model::Sheet, ..Settings::default() };
     settings.sheet.mesh = Some(side / r.between(2.0, 3.0));
@@ -107,21 +98,12 @@ fn scene(seed: u64) -> Scene {
         positions.push(at.clone());
     }
     let times = (0..positions.len()).map(|k| 0.1 * k as f64).collect();
-    let limits = Limits::of(&ply, &settings);
-    Scene {
-        title: format!("random {seed}"),
-        ply,
-        mold,
-        motion: Motion { times, positions },
-        target: None,
-        settings,
-        limits,
-        bodies: crate::clearance::Bodies::default(),
-        plan: Plan::default(),
-        errors: None,
-        tool: None,
-        release: None,
-    }
+    // pads that are no points may have no joints
+    let fixed = settings.pad.radius > 0.0 && r.one(&[true, false]);
+    let fixed_pads = Some(ply.flat_axes(&positions[0]));
+    let tool = fixed.then(|| Tool { fixed_pads, ..Tool::new(&positions[0], vec![]) });
+    let motion = Motion { times, positions };
+    Scene { title: format!("random {seed}"), mold, tool, ..Scene::new(ply, settings, motion) }
 }
 
 /// Folds, flung grippers, no shear and stiff shear, springs, pads that overlap, any friction: every drape ends with finite

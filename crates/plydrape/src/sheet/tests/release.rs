@@ -4,17 +4,17 @@ use super::hanging::cantilever;
 use super::*;
 use crate::material::{Material, Section};
 use crate::mold::distance;
-use crate::ply::{Direction, Grid, GripperId, Ply};
-use crate::scene::{Limits, Model, Motion, Plan, Release, ReleaseOrder, Scene, Settings};
+use crate::ply::{Grid, GripperId, Ply};
+use crate::scene::{Model, Motion, Release, ReleaseOrder, Scene, Settings};
 use crate::sheet::event::{at_these_times, holds};
 use crate::sheet::{Drape, EventKind, State, Status, drape};
 use std::ops::ControlFlow;
 
 /// 4 × 2 grippers above a floor, which hold cells of 100 mm of the paper's ply.
-const GRID: Grid = Grid { nu: 4, nv: 2 };
+pub(super) const GRID: Grid = Grid { nu: 4, nv: 2 };
 
 /// The ply of [`GRID`] where its grippers take the places (m) of each step, a second apart.
-fn scene(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> Scene {
+pub(super) fn scene(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> Scene {
     let material = Material {
         name: "paper".into(),
         source: "Krogh et al. 2018, per area".into(),
@@ -23,33 +23,12 @@ fn scene(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> Scene {
         tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
         locking_angle: None,
     };
-    let ply = Ply {
-        grid: GRID,
-        cell: [0.1; 2],
-        material,
-        warp: Direction::U,
-        length_factor: 1.0,
-        cut: None,
-        found: Default::default(),
-    };
+    let ply = Ply::of_array(GRID, [0.1; 2], material);
     let mut settings = Settings { model: Model::Sheet, ..Settings::default() };
     settings.sheet.mesh = Some(0.02);
-    let limits = Limits::of(&ply, &settings);
     let times = (0..positions.len()).map(|step| step as f64).collect();
-    Scene {
-        title: "released".into(),
-        ply,
-        mold: Some(plane(0.0)),
-        motion: Motion { times, positions },
-        target: None,
-        settings,
-        limits,
-        plan: Plan::default(),
-        errors: None,
-        bodies: crate::clearance::Bodies::default(),
-        tool: None,
-        release,
-    }
+    let motion = Motion { times, positions };
+    Scene { mold: Some(plane(0.0)), release, ..Scene::new(ply, settings, motion) }
 }
 
 /// Grippers that roll the ply on the floor along u: behind the front it lies, ahead of it it rises by 0.6 along 0.8. The front
@@ -69,7 +48,7 @@ fn release(order: ReleaseOrder, dwell: f64) -> Option<Release> {
 }
 
 /// The drape of a scene and all of its states.
-fn draped(scene: &Scene) -> (Drape, Vec<State>) {
+pub(super) fn draped(scene: &Scene) -> (Drape, Vec<State>) {
     let mut states = Vec::new();
     let keep = |state: &State| {
         states.push(state.clone());
