@@ -39,6 +39,9 @@ NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 TOKEN = re.compile(rf"(?<![\w.]){NUMBER.pattern}|\w+|[^\w\s]")
 # places that symmetry or rounding may exchange: grippers, cells, points of the fabric
 NAME = re.compile(r"\bg\d+_\d+|\[\d+,\d+\]|\(-?[\d.]+, -?[\d.]+\)")
+ROW = re.compile(r" +(\d+) +[\d.]+ ")
+# what is written every minute, and cannot be shown
+PROGRESS = re.compile(r"plydrape: \d+ min, ")
 # how long the machine took, and versions
 FREE = re.compile(r"(?<=\bin )[\d.]+ s|\b\d+\.\d+\.\d+\b")
 
@@ -157,8 +160,9 @@ def recorded(shown: list[str], printed: str) -> list[str] | None:
 
 
 def content(printed: str) -> list[str]:
-    """Printed lines without what is empty around them."""
-    return [line.rstrip() for line in printed.strip("\n").splitlines()]
+    """Printed lines without what is empty around them, and without what a slow machine adds."""
+    lines = (line.rstrip() for line in printed.strip("\n").splitlines())
+    return [line for line in lines if not PROGRESS.match(line)]
 
 
 def aligned(
@@ -202,15 +206,18 @@ def agree(shown: str, printed: str) -> bool:
 
 def alike(shown: str, printed: str) -> bool:
     """Whether words are the same; numbers may be any, and `…` any text."""
+    # a row of a table of steps is the same step
+    first, row = (ROW.match(line) for line in (shown, printed))
+    if first and row and first[1] != row[1]:
+        return False
     pieces = [[kind for kind, _ in parts(piece)] for piece in shown.split(ELLIPSIS)]
     if len(pieces) == 1:
         return pieces[0] == [kind for kind, _ in parts(printed)]
+    token = {"#": NUMBER.pattern, "§": ".*?"}
     pattern = ".*".join(
-        r"\s*".join(NUMBER.pattern if kind == "#" else re.escape(kind) for kind in piece)
-        for piece in pieces
+        r"\s*".join(token.get(kind, re.escape(kind)) for kind in piece) for piece in pieces
     )
-    text = re.sub(r"\s+", " ", FREE.sub("§", NAME.sub("§", printed)))
-    return re.fullmatch(pattern.join([r"\s*", r"\s*"]), text) is not None
+    return re.fullmatch(rf"\s*{pattern}\s*", printed) is not None
 
 
 def parts(line: str) -> list[tuple[str, str]]:
