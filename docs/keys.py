@@ -25,6 +25,64 @@ DEFAULTS = [
     re.compile(r"\((?P<default>\"[\w-]+\"), the default\)"),
 ]
 BLOCK = re.compile(r"^```(?:\{code-block\} )?toml\n(.*?)^```", re.M | re.S)
+# Beyond this the program refuses a value; the schema does not say so, and a test compares both.
+RANGES = {
+    "contact.friction": "≥ 0",
+    "contact.tolerance": "> 0",
+    "errors.share": "> 0, ≤ 1",
+    "grippers.direction": "-360 to 360 deg",
+    "grippers.holding_force": "> 0",
+    "grippers.max_tilt": "> 0, < 90 deg",
+    "grippers.pad_radius": "≥ 0",
+    "grippers.slip_force": "> 0",
+    "limits.acceleration": "> 0",
+    "limits.bridging": "≥ 0",
+    "limits.clearance": "> 0",
+    "limits.contact_share": "0 to 1",
+    "limits.duration": "> 0",
+    "limits.fibre_angle": "> 0, < 90 deg",
+    "limits.force": "> 0",
+    "limits.grip_safety": "≥ 1",
+    "limits.gripper_distance": "> 0",
+    "limits.gripper_force": "> 0",
+    "limits.gripper_load": "> 0",
+    "limits.gripper_pull": "> 0",
+    "limits.height": "≥ 0",
+    "limits.jerk": "> 0",
+    "limits.landing_contact": "≥ 0",
+    "limits.landing_gripper": "≥ 0",
+    "limits.landing_shear": "> 0, < 90 deg",
+    "limits.out_of_plane": "> 0, < 90 deg",
+    "limits.overstretch": "0 to 1",
+    "limits.penetration": "> 0",
+    "limits.position": "≥ 0",
+    "limits.shear": "> 0, < 90 deg",
+    "limits.slack_angle": "> 0, < 90 deg",
+    "limits.slack_ratio": "0 to 1",
+    "limits.speed": "> 0",
+    "limits.strain": "0 to 1",
+    "limits.tilt": "> 0, < 90 deg",
+    "limits.tilt_rate": "> 0",
+    "limits.wrinkle": "≥ 0",
+    "model.axial_stiffness": "> 0",
+    "model.gravity": "> 0",
+    "mold.radius": "> 0",
+    "mold.ring_radius": "> 0",
+    "mold.tilt": "≥ 0",
+    "mold.tilt_direction": "-360 to 360 deg",
+    "mold.tube_radius": "> 0",
+    "motion.duration": "> 0",
+    "plan.move_limit": "> 0",
+    "plan.rate": "> 0",
+    "ply.overhang": "≥ 0",
+    "ply.thickness": "> 0",
+    "release.dwell": "≥ 0",
+    "sheet.mesh": "> 0",
+    "target.direction": "-360 to 360 deg",
+    "target.mesh": "> 0",
+    "target.shear": "-90 to 90 deg",
+}
+
 # Examples of keys that no scene of the repository and no chapter of the guide uses.
 LIKELY = {
     "bodies[].mesh": '"cup.stl"',
@@ -85,6 +143,8 @@ LIKELY = {
     "tool.world.rotation": '[0, 0, "90 deg"]',
 }
 
+# what is no bare quantity: words to choose from, and what has its least value from the schema
+WORDS = re.compile("[`≥]")
 UNIT = re.compile(r" \((?:m|rad|s|N|Hz|Pa|m/s|m/s²|m/s³|rad/s|rad/s²|N/m|N·m|N·m²)\)")
 
 
@@ -144,6 +204,8 @@ def section(schema: Json, path: str, table: Json, used: Json) -> str:
         shown = f"`{key} = {example}`" if example else ""
         meaning += choices(schema, of)
         units, ranges = kinds(schema, of)
+        if limits := RANGES.get(f"{path}.{key}"):
+            ranges = [text if WORDS.search(text) else f"{text}, {limits}" for text in ranges]
         row = [f"`{key}`", meaning, ", ".join(units), default, " or ".join(ranges), shown]
         lines.append("| " + " | ".join(cell.replace("|", "\\|") or "–" for cell in row) + " |")
     return "\n".join([*lines, "```", ""])

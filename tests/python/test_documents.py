@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import copy
 import importlib.util
 import json
 import re
 import subprocess
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import plydrape
 import pytest
@@ -100,6 +102,43 @@ def test_examples_of_keys_are_what_a_scene_takes(tmp_path: Path) -> None:
     scene.write_text("\n".join([text, "[limits]", *examples, ""]))
     done = subprocess.run([binary(), "check", scene], capture_output=True, text=True, check=False)
     assert done.returncode == 0 and len(examples) > 30, done.stderr
+
+
+BASE: dict[str, dict[str, Any]] = {
+    "ply": {"grippers": [4, 3], "cell": ["100 mm", "100 mm"], "material": "krogh2018"},
+    "mold": {"kind": "cylinder", "radius": "0.5 m", "position": [0, 0, "-0.5 m"]},
+    "grippers": {"spacing": ["98 mm", "98 mm"], "height": "60 mm", "origin": "centred"},
+    "target": {"seed": "middle"},
+    "motion": {"kind": "straight"},
+}
+TORUS = {"kind": "torus", "ring_radius": "1.2 m", "tube_radius": "0.3 m"}
+TILTED = {"kind": "plane", "tilt": "12 deg", "tilt_direction": "30 deg"}
+MOLDS = {"ring_radius": TORUS, "tube_radius": TORUS, "tilt": TILTED, "tilt_direction": TILTED}
+# values beyond a range, and what is said of them
+BEYOND: dict[str, list[tuple[float | str, str]]] = {
+    "> 0": [(0, "is zero"), (-1e-6, "is negative")],
+    "≥ 0": [(-1e-6, "is negative")],
+    "≥ 1": [(0.99, "is too small")],
+    "0 to 1": [(-1e-6, "is negative"), (1.01, "is more than")],
+    "> 0, ≤ 1": [(0, "is zero"), (1.01, "is more than")],
+    "> 0, < 90 deg": [(0, "is zero"), ("91 deg", "is a right angle or more")],
+    "-90 to 90 deg": [("91 deg", "a right angle or more"), ("-91 deg", "a right angle or more")],
+    "-360 to 360 deg": [("361 deg", "is more than a"), ("-361 deg", "is more than a")],
+}
+
+
+@pytest.mark.parametrize(("path", "limits"), made("keys").RANGES.items())
+def test_what_is_beyond_the_range_of_a_key_is_refused(path: str, limits: str) -> None:
+    """With the words that say so."""
+    table, key = path.split(".")
+    tables = copy.deepcopy(BASE)
+    if table == "mold":
+        tables["mold"] = dict(MOLDS.get(key, tables["mold"]))
+    for value, words in BEYOND[limits]:
+        tables.setdefault(table, {})[key] = value
+        with pytest.raises(plydrape.SceneError) as refused:
+            plydrape.Scene(**tables)  # type: ignore[arg-type]
+        assert words in refused.value.message, refused.value
 
 
 def test_every_public_name_of_the_package_is_on_its_page() -> None:
