@@ -271,7 +271,7 @@ class Reader:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=120,
+            timeout=1200,
             check=False,
         )
         if where.is_file():
