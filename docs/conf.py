@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import html
+import os
 import re
+import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from docutils.nodes import SkipNode
 from docutils.utils.math import MathError
 from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.util import logging
+
+# beside this file, for Sphinx too
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import api
+import keys
 
 if TYPE_CHECKING:
     from docutils import nodes
@@ -35,6 +43,25 @@ html_math_renderer = "mathml"
 pygments_style = "a11y-high-contrast-light"
 pygments_dark_style = "a11y-high-contrast-dark"
 
+# The documentation of the Rust crates, where scripts/guide has made it: it stands beside the guide.
+CRATES = {"plydrape": "computes", "plydrape_io": "reads and writes files"}
+
+
+def rust() -> str:
+    """Links to the documentation of the crates."""
+    if not os.environ.get("PLYDRAPE_RUSTDOC"):
+        return ""
+    links = (
+        f'<li><p><a class="reference external" href="../rust/{name}/index.html">'
+        f"<code>{name}</code></a>: {what}</p></li>"
+        for name, what in CRATES.items()
+    )
+    return f"<ul>{''.join(links)}</ul>\n"
+
+
+# Pages whose tables are made from the schema and from the Python sources.
+MADE = {"guide/keys": keys.markdown, "guide/api": api.markdown, "guide/rust": rust}
+
 # A link to a document that is no page of the guide.
 OUTER_LINK = re.compile(r"\[DESIGN\.md\]\((?:\.\./)+DESIGN\.md\)")
 
@@ -52,11 +79,18 @@ def setup(app: Sphinx) -> None:
     """Formulas become MathML, which browsers draw without a script from elsewhere."""
     app.add_html_math_renderer("mathml", (inline_formula, None), (formula, None))
     app.connect("source-read", without_outer_links)
+    app.connect("source-read", with_tables)
 
 
 def without_outer_links(_app: Sphinx, _page: str, source: list[str]) -> None:
     """Names DESIGN.md instead of linking it: right on GitHub, but no page of the guide."""
     source[0] = OUTER_LINK.sub("`DESIGN.md`", source[0])
+
+
+def with_tables(_app: Sphinx, page: str, source: list[str]) -> None:
+    """Adds what is made when the guide is built."""
+    if page in MADE:
+        source[0] += "\n" + MADE[page]()
 
 
 def inline_formula(page: HTML5Translator, node: nodes.math) -> None:

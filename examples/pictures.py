@@ -2,6 +2,7 @@
 """The pictures of the examples: straight.png by `plydrape simulate`, planned.png by `plan`.
 
     examples/pictures.py RESULTS           makes them from what scripts/examples left in RESULTS
+    examples/pictures.py --moving RESULTS  makes the moving picture alone
     examples/pictures.py --check RESULTS   compares the numbers of the drapes that they show
     examples/pictures.py --list            names the molds that have them, those that a plan solves
     examples/pictures.py --compared        names those that both models are compared on
@@ -9,6 +10,9 @@
 A picture is `figure.svg` as Chromium draws it, with a small palette. Beside the pictures,
 numbers.json has the outcome of both drapes. A check compares these numbers and no bytes of
 pictures, which depend on fonts and browsers. Making pictures needs Chromium and Pillow.
+
+The moving picture, draping.webp of the dome, shows the states of the sheet that both drapes kept,
+side by side. Making it needs the Python package with its extra `plot`.
 
 Where both models are compared, straight_both.png shows the catenaries on the left and the sheet on
 the right, at first contact and at the end.
@@ -22,10 +26,11 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from PIL import Image
+    from plydrape import Result
 
 EXAMPLES = Path(__file__).resolve().parent
 SOLVED = (
@@ -38,6 +43,12 @@ SOLVED = (
 )
 
 COMPARED = ("01_flat_sheared_mold", "04_dome", "06_saddle")
+
+# the mold of the moving picture; its pictures a second, how long the last one stays (s), the size
+# of each half and of the lines of text above and below, in pixels
+MOVING = "04_dome"
+FRAMES, RATE, STAYS = 44, 11, 3.0
+HALF, ABOVE, BELOW = (400, 276), 58, 44
 
 # relative difference of numbers that rounding explains, and the same of folds of a sheet, which
 # may go another way after it
@@ -176,6 +187,82 @@ def compare(figures: list[Path], picture: Path) -> None:
     save(both.resize(size, Image.Resampling.LANCZOS), picture)
 
 
+def moving(results: Path, picture: Path) -> None:
+    """Draws the sheet along both motions of the mold, frame by frame."""
+    import plydrape
+    from PIL import Image
+
+    of = folders(results, MOVING)
+    halves = [plydrape.Result.read(of[key] / "result.json") for key in ("straight", "planned")]
+    ends = [numbers(of[key])["height_max_mm"] for key in ("straight", "planned")]
+    heads = (
+        ("straight down", f"touches too early: folds up to {ends[0]:.1f} mm high stay"),
+        ("planned by plydrape", f"rolled on from the middle: {ends[1]:.1f} mm at most"),
+    )
+    frames = []
+    for frame in range(FRAMES):
+        image = Image.new("RGB", (2 * HALF[0], ABOVE + HALF[1] + BELOW), "white")
+        for n, result in enumerate(halves):
+            step = 1 + round(frame / (FRAMES - 1) * (len(result.times) - 1))
+            image.paste(state(result, step), (n * HALF[0], ABOVE))
+        words(image, heads)
+        frames.append(image)
+    stay = [1000 // RATE] * (FRAMES - 1) + [round(1000 * STAYS)]
+    options: dict[str, Any] = {
+        "duration": stay,
+        "loop": 0,
+        "quality": 72,
+        "method": 6,
+        "minimize_size": True,
+    }
+    frames[0].save(picture, save_all=True, append_images=frames[1:], **options)
+    print(f"{picture.relative_to(EXAMPLES.parent)}: {picture.stat().st_size / 1e3:.0f} kB")
+
+
+def state(result: Result, step: int) -> Image.Image:
+    """One step of a sheet, as the package draws it, with a rod on each gripper."""
+    import plydrape.view
+    import pyvista
+    from PIL import Image
+
+    pyvista.OFF_SCREEN = True
+    # drawn larger than shown: edges become smooth
+    size = [2 * side for side in HALF]
+    plotter: Any = pyvista.Plotter(off_screen=True, window_size=size)
+    plydrape.view.sheet3d(result, step, forces=False, plotter=plotter)
+    plotter.remove_scalar_bar()
+    plotter.set_background("white")
+    assert result.sheet is not None
+    for pad in result.sheet.grippers[step - 1]:
+        top = (pad[0], pad[1], pad[2] + 0.03)
+        rod = pyvista.Line(pad, top).tube(radius=0.0022)
+        plotter.add_mesh(rod, color="#7c8490", lighting=False)
+    plotter.enable_parallel_projection()
+    plotter.camera_position = [(0.42, -0.78, 0.5), (0.0, 0.0, -0.006), (0.0, 0.0, 1.0)]
+    plotter.camera.parallel_scale = 0.186
+    drawn = plotter.screenshot(return_img=True)
+    plotter.close()
+    return Image.fromarray(drawn).resize(HALF, Image.Resampling.LANCZOS)
+
+
+def words(image: Image.Image, heads: tuple[tuple[str, str], tuple[str, str]]) -> None:
+    """What each half shows, and below the scale of colors of the height."""
+    from matplotlib import colormaps
+    from PIL import ImageDraw, ImageFont
+
+    pen = ImageDraw.Draw(image)
+    large, small = ImageFont.load_default(19), ImageFont.load_default(15)
+    for n, (head, says) in enumerate(heads):
+        pen.text((n * HALF[0] + 22, 8), head, fill="#14161A", font=large)
+        pen.text((n * HALF[0] + 22, 34), says, fill="#4A515C", font=small)
+    top, left, width = ABOVE + HALF[1] + 14, 318, 260
+    for x in range(width):
+        red, green, blue, _ = colormaps["viridis"](x / (width - 1), bytes=True)
+        pen.line([(left + x, top), (left + x, top + 14)], fill=(int(red), int(green), int(blue)))
+    pen.text((left - 12, top - 2), "height over the mold  0.1 mm", "#2D323A", small, "ra")
+    pen.text((left + width + 12, top - 2), "10 mm and more", "#2D323A", small)
+
+
 def keep(results: Path, name: str) -> None:
     """Writes the numbers of an example."""
     kept = {picture: numbers(folder) for picture, folder in folders(results, name).items()}
@@ -193,6 +280,7 @@ def make(results: Path) -> None:
             compare(figures, EXAMPLES / name / "straight_both.png")
         keep(results, name)
         print(f"examples/{name}: straight.png, planned.png, numbers.json")
+    moving(results, EXAMPLES / MOVING / "draping.webp")
     draw(results / "hemisphere_net" / "shear.svg", EXAMPLES.parent / "docs/hemisphere_shear.png")
 
 
@@ -203,6 +291,8 @@ def main(arguments: list[str]) -> int:
             print("\n".join(SOLVED))
         case ["--compared"]:
             print("\n".join(COMPARED))
+        case ["--moving", results]:
+            moving(Path(results), EXAMPLES / MOVING / "draping.webp")
         case ["--check", results]:
             return check(Path(results))
         case [results] if not results.startswith("-"):

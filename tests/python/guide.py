@@ -2,12 +2,19 @@
 
 - A block `console` holds commands behind `$ ` (a backslash continues a line) and below each what
   it prints. `# exit 2` behind a command is the exit code it has to have; 0 if absent.
-- What is shown stands for all that is printed. A line `…` stands for any lines, `…` within a line
-  for any text. A command with nothing below it may print what it likes.
+- What is shown stands for all that is printed, as one machine printed it. Words have to be the
+  same; numbers within a fifth, so that small changes and other machines pass; how long the machine
+  took, and where of several equal places something is, may differ. A line `…` stands for lines that
+  are left out. A command with nothing below it may print what it likes.
 - A block `{code-block}` with a `:caption:` is a file of that name.
 - Commands that are not run stand in a block `sh` below a comment `<!-- not run: why -->`. Those
   that need a program which may be missing stand in a `console` block below
   `<!-- needs: program program … -->`.
+
+    PLYDRAPE=target/checked/plydrape .venv/bin/python tests/python/guide.py docs/guide/planning.md
+
+records what the commands of chapters print now: it replaces the numbers of the lines that are
+shown, and a line `@` by all lines that were printed there.
 """
 
 from __future__ import annotations
@@ -16,7 +23,9 @@ import os
 import re
 import shutil
 import subprocess
-from collections.abc import Iterator
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -24,6 +33,17 @@ FENCE = re.compile(r"^(?P<fence>`{3,})(?P<info>.*)$")
 COMMENT = re.compile(r"^<!-- (?P<key>not run|needs): (?P<text>.+?) -->$")
 EXIT = re.compile(r"\s+# exit (?P<code>\d+)$")
 ELLIPSIS = "…"
+EXPAND = "@"
+
+NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+TOKEN = re.compile(rf"(?<![\w.]){NUMBER.pattern}|\w+|[^\w\s]")
+# places that symmetry or rounding may exchange: grippers, cells, points of the fabric
+NAME = re.compile(r"\bg\d+_\d+|\[\d+,\d+\]|\(-?[\d.]+, -?[\d.]+\)")
+ROW = re.compile(r" +(\d+) +[\d.]+ ")
+# what is written every minute, and cannot be shown
+PROGRESS = re.compile(r"plydrape: \d+ min, ")
+# how long the machine took, and versions
+FREE = re.compile(r"(?<=\bin )[\d.]+ s|\b\d+\.\d+\.\d+\b")
 
 
 @dataclass
@@ -113,21 +133,110 @@ def absent(block: Block) -> list[str]:
 
 
 def matches(shown: list[str], printed: str) -> bool:
-    """Whether what the guide shows is what was printed, but for `…`."""
-    lines = [line.rstrip() for line in printed.strip("\n").splitlines()]
-    wanted = "\n".join(line.rstrip() for line in shown).strip("\n").split("\n")
+    """Whether what the guide shows is what was printed: words exactly, numbers nearly."""
+    return aligned(shown, printed, agree) is not None
 
-    # For each wanted line, the places up to which the printed lines may have been used.
-    places = {0}
+
+def recorded(shown: list[str], printed: str) -> list[str] | None:
+    """What the guide shows, with the lines that were printed; None where the words differ.
+
+    A line `@` becomes all the lines that were printed there.
+    """
+    found = aligned(shown, printed, alike)
+    if found is None:
+        return None
+    lines = content(printed)
+    out: list[str] = []
+    for n, (line, at) in enumerate(zip(shown, found, strict=False)):
+        if line.strip() == EXPAND:
+            after = next((place for place in found[n + 1 :] if place is not None), len(lines))
+            before = (
+                next((place for place in found[n - 1 :: -1] if place is not None), -1) if n else -1
+            )
+            out += lines[before + 1 : after]
+        else:
+            out.append(line if at is None else lines[at])
+    return out + [""] * (len(shown) - len(found))
+
+
+def content(printed: str) -> list[str]:
+    """Printed lines without what is empty around them, and without what a slow machine adds."""
+    lines = (line.rstrip() for line in printed.strip("\n").splitlines())
+    return [line for line in lines if not PROGRESS.match(line)]
+
+
+def aligned(
+    shown: list[str], printed: str, same: Callable[[str, str], bool]
+) -> list[int | None] | None:
+    """Which printed line each shown one stands for, None for `…`; None if they do not match."""
+    lines = content(printed)
+    wanted = "\n".join(line.rstrip() for line in shown).strip("\n").split("\n")
+    # for each wanted line the printed lines it may stand for, each with the one before
+    ways: list[dict[int, int]] = [{0: 0}]
     for line in wanted:
-        if line.strip() == ELLIPSIS:
-            places = set(range(min(places), len(lines) + 1))
-            continue
-        pattern = re.compile(".*".join(re.escape(part) for part in line.split(ELLIPSIS)))
-        places = {at + 1 for at in places if at < len(lines) and pattern.fullmatch(lines[at])}
-        if not places:
-            return False
-    return len(lines) in places
+        before = ways[-1]
+        if line.strip() in (ELLIPSIS, EXPAND):
+            least = min(before)
+            ways.append(
+                {at: max(p for p in before if p <= at) for at in range(least, len(lines) + 1)}
+            )
+        else:
+            ways.append({at + 1: at for at in before if at < len(lines) and same(line, lines[at])})
+        if not ways[-1]:
+            return None
+    if len(lines) not in ways[-1]:
+        return None
+    at, found = len(lines), list[int | None]()
+    for line, way in zip(reversed(wanted), reversed(ways[1:]), strict=True):
+        skipped = line.strip() in (ELLIPSIS, EXPAND)
+        found.append(None if skipped else at - 1)
+        at = way[at]
+    return found[::-1]
+
+
+def agree(shown: str, printed: str) -> bool:
+    """Whether words are the same, and numbers nearly, as another machine may print them."""
+    if ELLIPSIS in shown and ELLIPSIS not in printed:
+        return False
+    ours, theirs = parts(shown), parts(printed)
+    return [kind for kind, _ in ours] == [kind for kind, _ in theirs] and all(
+        near(a, b) for (_, a), (_, b) in zip(ours, theirs, strict=True)
+    )
+
+
+def alike(shown: str, printed: str) -> bool:
+    """Whether words are the same; numbers may be any, and `…` any text."""
+    # a row of a table of steps is the same step
+    first, row = (ROW.match(line) for line in (shown, printed))
+    if first and row and first[1] != row[1]:
+        return False
+    pieces = [[kind for kind, _ in parts(piece)] for piece in shown.split(ELLIPSIS)]
+    if len(pieces) == 1:
+        return pieces[0] == [kind for kind, _ in parts(printed)]
+    token = {"#": NUMBER.pattern, "§": ".*?"}
+    pattern = ".*".join(
+        r"\s*".join(token.get(kind, re.escape(kind)) for kind in piece) for piece in pieces
+    )
+    return re.fullmatch(rf"\s*{pattern}\s*", printed) is not None
+
+
+def parts(line: str) -> list[tuple[str, str]]:
+    """Words of a line as they are, and numbers as `#`, each with its text."""
+    line = FREE.sub("§", NAME.sub("§", line))
+    found = []
+    for match in TOKEN.finditer(line):
+        text = match[0]
+        found.append(("#", text) if NUMBER.fullmatch(text) else (text, text))
+    return found
+
+
+def near(shown: str, printed: str) -> bool:
+    """Whether two numbers are the same but for what another machine or a small change explains."""
+    if shown == printed or not NUMBER.fullmatch(shown):
+        return shown == printed
+    a, b = (float(text.replace("−", "-")) for text in (shown, printed))
+    digits = len(shown.partition(".")[2]) if "e" not in shown else 0
+    return abs(a - b) <= 0.2 * max(abs(a), abs(b)) + 10.0**-digits
 
 
 class Reader:
@@ -162,10 +271,56 @@ class Reader:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=120,
+            timeout=1200,
             check=False,
         )
         if where.is_file():
             self.here = Path(where.read_text(encoding="utf-8").strip())
             where.unlink()
         return done.returncode, done.stdout
+
+
+def reader(folder: Path, program: Path) -> Reader:
+    """A reader in a folder with the program and the examples."""
+    programs = folder / "bin"
+    programs.mkdir()
+    (programs / "plydrape").symlink_to(program.resolve())
+    made = shutil.ignore_patterns("*.results", "*.plan", "*.compare", "*.net")
+    root = Path(__file__).resolve().parents[2]
+    shutil.copytree(root / "examples", folder / "plydrape" / "examples", ignore=made)
+    return Reader(folder / "plydrape", [programs, Path(sys.executable).parent])
+
+
+def record(chapter: Path, program: Path) -> int:
+    """Runs a chapter's commands and writes down what they print; how many do not match."""
+    text = chapter.read_text(encoding="utf-8")
+    lines = text.splitlines()
+    changed: list[tuple[int, int, list[str]]] = []
+    wrong = 0
+    with tempfile.TemporaryDirectory() as folder:
+        follower = reader(Path(folder), program)
+        for block in blocks(text):
+            if block.caption is not None:
+                follower.write(block)
+            if block.info != "console" or absent(block):
+                continue
+            for command in block.commands():
+                code, printed = follower.run(command)
+                first = command.line + command.text.count("\n")
+                now = recorded(command.shown, printed) if command.shown else []
+                if code != command.code or now is None:
+                    wrong += 1
+                    print(f"{chapter.name}, line {command.line}: $ {command.text}: exit {code}")
+                    print(printed)
+                elif now != command.shown:
+                    changed.append((first, first + len(command.shown), now))
+    for begin, end, now in reversed(changed):
+        lines[begin:end] = now
+    chapter.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    print(f"{chapter.name}: {len(changed)} outputs changed, {wrong} do not match")
+    return wrong
+
+
+if __name__ == "__main__":
+    binary = Path(os.environ.get("PLYDRAPE", "target/checked/plydrape"))
+    sys.exit(sum(record(Path(name), binary) for name in sys.argv[1:]) > 0)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-import shutil
-import sys
 from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
-from guide import Block, Command, Reader, absent, blocks, matches
+from guide import Block, Command, Reader, absent, blocks, matches, recorded
+from guide import reader as follower
 from program import ROOT, binary
 
 CHAPTERS = [ROOT / "docs" / "index.md", *sorted((ROOT / "docs" / "guide").glob("*.md"))]
@@ -37,14 +36,7 @@ def left_out() -> list[tuple[str, Block]]:
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=NAMES)
 def test_a_chapter_does_what_it_says(chapter: Path, tmp_path: Path) -> None:
     """A reader who types the commands in their order gets these exit codes and this output."""
-    programs = tmp_path / "bin"
-    programs.mkdir()
-    (programs / "plydrape").symlink_to(binary().resolve())
-    clone = tmp_path / "plydrape"
-    made = shutil.ignore_patterns("*.results", "*.plan", "*.compare", "*.net")
-    shutil.copytree(ROOT / "examples", clone / "examples", ignore=made)
-
-    reader = Reader(clone, [programs, Path(sys.executable).parent])
+    reader = follower(tmp_path, binary())
     for block in blocks_of(chapter):
         if block.caption is not None:
             reader.write(block)
@@ -98,7 +90,7 @@ def test_links_to_other_sites_are_well_formed(chapter: Path) -> None:
 
 def test_a_wrong_exit_code_and_wrong_output_are_found(tmp_path: Path) -> None:
     """The comparison itself can fail: on codes, on changed, missing and further lines."""
-    text = "```console\n$ echo one; echo 1.25 mm # exit 3\none\n1.… mm\n$ cd /; false\n```\n"
+    text = "```console\n$ echo one; echo 1.25 mm # exit 3\none\n1.25 mm\n$ cd /; false\n```\n"
     (block,) = blocks(text)
     first, second = block.commands()
     assert (first.code, second.code) == (3, 0)
@@ -107,9 +99,29 @@ def test_a_wrong_exit_code_and_wrong_output_are_found(tmp_path: Path) -> None:
     assert reader.run(second)[0] == 1 and reader.here == Path("/")
 
     printed = "one\ntwo\n1.25 mm\n"
-    assert matches(["one", "…", "1.… mm"], printed) and matches(["…", "two", "…"], printed)
-    for wrong in (["one"], ["one", "1.25 mm"], ["one", "two", "1.3… mm"], ["…", "two"], ["…", "x"]):
+    assert matches(["one", "…", "1.25 mm"], printed) and matches(["…", "two", "…"], printed)
+    for wrong in (["one"], ["one", "1.25 mm"], ["one", "two", "1.… mm"], ["…", "two"], ["…", "x"]):
         assert not matches(wrong, printed), wrong
+
+
+def test_words_are_compared_exactly_and_numbers_nearly() -> None:
+    """A fifth is allowed, and a unit of the last digit; times of the machine may be any."""
+    line = "plan after 10 drapes, in 3.2 s: height 0.35 mm at (100.0, 70.0) mm, edge g2_1–g3_1"
+    same = "plan after 11 drapes, in 40 s: height 0.31 mm at (5.0, 7.0) mm, edge g0_0–g1_0"
+    assert matches([line], same)
+    for wrong in ("0.25 mm", "0.35 m", "0.35 mm high"):
+        assert not matches([line], line.replace("0.35 mm", wrong)), wrong
+    assert matches(["a   1.0    -0.5"], "a 1.1 -0.5") and not matches(["a 1.0"], "a -1.0")
+
+
+def test_numbers_are_recorded_and_lines_filled_in() -> None:
+    """What is shown keeps its words and gets the numbers that were printed."""
+    printed = "head\n  1   2.5 mm\n  2   3.5 mm\n\naccepted\n"
+    assert recorded(["head", "…", "  2   9.5 mm", "", "accepted"], printed) == [
+        *["head", "…", "  2   3.5 mm", "", "accepted"]
+    ]
+    assert recorded(["head", "@", "…cepted"], printed) == printed.splitlines()
+    assert recorded(["head", "…", "refused"], printed) is None
 
 
 def test_a_continued_line_is_one_command() -> None:

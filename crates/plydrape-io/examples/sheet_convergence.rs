@@ -1,4 +1,4 @@
-//! The table of `docs/guide/exactness.md`: how the sheet's answers depend on mesh, time step, contact stiffness and
+//! The table of `docs/theory/exactness.md`: how the sheet's answers depend on mesh, time step, contact stiffness and
 //! tolerance.
 //!
 //! `cargo run --release -p plydrape-io --example sheet_convergence` prints it. The time step is the way that grippers go

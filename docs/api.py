@@ -1,0 +1,198 @@
+"""The Python package as Markdown, made from its sources: the page guide/api.md.
+
+Nothing is imported, so the page can be made where the package is not installed. What is compiled is
+read from its stubs.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parents[1] / "python" / "plydrape"
+COMPILED = PACKAGE / "_plydrape.pyi"
+
+# What can be imported from where, in the order of the page: title, module, file, names (all public
+# ones of the file if None).
+PARTS: list[tuple[str, str, Path, list[str] | None]] = [
+    ("Scenes, drapes and plans", "plydrape", COMPILED,
+     ["Scene", "simulate", "Result", "Sheet", "plan", "Plan", "Sample", "measures", "Measure"]),
+    ("Ply, mold and ideal drape", "plydrape", COMPILED,
+     ["Ply", "Material", "materials", "Mold", "Surface", "ClosestPoints", "Net"]),
+    ("Equilibria and derivatives", "plydrape", COMPILED,
+     ["Solver", "Equilibrium", "Jacobian", "outcome", "Outcome", "Span"]),
+    ("Many at once: `plydrape.batch`", "plydrape.batch", COMPILED,
+     ["simulate_all", "equilibria", "Equilibria"]),
+    ("Studies: `plydrape.study`", "plydrape.study", PACKAGE / "study" / "__init__.py", None),
+    ("Pictures in 3D: `plydrape.view`", "plydrape.view", PACKAGE / "view.py", None),
+    ("Notebooks: `plydrape.notebook`", "plydrape.notebook", PACKAGE / "notebook.py", None),
+    ("STEP and IGES: `plydrape.cad`", "plydrape.cad", PACKAGE / "cad.py", None),
+    ("Errors", "plydrape", PACKAGE / "errors.py", None),
+]  # fmt: skip
+
+# Names that a module gives to what is compiled.
+RENAMED = {"plydrape.batch.simulate_all": "plydrape.batch.simulate"}
+
+HEADS = {"Args", "Returns", "Raises", "Yields", "Attributes", "Example", "Examples", "Note"}
+Definition = ast.ClassDef | ast.FunctionDef
+
+
+def markdown() -> str:
+    """A section for each part, with its classes and functions."""
+    lines: list[str] = []
+    for title, module, file, names in PARTS:
+        found = definitions(file)
+        lines += ["", f"## {title}", ""]
+        for name in names if names is not None else public(file, found):
+            lines += shown(found[name], module)
+    return "\n".join(lines)
+
+
+def definitions(file: Path) -> dict[str, Definition]:
+    """Classes and functions of a file; of a package also those that it takes from its modules."""
+    tree = ast.parse(file.read_text(encoding="utf-8"))
+    found: dict[str, Definition] = {}
+    for node in tree.body:
+        if isinstance(node, Definition):
+            found[node.name] = node
+        elif isinstance(node, ast.ImportFrom) and node.level == 1 and node.module:
+            inner = definitions(file.parent / f"{node.module}.py")
+            names = (alias.name for alias in node.names)
+            found |= {name: inner[name] for name in names if name in inner}
+    return found
+
+
+def public(file: Path, found: dict[str, Definition]) -> list[str]:
+    """The names in `__all__`, or all that do not begin with an underscore."""
+    for node in ast.parse(file.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
+            return [name for name in ast.literal_eval(node.value) if name in found]
+    return [name for name in found if not name.startswith("_")]
+
+
+def shown(node: Definition, module: str) -> Iterator[str]:
+    """The heading of a class or a function, what it takes, and what it does."""
+    name = f"{module}.{node.name}"
+    yield from ["", f"### `{RENAMED.get(name, name)}`", ""]
+    if isinstance(node, ast.FunctionDef):
+        yield from [signature(node, node.name), *text(node)]
+        return
+    start = next((one for one in members(node) if one.name in ("__new__", "__init__")), None)
+    if start is not None:
+        yield signature(start, node.name)
+    yield from text(node)
+    properties = [one for one in members(node) if is_property(one)]
+    if properties:
+        yield from [
+            "",
+            "```{table}",
+            ":class: members",
+            "",
+            "| property | what it is |",
+            "|---|---|",
+        ]
+        for one in properties:
+            what = " ".join(summary(one).split()).replace("|", "\\|")
+            kind = ast.unparse(one.returns) if one.returns else ""
+            kind = short(kind).replace("|", "\\|")
+            yield f"| `{one.name}`: `{kind}` | {what} |"
+        yield "```"
+    for one in members(node):
+        if not is_property(one) and not one.name.startswith("_"):
+            yield from [
+                "",
+                f"#### `{node.name}.{one.name}`",
+                "",
+                signature(one, one.name),
+                *text(one),
+            ]
+
+
+def members(node: ast.ClassDef) -> list[ast.FunctionDef]:
+    """Methods and properties of a class."""
+    return [one for one in node.body if isinstance(one, ast.FunctionDef)]
+
+
+def is_property(node: ast.FunctionDef) -> bool:
+    """Whether it is read without a call."""
+    return any("property" in ast.unparse(one) for one in node.decorator_list)
+
+
+def summary(node: Definition) -> str:
+    """The docstring before its first section and example."""
+    first = re.split(r"\n\s*\n|\n(?:Example|Raises|Returns)s?:", ast.get_docstring(node) or "")
+    return first[0]
+
+
+def signature(node: ast.FunctionDef, name: str) -> str:
+    """The call, one argument a line where it is long."""
+    args = node.args
+    kept = [*args.posonlyargs, *args.args]
+    first = len(kept) - len(args.defaults)
+    parts = [
+        argument(arg, args.defaults[n - first] if n >= first else None)
+        for n, arg in enumerate(kept)
+        if arg.arg not in ("self", "cls")
+    ]
+    if args.kwonlyargs:
+        parts.append("*")
+        parts += [argument(*one) for one in zip(args.kwonlyargs, args.kw_defaults, strict=True)]
+    returns = ast.unparse(node.returns) if node.returns else "None"
+    arrow = "" if node.name in ("__new__", "__init__") else f" -> {short(returns)}"
+    line = f"{name}({', '.join(parts)}){arrow}"
+    if len(line) > 80:
+        inner = "".join(f"    {part},\n" for part in parts)
+        line = f"{name}(\n{inner}){arrow}"
+    return f"```python\n{line}\n```\n"
+
+
+def argument(arg: ast.arg, default: ast.expr | None) -> str:
+    """An argument with its type and default."""
+    kind = f": {short(ast.unparse(arg.annotation))}" if arg.annotation else ""
+    if default is None:
+        return arg.arg + kind
+    return (
+        f"{arg.arg}{kind} = {ast.unparse(default)}" if kind else f"{arg.arg}={ast.unparse(default)}"
+    )
+
+
+def short(kind: str) -> str:
+    """A type without the modules that everybody knows."""
+    return re.sub(r"\b(?:typing|numpy\.typing|numpy|builtins|pathlib|os)\.", "", kind)
+
+
+def text(node: Definition) -> Iterator[str]:
+    """A docstring, its sections as lists and its examples as blocks."""
+    head = ""
+    block: list[str] = []
+    doc = inspect.cleandoc(ast.get_docstring(node) or "")
+    for line in [*doc.splitlines(), "Note:"]:
+        name = line.rstrip(":")
+        if line.endswith(":") and name in HEADS:
+            yield from part(head, block)
+            head, block = name, []
+        else:
+            block.append(line)
+
+
+def part(head: str, block: list[str]) -> Iterator[str]:
+    """One section of a docstring."""
+    body = inspect.cleandoc("\n".join(["", *block])).strip("\n")
+    if not body:
+        return
+    yield ""
+    if head.startswith("Example"):
+        yield from ["```pycon", body, "```"]
+    elif head in ("Args", "Raises", "Attributes"):
+        name = {"Args": "Arguments"}.get(head, head)
+        yield from [f"**{name}**", ""]
+        for entry in re.split(r"\n(?=\S)", body):
+            key, _, what = entry.partition(":")
+            yield f"- `{key.strip()}`: {' '.join(what.split())}"
+    elif head:
+        yield f"**{head}**: {' '.join(body.split())}" if ">>>" not in body else body
+    else:
+        yield body

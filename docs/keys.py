@@ -1,0 +1,378 @@
+"""Every key of a scene as Markdown, made from the JSON Schema: the page guide/keys.md."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import tomllib
+
+Json = dict[str, Any]
+
+DOCS = Path(__file__).resolve().parent
+CHOICE_OF_TABLES = ("anyOf", "oneOf")
+
+# "Friction, 0 unless given." has its default in its description, as all of them have.
+DEFAULTS = [
+    re.compile(r"(?:^|[,;.]\s+)(?P<default>(?:[^,;.]|\.(?=\d))+?) unless given\b"),
+    re.compile(r"\s*Unless given,? (?P<default>[^.]+)\."),
+    re.compile(r"(?P<default>\"[\w-]+\") \(the default\)"),
+    re.compile(r"\((?P<default>\"[\w-]+\"), the default\)"),
+]
+BLOCK = re.compile(r"^```(?:\{code-block\} )?toml\n(.*?)^```", re.M | re.S)
+# Beyond this the program refuses a value; the schema does not say so, and a test compares both.
+RANGES = {
+    "contact.friction": "≥ 0",
+    "contact.tolerance": "> 0",
+    "errors.share": "> 0, ≤ 1",
+    "grippers.direction": "-360 to 360 deg",
+    "grippers.holding_force": "> 0",
+    "grippers.max_tilt": "> 0, < 90 deg",
+    "grippers.pad_radius": "≥ 0",
+    "grippers.slip_force": "> 0",
+    "limits.acceleration": "> 0",
+    "limits.bridging": "≥ 0",
+    "limits.clearance": "> 0",
+    "limits.contact_share": "0 to 1",
+    "limits.duration": "> 0",
+    "limits.fibre_angle": "> 0, < 90 deg",
+    "limits.force": "> 0",
+    "limits.grip_safety": "≥ 1",
+    "limits.gripper_distance": "> 0",
+    "limits.gripper_force": "> 0",
+    "limits.gripper_load": "> 0",
+    "limits.gripper_pull": "> 0",
+    "limits.height": "≥ 0",
+    "limits.jerk": "> 0",
+    "limits.landing_contact": "≥ 0",
+    "limits.landing_gripper": "≥ 0",
+    "limits.landing_shear": "> 0, < 90 deg",
+    "limits.out_of_plane": "> 0, < 90 deg",
+    "limits.overstretch": "0 to 1",
+    "limits.penetration": "> 0",
+    "limits.position": "≥ 0",
+    "limits.shear": "> 0, < 90 deg",
+    "limits.slack_angle": "> 0, < 90 deg",
+    "limits.slack_ratio": "0 to 1",
+    "limits.speed": "> 0",
+    "limits.strain": "0 to 1",
+    "limits.tilt": "> 0, < 90 deg",
+    "limits.tilt_rate": "> 0",
+    "limits.wrinkle": "≥ 0",
+    "model.axial_stiffness": "> 0",
+    "model.gravity": "> 0",
+    "mold.radius": "> 0",
+    "mold.ring_radius": "> 0",
+    "mold.tilt": "≥ 0",
+    "mold.tilt_direction": "-360 to 360 deg",
+    "mold.tube_radius": "> 0",
+    "motion.duration": "> 0",
+    "plan.move_limit": "> 0",
+    "plan.rate": "> 0",
+    "ply.overhang": "≥ 0",
+    "ply.thickness": "> 0",
+    "release.dwell": "≥ 0",
+    "sheet.mesh": "> 0",
+    "target.direction": "-360 to 360 deg",
+    "target.mesh": "> 0",
+    "target.shear": "-90 to 90 deg",
+}
+
+# Examples of keys that no scene of the repository and no chapter of the guide uses.
+LIKELY = {
+    "bodies[].mesh": '"cup.stl"',
+    "bodies[].unit": '"mm"',
+    "grippers.holding_force": '"15 N"',
+    "grippers.pad_radius": '"15 mm"',
+    "grippers.slip_force": '"6 N"',
+    "grippers.positions": '"start.csv"',
+    "limits.duration": '"30 s"',
+    "limits.force": '"20 N"',
+    "limits.gripper_distance": '"80 mm"',
+    "limits.gripper_force": '"15 N"',
+    "limits.gripper_pull": '"4 N"',
+    "limits.penetration": '"0.5 mm"',
+    "limits.shear": '"40 deg"',
+    "limits.slack_angle": '"2.6 deg"',
+    "limits.tilt": '"35 deg"',
+    "limits.workspace": '[["-1 m", "1 m"], ["-1 m", "1 m"], [0, "0.8 m"]]',
+    "limits.wrinkle": '"0.5 mm"',
+    "mold.normal": "[0, 0.1, 1]",
+    "mold.ring_radius": '"1.2 m"',
+    "mold.tube_radius": '"0.3 m"',
+    "motion.duration": '"29 s"',
+    "obstacles[].box.at": '[0, 0, "20 mm"]',
+    "obstacles[].cylinder.from": '"0 mm"',
+    "obstacles[].cylinder.radius": '"40 mm"',
+    "obstacles[].cylinder.to": '"300 mm"',
+    "plan.improve": "true",
+    "plan.move_limit": '"5 mm"',
+    "ply.holes": '[{ middle = ["125 mm", "125 mm"], diameter = "40 mm" }]',
+    "ply.holes[].diameter": '"40 mm"',
+    "ply.material.bending_rigidity_warp": '"9e-5 N m"',
+    "ply.material.bending_rigidity_weft": '"8e-5 N m"',
+    "ply.material.flexural_rigidity": '"9e-6 N m^2"',
+    "ply.material.mass": '"314 g/m^2"',
+    "ply.material.shear_curve": '"5 N/m"',
+    "ply.material.tension": '"1e6 N/m"',
+    "ply.material.locking_angle": '"50 deg"',
+    "ply.material.locking_test": '"picture frame, 23 C"',
+    "ply.material.name": '"my prepreg"',
+    "ply.material.source": '"our own tests"',
+    "ply.material.shear_curve.angle": '[0, "10 deg", "30 deg"]',
+    "ply.material.shear_curve.force": "[0, 4, 20]",
+    "ply.material.shear_curve.polynomial": "[5, 0, 12]",
+    "ply.material.tension.force": "[0, 500, 2000]",
+    "ply.material.tension.strain": '[0, "0.1 %", "0.3 %"]',
+    "ply.outline.file": '"blank.dxf"',
+    "ply.outline.unit": '"mm"',
+    "ply.outline": '"blank.dxf"',
+    "ply.outline.layers": '["CUT"]',
+    "ply.outline.tolerance": '"0.1 mm"',
+    "ply.overhang": '"20 mm"',
+    "ply.points": '[["20 mm", "20 mm"], ["120 mm", "20 mm"]]',
+    "sheet.keep": "50",
+    "target.positions": '"target.csv"',
+    "target.trim": '"trim.csv"',
+    "tool.residual": '"2 mm"',
+    "tool.world.rotation": '[0, 0, "90 deg"]',
+}
+
+# what is no bare quantity: words to choose from, and what has its least value from the schema
+WORDS = re.compile("[`≥]")
+UNIT = re.compile(r" \((?:m|rad|s|N|Hz|Pa|m/s|m/s²|m/s³|rad/s|rad/s²|N/m|N·m|N·m²)\)")
+
+
+def markdown() -> str:
+    """Tables of all keys, one for each table of a scene."""
+    schema = json.loads((DOCS / "scene.schema.json").read_text(encoding="utf-8"))
+    used = examples()
+    scene = {**schema, "properties": {"title": schema["properties"]["title"]}}
+    parts = [section(schema, "", scene, used)]
+    for name, key in schema["properties"].items():
+        if name != "title":
+            parts += tables(schema, name, key, used)
+    return "\n".join(parts)
+
+
+def tables(schema: Json, path: str, key: Json, used: Json) -> Iterator[str]:
+    """The section of a table of a scene, and those of the tables in it."""
+    many = key.get("type") == "array"
+    for table in alternatives(schema, key["items"] if many else key):
+        properties = table.get("properties")
+        # a term of an error is a table of one key, which the text above all of them explains
+        if properties is None or set(properties) == {"bound", "deviation"}:
+            continue
+        here = f"{path}[]" if many else path
+        yield section(schema, here, table, used)
+        for name, inner in properties.items():
+            yield from tables(schema, f"{here}.{name}", inner, used)
+
+
+def alternatives(schema: Json, key: Json) -> list[Json]:
+    """What a key may hold, references followed."""
+    if "$ref" in key:
+        return alternatives(schema, schema["$defs"][unquote(key["$ref"]).rsplit("/", 1)[1]])
+    for choice in CHOICE_OF_TABLES:
+        if choice in key:
+            return [one for option in key[choice] for one in alternatives(schema, option)]
+    return [key]
+
+
+def section(schema: Json, path: str, table: Json, used: Json) -> str:
+    """The heading of a table and its keys."""
+    level = "##" if path.count(".") == 0 else "###"
+    name = path.replace("[].", ".")
+    name = f"[[{name[:-2]}]]" if name.endswith("[]") else f"[{name}]"
+    lines = ["", f"{level} `{name}`" if path else "## Before all tables", ""]
+    lines += [sentence(table["description"]) if path else "", ""]
+    lines += ["```{table}", ":class: keys", ""]
+    lines += ["| key | meaning | unit | default | allowed | example |", "|---|---|---|---|---|---|"]
+    needed = table.get("required", [])
+    for key, of in table["properties"].items():
+        meaning, default = parted(of.get("description", ""))
+        if key in needed:
+            default = "**needed**"
+        example = used.get(f"{path}.{key}".strip(".")) or likely(
+            schema, f"{path}.{key}", of, default
+        )
+        shown = f"`{key} = {example}`" if example else ""
+        meaning += choices(schema, of)
+        units, ranges = kinds(schema, of)
+        if limits := RANGES.get(f"{path}.{key}"):
+            ranges = [text if WORDS.search(text) else f"{text}, {limits}" for text in ranges]
+        row = [f"`{key}`", meaning, ", ".join(units), default, " or ".join(ranges), shown]
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") or "–" for cell in row) + " |")
+    return "\n".join([*lines, "```", ""])
+
+
+def sentence(text: str) -> str:
+    """A description in one line; tables that it names are shown as such."""
+    return re.sub(r"(?<![`\w])(\[[a-z]+\])(?!\()", r"`\1`", " ".join(text.split()))
+
+
+def parted(description: str) -> tuple[str, str]:
+    """The meaning and the default of a key."""
+    text = sentence(description)
+    for pattern in DEFAULTS:
+        if found := pattern.search(text):
+            default = found["default"].strip()
+            if "unless given" in found[0].lower():
+                text = text[: found.start()] + text[found.end() :]
+            break
+    else:
+        default = ""
+    text = UNIT.sub("", text).strip()
+    text = re.sub(r"^[,;:]\s*", "", text)
+    return text + ("" if text.endswith(".") else "."), default
+
+
+def choices(schema: Json, key: Json) -> str:
+    """What each word means that a key may hold."""
+    words = [
+        f' `"{option["const"]}"`: {sentence(option["description"])}'
+        for option in alternatives(schema, key)
+        if "const" in option and "description" in option
+    ]
+    return "".join(words)
+
+
+def kinds(schema: Json, key: Json) -> tuple[list[str], list[str]]:
+    """Units of a key and what it may hold, each without repetition."""
+    units: list[str] = []
+    ranges: list[str] = []
+    words: list[str] = []
+    for option in alternatives(schema, key):
+        unit, allowed = kind(schema, option)
+        if "const" in option or "enum" in option:
+            words.append(allowed)
+            continue
+        if unit and unit not in units:
+            units.append(unit)
+        if allowed and allowed not in ranges:
+            ranges.append(allowed)
+    return units, ([", ".join(words)] if words else []) + ranges
+
+
+def kind(schema: Json, option: Json) -> tuple[str, str]:
+    """The unit of one option and what it may hold."""
+    if "const" in option:
+        return "", f'`"{option["const"]}"`'
+    if "enum" in option:
+        return "", ", ".join(f'`"{value}"`' for value in option["enum"])
+    about = option.get("description", "")
+    match option.get("type"):
+        case "number":
+            quantity, _, unit = about.partition(" in ")
+            least = f" ≥ {option['minimum']}" if "minimum" in option else ""
+            return ("1" if about == "a ratio" else unit), article(quantity or "number") + least
+        case "integer":
+            return "", "integer" + (f" ≥ {option['minimum']}" if "minimum" in option else "")
+        case "string":
+            if about.endswith("with its unit"):
+                return "", ""
+            words = option.get("examples", [])
+            if len(words) > 1:
+                return "", ", ".join(f'`"{word}"`' for word in words)
+            return "", article(about) if words else "text"
+        case "boolean":
+            return "", "`true`, `false`"
+        case "array":
+            units, inner = kinds(schema, option["items"])
+            count = option.get("minItems")
+            many = "list of " if count is None else f"{count} × "
+            return ", ".join(units), many + " or ".join(inner)
+        case "object":
+            if set(option.get("properties", {})) == {"bound", "deviation"}:
+                bound = option["properties"]["bound"]
+                return kinds(schema, bound)[0][0], "`deviation` or `bound`"
+            return "", "table"
+    return "", ""
+
+
+def article(text: str) -> str:
+    """A quantity without its article."""
+    return re.sub(r"^an? ", "", text)
+
+
+def likely(schema: Json, path: str, key: Json, default: str) -> str:
+    """A value that somebody would write: one of the list above, the default, a word."""
+    if path in LIKELY:
+        return LIKELY[path]
+    if re.match(r"[\d\"]", default):
+        return default if re.fullmatch(r'[\d.]+|".*"', default) else f'"{default}"'
+    return invented(schema, key) if not quantity(schema, key) else ""
+
+
+def quantity(schema: Json, key: Json) -> bool:
+    """Whether it is a number with a unit, or a list of such."""
+    return any(
+        option.get("description", "").endswith("with its unit")
+        or ("items" in option and quantity(schema, option["items"]))
+        for option in alternatives(schema, key)
+    )
+
+
+def invented(schema: Json, key: Json) -> str:
+    """An example from the schema."""
+    for option in alternatives(schema, key):
+        if "const" in option:
+            return f'"{option["const"]}"'
+        if option.get("examples"):
+            return shown(option["examples"][0])
+        if option.get("type") == "array":
+            inner = invented(schema, option["items"])
+            return "[" + ", ".join([inner] * option.get("minItems", 2)) + "]" if inner else ""
+        if set(option.get("properties", {})) == {"bound", "deviation"}:
+            return f"{{ bound = {invented(schema, option['properties']['bound'])} }}"
+    return ""
+
+
+def examples() -> Json:
+    """The first short value of each key in the scenes of the examples and of the guide."""
+    found: Json = {}
+    texts = [path.read_text() for path in sorted((DOCS.parent / "examples").glob("*/scene.toml"))]
+    for page in sorted((DOCS / "guide").glob("*.md")):
+        blocks = re.findall(
+            r"^```(?:\{code-block\} )?toml\n(.*?)^```", page.read_text(), re.M | re.S
+        )
+        texts += [re.sub(r"^:caption:.*\n", "", block) for block in blocks]
+    for text in texts:
+        with suppress(tomllib.TOMLDecodeError):
+            collect("", tomllib.loads(text), found)
+    return found
+
+
+def collect(path: str, value: Any, found: Json) -> None:
+    """Keeps a value and those in it by their paths."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            collect(f"{path}.{key}".strip("."), inner, found)
+        if value and not any(isinstance(inner, dict | list) for inner in value.values()):
+            keep(path, value, found)
+        return
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        for inner in value:
+            collect(f"{path}[]", inner, found)
+        return
+    keep(path, value, found)
+
+
+def keep(path: str, value: Any, found: Json) -> None:
+    """Keeps a value that is short enough for a table."""
+    if path not in found and len(text := shown(value)) <= 44:
+        found[path] = text
+
+
+def shown(value: Any) -> str:
+    """A value as TOML."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {shown(inner)}" for key, inner in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(shown, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)

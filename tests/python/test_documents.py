@@ -1,0 +1,153 @@
+"""What README and the guide say of other files is so."""
+
+from __future__ import annotations
+
+import copy
+import importlib.util
+import json
+import re
+import subprocess
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import plydrape
+import pytest
+from program import ROOT, binary
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+VALIDATION = (ROOT / "docs" / "guide" / "validation.md").read_text(encoding="utf-8")
+TESTS = re.findall(r"`([\w/.]+)::(\w+)`", VALIDATION)
+
+
+def made(name: str) -> ModuleType:
+    """A module of the guide's own, which makes a page of it."""
+    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / f"{name}.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def numbers(name: str) -> dict[str, dict[str, float]]:
+    """What is kept of the drapes of an example, which `.ci/run` compares with new ones."""
+    text = (ROOT / "examples" / name / "numbers.json").read_text()
+    kept: dict[str, dict[str, float]] = json.loads(text)
+    return kept
+
+
+def test_the_readme_is_short() -> None:
+    """One screen: 900 words."""
+    assert len(README.split()) <= 900
+
+
+def test_the_quick_start_has_two_commands() -> None:
+    """One plans a shipped example, one runs all tests."""
+    (block,) = re.findall(r"## Quick start.*?```sh\n(.*?)```", README, re.S)
+    plan, tests = block.splitlines()
+    scene = plan.removeprefix("cargo run --release -- plan ")
+    assert scene != plan and (ROOT / scene).is_file()
+    assert tests == "scripts/test" and (ROOT / tests).is_file()
+
+
+def test_links_of_the_readme_lead_to_files() -> None:
+    """Pictures and documents of the repository."""
+    for link in re.findall(r"\]\(([^):#]+)(?:#[^)]*)?\)", README):
+        assert (ROOT / link).exists(), link
+
+
+def test_the_readme_shows_the_kept_numbers() -> None:
+    """Heights on the dome, and the verdict of the first command."""
+    dome, flat = numbers("04_dome"), numbers("01_flat_sheared_mold")
+    assert f"folds of {dome['straight']['height_max_mm']:.1f} mm stay" in README
+    assert f"ends {dome['planned']['height_max_mm']:.1f} mm high" in README
+    assert re.search(rf"^height +{flat['planned']['height_max_mm']} ", README, re.M)
+
+
+def test_the_readme_counts_the_random_scenes_as_the_benchmark_does() -> None:
+    """Accepted plans of all that were tried."""
+    accepted, tried = re.findall(r"Of (\d+) random scenes (\d+)", README)[0][::-1]
+    table = (ROOT / "benches" / "README.md").read_text(encoding="utf-8")
+    assert f"**{accepted} of {tried} are accepted" in table
+
+
+@pytest.mark.parametrize(("file", "name"), TESTS, ids=[name for _, name in TESTS])
+def test_a_comparison_is_a_test(file: str, name: str) -> None:
+    """What stands in the table of the validation can be run."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    assert re.search(rf"\b(?:fn|def) {name}\(", text)
+
+
+def test_every_table_of_a_scene_has_its_keys_on_the_page() -> None:
+    """All tables of the schema that have keys; each key with what it means."""
+    page = made("keys").markdown()
+    schema = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
+    tables = [schema, *schema["$defs"].values()]
+    for table in tables:
+        for key, of in table.get("properties", {}).items():
+            if "$ref" in of or of.get("type") == "array":
+                continue
+            assert f"| `{key}` | " in page, key
+    rows = [line for line in page.splitlines() if line.startswith("| `")]
+    assert len(rows) > 150 and not any("|  |" in row for row in rows)
+
+
+def test_examples_of_keys_are_what_a_scene_takes(tmp_path: Path) -> None:
+    """All limits at once, each with its example."""
+    limits = made("keys").markdown().split("## `[limits]`")[1].split("\n## ")[0]
+    examples = re.findall(r"\| `(\w+ = [^|]+)` \|$", limits, re.M)
+    scene = tmp_path / "scene.toml"
+    text = (ROOT / "examples" / "05_cylinder" / "scene.toml").read_text()
+    assert "[limits]" not in text
+    scene.write_text("\n".join([text, "[limits]", *examples, ""]))
+    done = subprocess.run([binary(), "check", scene], capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and len(examples) > 30, done.stderr
+
+
+BASE: dict[str, dict[str, Any]] = {
+    "ply": {"grippers": [4, 3], "cell": ["100 mm", "100 mm"], "material": "krogh2018"},
+    "mold": {"kind": "cylinder", "radius": "0.5 m", "position": [0, 0, "-0.5 m"]},
+    "grippers": {"spacing": ["98 mm", "98 mm"], "height": "60 mm", "origin": "centred"},
+    "target": {"seed": "middle"},
+    "motion": {"kind": "straight"},
+}
+TORUS = {"kind": "torus", "ring_radius": "1.2 m", "tube_radius": "0.3 m"}
+TILTED = {"kind": "plane", "tilt": "12 deg", "tilt_direction": "30 deg"}
+MOLDS = {"ring_radius": TORUS, "tube_radius": TORUS, "tilt": TILTED, "tilt_direction": TILTED}
+# values beyond a range, and what is said of them
+BEYOND: dict[str, list[tuple[float | str, str]]] = {
+    "> 0": [(0, "is zero"), (-1e-6, "is negative")],
+    "≥ 0": [(-1e-6, "is negative")],
+    "≥ 1": [(0.99, "is too small")],
+    "0 to 1": [(-1e-6, "is negative"), (1.01, "is more than")],
+    "> 0, ≤ 1": [(0, "is zero"), (1.01, "is more than")],
+    "> 0, < 90 deg": [(0, "is zero"), ("91 deg", "is a right angle or more")],
+    "-90 to 90 deg": [("91 deg", "a right angle or more"), ("-91 deg", "a right angle or more")],
+    "-360 to 360 deg": [("361 deg", "is more than a"), ("-361 deg", "is more than a")],
+}
+
+
+@pytest.mark.parametrize(("path", "limits"), made("keys").RANGES.items())
+def test_what_is_beyond_the_range_of_a_key_is_refused(path: str, limits: str) -> None:
+    """With the words that say so."""
+    table, key = path.split(".")
+    tables = copy.deepcopy(BASE)
+    if table == "mold":
+        tables["mold"] = dict(MOLDS.get(key, tables["mold"]))
+    for value, words in BEYOND[limits]:
+        tables.setdefault(table, {})[key] = value
+        with pytest.raises(plydrape.SceneError) as refused:
+            plydrape.Scene(**tables)  # type: ignore[arg-type]
+        assert words in refused.value.message, refused.value
+
+
+def test_every_public_name_of_the_package_is_on_its_page() -> None:
+    """The stubs are those of the package that is installed."""
+    page = made("api").markdown()
+    for name in plydrape.__all__:
+        if name not in ("__version__", "batch", "study"):
+            assert re.search(rf"^### `plydrape\.(?:\w+\.)?{name}`$", page, re.M), name
+    for name in plydrape.batch.__all__:
+        assert f"### `plydrape.batch.{name}`" in page, name
+    for name in plydrape.study.__all__:
+        assert f"### `plydrape.study.{name}`" in page, name
