@@ -119,7 +119,7 @@ fn motion_csv_has_the_loads_of_the_springs_at_every_sample() {
     let mut scene = dome(MOUNTS, 60);
     let path = scene.motion.positions.clone();
     let (method, rate) = (PlanMethod::Path, 20.0);
-    let record = PlanRecord { method, evaluations: 1, rate, slowed: 1.0, path };
+    let record = PlanRecord { method, evaluations: 1, rate, slowed: 1.0, path, picked_up: None };
     let motion = record.motion(&scene.limits).unwrap();
     scene.motion.times = motion.times().to_vec();
     let (mut result, dir) = draped(&scene);
@@ -183,7 +183,7 @@ fn tables_switch_the_vacuum_at_the_release() {
     let mut scene = dome(MOUNTS, 60);
     let path = scene.motion.positions.clone();
     let (method, rate) = (PlanMethod::Path, 20.0);
-    let record = PlanRecord { method, evaluations: 1, rate, slowed: 1.0, path };
+    let record = PlanRecord { method, evaluations: 1, rate, slowed: 1.0, path, picked_up: None };
     let motion = record.motion(&scene.limits).unwrap();
     scene.motion.times = motion.times().to_vec();
     let (mut held, _kept) = draped(&scene);

@@ -18,11 +18,12 @@ mod unit;
 mod verdict;
 
 pub(crate) use clearance::found as clearance_found;
+pub(crate) use tilt_rate::fastest as fastest_tilt;
 pub(crate) use found::Most;
 pub use found::{Found, Site};
 pub use record::{ByName, Measures, Numbers, Worst};
 pub use slack_angle::{angle_of_slack, slack_of_angle};
-pub(crate) use state::Before;
+pub(crate) use state::{Before, since, window_of};
 pub use state::State;
 pub use strength::{Loss, Plane, Published};
 use tuning::TUNING;

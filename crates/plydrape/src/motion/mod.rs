@@ -31,6 +31,7 @@ use crate::mold::vector::{norm, sub};
 use crate::scene::{self, Limits};
 use path::{Path, Vector};
 use time_law::{State, TimeLaw};
+use tuning::TUNING;
 
 /// Bounds that no gripper exceeds at any time; of the norms of vectors in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,12 +91,65 @@ impl TimedMotion {
         let last = path.knots.len() - 1;
         let mut times: Vec<f64> = path.knots.iter().map(|u| law.time(*u)).collect();
         times[last] = law.duration;
-        let places = |k: usize| {
-            let place = |g| path.jet(k.min(last - 1), g, path.knots[k])[0];
-            (0..path.grippers).map(place).collect()
-        };
-        let positions = (0..=last).map(places).collect();
+        let positions = path.at_knots();
         Ok(TimedMotion { times, positions, law, peaks, path: Some(path) })
+    }
+
+    /// The motion of other planned positions (m), one list of all grippers for each of [`Self::times`]: with the same spacing of the
+    /// knots and the same time law, over a time that is longer by the least factor that keeps the bounds, and by none where they are kept
+    /// as this motion keeps them.
+    ///
+    /// # Errors
+    /// [`MotionError`] if there are not as many positions as steps and grippers, a coordinate is not a number up to 10⁶ m, or a bound
+    /// is none from 10⁻⁶ to 10⁹.
+    pub fn moved(
+        &self,
+        planned: &[Vec<[f64; 3]>],
+        bounds: &Bounds,
+    ) -> Result<Self, MotionError> {
+        check::positions(planned)?;
+        check::bounds(bounds)?;
+        let (steps, found) = (self.times.len(), planned.len());
+        if found != steps {
+            return Err(MotionError::Steps { found, expected: steps });
+        }
+        if planned[0].len() != self.grippers() {
+            let (found, expected) = (planned[0].len(), self.grippers());
+            return Err(MotionError::Grippers { found, expected });
+        }
+        let Some(path) = &self.path else {
+            return Ok(TimedMotion { positions: planned.to_vec(), ..self.clone() });
+        };
+        let steps: Vec<&[Vector]> = planned.iter().map(Vec::as_slice).collect();
+        let path = path.through(&steps);
+        let (positions, law) = (path.at_knots(), self.law.clone());
+        let peaks = peaks::peaks(&path, &law, TUNING.tolerance);
+        // as near to the bounds as this motion is, or as any motion may be
+        let allowed = self.peaks.stretch(bounds).max(1.0 / (1.0 + TUNING.tolerance));
+        let factor = peaks.stretch(bounds) / allowed;
+        let times = self.times.clone();
+        let moved = TimedMotion { times, positions, law, peaks, path: Some(path) };
+        Ok(if factor > 1.0 { moved.slowed(factor) } else { moved })
+    }
+
+    /// Where the path of other positions (m), one list of all grippers for each of [`Self::times`], is at these times (m): each of its places
+    /// is a mean of neighbouring positions.
+    #[must_use]
+    pub(crate) fn means(&self, planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
+        let steps: Vec<&[Vector]> = planned.iter().map(Vec::as_slice).collect();
+        self.path.as_ref().map_or_else(|| planned.to_vec(), |path| path.through(&steps).at_knots())
+    }
+
+    /// The parameter of the path (m) at [`Self::times`].
+    #[must_use]
+    pub(crate) fn parameter(&self) -> &[f64] {
+        self.path.as_ref().map_or(&[0.0], |path| &path.knots)
+    }
+
+    /// The planned positions that stand for a step of the motion each: without those that move hardly a gripper.
+    #[must_use]
+    pub(crate) fn moving(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
+        check::moving(planned).into_iter().map(<[Vector]>::to_vec).collect()
     }
 
     /// The same motion over a time λ times as long: the same shapes of the ply, in the same order.

@@ -10,8 +10,15 @@ impl PlanRecord {
     /// # Errors
     /// [`MotionError`] if the plan is none that a planner has made.
     pub fn motion(&self, limits: &Limits) -> Result<TimedMotion, MotionError> {
-        let motion = TimedMotion::new(&self.path, &Bounds::from(limits))?;
-        Ok(if self.slowed > 1.0 { motion.slowed(self.slowed) } else { motion })
+        let bounds = Bounds::from(limits);
+        let slower = |motion: TimedMotion, factor: f64| match factor > 1.0 {
+            true => motion.slowed(factor),
+            false => motion,
+        };
+        let planned = |path| TimedMotion::new(path, &bounds).map(|new| slower(new, self.slowed));
+        let Some(picked_up) = &self.picked_up else { return planned(&self.path) };
+        let moved = planned(&picked_up.planned)?.moved(&self.path, &bounds)?;
+        Ok(slower(moved, picked_up.slowed))
     }
 }
 

@@ -9,7 +9,8 @@
 //! 6. `search_state`: progress of a search that runs; [`Checkpoint`]: its result, from which another search continues;
 //! 7. [`tuning`]: the constants that both planners share;
 //! 8. `plan`: from a scene to a motion in time and the drape along it;
-//! 9. [`comparison`]: the strategies that have a name, side by side.
+//! 9. [`comparison`]: the strategies that have a name, side by side;
+//! 10. [`replan`]: a plan for a ply that lies elsewhere than planned.
 
 mod checkpoint;
 pub mod comparison;
@@ -19,6 +20,7 @@ pub mod infeasible_limits;
 pub mod path;
 mod plan;
 mod program;
+pub mod replan;
 pub mod row;
 mod search_state;
 pub mod sensitivity;

@@ -113,6 +113,7 @@ pub fn plan(
         rate: scene.plan.rate,
         slowed,
         path: positions.clone(),
+        picked_up: None,
     };
     let attitudes = Attitudes::of(&drape.steps)?;
     let before = checkpoint.map_or(0, |checkpoint| checkpoint.evaluations);
@@ -179,7 +180,7 @@ pub(super) fn follow(
 }
 
 /// Judges a drape by the whole of its motion in time where that is worse than straight ways from step to step.
-fn judge_whole(summary: &mut Summary, whole: Verdict) {
+pub(super) fn judge_whole(summary: &mut Summary, whole: Verdict) {
     summary.accepted &= whole.ok;
     // what no plan can keep stands before what was measured
     match summary
@@ -234,7 +235,7 @@ pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
 }
 
 /// How fast a tool turns and its axes move, against their limits.
-fn tool_rates(tool: &Tool, peaks: &ToolPeaks, motion: &TimedMotion, scene: &Scene) -> Vec<Verdict> {
+pub(super) fn tool_rates(tool: &Tool, peaks: &ToolPeaks, motion: &TimedMotion, scene: &Scene) -> Vec<Verdict> {
     let ToolPeaks { turn_rate, turn_acceleration, axis_share, axis } = *peaks;
     let [turn_rate, turn_acceleration] =
         [turn_rate, turn_acceleration].map(|peak| Peak { value: peak.value.to_degrees(), ..peak });
@@ -260,7 +261,7 @@ fn tool_rates(tool: &Tool, peaks: &ToolPeaks, motion: &TimedMotion, scene: &Scen
 }
 
 /// Largest speed, acceleration and jerk of the motion against their limits.
-fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
+pub(super) fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
     let peaks = motion.peaks();
     let verdict = |name: Name, peak: Peak, limit: f64| {
         let step = motion.times().partition_point(|t| *t < peak.time) + 1;

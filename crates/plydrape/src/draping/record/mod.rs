@@ -13,6 +13,7 @@ pub use outcome::{CatenaryId, Summary};
 
 use crate::draping::ContactStatus;
 use crate::equilibrium::Status;
+use crate::pick_up::Offset;
 use crate::ply::{GripperId, Kind};
 use crate::scene::PlanMethod;
 
@@ -32,6 +33,28 @@ pub struct PlanRecord {
     pub slowed: f64,
     /// Planned positions of all grippers (m): control points of the smooth path, one list a step.
     pub path: Vec<Vec<[f64; 3]>>,
+    /// Where the ply was picked up, if the plan was corrected for that.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub picked_up: Option<PickedUp>,
+}
+
+/// Where the ply was picked up, and how a plan was corrected for it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct PickedUp {
+    /// How far it lay from where it was planned, about the middle of the grippers at the planned start.
+    pub offset: Offset,
+    /// The largest distance of a seen point from where the offset puts it (m); none where the offset was given.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub residual: Option<f64>,
+    /// Share of the offset in each step, 1 at the pick-up and 0 from before the first contact on.
+    pub weights: Vec<f64>,
+    /// How many times longer the corrected motion takes than its speed, acceleration and jerk need, so that no gripper and no tool
+    /// turns faster than its limit.
+    pub slowed: f64,
+    /// Control points of the planned motion before it was corrected (m).
+    pub planned: Vec<Vec<[f64; 3]>>,
 }
 
 /// The ply in one step.
