@@ -13,7 +13,7 @@ use crate::ply::FARTHEST;
 type Place = [f64; 2];
 
 /// How far the ply lies from where it was planned: turned about an upright axis, then shifted.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Offset {
