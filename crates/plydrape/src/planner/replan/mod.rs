@@ -22,6 +22,8 @@ mod error;
 mod fade;
 mod record;
 mod shapes;
+#[cfg(test)]
+mod tests;
 mod tuning;
 
 pub use error::ReplanError;
