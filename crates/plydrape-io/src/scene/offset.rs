@@ -83,11 +83,40 @@ pub fn json_offset(text: &str, tolerance: f64) -> Result<SeenOffset, SceneError>
     let serde_json::Value::Object(object) = &value else {
         return Err(document.error_anywhere("this is no JSON object", help));
     };
-    let text = toml::to_string(object).map_err(|_| {
-        document.error_anywhere("a value is null, or no number of 64 bits", help)
-    })?;
+    let keys = object.iter().map(|(key, value)| Some(format!("{} = {}\n", quoted(key), toml_of(value)?)));
+    let text: String = keys
+        .collect::<Option<_>>()
+        .ok_or_else(|| document.error_anywhere("a value is null, which means nothing here", help))?;
     parse_offset(&text, "standard input", tolerance)
         .map_err(|fault| SceneError { span: None, text: "".into(), ..fault })
+}
+
+/// A JSON value as TOML; none of null.
+fn toml_of(value: &serde_json::Value) -> Option<String> {
+    use serde_json::Value;
+    Some(match value {
+        Value::Null => return None,
+        Value::Bool(_) => value.to_string(),
+        // a whole number beyond those of TOML is a number all the same
+        Value::Number(number) if number.is_i64() => number.to_string(),
+        Value::Number(number) => format!("{:?}", number.as_f64()?),
+        Value::String(text) => quoted(text),
+        Value::Array(values) => {
+            let values: Option<Vec<String>> = values.iter().map(toml_of).collect();
+            format!("[{}]", values?.join(", "))
+        }
+        Value::Object(keys) => {
+            let keys = keys.iter().map(|(key, value)| {
+                Some(format!("{} = {}", quoted(key), toml_of(value)?))
+            });
+            format!("{{ {} }}", keys.collect::<Option<Vec<String>>>()?.join(", "))
+        }
+    })
+}
+
+/// A text in quotes: the escapes of JSON are escapes of TOML.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
 }
 
 fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, SceneError> {

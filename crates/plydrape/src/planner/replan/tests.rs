@@ -351,7 +351,7 @@ fn a_workspace_and_an_obstacle_are_judged_again() {
 /// A ply that is on the mold from the start leaves no transport; a plan is corrected once; numbers that are none are refused.
 #[test]
 fn a_plan_that_leaves_no_room_is_refused() {
-    let found = planned(path()[STEPS - 4..].to_vec(), Bodies::default());
+    let found = planned(path()[STEPS - 3..].to_vec(), Bodies::default());
     let refused = Replanner::new(found.plan(), None).unwrap_err();
     assert!(matches!(refused, ReplanError::NoTransport { .. }), "{refused}");
 
