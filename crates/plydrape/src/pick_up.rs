@@ -111,7 +111,9 @@ impl Offset {
         let moved = Moved::new(planned, offset.shift, offset.yaw);
         let left = pairs.iter().map(|(p, q)| {
             let [x, y, _] = moved.place([p[0], p[1], 0.0]);
-            length([x - q[0], y - q[1]])
+            let left = length([x - q[0], y - q[1]]);
+            // what is no number fits nowhere
+            if left.is_finite() { left } else { f64::INFINITY }
         });
         let (point, residual) = left
             .enumerate()
