@@ -3,7 +3,7 @@
 use super::*;
 use crate::clearance::{Bodies, Body, Mount, Obstacle, Shape};
 use crate::draping::simulate;
-use crate::material::{Section, ShearCurve};
+use crate::material::{Section, ShearCurve, TensionLaw};
 use crate::measure::Name;
 use crate::mold::vector::{distance, norm, sub};
 use crate::mold::{Face, Mold, Pose, Sphere};
@@ -254,6 +254,7 @@ fn a_sheet_along_the_corrected_motion_lands_alike() {
     };
     let mut ply = found.scene.ply.clone();
     ply.material.section = Section::Areal { mass: 0.3, warp_rigidity: 1e-4, weft_rigidity: 1e-4 };
+    ply.material.tension = Some(TensionLaw::Linear { stiffness: 1e5 });
     ply.material.shear_curve = Some(ShearCurve::Polynomial { coefficients: vec![5.0] });
     let drape = |motion: Motion| {
         let scene = Scene { motion, settings, ply: ply.clone(), ..found.scene.clone() };
