@@ -1023,6 +1023,39 @@ class Result:
             ...     plydrape.Result.read(path).title == result.title
             True
         """
+    def replan(
+        self,
+        /,
+        *,
+        offset: dict[str, float | str | typing.Sequence[float]] | None = None,
+        points: typing.Sequence[tuple[typing.Sequence[float], typing.Sequence[float]]]
+        | None = None,
+        tolerance: SupportsFloat | None = None,
+    ) -> Result:
+        """
+        The result of this plan for a ply that does not lie where it was planned to be picked up.
+
+        The grippers start where the ply lies, the offset is taken out in the air, and the landing is the planned one. What the motion
+        changes is judged again, and the motion is slower where it would be too fast.
+
+        Args:
+            offset: The shift x and y (m, or texts with a unit), the yaw (rad, or a text), and the point (x, y) that the ply is turned
+                about, the middle of the grippers at the start unless given.
+            points: Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m.
+            tolerance: How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
+                given.
+
+        Raises:
+            SceneError: If offset or points are none.
+            PlanError: If the result was not planned, or the offset cannot be taken out before the ply meets the mold.
+
+        Example:
+            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+            >>> plan = plydrape.plan(scene, without_errors=True)
+            >>> moved = plan.result.replan(offset=dict(x="3 mm", y="-1.5 mm", yaw="0.8 deg"))
+            >>> moved.accepted, bool((moved.positions[-1] == plan.result.positions[-1]).all())
+            (True, True)
+        """
     def report(self, /, path: str | PathLike[str]) -> Path:
         """
         Writes the page into a file and returns its path.

@@ -39,6 +39,9 @@ pub enum Failure {
     /// No plan could be looked for.
     #[error(transparent)]
     Plan(#[from] plydrape::planner::PlanError),
+    /// A plan could not be corrected.
+    #[error(transparent)]
+    Replan(#[from] plydrape_io::replan::ReplanFault),
     /// The input is sound, but has no solution.
     #[error("{message}")]
     NoSolution {
@@ -142,6 +145,7 @@ impl Diagnostic for Failure {
             | Failure::NoSolution { help, .. }
             | Failure::Output { help, .. } => Some(Box::new(help)),
             Failure::Read(refused) => Some(Box::new(refused.remedy())),
+            Failure::Replan(fault) => Some(Box::new(fault.remedy())),
             Failure::Stdout { files, .. } => Some(Box::new(match files[..] {
                 [] => "give it a place with room, as in > FILE; no file was written".to_owned(),
                 [ref file] => format!("`{}` is written and complete", file.display()),

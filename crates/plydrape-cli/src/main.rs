@@ -14,6 +14,7 @@ mod new;
 mod numbers;
 mod outcome;
 mod plan;
+mod replan;
 mod report;
 mod results;
 mod schema;
@@ -54,6 +55,7 @@ Exit codes:
 enum Command {
     Simulate(simulate::Arguments),
     Plan(plan::Arguments),
+    Replan(replan::Arguments),
     Net(net::Arguments),
     Study(study::Arguments),
     Check(check::Arguments),
@@ -73,6 +75,7 @@ fn main() -> ExitCode {
     let done = match command {
         Command::Simulate(arguments) => simulate::run(&arguments, quiet),
         Command::Plan(arguments) => plan::run(&arguments, quiet),
+        Command::Replan(arguments) => replan::run(&arguments, quiet),
         Command::Net(arguments) => net::run(&arguments, quiet),
         Command::Study(arguments) => study::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),

@@ -6,7 +6,7 @@
 //! 2. [`result`]: a drape becomes a result file, [`json`] writes it and [`read`] reads it back;
 //! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`], [`pattern`]: everything else is made from a result;
 //!    [`program`] is what a cell does over time, for the controllers of robots;
-//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`comparison`] for several strategies, [`book`] for the plies of a part, [`sheet`] keeps the states of a sheet beside its result;
+//! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`replan`] for one whose ply lies elsewhere, [`comparison`] for several strategies, [`book`] for the plies of a part, [`sheet`] keeps the states of a sheet beside its result;
 //!    [`table`] prints for people, [`strength`] says what is published of fibre angles;
 //! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
 //!    the memory.
@@ -33,6 +33,7 @@ pub mod page;
 pub mod pattern;
 pub mod plan;
 pub mod program;
+pub mod replan;
 pub mod result;
 pub mod ros2;
 pub mod scene;

@@ -1,5 +1,6 @@
 //! Text for a terminal: control characters, which would move the cursor or change its colours, are shown by their number.
 
+use plydrape::draping::record::PlanRecord;
 use plydrape::ply::{Direction, Grid, Ply};
 use std::fmt::Write;
 use std::path::Path;
@@ -68,6 +69,16 @@ pub fn excerpt(text: &str, characters: usize) -> String {
         short.push('…');
     }
     short
+}
+
+/// How far the ply lay from where it was planned, of a plan that was corrected for that.
+#[must_use]
+pub fn picked_up(plan: &PlanRecord) -> Option<String> {
+    let offset = plan.picked_up.as_ref()?.offset;
+    let [x, y] = offset.shift.map(millimetres);
+    // six digits, and a zero without a sign
+    let yaw = (1e6 * offset.yaw.to_degrees()).round() / 1e6 + 0.0;
+    Some(format!("replanned for a ply that lay off by x {x} mm, y {y} mm, yaw {yaw} deg"))
 }
 
 /// What a ply is and how it is held, in a line.

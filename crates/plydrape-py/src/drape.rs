@@ -1,8 +1,8 @@
 //! `plydrape.simulate` and `plydrape.plan`.
 
-use crate::json::Json;
 use crate::arrays::{Array, List, Named, list};
 use crate::error;
+use crate::json::Json;
 use crate::result::Result;
 use crate::scene::{Scene, blocks};
 use crate::work::{Watch, run};

@@ -1,6 +1,5 @@
 //! Errors of the library as the exceptions of `plydrape.errors`, with the same words.
 
-use plydrape::planner::PlanError;
 use plydrape_io::OutputError;
 use plydrape_io::result::read::ReadError;
 use plydrape_io::scene::SceneError;
@@ -64,7 +63,7 @@ pub fn too_large(fault: &SizeError) -> PyErr {
 }
 
 /// A scene without a plan.
-pub fn plan(error: &PlanError) -> PyErr {
+pub fn plan(error: &dyn Display) -> PyErr {
     plain("PlanError", error)
 }
 

@@ -16,10 +16,14 @@ use plydrape::measure::{Name, Scope};
 use plydrape::ply::Grid;
 use plydrape_io::mold_patch::mold_patch;
 use plydrape_io::program::{Robot, Template, Tolerance};
+use plydrape_io::replan::PlannedResult;
+use plydrape_io::scene::parse_offset;
 use plydrape_io::{ResultFile, export, figure, folder, page, read, surface};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::collections::BTreeMap;
+use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -404,6 +408,61 @@ impl Result {
         py.detach(|| mold_patch(&self.0, most)).map(triangles)
     }
 
+    /// The result of this plan for a ply that does not lie where it was planned to be picked up.
+    ///
+    /// The grippers start where the ply lies, the offset is taken out in the air, and the landing is the planned one. What the motion
+    /// changes is judged again, and the motion is slower where it would be too fast.
+    ///
+    /// Args:
+    ///     offset: The shift x and y (m, or texts with a unit), the yaw (rad, or a text), and the point (x, y) that the ply is turned
+    ///         about, the middle of the grippers at the start unless given.
+    ///     points: Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m.
+    ///     tolerance: How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
+    ///         given.
+    ///
+    /// Raises:
+    ///     SceneError: If offset or points are none.
+    ///     PlanError: If the result was not planned, or the offset cannot be taken out before the ply meets the mold.
+    ///
+    /// Example:
+    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    ///     >>> plan = plydrape.plan(scene, without_errors=True)
+    ///     >>> moved = plan.result.replan(offset=dict(x="3 mm", y="-1.5 mm", yaw="0.8 deg"))
+    ///     >>> moved.accepted, bool((moved.positions[-1] == plan.result.positions[-1]).all())
+    ///     (True, True)
+    #[pyo3(signature = (
+        *, offset: "dict[str, float | str | typing.Sequence[float]] | None" = None,
+        points: "typing.Sequence[tuple[typing.Sequence[float], typing.Sequence[float]]] | None" = None,
+        tolerance = None
+    ))]
+    fn replan(
+        &self,
+        py: Python<'_>,
+        offset: Option<BTreeMap<String, Amount>>,
+        points: Option<Vec<([f64; 2], [f64; 2])>>,
+        tolerance: Option<f64>,
+    ) -> PyResult<Self> {
+        let text = Amount::file(offset, points);
+        let result = py.detach(|| {
+            let fault = |fault: &dyn std::fmt::Display, help: &str| {
+                error::plan(&format!("{fault}; {help}"))
+            };
+            let planned = PlannedResult::new((*self.0).clone())
+                .map_err(|found| fault(&found, &found.remedy()))?;
+            let tolerance = tolerance.unwrap_or_else(|| planned.tolerance());
+            let seen =
+                parse_offset(&text, "offset", tolerance).map_err(|fault| error::scene(&fault))?;
+            let replanner = planned.replanner().map_err(|found| fault(&found, &found.remedy()))?;
+            let replanned = replanner
+                .replan(&seen.offset, seen.residual)
+                .map_err(|found| fault(&found, found.remedy()))?;
+            planned
+                .corrected(replanned, &std::env::temp_dir())
+                .map_err(|found| fault(&found, &found.remedy()))
+        });
+        result.map(|result| Result(Arc::new(result)))
+    }
+
     /// Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, of a plan motion.csv, and of a sheet
     /// sheet.npz, into a folder, all or none, and returns their paths.
     ///
@@ -606,4 +665,48 @@ impl Result {
         let verdict = if self.accepted() { "accepted" } else { "not accepted" };
         format!("<plydrape.Result of {:?}, {} steps, {verdict}>", self.title(), self.0.steps.len())
     }
+}
+
+/// A value of an offset.
+#[derive(FromPyObject)]
+pub enum Amount {
+    /// In SI units.
+    Number(f64),
+    /// With its unit.
+    Text(String),
+    /// A place.
+    Place([f64; 2]),
+}
+
+impl Amount {
+    /// The text of an offset's file with these values.
+    fn file(
+        offset: Option<BTreeMap<String, Amount>>,
+        points: Option<Vec<([f64; 2], [f64; 2])>>,
+    ) -> String {
+        let number = |x: &f64| format!("{x:?}").replace("NaN", "nan");
+        let place = |[x, y]: &[f64; 2]| format!("[{}, {}]", number(x), number(y));
+        let mut text = String::new();
+        if let Some(offset) = offset {
+            text += "[offset]\n";
+            for (key, value) in offset {
+                let value = match value {
+                    Amount::Number(value) => number(&value),
+                    Amount::Text(value) => toml_text(&value),
+                    Amount::Place(value) => place(&value),
+                };
+                let _ = writeln!(text, "{} = {value}", toml_text(&key));
+            }
+        }
+        for (planned, seen) in points.into_iter().flatten() {
+            let (planned, seen) = (place(&planned), place(&seen));
+            let _ = writeln!(text, "[[point]]\nplanned = {planned}\nseen = {seen}");
+        }
+        text
+    }
+}
+
+/// A text in quotes.
+fn toml_text(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
 }

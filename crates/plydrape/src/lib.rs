@@ -50,7 +50,8 @@
 //! 9. [`motion`]: positions step by step become smooth in time, within limits of speed, acceleration, jerk;
 //! 10. [`planner`]: gripper trajectories, and limits that no trajectory can keep;
 //! 11. [`tool`]: the frame and axes of a robot that carries the grippers, and the motion that it makes;
-//! 12. [`errors`]: how far a real cell may be from its scene, and the scene of one such cell.
+//! 12. [`errors`]: how far a real cell may be from its scene, and the scene of one such cell;
+//! 13. [`pick_up`]: where the ply was picked up, if not where it was planned.
 //!
 //! SI units throughout, z up, gravity along −z. This crate reads and writes no files; with the feature `serde` its types
 //! can be written by serde.
@@ -65,6 +66,7 @@ pub mod measure;
 pub mod mold;
 pub mod motion;
 pub mod net;
+pub mod pick_up;
 pub mod planner;
 pub mod ply;
 pub mod preset;

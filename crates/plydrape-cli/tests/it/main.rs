@@ -11,6 +11,7 @@ mod export;
 mod net;
 mod output_streams;
 mod plan;
+mod replan;
 mod sheet;
 mod simulate;
 mod span;

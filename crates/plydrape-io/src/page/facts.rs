@@ -18,12 +18,13 @@ pub(super) fn facts(result: &ResultFile) -> Vec<Fact> {
     let scene = &result.scene;
     let motion = match (&result.plan, result.steps.last()) {
         (Some(plan), last) => format!(
-            "planned by {}, {} drapes tried; {} s",
+            "planned by {}, {} drapes tried{}; {} s",
             match plan.method {
                 PlanMethod::Path => "whole paths",
                 PlanMethod::Stepwise => "steps",
             },
             plan.evaluations,
+            crate::shown::picked_up(plan).map_or_else(String::new, |text| format!(", {text}")),
             shown(last.map_or(0.0, |step| step.time)),
         ),
         (None, Some(last)) => {

@@ -21,8 +21,8 @@ pub use sampling::Tolerance;
 pub use template::{Robot, Template};
 
 use crate::result::ResultFile;
-use crate::table;
 use crate::{OutputError, csv};
+use crate::{shown, table};
 use plydrape::mold::Pose;
 use plydrape::motion::MotionError;
 use plydrape::ply::{GripperId, gripper_name};
@@ -139,7 +139,11 @@ impl Program {
 
     /// The verdict on a result, in one line.
     pub(crate) fn verdict(result: &ResultFile) -> String {
-        table::verdict_in_a_line(result)
+        let verdict = table::verdict_in_a_line(result);
+        match result.plan.as_ref().and_then(shown::picked_up) {
+            Some(picked_up) => format!("{verdict}; {picked_up}"),
+            None => verdict,
+        }
     }
 
     /// Refuses a program whose lists differ in length, whose times do not ascend from 0, or whose numbers are not finite.

@@ -8,7 +8,7 @@
 //! 3. `check` with `bodies`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`,
 //!    `sheet`, `plan`, `errors`, `tool`, `release`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
 //!
-//! `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
+//! `offset` reads where a camera saw the ply. `book` reads the plies of one part, each as a scene; `argument` lends the reader of stage 2 to values on the command line.
 
 mod argument;
 mod bodies;
@@ -32,6 +32,7 @@ mod located;
 mod material;
 mod mold;
 mod motion;
+mod offset;
 mod places;
 mod plan;
 mod quantity;
@@ -52,6 +53,7 @@ pub use book::{Book, BookPly, is_book, parse_book, read_book};
 pub use error::SceneError;
 pub use ideal::IdealDrape;
 pub use material::{shipped_material, shipped_materials};
+pub use offset::{SeenOffset, json_offset, parse_offset, read_offset};
 pub use schema::schema;
 
 use plydrape::mold::{MeshReport, Mold};

@@ -136,10 +136,26 @@ impl Nearest {
         motion: &TimedMotion,
         attitudes: &Attitudes,
     ) -> Option<Nearest> {
+        Nearest::of_motion_within(scene, motion, attitudes, [0.0, motion.duration()])
+    }
+
+    /// The same between two times of the motion (s).
+    #[must_use]
+    pub(crate) fn of_motion_within(
+        scene: &Scene,
+        motion: &TimedMotion,
+        attitudes: &Attitudes,
+        [from, to]: [f64; 2],
+    ) -> Option<Nearest> {
+        let within = |times: &[f64]| -> Vec<f64> {
+            let inner = times.iter().copied().filter(|t| from < *t && *t < to);
+            [from].into_iter().chain(inner).chain((from < to).then_some(to)).collect()
+        };
         if scene.tool.is_none() {
-            return along(scene, &Planned { motion, attitudes }, motion.times());
+            let times = within(motion.times());
+            return along(scene, &Planned { motion, attitudes }, &times);
         }
-        let times = motion.samples(scene.plan.rate).ok()?;
+        let times = within(&motion.samples(scene.plan.rate).ok()?);
         let poses = |t: &f64| {
             let positions = motion.at(*t);
             Poses::of(scene, &positions, &attitudes.at(*t), &positions)

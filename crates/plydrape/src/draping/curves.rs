@@ -47,6 +47,17 @@ pub fn curves(
     out
 }
 
+/// The free spans of a step as they hang (m), each with its catenary; none is drawn through another one.
+pub(crate) fn free_curves(ply: &Ply, settings: &Settings, step: &Step) -> Vec<(usize, Vec<Point>)> {
+    let recorded = Recorded { ply, lines: ply.lines(), settings, step };
+    let mut out = Vec::with_capacity(step.catenaries.len());
+    for (n, catenary) in step.catenaries.iter().enumerate() {
+        let free = catenary.spans.iter().filter(|span| span.hold != Hold::Lying);
+        out.extend(free.map(|span| (n, hanging(&recorded.span(n, span)))));
+    }
+    out
+}
+
 /// A step and what its record leaves to the scene.
 struct Recorded<'a> {
     ply: &'a Ply,

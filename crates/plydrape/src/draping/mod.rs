@@ -32,6 +32,7 @@ mod tuning;
 use crate::scene::Scene;
 pub(crate) use attitude::attitude;
 pub use curves::curves;
+pub(crate) use curves::free_curves;
 pub(crate) use curves::hanging as stations;
 #[doc(hidden)]
 pub use judged::Judged;

@@ -40,7 +40,13 @@ impl Before {
 /// Time (s) over which a rate is taken at least: a share of the whole motion.
 #[must_use]
 pub(crate) fn window(scene: &Scene) -> f64 {
-    TUNING.rate_window * scene.motion.times.last().copied().unwrap_or(0.0)
+    window_of(scene.motion.times.last().copied().unwrap_or(0.0))
+}
+
+/// The same for a motion of a duration (s).
+#[must_use]
+pub(crate) fn window_of(duration: f64) -> f64 {
+    TUNING.rate_window * duration
 }
 
 /// The ply of one step.
@@ -154,12 +160,9 @@ impl<'a> State<'a> {
     #[must_use]
     pub(crate) fn since(&self) -> Option<(f64, &[[f64; 4]])> {
         let before = self.before?;
-        let ago = |time: f64| self.snapshot.time - time;
-        let long = window(self.scene) * (1.0 - 1e-9);
-        let steps = before.earlier.iter().map(|(t, q)| (ago(*t), q.as_slice()));
-        let steps = steps.chain([(ago(before.time), before.quaternions.as_slice())]);
-        let first = steps.clone().next();
-        steps.rev().find(|(since, _)| *since >= long).or(first)
+        let earlier = before.earlier.iter().map(|(time, turned)| (*time, turned.as_slice()));
+        let steps = earlier.chain([(before.time, before.quaternions.as_slice())]);
+        since(steps, self.snapshot.time, window(self.scene))
     }
 
     /// The segments of each catenary that lie on the mold beside its contact.
@@ -205,4 +208,18 @@ impl<'a> State<'a> {
     pub(crate) fn stations(&self) -> &[Vec<Point>] {
         self.stations.get_or_init(|| self.snapshot.shape.spans.iter().map(stations).collect())
     }
+}
+
+/// The last of some earlier steps that is at least a window (s) before a time (s), else the first: the time since then (s) and its
+/// orientations.
+#[must_use]
+pub(crate) fn since<'a>(
+    earlier: impl DoubleEndedIterator<Item = (f64, &'a [[f64; 4]])> + Clone,
+    time: f64,
+    window: f64,
+) -> Option<(f64, &'a [[f64; 4]])> {
+    let long = window * (1.0 - 1e-9);
+    let steps = earlier.map(|(then, turned)| (time - then, turned));
+    let first = steps.clone().next();
+    steps.rev().find(|(since, _)| *since >= long).or(first)
 }

@@ -30,17 +30,27 @@ impl Measure for TiltRate {
         if !state.scene.tilts() {
             return None;
         }
-        let (since, shortest) = (state.since(), window(state.scene));
-        let mut most = Most::default();
-        for (n, attitude) in state.attitudes().iter().enumerate() {
-            let place = state.snapshot.positions[n];
-            let turned = since.map_or(0.0, |(time, quaternions)| {
-                let [a, b] = [quaternions[n], attitude.quaternion].map(normal);
-                // exact for small angles, where the cosine alone is not
-                norm(cross(a, b)).atan2(dot(a, b)) / time.max(shortest)
-            });
-            most.meet(turned.to_degrees(), Site::Gripper(n), place);
-        }
-        most.found()
+        let now: Vec<[f64; 4]> = state.attitudes().iter().map(|one| one.quaternion).collect();
+        fastest(&state.snapshot.positions, &now, state.since(), window(state.scene))
     }
+}
+
+/// The gripper that has turned fastest (°/s) since an earlier step, so long ago (s) and turned so then, over a time that counts as
+/// `shortest` (s) at least.
+pub(crate) fn fastest(
+    positions: &[[f64; 3]],
+    now: &[[f64; 4]],
+    since: Option<(f64, &[[f64; 4]])>,
+    shortest: f64,
+) -> Option<Found> {
+    let mut most = Most::default();
+    for (n, place) in positions.iter().enumerate() {
+        let turned = since.map_or(0.0, |(time, quaternions)| {
+            let [a, b] = [quaternions[n], now[n]].map(normal);
+            // exact for small angles, where the cosine alone is not
+            norm(cross(a, b)).atan2(dot(a, b)) / time.max(shortest)
+        });
+        most.meet(turned.to_degrees(), Site::Gripper(n), *place);
+    }
+    most.found()
 }

@@ -19,6 +19,16 @@ pub enum MotionError {
         /// Grippers in the first step.
         expected: usize,
     },
+    /// There are not as many positions as the motion has steps.
+    #[error(
+        "{found} lists of positions were given and the motion has {expected} steps: give one a step"
+    )]
+    Steps {
+        /// Lists given.
+        found: usize,
+        /// Steps of the motion.
+        expected: usize,
+    },
     /// A motion or its attitudes are of another grid.
     #[error("{found} grippers move and the grid has {expected}: give both the same grippers")]
     Grippers {

@@ -99,7 +99,11 @@ impl TimedMotion {
         law: &[[f64; 5]],
     ) -> Result<Self, MotionError> {
         check::positions(planned)?;
-        let steps = check::moving(planned);
+        // a path that was corrected has a row for each knot, others may have steps that hardly move
+        let steps = match planned.len() == spacing.len() + 1 {
+            true => planned.iter().map(Vec::as_slice).collect(),
+            false => check::moving(planned),
+        };
         if spacing.is_empty() && law.is_empty() && steps.len() == 1 {
             return Ok(Self::resting(steps[0]));
         }
@@ -126,11 +130,7 @@ impl TimedMotion {
         let last = path.knots.len() - 1;
         let mut times: Vec<f64> = path.knots.iter().map(|u| law.time(*u)).collect();
         times[last] = law.duration;
-        let places = |k: usize| {
-            let place = |g| path.jet(k.min(last - 1), g, path.knots[k])[0];
-            (0..path.grippers).map(place).collect()
-        };
-        let positions = (0..=last).map(places).collect();
+        let positions = path.at_knots();
         let peaks = peaks::peaks(&path, &law, TUNING.tolerance);
         TimedMotion { times, positions, law, peaks, path: Some(path) }
     }
@@ -138,8 +138,7 @@ impl TimedMotion {
     /// Distances of the knots of the path (m), one less than steps that move; empty where nothing moves.
     #[must_use]
     pub fn spacing(&self) -> Vec<f64> {
-        let knots = self.path.as_ref().map_or(&[][..], |path| &path.knots);
-        knots.windows(2).map(|pair| pair[1] - pair[0]).collect()
+        self.path.as_ref().map_or_else(Vec::new, |path| path.spacing.clone())
     }
 
     /// Rows of the time law: beginning (s) of each of its phases, and there the path's parameter (m), its first and second derivative to
@@ -155,14 +154,62 @@ impl TimedMotion {
         self.law.time(of.law.at(t)[0])
     }
 
+    /// The motion of other planned positions (m), one list of all grippers for each of [`Self::times`]: with the same spacing of the
+    /// knots and the same time law, over a time that is longer by the least factor that keeps the bounds, and by none where they are kept
+    /// as this motion keeps them.
+    ///
+    /// # Errors
+    /// [`MotionError`] if there are not as many positions as steps and grippers, a coordinate is not a number up to 10⁶ m, or a bound
+    /// is none from 10⁻⁶ to 10⁹.
+    pub fn moved(&self, planned: &[Vec<[f64; 3]>], bounds: &Bounds) -> Result<Self, MotionError> {
+        check::positions(planned)?;
+        check::bounds(bounds)?;
+        let (steps, found) = (self.times.len(), planned.len());
+        if found != steps {
+            return Err(MotionError::Steps { found, expected: steps });
+        }
+        if planned[0].len() != self.grippers() {
+            let (found, expected) = (planned[0].len(), self.grippers());
+            return Err(MotionError::Grippers { found, expected });
+        }
+        let Some(path) = &self.path else {
+            return Ok(TimedMotion { positions: planned.to_vec(), ..self.clone() });
+        };
+        let steps: Vec<&[Vector]> = planned.iter().map(Vec::as_slice).collect();
+        let path = path.through(&steps);
+        let moved = Self::timed(path, self.law.clone());
+        // as near to the bounds as this motion is, or as any motion may be
+        let allowed = self.peaks.stretch(bounds).max(1.0 / (1.0 + TUNING.tolerance));
+        let factor = moved.peaks.stretch(bounds) / allowed;
+        Ok(if factor > 1.0 { moved.slowed(factor) } else { moved })
+    }
+
+    /// Where the path of other positions (m), one list of all grippers for each of [`Self::times`], is at these times (m): each of its places
+    /// is a mean of neighbouring positions.
+    #[must_use]
+    pub(crate) fn means(&self, planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
+        let steps: Vec<&[Vector]> = planned.iter().map(Vec::as_slice).collect();
+        self.path.as_ref().map_or_else(|| planned.to_vec(), |path| path.through(&steps).at_knots())
+    }
+
+    /// The parameter of the path (m) at [`Self::times`].
+    #[must_use]
+    pub(crate) fn parameter(&self) -> &[f64] {
+        self.path.as_ref().map_or(&[0.0], |path| &path.knots)
+    }
+
+    /// The planned positions that stand for a step of the motion each: without those that move hardly a gripper.
+    #[must_use]
+    pub(crate) fn moving(planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
+        check::moving(planned).into_iter().map(<[Vector]>::to_vec).collect()
+    }
+
     /// The same motion over a time λ times as long: the same shapes of the ply, in the same order.
     #[must_use]
     pub fn slowed(&self, factor: f64) -> Self {
-        TimedMotion {
-            law: self.law.stretched(factor),
-            times: self.times.iter().map(|t| t * factor).collect(),
-            peaks: self.peaks.slowed(factor),
-            ..self.clone()
+        match &self.path {
+            Some(path) => Self::timed(path.clone(), self.law.stretched(factor)),
+            None => self.clone(),
         }
     }
 

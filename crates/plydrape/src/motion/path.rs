@@ -17,6 +17,8 @@ pub(super) type Vector = [f64; 3];
 pub(super) struct Path {
     /// Distinct knots u_k (m), ascending from 0; one for each planned step.
     pub knots: Vec<f64>,
+    /// Their distances (m), from which they are summed up.
+    pub spacing: Vec<f64>,
     /// Number of grippers.
     pub grippers: usize,
     /// Taylor coefficients p, p', p'', p''' at the beginning of every span, grippers running fastest.
@@ -47,7 +49,23 @@ impl Path {
             }
         }
         let knots = knots(spacing);
-        Path { knots, grippers, pieces, target: planned[planned.len() - 1].to_vec() }
+        let target = planned[planned.len() - 1].to_vec();
+        Path { knots, spacing: spacing.to_vec(), grippers, pieces, target }
+    }
+
+    /// The path of other positions with the same knots: where four neighbours are the same, so is the path between, to the last bit.
+    pub fn through(&self, planned: &[&[Vector]]) -> Self {
+        Path::new(planned, &self.spacing)
+    }
+
+    /// Where the grippers are at each knot (m).
+    pub fn at_knots(&self) -> Vec<Vec<Vector>> {
+        let last = self.knots.len() - 1;
+        let places = |k: usize| {
+            let place = |g| self.jet(k.min(last - 1), g, self.knots[k])[0];
+            (0..self.grippers).map(place).collect()
+        };
+        (0..=last).map(places).collect()
     }
 
     /// Length of the parameter (m).

@@ -43,20 +43,6 @@ impl Peaks {
         let jerk = (self.jerk.value / bounds.jerk).cbrt();
         speed.max(acceleration).max(jerk)
     }
-
-    /// The peaks of the same motion over a time λ times as long.
-    pub(super) fn slowed(&self, factor: f64) -> Peaks {
-        let slower = |peak: Peak, power: i32| Peak {
-            value: peak.value / factor.powi(power),
-            time: peak.time * factor,
-            ..peak
-        };
-        Peaks {
-            speed: slower(self.speed, 1),
-            acceleration: slower(self.acceleration, 2),
-            jerk: slower(self.jerk, 3),
-        }
-    }
 }
 
 /// An interval of time in which path and time law are polynomials.

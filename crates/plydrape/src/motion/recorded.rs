@@ -16,7 +16,7 @@ impl PlanRecord {
         limited_by: Vec<LimitedBy>,
     ) -> Self {
         let (spacing, law) = (motion.spacing(), motion.law());
-        PlanRecord { method, evaluations, rate, limited_by, path, spacing, law }
+        PlanRecord { method, evaluations, rate, limited_by, path, spacing, law, picked_up: None }
     }
 
     /// The motion at any time.

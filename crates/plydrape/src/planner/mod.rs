@@ -10,7 +10,8 @@
 //! 7. [`tuning`]: the constants that both planners share;
 //! 8. `plan`: from a scene to a motion in time and the drape along it;
 //! 9. `quickest`: the time-optimal law of a plan under the limits of grippers, joints and tool;
-//! 10. [`comparison`]: the strategies that have a name, side by side.
+//! 10. [`comparison`]: the strategies that have a name, side by side;
+//! 11. [`replan`]: a plan for a ply that lies elsewhere than planned.
 
 mod checkpoint;
 pub mod comparison;
@@ -21,6 +22,7 @@ pub mod path;
 mod plan;
 mod program;
 mod quickest;
+pub mod replan;
 pub mod row;
 mod search_state;
 pub mod sensitivity;

@@ -167,7 +167,7 @@ pub(super) fn follow(
 }
 
 /// Judges a drape by the whole of its motion in time where that is worse than straight ways from step to step.
-fn judge_whole(summary: &mut Summary, whole: Verdict) {
+pub(super) fn judge_whole(summary: &mut Summary, whole: Verdict) {
     summary.accepted &= whole.ok;
     // what no plan can keep stands before what was measured
     match summary
@@ -222,7 +222,12 @@ pub(super) fn unreached(scene: &Scene, plan: &Stepwise) -> Vec<Verdict> {
 }
 
 /// How fast a tool turns and its axes move, against their limits.
-fn tool_rates(tool: &Tool, peaks: &ToolPeaks, motion: &TimedMotion, scene: &Scene) -> Vec<Verdict> {
+pub(super) fn tool_rates(
+    tool: &Tool,
+    peaks: &ToolPeaks,
+    motion: &TimedMotion,
+    scene: &Scene,
+) -> Vec<Verdict> {
     let ToolPeaks { turn_rate, turn_acceleration, axis_share, axis } = *peaks;
     let [turn_rate, turn_acceleration] =
         [turn_rate, turn_acceleration].map(|peak| Peak { value: peak.value.to_degrees(), ..peak });
@@ -248,7 +253,7 @@ fn tool_rates(tool: &Tool, peaks: &ToolPeaks, motion: &TimedMotion, scene: &Scen
 }
 
 /// Largest speed, acceleration and jerk of the motion against their limits.
-fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
+pub(super) fn rates(motion: &TimedMotion, bounds: &Bounds, scene: &Scene) -> Vec<Verdict> {
     let peaks = motion.peaks();
     let verdict = |name: Name, peak: Peak, limit: f64| {
         let step = motion.times().partition_point(|t| *t < peak.time) + 1;

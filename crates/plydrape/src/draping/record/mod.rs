@@ -14,6 +14,7 @@ pub use outcome::{CatenaryId, Summary};
 use crate::draping::ContactStatus;
 use crate::equilibrium::Status;
 use crate::measure::Name;
+use crate::pick_up::Offset;
 use crate::ply::{GripperId, Kind};
 use crate::scene::PlanMethod;
 
@@ -36,6 +37,9 @@ pub struct PlanRecord {
     pub spacing: Vec<f64>,
     /// The time law: a row for each phase, see [`TimedMotion::law`](crate::motion::TimedMotion::law).
     pub law: Vec<[f64; 5]>,
+    /// Where the ply was picked up, if the plan was corrected for that.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub picked_up: Option<PickedUp>,
 }
 
 /// For how long a limit is what the speed of a motion is limited by.
@@ -49,6 +53,20 @@ pub struct LimitedBy {
     pub time_s: f64,
     /// The gripper with which it is that for the longest; none of the frame of a tool.
     pub gripper: Option<GripperId>,
+}
+
+/// Where the ply was picked up, and how a plan was corrected for it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct PickedUp {
+    /// How far it lay from where it was planned, about the middle of the grippers at the planned start.
+    pub offset: Offset,
+    /// The largest distance of a seen point from where the offset puts it (m); none where the offset was given.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub residual: Option<f64>,
+    /// Share of the offset in each step, 1 at the pick-up and 0 from before the first contact on.
+    pub weights: Vec<f64>,
 }
 
 /// The ply in one step.

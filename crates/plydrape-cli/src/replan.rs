@@ -1,0 +1,307 @@
+//! `plydrape replan`: the motion of a plan for a ply that does not lie where it was planned.
+
+use crate::failure::{Done, Failure};
+use crate::numbers::{degrees, millimetres, short};
+use crate::outcome::{code, is_unsolved};
+use crate::results;
+use plydrape::measure::{Subject, Verdict};
+use plydrape::planner::replan::{Replanned, Replanner};
+use plydrape_io::replan::{PlannedResult, ReplanFault};
+use plydrape_io::scene::{SceneError, SeenOffset, json_offset, read_offset};
+use plydrape_io::{Folder, OutputError, json, read, table, write_into};
+use serde::Serialize;
+use std::io::{self, BufRead, Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Correct the motion of a plan for a ply that does not lie where it was planned.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The ply was seen shifted and turned on its table. The corrected motion picks it up there and takes the offset out in the air, so that \
+it comes to the planned landing and keeps its verdict. Speed, acceleration, jerk, tilt rate, workspace, clearance of bodies and the \
+tool's rates are judged again, and the motion is made slower where it would be too fast. An offset that cannot be taken out before the ply \
+meets the mold is refused with exit code 2.
+
+With --picked, writes the files of a plan (all but plan.json) into the folder. The file holds [offset] with x, y and yaw, and `about`, the point \
+that the ply is turned about (the middle of the grippers at the start unless given), or two or more [[point]] with `planned` and `seen`.
+
+With --json and without --picked, reads objects of the same keys from standard input, one a line, and answers with one line each until the input \
+ends. A line that is refused is answered with `error` and `help`, and the next one is read. The exit code is that of the worst answer.")]
+pub struct Arguments {
+    /// The result.json of a plan.
+    result: PathBuf,
+
+    /// Where the ply was seen.
+    #[arg(long, value_name = "FILE", required_unless_present = "json")]
+    picked: Option<PathBuf>,
+
+    /// Folder of the files; beside the result, with the name replan, unless given.
+    #[arg(short, long, value_name = "DIR", requires = "picked")]
+    output: Option<PathBuf>,
+
+    /// Print one JSON object on standard output for each offset.
+    #[arg(long)]
+    json: bool,
+
+    /// Samples a second of the times and positions in these objects; of the steps of the plan unless given.
+    #[arg(long, value_name = "HZ", requires = "json")]
+    rate: Option<f64>,
+}
+
+/// Longest line that is read from standard input (bytes).
+const LONGEST_LINE: u64 = 1 << 20;
+
+/// What `--json` prints of a corrected motion.
+#[derive(Serialize)]
+struct Answer<'a> {
+    accepted: bool,
+    /// Every limit of the model that decides and of the motion.
+    limits: Vec<&'a Verdict>,
+    duration_s: f64,
+    /// How many times as long as the planned motion.
+    longer: f64,
+    /// About the middle of the grippers at the planned start.
+    offset: Offset,
+    /// Share of the offset in each step of the plan.
+    weights: &'a [f64],
+    /// Times (s) of what follows.
+    times: Vec<f64>,
+    /// Positions of all grippers (m) at each time.
+    positions: Vec<Vec<[f64; 3]>>,
+    /// Where the robot's flange is in its world at each time, where a tool carries the grippers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flange: Option<Vec<Flange>>,
+}
+
+#[derive(Serialize)]
+struct Offset {
+    x: f64,
+    y: f64,
+    yaw: f64,
+    about: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual: Option<f64>,
+}
+
+/// A posture of the robot and its axes.
+#[derive(Serialize)]
+struct Flange {
+    position: [f64; 3],
+    /// x, y, z, w.
+    quaternion: [f64; 4],
+    /// Strokes of each gripper (m).
+    strokes: Vec<Vec<f64>>,
+}
+
+/// What `--json` prints of a line that is refused.
+#[derive(Serialize)]
+struct Refusal {
+    error: String,
+    help: String,
+}
+
+/// Reads the plan, answers, writes the files.
+pub fn run(arguments: &Arguments, quiet: bool) -> Done {
+    if let Some(rate) = arguments.rate.filter(|rate| !(*rate > 0.0 && rate.is_finite())) {
+        let help = "give samples a second above 0, as in --rate 100";
+        return Err(crate::argument::refused("--rate", &rate.to_string(), "is no rate", help));
+    }
+    let planned = PlannedResult::new(read::read(&arguments.result)?)?;
+    let replanner = planned.replanner()?;
+    match &arguments.picked {
+        Some(file) => once(arguments, &planned, &replanner, file, quiet),
+        None => stream(arguments, &planned, &replanner),
+    }
+}
+
+/// One offset from a file, with the files of its result.
+fn once(
+    arguments: &Arguments,
+    planned: &PlannedResult,
+    replanner: &Replanner,
+    file: &Path,
+    quiet: bool,
+) -> Done {
+    let seen = read_offset(file, planned.tolerance())?;
+    let beside = || arguments.result.parent().unwrap_or(Path::new("")).join("replan");
+    let output = arguments.output.clone().unwrap_or_else(beside);
+    let folder = Folder::claim(&output, "replan")?;
+    let replanned = replanned(replanner, &seen)?;
+    if arguments.json {
+        let answer = Answer::of(planned, replanner, &replanned, arguments.rate)?;
+        print(&json::of(&answer).map_err(OutputError::from)?)?;
+    }
+    let said = said(&seen, &replanned);
+    let result = planned.corrected(replanned, folder.stage())?;
+    if !arguments.json && !quiet {
+        let text = format!("{}\n\n{said}\n\n{}", result.scene.title, table::verdict(&result));
+        print(&text)?;
+    }
+    let files = write_into(folder, &result, &[], &[arguments.result.clone(), file.into()])?;
+    if !arguments.json && !quiet {
+        results::list(&files)?;
+    }
+    Ok(code(false, is_unsolved(&result), result.summary.accepted))
+}
+
+/// Offsets from standard input, one a line.
+fn stream(arguments: &Arguments, planned: &PlannedResult, replanner: &Replanner) -> Done {
+    let mut input = io::stdin().lock();
+    let unsolved = is_unsolved(planned.result());
+    let (mut refused, mut accepted) = (false, true);
+    loop {
+        let mut line = Vec::new();
+        let read = (&mut input).take(LONGEST_LINE).read_until(b'\n', &mut line);
+        let read = read.map_err(|fault| Failure::Argument {
+            message: format!("standard input cannot be read: {fault}"),
+            help: "give offsets, one JSON object a line".into(),
+        })?;
+        if read == 0 {
+            break;
+        }
+        let whole = line.ends_with(b"\n") || (read as u64) < LONGEST_LINE;
+        if !whole {
+            skip_line(&mut input)?;
+        }
+        if whole && line.iter().all(u8::is_ascii_whitespace) {
+            continue;
+        }
+        let answer = match whole {
+            true => answer(arguments, planned, replanner, &line),
+            false => Err(Refusal {
+                error: "the line is longer than 1 MiB".into(),
+                help: "give one offset a line".into(),
+            }),
+        };
+        match answer {
+            Ok((text, keeps)) => {
+                accepted &= keeps;
+                print(&text)?;
+            }
+            Err(refusal) => {
+                refused = true;
+                print(&json::of(&refusal).map_err(OutputError::from)?)?;
+            }
+        }
+    }
+    Ok(if refused { ExitCode::from(2) } else { code(false, unsolved, accepted) })
+}
+
+/// Reads on to the end of a line.
+fn skip_line(input: &mut impl BufRead) -> Result<(), Failure> {
+    loop {
+        let bytes = input.fill_buf().map_err(|fault| Failure::Argument {
+            message: format!("standard input cannot be read: {fault}"),
+            help: "give offsets, one JSON object a line".into(),
+        })?;
+        let end = bytes.iter().position(|byte| *byte == b'\n');
+        let length = end.map_or(bytes.len(), |end| end + 1);
+        let done = end.is_some() || bytes.is_empty();
+        input.consume(length);
+        if done {
+            return Ok(());
+        }
+    }
+}
+
+/// The answer to one line, and whether it is accepted.
+fn answer(
+    arguments: &Arguments,
+    planned: &PlannedResult,
+    replanner: &Replanner,
+    line: &[u8],
+) -> Result<(String, bool), Refusal> {
+    let refusal = |error: String, help: &str| Refusal { error, help: help.into() };
+    let text = std::str::from_utf8(line)
+        .map_err(|_| refusal("the line is no UTF-8 text".into(), "give one JSON object a line"))?;
+    let seen = json_offset(text, planned.tolerance())
+        .map_err(|SceneError { message, help, .. }| Refusal { error: message, help })?;
+    let found = replanned(replanner, &seen)
+        .map_err(|fault| Refusal { error: fault.to_string(), help: fault.remedy() })?;
+    let answer = Answer::of(planned, replanner, &found, arguments.rate)
+        .map_err(|fault| Refusal { error: fault.to_string(), help: fault.remedy() })?;
+    let text = json::of(&answer).map_err(|fault| {
+        refusal(fault.to_string(), "this is a fault of plydrape, please report it")
+    })?;
+    Ok((text, answer.accepted))
+}
+
+fn replanned(replanner: &Replanner, seen: &SeenOffset) -> Result<Replanned, ReplanFault> {
+    Ok(replanner.replan(&seen.offset, seen.residual)?)
+}
+
+impl<'a> Answer<'a> {
+    fn of(
+        planned: &PlannedResult,
+        replanner: &'a Replanner,
+        replanned: &'a Replanned,
+        rate: Option<f64>,
+    ) -> Result<Self, ReplanFault> {
+        let Replanned { motion, summary, .. } = replanned;
+        let of_motion = |v: &&Verdict| v.name.measure().subject() == Subject::Motion;
+        let limits = match &summary.sheet {
+            Some(sheet) => {
+                sheet.limits.iter().chain(summary.limits.iter().filter(of_motion)).collect()
+            }
+            None => summary.limits.iter().collect(),
+        };
+        let (times, positions) = match rate {
+            None => (motion.times().to_vec(), motion.positions().to_vec()),
+            Some(rate) => {
+                let sampled =
+                    motion.sampled(rate).map_err(plydrape::planner::replan::ReplanError::from)?;
+                (sampled.times, sampled.positions)
+            }
+        };
+        let flange = planned.scene().tool.as_ref().map(|tool| {
+            let flange = |places: &Vec<[f64; 3]>| {
+                let posture = tool.posture(places);
+                let pose = tool.world.compose(&posture.frame.compose(&tool.flange));
+                let (position, quaternion) = (pose.position, pose.quaternion());
+                Flange { position, quaternion, strokes: posture.strokes }
+            };
+            positions.iter().map(flange).collect()
+        });
+        let picked_up = replanned.record.picked_up.as_ref();
+        let (offset, residual) =
+            picked_up.map(|picked| (picked.offset, picked.residual)).unwrap_or_default();
+        let [x, y] = offset.shift;
+        Ok(Answer {
+            accepted: summary.accepted,
+            limits,
+            duration_s: motion.duration(),
+            longer: replanned.longer,
+            offset: Offset { x, y, yaw: offset.yaw, about: offset.about, residual },
+            weights: replanner.weights(),
+            times,
+            positions,
+            flange,
+        })
+    }
+}
+
+/// What is said of the correction.
+fn said(seen: &SeenOffset, replanned: &Replanned) -> String {
+    let offset = replanned.record.picked_up.as_ref().map_or(seen.offset, |picked| picked.offset);
+    let [x, y] = offset.shift.map(millimetres);
+    let mut text = format!("the ply lies off by x {x} mm, y {y} mm, yaw {}°", degrees(offset.yaw));
+    if let Some(residual) = seen.residual {
+        text += &format!("; points fit to {} mm", millimetres(residual));
+    }
+    let duration = replanned.motion.duration();
+    text += &match replanned.longer > 1.0 {
+        true => format!(
+            "\nmotion of {duration:.1} s, {} times as long as planned",
+            short((1e4 * replanned.longer).ceil() / 1e4)
+        ),
+        false => format!("\nmotion of {duration:.1} s, as planned"),
+    };
+    text
+}
+
+/// Prints a text that ends a line.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let written = write!(out, "{}\n", text.trim_end()).and_then(|()| out.flush());
+    written.map_err(|error| Failure::stdout(&error, &[]))
+}

@@ -1,0 +1,200 @@
+//! `plydrape replan` as a user and as the program of a cell call it.
+
+use crate::common::{command, files, one_line, text};
+use serde_json::Value;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Output, Stdio};
+
+/// Four grippers that carry a ply a little way to a flat mold, and a short search.
+const SCENE: &str = "\
+[model]
+kind = \"catenaries\"
+
+[ply]
+grippers = [2, 2]
+cell = [\"100 mm\", \"100 mm\"]
+material = \"krogh2018\"
+
+[mold]
+kind = \"plane\"
+
+[grippers]
+spacing = [\"98 mm\", \"98 mm\"]
+height = \"75 mm\"
+middle = [\"-0.2 m\", \"0.1 m\"]
+direction = \"20 deg\"
+
+[target]
+origin = [\"0 mm\", \"0 mm\"]
+
+[plan]
+steps = 30
+evaluations = 2
+";
+
+const OFFSET: &str = "[offset]\nx = \"3 mm\"\ny = \"-1.5 mm\"\nyaw = \"0.8 deg\"\n";
+
+/// A plan in a folder, and its result.
+fn planned(folder: &Path) -> PathBuf {
+    let scene = folder.join("flat.toml");
+    std::fs::write(&scene, SCENE).unwrap();
+    let plan = folder.join("plan");
+    let output = command()
+        .args(["plan", "--without-errors", "--quiet", "-o"])
+        .args([&plan, &scene])
+        .output()
+        .unwrap();
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+    plan.join("result.json")
+}
+
+fn replan(result: &Path, offset: &str, flags: &[&str]) -> Output {
+    let file = result.with_file_name("offset.toml");
+    std::fs::write(&file, offset).unwrap();
+    command().arg("replan").arg(result).arg("--picked").arg(file).args(flags).output().unwrap()
+}
+
+/// What is answered to lines of standard input.
+fn answers(result: &Path, lines: &[u8], flags: &[&str]) -> (Output, Vec<Value>) {
+    let mut child = command()
+        .arg("replan")
+        .arg(result)
+        .arg("--json")
+        .args(flags)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(lines).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let answers = text(&output.stdout);
+    let answers = answers.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    (output, answers)
+}
+
+fn json(file: &Path) -> Value {
+    serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap()
+}
+
+/// The files are those of a plan without its checkpoint; the result says by how much the ply lay off, is read again by every other
+/// command, and drives a robot.
+#[test]
+fn a_replanned_result_is_a_result() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = planned(folder.path());
+    let before = std::fs::read(&result).unwrap();
+    let accepted = json(&result)["summary"]["accepted"].as_bool().unwrap();
+    let output = replan(&result, OFFSET, &[]);
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+    assert_eq!(output.status.code(), Some(i32::from(!accepted)));
+    let said = one_line(&output.stdout);
+    assert!(said.contains("the ply lies off by x 3 mm, y -1.5 mm, yaw 0.8°"), "{said}");
+
+    let moved = result.with_file_name("replan");
+    let names =
+        ["figure.svg", "motion.csv", "report.html", "result.json", "steps.csv", "trajectory.csv"];
+    assert_eq!(files(&moved), names);
+    let own = json(&moved.join("result.json"));
+    let picked = &own["plan"]["picked_up"];
+    assert_eq!(picked["offset"]["shift"], serde_json::json!([0.003, -0.0015]));
+    let (old, new) = (&json(&result)["steps"], &own["steps"]);
+    let last = old.as_array().unwrap().len() - 1;
+    assert_eq!(old[last]["grippers"]["position"], new[last]["grippers"]["position"]);
+    assert_ne!(old[0]["grippers"]["position"], new[0]["grippers"]["position"]);
+    assert_eq!(std::fs::read(&result).unwrap(), before);
+    let page = std::fs::read_to_string(moved.join("report.html")).unwrap();
+    assert!(page.contains("replanned for a ply that lay off by x 3 mm, y -1.5 mm, yaw 0.8 deg"));
+
+    for format in ["csv", "ros2", "vtk", "inp", "svg"] {
+        let mut export = command();
+        export.arg("export").arg(moved.join("result.json")).args([
+            "--to",
+            format,
+            "--even-if-rejected",
+        ]);
+        let output = export.output().unwrap();
+        assert!(output.status.success(), "{format}: {}", text(&output.stderr));
+    }
+    let mut again = command();
+    again.arg("replan").arg(moved.join("result.json")).arg("--picked");
+    let output = again.arg(result.with_file_name("offset.toml")).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(one_line(&output.stderr).contains("corrected for another pick-up already"));
+}
+
+/// A bad line has one answer with what is wrong and what would be right, and the next line is read; the exit code is the worst one.
+#[test]
+fn a_stream_answers_every_line_and_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = planned(folder.path());
+    let accepted = json(&result)["summary"]["accepted"].as_bool().unwrap();
+    let good = b"{\"offset\": {\"x\": 0.003, \"y\": \"-1.5 mm\", \"yaw\": \"0.8 deg\"}}\n";
+    let (output, found) = answers(&result, good, &[]);
+    assert_eq!((output.status.code(), found.len()), (Some(i32::from(!accepted)), 1));
+    let steps = json(&result)["steps"].as_array().unwrap().len();
+    assert_eq!(found[0]["accepted"], accepted);
+    assert_eq!(found[0]["times"].as_array().unwrap().len(), steps);
+    assert_eq!(found[0]["positions"][0].as_array().unwrap().len(), 4);
+    assert_eq!((&found[0]["weights"][0], &found[0]["longer"]), (&1.0.into(), &1.0.into()));
+
+    let mut lines = good.to_vec();
+    lines.extend(
+        b"not json\n\n[1]\n{\"offset\": {\"x\": \"3\"}}\n{\"offset\": {\"z\": 1}}\n\xff\xfe\n",
+    );
+    lines.extend(
+        b"{\"offset\": {\"x\": 1e308}}\n{\"offset\": {\"yaw\": \"200 deg\"}}\n{\"offset\": null}\n",
+    );
+    lines.extend(vec![b'x'; 3 << 20]);
+    lines.extend(b"\n");
+    lines.extend(&good[..good.len() - 1]);
+    let (output, found) = answers(&result, &lines, &[]);
+    assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+    assert_eq!((output.status.code(), found.len()), (Some(2), 11));
+    for refused in &found[1..10] {
+        let [error, help] = ["error", "help"].map(|key| refused[key].as_str().unwrap());
+        assert!(!error.is_empty() && !help.is_empty() && refused.get("accepted").is_none());
+    }
+    assert_eq!(found[0], found[10]);
+
+    let (_, sampled) = answers(&result, good, &["--rate", "50"]);
+    let times = sampled[0]["times"].as_array().unwrap();
+    assert!((times[1].as_f64().unwrap() - 0.02).abs() < 1e-12);
+    let (output, found) = answers(&result, b"", &[]);
+    assert!(output.status.success() && found.is_empty());
+}
+
+/// Offsets that no motion takes out, files that are none and results of no plan: one message, no folder.
+#[test]
+fn what_cannot_be_replanned_is_refused_with_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = planned(folder.path());
+    let swapped = "[[point]]\nplanned = [0, 0]\nseen = [0, 0]\n[[point]]\nplanned = [1, 0]\nseen = [0, 1]\n[[point]]\nplanned = [0, 1]\nseen = [1, 0]\n";
+    for (offset, expected) in [
+        ("", "neither an offset nor points"),
+        ("[offset]\nx = \"3\"\n", "has no unit"),
+        ("[offset]\nx = 3,5\n", "not TOML"),
+        (swapped, "from where the others put it"),
+    ] {
+        let output = replan(&result, offset, &[]);
+        assert_eq!(output.status.code(), Some(2), "{offset}");
+        let said = one_line(&output.stderr);
+        assert!(said.contains(expected) && said.contains("help:"), "{offset}: {said}");
+        assert!(!result.with_file_name("replan").exists());
+    }
+
+    let scene = folder.path().join("flat.toml");
+    let simulated = folder.path().join("simulated");
+    let hanging = SCENE.replace(
+        "[plan]\nsteps = 30\nevaluations = 2\n",
+        "[motion]\nkind = \"straight\"\nsteps = 5\n",
+    );
+    std::fs::write(&scene, hanging).unwrap();
+    command().args(["simulate", "--quiet", "-o"]).args([&simulated, &scene]).output().unwrap();
+    let output = replan(&simulated.join("result.json"), OFFSET, &[]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(one_line(&output.stderr).contains("none of a plan"), "{}", text(&output.stderr));
+    let output = command().arg("replan").arg(&result).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+}

@@ -1,0 +1,202 @@
+//! A planned result for a ply that lies elsewhere than planned: what [`plydrape::planner::replan`] needs of a result that was read, and the
+//! result of what it finds.
+
+use crate::read::ReadError;
+use crate::result::ResultFile;
+use crate::sheet::{SheetError, SheetKept, SheetSpool, SheetState};
+use plydrape::planner::replan::{Plan, ReplanError, Replanned, Replanner, SheetShapes};
+use plydrape::scene::{self, Model, Motion, Scene};
+use std::path::Path;
+
+/// Why a result cannot be replanned.
+#[derive(Debug, thiserror::Error)]
+pub enum ReplanFault {
+    /// It was simulated.
+    #[error("the result is none of a plan: its motion is the scene's")]
+    NotPlanned,
+    /// The plan cannot be corrected.
+    #[error(transparent)]
+    Replan(#[from] ReplanError),
+    /// The states of its sheet cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The states of the new sheet cannot be kept.
+    #[error(transparent)]
+    States(#[from] SheetError),
+}
+
+impl ReplanFault {
+    /// What would help.
+    #[must_use]
+    pub fn remedy(&self) -> String {
+        match self {
+            ReplanFault::NotPlanned => {
+                "give the result.json of `plydrape plan`; of a scene's own motion, change the scene"
+                    .into()
+            }
+            ReplanFault::Replan(fault) => fault.remedy().into(),
+            ReplanFault::Read(fault) => fault.remedy().to_string(),
+            ReplanFault::States(_) => {
+                "make room on the disk, or choose a folder on another one with -o".into()
+            }
+        }
+    }
+}
+
+/// A planned result and what its correction needs.
+#[derive(Debug)]
+pub struct PlannedResult {
+    result: ResultFile,
+    scene: Scene,
+    sheet: Option<SheetShapes>,
+}
+
+impl PlannedResult {
+    /// Prepares a result.
+    ///
+    /// # Errors
+    /// [`ReplanFault`] if it was not planned, or the states of its sheet cannot be read.
+    pub fn new(result: ResultFile) -> Result<Self, ReplanFault> {
+        let Some(record) = &result.plan else { return Err(ReplanFault::NotPlanned) };
+        let echo = &result.scene;
+        let positions = result
+            .steps
+            .iter()
+            .map(|step| step.grippers.iter().map(|gripper| gripper.commanded()).collect());
+        let scene = Scene {
+            title: echo.title.clone(),
+            ply: echo.ply.clone(),
+            mold: echo.mold.clone(),
+            motion: Motion {
+                times: result.steps.iter().map(|step| step.time).collect(),
+                positions: positions.collect(),
+            },
+            target: echo.target.clone(),
+            settings: echo.settings,
+            limits: echo.limits,
+            bodies: echo.bodies.clone(),
+            plan: scene::Plan {
+                method: record.method,
+                rate: record.rate,
+                ..scene::Plan::default()
+            },
+            errors: echo.errors,
+            tool: echo.tool.clone(),
+            release: echo.release.clone(),
+        };
+        let sheet = result.sheet_states.as_ref().map(|kept| shapes(&result, kept)).transpose()?;
+        Ok(PlannedResult { result, scene, sheet })
+    }
+
+    /// The result.
+    #[must_use]
+    pub fn result(&self) -> &ResultFile {
+        &self.result
+    }
+
+    /// Its scene, as it was understood, with the motion of the plan.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// How far seen points may be from where an offset puts them (m): as far as points of the ply may land from their places, by the
+    /// model that decides.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        let limits = &self.scene.limits;
+        match self.scene.settings.model {
+            Model::Sheet => limits.position,
+            Model::Catenaries => limits.landing_contact,
+        }
+    }
+
+    /// What answers offsets with motions.
+    ///
+    /// # Errors
+    /// [`ReplanFault`] if the plan has no transport in which an offset could be taken out.
+    pub fn replanner(&self) -> Result<Replanner<'_>, ReplanFault> {
+        let ResultFile { plan, steps, summary, .. } = &self.result;
+        let Some(record) = plan else { return Err(ReplanFault::NotPlanned) };
+        let plan = Plan { scene: &self.scene, record, steps, summary };
+        Ok(Replanner::new(plan, self.sheet.as_ref())?)
+    }
+
+    /// The result of a corrected plan; the moved states of its sheet are kept in a hidden folder within `dir`.
+    ///
+    /// # Errors
+    /// [`ReplanFault`] if the states of the sheet cannot be read or kept.
+    pub fn corrected(&self, replanned: Replanned, dir: &Path) -> Result<ResultFile, ReplanFault> {
+        let kept = self.result.sheet_states.as_ref();
+        let states = kept.map(|kept| self.states(kept, &replanned, dir)).transpose()?;
+        let Replanned { record, steps, summary, .. } = replanned;
+        Ok(ResultFile {
+            program: crate::PROGRAM.into(),
+            scene: self.result.scene.clone(),
+            plan: Some(record),
+            summary,
+            sheet_states: states,
+            steps,
+        })
+    }
+
+    /// The states of the sheet, moved.
+    fn states(
+        &self,
+        kept: &SheetKept,
+        replanned: &Replanned,
+        dir: &Path,
+    ) -> Result<SheetKept, ReplanFault> {
+        let mut states = kept.open()?;
+        let mut spool = SheetSpool::new(dir, states.mesh().clone())?;
+        let planned = self.result.steps.last().map_or(0.0, |step| step.time);
+        for n in 0..states.states() {
+            let Some(mut state) = states.state(n)? else { break };
+            self.follow(&mut state, replanned, planned);
+            spool.push(&state)?;
+        }
+        Ok(SheetKept::made(spool.finish(states.landing_step())?))
+    }
+
+    /// Moves a state to where it is in the corrected motion.
+    fn follow(&self, state: &mut SheetState, replanned: &Replanned, planned: f64) {
+        state.time = replanned.time(state.time, planned);
+        let step = (state.step as usize).saturating_sub(1);
+        if !replanned.is_moved(step) {
+            return;
+        }
+        let place = |p: &mut [f64; 3]| *p = replanned.place(step, *p);
+        state.positions.to_mut().iter_mut().for_each(place);
+        state.grippers.to_mut().iter_mut().for_each(place);
+        for force in state.pad_forces.to_mut() {
+            *force = replanned.turn(step, *force);
+        }
+        for turned in state.pad_rotation.to_mut() {
+            *turned = replanned.orientation(step, *turned);
+        }
+        if let Some(mold) = &self.scene.mold {
+            let places = &state.positions;
+            let height = |p: &[f64; 3]| mold.signed_distance(*p);
+            state.height = places.iter().map(height).collect();
+        }
+    }
+}
+
+/// The states of a sheet up to its first contact.
+fn shapes(result: &ResultFile, kept: &SheetKept) -> Result<SheetShapes, ReplanFault> {
+    let first = result.summary.sheet.as_ref().and_then(|sheet| sheet.first_contact_step);
+    let last = first.unwrap_or(result.steps.len());
+    let mut states = kept.open()?;
+    let places = states.mesh().places.to_vec();
+    let mut shapes = SheetShapes { places, states: Vec::new() };
+    for n in 0..states.states() {
+        let Some(state) = states.state(n)? else { break };
+        let step = state.step as usize;
+        let is_new = shapes.states.last().is_none_or(|(before, _)| before + 1 < step);
+        if step > last || !is_new {
+            break;
+        }
+        shapes.states.push((step.saturating_sub(1), state.positions.into_owned()));
+    }
+    Ok(shapes)
+}

@@ -1,0 +1,290 @@
+//! Where a camera saw the ply: the file of `plydrape replan --picked`.
+
+use super::error::{Document, SceneError};
+use super::located::{Fixed, Located};
+use super::quantity::{Angle, Length, Quantity};
+use super::read;
+use plydrape::pick_up::Offset;
+use serde::Deserialize;
+use std::path::Path;
+
+/// An offset as it was seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeenOffset {
+    /// How far the ply lies from where it was planned.
+    pub offset: Offset,
+    /// The largest distance of a seen point from where the offset puts it (m); none where the offset is given.
+    pub residual: Option<f64>,
+}
+
+/// The keys of the file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+struct OffsetFile {
+    /// The offset itself.
+    offset: Option<Located<OffsetTable>>,
+    /// Points that were seen.
+    #[serde(default)]
+    point: Vec<Located<PointTable>>,
+    /// How far a point may be from where the others put it.
+    tolerance: Option<Quantity<Length>>,
+}
+
+/// The table `[offset]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+struct OffsetTable {
+    /// Shift along x (m), 0 unless given.
+    x: Option<Quantity<Length>>,
+    /// Shift along y (m), 0 unless given.
+    y: Option<Quantity<Length>>,
+    /// Turn about the upright axis (rad), 0 unless given.
+    yaw: Option<Quantity<Angle>>,
+    /// Where this axis is; the middle of the grippers at the start unless given.
+    about: Option<Fixed<Quantity<Length>, 2>>,
+}
+
+/// A table `[[point]]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+struct PointTable {
+    /// Where it is in the plan (m).
+    planned: Fixed<Quantity<Length>, 2>,
+    /// Where it was seen (m).
+    seen: Fixed<Quantity<Length>, 2>,
+}
+
+/// Reads the file; points may be `tolerance` (m) from where the others put them, unless the file says otherwise.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy.
+pub fn read_offset(path: &Path, tolerance: f64) -> Result<SeenOffset, SceneError> {
+    let document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML)?;
+    offset(&document, tolerance)
+}
+
+/// Reads the text of such a file, named `name` in messages.
+///
+/// # Errors
+/// As [`read_offset`].
+pub fn parse_offset(text: &str, name: &str, tolerance: f64) -> Result<SeenOffset, SceneError> {
+    offset(&Document::new(name, text), tolerance)
+}
+
+/// Reads a JSON object with the keys of such a file: numbers are in SI units, texts have a unit.
+///
+/// # Errors
+/// As [`read_offset`]; the place is none, since a message of one line has no lines.
+pub fn json_offset(text: &str, tolerance: f64) -> Result<SeenOffset, SceneError> {
+    let document = Document::new("standard input", "");
+    let help = "an object is wanted, as in {\"offset\": {\"x\": 0.003, \"y\": \"-1.5 mm\", \"yaw\": \"0.8 deg\"}}";
+    let value: serde_json::Value = serde_json::from_str(text)
+        .map_err(|fault| document.error_anywhere(format!("this is not JSON: {fault}"), help))?;
+    let serde_json::Value::Object(object) = &value else {
+        return Err(document.error_anywhere("this is no JSON object", help));
+    };
+    let keys =
+        object.iter().map(|(key, value)| Some(format!("{} = {}\n", quoted(key), toml_of(value)?)));
+    let text: String = keys.collect::<Option<_>>().ok_or_else(|| {
+        document.error_anywhere("a value is null, which means nothing here", help)
+    })?;
+    parse_offset(&text, "standard input", tolerance).map_err(|fault| SceneError {
+        span: None,
+        text: "".into(),
+        ..fault
+    })
+}
+
+/// A JSON value as TOML; none of null.
+fn toml_of(value: &serde_json::Value) -> Option<String> {
+    use serde_json::Value;
+    Some(match value {
+        Value::Null => return None,
+        Value::Bool(_) => value.to_string(),
+        // a whole number beyond those of TOML is a number all the same
+        Value::Number(number) if number.is_i64() => number.to_string(),
+        Value::Number(number) => format!("{:?}", number.as_f64()?),
+        Value::String(text) => quoted(text),
+        Value::Array(values) => {
+            let values: Option<Vec<String>> = values.iter().map(toml_of).collect();
+            format!("[{}]", values?.join(", "))
+        }
+        Value::Object(keys) => {
+            let keys = keys
+                .iter()
+                .map(|(key, value)| Some(format!("{} = {}", quoted(key), toml_of(value)?)));
+            format!("{{ {} }}", keys.collect::<Option<Vec<String>>>()?.join(", "))
+        }
+    })
+}
+
+/// A text in quotes: the escapes of JSON are escapes of TOML.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+fn offset(document: &Document, tolerance: f64) -> Result<SeenOffset, SceneError> {
+    let OffsetFile { offset, point, tolerance: own } = read::keys(document)?;
+    let pair = |fixed: &Fixed<Quantity<Length>, 2>| -> Result<[f64; 2], SceneError> {
+        Ok([place(&fixed.0[0], document)?, place(&fixed.0[1], document)?])
+    };
+    match (offset, point.as_slice()) {
+        (Some(table), []) => {
+            let OffsetTable { x, y, yaw, about } = &table.value;
+            let shift = |given: &Option<Quantity<Length>>| {
+                given.as_ref().map_or(Ok(0.0), |given| place(given, document))
+            };
+            let yaw = match yaw {
+                Some(yaw) => angle(yaw, document)?,
+                None => 0.0,
+            };
+            let about = about.as_ref().map(pair).transpose()?;
+            let offset = Offset { shift: [shift(x)?, shift(y)?], yaw, about };
+            if let Some(own) = own {
+                return Err(document.error(
+                    own.span,
+                    "a tolerance has no meaning for an offset",
+                    "it is for seen points: leave it out",
+                ));
+            }
+            Ok(SeenOffset { offset, residual: None })
+        }
+        (None, [first, ..]) => {
+            let pairs = point
+                .iter()
+                .map(|point| Ok((pair(&point.value.planned)?, pair(&point.value.seen)?)));
+            let pairs: Vec<_> = pairs.collect::<Result<_, SceneError>>()?;
+            let tolerance = match own {
+                Some(own) => own.positive(document)?,
+                None => tolerance,
+            };
+            let (offset, residual) = Offset::of_points(&pairs, tolerance).map_err(|fault| {
+                let span = match fault {
+                    plydrape::pick_up::OffsetError::Distorted { point: n, .. } => {
+                        point[n].span.clone()
+                    }
+                    _ => first.span.clone(),
+                };
+                document.error(span, fault.to_string(), fault.remedy())
+            })?;
+            Ok(SeenOffset { offset, residual: Some(residual) })
+        }
+        (Some(table), _) => Err(document.error(
+            table.span,
+            "there are both an offset and points",
+            "give one of both",
+        )),
+        (None, []) => Err(document.error_anywhere(
+            format!("`{}` has neither an offset nor points", document.file),
+            "add [offset] with x, y and yaw, or [[point]] with planned and seen, two at least",
+        )),
+    }
+}
+
+/// A coordinate or a shift (m).
+fn place(given: &Quantity<Length>, document: &Document) -> Result<f64, SceneError> {
+    let value = given.si(document)?;
+    match value.abs() <= plydrape::ply::FARTHEST {
+        true => Ok(value),
+        false => Err(document.error(
+            given.span.clone(),
+            format!("{} is beyond all cells", document.quoted(&given.span)),
+            "a length up to 1e6 m is wanted, e.g. \"3 mm\"",
+        )),
+    }
+}
+
+/// A yaw (rad).
+fn angle(given: &Quantity<Angle>, document: &Document) -> Result<f64, SceneError> {
+    let value = given.si(document)?;
+    match value.abs() <= std::f64::consts::PI {
+        true => Ok(value),
+        false => Err(document.error(
+            given.span.clone(),
+            format!("{} is more than half a turn", document.quoted(&given.span)),
+            "an angle from -180 deg to 180 deg is wanted, e.g. \"0.8 deg\"; a plain number, without quotes, is in rad",
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<SeenOffset, SceneError> {
+        parse_offset(text, "offset.toml", 2e-3)
+    }
+
+    /// Units as scenes have them; what is left out is zero, and the same keys as JSON say the same.
+    #[test]
+    fn an_offset_is_read_with_its_units() {
+        let text =
+            "[offset]\nx = \"3 mm\"\ny = -0.0015\nyaw = \"0.8 deg\"\nabout = [\"1 m\", 0.2]\n";
+        let SeenOffset { offset, residual } = parse(text).unwrap();
+        assert_eq!(offset.shift, [0.003, -0.0015]);
+        assert!((offset.yaw - 0.8_f64.to_radians()).abs() < 1e-15);
+        assert_eq!((offset.about, residual), (Some([1.0, 0.2]), None));
+        let json = "{\"offset\": {\"x\": \"3 mm\", \"y\": -0.0015, \"yaw\": \"0.8 deg\", \"about\": [1, \"0.2 m\"]}}";
+        assert_eq!(json_offset(json, 2e-3).unwrap().offset, offset);
+        assert_eq!(parse("[offset]\n").unwrap().offset.shift, [0.0; 2]);
+    }
+
+    /// Three corners turned by 1° about the first one and shifted by 3 mm along x.
+    #[test]
+    fn points_give_their_offset() {
+        let (s, c) = 1_f64.to_radians().sin_cos();
+        let text = format!(
+            "[[point]]\nplanned = [0, 0]\nseen = [\"3 mm\", 0]\n\
+             [[point]]\nplanned = [\"0.5 m\", 0]\nseen = [{}, {}]\n\
+             [[point]]\nplanned = [0, \"0.4 m\"]\nseen = [{}, {}]\n",
+            0.5 * c + 0.003,
+            0.5 * s,
+            -0.4 * s + 0.003,
+            0.4 * c
+        );
+        let SeenOffset { offset, residual } = parse(&text).unwrap();
+        assert!((offset.yaw - 1_f64.to_radians()).abs() < 1e-14 && residual.unwrap() < 1e-14);
+        let shift = offset.about([0.0, 0.0]).shift;
+        assert!((shift[0] - 0.003).abs() < 1e-15 && shift[1].abs() < 1e-15);
+    }
+
+    /// Every fault names what is wrong and what would be right; those of a file have a place.
+    #[test]
+    fn broken_offsets_are_refused_with_place_and_remedy() {
+        let point = |p: &str, q: &str| format!("[[point]]\nplanned = {p}\nseen = {q}\n");
+        let swapped =
+            point("[0, 0]", "[0, 0]") + &point("[1, 0]", "[0, 1]") + &point("[0, 1]", "[1, 0]");
+        let cases: [(&str, &str); 11] = [
+            ("", "neither an offset nor points"),
+            ("[offset]\nx = \"3\"\n", "has no unit"),
+            ("[offset]\nx = \"3 deg\"\n", "is an angle"),
+            ("[offset]\nx = nan\n", "is no"),
+            ("[offset]\nyaw = 57\n", "more than half a turn"),
+            ("[offset]\nx = 1e9\n", "beyond all cells"),
+            ("[offset]\nz = 1\n", "is no key here"),
+            ("[offset]\nabout = [1]\n", "one value stands here"),
+            ("tolerance = 1e-3\n[offset]\n", "no meaning for an offset"),
+            (&swapped, "mm from where the others put it"),
+            ("[offset]\n[[point]]\nplanned = [0, 0]\nseen = [0, 0]\n", "both an offset and points"),
+        ];
+        for (text, expected) in cases {
+            let fault = parse(text).unwrap_err();
+            assert!(fault.message.contains(expected), "{text}: {fault}");
+            assert!(
+                !fault.help.is_empty() && (text.is_empty() || fault.span.is_some()),
+                "{fault:?}"
+            );
+        }
+        for (text, expected) in [
+            ("", "not JSON"),
+            ("[1]", "no JSON object"),
+            ("{\"offset\": null}", "null"),
+            ("{\"offset\": {\"x\": \"3\"}}", "has no unit"),
+            ("{\"offset\": {\"x\": 1e400}}", "not JSON"),
+            ("{}", "neither"),
+        ] {
+            let fault = json_offset(text, 2e-3).unwrap_err();
+            assert!(fault.message.contains(expected), "{text}: {fault}");
+        }
+    }
+}

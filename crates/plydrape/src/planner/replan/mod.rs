@@ -1,0 +1,275 @@
+//! A planned motion for a ply that does not lie where it was planned to lie.
+//!
+//! The grippers meet the same points of the fabric, so the start is that of the plan, moved as one body: shifted by d and turned by φ about
+//! an upright axis through the middle of the grippers. Step k of the transport is moved alike, by a share w_k of both,
+//!
+//! `p ↦ p + w_k d + (R(w_k φ) − 1)(p − c_k)`
+//!
+//! with c_k the middle of the grippers in that step. A shift and a turn about the vertical change no distance of two grippers, no weight
+//! and no slope, so the ply has the shape and the forces of the plan. w falls from 1 at the pick-up to 0 before the ply
+//! first meets the mold. From there on the motion is the planned one, and so is the landing with its verdict.
+//!
+//! 1. `fade`: the share in each step: 1 until the ply is clear of the obstacles it may lie on, then down over all that is left of the
+//!    transport, because the longer that takes, the slower it is;
+//! 2. `correction`: the control points whose path passes the moved steps;
+//! 3. `shapes`: the recorded ply in each step, and whether it meets the mold where it is moved;
+//! 4. `record`: the steps and the outcome, moved; what depends on the motion is measured and judged again.
+//!
+//! [`Replanner`] prepares what does not depend on the offset, so that a cell has an answer for each ply at once.
+
+mod correction;
+mod error;
+mod fade;
+mod record;
+mod shapes;
+#[cfg(test)]
+mod tests;
+mod tuning;
+
+pub use error::ReplanError;
+pub use shapes::SheetShapes;
+
+use crate::clearance::Nearest;
+use crate::draping::record::{PickedUp, PlanRecord, Step, Summary};
+use crate::motion::{Attitudes, Bounds, TimedMotion};
+use crate::pick_up::{Moved, Offset};
+use crate::planner::tuning::TUNING;
+use crate::scene::{ReleaseOrder, Scene, SheetTime};
+use crate::tool::ToolPeaks;
+use shapes::Shapes;
+
+/// A plan that was found and draped, with all that a correction needs of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Plan<'a> {
+    /// Its scene; the motion in it does not count.
+    pub scene: &'a Scene,
+    /// What its motion is made of.
+    pub record: &'a PlanRecord,
+    /// The drape by catenaries along it.
+    pub steps: &'a [Step],
+    /// The outcome.
+    pub summary: &'a Summary,
+}
+
+/// Answers where a ply lies with a motion.
+#[derive(Debug)]
+pub struct Replanner<'a> {
+    plan: Plan<'a>,
+    motion: TimedMotion,
+    /// The positions that stand for the steps of the motion, one list a step.
+    path: Vec<Vec<[f64; 3]>>,
+    /// The middle of the grippers in each step (m).
+    middles: Vec<[f64; 2]>,
+    /// Share of the offset in each step.
+    weights: Vec<f64>,
+    /// The last step, from 0, in which nothing touches the mold.
+    last_free: usize,
+    shapes: Shapes,
+    /// The nearest bodies from the last free step on, where the motion stays.
+    landing: Option<Nearest>,
+}
+
+/// A corrected plan.
+#[derive(Debug, Clone)]
+pub struct Replanned {
+    /// What its motion is made of again, with the offset.
+    pub record: PlanRecord,
+    /// The motion in time.
+    pub motion: TimedMotion,
+    /// How the grippers are turned in it.
+    pub attitudes: Attitudes,
+    /// How many times as long as the planned motion it takes.
+    pub longer: f64,
+    /// The drape by catenaries along it.
+    pub steps: Vec<Step>,
+    /// The outcome: what belongs to the landing is that of the plan, what belongs to the motion is judged again.
+    pub summary: Summary,
+    /// How the ply of each step was moved.
+    moved: Vec<Moved>,
+}
+
+impl Replanned {
+    /// Where a point (m) of the recorded ply is in a step, from 0, of the corrected motion.
+    #[must_use]
+    pub fn place(&self, step: usize, point: [f64; 3]) -> [f64; 3] {
+        self.moved.get(step).map_or(point, |moved| moved.place(point))
+    }
+
+    /// A vector in that step, such as a force.
+    #[must_use]
+    pub fn turn(&self, step: usize, vector: [f64; 3]) -> [f64; 3] {
+        self.moved.get(step).map_or(vector, |moved| moved.turn(vector))
+    }
+
+    /// An orientation (x, y, z, w) in that step.
+    #[must_use]
+    pub fn orientation(&self, step: usize, quaternion: [f64; 4]) -> [f64; 4] {
+        self.moved.get(step).map_or(quaternion, |moved| moved.orientation(quaternion))
+    }
+
+    /// Whether the ply of that step is moved at all.
+    #[must_use]
+    pub fn is_moved(&self, step: usize) -> bool {
+        self.moved.get(step).is_some_and(|moved| !moved.is_nothing())
+    }
+
+    /// The time (s) in the corrected motion of one of the planned motion, after whose end pads may press for some more time.
+    #[must_use]
+    pub fn time(&self, planned: f64, planned_duration: f64) -> f64 {
+        match planned < planned_duration {
+            true => planned * self.longer,
+            false => self.motion.duration() + (planned - planned_duration),
+        }
+    }
+}
+
+impl<'a> Replanner<'a> {
+    /// Prepares a plan; where the sheet decides, with its recorded states.
+    ///
+    /// # Errors
+    /// [`ReplanError`] if the plan has no transport in which an offset could be taken out, or was corrected before.
+    pub fn new(plan: Plan<'a>, sheet: Option<&SheetShapes>) -> Result<Self, ReplanError> {
+        let Plan { scene, record, steps, summary } = plan;
+        if record.picked_up.is_some() {
+            return Err(ReplanError::Again);
+        }
+        if scene.settings.sheet.time == SheetTime::Real && summary.sheet.is_some() {
+            return Err(ReplanError::RealTime);
+        }
+        let motion = record.motion()?;
+        let count = motion.times().len();
+        let whole = summary.steps == summary.steps_planned
+            && summary.sheet.as_ref().is_none_or(|sheet| sheet.steps >= count);
+        if !whole || steps.len() != count || count < 2 {
+            return Err(ReplanError::Unfinished { steps: steps.len(), planned: count });
+        }
+        let touched = [
+            summary.first_contact_step,
+            summary.sheet.as_ref().and_then(|sheet| sheet.first_contact_step),
+        ];
+        let first = touched.into_iter().flatten().min();
+        // where nothing ever touches, the end is kept
+        let last_free = first.map_or(count - 1, |first| first.saturating_sub(2));
+        let mut shapes = Shapes::new(scene, steps, sheet, last_free);
+        let clear = shapes.clear_of_obstacles(scene);
+        let weights = fade::weights(motion.parameter(), clear, last_free)
+            .ok_or(ReplanError::NoTransport { clear: clear + 1, first })?;
+        shapes.measure(scene);
+
+        let middle = |places: &Vec<[f64; 3]>| {
+            [0, 1].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / places.len() as f64)
+        };
+        let middles = motion.positions().iter().map(middle).collect();
+        let landing = match scene.bodies.is_empty() {
+            true => None,
+            false => {
+                let times = [motion.times()[last_free], motion.duration()];
+                let attitudes = Attitudes::of(steps)?;
+                Nearest::of_motion_within(scene, &motion, &attitudes, times)
+            }
+        };
+        let path = TimedMotion::moving(&record.path);
+        Ok(Replanner { plan, path, middles, weights, last_free, shapes, landing, motion })
+    }
+
+    /// The planned motion.
+    #[must_use]
+    pub fn planned(&self) -> &TimedMotion {
+        &self.motion
+    }
+
+    /// Share of the offset in each step of the motion.
+    #[must_use]
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// The motion for a ply that lies off by `offset`; `residual` is what seen points leave of it (m), for the record.
+    ///
+    /// # Errors
+    /// [`ReplanError`] if the ply would touch the mold before the planned landing, or could not be carried there as one body.
+    pub fn replan(&self, offset: &Offset, residual: Option<f64>) -> Result<Replanned, ReplanError> {
+        let Plan { scene, record, .. } = self.plan;
+        if !offset.is_near() {
+            return Err(ReplanError::Numbers);
+        }
+        let offset = offset.about(self.middles[0]);
+        let moved: Vec<Moved> = self
+            .middles
+            .iter()
+            .zip(&self.weights)
+            .map(|(middle, weight)| {
+                Moved::new(*middle, offset.shift.map(|c| weight * c), weight * offset.yaw)
+            })
+            .collect();
+
+        // the path through the moved steps, and its time
+        let path = correction::corrected(&self.motion, &self.path, &moved, self.last_free);
+        let bounds = Bounds::from(&scene.limits);
+        let mut motion = self.motion.moved(&path, &bounds)?;
+        correction::rigid(scene, &self.motion, &motion, self.last_free)?;
+        if let Some(touch) = self.shapes.touches(scene, &moved) {
+            return Err(touch);
+        }
+
+        // slower, where grippers or the tool would turn too fast
+        let mut steps = record::steps(self.plan, &motion, &moved, self.last_free);
+        let fastest = record::tilt_rates(&steps, motion.times())
+            .into_iter()
+            .flatten()
+            .map(|found| found.value)
+            .fold(0.0, f64::max);
+        let limit = scene.limits.tilt_rate.to_degrees();
+        let planned = self.plan.summary.worst.value(crate::measure::Name::TiltRate).unwrap_or(0.0);
+        // the time over which a rate is taken grows with the motion, so a rate is as much smaller as the motion is longer
+        let turned = (fastest / limit.max(planned)).max(1.0);
+        let peaks = |motion: &TimedMotion| -> Option<ToolPeaks> {
+            scene.tool.as_ref()?.peaks(motion, scene.plan.rate).ok()
+        };
+        let mut tool = peaks(&motion);
+        let carried = match (&tool, &scene.tool) {
+            (Some(peaks), Some(tool)) if peaks.stretch(tool) > 1.0 => {
+                TUNING.evaluation.tool_margin * peaks.stretch(tool)
+            }
+            _ => 1.0,
+        };
+        let slowed = turned.max(carried);
+        if slowed > 1.0 {
+            motion = motion.slowed(slowed);
+            tool = peaks(&motion);
+        }
+        let longer = match self.motion.duration() > 0.0 {
+            true => motion.duration() / self.motion.duration(),
+            false => 1.0,
+        };
+        let dwells = scene
+            .release
+            .as_ref()
+            .is_some_and(|release| release.order == ReleaseOrder::Landed && release.dwell > 0.0);
+        if longer > 1.0 && dwells {
+            return Err(ReplanError::Dwells { longer });
+        }
+
+        record::times(&mut steps, &motion);
+        let attitudes = Attitudes::of(&steps)?;
+        record::measure(self.plan, &mut steps, &moved, self.last_free);
+        let outcome = record::Outcome {
+            motion: &motion,
+            attitudes: &attitudes,
+            longer,
+            tool,
+            landing: self.landing,
+            last_free: self.last_free,
+        };
+        let summary = outcome.summary(self.plan, &steps, &moved);
+        let picked_up = PickedUp { offset, residual, weights: self.weights.clone() };
+        // what limited the plan need not limit this motion
+        let limited_by = Vec::new();
+        let (method, evaluations, rate) = (record.method, record.evaluations, record.rate);
+        let record = PlanRecord {
+            picked_up: Some(picked_up),
+            ..PlanRecord::of(method, evaluations, rate, path, &motion, limited_by)
+        };
+        Ok(Replanned { record, motion, attitudes, longer, steps, summary, moved })
+    }
+}
