@@ -8,7 +8,7 @@ use plydrape::measure::{Subject, Verdict};
 use plydrape::planner::replan::{Replanned, Replanner};
 use plydrape_io::replan::{PlannedResult, ReplanFault};
 use plydrape_io::scene::{SceneError, SeenOffset, json_offset, read_offset};
-use plydrape_io::{Folder, OutputError, ResultFile, json, read, table, write_into};
+use plydrape_io::{Folder, OutputError, json, read, table, write_into};
 use serde::Serialize;
 use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
