@@ -221,7 +221,9 @@ pub fn plan(
         }
         Ok(kept.map(|_| Plan { planned: Arc::new(planned), result: Arc::new(result) }))
     })?;
-    planned.map_err(|fault| error::plan(&fault))?.map_err(|fault| error::sheet(&fault))
+    planned
+        .map_err(|fault: planner::PlanError| error::plan(&fault))?
+        .map_err(|fault| error::sheet(&fault))
 }
 
 /// A time as Python gives it.
