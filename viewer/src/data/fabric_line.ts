@@ -162,8 +162,9 @@ function ofCatenaries(motion: Motion, index: number, { along, at }: FabricLine):
   const gaps = motion.gap?.at(index) ?? null;
   const [run, level] = along === "u" ? [0, 1] : [1, 0];
   const [count, lines] = along === "u" ? [columns, rows] : [rows, columns];
-  const place = Math.min(Math.max((at / pitch[level]!) * divisions, 0), lines - 1);
-  const low = Math.min(Math.floor(place), lines - 2);
+  const place = (at / pitch[level]!) * divisions;
+  if (place < -1e-6 || place > lines - 1 + 1e-6) return [];
+  const low = Math.min(Math.max(Math.floor(place), 0), lines - 2);
   const share = place - low;
   const vertex = (k: number, l: number) => (along === "u" ? l * columns + k : k * columns + l);
   const piece = Array.from({ length: count }, (_, k): LinePoint => {

@@ -35,6 +35,8 @@ export interface FullHandle extends Handle {
   model: Model;
   /** A node of the sheet in view (m), or null without a sheet. */
   node(number: number): Place | null;
+  /** Fabric coordinates of a node of the sheet (mm), or null without a sheet. */
+  fabric(number: number): [number, number] | null;
   /** Where a place is on the picture (CSS pixels from its top left), or null without a picture. */
   onScreen(place: Place): [number, number] | null;
   /** Colour mode; can be set. */
@@ -94,6 +96,10 @@ export function handle(
     node: (number) => {
       const shown = motion.sheet?.stateOf(state.now.index) ?? null;
       return shown === null ? null : motion.sheet!.node(shown, number);
+    },
+    fabric: (number) => {
+      const places = motion.sheet?.places;
+      return places === undefined ? null : [places[2 * number]! / 1000, places[2 * number + 1]! / 1000];
     },
     onScreen: (place) => scene?.eye.project(new Vector3(...place)) ?? null,
     get colour() {

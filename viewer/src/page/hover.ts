@@ -52,9 +52,16 @@ export function linkHover(
     }
     plate.replaceChildren(make("b", {}, title), list);
     const [x, y] = pointer;
-    const room = view.clientWidth - plate.offsetWidth - 4;
-    const left = x + AWAY <= room ? x + AWAY : Math.max(x - AWAY - plate.offsetWidth, Math.min(4, room));
-    const top = Math.min(Math.max(y - plate.offsetHeight / 2, 4), view.clientHeight - plate.offsetHeight - 4);
+    const [wide, tall] = [
+      view.clientWidth - plate.offsetWidth - 4,
+      view.clientHeight - plate.offsetHeight - 4,
+    ];
+    // beside the pointer, or where there is no room beside it above or below
+    const right = x + AWAY <= wide;
+    const beside = right || x - AWAY - plate.offsetWidth >= 4;
+    const left = right ? x + AWAY : beside ? x - AWAY - plate.offsetWidth : Math.min(Math.max(x, 4), wide);
+    const below = y + AWAY <= tall ? y + AWAY : y - AWAY - plate.offsetHeight;
+    const top = Math.min(Math.max(beside ? y - plate.offsetHeight / 2 : below, 4), tall);
     plate.style.translate = `${String(Math.max(left, 0))}px ${String(Math.max(top, 0))}px`;
   };
   const later = () => {

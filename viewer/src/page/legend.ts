@@ -14,6 +14,7 @@ export interface LegendFacts {
   key: string;
   title: string;
   unit: string;
+  scale: Field["scale"];
   low: number;
   high: number;
   ticks: number[];
@@ -21,11 +22,11 @@ export interface LegendFacts {
 }
 
 export function legendOf(field: Field): LegendFacts {
-  const { key, label, unit, low, high, limit } = field;
+  const { key, label, unit, scale, low, high, limit } = field;
   const round = field.scale === "orders" ? ticksOfOrders(low, high, 7) : ticks(low, high, 6);
   // steps are whole numbers
   const marks = key === "landing" ? round.filter(Number.isInteger) : round;
-  return { key, title: label, unit, low, high, ticks: marks, limit };
+  return { key, title: label, unit, scale, low, high, ticks: marks, limit };
 }
 
 export function linkLegend(state: State, motion: Motion): void {
@@ -52,21 +53,24 @@ export function linkLegend(state: State, motion: Motion): void {
   });
 }
 
-/** What the longest arrow stands for. */
+/** What the longest arrow stands for, of a second result too. */
 function showForceScale(motion: Motion, now: Choice): void {
   const note = byId("force-scale");
-  const state = motion.sheet?.stateOf(now.index) ?? null;
-  const shown = now.model === "sheet" && now.forces && state !== null;
-  const load = shown ? motion.sheet!.mostLoad(state) : 0;
+  const most = (of: Motion | null, index: number) => {
+    const state = of?.sheet?.stateOf(index) ?? null;
+    return now.model === "sheet" && now.forces && state !== null ? of!.sheet!.mostLoad(state) : 0;
+  };
+  const [load, other] = [most(motion, now.index), most(now.other, now.otherIndex)];
   // pads that have let go have no loads
-  note.hidden = load === 0;
-  if (load === 0) return;
+  note.hidden = load === 0 && other === 0;
+  if (load === 0 && other === 0) return;
   const uses = USES.map(({ colour, text }) => {
     const swatch = make("i", { class: "swatch", "aria-hidden": "true" });
     swatch.style.background = `var(--${colour})`;
     return make("span", {}, swatch, text);
   });
-  note.replaceChildren(make("b", {}, `longest arrow ${quantity(load, "N")}`), ...uses);
+  const beside = now.other === null ? "" : `, of B ${quantity(other, "N")}`;
+  note.replaceChildren(make("b", {}, `longest arrow ${quantity(load, "N")}${beside}`), ...uses);
 }
 
 /** The ends of a scale of orders stand for everything beyond them too. */

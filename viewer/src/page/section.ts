@@ -81,8 +81,11 @@ export class Section {
   /** A click on the ply brings the line there. */
   through(found: Found): void {
     const { now } = this.state;
-    if (now.section === null || found.kind !== "node") return;
-    const place = fabricPlace(this.motion, now, found.number);
+    if (now.section === null) return;
+    const place =
+      found.kind === "node"
+        ? fabricPlace(this.motion, now, found.number)
+        : padAt(this.motion, now.model, now.index, found);
     if (place !== null) this.choose(now.section.along, place[now.section.along === "u" ? 1 : 0]);
   }
 
@@ -210,6 +213,18 @@ function nodeAt(
     if (away < least) [best, least] = [node, away];
   }
   return best < 0 ? null : [sheet.places[2 * best]! / 1000, sheet.places[2 * best + 1]! / 1000];
+}
+
+/** Fabric coordinates of a gripper (mm). */
+function padAt(
+  motion: Motion,
+  model: Model,
+  index: number,
+  { number, place }: Found,
+): [number, number] | null {
+  if (model === "sheet") return nodeAt(motion, model, index, place);
+  const [column, row] = motion.data.ids[number]!;
+  return [column * motion.data.pitch[0], row * motion.data.pitch[1]];
 }
 
 interface Course {

@@ -192,6 +192,8 @@ export class Scene3d {
     this.height = Math.max(1, this.host.clientHeight);
     this.setPixels(this.ratio);
     this.eye.resize(this.width, this.height);
+    // a canvas of another size is empty
+    if (this.lastDrawn > 0) this.drawNow();
   }
 
   private setPixels(ratio: number): void {
