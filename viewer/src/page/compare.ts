@@ -25,6 +25,14 @@ const SHOWN: [Shown, string][] = [
   ["a", "A"],
   ["b", "B"],
 ];
+/** A result that is in view. */
+interface Picture {
+  letter: string;
+  title: string;
+  accepted: boolean;
+  scene: Scene3d;
+}
+
 /** A window narrower than this (CSS pixels) has no room for two pictures. */
 const NARROW = 700;
 
@@ -65,13 +73,15 @@ export class Comparison {
   }
 
   /** The pictures that are in view, with the letters of their results. */
-  get pictures(): { letter: string; title: string; scene: Scene3d }[] {
-    const out: { letter: string; title: string; scene: Scene3d }[] = [];
-    const { title } = this.motion.data;
+  get pictures(): Picture[] {
+    const out: Picture[] = [];
+    const { title, accepted } = this.motion.data;
     if (this.first !== null && (this.scene === null || this.shown !== "b"))
-      out.push({ letter: "A", title, scene: this.first });
-    if (this.scene !== null && this.shown !== "a")
-      out.push({ letter: "B", title: this.other!.title, scene: this.scene });
+      out.push({ letter: "A", title, accepted, scene: this.first });
+    if (this.scene !== null && this.shown !== "a") {
+      const { title: named, accepted: kept } = this.other!;
+      out.push({ letter: "B", title: named, accepted: kept, scene: this.scene });
+    }
     return out;
   }
 

@@ -16,10 +16,14 @@ import type { State } from "./state";
 const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', Arial, sans-serif";
 /** Heights of the lines above and below the picture, and the width of the scale beside it (CSS pixels). */
 const [HEAD, FOOT, SCALE] = [44, 30, 128];
+/** A picture narrower than this leaves no room for the scale. */
+const NARROW = 560;
 /** A video is at most so wide (pixels). */
 const WIDEST = 1280;
 /** Containers and codecs, the best known first. */
 const FORMATS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
+/** Pictures a second at most. */
+const FRAMES = 30;
 /** Bits a second, and how long the last step stays (ms). */
 const [BITS, STAY] = [8e6, 700];
 
@@ -77,7 +81,7 @@ export class Exporter {
     };
     this.state.goto(0);
     draw();
-    const recorder = new MediaRecorder(canvas.captureStream(30), {
+    const recorder = new MediaRecorder(canvas.captureStream(FRAMES), {
       mimeType: format,
       videoBitsPerSecond: BITS,
     });
@@ -90,26 +94,23 @@ export class Exporter {
     button.classList.add("recording");
     recorder.start();
     const schedule = this.player.schedule();
-    const start = performance.now();
-    const last = schedule.length - 1;
-    let index = 0;
     const runs = () => recorder.state === "recording";
-    while (runs()) {
-      await new Promise(requestAnimationFrame);
-      const passed = (performance.now() - start) / 1000;
-      let next = index;
-      while (next < last && schedule[next + 1]! <= passed) next++;
-      if (next !== index) {
-        index = next;
-        this.state.goto(index);
-        draw();
-      }
-      if (index === last) {
-        await new Promise((done) => setTimeout(done, STAY));
-        draw();
-        await new Promise((done) => setTimeout(done, 60));
-        if (runs()) recorder.stop();
-      }
+    // every step is in the video: on a slow machine it takes longer
+    let shown = schedule[0]!;
+    for (let index = 1; index < schedule.length && runs(); index++) {
+      const last = index === schedule.length - 1;
+      const pause = schedule[index]! - shown;
+      if (pause < 1 / FRAMES && !last) continue;
+      shown = schedule[index]!;
+      await wait(1000 * Math.max(pause, 1 / FRAMES));
+      this.state.goto(index);
+      draw();
+    }
+    if (runs()) {
+      await wait(STAY);
+      draw();
+      await wait(2000 / FRAMES);
+      if (runs()) recorder.stop();
     }
     await ended;
     this.recorder = null;
@@ -120,11 +121,18 @@ export class Exporter {
     save(blob, `${this.name()}.${format.startsWith("video/mp4") ? "mp4" : "webm"}`);
   }
 
+  /** Width of the pictures, and of the room for the scale beside them; one wide picture has room for it (CSS pixels). */
+  private widths(): [number, number] {
+    const { pictures } = this.comparison;
+    const wide = pictures.reduce((sum, { scene }) => sum + scene.extent[0], 0);
+    const inside = this.field() === null || (pictures.length === 1 && wide >= NARROW);
+    return [wide, inside ? 0 : SCALE];
+  }
+
   /** Width of the whole (CSS pixels). */
   private width(): number {
-    const field = this.field();
-    const pictures = this.comparison.pictures.reduce((sum, { scene }) => sum + scene.extent[0], 0);
-    return pictures + (field === null ? 0 : SCALE);
+    const [pictures, scale] = this.widths();
+    return pictures + scale;
   }
 
   /** The colours that are shown, if any are. */
@@ -156,27 +164,27 @@ export class Exporter {
     };
     const compared = this.comparison.isOpen;
     let left = 0;
-    for (const { letter, title, scene } of pictures) {
+    for (const { letter, title, accepted, scene } of pictures) {
       const [width] = scene.extent;
       pen.drawImage(scene.still(ratio), left, HEAD, width, scene.extent[1]);
       pen.save();
       pen.beginPath();
-      pen.rect(left, 0, width + (compared ? -8 : SCALE), HEAD);
+      pen.rect(left, 0, width - 8, HEAD);
       pen.clip();
       const used = write(compared ? `${letter}: ${title}` : title, left + 14, HEAD / 2, "600 16px", "text");
-      if (!compared) {
-        const word = data.accepted ? "✓ accepted" : "✗ not accepted";
-        write(word, left + 28 + used, HEAD / 2, "600 13px", data.accepted ? "pass" : "fail");
-      }
+      const word = accepted ? "✓ accepted" : "✗ not accepted";
+      write(word, left + 28 + used, HEAD / 2, "600 13px", accepted ? "pass" : "fail");
       pen.restore();
       left += width;
     }
     const field = this.field();
-    if (field !== null) this.drawScale(pen, field, left + 12, HEAD, tall);
+    if (field !== null) this.drawScale(pen, field, this.width() - SCALE + 12, HEAD, tall);
     const step = `Step ${String(data.steps[now.index])} of ${String(data.steps[data.steps.length - 1])}`;
     const model = now.model === "sheet" ? "sheet" : "catenaries";
     const foot = `${step}, t = ${quantity(data.times[now.index]!, "s")}, ${model}${compared ? " (step and time of A)" : ""}`;
-    write(foot, 14, HEAD + tall + FOOT / 2, "13px", "text-quiet");
+    const arrow = byId("force-scale");
+    const loads = arrow.hidden ? "" : `, ${arrow.querySelector("b")?.textContent ?? ""}`;
+    write(foot + loads, 14, HEAD + tall + FOOT / 2, "13px", "text-quiet");
     return sheet;
   }
 
@@ -234,6 +242,10 @@ export class Exporter {
       .replace(/^_|_$/g, "");
     return name === "" ? "plydrape" : name;
   }
+}
+
+async function wait(milliseconds: number): Promise<void> {
+  await new Promise((done) => setTimeout(done, milliseconds));
 }
 
 /** Gives the reader a file. */

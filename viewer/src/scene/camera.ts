@@ -32,8 +32,6 @@ export class Eye {
   /** What is shown until the reader moves the eye: the whole from a side, or a part. */
   private view: StandardView | Box3 | null = "iso";
   private flight = 0;
-  /** Quarter turns of the view from an angle. */
-  private quarter = 0;
   /** Called after every move of this eye. */
   moved: (() => void) | null = null;
 
@@ -77,7 +75,6 @@ export class Eye {
   /** Shows the whole box from a standard direction. */
   look(view: StandardView, smooth = true): void {
     const direction = new Vector3(...DIRECTIONS[view]).normalize();
-    if (view === "iso") direction.applyAxisAngle(this.camera.up, (this.quarter * Math.PI) / 2);
     this.flyTo(direction, ...this.fitted(direction), smooth);
     this.view = view;
   }
@@ -85,15 +82,17 @@ export class Eye {
   /** Shows a part of the scene from that one of its four upper corners that is nearest to a place. */
   frame(part: Box3, place: Place): void {
     const away = new Vector3(...place).sub(part.getCenter(new Vector3()));
-    const near = (quarter: number) =>
-      new Vector3(...DIRECTIONS.iso).applyAxisAngle(this.camera.up, (quarter * Math.PI) / 2).dot(away);
-    // the usual corner, unless another one is clearly nearer
-    const clearly = 0.1 * part.getSize(new Vector3()).length();
-    this.quarter = [0, 1, 2, 3].reduce((best, k) =>
-      near(k) > near(best) + (best === 0 ? clearly : 0) ? k : best,
+    const corners = [0, 1, 2, 3].map((k) =>
+      new Vector3(...DIRECTIONS.iso).applyAxisAngle(this.camera.up, (k * Math.PI) / 2).normalize(),
     );
-    this.look("iso", false);
-    const direction = this.direction();
+    // the usual corner, unless another one is clearly nearer
+    const clearly = 0.08 * part.getSize(new Vector3()).length();
+    const [usual, ...others] = corners as [Vector3, ...Vector3[]];
+    const nearest = others.reduce(
+      (best, corner) => (corner.dot(away) > best.dot(away) ? corner : best),
+      usual,
+    );
+    const direction = nearest.dot(away) > usual.dot(away) + clearly ? nearest : usual;
     this.flyTo(direction, ...this.fitted(direction, part), false);
     this.view = part;
   }
@@ -152,9 +151,21 @@ export class Eye {
 
   /** Where on the picture a point is (CSS pixels from its top left). */
   project(point: Vector3): [number, number] {
-    const p = point.clone().project(this.camera);
-    const [w, h] = [this.camera.right - this.camera.left, this.camera.top - this.camera.bottom];
-    return [((p.x + 1) / 2) * w, ((1 - p.y) / 2) * h];
+    const screen = this.screen();
+    const place = point.toArray();
+    return [screen(place, 0), screen(place, 1)];
+  }
+
+  /** The same for many points: across (0) or down (1). */
+  screen(): (place: Place, c: 0 | 1) => number {
+    this.camera.updateMatrixWorld();
+    const m = this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse).elements;
+    const half = [
+      (this.camera.right - this.camera.left) / 2,
+      (this.camera.bottom - this.camera.top) / 2,
+    ] as const;
+    return ([x, y, z], c) =>
+      Math.abs(half[c]) + half[c] * (m[c] * x + m[4 + c]! * y + m[8 + c]! * z + m[12 + c]!);
   }
 
   /** Target and zoom that show a box, the whole one unless a part is given, inside the margins. */

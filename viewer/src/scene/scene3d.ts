@@ -332,17 +332,15 @@ export class Scene3d {
     const towards = this.eye.direction();
     // in the middle of a cell that is drawn large something is found too
     const reach = Math.max(REACH, 0.8 * this.eye.camera.zoom * this.fineness());
-    const point = new Vector3();
+    const screen = this.eye.screen();
     let found: (Found & { rank: number }) | null = null;
     const look = (kind: Found["kind"], from: Int32Array, near: number, favour: number) => {
       for (let k = 0; 3 * k < from.length; k++) {
-        point.set(from[3 * k]! * MICRO, from[3 * k + 1]! * MICRO, from[3 * k + 2]! * MICRO);
-        const depth = point.dot(towards);
-        const place: Place = [point.x, point.y, point.z];
-        const [px, py] = this.eye.project(point);
-        const away = Math.hypot(px - x, py - y);
+        const place: Place = [from[3 * k]! * MICRO, from[3 * k + 1]! * MICRO, from[3 * k + 2]! * MICRO];
+        const away = Math.hypot(screen(place, 0) - x, screen(place, 1) - y);
         if (away > near) continue;
         // one that is farther from the eye by a tenth of the scene is behind the ply
+        const depth = place[0] * towards.x + place[1] * towards.y + place[2] * towards.z;
         const rank = away - favour - (REACH * depth) / (0.1 * this.size);
         if (found === null || rank < found.rank) found = { kind, number: k, place, rank };
       }
