@@ -329,7 +329,8 @@ mod tests {
                 assert_eq!((limit.unit, Some(limit.limit)), (course.unit, course.limit));
             }
         }
-        assert!(page.measures.iter().any(|course| course.unit == "%" && course.limit.is_some()));
+        assert_eq!(as_shown(0.25, Unit::SHARE), 25.0);
+        assert_eq!(as_shown(0.1 + 0.2, Unit::DEGREE), 0.1 + 0.2);
     }
 
     /// Large results are drawn coarser, then without diagonals, then in fewer steps, the last among them.
