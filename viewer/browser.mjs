@@ -31,11 +31,13 @@ export async function startBrowser({ webgl = true } = {}) {
 export async function openReport(
   browser,
   file,
-  { width = 1280, height = 720, dark = false, wait = true } = {},
+  { width = 1280, height = 720, dark = false, wait = true, touch = false } = {},
 ) {
   const context = await browser.newContext({
     viewport: { width, height },
     colorScheme: dark ? "dark" : "light",
+    hasTouch: touch,
+    isMobile: touch,
     reducedMotion: "reduce",
     offline: true,
   });

@@ -3,22 +3,26 @@
  */
 
 import { Motion } from "./data/motion";
-import { BrokenData, readPageData, type PageData } from "./data/page_data";
+import { BrokenData, nearest, readPageData, type Limit, type PageData } from "./data/page_data";
 import { Charts } from "./page/charts";
+import { Comparison, tell } from "./page/compare";
 import { byId } from "./page/dom";
+import { Exporter } from "./page/export";
 import { handle, type FullHandle, type Handle } from "./page/handle";
 import { linkHover } from "./page/hover";
 import { linkKeyboard } from "./page/keyboard";
 import { linkLegend } from "./page/legend";
-import { showLimits, showStrength, showVerdict } from "./page/limits";
+import { showLimit, showLimits, showStrength, showVerdict } from "./page/limits";
+import { asked, colourOf, lastShown, pointerOf, worst } from "./page/opening";
 import { Player } from "./page/player";
 import { linkPrint } from "./page/print";
 import { showSample, showStands } from "./page/sample";
 import { showFacts } from "./page/scene_facts";
+import { Section } from "./page/section";
 import { State } from "./page/state";
 import { applyTheme, linkTheme, systemIsDark } from "./page/theme";
 import { linkTimeline } from "./page/timeline";
-import { linkToolbar, modes } from "./page/toolbar";
+import { chooseModel, linkToolbar, modes } from "./page/toolbar";
 import { Scene3d } from "./scene/scene3d";
 
 declare global {
@@ -33,17 +37,26 @@ async function open(): Promise<void> {
   showVerdict(data);
   showStands(data.stands);
   const motion = await Motion.unpack(data);
-  const model = data.sheet === null ? "catenaries" : "sheet";
+  const wanted = asked(data);
+  const model = wanted.model ?? (data.sheet === null ? "catenaries" : "sheet");
+  const first = worst(data);
+  const known = modes(data, model).map(([key]) => key);
+  const shows = wanted.colour ?? (first === null ? null : colourOf(data, model, first));
   const state = new State(
     {
-      index: data.steps.length - 1,
+      index: wanted.index ?? (first === null ? lastShown(data) : nearest(data.steps, first.step)),
       model,
-      colour: modes(data, model)[0]?.[0] ?? "height",
+      colour: known.find((key) => key === shows) ?? known[0] ?? "height",
       stepRange: false,
+      orders: true,
       diagonals: true,
       mold: true,
       cell: true,
       forces: true,
+      paths: false,
+      section: null,
+      other: null,
+      otherIndex: 0,
       playing: false,
       dark: systemIsDark(),
       pointer: null,
@@ -63,10 +76,43 @@ async function open(): Promise<void> {
   showSample(state, motion);
   const charts = new Charts(state, data);
   showFacts(data);
-  if (scene !== null) linkHover(state, motion, scene);
-  linkKeyboard(state, player, data, scene?.eye ?? null);
+  const section = new Section(state, motion, scene);
+  if (scene !== null) linkHover(byId("view"), state, motion, scene, (found) => section.through(found));
+  const comparison = new Comparison(state, motion, scene, charts, section);
+  new Exporter(state, motion, comparison, player);
+  byId("told-close").addEventListener("click", () => tell(null));
+  linkKeyboard(state, player, data, scene?.eye ?? null, section, comparison);
   linkPrint(state, charts, scene);
-  window.plydrape = handle(ready, state, player, motion, scene);
+  openAtWorst(state, data, first, wanted.index, scene);
+  window.plydrape = handle(ready, state, player, motion, scene, section, comparison);
+}
+
+/** Marks the worst place, and looks at it; an address that asks for a step goes first. */
+function openAtWorst(
+  state: State,
+  data: PageData,
+  limit: Limit | null,
+  step: number | null,
+  scene: Scene3d | null,
+): void {
+  const pointer = limit === null ? null : pointerOf(data, limit);
+  if (pointer !== null && step === null) {
+    state.set({ pointer });
+    scene?.frame(pointer.place);
+  }
+  const button = byId("worst");
+  button.hidden = limit === null;
+  if (limit !== null) {
+    button.title = `To the worst limit: ${limit.name} in step ${String(limit.step)} (W)`;
+    button.addEventListener("click", () => showLimit(state, data, limit));
+  }
+  addEventListener("hashchange", () => {
+    const { index, colour, model } = asked(data);
+    if (model !== null) chooseModel(state, data, model);
+    if (colour !== null && modes(data, state.now.model).some(([key]) => key === colour))
+      state.set({ colour });
+    if (index !== null) state.goto(index);
+  });
 }
 
 /** The 3D picture, or a sentence where the browser cannot draw one. */

@@ -61,6 +61,18 @@ describe("results page", { skip: missing ?? false }, () => {
     { skip: sheet ? false : "no page of a sheet" },
     () => sampleIsShown(sheet),
   );
+  test("paths of the grippers tell what they have passed from what comes", () => pathsShow(surfaced()));
+  test("an address names step and colours", () => addressLeads(surfaced()));
+  test("heights have a scale of orders or an even one, of all steps or of one", () =>
+    scalesChange(surfaced()));
+  test("between catenaries the pointer reads the surface", () => surfaceIsRead(surfaced()));
+  test("a second page is shown beside this one, with what differs", () =>
+    pagesCompare(surfaced(), another()));
+  test("a result.json is compared by its numbers", () => numbersCompare(surfaced()));
+  test("a picture and a video are saved", () => saves(sheet ?? surfaced()));
+  test("a browser that cannot record says so", () => saysNoRecorder(surfaced()));
+  test("on a phone nothing is wider than the screen, and a tap reads values", () =>
+    fitsPhone(sheet ?? surfaced()));
   test("without WebGL everything else works", () => worksWithoutWebgl(reports[0]));
 });
 
@@ -87,6 +99,20 @@ async function cellShows(report, page) {
   await check.blur();
 }
 
+/** The first page with a surface between catenaries and more than one step. */
+function surfaced() {
+  return reports.find((report) => {
+    const { grid, steps } = JSON.parse(parts(report)[1]);
+    return grid.every((count) => count > 1) && steps.length > 2;
+  });
+}
+
+/** A page of a sheet other than the first with a surface, or else the last page. */
+function another() {
+  const others = reports.filter((report) => report !== surfaced());
+  return others.findLast((report) => hasSheet(report)) ?? others.at(-1) ?? surfaced();
+}
+
 /** Whether a page shows a sheet. */
 function hasSheet(report) {
   return missing === null && JSON.parse(parts(report)[1]).sheet !== null;
@@ -107,6 +133,7 @@ function shows(report, first) {
     opened = await openReport(browser, report.file);
   });
   after(() => opened?.context.close());
+  test("opens at the worst limit of the end, with its place marked", () => opensAtWorst(opened.page));
   test("opens without a complaint and asks for nothing", () => opens(report, opened));
   test("shows nothing of a sample that the result does not have", () => saysNoSample(opened.page));
   test("bodies, obstacles and what the vacuum does are those of the result", () =>
@@ -120,6 +147,8 @@ function shows(report, first) {
   test("a limit leads to its step and place", () => limitsLead(report, opened.page));
   test("slack stands there as an angle, and published strength with its source", () =>
     saysSlackAndStrength(opened.page));
+  test("a limit and the chart of its measure have one unit", () => unitsAgree(opened.page));
+  test("a section shows ply and mold along a line of the fabric", () => sectionShows(report, opened.page));
   test("charts hold the numbers of steps.csv, and a click goes to a step", () =>
     chartsHold(report, opened.page));
   if (first) test("prints without controls, in light", () => prints(opened.page));
@@ -293,11 +322,25 @@ async function sheetShows(report, page) {
     const number = (text) => parseFloat(text.replaceAll("−", "-"));
     const found = await hoverOver(page, nodes[node]);
     const isGripper = found.startsWith("gripper");
-    if (!isGripper) assert.ok(Math.abs(number(found.split("\n")[1]) - 1e3 * heights[node]) < 2e-2, found);
+    if (!isGripper) {
+      const rows = await plateRows(page);
+      assert.ok(Math.abs(number(rows["height over the mold"] ?? "NaN") - 1e3 * heights[node]) < 2e-2, found);
+      const said = rows["x, y, z"].split(",").map(number);
+      said.forEach((c, n) => assert.ok(Math.abs(c - 1e3 * nodes[node][n]) < 6e-2, `${c} in ${found}`));
+    }
     const pad = forces.findIndex((force) => Math.hypot(...force) === most);
     const text = await hoverOver(page, grippers[pad]);
     assert.ok(text.startsWith(`gripper g${data.ids[pad].join("_")}`), text);
-    if (most > 0) assert.ok(Math.abs(number(text.split("force ")[1]) / most - 1) < 1e-3, text);
+    const rows = await plateRows(page);
+    const released = data.events.some(({ kind }) => kind === "release");
+    assert.match(rows.vacuum, released ? /^off since/ : /^on, holds/);
+    if (most > 0) assert.ok(Math.abs(number(rows.force) / most - 1) < 1e-3, text);
+    // without a tool the stems are upright
+    const [x, y] = turns[pad];
+    const tilt = (Math.acos(1 - 2 * (x * x + y * y)) * 180) / Math.PI;
+    if (data.cell === null)
+      assert.ok(Math.abs(number(rows.tilt) - tilt) < 2e-2, `${rows.tilt} is not ${tilt}`);
+    assert.match(rows.tilt, /allowed/);
   }
   await page.keyboard.press("i");
 
@@ -317,6 +360,14 @@ async function pictureOf(page) {
   return page.locator("#view").screenshot();
 }
 
+/** Labels and values on the plate. */
+async function plateRows(page) {
+  return page.evaluate(() => {
+    const names = [...document.querySelectorAll("#view .hover dt")];
+    return Object.fromEntries(names.map((dt) => [dt.textContent, dt.nextElementSibling.textContent]));
+  });
+}
+
 /** What the plate says with the mouse over a place on the ply. */
 async function hoverOver(page, place) {
   const [x, y] = await page.evaluate((at) => window.plydrape.onScreen(at), place);
@@ -324,7 +375,7 @@ async function hoverOver(page, place) {
   await page.mouse.move(box.x + 2, box.y + 2);
   await page.mouse.move(box.x + x, box.y + y);
   await frames(page, 2);
-  return page.locator("#hover").innerText();
+  return page.locator("#view .hover").innerText();
 }
 
 /** What the page was given. */
@@ -430,7 +481,10 @@ async function rangesNarrow(page, all) {
   await page.keyboard.press("r");
   const own = await page.evaluate(() => window.plydrape.legend());
   assert.ok(await page.locator("#step-range").isChecked());
-  assert.ok(own.low >= all.low - 1e-9 && own.high <= all.high + 1e-9, `${own.low} to ${own.high}`);
+  assert.ok(own.low < own.high || own.low === own.high, `${own.low} to ${own.high}`);
+  // the ends of a scale of orders are no values
+  if (all.scale === "even")
+    assert.ok(own.low >= all.low - 1e-9 && own.high <= all.high + 1e-9, `${own.low} to ${own.high}`);
   if (all.key === "height") {
     const heights = await page.evaluate(() => {
       const { grid, divisions } = JSON.parse(document.getElementById("plydrape-data").textContent);
@@ -543,11 +597,14 @@ async function chartsHold(report, page) {
   if (columns !== null) {
     assert.ok(measures.length > 0);
     for (const measure of measures) {
-      const unit = measure.unit === "°" ? "deg" : measure.unit;
+      // files have shares and degrees as deg, the page per cent and °
+      const share = measure.unit === "%";
+      const unit = share ? "1" : measure.unit.replace("°", "deg");
       const column = columns[`${measure.label} (${unit})`];
       assert.ok(column, `steps.csv has a column “${measure.label} (${unit})”`);
+      const factor = share ? 100 : 1;
       const numbers = new Map(
-        columns.step.map((step, k) => [Number(step), column[k] === "" ? null : Number(column[k])]),
+        columns.step.map((step, k) => [Number(step), column[k] === "" ? null : factor * Number(column[k])]),
       );
       assert.deepEqual(
         measure.values,
@@ -812,11 +869,511 @@ async function sampleIsShown(report) {
   await context.close();
 }
 
+/** The limits that count. */
+function decidingOf(data) {
+  return data.sheet === null
+    ? data.limits
+    : [...data.sheet.limits, ...data.limits.filter((limit) => limit.motion)];
+}
+
+/** Index of the step nearest to a number. */
+function indexOf(data, step) {
+  const away = data.steps.map((number) => Math.abs(number - step));
+  return away.indexOf(Math.min(...away));
+}
+
+async function opensAtWorst(page) {
+  const data = await pageData(page);
+  const { step, pointer } = await page.evaluate(() => ({
+    step: window.plydrape.step,
+    pointer: window.plydrape.pointer,
+  }));
+  const known = decidingOf(data).filter((limit) => limit.step !== null);
+  const shown = data.sheet === null ? data.steps : data.steps.filter((_, k) => data.sheet.states[k] !== null);
+  const atEnd = known.filter((limit) => data.steps[indexOf(data, limit.step)] === shown.at(-1));
+  const failed = known.filter(({ ok }) => !ok);
+  const failedAtEnd = atEnd.filter(({ ok }) => !ok);
+  const kept = atEnd.filter(({ place, motion }) => place !== null && !motion);
+  const from = [failedAtEnd, failed, kept].find((some) => some.length > 0);
+  if (from === undefined) return;
+  const most = Math.max(...from.map(({ ratio }) => ratio));
+  const worst = from.find(({ ratio }) => ratio === most);
+  assert.equal(step, data.steps[indexOf(data, worst.step)]);
+  if (worst.place === null) return;
+  assert.deepEqual(pointer.place, worst.place);
+  assert.ok(pointer.label.toLowerCase().startsWith(worst.name), pointer.label);
+  // the place is in the picture
+  const [x, y] = await page.evaluate((at) => window.plydrape.onScreen(at), worst.place);
+  const { width, height } = await page.locator("#view").boundingBox();
+  assert.ok(x > 0 && y > 0 && x < width && y < height, `${x}, ${y} in ${width} × ${height}`);
+  // there is a way to the start, and back
+  if (data.steps.length === 1) return;
+  await page.locator("#start").click();
+  assert.equal(await page.evaluate(() => window.plydrape.step), data.steps[0]);
+  await page.locator("#worst").click();
+  assert.deepEqual(await page.evaluate(() => window.plydrape.pointer.place), worst.place);
+  await page.locator("#worst").blur();
+}
+
+async function unitsAgree(page) {
+  const { limits, measures, sheet } = await pageData(page);
+  for (const limit of limits) {
+    const measure = measures.find(({ key }) => key === limit.measure);
+    if (measure !== undefined)
+      assert.deepEqual([measure.unit, measure.limit], [limit.unit, limit.limit], limit.name);
+  }
+  const units = new Set([...limits, ...measures, ...(sheet?.limits ?? [])].map(({ unit }) => unit));
+  for (const unit of units) assert.ok(!/deg|^m$|^µm$|^kN$|^ms$/.test(unit), `${unit} is no unit of the page`);
+}
+
+/** Along a line of nodes the section has their places and heights, and the mold where they touch it. */
+async function sectionShows(report, page) {
+  const data = await pageData(page);
+  const { sheet } = data.sheet === null ? { sheet: null } : resultOf(report, data);
+  const last = data.sheet === null ? null : data.steps[data.sheet.states.findLastIndex((at) => at !== null)];
+  const button = page.locator("#section-open");
+  const hasSurface = data.grid.every((count) => count > 1);
+  await page.keyboard.press("Escape");
+  if (data.sheet === null && !hasSurface) {
+    assert.ok(!(await button.isVisible()), "there is no surface to cut");
+    return;
+  }
+  await page.evaluate((step) => window.plydrape.goto(step), last ?? data.steps.at(-1));
+  if (data.sheet !== null) await page.evaluate(() => (window.plydrape.model = "sheet"));
+  await button.click();
+  const points = () => page.evaluate(() => window.plydrape.sectionPoints());
+  const first = await points();
+  assert.ok(first.length > 2);
+  const line = () => page.evaluate(() => window.plydrape.section);
+  const { along, at } = await line();
+  assert.equal(along, "u");
+  assert.ok(
+    (await page.locator("#section-said").innerText()).includes(
+      `v = ${Number(at.toPrecision(4))}`.replace("-", "−"),
+    ),
+  );
+  assert.equal(await page.locator("#section .uplot").count(), 2);
+  // a smooth mold as it is drawn is off by less than this where the ply touches it
+  for (const { place, height, mold } of first) {
+    if (mold === null || height === null || Math.abs(height) > 0.02) continue;
+    assert.ok(Math.abs(1e3 * place[2] - mold) < 0.6, `${1e3 * place[2]} mm over a mold at ${mold} mm`);
+  }
+  if (sheet !== null) {
+    const { nodes, heights } = sheet.states[last];
+    // every point of a line through nodes is one of them
+    const near = (place) => {
+      const away = nodes.map((node) => Math.hypot(...node.map((c, n) => c - place[n])));
+      const least = Math.min(...away);
+      return [away.indexOf(least), least];
+    };
+    const number = Math.floor(nodes.length / 2);
+    const [middle] = await page.evaluate((node) => window.plydrape.fabric(node), number);
+    await page.locator("label:has(#section-v)").click();
+    await page.evaluate((u) => (window.plydrape.section = { along: "v", at: u }), middle);
+    const second = await points();
+    const found = second
+      .map(({ place, height }) => [...near(place), height])
+      .filter(([, away]) => away < 2e-6);
+    assert.ok(found.length > second.length / 2, `${found.length} of ${second.length} points are nodes`);
+    for (const [node, , height] of found) {
+      if (height !== null)
+        assert.ok(Math.abs(height - 1e3 * heights[node]) < 2e-3, `node ${node}: ${height} mm`);
+    }
+  }
+  // the slider moves the line, and so does a click on the ply
+  await page.locator("#section-at").evaluate((slider) => {
+    slider.value = String(0.25 * Number(slider.max));
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+  });
+  const moved = await line();
+  assert.notDeepEqual(moved, { along, at });
+  const target = (await points())[2];
+  await page.keyboard.press("t");
+  await frames(page, 3);
+  await page.locator("label:has(#section-u)").click();
+  await page.evaluate(() => (window.plydrape.section = { along: "u", at: -1e6 }));
+  assert.deepEqual(await points(), []);
+  const [x, y] = await page.evaluate((place) => window.plydrape.onScreen(place), target.place);
+  await page.locator("#picture").click({ position: { x, y } });
+  assert.ok((await points()).length > 0, "the line is where the click was");
+  await page.keyboard.press("i");
+  await page.keyboard.press("x");
+  assert.equal(await line(), null);
+}
+
+/** How many pixels of the picture have a colour of the style sheet. */
+async function pixelsOf(page, variable) {
+  await frames(page, 2);
+  const shot = (await page.locator("#view").screenshot()).toString("base64");
+  return page.evaluate(
+    async ([data, name]) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${data}`;
+      await image.decode();
+      const canvas = new OffscreenCanvas(image.width, image.height);
+      const pen = canvas.getContext("2d");
+      pen.drawImage(image, 0, 0);
+      const { data: bytes } = pen.getImageData(0, 0, image.width, image.height);
+      const hex = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+      const wanted = [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
+      let count = 0;
+      for (let k = 0; k < bytes.length; k += 4) {
+        if (wanted.every((c, n) => Math.abs(c - bytes[k + n]) < 14)) count++;
+      }
+      return count;
+    },
+    [shot, variable],
+  );
+}
+
+async function pathsShow(report) {
+  const { page, context, complaints } = await openReport(browser, report.file);
+  await page.keyboard.press("Escape");
+  for (const id of ["#show-forces", "#show-diagonals", "#show-mold"]) {
+    if (await page.locator(id).isVisible()) await page.locator(id).uncheck();
+  }
+  assert.equal(await pixelsOf(page, "--path"), 0);
+  await page.keyboard.press("g");
+  assert.ok(await page.locator("#show-paths").isChecked());
+  await page.keyboard.press("End");
+  await page.keyboard.press("i");
+  const passed = await pixelsOf(page, "--path");
+  assert.ok(passed > 100, `${passed} pixels of paths that are passed`);
+  await page.keyboard.press("Home");
+  const atStart = await pixelsOf(page, "--path");
+  assert.ok(atStart < 0.1 * passed, `${atStart} of ${passed} pixels are passed at the start`);
+  assert.deepEqual(complaints, []);
+  await context.close();
+}
+
+async function addressLeads(report) {
+  const { page, context } = await openReport(browser, report.file);
+  const { steps } = await pageData(page);
+  const step = steps[Math.floor(steps.length / 2)];
+  const colour = (await page.evaluate(() => window.plydrape.colours)).at(-1);
+  const address = `${page.url()}#step=${step}&colour=${colour}`;
+  await page.goto("about:blank");
+  await page.goto(address);
+  await page.evaluate(() => window.plydrape.ready);
+  const now = () => page.evaluate(() => [window.plydrape.step, window.plydrape.colour]);
+  assert.deepEqual(await now(), [step, colour]);
+  await page.evaluate((first) => (location.hash = `step=${first}`), steps[0]);
+  await eventually(async () => assert.deepEqual(await now(), [steps[0], colour]));
+  await context.close();
+}
+
+async function scalesChange(report) {
+  const { page, context } = await openReport(browser, report.file);
+  const legend = () => page.evaluate(() => window.plydrape.legend());
+  const { sheet, geometry } = await pageData(page);
+  if (sheet === null && geometry.gap === null) return context.close();
+  await page.evaluate((key) => (window.plydrape.colour = key), sheet === null ? "gap" : "over_mold");
+  assert.deepEqual(await legend().then(({ scale, low, high }) => [scale, low, high]), ["orders", 0.1, 10]);
+  await page.keyboard.press("r");
+  const own = await legend();
+  assert.equal(own.scale, "orders");
+  assert.ok(Math.abs(own.high / own.low / 100 - 1) < 1e-9 || own.low === 1e-3, "two orders of size");
+  await page.keyboard.press("o");
+  assert.ok(!(await page.locator("#orders").isChecked()));
+  const even = await legend();
+  assert.equal(even.scale, "even");
+  // the largest height of the step is the upper end of both
+  const data = await pageData(page);
+  if (sheet !== null) {
+    const last = data.steps[sheet.states.findLastIndex((at) => at !== null)];
+    await page.evaluate((step) => window.plydrape.goto(step), last);
+    const { heights } = resultOf(report, data).sheet.states[last];
+    const most = 1e3 * Math.max(...heights.map((height) => (Number.isFinite(height) ? height : -Infinity)));
+    const ends = await legend();
+    assert.ok(Math.abs(ends.high - most) < 2e-3, `${ends.high} mm is not ${most} mm`);
+  }
+  assert.ok(even.high <= own.high + 1e-9 && own.high <= Math.max(even.high, -even.low, 2e-3) + 1e-9);
+  await page.keyboard.press("r");
+  const all = await legend();
+  assert.ok(all.scale === "even" && all.low <= even.low && all.high >= even.high && all.high > 1);
+  await page.locator("#orders").check();
+  assert.equal((await legend()).high, 10);
+  await page.evaluate(() => (window.plydrape.colour = "shear"));
+  assert.ok(!(await page.locator("#orders").isVisible()), "angles have an even scale");
+  await context.close();
+}
+
+async function surfaceIsRead(report) {
+  const { page, context } = await openReport(browser, report.file);
+  const { grid, divisions, pitch } = await pageData(page);
+  await page.evaluate(() => {
+    window.plydrape.model = "catenaries";
+    window.plydrape.colour = "height";
+  });
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("t");
+  await frames(page, 3);
+  const columns = (grid[0] - 1) * divisions + 1;
+  const middle = Math.floor(divisions / 2);
+  const vertex = middle * columns + middle;
+  const place = await page.evaluate((k) => window.plydrape.vertex(k), vertex);
+  const text = await hoverOver(page, place);
+  const uv = pitch.map((side) => Number(((side * middle) / divisions).toPrecision(4)));
+  assert.ok(text.startsWith(`u ${uv[0]}, v ${uv[1]}`), text);
+  const coloured = await page.locator("#view .hover dd.coloured").innerText();
+  assert.ok(Math.abs(parseFloat(coloured.replace("−", "-")) - 1e3 * place[2]) < 2e-2, coloured);
+  await context.close();
+}
+
+async function pagesCompare(first, second) {
+  const { page, context, complaints } = await openReport(browser, first.file, { width: 1440, height: 900 });
+  const a = await pageData(page);
+  const b = JSON.parse(parts(second)[1]);
+  const before = await pictureOf(page);
+  await page.locator("#other-file").setInputFiles(second.file);
+  await page.locator("#view-b").waitFor();
+  assert.ok(await page.locator("#compare").isVisible());
+  // the same share of both motions
+  const shares = ({ times }) => times.map((t) => (t - times[0]) / (times.at(-1) - times[0]));
+  const [own, others] = [shares(a), shares(b)];
+  for (const k of [0, Math.floor(a.steps.length / 3), a.steps.length - 1]) {
+    await page.evaluate((step) => window.plydrape.goto(step), a.steps[k]);
+    const shown = await page.evaluate(() => window.plydrape.otherStep);
+    const away = others.map((share) => Math.abs(share - own[k]));
+    assert.equal(shown, b.steps[away.indexOf(Math.min(...away))]);
+  }
+  await page.locator("#compare-link").selectOption("step");
+  const number = a.steps[Math.min(2, a.steps.length - 1)];
+  await page.evaluate((step) => window.plydrape.goto(step), number);
+  assert.equal(await page.evaluate(() => window.plydrape.otherStep), b.steps[indexOf(b, number)]);
+  // every limit that both have stands in the table with its difference
+  const rows = await page
+    .locator("#comparison tbody tr")
+    .evaluateAll((all) => all.map((tr) => [...tr.children].map((cell) => cell.textContent)));
+  const told = new Map(rows.map(([name, ...cells]) => [name, cells]));
+  for (const limit of decidingOf(a)) {
+    const list = a.sheet?.limits.some(({ name, value }) => name === limit.name && value === limit.value)
+      ? (b.sheet?.limits ?? [])
+      : b.limits;
+    const same = list.find(({ name, unit }) => name === limit.name && unit === limit.unit);
+    assert.equal(told.has(limit.name), same !== undefined, limit.name);
+    if (same === undefined) continue;
+    const more = same.value - limit.value;
+    const [, , difference] = told.get(limit.name);
+    if (Math.abs(more) < 1e-3 * Math.max(Math.abs(limit.value), 1)) continue;
+    assert.ok(
+      Math.abs(parseFloat(difference.replace("−", "-").replace("+", "")) / more - 1) < 1e-3,
+      difference,
+    );
+    assert.ok(difference.endsWith(more > 0 === limit.least ? "better" : "worse"), difference);
+  }
+  // each alone, by a key, and both from the same side
+  const seen = async () => [
+    await page.locator("#view").isVisible(),
+    await page.locator("#view-b").isVisible(),
+  ];
+  assert.deepEqual(await seen(), [true, true]);
+  await page.keyboard.press("a");
+  assert.deepEqual(await seen(), [true, false]);
+  await page.keyboard.press("a");
+  assert.deepEqual(await seen(), [false, true]);
+  await page.locator("#compare-shown label").first().click();
+  const both = await page.locator("#view-b").screenshot();
+  await page.keyboard.press("t");
+  await frames(page, 3);
+  assert.notDeepEqual(await page.locator("#view-b").screenshot(), both, "B is seen from above too");
+  // charts have a second line
+  const measure = a.measures.find(
+    ({ key, unit, values }) =>
+      values.some((v) => v !== null) && b.measures.some((other) => other.key === key && other.unit === unit),
+  );
+  if (measure !== undefined) {
+    const chart = page.locator(`.chart[data-measure="${measure.key}"]`);
+    assert.match(await chart.locator(".chart-where").innerText(), /^B /);
+  }
+  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+  // what cannot be compared is said, and the end of it is as before
+  await page
+    .locator("#other-file")
+    .setInputFiles({ name: "some.html", mimeType: "text/html", buffer: Buffer.from("<p>no") });
+  await page.locator("#told").waitFor();
+  assert.match(await page.locator("#told").innerText(), /some\.html cannot be compared: it is neither/);
+  await page.locator("#compare-close").click();
+  assert.ok(!(await page.locator("#comparison").isVisible()));
+  assert.equal(await page.locator("#view-b").count(), 0);
+  await page.reload();
+  await page.evaluate(() => window.plydrape.ready);
+  assert.deepEqual(await pictureOf(page), before);
+  assert.deepEqual(complaints, []);
+  await context.close();
+}
+
+async function numbersCompare(report) {
+  const file = join(report.folder, "result.json");
+  const { page, context, complaints } = await openReport(browser, report.file);
+  const data = await pageData(page);
+  await page.locator("#other-file").setInputFiles(file);
+  await page.locator("#comparison").waitFor();
+  assert.match(await page.locator("#told").innerText(), /open its report\.html/);
+  assert.equal(await page.locator("#view-b").count(), 0);
+  // a result does not differ from its own page
+  const differences = await page.locator("#comparison tbody tr td:last-child").allTextContents();
+  assert.equal(differences.length, decidingOf(data).length + 2);
+  for (const text of differences.slice(2)) assert.equal(text, "–");
+  assert.deepEqual(complaints, []);
+  await context.close();
+}
+
+async function saves(report) {
+  const { page, context, complaints } = await openReport(browser, report.file);
+  const file = async (id) => {
+    const waiting = page.waitForEvent("download", { timeout: 60_000 });
+    await page.locator(id).click();
+    const download = await waiting;
+    return [download.suggestedFilename(), readFileSync(await download.path())];
+  };
+  const [picture, png] = await file("#save-png");
+  assert.match(picture, /^[a-z0-9_]+_step_\d+\.png$/);
+  assert.deepEqual([...png.subarray(1, 4)].map((byte) => String.fromCharCode(byte)).join(""), "PNG");
+  const view = await page.locator("#view").boundingBox();
+  const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
+  assert.ok(width >= 2 * Math.floor(view.width) && height > 2 * view.height, `${width} × ${height}`);
+  // scale, title and verdict are in it: outside of the picture there is more than one colour
+  const colours = await page.evaluate(async (bytes) => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))]));
+    const pen = new OffscreenCanvas(image.width, image.height).getContext("2d", {
+      willReadFrequently: true,
+    });
+    pen.drawImage(image, 0, 0);
+    const of = (x, y, w, h) => {
+      const data = new Uint32Array(pen.getImageData(x, y, w, h).data.buffer);
+      return new Set(data).size;
+    };
+    return { title: of(0, 0, 900, 80), scale: of(image.width - 230, 100, 26, image.height - 200) };
+  }, png.toString("base64"));
+  assert.ok(colours.title > 4 && colours.scale > 40, JSON.stringify(colours));
+
+  const before = await page.evaluate(() => window.plydrape.step);
+  await page.locator("#speed").selectOption("4");
+  const [name, video] = await file("#save-video");
+  assert.match(name, /^[a-z0-9_]+\.webm$/);
+  assert.deepEqual([...video.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3], "it begins as Matroska does");
+  assert.ok(video.length > 5000, `${video.length} bytes`);
+  assert.equal(await page.evaluate(() => window.plydrape.step), before, "and the page is where it was");
+  assert.equal(await page.locator("#save-video").innerText(), "Video");
+  // a browser can play it, and its frames are not all alike; the page itself allows no media
+  const cinema = await context.newPage();
+  const moves = await cinema.evaluate(async (bytes) => {
+    const film = document.createElement("video");
+    film.muted = true;
+    const data = Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0));
+    film.src = URL.createObjectURL(new Blob([data], { type: "video/webm" }));
+    const pen = new OffscreenCanvas(64, 48).getContext("2d", { willReadFrequently: true });
+    film.playbackRate = 0.25;
+    await film.play();
+    let first = null;
+    let most = 0;
+    while (!film.ended) {
+      pen.drawImage(film, 0, 0, 64, 48);
+      const { data: now } = pen.getImageData(0, 0, 64, 48);
+      first ??= now;
+      most = Math.max(most, now.reduce((sum, c, k) => sum + Math.abs(c - first[k]), 0) / now.length);
+      await new Promise((again) => setTimeout(again, 50));
+    }
+    return most;
+  }, video.toString("base64"));
+  assert.ok(moves > 2, `its pictures differ by ${moves} of 255`);
+  assert.deepEqual(complaints, []);
+  await context.close();
+}
+
+async function saysNoRecorder(report) {
+  const { page, context, complaints } = await openReport(browser, report.file);
+  await page.evaluate(() => delete window.MediaRecorder);
+  await page.locator("#save-video").click();
+  assert.match(await page.locator("#told").innerText(), /cannot record a video.*PNG/);
+  await page.locator("#told-close").click();
+  assert.ok(!(await page.locator("#told").isVisible()));
+  assert.deepEqual(complaints, []);
+  await context.close();
+}
+
+async function fitsPhone(report) {
+  for (const [width, height] of [
+    [360, 740],
+    [390, 844],
+  ]) {
+    const { page, context, complaints } = await openReport(browser, report.file, {
+      width,
+      height,
+      touch: true,
+    });
+    const narrow = async (state) => {
+      const wide = await page.evaluate(() => {
+        const beyond = [...document.querySelectorAll("body *")].filter((e) => {
+          const { left, right, width: w } = e.getBoundingClientRect();
+          return (
+            w > 0 && (right > innerWidth + 1 || left < -1) && !e.closest(".view, .visually-hidden, .plot")
+          );
+        });
+        const scrolls = [...document.querySelectorAll("main *")].filter(
+          (e) =>
+            e.scrollWidth > e.clientWidth + 1 &&
+            getComputedStyle(e).overflowX === "auto" &&
+            e.tagName !== "PRE",
+        );
+        return [
+          document.documentElement.scrollWidth - innerWidth,
+          ...[...beyond, ...scrolls].map((e) => `${e.tagName}.${e.className}#${e.id}`),
+        ];
+      });
+      assert.deepEqual(wide, [wide[0]], `${state} at ${width}: ${wide.join(", ")}`);
+      assert.ok(wide[0] <= 0, `${state} at ${width} is wider by ${wide[0]}`);
+    };
+    await narrow("opened");
+    // fingers meet every control
+    const small = await page.evaluate(() =>
+      [...document.querySelectorAll(".stage button:not(.mark), .segments > *, .checks label, .track input")]
+        .filter((e) => e.getBoundingClientRect().height > 0 && e.getBoundingClientRect().height < 32)
+        .map((e) => e.outerHTML),
+    );
+    assert.deepEqual(small, []);
+    for (const id of ["#slider", "#picture", "#legend", "#play"]) {
+      const box = await page.locator(id).boundingBox();
+      assert.ok(box.y + box.height <= height, `${id} is on the first screen`);
+    }
+    // a tap on a node reads it, and stays; the next one elsewhere takes it away
+    const data = await pageData(page);
+    await page.evaluate(() => window.plydrape.goto(window.plydrape.steps[0]));
+    await page.evaluate((at) => window.plydrape.goto(at), data.steps.at(-1));
+    await frames(page, 3);
+    const place = await page.evaluate(() => window.plydrape.node(0) ?? window.plydrape.vertex(0));
+    const [x, y] = await page.evaluate((at) => window.plydrape.onScreen(at), place);
+    const view = await page.locator("#view").boundingBox();
+    await page.touchscreen.tap(view.x + x, view.y + y);
+    await frames(page, 3);
+    assert.ok(await page.locator("#view .hover").isVisible());
+    const plate = await page.locator("#view .hover").boundingBox();
+    assert.ok(plate.x >= 0 && plate.x + plate.width <= width, "the plate is on the screen");
+    await page.touchscreen.tap(view.x + 3, view.y + view.height - 3);
+    await frames(page, 3);
+    assert.ok(!(await page.locator("#view .hover").isVisible()));
+    // the slider goes by touch
+    const slider = await page.locator("#slider").boundingBox();
+    await page.touchscreen.tap(slider.x + slider.width / 2, slider.y + slider.height / 2);
+    assert.notEqual(await page.evaluate(() => window.plydrape.step), data.steps.at(-1));
+    await page.locator("#section-open").tap();
+    await narrow("section");
+    await page.locator("#other-file").setInputFiles(report.file);
+    await page.locator("#view-b").waitFor();
+    await narrow("comparison");
+    await page.locator("#compare-shown label").first().tap();
+    await narrow("both");
+    assert.deepEqual(complaints, []);
+    await context.close();
+  }
+}
+
 async function damagedDataIsSaid(report) {
   const [head, data, tail] = parts(report);
   const damaged = {
     cut: [data.slice(0, data.length / 2), /cut off or damaged/],
-    newer: [data.replace(/"version"\s*:\s*1/, '"version":99'), /version 99/],
+    newer: [data.replace(/"version"\s*:\s*2/, '"version":99'), /version 99/],
     short: [data.replace(/("surface"\s*:\s*\{[^}]*"data"\s*:\s*")[^"]{40}/, "$1"), /surface of its geometry/],
     foreign: ["[]", /not that of a results page/],
   };

@@ -48,7 +48,7 @@ export function shareOf(field: Field, value: number): number {
   return span > 0 ? (value - field.low) / span : 0.5;
 }
 
-/** The map as a CSS gradient from bottom to top. */
+/** The map as the colours of a CSS gradient, the lowest first. */
 export function gradient(map: Rgb[]): string {
-  return `linear-gradient(to top, ${map.map((c) => `rgb(${c.join(" ")})`).join(", ")})`;
+  return map.map((c) => `rgb(${c.join(" ")})`).join(", ");
 }

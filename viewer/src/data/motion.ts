@@ -96,18 +96,6 @@ export class Motion {
     }
   }
 
-  /** A colour mode with the range of its values in one step alone. */
-  within(field: Field, index: number): Field {
-    const { count } = field.on === "cell" ? this.shear : this.surface;
-    let [low, high] = [Infinity, -Infinity];
-    for (let item = 0; item < count; item++) {
-      const value = this.value(field, index, item);
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-    return low <= high ? { ...field, low, high } : field;
-  }
-
   /** The box around the ply, by both models, and its grippers over all steps (m). */
   bounds(): { low: Place; high: Place } {
     const low: Place = [Infinity, Infinity, Infinity];

@@ -21,6 +21,26 @@ export function full(value: number): string {
   return minus(String(value));
 }
 
+/** How units are written, and the amount below which a number of that unit is no longer told from zero. */
+const UNITS: Record<string, { sign: string; least: number }> = {
+  mm: { sign: "mm", least: 1e-3 },
+  "°": { sign: "°", least: 1e-3 },
+  deg: { sign: "°", least: 1e-3 },
+  N: { sign: "N", least: 1e-3 },
+  "N/m": { sign: "N/m", least: 1e-3 },
+  s: { sign: "s", least: 1e-3 },
+  "%": { sign: "%", least: 1e-4 },
+  "1": { sign: "", least: 0 },
+  slope: { sign: "", least: 0 },
+};
+
+/** A value as tables, charts and plates show it: four digits, its unit, and “<” where it is too small to tell. */
+export function quantity(value: number, unit: string): string {
+  const least = UNITS[unit]?.least ?? 0;
+  if (value !== 0 && Math.abs(value) < least) return `<\u202f${withUnit(short(least), unit)}`;
+  return withUnit(short(value), unit);
+}
+
 /** A value with its unit; the unit 1 is silent and a degree stands close. */
 export function withUnit(text: string, unit: string): string {
   const sign = signOf(unit);
@@ -34,9 +54,8 @@ export function bracketed(unit: string): string {
   return sign === "" ? "" : ` (${sign})`;
 }
 
-/** A unit as people write it: degrees by their sign, nothing for the unit 1. */
 function signOf(unit: string): string {
-  return unit === "1" ? "" : unit.replace(/^deg/, "°");
+  return UNITS[unit]?.sign ?? unit;
 }
 
 function minus(text: string): string {

@@ -32,6 +32,8 @@ export interface Limit {
   /** The limit is the least allowed, not the most. */
   least: boolean;
   ok: boolean;
+  /** The value as a multiple of its limit: beyond 1 it is exceeded. */
+  ratio: number;
   /** One of the motion, which counts with every model. */
   motion: boolean;
   step: number | null;
@@ -144,6 +146,8 @@ export interface SheetData {
   force_unit: number;
   /** Of the sheet on the pads. */
   forces: Block;
+  /** Whether each pad holds the ply, 1 or 0; null where all of them always do. */
+  holds: Block | null;
   /** The largest loads that a gripper may have (N): along the ply, off the pad, and as a whole. */
   allowed: { along: number | null; across: number | null; whole: number | null };
   /** Thousandths of them that the loads use, along the ply and across it; -1 without a limit. */
@@ -196,6 +200,8 @@ export interface PageData {
   times: number[];
   /** Grippers along u and v; zeros where catenaries make no surface. */
   grid: [number, number];
+  /** Fabric between neighbouring grippers along u and v (mm). */
+  pitch: [number, number];
   /** Column and row of each gripper. */
   ids: GripperId[];
   divisions: number;
@@ -231,6 +237,7 @@ const LISTS = [
   "steps",
   "times",
   "grid",
+  "pitch",
   "ids",
   "limits",
   "measures",
@@ -239,6 +246,9 @@ const LISTS = [
   "left_out",
 ] as const;
 const BLOCKS = ["surface", "diagonals", "grippers", "normals", "shear", "direction"] as const;
+
+/** The version of the data that this page reads. */
+const VERSION = 2;
 
 /** The page's data from its text, checked as far as a wrong file would show. */
 export function readPageData(text: string): PageData {
@@ -252,8 +262,10 @@ export function readPageData(text: string): PageData {
   if (typeof found !== "object" || found?.format !== "plydrape-page") {
     throw new BrokenData("its data is not that of a results page");
   }
-  if (found.version !== 1) {
-    throw new BrokenData(`its data has version ${String(found.version)}, and this page reads version 1`);
+  if (found.version !== VERSION) {
+    throw new BrokenData(
+      `its data has version ${String(found.version)}, and this page reads version ${String(VERSION)}`,
+    );
   }
   for (const key of LISTS) {
     if (!Array.isArray(found[key])) throw new BrokenData(`the list “${key}” is missing in its data`);
@@ -339,6 +351,7 @@ function checkSheet(data: PageData, sheet: SheetData): void {
     [sheet.strain, cells],
     [sheet.tension, cells],
     [sheet.forces, sheet.grippers.count],
+    [sheet.holds, sheet.grippers.count],
     [sheet.normals, sheet.grippers.count],
     [sheet.used, sheet.grippers.count],
   ];
@@ -362,6 +375,20 @@ function checkSheet(data: PageData, sheet: SheetData): void {
   ) {
     throw new BrokenData("the states of its sheet do not fit each other");
   }
+}
+
+/** The limits that count: with a sheet its own and those of the motion. */
+export function deciding(data: PageData): Limit[] {
+  return data.sheet === null
+    ? data.limits
+    : [...data.sheet.limits, ...data.limits.filter((limit) => limit.motion)];
+}
+
+/** Index of a step, or of the one nearest to it if it was left out; -1 for none. */
+export function nearest(steps: number[], step: number | null): number {
+  if (step === null) return -1;
+  const away = steps.map((number) => Math.abs(number - step));
+  return away.indexOf(Math.min(...away));
 }
 
 /** What colours can tell of a model. */

@@ -26,6 +26,7 @@ export class SheetStates {
     readonly grippers: Frames,
     readonly normals: Frames,
     readonly forces: Frames,
+    private readonly held: Frames | null,
     private readonly used: Frames,
     private readonly spread: Int32Array | null,
   ) {
@@ -48,6 +49,7 @@ export class SheetStates {
       await unpack(data.grippers, "pads"),
       await unpack(data.normals, "normals of the pads"),
       await unpack(data.forces, "forces"),
+      data.holds === null ? null : await unpack(data.holds, "pads that hold"),
       await unpack(data.used, "margins of the grippers"),
       data.spread === null ? null : (await unpack(data.spread, "heights of the sample")).values,
     );
@@ -88,18 +90,14 @@ export class SheetStates {
     }
   }
 
-  /** A colour mode with the range of its values in one step alone; a scale of orders keeps its ends. */
-  within(field: Field, index: number): Field {
-    if (field.scale === "orders") return field;
-    const count = field.on === "cell" ? this.shear.count : this.positions.count;
-    let [low, high] = [Infinity, -Infinity];
-    for (let item = 0; item < count; item++) {
-      const value = this.value(field, index, item);
-      if (value === null) continue;
-      low = Math.min(low, value);
-      high = Math.max(high, value);
-    }
-    return low <= high ? { ...field, low, high } : field;
+  /** How many values a colour mode has in a step. */
+  countOf(field: Field): number {
+    return field.on === "cell" ? this.shear.count : this.positions.count;
+  }
+
+  /** Whether a pad holds the ply; null where all of them always do. */
+  holds(state: number, gripper: number): boolean | null {
+    return this.held === null ? null : this.held.at(state)[gripper] !== 0;
   }
 
   /** Height of a node over the mold (mm). */

@@ -6,10 +6,16 @@
  */
 
 import uPlot from "uplot";
-import { full, short, ticks, withUnit } from "../data/number";
+import { full, quantity, short, ticks, withUnit } from "../data/number";
 import { hasCatenaries, type Measure, type PageData } from "../data/page_data";
 import { byId, make, themeColour } from "./dom";
 import type { State } from "./state";
+
+/** A second result in the charts: its measures, and where along the steps of this one its steps stand. */
+export interface Beside {
+  data: PageData;
+  at: (index: number) => number;
+}
 
 /** What a reader looks for first; then come measures with a limit, then the others, both in the order given. */
 const FIRST = [
@@ -65,6 +71,11 @@ export class Charts {
     for (const chart of this.charts) chart.mark(index);
   }
 
+  /** Draws the lines of a second result too, or none. */
+  compare(beside: Beside | null): void {
+    for (const chart of this.charts) chart.compare(beside);
+  }
+
   redraw(): void {
     for (const chart of this.charts) chart.plot.redraw(false);
   }
@@ -85,6 +96,7 @@ class Chart {
   private readonly line = make("div", { class: "chart-marker" });
   private readonly dot = make("div", { class: "chart-dot" });
   private index = 0;
+  private other: { x: number[]; values: (number | null)[] } | null = null;
 
   constructor(
     host: HTMLElement,
@@ -93,7 +105,7 @@ class Chart {
     private readonly state: State,
   ) {
     const { label, unit, limit, least } = measure;
-    const allowed = limit === null ? "" : `limit ${least ? "≥" : "≤"}\u202f${withUnit(short(limit), unit)}`;
+    const allowed = limit === null ? "" : `limit ${least ? "≥" : "≤"}\u202f${quantity(limit, unit)}`;
     const bound = make("span", { class: "chart-limit" }, allowed);
     if (limit !== null) bound.title = `${least ? "at least" : "at most"} ${withUnit(full(limit), unit)}`;
     const head = make(
@@ -116,7 +128,6 @@ class Chart {
   }
 
   private options(): uPlot.Options {
-    const { low, high } = this.range();
     const axis: uPlot.Axis = {
       stroke: () => themeColour("text-quiet"),
       grid: { stroke: () => themeColour("chart-grid"), width: 1 },
@@ -135,7 +146,7 @@ class Chart {
       cursor: { x: true, y: false, drag: { x: false, y: false }, points: { show: false } },
       scales: {
         x: { time: false, range: () => (single ? [first - 1, last + 1] : [first, last]) },
-        y: { range: () => [low, high] },
+        y: { range: () => this.range() },
       },
       axes: [
         {
@@ -145,7 +156,7 @@ class Chart {
           splits: (u) => stepTicks(first, last, u.width),
           values: (_, v) => v.map(String),
         },
-        { ...axis, size: 46, splits: () => ticks(low, high, 2.6), values: (_, v) => v.map(short) },
+        { ...axis, size: 46, splits: () => ticks(...this.range(), 2.6), values: (_, v) => v.map(short) },
       ],
       series: [
         {},
@@ -156,22 +167,61 @@ class Chart {
           points: { show: this.steps.length === 1, size: 5 },
         },
       ],
-      hooks: { drawAxes: [(u) => this.drawLimit(u)] },
+      hooks: { drawAxes: [(u) => this.drawLimit(u)], drawSeries: [(u) => this.drawOther(u)] },
     };
   }
 
   /** From zero where that is near, and wide enough to show the limit. */
-  private range(): { low: number; high: number } {
-    const values = this.measure.values.filter((v): v is number => v !== null);
+  private range(): [low: number, high: number] {
+    const all = [...this.measure.values, ...(this.other?.values ?? [])];
+    const values = all.filter((v): v is number => v !== null);
     if (this.measure.limit !== null) values.push(this.measure.limit);
     let low = Math.min(...values);
     const high = Math.max(...values);
     if (low > 0 && low < 0.6 * high) low = 0;
     const span = high - low;
     if (span <= 1e-12 * Math.max(Math.abs(high), 1e-300)) {
-      return high === 0 ? { low: 0, high: 1 } : { low: Math.min(0, 2 * high), high: Math.max(0, 2 * high) };
+      return high === 0 ? [0, 1] : [Math.min(0, 2 * high), Math.max(0, 2 * high)];
     }
-    return { low: low === 0 ? 0 : low - 0.06 * span, high: high + 0.08 * span };
+    return [low === 0 ? 0 : low - 0.06 * span, high + 0.08 * span];
+  }
+
+  /** Takes the same measure of a second result, if it has it in the same unit. */
+  compare(beside: Beside | null): void {
+    const { key, unit } = this.measure;
+    const same = beside?.data.measures.find((measure) => measure.key === key && measure.unit === unit);
+    this.other =
+      beside === null || same === undefined
+        ? null
+        : { x: same.values.map((_, k) => beside.at(k)), values: same.values };
+    this.card.classList.toggle("compared", this.other !== null);
+    this.plot.setData(this.plot.data);
+    this.mark(this.index);
+  }
+
+  /** The line of the second result, dashed. */
+  private drawOther(u: uPlot): void {
+    if (this.other === null) return;
+    const { ctx, bbox } = u;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    ctx.strokeStyle = themeColour("other");
+    ctx.lineWidth = 1.6 * devicePixelRatio;
+    ctx.setLineDash([5 * devicePixelRatio, 3 * devicePixelRatio]);
+    ctx.beginPath();
+    let drawing = false;
+    this.other.values.forEach((value, k) => {
+      if (value !== null) {
+        const [x, y] = [u.valToPos(this.other!.x[k]!, "x", true), u.valToPos(value, "y", true)];
+        if (drawing) ctx.lineTo(x, y);
+        else ctx.moveTo(x, y);
+      }
+      drawing = value !== null;
+    });
+    ctx.stroke();
+    ctx.restore();
   }
 
   private drawLimit(u: uPlot): void {
@@ -226,13 +276,21 @@ class Chart {
   private show(index: number, hovered: boolean): void {
     const { values, where, unit } = this.measure;
     const value = values[index] ?? null;
-    this.value.textContent = value === null ? "–" : withUnit(short(value), unit);
+    this.value.textContent = value === null ? "–" : quantity(value, unit);
     this.value.title = value === null ? "no value in this step" : withUnit(full(value), unit);
-    const place = where[index] ?? "";
+    const place = this.besides(index) ?? where[index] ?? "";
     this.where.textContent = hovered
       ? `step ${this.steps[index]!}${place === "" ? "" : `: ${place}`}`
       : place || "\u00a0";
     this.card.classList.toggle("hovered", hovered);
+  }
+
+  /** The value of a second result that stands beside a step. */
+  private besides(index: number): string | null {
+    if (this.other === null) return null;
+    const away = this.other.x.map((x) => Math.abs(x - this.steps[index]!));
+    const value = this.other.values[away.indexOf(Math.min(...away))] ?? null;
+    return value === null ? "B –" : `B ${quantity(value, this.measure.unit)}`;
   }
 
   fit(given: number | null): void {

@@ -3,11 +3,15 @@
  */
 
 import { Vector3 } from "three";
+import type { FabricLine, LinePoint } from "../data/fabric_line";
 import { MICRO, type Motion } from "../data/motion";
 import { fieldsOf, type FieldKey, type Measure, type Model, type Place } from "../data/page_data";
+import { fieldInForce } from "../data/ranges";
 import type { Scene3d } from "../scene/scene3d";
-import { fieldOf, legendOf, type LegendFacts } from "./legend";
+import type { Comparison } from "./compare";
+import { legendOf, type LegendFacts } from "./legend";
 import type { Player } from "./player";
+import type { Section } from "./section";
 import type { State } from "./state";
 import { chooseModel } from "./toolbar";
 
@@ -31,6 +35,8 @@ export interface FullHandle extends Handle {
   model: Model;
   /** A node of the sheet in view (m), or null without a sheet. */
   node(number: number): Place | null;
+  /** Fabric coordinates of a node of the sheet (mm), or null without a sheet. */
+  fabric(number: number): [number, number] | null;
   /** Where a place is on the picture (CSS pixels from its top left), or null without a picture. */
   onScreen(place: Place): [number, number] | null;
   /** Colour mode; can be set. */
@@ -41,6 +47,14 @@ export interface FullHandle extends Handle {
   readonly measures: Measure[];
   /** Vertex of the surface as drawn (m); u runs fastest. */
   vertex(index: number): Place;
+  /** The fabric line of the section; can be set, and null closes it. */
+  section: FabricLine | null;
+  /** The points of the section as they are charted, or null without one. */
+  sectionPoints(): LinePoint[] | null;
+  /** Takes a second result from the text of its report.html or result.json. */
+  compare(text: string, name: string): Promise<void>;
+  /** The number of the step of the second result that is shown, or null without one. */
+  readonly otherStep: number | null;
   /** The place that is pointed at, or null. */
   readonly pointer: { step: number; place: Place; label: string } | null;
   /** Whether there is a 3D picture. */
@@ -53,6 +67,8 @@ export function handle(
   player: Player,
   motion: Motion,
   scene: Scene3d | null,
+  section: Section,
+  comparison: Comparison,
 ): FullHandle {
   const { data } = motion;
   return {
@@ -81,6 +97,10 @@ export function handle(
       const shown = motion.sheet?.stateOf(state.now.index) ?? null;
       return shown === null ? null : motion.sheet!.node(shown, number);
     },
+    fabric: (number) => {
+      const places = motion.sheet?.places;
+      return places === undefined ? null : [places[2 * number]! / 1000, places[2 * number + 1]! / 1000];
+    },
     onScreen: (place) => scene?.eye.project(new Vector3(...place)) ?? null,
     get colour() {
       return state.now.colour;
@@ -91,9 +111,21 @@ export function handle(
     get colours() {
       return fieldsOf(data, state.now.model).map((field) => field.key);
     },
-    legend: () => legendOf(fieldOf(motion, state.now)!),
+    legend: () => legendOf(fieldInForce(motion, state.now)!),
     measures: data.measures,
     vertex: (index) => scene?.vertex(index) ?? stored(motion, state.now.index, index),
+    get section() {
+      return state.now.section;
+    },
+    set section(line) {
+      state.set({ section: line });
+    },
+    sectionPoints: () => section.facts()?.points ?? null,
+    compare: (text, name) => comparison.take(text, name),
+    get otherStep() {
+      const { other, otherIndex } = state.now;
+      return other === null ? null : other.data.steps[otherIndex]!;
+    },
     get pointer() {
       const { pointer } = state.now;
       return pointer && { step: data.steps[pointer.index]!, place: pointer.place, label: pointer.label };

@@ -2,8 +2,10 @@
 
 import { hasCatenaries, type PageData } from "../data/page_data";
 import type { Eye, StandardView } from "../scene/camera";
+import type { Comparison } from "./compare";
 import { byId, make } from "./dom";
 import type { Player } from "./player";
+import type { Section } from "./section";
 import type { State } from "./state";
 import { chooseModel, modes } from "./toolbar";
 
@@ -17,8 +19,15 @@ const HELP: [string, string][] = [
   ["0", "fit into the picture"],
   ["+ −", "nearer, farther"],
   ["Shift + arrows", "turn the view"],
+  ["O", "scale by orders of size, or an even one"],
   ["R", "colours over the range of this step, or of all steps"],
-  ["D, M, B, P", "diagonals, mold, bodies of the cell, forces on the pads on or off"],
+  [
+    "D, M, B, P, G",
+    "diagonals, mold, bodies of the cell, forces on the pads, paths of the grippers on or off",
+  ],
+  ["W", "the worst limit and its place"],
+  ["X", "section along a line of the fabric"],
+  ["A", "the one or the other of two results that are compared"],
   ["L", "light or dark"],
   ["Escape", "take the marker away"],
   ["?", "this list"],
@@ -26,7 +35,14 @@ const HELP: [string, string][] = [
 const VIEWS: Record<string, StandardView> = { t: "top", f: "front", s: "side", i: "iso" };
 const TURN = Math.PI / 24;
 
-export function linkKeyboard(state: State, player: Player, data: PageData, eye: Eye | null): void {
+export function linkKeyboard(
+  state: State,
+  player: Player,
+  data: PageData,
+  eye: Eye | null,
+  section: Section,
+  comparison: Comparison,
+): void {
   linkHelp();
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
@@ -39,7 +55,7 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
   });
 
   const find = (key: string): (() => void) | undefined => {
-    const { index, stepRange, diagonals, mold, cell, forces, model } = state.now;
+    const { index, stepRange, orders, diagonals, mold, cell, forces, paths, model } = state.now;
     const mode = modes(data, model)[Number(key) - 1];
     if (mode !== undefined) return () => state.set({ colour: mode[0] });
     const view = VIEWS[key.toLowerCase()];
@@ -55,6 +71,11 @@ export function linkKeyboard(state: State, player: Player, data: PageData, eye: 
       "=": () => eye?.zoomBy(1.2),
       "-": () => eye?.zoomBy(1 / 1.2),
       r: () => state.set({ stepRange: !stepRange }),
+      o: () => state.set({ orders: !orders }),
+      g: () => state.set({ paths: !paths }),
+      w: () => byId("worst").click(),
+      x: () => section.toggle(),
+      a: () => comparison.change(),
       d: () => state.set({ diagonals: !diagonals }),
       m: () => state.set({ mold: !mold }),
       b: () => state.set({ cell: !cell }),

@@ -1,10 +1,11 @@
 /** The colour bar over the picture: title, unit, round ticks, and the limit where there is one. */
 
 import { gradient, mapOf, shareOf } from "../data/colour_map";
-import { bracketed, full, short, ticks, ticksOfOrders, withUnit } from "../data/number";
+import { bracketed, full, quantity, short, ticks, ticksOfOrders } from "../data/number";
 import type { Motion } from "../data/motion";
 import { USES } from "../scene/forces";
 import { fieldsOf, hasSurface, type Field } from "../data/page_data";
+import { fieldInForce, hasOrders } from "../data/ranges";
 import { byId, make } from "./dom";
 import type { Choice, State } from "./state";
 
@@ -13,6 +14,7 @@ export interface LegendFacts {
   key: string;
   title: string;
   unit: string;
+  scale: Field["scale"];
   low: number;
   high: number;
   ticks: number[];
@@ -20,59 +22,59 @@ export interface LegendFacts {
 }
 
 export function legendOf(field: Field): LegendFacts {
-  const { key, label, unit, low, high, limit } = field;
+  const { key, label, unit, scale, low, high, limit } = field;
   const round = field.scale === "orders" ? ticksOfOrders(low, high, 7) : ticks(low, high, 6);
   // steps are whole numbers
   const marks = key === "landing" ? round.filter(Number.isInteger) : round;
-  return { key, title: label, unit, low, high, ticks: marks, limit };
-}
-
-/** The colour mode in force, with the range in force. */
-export function fieldOf(motion: Motion, now: Choice): Field | undefined {
-  const field = fieldsOf(motion.data, now.model).find(({ key }) => key === now.colour);
-  if (field === undefined || !now.stepRange) return field;
-  return (now.model === "sheet" ? motion.sheet : motion)?.within(field, now.index) ?? field;
+  return { key, title: label, unit, scale, low, high, ticks: marks, limit };
 }
 
 export function linkLegend(state: State, motion: Motion): void {
   const host = byId("legend");
   const bar = byId("legend-bar");
   const check = byId<HTMLInputElement>("step-range");
+  const orders = byId<HTMLInputElement>("orders");
   check.addEventListener("change", () => state.set({ stepRange: check.checked }));
+  orders.addEventListener("change", () => state.set({ orders: orders.checked }));
   state.listen((now, before) => {
     showForceScale(motion, now);
-    const ranged = now.stepRange !== before.stepRange || (now.stepRange && now.index !== before.index);
-    const same = now.colour === before.colour && now.model === before.model;
-    if (now !== before && same && !ranged) return;
-    const field = fieldOf(motion, now);
+    const keys = ["colour", "model", "stepRange", "orders", "other"] as const;
+    const changed = now === before || keys.some((key) => now[key] !== before[key]);
+    const moved = now.index !== before.index || now.otherIndex !== before.otherIndex;
+    if (!changed && !(now.stepRange && moved)) return;
+    const field = fieldInForce(motion, now);
     // A strip of ply has no cells, so nothing is coloured.
     host.hidden = field === undefined || (now.model === "catenaries" && !hasSurface(motion.data));
     check.checked = now.stepRange;
-    // the ends of a scale of orders are those of every result, so that pictures can be compared
-    check.parentElement!.hidden = field?.scale === "orders";
+    orders.checked = now.orders;
+    const given = fieldsOf(motion.data, now.model).find(({ key }) => key === now.colour);
+    orders.parentElement!.hidden = given === undefined || !hasOrders(given);
     if (field !== undefined) bar.replaceChildren(...draw(field));
   });
 }
 
-/** What the longest arrow stands for. */
+/** What the longest arrow stands for, of a second result too. */
 function showForceScale(motion: Motion, now: Choice): void {
   const note = byId("force-scale");
-  const state = motion.sheet?.stateOf(now.index) ?? null;
-  const shown = now.model === "sheet" && now.forces && state !== null;
-  const load = shown ? motion.sheet!.mostLoad(state) : 0;
+  const most = (of: Motion | null, index: number) => {
+    const state = of?.sheet?.stateOf(index) ?? null;
+    return now.model === "sheet" && now.forces && state !== null ? of!.sheet!.mostLoad(state) : 0;
+  };
+  const [load, other] = [most(motion, now.index), most(now.other, now.otherIndex)];
   // pads that have let go have no loads
-  note.hidden = load === 0;
-  if (load === 0) return;
+  note.hidden = load === 0 && other === 0;
+  if (load === 0 && other === 0) return;
   const uses = USES.map(({ colour, text }) => {
     const swatch = make("i", { class: "swatch", "aria-hidden": "true" });
     swatch.style.background = `var(--${colour})`;
     return make("span", {}, swatch, text);
   });
-  note.replaceChildren(make("b", {}, `longest arrow ${withUnit(short(load), "N")}`), ...uses);
+  const beside = now.other === null ? "" : `, of B ${quantity(other, "N")}`;
+  note.replaceChildren(make("b", {}, `longest arrow ${quantity(load, "N")}${beside}`), ...uses);
 }
 
 /** The ends of a scale of orders stand for everything beyond them too. */
-function beyond(field: Field, value: number): string {
+export function beyond(field: Field, value: number): string {
   if (field.scale !== "orders") return "";
   return value <= field.low ? "≤\u202f" : value >= field.high ? "≥\u202f" : "";
 }
@@ -80,12 +82,12 @@ function beyond(field: Field, value: number): string {
 function draw(field: Field): HTMLElement[] {
   const facts = legendOf(field);
   const bar = make("div", { class: "bar" });
-  bar.style.background = gradient(mapOf(field));
+  bar.style.setProperty("--map", gradient(mapOf(field)));
   const scale = make("div", { class: "scale" }, bar);
-  const at = (value: number) => `${100 * shareOf(field, value)}%`;
+  const at = (value: number) => `${String(100 * shareOf(field, value))}%`;
   for (const value of facts.ticks) {
     const tick = make("span", { class: "tick" }, beyond(field, value) + short(value));
-    tick.style.bottom = at(value);
+    tick.style.setProperty("--at", at(value));
     scale.append(tick);
   }
   const { limit } = field;
@@ -95,7 +97,7 @@ function draw(field: Field): HTMLElement[] {
       { class: "limit-line", title: `limit ${full(limit)}` },
       make("b", {}, `limit ${short(limit)}`),
     );
-    line.style.bottom = at(limit);
+    line.style.setProperty("--at", at(limit));
     scale.append(line);
   }
   const title = make("p", { class: "legend-title" }, `${field.label}${bracketed(field.unit)}`);

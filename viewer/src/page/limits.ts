@@ -1,8 +1,9 @@
 /** The verdict and the table of limits; a row shows its step and its place on the ply. */
 
-import { full, short, withUnit } from "../data/number";
-import type { Limit, Model, PageData } from "../data/page_data";
+import { full, quantity, withUnit } from "../data/number";
+import { deciding, nearest, type Limit, type Model, type PageData } from "../data/page_data";
 import { byId, make } from "./dom";
+import { colourOf, pointerOf } from "./opening";
 import type { State } from "./state";
 import { chooseModel } from "./toolbar";
 
@@ -25,13 +26,6 @@ function verdict(data: PageData): string {
   }
   if (failed === 0) return `Not accepted${by}`;
   return `Not accepted${by}: ${failed} of ${count} ${count === 1 ? "limit" : "limits"} exceeded`;
-}
-
-/** The limits that count: with a sheet its own and those of the motion. */
-export function deciding(data: PageData): Limit[] {
-  return data.sheet === null
-    ? data.limits
-    : [...data.sheet.limits, ...data.limits.filter((limit) => limit.motion)];
 }
 
 /** Why there are fewer steps than planned, if there are. */
@@ -109,8 +103,8 @@ export function limitsTable(state: State, data: PageData, model: Model, limits: 
 }
 
 function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTableRowElement {
-  const value = withUnit(short(limit.value), limit.unit);
-  const bound = `${limit.least ? "≥" : "≤"}\u202f${withUnit(short(limit.limit), limit.unit)}`;
+  const value = quantity(limit.value, limit.unit);
+  const bound = `${limit.least ? "≥" : "≤"}\u202f${quantity(limit.limit, limit.unit)}`;
   const index = nearest(data.steps, limit.step);
   const word = limit.ok ? "pass" : "fail";
   const cells = [
@@ -132,12 +126,7 @@ function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTabl
   cells[5]!.replaceChildren(button);
   tr.classList.add("linked");
   tr.addEventListener("click", () => {
-    const name = limit.name.charAt(0).toUpperCase() + limit.name.slice(1);
-    const allowed = `at ${limit.least ? "least" : "most"} ${withUnit(short(limit.limit), limit.unit)} allowed`;
-    const label = `${name}: ${value}\n${limit.ok ? "pass" : "exceeded"}, ${allowed}\n${limit.where}`;
-    if (!limit.motion) chooseModel(state, data, model);
-    state.goto(index);
-    if (limit.place !== null) state.set({ pointer: { index, place: limit.place, label } });
+    showLimit(state, data, limit, limit.motion ? state.now.model : model);
     for (const other of document.querySelectorAll("table.limits [aria-current]"))
       other.removeAttribute("aria-current");
     tr.setAttribute("aria-current", "true");
@@ -146,6 +135,21 @@ function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTabl
     if (now.index !== index) tr.removeAttribute("aria-current");
   });
   return tr;
+}
+
+/** Goes to the step of a limit, in the colours that it is about, and marks its place. */
+export function showLimit(
+  state: State,
+  data: PageData,
+  limit: Limit,
+  model: Model = limit.motion ? state.now.model : data.sheet === null ? "catenaries" : "sheet",
+): void {
+  chooseModel(state, data, model);
+  const colour = colourOf(data, model, limit);
+  if (colour !== null) state.set({ colour });
+  state.goto(nearest(data.steps, limit.step));
+  const pointer = pointerOf(data, limit);
+  if (pointer !== null) state.set({ pointer });
 }
 
 /** What published data say of the angles that were found: information below the limits. */
@@ -165,11 +169,4 @@ export function showStrength(data: PageData): void {
       make("p", { class: "quiet" }, warning),
     ),
   );
-}
-
-/** Index of a step, or of the one nearest to it if it was left out; -1 for none. */
-export function nearest(steps: number[], step: number | null): number {
-  if (step === null) return -1;
-  const away = steps.map((number) => Math.abs(number - step));
-  return away.indexOf(Math.min(...away));
 }

@@ -45,16 +45,17 @@ export class Player {
   }
 
   /** Seconds of playing from the first step to each. */
-  private get schedule(): number[] {
+  schedule(): number[] {
     const last = this.times.length - 1;
     const span = this.times[last]! - this.times[0]!;
     if (this.byTime && span > 0) return this.times.map((t) => (t - this.times[0]!) / this.speed);
+    if (last === 0) return [0];
     const whole = Math.min(Math.max(STEP * last, SHORTEST), LONGEST) / this.speed;
     return this.times.map((_, k) => (whole * k) / last);
   }
 
   private start(): void {
-    this.clock = this.schedule[this.state.now.index]!;
+    this.clock = this.schedule()[this.state.now.index]!;
     this.last = 0;
     this.frames.length = 0;
     requestAnimationFrame((now) => this.frame(now));
@@ -69,7 +70,7 @@ export class Player {
       this.clock += passed / 1000;
     }
     this.last = now;
-    const schedule = this.schedule;
+    const schedule = this.schedule();
     let index = this.state.now.index;
     while (index + 1 < schedule.length && schedule[index + 1]! <= this.clock) index++;
     const ended = index === schedule.length - 1;

@@ -1,6 +1,6 @@
 /** The verdict over a sample of cells: how many keep the limits, how high their sheets are, and where the highest place is. */
 
-import { full, short, ticks, withUnit } from "../data/number";
+import { full, quantity, short, ticks } from "../data/number";
 import type { Motion } from "../data/motion";
 import type { SampleData } from "../data/page_data";
 import { byId, make } from "./dom";
@@ -159,7 +159,7 @@ function write(x: number, y: number, text: string, from: string): SVGElement {
 function highest(state: State, sample: SampleData, pointer: Pointer | null): HTMLElement {
   const { height_mm, uv_mm, line, gripper } = sample.highest!;
   const text = `on the line from ${line}, near ${gripper} (u ${short(uv_mm[0])}, v ${short(uv_mm[1])} mm)`;
-  const size = `Highest place: ${withUnit(short(height_mm), "mm")} is kept by ${sample.share} of the cells, `;
+  const size = `Highest place: ${quantity(height_mm, "mm")} is kept by ${sample.share} of the cells, `;
   if (pointer === null) return make("p", {}, size + text);
   const button = make("button", { type: "button", class: "link" }, text);
   button.addEventListener("click", () => {
@@ -177,7 +177,7 @@ function pointerOf(motion: Motion): Pointer | null {
   const node = sample?.highest?.node ?? null;
   if (sample === null || at === null || node === null || motion.sheet!.data.spread === null) return null;
   const { height_mm, line, gripper } = sample.highest!;
-  const label = `Highest: ${withUnit(short(height_mm), "mm")}\n${sample.share} of the cells keep it\nline from ${line}\nnear ${gripper}`;
+  const label = `Highest: ${quantity(height_mm, "mm")}\n${sample.share} of the cells keep it\nline from ${line}\nnear ${gripper}`;
   return { index, place: motion.sheet!.node(at, node), label };
 }
 

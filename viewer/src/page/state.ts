@@ -3,6 +3,8 @@
  * Every part of the page listens here, so that none needs to know another.
  */
 
+import type { FabricLine } from "../data/fabric_line";
+import type { Motion } from "../data/motion";
 import type { FieldKey, Model, Place } from "../data/page_data";
 
 /** A place on the ply that the view points at, in one step only. */
@@ -20,12 +22,21 @@ export interface Choice {
   colour: FieldKey;
   /** Colours span the values of the step in view, not those of all steps. */
   stepRange: boolean;
+  /** Scales of orders, where a colour mode can have one. */
+  orders: boolean;
   diagonals: boolean;
   mold: boolean;
   /** Bodies, obstacles and tool. */
   cell: boolean;
   /** Forces of the sheet on the pads. */
   forces: boolean;
+  /** Lines along which the grippers move. */
+  paths: boolean;
+  /** The fabric line of the section; null while there is none. */
+  section: FabricLine | null;
+  /** A second result, and the index of the step that is shown of it. */
+  other: Motion | null;
+  otherIndex: number;
   playing: boolean;
   dark: boolean;
   pointer: Pointer | null;
@@ -35,6 +46,8 @@ type Listener = (now: Choice, before: Choice) => void;
 
 export class State {
   private readonly listeners: Listener[] = [];
+  /** Index of the step of a second result that stands beside one of this result. */
+  partner: ((index: number) => number) | null = null;
 
   constructor(
     private choice: Choice,
@@ -55,6 +68,7 @@ export class State {
     const before = this.choice;
     const now = { ...before, ...change };
     now.index = Math.min(Math.max(Math.round(now.index), 0), this.count - 1);
+    if (this.partner !== null && now.index !== before.index) now.otherIndex = this.partner(now.index);
     if (now.pointer !== null && now.pointer.index !== now.index) now.pointer = null;
     const same = (Object.keys(now) as (keyof Choice)[]).every((key) => now[key] === before[key]);
     if (same) return;

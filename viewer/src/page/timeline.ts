@@ -1,9 +1,9 @@
 /** The bar under the picture: play, step by step, the slider with its marks, time and speed. */
 
 import type { Motion } from "../data/motion";
-import { full, short } from "../data/number";
+import { full, quantity } from "../data/number";
+import { deciding, nearest } from "../data/page_data";
 import { byId, make } from "./dom";
-import { deciding, nearest } from "./limits";
 import type { Player } from "./player";
 import type { State } from "./state";
 
@@ -19,6 +19,7 @@ export function linkTimeline(state: State, player: Player, motion: Motion): void
   slider.disabled = play.disabled = last === 0;
   slider.addEventListener("input", () => state.goto(Number(slider.value)));
   play.addEventListener("click", () => player.toggle());
+  byId("start").addEventListener("click", () => state.goto(0));
   byId("back").addEventListener("click", () => state.goto(state.now.index - 1));
   byId("forth").addEventListener("click", () => state.goto(state.now.index + 1));
   speed.addEventListener("change", () => (player.speed = Number(speed.value)));
@@ -29,13 +30,14 @@ export function linkTimeline(state: State, player: Player, motion: Motion): void
   state.listen(({ index, playing }, before) => {
     const step = `Step ${data.steps[index]!} of ${data.steps[last]!}`;
     const time = data.times[index]!;
-    const seconds = `t = ${short(time)} s`;
+    const seconds = `t = ${quantity(time, "s")}`;
     slider.value = String(index);
     slider.setAttribute("aria-valuetext", `${step}, ${seconds}`);
     byId("step").textContent = String(data.steps[index]!);
     byId("steps").textContent = String(data.steps[last]!);
     byId("time").textContent = seconds;
     byId("time").title = `${full(time)} s`;
+    byId<HTMLButtonElement>("start").disabled = index === 0;
     byId<HTMLButtonElement>("back").disabled = index === 0;
     byId<HTMLButtonElement>("forth").disabled = index === last;
     play.dataset.playing = String(playing);
@@ -73,7 +75,7 @@ function addMarks(state: State, motion: Motion): void {
     const step = data.times.findIndex((t) => t >= time);
     const who = grippers.length === data.ids.length ? "all pads" : grippers.join(", ");
     const what = kind === "press" ? "press" : "let go";
-    mark(step < 0 ? last : step, "mark-vacuum", `${short(time)} s: ${who} ${what}`);
+    mark(step < 0 ? last : step, "mark-vacuum", `${quantity(time, "s")}: ${who} ${what}`);
   }
   const failed = new Map<number, string[]>();
   for (const limit of deciding(data)) {

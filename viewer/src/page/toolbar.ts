@@ -87,6 +87,8 @@ export function linkToolbar(state: State, data: PageData, eye: Eye | null): void
   linkCheck(state, "mold");
   linkCheck(state, "cell");
   linkCheck(state, "forces");
+  linkCheck(state, "paths");
+  byId("show-paths").parentElement!.hidden = state.count < 2;
   byId("show-mold").parentElement!.hidden = data.geometry.mold === null;
   byId("show-cell").parentElement!.hidden = data.cell === null;
 }
@@ -102,7 +104,7 @@ function colour(state: State, key: FieldKey, name: string, k: number): HTMLEleme
   );
 }
 
-function linkCheck(state: State, key: "diagonals" | "mold" | "cell" | "forces"): void {
+function linkCheck(state: State, key: "diagonals" | "mold" | "cell" | "forces" | "paths"): void {
   const input = byId<HTMLInputElement>(`show-${key}`);
   input.addEventListener("change", () => state.set({ [key]: input.checked }));
   state.listen((now) => (input.checked = now[key]));

@@ -20,6 +20,8 @@ const DIRECTIONS: Record<StandardView, Place> = {
 
 /** Room kept free around the fitted box (CSS pixels): the legend stands on the right, labels below. */
 const MARGIN = { left: 84, right: 156, top: 30, bottom: 48 };
+/** In a narrow picture the legend stands elsewhere. */
+const NARROW = { below: 560, left: 48, right: 30, top: 16, bottom: 40 };
 
 const stillness = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -27,13 +29,16 @@ export class Eye {
   readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
   private readonly controls: OrbitControls;
   private readonly reach: number;
-  private view: StandardView | null = "iso";
+  /** What is shown until the reader moves the eye: the whole from a side, or a part. */
+  private view: StandardView | Box3 | null = "iso";
   private flight = 0;
+  /** Called after every move of this eye. */
+  moved: (() => void) | null = null;
 
   constructor(
     element: HTMLElement,
     private readonly box: Box3,
-    private readonly changed: () => void,
+    private readonly redraw: () => void,
   ) {
     this.reach = 4 * box.getSize(new Vector3()).length();
     this.camera.up.set(0, 0, 1);
@@ -47,13 +52,23 @@ export class Eye {
       this.view = null;
       this.flight++;
     });
-    this.controls.addEventListener("change", changed);
+    this.controls.addEventListener("change", () => this.changed());
+    // one finger across the picture turns it; up and down it scrolls the page, where that is all there is
+    element.style.touchAction = "";
+  }
+
+  private changed(): void {
+    this.redraw();
+    this.moved?.();
   }
 
   resize(width: number, height: number): void {
     Object.assign(this.camera, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });
     this.camera.updateProjectionMatrix();
-    if (this.view !== null) this.look(this.view, false);
+    if (this.view instanceof Box3) {
+      const direction = this.direction();
+      this.flyTo(direction, ...this.fitted(direction, this.view), false);
+    } else if (this.view !== null) this.look(this.view, false);
     this.changed();
   }
 
@@ -62,6 +77,35 @@ export class Eye {
     const direction = new Vector3(...DIRECTIONS[view]).normalize();
     this.flyTo(direction, ...this.fitted(direction), smooth);
     this.view = view;
+  }
+
+  /** Shows a part of the scene from that one of its four upper corners that is nearest to a place. */
+  frame(part: Box3, place: Place): void {
+    const away = new Vector3(...place).sub(part.getCenter(new Vector3()));
+    const corners = [0, 1, 2, 3].map((k) =>
+      new Vector3(...DIRECTIONS.iso).applyAxisAngle(this.camera.up, (k * Math.PI) / 2).normalize(),
+    );
+    // the usual corner, unless another one is clearly nearer
+    const clearly = 0.08 * part.getSize(new Vector3()).length();
+    const [usual, ...others] = corners as [Vector3, ...Vector3[]];
+    const nearest = others.reduce(
+      (best, corner) => (corner.dot(away) > best.dot(away) ? corner : best),
+      usual,
+    );
+    const direction = nearest.dot(away) > usual.dot(away) + clearly ? nearest : usual;
+    this.flyTo(direction, ...this.fitted(direction, part), false);
+    this.view = part;
+  }
+
+  /** Looks as another eye does. */
+  follow(other: Eye): void {
+    const { moved } = this;
+    this.moved = null;
+    this.view = null;
+    this.flight++;
+    [this.controls.minZoom, this.controls.maxZoom] = [0, Infinity];
+    this.place(other.direction(), other.controls.target, other.camera.zoom);
+    this.moved = moved;
   }
 
   /** Shows the whole box from where the eye is. */
@@ -107,37 +151,50 @@ export class Eye {
 
   /** Where on the picture a point is (CSS pixels from its top left). */
   project(point: Vector3): [number, number] {
-    const p = point.clone().project(this.camera);
-    const [w, h] = [this.camera.right - this.camera.left, this.camera.top - this.camera.bottom];
-    return [((p.x + 1) / 2) * w, ((1 - p.y) / 2) * h];
+    const screen = this.screen();
+    const place = point.toArray();
+    return [screen(place, 0), screen(place, 1)];
   }
 
-  /** Target and zoom that show the whole box inside the margins. */
-  private fitted(direction: Vector3): [Vector3, number] {
+  /** The same for many points: across (0) or down (1). */
+  screen(): (place: Place, c: 0 | 1) => number {
+    this.camera.updateMatrixWorld();
+    const m = this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse).elements;
+    const half = [
+      (this.camera.right - this.camera.left) / 2,
+      (this.camera.bottom - this.camera.top) / 2,
+    ] as const;
+    return ([x, y, z], c) =>
+      Math.abs(half[c]) + half[c] * (m[c] * x + m[4 + c]! * y + m[8 + c]! * z + m[12 + c]!);
+  }
+
+  /** Target and zoom that show a box, the whole one unless a part is given, inside the margins. */
+  private fitted(direction: Vector3, box = this.box): [Vector3, number] {
     const right = new Vector3(0, 0, 1).cross(direction).normalize();
     const up = direction.clone().cross(right);
     const [x, y] = [new Box3(), new Box3()];
     for (let k = 0; k < 8; k++) {
-      const { min, max } = this.box;
+      const { min, max } = box;
       const p = new Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z);
       x.expandByPoint(new Vector3(p.dot(right), 0, 0));
       y.expandByPoint(new Vector3(p.dot(up), 0, 0));
     }
-    const width = this.camera.right - this.camera.left - MARGIN.left - MARGIN.right;
-    const height = this.camera.top - this.camera.bottom - MARGIN.top - MARGIN.bottom;
+    const whole = this.camera.right - this.camera.left;
+    const margin = whole < NARROW.below ? NARROW : MARGIN;
+    const width = whole - margin.left - margin.right;
+    const height = this.camera.top - this.camera.bottom - margin.top - margin.bottom;
     const zoom = Math.max(
       Math.min(width / Math.max(x.max.x - x.min.x, 1e-9), height / Math.max(y.max.x - y.min.x, 1e-9)),
       1e-3,
     );
-    this.controls.minZoom = 0.2 * zoom;
-    this.controls.maxZoom = 60 * zoom;
-    const shiftRight = (MARGIN.right - MARGIN.left) / 2 / zoom;
-    const shiftUp = (MARGIN.top - MARGIN.bottom) / 2 / zoom;
+    if (box === this.box) [this.controls.minZoom, this.controls.maxZoom] = [0.2 * zoom, 60 * zoom];
+    const shiftRight = (margin.right - margin.left) / 2 / zoom;
+    const shiftUp = (margin.top - margin.bottom) / 2 / zoom;
     const target = right
       .clone()
       .multiplyScalar((x.min.x + x.max.x) / 2 + shiftRight)
       .addScaledVector(up, (y.min.x + y.max.x) / 2 + shiftUp)
-      .addScaledVector(direction, this.box.getCenter(new Vector3()).dot(direction));
+      .addScaledVector(direction, box.getCenter(new Vector3()).dot(direction));
     return [target, zoom];
   }
 

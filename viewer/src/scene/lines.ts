@@ -24,8 +24,15 @@ const VERTEX = /* glsl */ `
   uniform vec2 resolution;
   uniform float width;
   varying float vSide;
+  #ifdef TIMED
+    attribute float time;
+    varying float vTime;
+  #endif
   ${PROJECT}
   void main() {
+    #ifdef TIMED
+      vTime = time;
+    #endif
     vec4 here = project(position);
     vec2 along = (projectionMatrix * (modelViewMatrix * vec4(tangent3, 0.0))).xy * resolution;
     float run = length(along);
@@ -43,8 +50,18 @@ const FRAGMENT = /* glsl */ `
   uniform float opacity;
   uniform float width;
   varying float vSide;
+  #ifdef TIMED
+    uniform float now;
+    uniform vec3 later;
+    varying float vTime;
+  #endif
   void main() {
-    gl_FragColor = vec4(colour, opacity * clamp(0.5 * (width + 1.0 - abs(vSide)), 0.0, 1.0));
+    vec4 ink = vec4(colour, opacity);
+    #ifdef TIMED
+      if (vTime > now) ink = vec4(later, 0.55 * opacity);
+    #endif
+    ink.a *= clamp(0.5 * (width + 1.0 - abs(vSide)), 0.0, 1.0);
+    gl_FragColor = ink;
   }
 `;
 
@@ -64,11 +81,15 @@ export class Lines {
   weight = 1;
   private readonly tangent: BufferAttribute;
 
-  /** Curves with so many points each, `width` CSS pixels wide, pushed back by `push` metres. */
+  /**
+   * Curves with so many points each, `width` CSS pixels wide, pushed back by `push` metres. With `times`, one for each point,
+   * what is later than `now` has a colour of its own.
+   */
   constructor(
     private readonly lengths: number[],
     private readonly width: number,
     push: number,
+    times: number[] | null = null,
   ) {
     const total = lengths.reduce((sum, length) => sum + length, 0);
     this.points = new Float32Array(3 * total);
@@ -81,7 +102,12 @@ export class Lines {
     geometry.setAttribute("tangent3", this.tangent);
     const sides = Float32Array.from({ length: 2 * total }, (_, k) => (k % 2 === 0 ? -1 : 1));
     geometry.setAttribute("side", new BufferAttribute(sides, 1));
+    if (times !== null) {
+      const twice = times.flatMap((time) => [time, time]);
+      geometry.setAttribute("time", new BufferAttribute(Float32Array.from(twice), 1));
+    }
     const material = new ShaderMaterial({
+      defines: times === null ? {} : { TIMED: "" },
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
       transparent: true,
@@ -93,6 +119,8 @@ export class Lines {
         push: { value: push },
         colour: { value: new Color() },
         opacity: { value: 1 },
+        now: { value: 0 },
+        later: { value: new Color() },
       },
     });
     this.mesh = new Mesh(geometry, material);
@@ -132,10 +160,16 @@ export class Lines {
     this.tangent.needsUpdate = true;
   }
 
-  ink(colour: string, opacity = 1): void {
+  ink(colour: string, opacity = 1, later = colour): void {
     const { uniforms } = this.mesh.material;
     (uniforms.colour!.value as Color).copy(screenColour(colour));
+    (uniforms.later!.value as Color).copy(screenColour(later));
     uniforms.opacity!.value = opacity;
+  }
+
+  /** The time that parts what was from what comes. */
+  set now(time: number) {
+    this.mesh.material.uniforms.now!.value = time;
   }
 }
 

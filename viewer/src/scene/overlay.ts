@@ -10,6 +10,8 @@ const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', Arial, sa
 
 /** Room that the legend takes on the right (CSS pixels). */
 const LEGEND = 126;
+/** In a picture narrower than this it stands elsewhere. */
+const NARROW = 560;
 
 export class Overlay {
   private readonly context: CanvasRenderingContext2D | null;
@@ -79,7 +81,7 @@ export class Overlay {
     const lines = label.split("\n");
     const plate = Math.max(...lines.map((line) => pen.measureText(line).width)) + 18;
     const tall = 17 * lines.length + 9;
-    const left = Math.min(Math.max(x + 22, 6), width - plate - LEGEND);
+    const left = Math.min(Math.max(x + 22, 6), width - plate - (width < NARROW ? 6 : LEGEND));
     const top = Math.min(Math.max(y - tall - 18, 6), height - tall - 6);
     pen.fillStyle = themeColour("surface");
     pen.strokeStyle = themeColour("accent");

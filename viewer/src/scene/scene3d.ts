@@ -4,8 +4,10 @@
  */
 
 import { Box3, Color, Scene, Vector3, WebGLRenderer } from "three";
-import type { Motion } from "../data/motion";
+import { MICRO, type Motion } from "../data/motion";
+import { pieces } from "../data/fabric_line";
 import { fieldsOf, type Field, type Place } from "../data/page_data";
+import { fieldInForce } from "../data/ranges";
 import { themeColour } from "../page/dom";
 import type { Choice, State } from "../page/state";
 import { AxesBox } from "./axes_box";
@@ -18,8 +20,20 @@ import { Grippers } from "./grippers";
 import { pixelRatio, resolution } from "./lines";
 import { Mold } from "./mold";
 import { Overlay } from "./overlay";
+import { Paths } from "./paths";
+import { SectionLine } from "./section_line";
 import { SheetPicture } from "./sheet_picture";
 import { PlySurface } from "./surface";
+
+/** A node or a gripper is found within this distance of the pointer (CSS pixels). */
+const REACH = 16;
+
+/** A node of the sheet, or a vertex of the surface between the catenaries, or a gripper under the pointer. */
+export interface Found {
+  kind: "node" | "gripper";
+  number: number;
+  place: Place;
+}
 
 /** More pixels of the device in one CSS pixel are not drawn. */
 const MOST_PIXELS = 2;
@@ -38,6 +52,8 @@ export class Scene3d {
   private readonly mold: Mold | null;
   private readonly cell: Cell | null;
   readonly sheet: SheetPicture | null;
+  private readonly paths: Paths;
+  private readonly line: SectionLine;
   private readonly box: AxesBox;
   private readonly overlay: Overlay;
   private waiting = false;
@@ -45,6 +61,7 @@ export class Scene3d {
   private lastDrawn = 0;
   private slowFrames = 0;
   private resting = 0;
+  private readonly size: number;
   private width = 1;
   private height = 1;
 
@@ -54,7 +71,7 @@ export class Scene3d {
     private readonly motion: Motion,
     private readonly state: State,
   ) {
-    const canvas = host.querySelector<HTMLCanvasElement>("#picture")!;
+    const canvas = host.querySelector<HTMLCanvasElement>("canvas.picture")!;
     this.renderer = new WebGLRenderer({
       canvas,
       alpha: true,
@@ -63,6 +80,7 @@ export class Scene3d {
     });
     const bounds = sceneBox(motion);
     const size = bounds.getSize(new Vector3()).length();
+    this.size = size;
     const { mold } = motion.data.geometry;
 
     this.surface = new PlySurface(motion, 0.003 * size);
@@ -73,6 +91,8 @@ export class Scene3d {
     const { sheet, cell } = motion;
     this.cell = cell === null ? null : new Cell(cell, motion.grippers.count, 0.001 * size);
     this.sheet = sheet === null ? null : new SheetPicture(sheet, size, motion.spacing);
+    this.paths = new Paths(motion, -0.001 * size);
+    this.line = new SectionLine(-0.006 * size);
     this.box = new AxesBox(bounds, 0.03 * size);
     this.catenaries.order = 3;
     this.contacts.points.renderOrder = 4;
@@ -83,12 +103,14 @@ export class Scene3d {
       this.catenaries.group,
       this.contacts.points,
       this.grippers.mesh,
+      this.paths.lines.mesh,
+      this.line.group,
     );
     if (this.mold !== null) this.scene.add(this.mold.group);
     if (this.cell !== null) this.scene.add(this.cell.group);
     if (this.sheet !== null) this.scene.add(this.sheet.group);
 
-    const overlay = host.querySelector<HTMLCanvasElement>("#labels")!;
+    const overlay = host.querySelector<HTMLCanvasElement>("canvas.labels")!;
     this.eye = new Eye(canvas, bounds, () => this.draw());
     this.overlay = new Overlay(overlay, this.box, this.eye);
     new ResizeObserver(() => this.resize()).observe(host);
@@ -100,10 +122,7 @@ export class Scene3d {
 
   /** The colour mode in force, with the range in force. */
   private field(now: Choice): Field {
-    const fields = fieldsOf(this.motion.data, now.model);
-    const field = fields.find(({ key }) => key === now.colour) ?? fields[0]!;
-    if (!now.stepRange) return field;
-    return (now.model === "sheet" ? this.motion.sheet : this.motion)?.within(field, now.index) ?? field;
+    return fieldInForce(this.motion, now) ?? fieldsOf(this.motion.data, now.model)[0]!;
   }
 
   private follow(now: Choice, before: Choice): void {
@@ -114,8 +133,15 @@ export class Scene3d {
     if (changed("model")) this.showModel(sheet !== null);
     if (changed("colour", "model")) (sheet ?? this.surface).useMap(this.field(now));
     if (changed("index", "model")) this.moveTo(now.index, sheet);
-    if (changed("index", "model", "stepRange", "colour")) {
+    if (changed("index", "model", "stepRange", "orders", "colour", "other", "otherIndex")) {
       (sheet ?? this.surface).colour(this.field(now), now.index);
+    }
+    this.paths.lines.mesh.visible = now.paths;
+    if (now.paths && changed("paths", "index", "model")) this.paths.moveTo(now.index, now.model);
+    if (changed("section", "index", "model")) {
+      this.line.show(
+        now.section === null ? [] : pieces(this.motion, now.model, now.index, now.section, null),
+      );
     }
     sheet?.showForces(now.forces);
     this.catenaries.showDiagonals(now.diagonals);
@@ -151,6 +177,8 @@ export class Scene3d {
     this.contacts.ink(themeColour("red"));
     this.sheet?.ink(USES.map(({ colour }) => themeColour(colour)));
     this.grippers.ink(themeColour("disc"), themeColour("disc-rim"));
+    this.paths.ink(themeColour("path"), themeColour("path-later"));
+    this.line.ink(themeColour("section"));
     this.mold?.ink(themeColour("mold"), themeColour("mold-line"));
     this.cell?.ink(themeColour("cell"), themeColour("cell-line"));
     this.box.ink(themeColour("box-line"));
@@ -158,17 +186,28 @@ export class Scene3d {
   }
 
   private resize(): void {
+    // one that is not shown keeps its size
+    if (this.host.clientWidth === 0) return;
     this.width = Math.max(1, this.host.clientWidth);
     this.height = Math.max(1, this.host.clientHeight);
     this.setPixels(this.ratio);
     this.eye.resize(this.width, this.height);
+    // a canvas of another size is empty
+    if (this.lastDrawn > 0) this.drawNow();
   }
 
   private setPixels(ratio: number): void {
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(this.width, this.height, false);
+  }
+
+  /** Draws the scene as it is; lines are as wide as the pixels of this picture ask for. */
+  private render(): void {
+    const ratio = this.renderer.getPixelRatio();
     pixelRatio.value = ratio;
     resolution.set(this.width * ratio, this.height * ratio);
+    this.box.turn(this.eye);
+    this.renderer.render(this.scene, this.eye.camera);
   }
 
   /** A vertex of the ply between the catenaries as it is drawn now (m); null where it is not. */
@@ -196,8 +235,7 @@ export class Scene3d {
     this.catenaries.suit(apart);
     this.contacts.suit(apart);
     this.grippers.showWalls(zoom);
-    this.box.turn(this.eye);
-    this.renderer.render(this.scene, this.eye.camera);
+    this.render();
     const ratio = Math.min(devicePixelRatio, MOST_PIXELS);
     this.overlay.draw(this.width, this.height, ratio, this.state.now.pointer);
   }
@@ -234,23 +272,89 @@ export class Scene3d {
     return Math.min(devicePixelRatio, this.coarse ? 1 : MOST_PIXELS);
   }
 
-  /** The picture of now as PNG, twice as fine, with its labels. */
-  snapshot(): string {
-    const ratio = 2;
+  /** The picture of now with its labels, so many pixels for one of CSS. */
+  still(ratio: number): HTMLCanvasElement {
     const before = this.renderer.getPixelRatio();
     this.setPixels(ratio);
-    this.box.turn(this.eye);
-    this.renderer.render(this.scene, this.eye.camera);
+    this.render();
     const sheet = document.createElement("canvas");
-    sheet.width = this.width * ratio;
-    sheet.height = this.height * ratio;
+    sheet.width = Math.round(this.width * ratio);
+    sheet.height = Math.round(this.height * ratio);
     const pen = sheet.getContext("2d");
     pen?.drawImage(this.renderer.domElement, 0, 0, sheet.width, sheet.height);
     this.overlay.draw(this.width, this.height, ratio, this.state.now.pointer);
     pen?.drawImage(this.overlay.canvas, 0, 0, sheet.width, sheet.height);
     this.setPixels(before);
     this.drawNow();
-    return sheet.toDataURL("image/png");
+    return sheet;
+  }
+
+  /** Width and height (CSS pixels). */
+  get extent(): [number, number] {
+    return [this.width, this.height];
+  }
+
+  /** Gives its memory of the graphics card back. */
+  free(): void {
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+
+  /** The same as PNG for the print. */
+  snapshot(): string {
+    return this.still(2).toDataURL("image/png");
+  }
+
+  /** Nodes of the sheet or vertices of the surface, and the grippers, as they are shown now; three micrometres each. */
+  shown(): { points: Int32Array; pads: Int32Array } {
+    const { index, model } = this.state.now;
+    const { sheet } = this.motion;
+    const at = model === "sheet" ? (sheet?.stateOf(index) ?? null) : null;
+    return at === null
+      ? { points: this.motion.surface.at(index), pads: this.motion.grippers.at(index) }
+      : { points: sheet!.positions.at(at), pads: sheet!.grippers.at(at) };
+  }
+
+  /** Looks at the ply as it is shown, from the corner that is nearest to a place. */
+  frame(place: Place): void {
+    const { points, pads } = this.shown();
+    const box = new Box3();
+    for (const from of [points, pads]) {
+      for (let k = 0; k < from.length; k += 3)
+        box.expandByPoint(new Vector3(from[k], from[k + 1], from[k + 2]).multiplyScalar(MICRO));
+    }
+    if (!box.isEmpty()) this.eye.frame(box.expandByScalar(0.04 * box.getSize(new Vector3()).length()), place);
+  }
+
+  /** The node or gripper nearest to a place on the picture (CSS pixels) of those that no other one hides by far. */
+  under([x, y]: [number, number]): Found | null {
+    const { points, pads } = this.shown();
+    const towards = this.eye.direction();
+    // in the middle of a cell that is drawn large something is found too
+    const reach = Math.max(REACH, 0.8 * this.eye.camera.zoom * this.fineness());
+    const screen = this.eye.screen();
+    let found: (Found & { rank: number }) | null = null;
+    const look = (kind: Found["kind"], from: Int32Array, near: number, favour: number) => {
+      for (let k = 0; 3 * k < from.length; k++) {
+        const place: Place = [from[3 * k]! * MICRO, from[3 * k + 1]! * MICRO, from[3 * k + 2]! * MICRO];
+        const away = Math.hypot(screen(place, 0) - x, screen(place, 1) - y);
+        if (away > near) continue;
+        // one that is farther from the eye by a tenth of the scene is behind the ply
+        const depth = place[0] * towards.x + place[1] * towards.y + place[2] * towards.z;
+        const rank = away - favour - (REACH * depth) / (0.1 * this.size);
+        if (found === null || rank < found.rank) found = { kind, number: k, place, rank };
+      }
+    };
+    look("node", points, reach, 0);
+    look("gripper", pads, REACH, REACH / 3);
+    return found;
+  }
+
+  /** Distance of neighbouring nodes of what is shown (m), about. */
+  private fineness(): number {
+    const { sheet, data, spacing, grippers } = this.motion;
+    if (this.state.now.model === "catenaries" || sheet === null) return spacing / data.divisions;
+    return spacing / Math.max(1, Math.sqrt(sheet.data.cells.length / 4 / Math.max(1, grippers.count)));
   }
 }
 

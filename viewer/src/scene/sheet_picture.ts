@@ -1,22 +1,10 @@
-/** The picture of the sheet: its cells, the forces on its pads, and what lies under the mouse. */
+/** The picture of the sheet: its cells, and the forces on its pads. */
 
-import { Group, Vector3 } from "three";
-import { MICRO } from "../data/micro";
-import type { Field, Place } from "../data/page_data";
+import { Group } from "three";
+import type { Field } from "../data/page_data";
 import type { SheetStates } from "../data/sheet_states";
-import type { Eye } from "./camera";
 import { Forces } from "./forces";
 import { SheetSurface } from "./sheet_surface";
-
-/** A node or a gripper is found within this distance of the mouse (CSS pixels). */
-const REACH = 16;
-
-/** A node or a gripper under the mouse. */
-export interface Found {
-  kind: "node" | "gripper";
-  number: number;
-  place: Place;
-}
 
 export class SheetPicture {
   readonly group = new Group();
@@ -27,7 +15,7 @@ export class SheetPicture {
   /** `size` is that of the scene, `spacing` the distance of neighbouring grippers (m). */
   constructor(
     private readonly sheet: SheetStates,
-    private readonly size: number,
+    size: number,
     private readonly spacing: number,
   ) {
     this.surface = new SheetSurface(sheet, 0.003 * size);
@@ -74,29 +62,5 @@ export class SheetPicture {
   suit(zoom: number): void {
     const along = Math.sqrt(this.sheet.data.cells.length / 4 / Math.max(1, this.sheet.grippers.count));
     this.surface.showThreads((zoom * this.spacing) / Math.max(1, along));
-  }
-
-  /** The node or gripper nearest to a place on the picture (CSS pixels) of those that no other one hides by far. */
-  under(eye: Eye, [x, y]: [number, number]): Found | null {
-    if (this.state === null) return null;
-    const towards = eye.direction();
-    const point = new Vector3();
-    let found: (Found & { rank: number }) | null = null;
-    const look = (kind: Found["kind"], points: Int32Array, favour: number) => {
-      for (let k = 0; 3 * k < points.length; k++) {
-        point.set(points[3 * k]! * MICRO, points[3 * k + 1]! * MICRO, points[3 * k + 2]! * MICRO);
-        const depth = point.dot(towards);
-        const place: Place = [point.x, point.y, point.z];
-        const [px, py] = eye.project(point);
-        const away = Math.hypot(px - x, py - y);
-        if (away > REACH) continue;
-        // one that is farther from the eye by a tenth of the scene is behind the ply
-        const rank = away - favour - (REACH * depth) / (0.1 * this.size);
-        if (found === null || rank < found.rank) found = { kind, number: k, place, rank };
-      }
-    };
-    look("node", this.sheet.positions.at(this.state), 0);
-    look("gripper", this.sheet.grippers.at(this.state), REACH / 3);
-    return found;
   }
 }

@@ -20,7 +20,7 @@ use cell::{Cell, VacuumEvent, cell, events};
 use facts::{Fact, facts};
 use geometry::{Detail, Geometry, Ranges};
 use plydrape::draping::record::{Step, Worst};
-use plydrape::measure::{Name, Sense, Subject, Verdict};
+use plydrape::measure::{Name, Sense, Subject, Unit, Verdict};
 use plydrape::ply::GripperId;
 use sample::{Sample, sample, stands};
 use serde::Serialize;
@@ -32,6 +32,9 @@ const PAGE: &str = include_str!("report.html");
 const TITLE: &str = "__PLYDRAPE_TITLE__";
 /// Where the data go.
 const DATA: &str = "__PLYDRAPE_DATA__";
+
+/// Of a limit that is exceeded beyond measure.
+const MOST_RATIO: f64 = 1e9;
 
 /// What the page is given.
 #[derive(Serialize)]
@@ -49,6 +52,8 @@ struct Page<'a> {
     times: Vec<f64>,
     /// Grippers along u and v; zeros where catenaries make no surface: they are no whole array, or lines are missing.
     grid: [usize; 2],
+    /// Fabric between neighbouring grippers along u and v (mm).
+    pitch: [f64; 2],
     /// Column and row of each gripper.
     ids: Vec<GripperId>,
     divisions: usize,
@@ -90,6 +95,8 @@ struct Limit<'a> {
     unit: &'a str,
     least: bool,
     ok: bool,
+    /// The value as a multiple of its limit: beyond 1 it is exceeded.
+    ratio: f64,
     /// It is one of the motion, which counts with every model.
     motion: bool,
     step: Option<usize>,
@@ -185,7 +192,7 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
     let grid = scene.ply.lines().surface();
     Ok(Page {
         format: "plydrape-page",
-        version: 1,
+        version: 2,
         program: &result.program,
         title: &scene.title,
         input: scene.input.as_deref(),
@@ -196,6 +203,7 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
         steps,
         times: shown.iter().map(|step| step.time).collect(),
         grid: [grid.nu, grid.nv],
+        pitch: scene.ply.cell.map(|side| side * 1e3),
         ids: (0..scene.ply.grippers()).map(|n| scene.ply.id(n)).collect(),
         divisions: detail.intervals,
         limits: limits(result),
@@ -232,6 +240,7 @@ fn limit<'a>(verdict: &'a Verdict, measure: Option<&'static str>) -> Limit<'a> {
         unit: &verdict.unit,
         least: verdict.is_least(),
         ok: verdict.ok,
+        ratio: verdict.ratio().min(MOST_RATIO),
         motion: verdict.name.measure().subject() == Subject::Motion,
         step: verdict.step,
         at: &verdict.at,
@@ -249,21 +258,28 @@ fn has_course(result: &ResultFile, name: Name) -> bool {
 fn courses<'a>(result: &'a ResultFile, shown: &[&'a Step]) -> Vec<Course<'a>> {
     let course = |name: &Name| {
         let measure = name.measure();
+        let unit = measure.unit();
         let worst: Vec<Option<&Worst>> =
             shown.iter().map(|step| step.measures.get(*name)).collect();
         let judged = result.summary.limits.iter().find(|verdict| verdict.name == *name);
         Course {
             key: measure.key(),
             label: measure.label(),
-            unit: measure.unit().recorded,
-            values: worst.iter().map(|w| w.map(|w| w.value)).collect(),
+            // as in the table of limits
+            unit: unit.shown,
+            values: worst.iter().map(|w| w.map(|w| as_shown(w.value, unit))).collect(),
             at: worst.iter().map(|w| w.map(|w| w.at.as_str())).collect(),
             places: worst.iter().map(|w| w.and_then(|w| w.place)).collect(),
-            limit: judged.map(|verdict| verdict.limit / measure.unit().factor),
+            limit: judged.map(|verdict| verdict.limit),
             least: measure.sense() == Sense::AtLeast,
         }
     };
     Name::ALL.iter().filter(|name| has_course(result, **name)).map(course).collect()
+}
+
+/// A recorded value in the unit that it is shown in; one in the same unit keeps its digits.
+fn as_shown(value: f64, unit: Unit) -> f64 {
+    if unit.factor == 1.0 { value } else { value * unit.factor }
 }
 
 /// What colours can tell of this result.
@@ -308,7 +324,13 @@ mod tests {
         assert_eq!(tilt.measure, Some("tilt_deg"));
         for course in &page.measures {
             assert_eq!(course.values.len(), result.steps.len());
+            let own = page.limits.iter().filter(|limit| limit.measure == Some(course.key));
+            for limit in own {
+                assert_eq!((limit.unit, Some(limit.limit)), (course.unit, course.limit));
+            }
         }
+        assert_eq!(as_shown(0.25, Unit::SHARE), 25.0);
+        assert_eq!(as_shown(0.1 + 0.2, Unit::DEGREE), 0.1 + 0.2);
     }
 
     /// Large results are drawn coarser, then without diagonals, then in fewer steps, the last among them.

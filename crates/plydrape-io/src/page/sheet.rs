@@ -54,6 +54,8 @@ pub(super) struct Sheet<'a> {
     /// What the numbers of `forces` count (N).
     force_unit: f64,
     forces: Block,
+    /// Whether each pad holds the ply, 1 or 0; none where all of them always do.
+    holds: Option<Block>,
     /// The largest loads that a gripper may have.
     allowed: Allowed,
     /// Thousandths of them that the loads use, along the ply and across it; -1 without a limit.
@@ -110,6 +112,7 @@ struct Packed {
     normals: Vec<i32>,
     /// In newtons.
     forces: Vec<f64>,
+    holds: Vec<i32>,
     used: Vec<i32>,
 }
 
@@ -130,6 +133,9 @@ impl Packed {
         let normals = state.pad_rotation.iter().flat_map(normal);
         self.normals.extend(normals.map(|c| (c * 1e4).round() as i32));
         self.forces.extend(state.pad_forces.as_flattened());
+        if let Some(holds) = &state.pad_holds {
+            self.holds.extend(holds.iter().map(|holds| i32::from(*holds)));
+        }
         let loads = state.pad_forces.iter().zip(state.pad_rotation.iter());
         self.used.extend(loads.flat_map(|(force, turn)| allowed.used(force, turn)));
     }
@@ -192,6 +198,7 @@ pub(super) fn sheet<'a>(
         normals: block(3, &packed.normals),
         force_unit,
         forces: block(3, &forces),
+        holds: (!packed.holds.is_empty()).then(|| block(1, &packed.holds)),
         allowed,
         used: block(2, &packed.used),
         spread: heights,

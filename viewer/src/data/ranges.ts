@@ -1,0 +1,116 @@
+/**
+ * The range and scale that colours have: as the reader chose them, and the same for two results that are compared.
+ *
+ * Heights and strains have a scale of orders unless the reader wants an even one. Its ends are the same on all pages, so that
+ * pictures can be compared; those of an even scale are the least and the largest value of all steps. Either can span the step in
+ * view alone.
+ */
+
+import type { Motion } from "./motion";
+import { fieldsOf, type Field, type FieldKey, type Model } from "./page_data";
+
+/** What a range depends on. */
+export interface Ranging {
+  /** Index of the step. */
+  index: number;
+  model: Model;
+  colour: FieldKey;
+  stepRange: boolean;
+  /** Scales of orders, where a colour mode can have one. */
+  orders: boolean;
+  /** A second result beside this one, and the index of the step that is shown of it. */
+  other: Motion | null;
+  otherIndex: number;
+}
+
+/** Ends of the colours of heights on a scale of orders (mm): what touches, and what lies clear of the mold. */
+const HEIGHTS: [number, number] = [0.1, 10];
+/** Over so many orders a scale spans the values of one step, down from the largest. */
+const ORDERS = 100;
+/** No value on a scale of orders is smaller: heights in mm, strains in %. */
+const LEAST = 1e-3;
+
+/** Whether a colour mode can have a scale of orders. */
+export function hasOrders(field: Field): boolean {
+  return field.scale === "orders" || field.key === "gap";
+}
+
+/** The colour mode in force, with the scale and range in force. */
+export function fieldInForce(motion: Motion, now: Ranging): Field | undefined {
+  const own = fieldsOf(motion.data, now.model).find(({ key }) => key === now.colour);
+  if (own === undefined) return undefined;
+  const other =
+    now.other === null
+      ? undefined
+      : fieldsOf(now.other.data, now.model).find(({ key }) => key === now.colour);
+  const parts: [Motion, Field, number][] = [[motion, own, now.index]];
+  if (now.other !== null && other !== undefined) parts.push([now.other, other, now.otherIndex]);
+  const orders = hasOrders(own) && now.orders;
+  if (orders && !now.stepRange) {
+    const [low, high] = own.scale === "orders" ? [own.low, own.high] : HEIGHTS;
+    return { ...own, scale: "orders", low, high };
+  }
+  const ends = parts.map(([of, field, index]) => {
+    if (now.stepRange) return extremes(of, now.model, field, index);
+    // the ends of a scale of orders are no values
+    return field.scale === "orders"
+      ? extremesOfAll(of, now.model, field)
+      : ([field.low, field.high] as [number, number]);
+  });
+  const low = Math.min(...ends.map(([end]) => end));
+  const high = Math.max(...ends.map(([, end]) => end));
+  if (!(low <= high)) return own;
+  if (!orders) return { ...own, scale: "even", low, high };
+  const most = Math.max(Math.abs(low), Math.abs(high), 2 * LEAST);
+  return { ...own, scale: "orders", low: Math.max(most / ORDERS, LEAST), high: most };
+}
+
+/** Least and largest value in a step; (∞, −∞) where there is none. */
+function extremes(motion: Motion, model: Model, field: Field, index: number): [number, number] {
+  let [low, high] = [Infinity, -Infinity];
+  const count = countOf(motion, model, field);
+  for (let item = 0; item < count; item++) {
+    const value = valueOf(motion, model, field, index, item);
+    if (value === null) continue;
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  return [low, high];
+}
+
+const found = new WeakMap<Motion, Map<string, [number, number]>>();
+
+/** Least and largest value of all steps, computed once. */
+function extremesOfAll(motion: Motion, model: Model, field: Field): [number, number] {
+  const known = found.get(motion) ?? new Map<string, [number, number]>();
+  found.set(motion, known);
+  const key = `${model} ${field.key}`;
+  let ends = known.get(key);
+  if (ends === undefined) {
+    ends = [Infinity, -Infinity];
+    for (let index = 0; index < motion.data.steps.length; index++) {
+      const [low, high] = extremes(motion, model, field, index);
+      ends = [Math.min(ends[0], low), Math.max(ends[1], high)];
+    }
+    known.set(key, ends);
+  }
+  return ends;
+}
+
+function countOf(motion: Motion, model: Model, field: Field): number {
+  if (model === "sheet" && motion.sheet !== null) return motion.sheet.countOf(field);
+  return field.on === "cell" ? motion.shear.count : motion.surface.count;
+}
+
+/** The value of a colour mode at a vertex or cell of a model, in the mode's unit; null where there is none. */
+export function valueOf(
+  motion: Motion,
+  model: Model,
+  field: Field,
+  index: number,
+  item: number,
+): number | null {
+  return model === "sheet" && motion.sheet !== null
+    ? motion.sheet.value(field, index, item)
+    : motion.value(field, index, item);
+}
