@@ -137,7 +137,10 @@ fn a_stream_answers_every_line_and_goes_on() {
     assert_eq!(found[0]["accepted"], accepted);
     assert_eq!(found[0]["times"].as_array().unwrap().len(), steps);
     assert_eq!(found[0]["positions"][0].as_array().unwrap().len(), 4);
-    assert_eq!((&found[0]["weights"][0], &found[0]["longer"]), (&1.0.into(), &1.0.into()));
+    assert_eq!(found[0]["weights"][0], 1.0);
+    // a plan takes the least time under its limits, so an offset may need a little more
+    let longer = found[0]["longer"].as_f64().unwrap();
+    assert!((1.0..1.05).contains(&longer), "{longer}");
 
     let mut lines = good.to_vec();
     lines.extend(
