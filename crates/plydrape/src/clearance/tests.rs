@@ -487,7 +487,7 @@ fn no_sample_of_a_planned_motion_is_nearer_than_is_reported() {
     let mut least = f64::INFINITY;
     for k in 0..=20_000 {
         let time = motion.duration() * f64::from(k) / 20_000.0;
-        least = least.min(along(&scene, &moves, &[time]).unwrap().distance);
+        least = least.min(along(&scene, &moves, &[time], f64::INFINITY).unwrap().distance);
     }
     let resolution = 0.011 * found.distance.abs().max(scene.limits.clearance);
     assert!(found.distance > 0.0 && least >= found.distance - resolution, "{least} {found:?}");
