@@ -236,3 +236,41 @@ fn solved(matrix: &Matrix6, slope: &Vector6) -> Option<Vector6> {
     }
     Some(step)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        /// The posture from Horn's start is the one that Gauss and Newton's method finds from an upright frame, with axes in their limits or at them.
+        #[test]
+        fn a_posture_does_not_depend_on_where_its_search_begins(
+            w in [-0.5..0.5, -0.5..0.5, -0.9..0.9],
+            off in prop::collection::vec([-0.02..0.02, -0.02..0.02, -0.04..0.04], 12),
+        ) {
+            let place = |n: usize| [0.1 * (n % 4) as f64, 0.12 * (n / 4) as f64, 0.02 * n as f64];
+            let start: Vec<[f64; 3]> = (0..12).map(place).collect();
+            let of = |off: [f64; 3], p: [f64; 3]| turned(w, [0, 1, 2].map(|c| p[c] + off[c] + 0.3));
+            let asked: Vec<[f64; 3]> = start.iter().zip(&off).map(|(p, off)| of(*off, *p)).collect();
+            let axis = |direction: [f64; 3], stroke: f64| {
+                Axis { name: "a".into(), direction, stroke: [-stroke, stroke], speed: 0.1 }
+            };
+            let z = axis([0.0, 0.0, 1.0], 0.02);
+            let all = vec![axis([1.0, 0.0, 0.0], 0.2), axis([0.0, 1.0, 0.0], 0.2), axis([0.0, 0.0, 1.0], 0.2)];
+            for axes in [vec![], vec![z], all] {
+                let tool = Tool::new(&start, axes);
+                let size = tool.mounts.iter().map(|m| norm(*m)).fold(0.0, f64::max);
+                let upright = Pose::new(middle(&asked), [0.0; 3]);
+                let frame = tool.fitted(upright, &[], &asked, size);
+                let frame = tool.fitted(frame, &tool.axes, &asked, size);
+                let found = tool.posture(&asked).frame;
+                let near = |a: [f64; 3], b: [f64; 3]| norm(sub(a, b)) < 1e-9;
+                prop_assert!(near(found.position, frame.position), "{found:?} {frame:?}");
+                prop_assert!((0..3).all(|c| near(found.axes[c], frame.axes[c])), "{found:?} {frame:?}");
+            }
+        }
+    }
+}
