@@ -174,9 +174,14 @@ fn what_cannot_be_replanned_is_refused_with_a_remedy() {
     let folder = tempfile::tempdir().unwrap();
     let result = planned(folder.path());
     let swapped = "[[point]]\nplanned = [0, 0]\nseen = [0, 0]\n[[point]]\nplanned = [1, 0]\nseen = [0, 1]\n[[point]]\nplanned = [0, 1]\nseen = [1, 0]\n";
+    let alone = "[[point]]\nplanned = [0, 0]\nseen = [0, 0]\n";
     for (offset, expected) in [
         ("", "neither an offset nor points"),
         ("[offset]\nx = \"3\"\n", "has no unit"),
+        ("[offset]\ny = \"3 deg\"\n", "is an angle"),
+        ("[offset]\nz = 1\n", "is no key here"),
+        ("[offset]\nx = nan\n", "is no"),
+        (alone, "do not say how the ply is turned"),
         ("[offset]\nx = 3,5\n", "not TOML"),
         (swapped, "from where the others put it"),
     ] {
@@ -184,6 +189,8 @@ fn what_cannot_be_replanned_is_refused_with_a_remedy() {
         assert_eq!(output.status.code(), Some(2), "{offset}");
         let said = one_line(&output.stderr);
         assert!(said.contains(expected) && said.contains("help:"), "{offset}: {said}");
+        // a fault of a line has its place
+        assert!(offset.is_empty() || said.contains("offset.toml:"), "{offset}: {said}");
         assert!(!result.with_file_name("replan").exists());
     }
 

@@ -2,7 +2,7 @@
 
 use super::poses::Poses;
 use crate::mold::Pose;
-use crate::mold::vector::{between, norm, sub};
+use crate::mold::vector::{along, between, cross, norm, sub};
 use crate::motion::{Attitudes, TimedMotion, slerp, turn};
 
 /// What a body is mounted on.
@@ -27,9 +27,20 @@ pub(crate) trait Moves {
     /// By how much something turns at most between two times (rad).
     fn turn(&self, of: Origin, times: [f64; 2]) -> f64;
 
+    /// The most that the distance of two bodies can change between two times (m), each given by its origin and the distance of its
+    /// farthest point from there (m); or of one body and what stands still.
+    fn change(&self, one: Reach, other: Option<Reach>, times: [f64; 2]) -> f64 {
+        let turned = |(of, reach): Reach| reach * self.turn(of, times);
+        let way = self.way(one.0, other.map(|(of, _)| of), times);
+        way + turned(one) + other.map_or(0.0, turned)
+    }
+
     /// Whether there is a flange.
     fn has_flange(&self) -> bool;
 }
+
+/// What a body is mounted on, and the distance of its farthest point from there (m).
+pub(super) type Reach = (Origin, f64);
 
 /// Straight from some poses at time 0 to others at time 1, turned along the shortest way.
 pub(crate) struct Straight {
@@ -44,6 +55,8 @@ struct Leg {
     quaternions: [[f64; 4]; 2],
     /// How much it turns (rad).
     turn: f64,
+    /// The axis that it turns about, by so much (rad).
+    spin: [f64; 3],
 }
 
 impl Leg {
@@ -52,7 +65,15 @@ impl Leg {
         if a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
             b = b.map(|c| -c);
         }
-        Leg { ends: [*from, *to], quaternions: [a, b], turn: turn(&a, &b) }
+        let turn = turn(&a, &b);
+        // the vector part of b a⁻¹: the axis times the sine of half the turn
+        let part = sub(
+            sub([0, 1, 2].map(|k| a[3] * b[k]), [0, 1, 2].map(|k| b[3] * a[k])),
+            cross([b[0], b[1], b[2]], [a[0], a[1], a[2]]),
+        );
+        let length = norm(part);
+        let spin = if length > 0.0 { part.map(|c| turn * c / length) } else { [0.0; 3] };
+        Leg { ends: [*from, *to], quaternions: [a, b], turn, spin }
     }
 
     fn at(&self, time: f64) -> Pose {
@@ -115,6 +136,29 @@ impl Moves for Straight {
         self.leg(of).turn * (to - from)
     }
 
+    /// Also as seen from a turning body: with the distance q of the origins, its rate v and the turns ω, the origin of b moves by
+    /// `v − ω_a × q` as seen from a, and b turns by ω_b − ω_a. Of bodies that one tool turns, that is what axes and joints do.
+    fn change(&self, one: Reach, other: Option<Reach>, [from, to]: [f64; 2]) -> f64 {
+        let ((of, reach), takes) = (one, to - from);
+        let a = self.leg(of);
+        let Some((other, its_reach)) = other else {
+            return takes * (norm(a.way()) + reach * a.turn);
+        };
+        let b = self.leg(other);
+        let rate = sub(b.way(), a.way());
+        let still = norm(rate) + reach * a.turn + its_reach * b.turn;
+        let begin = sub(b.ends[0].position, a.ends[0].position);
+        // q is linear, and so is the rate: it is largest at an end
+        let ends = [from, to].map(|time| along(begin, time, rate));
+        let seen = |spin: [f64; 3]| {
+            ends.map(|q| norm(sub(rate, cross(spin, q)))).into_iter().fold(0.0, f64::max)
+        };
+        let turned = norm(sub(b.spin, a.spin));
+        let from_a = seen(a.spin) + its_reach * turned;
+        let from_b = seen(b.spin) + reach * turned;
+        takes * still.min(from_a).min(from_b)
+    }
+
     fn has_flange(&self) -> bool {
         self.flange.is_some()
     }
@@ -150,6 +194,11 @@ impl Moves for Legs {
     fn turn(&self, of: Origin, times: [f64; 2]) -> f64 {
         let (leg, times) = self.within(times);
         leg.turn(of, times)
+    }
+
+    fn change(&self, one: Reach, other: Option<Reach>, times: [f64; 2]) -> f64 {
+        let (leg, times) = self.within(times);
+        leg.change(one, other, times)
     }
 
     fn has_flange(&self) -> bool {

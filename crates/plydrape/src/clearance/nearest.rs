@@ -1,12 +1,12 @@
 //! The nearest pair along a motion, found with a bound that no sampling misses.
 //!
 //! Between two times the distance d of two bodies changes by no more than L, what a point of one of them can go as seen from the
-//! other: the way of their origins as seen from each other, and for each body its reach times its turn. So in between
-//! `d ≥ (d₀ + d₁ − L)/2`, and intervals in which that could be nearer than the nearest pair are halved. Balls around
-//! the bodies give the first bounds.
+//! other ([`Moves::change`]). So in between `d ≥ (d₀ + d₁ − L)/2`, and intervals in which that could be nearer than the nearest pair
+//! are halved: first from sample to sample of the motion, with L the sum over the samples between, then between two samples. Balls
+//! around the bodies give the first bounds, and the pairs that are nearest at a few times the first distance to compare with.
 
 use super::body::{Mount, Solids};
-use super::moves::{Legs, Moves, Origin, Planned, Straight};
+use super::moves::{Legs, Moves, Origin, Planned, Reach, Straight};
 use super::over_mold::OverMold;
 use super::poses::Poses;
 use super::solid::Apart;
@@ -17,6 +17,7 @@ use crate::mold::{Pose, distance};
 use crate::motion::{Attitudes, TimedMotion};
 use crate::ply::{Ply, gripper_name};
 use crate::scene::Scene;
+use rayon::prelude::*;
 
 /// A body of one gripper, or of the flange.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,13 +85,13 @@ fn part_label(Part { body, gripper }: Part, scene: &Scene, ply: &Ply) -> String 
 /// The nearest pair at one time, with its time 0; none of a scene without bodies, or without anything that they could meet.
 #[must_use]
 pub fn at(scene: &Scene, poses: &Poses) -> Option<Nearest> {
-    along(scene, &Straight::new(poses, poses), &[0.0])
+    along(scene, &Straight::new(poses, poses), &[0.0], f64::INFINITY)
 }
 
 /// The nearest pair between two steps, with the share of the step as its time.
 #[must_use]
 pub(crate) fn between_steps(scene: &Scene, from: &Poses, to: &Poses) -> Option<Nearest> {
-    along(scene, &Straight::new(from, to), &[0.0, 1.0])
+    along(scene, &Straight::new(from, to), &[0.0, 1.0], f64::INFINITY)
 }
 
 /// The nearest pair along the steps of a search, by the lines between the grippers; its time counts steps, from 0.
@@ -107,7 +108,7 @@ pub(crate) fn along_positions(scene: &Scene, positions: &[Vec<Point>]) -> Option
     }
     let legs = poses.windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
     let times: Vec<f64> = (0..positions.len()).map(|n| n as f64).collect();
-    along(scene, &Legs(legs), &times)
+    along(scene, &Legs(legs), &times, f64::INFINITY)
 }
 
 /// The distance of bodies from obstacles (m) at one time, if it is below `least` (m).
@@ -136,16 +137,17 @@ impl Nearest {
         motion: &TimedMotion,
         attitudes: &Attitudes,
     ) -> Option<Nearest> {
-        Nearest::of_motion_within(scene, motion, attitudes, [0.0, motion.duration()])
+        Nearest::of_motion_within(scene, motion, attitudes, [0.0, motion.duration()], f64::INFINITY)
     }
 
-    /// The same between two times of the motion (s).
+    /// The same between two times of the motion (s), if it is nearer than `below` (m).
     #[must_use]
     pub(crate) fn of_motion_within(
         scene: &Scene,
         motion: &TimedMotion,
         attitudes: &Attitudes,
         [from, to]: [f64; 2],
+        below: f64,
     ) -> Option<Nearest> {
         let within = |times: &[f64]| -> Vec<f64> {
             let inner = times.iter().copied().filter(|t| from < *t && *t < to);
@@ -153,42 +155,71 @@ impl Nearest {
         };
         if scene.tool.is_none() {
             let times = within(motion.times());
-            return along(scene, &Planned { motion, attitudes }, &times);
+            return along(scene, &Planned { motion, attitudes }, &times, below);
         }
         let times = within(&motion.samples(scene.plan.rate).ok()?);
         let poses = |t: &f64| {
             let positions = motion.at(*t);
             Poses::of(scene, &positions, &attitudes.at(*t), &positions)
         };
-        let poses: Vec<Poses> = times.iter().map(poses).collect();
+        let poses: Vec<Poses> = times.par_iter().map(poses).collect();
         let legs: Vec<Straight> =
-            poses.windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
+            poses.par_windows(2).map(|pair| Straight::new(&pair[0], &pair[1])).collect();
         if legs.is_empty() {
             return at(scene, poses.first()?);
         }
         let counts: Vec<f64> = (0..times.len()).map(|n| n as f64).collect();
-        let nearest = along(scene, &Legs(legs), &counts)?;
+        let nearest = along(scene, &Legs(legs), &counts, below)?;
         let n = (nearest.time as usize).min(times.len() - 2);
         let time = times[n] + (nearest.time - n as f64) * (times[n + 1] - times[n]);
         Some(Nearest { time, ..nearest })
     }
 }
 
-/// The nearest pair along a motion through ascending times (s). No pair comes nearer in between than the resolution allows.
+/// The nearest pair along a motion through ascending times (s), if it is nearer than `below` (m). No pair comes nearer in between than
+/// the resolution allows.
 #[must_use]
-pub(crate) fn along(scene: &Scene, moves: &dyn Moves, times: &[f64]) -> Option<Nearest> {
-    if scene.bodies.is_empty() {
+pub(crate) fn along(
+    scene: &Scene,
+    moves: &dyn Moves,
+    times: &[f64],
+    below: f64,
+) -> Option<Nearest> {
+    if scene.bodies.is_empty() || times.is_empty() {
         return None;
     }
     let mut search = Search::new(scene, moves);
-    // all samples first, so that the search can drop most intervals at once
-    for time in times {
-        search.sample(*time);
-    }
-    for pair in times.windows(2) {
-        search.interval([pair[0], pair[1]]);
+    search.below = below;
+    let balls: Vec<Balls> = times.iter().map(|time| search.balls(*time)).collect();
+    let samples = Samples { times, balls: &balls, ways: search.ways(times) };
+    let pairs = search.pairs();
+    // the nearest at a few times first, so that the search can drop most intervals at once
+    search.sample(&pairs, &samples);
+    for pair in pairs {
+        if !search.stays_apart(pair, &samples) {
+            search.pair(pair, &samples);
+        }
     }
     search.best
+}
+
+/// A motion at its samples.
+struct Samples<'a> {
+    /// When they are (s).
+    times: &'a [f64],
+    balls: &'a [Balls],
+    /// How far any point of a body goes at most from each to the next (m).
+    ways: Vec<f64>,
+}
+
+/// One pair at the samples.
+struct Course<'a> {
+    samples: &'a Samples<'a>,
+    pair: Pair,
+    /// The most that its distance can change from the first sample to each (m).
+    change: Vec<f64>,
+    /// Its distance where it was asked for (m); none is known otherwise.
+    found: Vec<Option<f64>>,
 }
 
 /// A body that is judged.
@@ -202,6 +233,12 @@ struct Judged {
     reach: f64,
 }
 
+impl Judged {
+    fn reach(&self) -> Reach {
+        (self.origin, self.reach)
+    }
+}
+
 struct Search<'a> {
     moves: &'a dyn Moves,
     solids: &'a Solids,
@@ -212,6 +249,8 @@ struct Search<'a> {
     mold: Option<OverMold<'a>>,
     /// The limit (m).
     limit: f64,
+    /// Only what is nearer is of interest (m).
+    below: f64,
     best: Option<Nearest>,
 }
 
@@ -263,13 +302,14 @@ impl<'a> Search<'a> {
             obstacles: scene.bodies.obstacles().iter().map(|obstacle| obstacle.pose).collect(),
             mold,
             limit: scene.limits.clearance,
+            below: f64::INFINITY,
             best: None,
         }
     }
 
     /// The nearest distance that is known (m).
     fn least(&self) -> f64 {
-        self.best.map_or(f64::INFINITY, |best| best.distance)
+        self.best.map_or(self.below, |best| best.distance)
     }
 
     /// By how much a pair may come nearer than is reported (m).
@@ -278,53 +318,143 @@ impl<'a> Search<'a> {
         TUNING.resolution * if least.is_finite() { least.abs().max(self.limit) } else { self.limit }
     }
 
+    /// The same of one pair between its distances: what is found of the mold has half of the resolution.
+    fn resolution_of(&self, pair: Pair) -> f64 {
+        match pair.1 {
+            Other::Mold => 0.5 * self.resolution(),
+            _ => self.resolution(),
+        }
+    }
+
     fn balls(&self, time: f64) -> Balls {
         let place = |body: &Judged| self.moves.pose(body.origin, time).place(body.ball.0);
         self.judged.iter().map(place).collect()
     }
 
-    /// The nearest pairs at one time.
-    fn sample(&mut self, time: f64) {
-        let balls = self.balls(time);
-        let pairs = self.near(&balls, 0.0);
-        for pair in pairs {
-            if self.gap(pair, &balls) < self.least() {
-                self.distance(pair, time);
+    /// All pairs that are judged.
+    fn pairs(&self) -> Vec<Pair> {
+        let mut pairs = Vec::new();
+        for (a, one) in self.judged.iter().enumerate() {
+            for (b, other) in self.judged.iter().enumerate().skip(a + 1) {
+                let grippers = one.part.gripper.zip(other.part.gripper);
+                if grippers.is_some_and(|(own, its)| own != its) {
+                    pairs.push((a, Other::Body(b)));
+                }
+            }
+            pairs.extend((0..self.obstacles.len()).map(|n| (a, Other::Obstacle(n))));
+            if self.mold.is_some() && one.mount != Mount::Pad {
+                pairs.push((a, Other::Mold));
+            }
+        }
+        pairs
+    }
+
+    /// How far any point of a body goes at most between neighbouring times (m).
+    fn ways(&self, times: &[f64]) -> Vec<f64> {
+        let farthest = |times: &[f64]| {
+            let one = |body: &Judged| self.moves.change(body.reach(), None, [times[0], times[1]]);
+            self.judged.iter().map(one).fold(0.0, f64::max)
+        };
+        times.windows(2).map(farthest).collect()
+    }
+
+    /// The nearest pairs at a few times, those with the nearest balls first.
+    fn sample(&mut self, pairs: &[Pair], samples: &Samples) {
+        let last = samples.times.len() - 1;
+        let mut few: Vec<usize> =
+            (0..=TUNING.first).map(|n| last * n / TUNING.first.max(1)).collect();
+        few.dedup();
+        let mut open: Vec<(f64, Pair, usize)> = Vec::with_capacity(few.len() * pairs.len());
+        for n in few {
+            let gap = |pair: &Pair| (self.gap(*pair, &samples.balls[n]), *pair, n);
+            open.extend(pairs.iter().map(gap));
+        }
+        open.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (gap, pair, n) in open {
+            if gap >= self.least() {
+                break;
+            }
+            self.distance(pair, samples.times[n]);
+        }
+    }
+
+    /// Whether two bodies are too far from each other at all times by their balls alone.
+    fn stays_apart(&self, pair: Pair, samples: &Samples) -> bool {
+        let Other::Body(_) = pair.1 else { return false };
+        let least = self.least();
+        samples.balls.iter().enumerate().all(|(n, balls)| {
+            // both go no farther than that
+            let around = [n.checked_sub(1), Some(n)].into_iter().flatten();
+            let way = around.filter_map(|n| samples.ways.get(n)).copied().fold(0.0, f64::max);
+            self.gap(pair, balls) - way >= least
+        })
+    }
+
+    /// The nearest two of a pair along the motion.
+    fn pair(&mut self, pair: Pair, samples: &Samples) {
+        let mut change = vec![0.0; samples.times.len()];
+        for (n, times) in samples.times.windows(2).enumerate() {
+            change[n + 1] = change[n] + self.change(pair, [times[0], times[1]]);
+        }
+        let found = vec![None; samples.times.len()];
+        let mut course = Course { samples, pair, change, found };
+        let last = samples.times.len() - 1;
+        for n in [0, last] {
+            self.meet(&mut course, n);
+        }
+        if last > 0 {
+            self.samples(&mut course, [0, last]);
+        }
+    }
+
+    /// The distance of a pair at a sample, unless its balls are too far from each other.
+    fn meet(&mut self, course: &mut Course, n: usize) {
+        if self.known(course, n) < self.least() {
+            self.found(course, n);
+        }
+    }
+
+    /// The distance of a pair at a sample (m).
+    fn found(&mut self, course: &mut Course, n: usize) -> f64 {
+        match course.found[n] {
+            Some(found) => found,
+            None => {
+                let found = self.distance(course.pair, course.samples.times[n]);
+                course.found[n] = Some(found);
+                found
             }
         }
     }
 
-    /// Pairs that could be nearer than the nearest one that is known if each body goes no farther than `way` (m).
-    fn near(&self, balls: &Balls, way: f64) -> Vec<Pair> {
-        let mut pairs = Vec::new();
-        let least = self.least();
-        // along x: who is farther off in x alone is no candidate, nor is anyone behind
-        let mut order: Vec<usize> = (0..balls.len()).collect();
-        order.sort_by(|&a, &b| balls[a][0].total_cmp(&balls[b][0]).then(a.cmp(&b)));
-        let largest = self.judged.iter().map(|body| body.ball.1).fold(0.0, f64::max);
-        for (n, &a) in order.iter().enumerate() {
-            let one = &self.judged[a];
-            for &b in &order[n + 1..] {
-                let other = &self.judged[b];
-                let apart = balls[b][0] - balls[a][0] - one.ball.1;
-                if apart - largest - 2.0 * way >= least {
-                    break;
-                }
-                let grippers = one.part.gripper.zip(other.part.gripper);
-                if grippers.is_some_and(|(own, its)| own != its)
-                    && apart - other.ball.1 - 2.0 * way < least
-                {
-                    pairs.push((a.min(b), Other::Body(a.max(b))));
-                }
-            }
+    /// A distance that a pair does not fall short of at a sample (m).
+    fn known(&self, course: &Course, n: usize) -> f64 {
+        course.found[n].unwrap_or_else(|| self.gap(course.pair, &course.samples.balls[n]))
+    }
+
+    /// The nearest two of a pair between two samples.
+    fn samples(&mut self, course: &mut Course, [from, to]: [usize; 2]) {
+        let inner = to - from > 1;
+        // what is reported is nearer than any sample to far less than the resolution between samples
+        let slack = self.resolution_of(course.pair) * if inner { TUNING.sampled } else { 1.0 };
+        let change = course.change[to] - course.change[from];
+        let bound = |d0: f64, d1: f64| 0.5 * (d0 + d1 - change);
+        let known = [from, to].map(|n| self.known(course, n));
+        if bound(known[0], known[1]) >= self.least() - slack {
+            return;
         }
-        for body in 0..self.judged.len() {
-            pairs.extend((0..self.obstacles.len()).map(|n| (body, Other::Obstacle(n))));
-            if self.mold.is_some() && self.judged[body].mount != Mount::Pad {
-                pairs.push((body, Other::Mold));
-            }
+        let ends = [from, to].map(|n| self.found(course, n));
+        if !inner {
+            let [t0, t1] = [from, to].map(|n| course.samples.times[n]);
+            self.halve(course.pair, (t0, ends[0]), (t1, ends[1]), TUNING.halvings);
+            return;
         }
-        pairs
+        if bound(ends[0], ends[1]) >= self.least() - slack {
+            return;
+        }
+        let middle = from.midpoint(to);
+        self.meet(course, middle);
+        self.samples(course, [from, middle]);
+        self.samples(course, [middle, to]);
     }
 
     /// A distance (m) that two do not fall short of, by the balls around bodies and the boxes around obstacles.
@@ -374,49 +504,17 @@ impl<'a> Search<'a> {
 
     /// The most that the distance of two can change between two times (m).
     fn change(&self, (body, other): Pair, times: [f64; 2]) -> f64 {
-        let turned = |body: &Judged| body.reach * self.moves.turn(body.origin, times);
-        let one = &self.judged[body];
-        match other {
-            Other::Body(b) => {
-                let other = &self.judged[b];
-                let way = self.moves.way(one.origin, Some(other.origin), times);
-                way + turned(one) + turned(other)
-            }
-            Other::Obstacle(_) | Other::Mold => {
-                self.moves.way(one.origin, None, times) + turned(one)
-            }
-        }
-    }
-
-    /// The nearest pairs between two times.
-    fn interval(&mut self, times: [f64; 2]) {
-        let ends = times.map(|time| self.balls(time));
-        let farthest = |body: &Judged| {
-            self.moves.way(body.origin, None, times)
-                + body.reach * self.moves.turn(body.origin, times)
+        let other = match other {
+            Other::Body(b) => Some(self.judged[b].reach()),
+            Other::Obstacle(_) | Other::Mold => None,
         };
-        let way = self.judged.iter().map(farthest).fold(0.0, f64::max);
-        for pair in self.near(&ends[0], way) {
-            let change = self.change(pair, times);
-            let bound = |from: f64, to: f64| 0.5 * (from + to - change);
-            let [from, to] = [0, 1].map(|n| self.gap(pair, &ends[n]));
-            if bound(from, to) >= self.least() - self.resolution() {
-                continue;
-            }
-            let [from, to] = times.map(|time| self.distance(pair, time));
-            self.halve(pair, (times[0], from), (times[1], to), TUNING.halvings);
-        }
+        self.moves.change(self.judged[body].reach(), other, times)
     }
 
     /// Halves an interval in which two could come nearer than the nearest pair that is known.
     fn halve(&mut self, pair: Pair, (t0, from): (f64, f64), (t1, to): (f64, f64), depth: u32) {
         let least = 0.5 * (from + to - self.change(pair, [t0, t1]));
-        // what is found of the mold has half of the resolution
-        let resolution = match pair.1 {
-            Other::Mold => 0.5 * self.resolution(),
-            _ => self.resolution(),
-        };
-        if depth == 0 || least >= self.least() - resolution {
+        if depth == 0 || least >= self.least() - self.resolution_of(pair) {
             return;
         }
         let time = 0.5 * (t0 + t1);

@@ -33,6 +33,11 @@ fn body(name: &str, on: Mount, shape: Shape) -> Body {
     Body { name: name.into(), on, shape }
 }
 
+/// Grippers whose pads and stems are turned alike.
+fn free_of(pads: &[Pose]) -> Poses {
+    Poses { pads: pads.to_vec(), stems: pads.to_vec(), flange: None }
+}
+
 fn cylinder(radius: f64, from: f64, to: f64) -> Shape {
     Shape::Cylinder { radius, from, to }
 }
@@ -328,6 +333,52 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// The distance of two bodies that go straight and turn changes by no more than its bound, between any two times.
+    #[test]
+    fn the_change_of_a_distance_is_bounded(ends in prop::collection::vec(pose(0.3), 4)) {
+        let poses = |n: usize| free_of(&ends[2 * n..2 * n + 2]);
+        let straight = Straight::new(&poses(0), &poses(1));
+        let shapes = [cylinder(0.01, -0.02, 0.03), cube(0.03)];
+        let reach = |shape: &Shape| norm(shape.ball().0) + shape.ball().1;
+        let distance = |time: f64| {
+            let [a, b] = [0, 1].map(|n| straight.pose(Origin::Pad(n), time));
+            apart(&shapes[0], a, &shapes[1], b)
+        };
+        let [one, other] = [0, 1].map(|n| (Origin::Pad(n), reach(&shapes[n])));
+        let times: Vec<f64> = (0..=20).map(|k| f64::from(k) / 20.0).collect();
+        let found: Vec<f64> = times.iter().map(|time| distance(*time)).collect();
+        for a in 0..times.len() {
+            for b in a + 1..times.len() {
+                let most = straight.change(one, Some(other), [times[a], times[b]]);
+                let change = (found[a] - found[b]).abs();
+                // depths and distances are found by two searches
+                if found[a] > 0.0 && found[b] > 0.0 {
+                    prop_assert!(change <= most + 1e-6, "{} {change} {most}", times[a]);
+                }
+            }
+        }
+    }
+}
+
+/// Bodies that one tool turns and carries do not come nearer to each other, however far it goes: what is left is the square of the turn, by which straight ways leave the circles.
+#[test]
+fn what_turns_alike_does_not_come_nearer() {
+    let frame = |turn: f64, x: f64| at([x, 0.2, 0.1], [0.0, 0.0, turn]);
+    let both = |frame: Pose| {
+        let place = |y: f64| Pose { position: frame.place([0.1, y, 0.0]), ..frame };
+        free_of(&[place(-0.05), place(0.05)])
+    };
+    let turn = 0.004;
+    let straight = Straight::new(&both(frame(0.0, 0.0)), &both(frame(turn, 0.3)));
+    let [one, other] = [0, 1].map(|n| (Origin::Pad(n), 0.1));
+    let most = straight.change(one, Some(other), [0.0, 1.0]);
+    assert!(most <= 0.1 * turn * turn, "{most}");
+    assert!(straight.change(one, None, [0.0, 1.0]) >= 0.3);
+}
+
 /// A planned motion of two grippers around each other, whose pads turn.
 fn motion() -> (TimedMotion, Attitudes) {
     let rows: Vec<Vec<[f64; 3]>> = (0..9)
@@ -487,7 +538,7 @@ fn no_sample_of_a_planned_motion_is_nearer_than_is_reported() {
     let mut least = f64::INFINITY;
     for k in 0..=20_000 {
         let time = motion.duration() * f64::from(k) / 20_000.0;
-        least = least.min(along(&scene, &moves, &[time]).unwrap().distance);
+        least = least.min(along(&scene, &moves, &[time], f64::INFINITY).unwrap().distance);
     }
     let resolution = 0.011 * found.distance.abs().max(scene.limits.clearance);
     assert!(found.distance > 0.0 && least >= found.distance - resolution, "{least} {found:?}");

@@ -6,6 +6,10 @@ pub(super) struct Tuning {
     /// By how much two bodies may come nearer between two samples than is reported, as a share of what is reported, or of
     /// the limit where that is more. A hundredth is 0.05 mm of 5 mm: less than a gripper repeats its place.
     pub resolution: f64,
+    /// By how much two bodies may be nearer at a sample than is reported, as a share of that resolution: far below what is printed.
+    pub sampled: f64,
+    /// Parts of a motion between whose ends the first distances are taken; they only help to drop what is farther.
+    pub first: usize,
     /// Times that an interval is halved at most: 2⁻³⁰ of a step is less than any resolution needs.
     pub halvings: u32,
     /// Parts of a body's surface that are divided at most for one distance from the mold: a cylinder takes some ten.
@@ -17,4 +21,4 @@ pub(super) struct Tuning {
 
 /// The constants in use.
 pub(super) const TUNING: Tuning =
-    Tuning { resolution: 0.01, halvings: 30, patches: 200_000, far: 0.05 };
+    Tuning { resolution: 0.01, sampled: 1e-3, first: 8, halvings: 30, patches: 200_000, far: 0.05 };

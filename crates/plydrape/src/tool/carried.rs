@@ -4,6 +4,7 @@ use super::{Posture, Tool};
 use crate::draping::attitude::quaternion;
 use crate::mold::vector::{distance, dot};
 use crate::scene::{Motion, Scene};
+use rayon::prelude::*;
 use std::borrow::Cow;
 
 /// A motion that a tool makes.
@@ -47,7 +48,7 @@ impl Tool {
     /// The motion that the tool makes where one is asked for (m): one list of all grippers a step.
     #[must_use]
     pub fn carry(&self, asked: &[Vec<[f64; 3]>]) -> Carried {
-        let postures: Vec<Posture> = asked.iter().map(|places| self.posture(places)).collect();
+        let postures: Vec<Posture> = asked.par_iter().map(|places| self.posture(places)).collect();
         let positions: Vec<Vec<[f64; 3]>> = match self.with_errors {
             true => asked.to_vec(),
             false => postures.iter().map(|p| self.places(p)).collect(),

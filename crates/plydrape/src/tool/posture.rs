@@ -6,11 +6,12 @@
 //!
 //! smallest. The second term has no say but where the first leaves a choice: a lift of the frame and a stroke of all axes are
 //! the same to the grippers. Axes are at right angles, so for a given pose each stroke is the component of
-//! `y_g = Rᵀ(p_g − t) − m_g` along its axis, taken into its limits, and six unknowns are left. They are found by Gauss and Newton's
-//! method, first as if no axis moved and from there with the axes, so that a posture depends on the places alone and not on
-//! the way there.
+//! `y_g = Rᵀ(p_g − t) − m_g` along its axis, taken into its limits, and six unknowns are left. They are found first as if no axis moved,
+//! by Horn's method (1987), and from there with the axes by Gauss and Newton's, so that a posture depends on the places alone and not
+//! on the way there. Grippers in a row leave the turn about the row open to Horn's method; there, Gauss and Newton's finds the
+//! least turn.
 
-use super::tuning::{CONVERGED, FREE, HALVINGS, ROUNDING, STEPS, STROKE_COST};
+use super::tuning::{CONVERGED, FREE, HALVINGS, OPEN, ROUNDING, STEPS, STROKE_COST};
 use super::{Axis, Tool};
 use crate::mold::Pose;
 use crate::mold::vector::{along, cross, dot, norm, sub, turned};
@@ -43,10 +44,11 @@ impl Tool {
     #[must_use]
     pub fn posture(&self, places: &[[f64; 3]]) -> Posture {
         let size = self.mounts.iter().map(|m| norm(*m)).fold(f64::MIN_POSITIVE, f64::max);
-        let count = places.len().max(1) as f64;
-        let middle = [0, 1, 2].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / count);
         // first as if no axis moved: what is left then is within the strokes of most motions
-        let frame = self.fitted(Pose::new(middle, [0.0; 3]), &[], places, size);
+        let frame = rigid(&self.mounts, places).unwrap_or_else(|| {
+            let upright = Pose::new(middle(places), [0.0; 3]);
+            self.fitted(upright, &[], places, size)
+        });
         let frame = self.fitted(frame, &self.axes, places, size);
         let strokes = places.iter().zip(&self.mounts).map(|(p, m)| {
             let off = sub(frame.local(*p), *m);
@@ -136,7 +138,9 @@ impl Tool {
                 }
             }
             for (n, direction) in directions.iter().enumerate() {
-                add(left[n], row(*direction));
+                if *direction != [0.0; 3] {
+                    add(left[n], row(*direction));
+                }
             }
         }
         (matrix, slope)
@@ -153,6 +157,55 @@ impl Axis {
     fn is_free(&self, stroke: f64) -> bool {
         self.stroke[0] < stroke && stroke < self.stroke[1]
     }
+}
+
+/// The middle of places (m).
+fn middle(places: &[[f64; 3]]) -> [f64; 3] {
+    let count = places.len().max(1) as f64;
+    [0, 1, 2].map(|c| places.iter().map(|p| p[c]).sum::<f64>() / count)
+}
+
+/// The pose that brings mounts nearest to places (m), by the sum of squares; none where they leave a turn open (Horn 1987, eq. 26: the quaternion
+/// is the eigenvector to the largest eigenvalue).
+fn rigid(mounts: &[[f64; 3]], places: &[[f64; 3]]) -> Option<Pose> {
+    let [from, to] = [mounts, places].map(middle);
+    let mut s = [[0.0; 3]; 3];
+    for (m, p) in mounts.iter().zip(places) {
+        let [m, p] = [sub(*m, from), sub(*p, to)];
+        s = [0, 1, 2].map(|a| [0, 1, 2].map(|b| s[a][b] + m[a] * p[b]));
+    }
+    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = s;
+    let matrix = SMatrix::<f64, 4, 4>::new(
+        xx + yy + zz,
+        yz - zy,
+        zx - xz,
+        xy - yx, //
+        yz - zy,
+        xx - yy - zz,
+        xy + yx,
+        zx + xz, //
+        zx - xz,
+        xy + yx,
+        yy - xx - zz,
+        yz + zy, //
+        xy - yx,
+        zx + xz,
+        yz + zy,
+        zz - xx - yy,
+    );
+    if !matrix.iter().all(|c| c.is_finite()) {
+        return None;
+    }
+    let parts = matrix.symmetric_eigen();
+    let values = &parts.eigenvalues;
+    let (best, largest) = values.argmax();
+    let next = (0..4).filter(|n| *n != best).map(|n| values[n]).fold(f64::NEG_INFINITY, f64::max);
+    if largest - next <= OPEN * values.amax() {
+        return None;
+    }
+    let v = parts.eigenvectors.column(best);
+    let turn = Pose::of_quaternion([0.0; 3], [v[1], v[2], v[3], v[0]]);
+    Some(Pose { position: sub(to, turn.turn(from)), ..turn })
 }
 
 /// The frame moved along its own axes and turned about them; the move is in shares of `size` (m).
@@ -182,4 +235,42 @@ fn solved(matrix: &Matrix6, slope: &Vector6) -> Option<Vector6> {
         }
     }
     Some(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        /// The posture from Horn's start is the one that Gauss and Newton's method finds from an upright frame, with axes in their limits or at them.
+        #[test]
+        fn a_posture_does_not_depend_on_where_its_search_begins(
+            w in [-0.5..0.5, -0.5..0.5, -0.9..0.9],
+            off in prop::collection::vec([-0.02..0.02, -0.02..0.02, -0.04..0.04], 12),
+        ) {
+            let place = |n: usize| [0.1 * (n % 4) as f64, 0.12 * (n / 4) as f64, 0.02 * n as f64];
+            let start: Vec<[f64; 3]> = (0..12).map(place).collect();
+            let of = |off: [f64; 3], p: [f64; 3]| turned(w, [0, 1, 2].map(|c| p[c] + off[c] + 0.3));
+            let asked: Vec<[f64; 3]> = start.iter().zip(&off).map(|(p, off)| of(*off, *p)).collect();
+            let axis = |direction: [f64; 3], stroke: f64| {
+                Axis { name: "a".into(), direction, stroke: [-stroke, stroke], speed: 0.1 }
+            };
+            let z = axis([0.0, 0.0, 1.0], 0.02);
+            let all = vec![axis([1.0, 0.0, 0.0], 0.2), axis([0.0, 1.0, 0.0], 0.2), axis([0.0, 0.0, 1.0], 0.2)];
+            for axes in [vec![], vec![z], all] {
+                let tool = Tool::new(&start, axes);
+                let size = tool.mounts.iter().map(|m| norm(*m)).fold(0.0, f64::max);
+                let upright = Pose::new(middle(&asked), [0.0; 3]);
+                let frame = tool.fitted(upright, &[], &asked, size);
+                let frame = tool.fitted(frame, &tool.axes, &asked, size);
+                let found = tool.posture(&asked).frame;
+                let near = |a: [f64; 3], b: [f64; 3]| norm(sub(a, b)) < 1e-9;
+                prop_assert!(near(found.position, frame.position), "{found:?} {frame:?}");
+                prop_assert!((0..3).all(|c| near(found.axes[c], frame.axes[c])), "{found:?} {frame:?}");
+            }
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use super::{Posture, Tool};
 use crate::mold::vector::{cross, dot, norm, sub};
 use crate::motion::{MotionError, Peak, TimedMotion};
+use rayon::prelude::*;
 
 /// The largest rates of a tool.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -37,7 +38,8 @@ impl Tool {
         let count = motion.samples(rate)?.len();
         let last = count.saturating_sub(1).max(1) as f64;
         let times: Vec<f64> = (0..count).map(|k| motion.duration() * k as f64 / last).collect();
-        let postures: Vec<Posture> = times.iter().map(|t| self.posture(&motion.at(*t))).collect();
+        let postures: Vec<Posture> =
+            times.par_iter().map(|t| self.posture(&motion.at(*t))).collect();
         let mut found = ToolPeaks::default();
         let mut before = ([0.0; 3], 0.0);
         for (k, pair) in postures.windows(2).enumerate() {

@@ -19,5 +19,9 @@ pub const CONVERGED: f64 = 1e-13;
 /// Share of the largest pivot below which a direction is not held by the grippers, as the turn of a strip about itself.
 pub const FREE: f64 = 1e-14;
 
+/// Share of the largest eigenvalue of Horn's matrix by which it must exceed the next one for a turn to be held by the grippers: from there on
+/// rounding turns the frame by less than 1e-9, which the next search takes away.
+pub const OPEN: f64 = 1e-6;
+
 /// Share of a cost that is rounding: near the least cost a step cannot be told to be worse.
 pub const ROUNDING: f64 = 1e-12;

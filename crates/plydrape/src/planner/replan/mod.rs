@@ -165,7 +165,7 @@ impl<'a> Replanner<'a> {
             false => {
                 let times = [motion.times()[last_free], motion.duration()];
                 let attitudes = Attitudes::of(steps)?;
-                Nearest::of_motion_within(scene, &motion, &attitudes, times)
+                Nearest::of_motion_within(scene, &motion, &attitudes, times, f64::INFINITY)
             }
         };
         let path = TimedMotion::moving(&record.path);

@@ -227,11 +227,13 @@ impl Outcome<'_> {
     /// The verdict on the nearest bodies along the whole motion.
     fn clearance(&self, scene: &Scene) -> Option<Verdict> {
         let until = self.motion.times()[self.last_free];
-        let way = Nearest::of_motion_within(scene, self.motion, self.attitudes, [0.0, until]);
         let landing =
             self.landing.map(|nearest| Nearest { time: nearest.time * self.longer, ..nearest });
-        let nearest =
-            way.into_iter().chain(landing).min_by(|a, b| a.distance.total_cmp(&b.distance))?;
+        // only what is nearer than the landing is looked for on the way
+        let below = landing.map_or(f64::INFINITY, |nearest| nearest.distance);
+        let times = [0.0, until];
+        let way = Nearest::of_motion_within(scene, self.motion, self.attitudes, times, below);
+        let nearest = way.or(landing)?;
         let times = self.motion.times();
         let step = times.partition_point(|t| *t < nearest.time) + 1;
         Some(clearance_verdict(scene, &nearest, step.min(times.len())))

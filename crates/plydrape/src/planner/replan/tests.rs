@@ -1,15 +1,17 @@
 //! What a corrected plan keeps and what it changes, on a small ply that is carried over the flank of a dome, turned, and laid on its top.
 
 use super::*;
-use crate::clearance::{Bodies, Body, Mount, Obstacle, Shape};
+use crate::clearance::{self, Bodies, Body, Mount, Obstacle, Poses, Shape};
 use crate::draping::simulate;
 use crate::material::{Section, ShearCurve, TensionLaw};
-use crate::measure::Name;
+use crate::measure::{Name, Verdict};
 use crate::mold::vector::{distance, norm, sub};
 use crate::mold::{Face, Mold, Pose, Sphere};
+use crate::planner::evaluation::clearance_verdict;
 use crate::ply::{Grid, cloth};
 use crate::scene::{Limits, Model, Motion, PlanMethod, Settings, SheetSettings, Target};
 use crate::sheet;
+use crate::tool::{Axis, Tool};
 use std::f64::consts::FRAC_PI_6;
 use std::ops::ControlFlow;
 
@@ -67,8 +69,13 @@ impl Found {
     }
 }
 
-/// A plan that is draped by catenaries.
+/// A plan that is draped by catenaries, of grippers that move by themselves.
 fn planned(path: Steps, bodies: Bodies) -> Found {
+    carried(path, bodies, None)
+}
+
+/// The same with a tool.
+fn carried(path: Steps, bodies: Bodies, tool: Option<Tool>) -> Found {
     let (ply, mut settings) = (cloth(GRID), Settings::default());
     settings.model = Model::Catenaries;
     let sphere = Sphere { pose: Pose::upright([0.0, 0.0, -1.0]), radius: 1.0, face: Face::Outside };
@@ -84,7 +91,7 @@ fn planned(path: Steps, bodies: Bodies) -> Found {
         bodies,
         plan: crate::scene::Plan::default(),
         errors: None,
-        tool: None,
+        tool,
         release: None,
     };
     scene.limits.workspace = Some([[-1.5, 1.5]; 3]);
@@ -390,4 +397,115 @@ fn the_offset_is_whole_as_long_as_the_ply_may_lie_on_its_table() {
     let clear = found.drape.steps.iter().position(|step| lowest(step) >= -0.055).unwrap();
     assert!(clear > 0 && whole == clear + 1, "{clear} {whole}");
     assert_eq!(dome().replanner().weights().iter().filter(|w| **w == 1.0).count(), 1);
+}
+
+/// A frame with cups on three axes each, a table and a post beside the way.
+fn cell() -> Found {
+    let cylinder = |name: &str, on: Mount, radius: f64, from: f64, to: f64| Body {
+        name: name.into(),
+        on,
+        shape: Shape::Cylinder { radius, from, to },
+    };
+    let frame = Body {
+        name: "frame".into(),
+        on: Mount::Flange,
+        shape: Shape::Box { size: [0.3, 0.2, 0.04], at: [0.0, 0.0, 0.2] },
+    };
+    let bodies = vec![
+        cylinder("cup", Mount::Pad, 0.015, 0.0, 0.03),
+        cylinder("axis", Mount::Stem, 0.01, 0.03, 0.15),
+        frame,
+    ];
+    let obstacle = |name: &str, size: [f64; 3], at: [f64; 3]| Obstacle {
+        name: name.into(),
+        pose: Pose::upright(at),
+        shape: Shape::Box { size, at: [0.0; 3] },
+    };
+    let obstacles = vec![
+        obstacle("table", [0.5, 0.5, 0.04], [-0.5, 0.0, -0.15]),
+        obstacle("post", [0.06, 0.04, 0.3], [-0.3, 0.17, 0.0]),
+    ];
+    let path = path();
+    let axis = |name: &str, direction: [f64; 3], stroke: f64| Axis {
+        name: name.into(),
+        direction,
+        stroke: [-stroke, stroke],
+        speed: 0.1,
+    };
+    let axes = vec![
+        axis("x", [1.0, 0.0, 0.0], 0.01),
+        axis("y", [0.0, 1.0, 0.0], 0.01),
+        axis("z", [0.0, 0.0, 1.0], 0.05),
+    ];
+    let tool = Tool::new(&path[0], axes);
+    carried(path, Bodies::new(bodies, obstacles), Some(tool))
+}
+
+/// The nearest bodies of an answer are those of its whole motion, judged without the plan, and no sample of the motion that is judged
+/// by itself has nearer ones; the rates of the tool are those of the whole motion.
+#[test]
+fn the_clearance_and_the_tool_are_those_of_the_whole_motion() {
+    let found = cell();
+    let scene = &found.scene;
+    let replanner = found.replanner();
+    for offset in [seen(), off(0.0, 0.0, 0.0), off(-0.03, 0.02, -8.0), off(0.01, 0.035, 11.0)] {
+        let replanned = replanner.replan(&offset, None).unwrap();
+        let Replanned { motion, attitudes, summary, .. } = &replanned;
+        let own = |name: Name| -> &Verdict {
+            summary.limits.iter().rfind(|verdict| verdict.name == name).unwrap()
+        };
+        let whole = Nearest::of_motion(scene, motion, attitudes).unwrap();
+        let whole = clearance_verdict(scene, &whole, 1);
+        let clearance = own(Name::Clearance);
+        // a slower landing is sampled at other places
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-4 * b.abs().max(1.0);
+        assert!(near(clearance.value, whole.value), "{clearance:?} {whole:?}");
+        let [place, other] = [clearance, &whole].map(|verdict| verdict.place.unwrap());
+        assert!(distance(place, other) < 1e-3, "{clearance:?} {whole:?}");
+        assert_eq!(clearance.ok, whole.ok);
+
+        let samples = motion.samples(scene.plan.rate).unwrap();
+        let alone = samples.iter().map(|t| {
+            let positions = motion.at(*t);
+            let poses = Poses::of(scene, &positions, &attitudes.at(*t), &positions);
+            1e3 * clearance::at(scene, &poses).unwrap().distance
+        });
+        let least = alone.fold(f64::INFINITY, f64::min);
+        assert!(clearance.value <= least + 1e-4 * least.abs().max(1.0), "{clearance:?} {least}");
+        // between samples it changes by half of what goes on in one: a way, and as much again for the turn
+        let most = 1e3 * scene.limits.speed / scene.plan.rate;
+        assert!(clearance.value >= least - most, "{clearance:?} {least}");
+
+        let tool = scene.tool.as_ref().unwrap();
+        let peaks = tool.peaks(motion, scene.plan.rate).unwrap();
+        let rates = [
+            (Name::ToolTurnRate, peaks.turn_rate.value.to_degrees()),
+            (Name::ToolTurnAcceleration, peaks.turn_acceleration.value.to_degrees()),
+            (Name::AxisSpeed, 1e2 * peaks.axis_share.value),
+        ];
+        for (name, value) in rates {
+            let own = own(name).value;
+            assert!((own - value).abs() <= 1e-9 * value, "{name:?} {own} {value}");
+        }
+    }
+}
+
+/// An answer is that of a fresh replanner, bit by bit, whatever was asked before.
+#[test]
+fn answers_do_not_depend_on_earlier_ones() {
+    let found = cell();
+    let replanner = found.replanner();
+    let offsets = [seen(), off(-0.03, 0.02, -8.0), off(2.0, 0.0, 0.0), seen()];
+    for offset in offsets {
+        let (again, fresh) =
+            (replanner.replan(&offset, None), found.replanner().replan(&offset, None));
+        let (Ok(again), Ok(fresh)) = (&again, &fresh) else {
+            assert_eq!(again.err(), fresh.err());
+            continue;
+        };
+        let text = |found: &Replanned| format!("{:?}", found.summary);
+        assert_eq!(text(again), text(fresh));
+        assert_eq!(again.steps, fresh.steps);
+        assert_eq!((&again.motion, &again.record), (&fresh.motion, &fresh.record));
+    }
 }
