@@ -649,6 +649,14 @@ class Plan:
         Drapes that the search took; of the stepwise planner, steps.
         """
     @property
+    def limited_by(self, /) -> list[dict[str, Any]]:
+        """
+        What limits the time of the motion, that of the longest time first.
+
+        Each limit is a dict: its `name`, for how long it is the one that is nearest to its limit (`time_s`), and the `gripper` with
+        which it is that for the longest as [i, j], None of the frame of a tool.
+        """
+    @property
     def method(self, /) -> str:
         """
         The planner: "path" or "stepwise".
@@ -1030,7 +1038,7 @@ class Result:
         offset: dict[str, float | str | typing.Sequence[float]] | None = None,
         points: typing.Sequence[tuple[typing.Sequence[float], typing.Sequence[float]]]
         | None = None,
-        tolerance: SupportsFloat | None = None,
+        tolerance: SupportsFloat | SupportsIndex | None = None,
     ) -> Result:
         """
         The result of this plan for a ply that does not lie where it was planned to be picked up.
