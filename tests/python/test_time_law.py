@@ -1,7 +1,7 @@
 """The time-optimal law of a plan beside TOPP-RA, a solver for robots that knows nothing of ours.
 
-TOPP-RA (Pham and Pham 2018) has no bound of jerk. So where jerk and tilt rate are out of reach, a plan
-takes the time that TOPP-RA finds along its path, and otherwise it takes longer.
+TOPP-RA (Pham and Pham 2018) has no bound of jerk. So where jerk and tilt rate are out of reach, a
+plan takes the time that TOPP-RA finds along its path, and otherwise it takes longer.
 """
 
 from __future__ import annotations
@@ -106,8 +106,8 @@ acceleration = {ACCELERATION}
 
 
 def test_without_jerk_a_plan_takes_the_time_of_toppra(tmp_path: Path) -> None:
-    """One percent is room for the polygon, the stations, and the jerk, which is not infinite."""
-    record = planned(LIMITS + 'jerk = 1e5\ntilt_rate = "1e6 deg/s"\n', tmp_path / "plan")
+    """One percent is room for the polygon, the stations, and a millisecond to change acceleration."""
+    record = planned(LIMITS + 'jerk = 1e3\ntilt_rate = "5e5 deg/s"\n', tmp_path / "plan")
     ratio = record["law"][-1][0] / least_time(record)
     assert 0.995 < ratio < 1.01, ratio
 
