@@ -106,7 +106,7 @@ acceleration = {ACCELERATION}
 
 
 def test_without_jerk_a_plan_takes_the_time_of_toppra(tmp_path: Path) -> None:
-    """One percent is room for the polygon, the stations, and a millisecond to change acceleration."""
+    """One percent is room for the polygon, the stations and a millisecond for acceleration."""
     record = planned(LIMITS + 'jerk = 1e3\ntilt_rate = "5e5 deg/s"\n', tmp_path / "plan")
     ratio = record["law"][-1][0] / least_time(record)
     assert 0.995 < ratio < 1.01, ratio
