@@ -151,32 +151,30 @@ fn by_name(
     limiting: &[Limiting],
     longer: f64,
 ) -> Vec<LimitedBy> {
-    let mut found: Vec<(Name, f64, Vec<(Option<usize>, f64)>)> = Vec::new();
+    let mut parts: Vec<((Name, Option<usize>), f64)> = Vec::new();
     for Limiting { time, moving, order, share } in limiting {
         if *share <= 0.0 {
             continue;
         }
         let Limited { names, gripper, .. } = &limited[*moving];
-        let (name, time) = (names[*order], longer * time);
-        if !found.iter().any(|(other, ..)| *other == name) {
-            found.push((name, 0.0, Vec::new()));
+        let key = (names[*order], *gripper);
+        match parts.iter_mut().find(|(other, _)| *other == key) {
+            Some((_, sum)) => *sum += longer * time,
+            None => parts.push((key, longer * time)),
         }
-        for (other, total, grippers) in &mut found {
-            if *other != name {
-                continue;
-            }
-            *total += time;
-            match grippers.iter_mut().find(|(other, _)| other == gripper) {
-                Some((_, of_gripper)) => *of_gripper += time,
-                None => grippers.push((*gripper, time)),
+    }
+    // the first of a name is the gripper with the longest time
+    parts.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    let mut found: Vec<LimitedBy> = Vec::new();
+    for ((name, gripper), time_s) in parts {
+        match found.iter_mut().find(|one| one.name == name) {
+            Some(one) => one.time_s += time_s,
+            None => {
+                let gripper = gripper.map(|n| scene.ply.id(n));
+                found.push(LimitedBy { name, time_s, gripper });
             }
         }
     }
-    found.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
-    let one = |(name, time_s, grippers): (Name, f64, Vec<(Option<usize>, f64)>)| {
-        let longest = grippers.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-        let gripper = longest.and_then(|(gripper, _)| gripper).map(|n| scene.ply.id(n));
-        LimitedBy { name, time_s, gripper }
-    };
-    found.into_iter().map(one).collect()
+    found.sort_by(|a, b| b.time_s.total_cmp(&a.time_s).then(a.name.cmp(&b.name)));
+    found
 }
