@@ -302,6 +302,6 @@ fn said(seen: &SeenOffset, replanned: &Replanned) -> String {
 /// Prints a text that ends a line.
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
-    let written = write!(out, "{}\n", text.trim_end()).and_then(|()| out.flush());
+    let written = writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush());
     written.map_err(|error| Failure::stdout(&error, &[]))
 }
