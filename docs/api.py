@@ -21,9 +21,10 @@ PARTS: list[tuple[str, str, Path, list[str] | None]] = [
     ("Scenes, drapes and plans", "plydrape", COMPILED,
      ["Scene", "simulate", "Result", "Sheet", "plan", "Plan", "Sample", "measures", "Measure"]),
     ("Ply, mold and ideal drape", "plydrape", COMPILED,
-     ["Ply", "Material", "materials", "Mold", "Surface", "ClosestPoints", "Net"]),
+     ["Ply", "Material", "materials", "fit", "Mold", "Surface", "ClosestPoints", "Net"]),
     ("Equilibria and derivatives", "plydrape", COMPILED,
      ["Solver", "Equilibrium", "Jacobian", "outcome", "Outcome", "Span"]),
+    ("Limits", "plydrape", PACKAGE / "limits.py", None),
     ("Many at once: `plydrape.batch`", "plydrape.batch", COMPILED,
      ["simulate_all", "equilibria", "Equilibria"]),
     ("Studies: `plydrape.study`", "plydrape.study", PACKAGE / "study" / "__init__.py", None),
@@ -36,7 +37,16 @@ PARTS: list[tuple[str, str, Path, list[str] | None]] = [
 # Names that a module gives to what is compiled.
 RENAMED = {"plydrape.batch.simulate_all": "plydrape.batch.simulate"}
 
-HEADS = {"Args", "Returns", "Raises", "Yields", "Attributes", "Example", "Examples", "Note"}
+# Sections of a docstring, as numpydoc has them, and how they are called here.
+HEADS = {
+    "Parameters": "Arguments",
+    "Attributes": "Attributes",
+    "Returns": "Returns",
+    "Yields": "Yields",
+    "Raises": "Raises",
+    "Notes": "Notes",
+    "Examples": "Examples",
+}
 Definition = ast.ClassDef | ast.FunctionDef
 
 
@@ -123,7 +133,7 @@ def is_property(node: ast.FunctionDef) -> bool:
 
 def summary(node: Definition) -> str:
     """The docstring before its first section and example."""
-    first = re.split(r"\n\s*\n|\n(?:Example|Raises|Returns)s?:", ast.get_docstring(node) or "")
+    first = re.split(r"\n\s*\n", ast.get_docstring(node) or "")
     return first[0]
 
 
@@ -166,16 +176,17 @@ def short(kind: str) -> str:
 
 def text(node: Definition) -> Iterator[str]:
     """A docstring, its sections as lists and its examples as blocks."""
+    lines = inspect.cleandoc(ast.get_docstring(node) or "").splitlines()
     head = ""
     block: list[str] = []
-    doc = inspect.cleandoc(ast.get_docstring(node) or "")
-    for line in [*doc.splitlines(), "Note:"]:
-        name = line.rstrip(":")
-        if line.endswith(":") and name in HEADS:
+    for n, line in enumerate(lines):
+        under = lines[n + 1] if n + 1 < len(lines) else ""
+        if line in HEADS and under == "-" * len(line):
             yield from part(head, block)
-            head, block = name, []
-        else:
+            head, block = line, []
+        elif not (line and n > 0 and lines[n - 1] in HEADS and set(line) == {"-"}):
             block.append(line)
+    yield from part(head, block)
 
 
 def part(head: str, block: list[str]) -> Iterator[str]:
@@ -184,15 +195,31 @@ def part(head: str, block: list[str]) -> Iterator[str]:
     if not body:
         return
     yield ""
-    if head.startswith("Example"):
-        yield from ["```pycon", body, "```"]
-    elif head in ("Args", "Raises", "Attributes"):
-        name = {"Args": "Arguments"}.get(head, head)
-        yield from [f"**{name}**", ""]
+    if head == "Examples":
+        yield from examples(body)
+    elif head in ("Returns", "Yields"):
+        kind, _, what = body.partition("\n")
+        yield f"**{HEADS[head]}** `{kind}`: {' '.join(what.split())}"
+    elif head in ("Parameters", "Attributes", "Raises"):
+        yield from [f"**{HEADS[head]}**", ""]
         for entry in re.split(r"\n(?=\S)", body):
-            key, _, what = entry.partition(":")
-            yield f"- `{key.strip()}`: {' '.join(what.split())}"
+            name, _, what = entry.partition("\n")
+            name, _, kind = name.partition(" : ")
+            said = f" ({code(kind)})" if kind else ""
+            yield f"- `{name}`{said}: {' '.join(what.split())}"
     elif head:
-        yield f"**{head}**: {' '.join(body.split())}" if ">>>" not in body else body
+        yield from [f"**{HEADS[head]}**", "", body]
     else:
         yield body
+
+
+def code(kind: str) -> str:
+    """A type in words: `float` or `str`, default `0.0`."""
+    words = re.split(r"( or |, optional$|, default | of )", kind)
+    return "".join(one if n % 2 or not one else f"`{one}`" for n, one in enumerate(words))
+
+
+def examples(body: str) -> Iterator[str]:
+    """Examples as blocks, with the sentences between them."""
+    for one in re.split(r"\n\s*\n", body):
+        yield from ["```pycon", one, "```", ""] if one.startswith(">>>") else [one, ""]

@@ -36,6 +36,7 @@ html_theme = "furo"
 html_title = "plydrape"
 html_static_path = ["guide.css"]
 html_css_files = ["guide.css"]
+html_extra_path = ["live.html"]
 html_show_sphinx = False
 html_show_copyright = False
 html_copy_source = False

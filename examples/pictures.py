@@ -155,7 +155,7 @@ def save(image: Image.Image, picture: Path) -> None:
     """Writes a PNG file with a small palette."""
     from PIL import Image
 
-    # by coverage: the scale of colours keeps its steps
+    # by coverage: the scale of colors keeps its steps
     palette = image.quantize(
         160,
         method=Image.Quantize.MAXCOVERAGE,

@@ -31,7 +31,7 @@ export async function startBrowser({ webgl = true } = {}) {
 export async function openReport(
   browser,
   file,
-  { width = 1280, height = 720, dark = false, wait = true, touch = false } = {},
+  { width = 1280, height = 720, dark = false, wait = true, touch = false, hash = "" } = {},
 ) {
   const context = await browser.newContext({
     viewport: { width, height },
@@ -52,7 +52,7 @@ export async function openReport(
   });
   page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
   page.on("request", (request) => requests.push(request.url()));
-  await page.goto(pathToFileURL(file).href);
+  await page.goto(pathToFileURL(file).href + hash);
   if (wait) await page.evaluate(() => window.plydrape.ready);
   return { page, context, complaints, requests };
 }

@@ -1,18 +1,23 @@
-"""How an array of grippers must move to lay a carbon-fibre ply on a curved mold without wrinkles.
+"""How an array of grippers must move to lay a carbon-fiber ply on a curved mold without wrinkles.
 
 The ply is a net of catenaries with bending stiffness hung between the grippers, after Krogh,
-Jakobsen and Sherwood 2018. SI units throughout, z up; arrays are NumPy's.
+Jakobsen and Sherwood 2018. z is up; arrays are NumPy's.
 
-Example:
-    >>> import plydrape
-    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    >>> result = plydrape.simulate(scene)
-    >>> result.summary["first_contact_step"]
-    26
+Plain numbers are in SI units, angles in radians, both in arguments and in arrays. A str carries
+its unit, as "100 mm" or "20 deg", wherever a single quantity is asked for. Names that end in a
+unit are in that unit, as `tilts_deg` or `slack_mm`; values of limits are in their `unit`.
+
+Examples
+--------
+>>> import plydrape
+>>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+>>> result = plydrape.simulate(scene)
+>>> result.summary["first_contact_step"]
+26
 
 """
 
-from plydrape import batch, study
+from plydrape import _html, _values, batch, study
 from plydrape._plydrape import (
     ClosestPoints,
     Equilibrium,
@@ -32,6 +37,7 @@ from plydrape._plydrape import (
     Span,
     Surface,
     __version__,
+    fit,
     materials,
     measures,
     outcome,
@@ -48,7 +54,11 @@ from plydrape.errors import (
     SceneError,
     SolveError,
 )
+from plydrape.limits import Limit, Limits
 from plydrape.study.error import StudyError
+
+_values.give()
+_html.give()
 
 __all__ = [
     "CadError",
@@ -56,6 +66,8 @@ __all__ = [
     "Equilibrium",
     "ExtraError",
     "Jacobian",
+    "Limit",
+    "Limits",
     "Material",
     "Measure",
     "Mold",
@@ -79,6 +91,7 @@ __all__ = [
     "Surface",
     "__version__",
     "batch",
+    "fit",
     "materials",
     "measures",
     "outcome",

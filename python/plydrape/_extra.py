@@ -1,4 +1,4 @@
-"""What comes with an extra: Matplotlib, PyVista, OpenCASCADE; asked for only when used."""
+"""What not every user needs: Matplotlib, PyVista, OpenCASCADE; asked for only when used."""
 
 from __future__ import annotations
 
@@ -8,15 +8,30 @@ from types import ModuleType
 from plydrape.errors import ExtraError
 
 
-def load(module: str, *, extra: str, name: str) -> ModuleType:
-    """The module, or a `ExtraError` that says which extra brings it.
+def load(module: str, *, package: str, name: str) -> ModuleType:
+    """The module, or an `ExtraError` that says how it is installed.
 
-    Example:
-        >>> plydrape._extra.load("json", extra="plot", name="JSON").__name__
-        'json'
-        >>> plydrape._extra.load("no_such_module", extra="plot", name="Matplotlib")
-        Traceback (most recent call last):
-        plydrape.errors.ExtraError: Matplotlib is missing; install it with: pip install ...
+    Parameters
+    ----------
+    module : str
+        Name of the module.
+    package : str
+        Name by which an index of packages knows it.
+    name : str
+        What it is called.
+
+    Returns
+    -------
+    ModuleType
+        The module.
+
+    Examples
+    --------
+    >>> plydrape._extra.load("json", package="json", name="JSON").__name__
+    'json'
+    >>> plydrape._extra.load("no_such_module", package="matplotlib", name="Matplotlib")
+    Traceback (most recent call last):
+    plydrape.errors.ExtraError: Matplotlib is missing; install it with: pip install matplotlib
 
     """
     try:
@@ -25,4 +40,4 @@ def load(module: str, *, extra: str, name: str) -> ModuleType:
         # a module that is there but lacks one of its own is another fault
         if missing.name is None or module.split(".")[0] != missing.name.split(".")[0]:
             raise
-        raise ExtraError(name, extra) from missing
+        raise ExtraError(name, package) from missing

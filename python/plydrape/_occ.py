@@ -28,16 +28,16 @@ STEP_UNITS = {
     "inch": 0.0254,
     "foot": 0.3048,
 }
-"""Names of units in STEP files, and their metres."""
+"""Names of units in STEP files, and their meters."""
 
 
 def need(module: str) -> ModuleType:
     """A module of OpenCASCADE."""
-    return load(f"OCP.{module}", extra="cad", name="OpenCASCADE (cadquery-ocp)")
+    return load(f"OCP.{module}", package="cadquery-ocp-novtk", name="OpenCASCADE")
 
 
 def step(path: Path, unit: float | None) -> tuple[Any, float]:
-    """The shape of a STEP file, and the metres of one of its units."""
+    """The shape of a STEP file, and the meters of one of its units."""
     reader = need("STEPControl").STEPControl_Reader()
     _read(reader, path, "STEP")
     scale = 1e-3  # the reader brings all units to mm
@@ -56,7 +56,7 @@ def step(path: Path, unit: float | None) -> tuple[Any, float]:
 
 
 def iges(path: Path, unit: float | None) -> tuple[Any, float]:
-    """The shape of an IGES file, and the metres of one of its units."""
+    """The shape of an IGES file, and the meters of one of its units."""
     reader = need("IGESControl").IGESControl_Reader()
     _read(reader, path, "IGES")
     if reader.IGESModel().NbEntities() == 0:
@@ -76,7 +76,7 @@ def _read(reader: Any, path: Path, kind: str) -> None:
 
 def _sequence() -> Any:
     return load(
-        "OCP.OCP.collections", extra="cad", name="OpenCASCADE"
+        "OCP.OCP.collections", package="cadquery-ocp-novtk", name="OpenCASCADE"
     ).Sequence_TCollection_AsciiString()
 
 
@@ -113,12 +113,18 @@ def mesh(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Triangles of a shape's faces, joined where faces share an edge.
 
-    Args:
-        shape: The shape.
-        deflection: Most distance of a triangle from its face.
-        angle: Most angle between neighbouring triangles (rad).
+    Parameters
+    ----------
+    shape : Any
+        The shape.
+    deflection : float
+        Most distance of a triangle from its face.
+    angle : float
+        Most angle between neighboring triangles (rad).
 
-    Returns:
+    Returns
+    -------
+    tuple of ndarray, ndarray
         Points (P, 3) and triangles (T, 3) in the unit of the shape, turned as the faces are.
 
     """
@@ -189,9 +195,10 @@ def _edges(face: Any, held: Any, where: Any) -> Iterator[tuple[Any, NDArray[np.i
 def groups(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
     """The smallest number of the group of each of `count` things that pairs (N, 2) connect.
 
-    Example:
-        >>> groups(5, np.array([[3, 1], [3, 4]])).tolist()
-        [0, 1, 2, 1, 1]
+    Examples
+    --------
+    >>> groups(5, np.array([[3, 1], [3, 4]])).tolist()
+    [0, 1, 2, 1, 1]
 
     """
     root = np.arange(count)
@@ -211,13 +218,14 @@ def merged(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Points without those that a pair (N, 2) says are another one, and the triangles that remain.
 
-    Example:
-        >>> square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0.0]])
-        >>> points, triangles = plydrape._occ.merged(
-        ...     square, np.array([[0, 1, 2], [3, 4, 5]]), np.array([[0, 3], [2, 4]])
-        ... )
-        >>> len(points), triangles.tolist()
-        (4, [[0, 1, 2], [0, 2, 3]])
+    Examples
+    --------
+    >>> square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    >>> points, triangles = plydrape._occ.merged(
+    ...     square, np.array([[0, 1, 2], [3, 4, 5]]), np.array([[0, 3], [2, 4]])
+    ... )
+    >>> len(points), triangles.tolist()
+    (4, [[0, 1, 2], [0, 2, 3]])
 
     """
     root = groups(len(points), pairs)

@@ -3,9 +3,11 @@
 import typing
 
 import matplotlib.figure
-import numpy.typing
+import pandas
+import plydrape.limits
 import plydrape.notebook
 import pyvista
+import xarray
 
 """
 The compiled part of `plydrape`.
@@ -15,9 +17,10 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-from _typeshed import SupportsGetItem, SupportsLenAndGetItem
+from _typeshed import SupportsGetItem
 from numpy import bool_, float64, int64, uint32
 from numpy.typing import ArrayLike, NDArray
+from plydrape.limits import Limits
 
 __all__ = [
     "__version__",
@@ -39,7 +42,11 @@ __all__ = [
     "Solver",
     "Span",
     "Surface",
+    "_restore",
+    "_si",
+    "_state",
     "equilibria",
+    "fit",
     "materials",
     "measures",
     "outcome",
@@ -58,11 +65,12 @@ class ClosestPoints:
     """
     What lies closest to points.
 
-    Example:
-        >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
-        >>> closest = mold.closest_points([[0, 0, 0.1]])
-        >>> bool(np.isclose(np.linalg.norm(closest.points - [0, 0, 0.1]), abs(closest.distances[0])))
-        True
+    Examples
+    --------
+    >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+    >>> closest = mold.closest_points([[0, 0, 0.1]])
+    >>> bool(np.isclose(np.linalg.norm(closest.points - [0, 0, 0.1]), abs(closest.distances[0])))
+    True
     """
     @property
     def beyond(self, /) -> NDArray[bool_]:
@@ -90,11 +98,12 @@ class Equilibria:
     """
     Many equilibria of one ply. Catenaries are counted as in `Ply`.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> batch = plydrape.batch.equilibria(plydrape.Solver.of(scene), scene.positions[:20])
-        >>> len(batch), batch.slopes.shape
-        (20, (20, 16, 2))
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> batch = plydrape.batch.equilibria(plydrape.Solver.of(scene), scene.positions[:20])
+    >>> len(batch), batch.slopes.shape
+    (20, (20, 16, 2))
     """
     def __len__(self, /) -> int: ...
     def __repr__(self, /) -> str: ...
@@ -131,11 +140,12 @@ class Equilibrium:
 
     Catenaries are counted as in `Ply`.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-        >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
-        >>> equilibrium.forces.round(4)
-        array([0.4177])
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+    >>> equilibrium.forces.round(4)
+    array([0.4177])
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -160,20 +170,31 @@ class Equilibrium:
         They hold where the equilibrium is smooth: not where a diagonal just begins to shear, or a slope just
         reaches its limit.
 
-        Args:
-            wrt: To what: grippers, their positions (m), axes (grippers, 3); "lengths", the fabric of a cell along
-                u and v (m), axis (2,); "material", its `names`, axis (names,): mass and rigidities in SI units.
+        Parameters
+        ----------
+        wrt : {"grippers", "lengths", "material"}
+            To what: "grippers", their positions (m), axes (grippers, 3); "lengths", the fabric of a cell along
+            u and v (m), axis (2,); "material", its `names`, axis (names,): mass and rigidities in SI units.
 
-        Raises:
-            ValueError: If there is no such `wrt`, or the derivatives would take more memory than allowed.
-            SolveError: If the equilibrium was not found, or a rigidity is zero: it has no neighbourhood.
+        Returns
+        -------
+        Jacobian
+            The derivatives.
 
-        Example:
-            >>> ply = plydrape.Ply(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018")
-            >>> equilibrium = plydrape.Solver(ply).solve([[0, 0, 0], [0.098, 0, 0]])
-            >>> jacobian = equilibrium.jacobian(wrt="grippers")
-            >>> jacobian.forces.shape, jacobian.points(5).shape
-            ((1, 2, 3), (1, 5, 3, 2, 3))
+        Raises
+        ------
+        ValueError
+            If there is no such `wrt`, or the derivatives would take more memory than allowed.
+        SolveError
+            If the equilibrium was not found, or a rigidity is zero: it has no neighborhood.
+
+        Examples
+        --------
+        >>> ply = plydrape.Ply(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018")
+        >>> equilibrium = plydrape.Solver(ply).solve([[0, 0, 0], [0.098, 0, 0]])
+        >>> jacobian = equilibrium.jacobian(wrt="grippers")
+        >>> jacobian.forces.shape, jacobian.points(5).shape
+        ((1, 2, 3), (1, 5, 3, 2, 3))
         """
     @property
     def length_residual(self, /) -> float:
@@ -184,12 +205,23 @@ class Equilibrium:
         """
         Points along each catenary (m) at equal parts of its run, shape (catenaries, stations, 3).
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
-            >>> lowest = equilibrium.points(5)[0, 2]
-            >>> (lowest * 1e3).round(1)
-            array([49. ,  0. , -8.7])
+        Parameters
+        ----------
+        stations : int, default 17
+            How many points on each catenary, 2 or more.
+
+        Returns
+        -------
+        ndarray
+            The points (m), shape (catenaries, stations, 3).
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+        >>> lowest = equilibrium.points(5)[0, 2]
+        >>> (lowest * 1e3).round(1)
+        array([49. ,  0. , -8.7])
         """
     @property
     def positions(self, /) -> NDArray[float64]:
@@ -214,7 +246,7 @@ class Equilibrium:
     @property
     def status(self, /) -> str:
         """
-        How the solve ended: converged, "stalled", "iteration-limit" or "length-not-met".
+        How the solve ended: "converged", "stalled", "iteration-limit" or "length-not-met".
         """
 
 @final
@@ -222,12 +254,13 @@ class Jacobian:
     """
     Derivatives of an `Equilibrium`: each array has the axes of what is differentiated, then those of `wrt`.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-        >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
-        >>> jacobian = equilibrium.jacobian(wrt="lengths")
-        >>> jacobian.names, jacobian.forces.shape, jacobian.slopes.shape
-        (['u', 'v'], (1, 2), (1, 2, 2))
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+    >>> jacobian = equilibrium.jacobian(wrt="lengths")
+    >>> jacobian.names, jacobian.forces.shape, jacobian.slopes.shape
+    (['u', 'v'], (1, 2), (1, 2, 2))
     """
     @property
     def forces(self, /) -> NDArray[float64]:
@@ -237,17 +270,28 @@ class Jacobian:
     @property
     def names(self, /) -> list[str]:
         """
-        What the last axis stands for: x, "y", "z"; "u", "v"; or keys of the material.
+        What the last axis stands for: "x", "y", "z"; "u", "v"; or keys of the material.
         """
     def points(self, /, stations: SupportsIndex = 17) -> NDArray[float64]:
         """
         Derivatives of the points (m) at fixed parts of the runs, shape (catenaries, stations, 3, …).
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
-            >>> equilibrium.jacobian(wrt="material").points(5).shape
-            (1, 5, 3, 2)
+        Parameters
+        ----------
+        stations : int, default 17
+            How many points on each catenary, 2 or more.
+
+        Returns
+        -------
+        ndarray
+            The derivatives, shape (catenaries, stations, 3, …).
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+        >>> equilibrium.jacobian(wrt="material").points(5).shape
+        (1, 5, 3, 2)
         """
     @property
     def shear(self, /) -> NDArray[float64]:
@@ -265,10 +309,11 @@ class Material:
     """
     What a ply is made of: mass, flexural rigidity, tension, shear curve and locking angle.
 
-    Example:
-        >>> material = plydrape.Material.shipped("krogh2018")
-        >>> material.mass, material.flexural_rigidity
-        (0.3143, 9e-06)
+    Examples
+    --------
+    >>> material = plydrape.Material.shipped("krogh2018")
+    >>> material.mass, material.flexural_rigidity
+    (0.3143, 9e-06)
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -279,7 +324,7 @@ class Material:
     @property
     def bending_rigidity(self, /) -> tuple[float, float] | None:
         """
-        Bending rigidity per width along warp and weft (N·m); None unless `areal`.
+        Bending rigidity per width along warp and weft (N·m), at rest where the moment is a table; None unless `areal`.
         """
     @property
     def flexural_rigidity(self, /) -> float | None:
@@ -296,33 +341,94 @@ class Material:
         """
         Mass per length (kg/m), or per area (kg/m²) if `areal`.
         """
+    def moment(self, /, curvatures: ArrayLike) -> NDArray[float64] | None:
+        """
+        Bending moment per width at curvatures, along warp and weft; None unless `areal`.
+
+        Parameters
+        ----------
+        curvatures : array_like
+            Curvatures (1/m), shape (n,).
+
+        Returns
+        -------
+        ndarray or None
+            Moments per width (N) along warp and weft, shape (n, 2).
+
+        Examples
+        --------
+        >>> bending = {"curvature": [0, 10, 30], "moment": [0, 0.02, 0.04]}
+        >>> material = {"mass": 0.3, "bending_rigidity_warp": bending, "bending_rigidity_weft": 1e-3}
+        >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material=material)
+        >>> ply.material.moment([0, 20])
+        array([[0.  , 0.  ],
+               [0.03, 0.02]])
+        """
     @property
     def name(self, /) -> str:
         """
         Its name for reports.
         """
+    @property
+    def scatter(self, /) -> dict[str, float]:
+        """
+        How much its properties scatter between specimens: standard deviations as shares of their values, by the keys of a
+        material file. Empty where nothing is said.
+
+        Examples
+        --------
+        >>> scatter = {"mass": 0.02, "bending_rigidity_warp": 0.08}
+        >>> material = {"mass": 0.3, "bending_rigidity_warp": 1e-3, "bending_rigidity_weft": 1e-3}
+        >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material={**material, "scatter": scatter})
+        >>> ply.material.scatter
+        {'bending_rigidity_warp': 0.08, 'mass': 0.02}
+        """
     def shear_force(self, /, angles: ArrayLike) -> NDArray[float64] | None:
         """
         Shear force per length (N/m) at shear angles (rad), shape (n,); None if the material has no shear curve.
 
-        Example:
-            >>> curve = {"angle": [0, "20 deg"], "force": [0, "10 N/m"]}
-            >>> material = {"mass": 0.3, "flexural_rigidity": 9e-6, "shear_curve": curve}
-            >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material=material)
-            >>> ply.material.shear_force(np.deg2rad([0, 10, 20]))
-            array([ 0.,  5., 10.])
+        Parameters
+        ----------
+        angles : array_like
+            Shear angles (rad), of any shape.
+
+        Returns
+        -------
+        ndarray or None
+            Shear forces per length (N/m), of the same shape.
+
+        Examples
+        --------
+        >>> curve = {"angle": [0, "20 deg"], "force": [0, "10 N/m"]}
+        >>> material = {"mass": 0.3, "flexural_rigidity": 9e-6, "shear_curve": curve}
+        >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material=material)
+        >>> ply.material.shear_force(np.deg2rad([0, 10, 20]))
+        array([ 0.,  5., 10.])
         """
     @staticmethod
     def shipped(name: str) -> Material:
         """
         A material that comes with plydrape, see `materials`.
 
-        Raises:
-            ValueError: If there is none of that name.
+        Parameters
+        ----------
+        name : str
+            Its name.
 
-        Example:
-            >>> plydrape.Material.shipped("krogh2018").name
-            'krogh2018'
+        Returns
+        -------
+        Material
+            The material.
+
+        Raises
+        ------
+        ValueError
+            If there is none of that name.
+
+        Examples
+        --------
+        >>> plydrape.Material.shipped("krogh2018").name
+        'krogh2018'
         """
     @property
     def source(self, /) -> str:
@@ -333,21 +439,45 @@ class Material:
         """
         Tension per width (N/m) at strains, shape (n,); None if the material does not say it.
 
-        Example:
-            >>> plydrape.Material.shipped("krogh2018").tension(np.array([0, 0.001]))
-            array([   0., 1000.])
+        Parameters
+        ----------
+        strains : array_like
+            Strains, of any shape.
+
+        Returns
+        -------
+        ndarray or None
+            Tensions per width (N/m), of the same shape.
+
+        Examples
+        --------
+        >>> plydrape.Material.shipped("krogh2018").tension(np.array([0, 0.001]))
+        array([   0., 1000.])
         """
     @staticmethod
     def text(name: str) -> str:
         """
         The file of a material that comes with plydrape: TOML.
 
-        Raises:
-            ValueError: If there is none of that name.
+        Parameters
+        ----------
+        name : str
+            Its name.
 
-        Example:
-            >>> "source" in plydrape.Material.text("krogh2018")
-            True
+        Returns
+        -------
+        str
+            The text of the file.
+
+        Raises
+        ------
+        ValueError
+            If there is none of that name.
+
+        Examples
+        --------
+        >>> "source" in plydrape.Material.text("krogh2018")
+        True
         """
 
 @final
@@ -355,10 +485,11 @@ class Measure:
     """
     Something that is measured of a drape: what it is called, in which unit, and how a limit bounds it.
 
-    Example:
-        >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
-        >>> [(measure.label, measure.shown) for measure in shares]
-        [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm')]
+    Examples
+    --------
+    >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
+    >>> [(measure.label, measure.shown) for measure in shares]
+    [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm')]
     """
     def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self, /) -> int: ...
@@ -398,12 +529,12 @@ class Measure:
     @property
     def shown(self, /) -> str:
         """
-        Unit that it is shown in, which is that of its limit in `Result.limits`: mm, "°", "N", "%".
+        Unit that it is shown in, which is that of its limit in `Result.limits`: "mm", "°", "N", "%".
         """
     @property
     def unit(self, /) -> str:
         """
-        Unit of its values in `Result.measures`: mm, "deg", "N"; "1" of ratios and shares.
+        Unit of its values in `Result.measures`: "mm", "deg", "N"; "1" of ratios and shares.
         """
 
 @final
@@ -411,83 +542,168 @@ class Mold:
     """
     What a ply is laid on. Scenes have one; triangles of your own make one.
 
-    Example:
-        >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
-        >>> mold.kind
-        'sphere'
+    Examples
+    --------
+    >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+    >>> mold.kind
+    'sphere'
     """
     def __repr__(self, /) -> str: ...
     def closest_points(self, /, points: ArrayLike) -> ClosestPoints:
         """
         What lies closest to points (m), shape (n, 3).
 
-        Example:
-            >>> mold = plydrape.Scene.read("examples/03_tilted_plane/scene.toml").mold
-            >>> closest = mold.closest_points([[0, 0, 1]])
-            >>> closest.points.shape, closest.distances.shape
-            ((1, 3), (1,))
+        Parameters
+        ----------
+        points : array_like
+            Points (m), shape (n, 3) or (…, 3).
+
+        Returns
+        -------
+        ClosestPoints
+            What is closest to each, in arrays with the same axes.
+
+        Examples
+        --------
+        >>> mold = plydrape.Scene.read("examples/03_tilted_plane/scene.toml").mold
+        >>> closest = mold.closest_points([[0, 0, 1]])
+        >>> closest.points.shape, closest.distances.shape
+        ((1, 3), (1,))
         """
     def heights(self, /, places: ArrayLike) -> NDArray[float64]:
         """
         Height of its highest point over places of the plan (m), nan where there is none.
 
-        Args:
-            places: x and y (m), shape (n, 2).
+        Parameters
+        ----------
+        places : array_like
+            x and y (m), shape (n, 2) or (…, 2).
 
-        Example:
-            >>> mold = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml").mold
-            >>> mold.heights([[0, 0], [0.3, 0.1]])
-            array([0., 0.])
+        Returns
+        -------
+        ndarray
+            Heights (m), shape (n,) or (…).
+
+        Examples
+        --------
+        >>> mold = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml").mold
+        >>> mold.heights([[0, 0], [0.3, 0.1]])
+        array([0., 0.])
         """
     @property
     def kind(self, /) -> str:
         """
-        Its kind: plane, "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
+        Its kind: "plane", "cylinder", "sphere", "torus", "graph" or "mesh"; "wavy" where the errors
         of a scene laid waves on it.
+        """
+    def mesh(self, /) -> tuple[NDArray[float64], NDArray[uint32]] | None:
+        """
+        The triangles that a mold of kind "mesh" is made of; None of another kind.
+
+        Returns
+        -------
+        tuple[ndarray, ndarray] or None
+            Points (m), shape (n, 3), and the indices of each triangle's corners, shape (m, 3).
+
+        Examples
+        --------
+        >>> mold = plydrape.Mold.triangles([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> points, triangles = mold.mesh()
+        >>> points.shape, triangles
+        ((3, 3), array([[0, 1, 2]], dtype=uint32))
         """
     def patch(
         self,
         /,
-        low: SupportsLenAndGetItem[SupportsFloat | SupportsIndex],
-        high: SupportsLenAndGetItem[SupportsFloat | SupportsIndex],
+        low: typing.Sequence[float | str],
+        high: typing.Sequence[float | str],
         *,
         most: SupportsIndex = 20000,
     ) -> tuple[NDArray[float64], NDArray[uint32]]:
         """
         The mold over a rectangle of the plan as triangles.
 
-        Args:
-            low: Lowest x and y (m).
-            high: Highest x and y (m).
-            most: About how many triangles at most.
+        Parameters
+        ----------
+        low : sequence of float or str
+            Lowest x and y (m, or texts with a unit).
+        high : sequence of float or str
+            Highest x and y (m, or texts with a unit).
+        most : int, default 20000
+            About how many triangles at most.
 
-        Returns:
+        Returns
+        -------
+        tuple of ndarray, ndarray
             Points (m), shape (n, 3), and the indices of each triangle's corners, shape (m, 3).
 
-        Example:
-            >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
-            >>> points, triangles = mold.patch((-0.1, -0.1), (0.1, 0.1), most=200)
-            >>> points.shape[1], triangles.shape[1], len(triangles) <= 200
-            (3, 3, True)
+        Examples
+        --------
+        >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+        >>> points, triangles = mold.patch((-0.1, -0.1), (0.1, 0.1), most=200)
+        >>> points.shape[1], triangles.shape[1], len(triangles) <= 200
+        (3, 3, True)
+        """
+    def to_pyvista(
+        self,
+        /,
+        low: typing.Sequence[float | str],
+        high: typing.Sequence[float | str],
+        *,
+        most: SupportsIndex = 20000,
+    ) -> pyvista.PolyData:
+        """
+        Its surface as a mesh of PyVista, over a rectangle of the plan: see `plydrape.view.mold_mesh`. Needs PyVista.
+
+        Parameters
+        ----------
+        low : sequence of float or str
+            Lowest x and y (m, or texts with a unit).
+        high : sequence of float or str
+            Highest x and y (m, or texts with a unit).
+        most : int, default 20000
+            About how many triangles at most.
+
+        Returns
+        -------
+        pyvista.PolyData
+            The triangles.
+
+        Examples
+        --------
+        >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+        >>> mold.to_pyvista(("-10 cm", "-10 cm"), ("10 cm", "10 cm"), most=200).n_cells <= 200
+        True
         """
     @staticmethod
-    def triangles(points: ArrayLike, triangles: numpy.typing.ArrayLike) -> Mold:
+    def triangles(points: ArrayLike, triangles: ArrayLike) -> Mold:
         """
         A mold of triangles, such as a mesher or a CAD reader makes them; vertices at one place are merged and
         triangles turned to one side.
 
-        Args:
-            points: Corners (m), shape (n, 3).
-            triangles: Indices of each triangle's corners, shape (m, 3).
+        Parameters
+        ----------
+        points : array_like
+            Corners (m), shape (n, 3).
+        triangles : array_like
+            Indices of each triangle's corners, shape (m, 3).
 
-        Raises:
-            ValueError: If the triangles are no mold: empty, without area, or not a surface.
+        Returns
+        -------
+        Mold
+            The mold.
 
-        Example:
-            >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
-            >>> mold = plydrape.Mold.triangles(square, [[0, 1, 2], [0, 2, 3]])
-            >>> mold.heights([[0.5, 0.25]])
-            array([0.])
+        Raises
+        ------
+        ValueError
+            If the triangles are no mold: empty, without area, or not a surface.
+
+        Examples
+        --------
+        >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        >>> mold = plydrape.Mold.triangles(square, [[0, 1, 2], [0, 2, 3]])
+        >>> mold.heights([[0.5, 0.25]])
+        array([0.])
         """
 
 @final
@@ -495,21 +711,22 @@ class Net:
     """
     The ideal drape: the fabric as a pin-jointed net on the mold.
 
-    Example:
-        >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
-        >>> net.nodes.shape
-        (24, 24, 3)
+    Examples
+    --------
+    >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
+    >>> net.nodes.shape
+    (24, 24, 3)
     """
     def __repr__(self, /) -> str: ...
     @property
     def largest_edge_error(self, /) -> float:
         """
-        Largest error of a length between neighbouring nodes (m).
+        Largest error of a length between neighboring nodes (m).
         """
     @property
     def mesh(self, /) -> tuple[float, float]:
         """
-        Fabric between neighbouring nodes along u and v (m).
+        Fabric between neighboring nodes along u and v (m).
         """
     @property
     def missing(self, /) -> list[tuple[tuple[int, int], str]]:
@@ -532,13 +749,26 @@ class Net:
         Lays the ply of a scene file on its mold, whether or not grippers could bring it there, as `plydrape net`
         does.
 
-        Raises:
-            SceneError: If the file has no `[ply]`, `[mold]` and `[target]` that make sense.
+        Parameters
+        ----------
+        path : str or path
+            The scene file.
 
-        Example:
-            >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
-            >>> float(net.shear_deg.max().round(3))
-            38.005
+        Returns
+        -------
+        Net
+            The ideal drape.
+
+        Raises
+        ------
+        SceneError
+            If the file has no `[ply]`, `[mold]` and `[target]` that make sense.
+
+        Examples
+        --------
+        >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
+        >>> float(net.shear_deg.max().round(3))
+        38.005
         """
     @property
     def shear_deg(self, /) -> NDArray[float64]:
@@ -555,12 +785,13 @@ class Outcome:
     Fabric in contact by then is held: the derivatives are those of the outcome to the grippers' targets as
     long as a slightly different last step catches nothing more, and exact where the state is smooth.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> outcome = plydrape.outcome(scene)
-        >>> worst = outcome.overstretch.argmax()
-        >>> outcome.overstretch_jacobian[worst].shape
-        (8, 3)
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> outcome = plydrape.outcome(scene)
+    >>> worst = outcome.overstretch.argmax()
+    >>> outcome.overstretch_jacobian[worst].shape
+    (8, 3)
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -615,11 +846,12 @@ class Plan:
     """
     A planned motion, and the drape along it.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> plan = plydrape.plan(scene, without_errors=True)
-        >>> plan.accepted, plan.positions.shape[1:]
-        (True, (8, 3))
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> plan = plydrape.plan(scene, without_errors=True)
+    >>> plan.accepted, plan.positions.shape[1:]
+    (True, (8, 3))
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -665,19 +897,24 @@ class Plan:
         """
         The grippers at any times of the motion.
 
-        Args:
-            times: Times (s), shape (n,).
+        Parameters
+        ----------
+        times : array_like
+            Times (s), shape (n,).
 
-        Returns:
+        Returns
+        -------
+        dict[str, ndarray]
             "positions", "velocities", "accelerations" and "jerks" (m, s), each of shape (n, grippers, 3).
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> plan = plydrape.plan(scene, without_errors=True)
-            >>> motion = plan.motion(np.linspace(0, plan.duration, 101))
-            >>> speeds = np.linalg.norm(motion["velocities"], axis=2)
-            >>> bool(speeds.max() < 0.25), bool(speeds[[0, -1]].max() < 1e-9)
-            (True, True)
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plan = plydrape.plan(scene, without_errors=True)
+        >>> motion = plan.motion(np.linspace(0, plan.duration, 101))
+        >>> speeds = np.linalg.norm(motion["velocities"], axis=2)
+        >>> bool(speeds.max() < 0.25), bool(speeds[[0, -1]].max() < 1e-9)
+        (True, True)
         """
     @property
     def positions(self, /) -> NDArray[float64]:
@@ -704,16 +941,29 @@ class Plan:
         Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html, plan.json, and of a sheet sheet.npz, into a
         folder, all or none, and returns their paths.
 
-        Raises:
-            OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+        Parameters
+        ----------
+        folder : str or path
+            The folder; it is made where there is none.
 
-        Example:
-            >>> import tempfile
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> plan = plydrape.plan(scene, without_errors=True)
-            >>> with tempfile.TemporaryDirectory() as folder:
-            ...     sorted(path.name for path in plan.write(folder))
-            ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
+        Returns
+        -------
+        list of Path
+            The paths of the files.
+
+        Raises
+        ------
+        OutputError
+            If that cannot be done; a file that plydrape did not write is never overwritten.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plan = plydrape.plan(scene, without_errors=True)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     sorted(path.name for path in plan.write(folder))
+        ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
         """
 
 @final
@@ -724,20 +974,29 @@ class Ply:
     Grippers are counted with i, along u, running fastest. Catenaries are counted: edges along u, edges along
     v, then two diagonals a cell, the one from `[i, j]` to `[i + 1, j + 1]` first.
 
-    Args:
-        grippers: How many there are along u and v; `[n, 1]` is a strip.
-        cell: Fabric length between neighbours along u and v, in m or as str with a unit.
-        material: Name of a shipped material, path of a .toml file, or a dict of its keys.
-        warp: Grid direction of the warp, "u" or "v".
-        base: Folder of a material file.
+    Parameters
+    ----------
+    grippers : sequence of int
+        How many there are along u and v; `[n, 1]` is a strip.
+    cell : sequence of float or str
+        Fabric length between neighbors along u and v, in m or as str with a unit.
+    material : str or dict
+        Name of a shipped material, path of a .toml file, or a dict of its keys.
+    warp : str, default "u"
+        Grid direction of the warp, "u" or "v".
+    base : str or path, optional
+        Folder of a material file.
 
-    Raises:
-        SceneError: If a value makes no sense.
+    Raises
+    ------
+    SceneError
+        If a value makes no sense.
 
-    Example:
-        >>> ply = plydrape.Ply(grippers=[4, 2], cell=["100 mm", "100 mm"], material="krogh2018")
-        >>> len(ply.catenaries)
-        16
+    Examples
+    --------
+    >>> ply = plydrape.Ply(grippers=[4, 2], cell=["100 mm", "100 mm"], material="krogh2018")
+    >>> len(ply.catenaries)
+    16
     """
     def __new__(
         cls,
@@ -791,10 +1050,11 @@ class Ply:
         Outline of a ply that is cut, fabric coordinates (m), shape (points, 2), counterclockwise; None of one that ends at its
         grippers or a margin beyond them.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/13_cut_ply/scene.toml")
-            >>> scene.ply.outline.shape, len(scene.ply.holes), len(scene.ply.places)
-            ((5, 2), 1, 15)
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/13_cut_ply/scene.toml")
+        >>> scene.ply.outline.shape, len(scene.ply.holes), len(scene.ply.places)
+        ((5, 2), 1, 15)
         """
     @property
     def places(self, /) -> NDArray[float64]:
@@ -815,11 +1075,12 @@ class Result:
     Arrays are in m, N, s unless the name says otherwise. Grippers are counted with i running fastest,
     catenaries as in `Ply`. Steps count from 1, the start; −1 is the last.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> result.positions.shape, result.summary["first_contact_step"]
-        ((30, 8, 3), 26)
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene)
+    >>> result.positions.shape, result.summary["first_contact_step"]
+    ((30, 8, 3), 26)
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -827,6 +1088,11 @@ class Result:
         """
         Whether every limit holds, by the model that decides: the sheet where it was draped, else the catenaries; and in enough
         cells of the sample, if there is one.
+        """
+    @property
+    def catenary_limits(self, /) -> Limits:
+        """
+        Every limit of the drape by catenaries, judged, by its name; of a drape with the sheet it does not decide.
         """
     @property
     def cell(self, /) -> tuple[float, float]:
@@ -843,11 +1109,22 @@ class Result:
         The lines in which the ply touches the mold in a step (m), one for each catenary that does, arrays of
         shape (n, 3).
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> len(result.contact_lines(1)), len(result.contact_lines(26))
-            (0, 3)
+        Parameters
+        ----------
+        step : int
+            The step, from 1; −1 is the last.
+
+        Returns
+        -------
+        list of ndarray
+            An array of points (m), shape (n, 3), for each catenary that touches.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> len(result.contact_lines(1)), len(result.contact_lines(26))
+        (0, 3)
         """
     @property
     def converged(self, /) -> bool:
@@ -871,31 +1148,46 @@ class Result:
         folder: str | PathLike[str],
         *,
         even_if_rejected: bool = False,
-        position_error: SupportsFloat | SupportsIndex | None = None,
+        position_error: float | str | None = None,
         templates: typing.Sequence[str | PathLike[str]] = ...,
     ) -> list[Path]:
         """
         Writes files for another program or a machine into a folder, all or none, and returns their paths.
 
-        Args:
-            to: One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
-            folder: Where they go; other files there stay.
-            even_if_rejected: Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
-                result is not accepted; the files say so in their heads.
-            position_error: How far straight lines between points may be from the motion (m); 0.1 mm unless given.
-            templates: Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
+        Parameters
+        ----------
+        to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern", "boundary"}
+            One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
+        folder : str or path
+            Where they go; other files there stay.
+        even_if_rejected : bool, default False
+            Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
+            result is not accepted; the files say so in their heads.
+        position_error : float or str, optional
+            How far straight lines between points may be from the motion (m); 0.1 mm unless given.
+        templates : sequence of str or path, optional
+            Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
 
-        Raises:
-            OutputError: If that cannot be done.
-            ValueError: If there is no such format.
+        Returns
+        -------
+        list of Path
+            The paths of the files.
 
-        Example:
-            >>> import tempfile, pathlib
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> with tempfile.TemporaryDirectory() as folder:
-            ...     sorted(path.name for path in result.export("csv", folder))
-            ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
+        Raises
+        ------
+        OutputError
+            If that cannot be done.
+        ValueError
+            If there is no such format.
+
+        Examples
+        --------
+        >>> import tempfile, pathlib
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     sorted(path.name for path in result.export("csv", folder))
+        ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
         """
     @property
     def forces(self, /) -> NDArray[float64]:
@@ -912,26 +1204,51 @@ class Result:
         """
         The page of `plydrape report`: one HTML file for any browser.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> result.html()[:15]
-            '<!doctype html>'
+        Returns
+        -------
+        str
+            The text of the page.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> result.html()[:15]
+        '<!doctype html>'
         """
     @property
-    def limits(self, /) -> list[dict[str, Any]]:
+    def limits(self, /) -> Limits:
         """
-        Every limit of the catenaries, judged: dicts with name, value, limit, unit, ok, step, where and place.
+        Every limit that decides on the drape, judged, by its name: of the sheet and of the motion where the sheet was draped, else of the
+        catenaries.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> tilt = plydrape.simulate(scene).limits["tilt"]
+        >>> round(tilt.value, 1), tilt.limit, tilt.unit, tilt.step, tilt.kept
+        (28.6, 40.0, '°', 9, True)
         """
     def lines(self, /, step: SupportsIndex) -> list[NDArray[float64]]:
         """
         Each catenary of a step as a line from gripper to gripper (m), arrays of shape (n, 3).
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
-            (16, 3)
+        Parameters
+        ----------
+        step : int
+            The step, from 1; −1 is the last.
+
+        Returns
+        -------
+        list of ndarray
+            An array of points (m), shape (n, 3), for each catenary.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
+        (16, 3)
         """
     @property
     def measures(self, /) -> dict[str, NDArray[float64]]:
@@ -951,12 +1268,23 @@ class Result:
         The mold under all steps and the target in about `most` triangles: points (m), shape (n, 3), and corners,
         shape (m, 3). None without a mold there.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> points, triangles = result.mold_surface(most=100)
-            >>> points.shape[1], len(triangles) <= 100
-            (3, True)
+        Parameters
+        ----------
+        most : int, default 20000
+            About how many triangles at most.
+
+        Returns
+        -------
+        tuple[ndarray, ndarray] or None
+            Points (m), shape (n, 3), and the indices of each triangle's corners, shape (m, 3).
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> points, triangles = result.mold_surface(most=100)
+        >>> points.shape[1], len(triangles) <= 100
+        (3, True)
         """
     @property
     def net(self, /) -> Net | None:
@@ -968,29 +1296,51 @@ class Result:
         """
         Reads the text of a result.json.
 
-        Raises:
-            ResultError: As `read`.
+        Parameters
+        ----------
+        text : str
+            The text.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> plydrape.Result.parse(result.to_json()).accepted
-            True
+        Returns
+        -------
+        Result
+            The result.
+
+        Raises
+        ------
+        ResultError
+            As `read`.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> plydrape.Result.parse(result.to_json()).accepted
+        True
         """
     def plot(
         self, /, kind: typing.Literal["steps", "measures", "shear"] = "steps", **options: typing.Any
     ) -> matplotlib.figure.Figure:
         """
-        A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs `plydrape[plot]`.
+        A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs Matplotlib.
 
-        Args:
-            kind: steps, "measures" or "shear".
-            options: Those of the function of that name in `plydrape.plot`.
+        Parameters
+        ----------
+        kind : {"steps", "measures", "shear"}, default "steps"
+            "steps", "measures" or "shear".
+        **options
+            Those of the function of that name in `plydrape.plot`.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> figure = result.plot("measures")
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> figure = result.plot("measures")
         """
     @property
     def ply(self, /) -> Ply:
@@ -1018,27 +1368,41 @@ class Result:
         """
         Reads a result.json.
 
-        Raises:
-            ResultError: If it cannot be read, or is not, to the last byte, what this version writes.
+        Parameters
+        ----------
+        path : str or path
+            The file.
 
-        Example:
-            >>> import tempfile, pathlib
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> with tempfile.TemporaryDirectory() as folder:
-            ...     path = pathlib.Path(folder) / "result.json"
-            ...     _ = path.write_text(result.to_json())
-            ...     plydrape.Result.read(path).title == result.title
-            True
+        Returns
+        -------
+        Result
+            The result.
+
+        Raises
+        ------
+        ResultError
+            If it cannot be read, or is not, to the last byte, what this version writes. Where there is no such file, it is a
+            FileNotFoundError too.
+
+        Examples
+        --------
+        >>> import tempfile, pathlib
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = pathlib.Path(folder) / "result.json"
+        ...     _ = path.write_text(result.to_json())
+        ...     plydrape.Result.read(path).title == result.title
+        True
         """
     def replan(
         self,
         /,
         *,
-        offset: dict[str, float | str | typing.Sequence[float]] | None = None,
-        points: typing.Sequence[tuple[typing.Sequence[float], typing.Sequence[float]]]
+        offset: dict[str, float | str | typing.Sequence[float | str]] | None = None,
+        points: typing.Sequence[tuple[typing.Sequence[float | str], typing.Sequence[float | str]]]
         | None = None,
-        tolerance: SupportsFloat | SupportsIndex | None = None,
+        tolerance: float | str | None = None,
     ) -> Result:
         """
         The result of this plan for a ply that does not lie where it was planned to be picked up.
@@ -1046,65 +1410,101 @@ class Result:
         The grippers start where the ply lies, the offset is taken out in the air, and the landing is the planned one. What the motion
         changes is judged again, and the motion is slower where it would be too fast.
 
-        Args:
-            offset: The shift x and y (m, or texts with a unit), the yaw (rad, or a text), and the point (x, y) that the ply is turned
-                about, the middle of the grippers at the start unless given.
-            points: Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m.
-            tolerance: How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
-                given.
+        Parameters
+        ----------
+        offset : dict, optional
+            The shift x and y (m, or texts with a unit), the yaw (rad, or a text), and the point (x, y) that the ply is turned
+            about, the middle of the grippers at the start unless given.
+        points : sequence of Any, optional
+            Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m.
+        tolerance : float or str, optional
+            How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
+            given.
 
-        Raises:
-            SceneError: If offset or points are none.
-            PlanError: If the result was not planned, or the offset cannot be taken out before the ply meets the mold.
+        Returns
+        -------
+        Result
+            The result along the motion that was changed.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> plan = plydrape.plan(scene, without_errors=True)
-            >>> moved = plan.result.replan(offset=dict(x="3 mm", y="-1.5 mm", yaw="0.8 deg"))
-            >>> moved.accepted, bool((moved.positions[-1] == plan.result.positions[-1]).all())
-            (True, True)
+        Raises
+        ------
+        SceneError
+            If offset or points are none.
+        PlanError
+            If the result was not planned, or the offset cannot be taken out before the ply meets the mold.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plan = plydrape.plan(scene, without_errors=True)
+        >>> moved = plan.result.replan(offset=dict(x="3 mm", y="-1.5 mm", yaw="0.8 deg"))
+        >>> moved.accepted, bool((moved.positions[-1] == plan.result.positions[-1]).all())
+        (True, True)
         """
     def report(self, /, path: str | PathLike[str]) -> Path:
         """
         Writes the page into a file and returns its path.
 
-        Raises:
-            OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+        Parameters
+        ----------
+        path : str or path
+            The file.
 
-        Example:
-            >>> import tempfile, pathlib
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> with tempfile.TemporaryDirectory() as folder:
-            ...     result.report(pathlib.Path(folder) / "page.html").name
-            'page.html'
+        Returns
+        -------
+        Path
+            The same path.
+
+        Raises
+        ------
+        OutputError
+            If that cannot be done; a file that plydrape did not write is never overwritten.
+
+        Examples
+        --------
+        >>> import tempfile, pathlib
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     result.report(pathlib.Path(folder) / "page.html").name
+        'page.html'
         """
     @property
     def sample(self, /) -> Sample | None:
         """
         The verdict over a sample of cells with the errors of the scene; None where the scene has none.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> plydrape.simulate(scene).sample is None
-            True
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> plydrape.simulate(scene).sample is None
+        True
         """
     def scene3d(self, /, step: SupportsIndex = ..., **options: typing.Any) -> pyvista.Plotter:
         """
-        A scene of PyVista: see `plydrape.view`. Needs `plydrape[plot]`.
+        A scene of PyVista: see `plydrape.view`. Needs PyVista.
 
-        Args:
-            step: Which step.
-            options: Those of `plydrape.view.scene3d`.
+        Parameters
+        ----------
+        step : int, optional
+            Which step.
+        **options
+            Those of `plydrape.view.scene3d`.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> import pyvista
-            >>> pyvista.OFF_SCREEN = True
-            >>> plotter = result.scene3d(-1)
-            >>> "ply" in plotter.actors
-            True
+        Returns
+        -------
+        pyvista.Plotter
+            The plotter: `.show()` opens it.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> import pyvista
+        >>> pyvista.OFF_SCREEN = True
+        >>> plotter = result.scene3d(-1)
+        >>> "ply" in plotter.actors
+        True
         """
     @property
     def scene_text(self, /) -> str | None:
@@ -1123,27 +1523,38 @@ class Result:
         The whole ply as a sheet over its steps; None where the catenaries decide. Everything else here is of the
         catenaries.
 
-        Raises:
-            ResultError: If sheet.npz is not beside the result that was read, or was changed.
+        Raises
+        ------
+        ResultError
+            If sheet.npz is not beside the result that was read, or was changed.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> plydrape.simulate(scene, model="catenaries").sheet is None
-            True
-            >>> plydrape.simulate(scene, model="sheet").sheet.converged
-            True
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plydrape.simulate(scene, model="catenaries").sheet is None
+        True
+        >>> plydrape.simulate(scene, model="sheet").sheet.converged
+        True
         """
     def show(self, /, *, height: SupportsIndex = 640) -> plydrape.notebook.Page:
         """
         The page of the result inside a notebook.
 
-        Args:
-            height: Height of the frame (pixels).
+        Parameters
+        ----------
+        height : int, default 640
+            Height of the frame (pixels).
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> page = result.show(height=400)
+        Returns
+        -------
+        Page
+            The page; a notebook shows it as the last value of a cell.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> page = result.show(height=400)
         """
     @property
     def slack_mm(self, /) -> NDArray[float64]:
@@ -1172,22 +1583,46 @@ class Result:
         """
         The ply of a step as a surface with so many intervals along each side of a cell.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> surface = result.surface(1, intervals=4)
-            >>> surface.size, surface.points.shape, surface.triangles.shape
-            ((13, 5), (65, 3), (96, 3))
+        Parameters
+        ----------
+        step : int
+            The step, from 1; −1 is the last.
+        intervals : int, default 8
+            Intervals along each side of a cell, 1 to 1000.
+
+        Returns
+        -------
+        Surface
+            The surface.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> surface = result.surface(1, intervals=4)
+        >>> surface.size, surface.points.shape, surface.triangles.shape
+        ((13, 5), (65, 3), (96, 3))
         """
     def svg(self, /, steps: SupportsGetItem[int, SupportsIndex] | None = None) -> str:
         """
         The figure of chosen steps as SVG, unless given of those that figure.svg shows.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> result.svg([1, 26, -1])[:4]
-            '<svg'
+        Parameters
+        ----------
+        steps : SupportsGetItem[int, int], optional
+            The steps, from 1; −1 is the last.
+
+        Returns
+        -------
+        str
+            The text of the figure.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> result.svg([1, 26, -1])[:4]
+        '<svg'
         """
     @property
     def tilts_deg(self, /) -> NDArray[float64]:
@@ -1208,37 +1643,149 @@ class Result:
         """
         The whole result.json as dicts and lists.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> sorted(result.to_dict())
-            ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
+        Returns
+        -------
+        dict
+            The keys of result.json.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> sorted(result.to_dict())
+        ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
         """
     def to_json(self, /) -> str:
         """
         The text of result.json, with its check sum.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> result.to_json()[:28]
-            '{"format":"plydrape-result",'
+        Returns
+        -------
+        str
+            The text.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> result.to_json()[:28]
+        '{"format":"plydrape-result",'
+        """
+    def to_pandas(
+        self, /, table: typing.Literal["measures", "grippers", "catenaries", "limits"] = "measures"
+    ) -> pandas.DataFrame:
+        """
+        A tidy table of numbers: one row for each thing in each step. Needs pandas.
+
+        Column names end in the unit where it is not SI, as the names of the properties do.
+
+        Parameters
+        ----------
+        table : {"measures", "grippers", "catenaries", "limits"}, default "measures"
+            "measures", one row a step; "grippers", one row a step and gripper; "catenaries", one row a step and catenary;
+            "limits", one row a limit that decides.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The table, with a plain index.
+
+        Raises
+        ------
+        ExtraError
+            If pandas is not installed.
+        ValueError
+            If there is no such table.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> frame = plydrape.simulate(scene).to_pandas("grippers")
+        >>> list(frame.columns[:5])
+        ['step', 'time', 'gripper', 'i', 'j']
+        """
+    def to_pyvista(self, /, step: SupportsIndex = ...) -> pyvista.MultiBlock:
+        """
+        A step as meshes of PyVista with their numbers, without colors or a window: see `plydrape.view.meshes`. Needs PyVista.
+
+        Parameters
+        ----------
+        step : int, default -1
+            Which step; −1 is the last.
+
+        Returns
+        -------
+        pyvista.MultiBlock
+            The blocks "mold", "ply", "catenaries" and "grippers", and "sheet" where it was draped, as far as there are such.
+
+        Raises
+        ------
+        ExtraError
+            If PyVista is not installed.
+        ValueError
+            If there is no such step.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> blocks = plydrape.simulate(scene).to_pyvista()
+        >>> blocks.keys()
+        ['mold', 'ply', 'catenaries', 'grippers', 'sheet']
+        >>> blocks["ply"].array_names
+        ['gap_mm', 'height_mm', 'shear_deg']
+        """
+    def to_xarray(self, /) -> xarray.Dataset:
+        """
+        Everything over the steps as one labeled data set. Needs xarray.
+
+        Its dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array), `xyz`, `catenary` and
+        `cell_u`, `cell_v`; every variable has its `units` and `long_name`. Names and units are those of the properties.
+
+        Returns
+        -------
+        xarray.Dataset
+            The data set.
+
+        Raises
+        ------
+        ExtraError
+            If xarray is not installed.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> data = plydrape.simulate(scene).to_xarray()
+        >>> data["positions"].dims, data["positions"].attrs["units"]
+        (('step', 'u', 'v', 'xyz'), 'm')
         """
     def write(self, /, folder: str | PathLike[str]) -> list[Path]:
         """
         Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, of a plan motion.csv, and of a sheet
         sheet.npz, into a folder, all or none, and returns their paths.
 
-        Raises:
-            OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+        Parameters
+        ----------
+        folder : str or path
+            The folder; it is made where there is none.
 
-        Example:
-            >>> import tempfile, pathlib
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> result = plydrape.simulate(scene)
-            >>> with tempfile.TemporaryDirectory() as folder:
-            ...     sorted(path.name for path in result.write(folder))
-            ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
+        Returns
+        -------
+        list of Path
+            The paths of the files.
+
+        Raises
+        ------
+        OutputError
+            If that cannot be done; a file that plydrape did not write is never overwritten.
+
+        Examples
+        --------
+        >>> import tempfile, pathlib
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> result = plydrape.simulate(scene)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     sorted(path.name for path in result.write(folder))
+        ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
         """
 
 @final
@@ -1246,16 +1793,17 @@ class Sample:
     """
     The verdict over a sample of cells, each with errors of its own: complete drapes along the same motion.
 
-    Example:
-        >>> tables = dict(
-        ...     ply=dict(grippers=[2, 2], cell=["100 mm", "100 mm"], material="krogh2018"),
-        ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
-        ...     model=dict(kind="catenaries"),
-        ... )
-        >>> errors = dict(samples=8, gripper=dict(position=dict(bound="0.1 mm")))
-        >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=errors)
-        >>> plydrape.simulate(scene).sample
-        <plydrape.Sample of 8 cells, 8 accepted, accepted>
+    Examples
+    --------
+    >>> tables = dict(
+    ...     ply=dict(grippers=[2, 2], cell=["100 mm", "100 mm"], material="krogh2018"),
+    ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
+    ...     model=dict(kind="catenaries"),
+    ... )
+    >>> errors = dict(samples=8, gripper=dict(position=dict(bound="0.1 mm")))
+    >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=errors)
+    >>> plydrape.simulate(scene).sample
+    <plydrape.Sample of 8 cells, 8 accepted, accepted>
     """
     def __len__(self, /) -> int: ...
     def __repr__(self, /) -> str: ...
@@ -1288,9 +1836,9 @@ class Sample:
         Whether each cell keeps every limit, shape (cells,).
         """
     @property
-    def limits(self, /) -> list[dict[str, Any]]:
+    def limits(self, /) -> Limits:
         """
-        Every limit, judged by the value that the share of the cells keeps: dicts as `Result.limits`.
+        Every limit, judged by the value that the share of the cells keeps, by its name, as in `Result.limits`.
         """
     @property
     def needed(self, /) -> int:
@@ -1322,34 +1870,58 @@ class Scene:
     Every argument is a dict with the keys of the table of that name in a scene file; plain numbers are in SI
     units, a str carries its unit. Arrays may stand for lists. `mold` may also be a `Mold`.
 
-    Args:
-        ply: What hangs between the grippers: `grippers`, `cell`, `material`, `warp`, `overhang`.
-        mold: What the ply is laid on.
-        grippers: Where the grippers start.
-        target: Where the ply shall end.
-        motion: How the grippers move.
-        model: Which model drapes and decides, and its rules.
-        sheet: How the ply is divided and followed as a sheet.
-        contact: How contact is found.
-        limits: What an accepted drape keeps to.
-        plan: How a motion is planned.
-        errors: How far a real cell may be from the scene.
-        release: When the pads let go of the ply.
-        title: Name for reports.
-        base: Folder of files that the tables name.
+    Parameters
+    ----------
+    ply : dict
+        What hangs between the grippers: `grippers`, `cell`, `material`, `warp`, `overhang`.
+    mold : dict or Mold, optional
+        What the ply is laid on; also `points` and `triangles` of a mesh, as arrays.
+    grippers : dict, optional
+        Where the grippers start.
+    target : dict, optional
+        Where the ply shall end.
+    motion : dict, optional
+        How the grippers move; also `times` (s), shape (steps,), and `positions` (m), as `with_motion` takes them.
+    model : dict, optional
+        Which model drapes and decides, and its rules.
+    sheet : dict, optional
+        How the ply is divided and followed as a sheet.
+    contact : dict, optional
+        How contact is found.
+    limits : dict, optional
+        What an accepted drape keeps to.
+    plan : dict, optional
+        How a motion is planned.
+    errors : dict, optional
+        How far a real cell may be from the scene.
+    release : dict, optional
+        When the pads let go of the ply.
+    tool : dict, optional
+        What carries the grippers.
+    bodies : sequence of dict, optional
+        What moves with grippers and robot, a list of dicts.
+    obstacles : sequence of dict, optional
+        What stands in the cell, a list of dicts.
+    title : str, optional
+        Name for reports.
+    base : str or path, optional
+        Folder of files that the tables name.
 
-    Raises:
-        SceneError: If the scene makes no sense; it names the place, the fault and a remedy.
+    Raises
+    ------
+    SceneError
+        If the scene makes no sense; it names the place, the fault and a remedy.
 
-    Example:
-        >>> scene = plydrape.Scene(
-        ...     ply=dict(grippers=[4, 2], cell=[0.1, 0.1], material="krogh2018"),
-        ...     mold=dict(kind="plane"),
-        ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
-        ...     target=dict(origin=[0, 0], direction="20 deg", shear="20 deg"),
-        ... )
-        >>> scene.positions.shape
-        (30, 8, 3)
+    Examples
+    --------
+    >>> scene = plydrape.Scene(
+    ...     ply=dict(grippers=[4, 2], cell=[0.1, 0.1], material="krogh2018"),
+    ...     mold=dict(kind="plane"),
+    ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
+    ...     target=dict(origin=[0, 0], direction="20 deg", shear="20 deg"),
+    ... )
+    >>> scene.positions.shape
+    (30, 8, 3)
     """
     def __new__(
         cls,
@@ -1367,10 +1939,17 @@ class Scene:
         plan: dict[str, typing.Any] | None = None,
         errors: dict[str, typing.Any] | None = None,
         release: dict[str, typing.Any] | None = None,
+        tool: dict[str, typing.Any] | None = None,
+        bodies: typing.Sequence[dict[str, typing.Any]] | None = None,
+        obstacles: typing.Sequence[dict[str, typing.Any]] | None = None,
         title: str | None = None,
         base: str | PathLike[str] = ...,
     ) -> Scene: ...
     def __repr__(self, /) -> str: ...
+    def _tables(self, /) -> dict[str, typing.Any]:
+        """
+        The tables of the scene as they were given; a mold or a motion that was given beside them as objects.
+        """
     def draw(
         self, /, sample: SupportsIndex, factor: SupportsFloat | SupportsIndex = 1.0
     ) -> dict[str, Any]:
@@ -1379,20 +1958,31 @@ class Scene:
 
         It depends on the seed of the errors and the number of the sample only.
 
-        Args:
-            sample: Its number, from 0.
-            factor: How many times as large all errors are.
+        Parameters
+        ----------
+        sample : int
+            Its number, from 0.
+        factor : float, default 1.0
+            How many times as large all errors are.
 
-        Raises:
-            ValueError: If the scene has no errors, or the factor is not finite.
+        Returns
+        -------
+        dict
+            The errors by the names of the tables of `errors`.
 
-        Example:
-            >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
-            >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
-            >>> frame = dict(position=dict(bound="1 mm"))
-            >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
-            >>> all(abs(shift) <= 0.001 for shift in scene.draw(0)["frame"]["shift"])
-            True
+        Raises
+        ------
+        ValueError
+            If the scene has no errors, or the factor is not finite.
+
+        Examples
+        --------
+        >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+        >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+        >>> frame = dict(position=dict(bound="1 mm"))
+        >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
+        >>> all(abs(shift) <= 0.001 for shift in scene.draw(0)["frame"]["shift"])
+        True
         """
     @property
     def errors(self, /) -> dict[str, Any] | None:
@@ -1400,13 +1990,40 @@ class Scene:
         How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term either
         `{"deviation": …}` or `{"bound": …}`.
 
-        Example:
-            >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
-            >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
-            >>> gripper = dict(position=dict(deviation="0.1 mm"))
-            >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(gripper=gripper))
-            >>> scene.errors["gripper"]["position"]
-            {'deviation': 0.0001}
+        Examples
+        --------
+        >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+        >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+        >>> gripper = dict(position=dict(deviation="0.1 mm"))
+        >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(gripper=gripper))
+        >>> scene.errors["gripper"]["position"]
+        {'deviation': 0.0001}
+        """
+    @staticmethod
+    def from_dict(tables: typing.Mapping[str, typing.Any]) -> Scene:
+        """
+        The scene that `to_dict` wrote.
+
+        Parameters
+        ----------
+        tables : dict
+            Keyword arguments of a scene.
+
+        Returns
+        -------
+        Scene
+            The scene, checked as any other.
+
+        Raises
+        ------
+        SceneError
+            If it makes no sense.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/04_dome/scene.toml")
+        >>> plydrape.Scene.from_dict(scene.to_dict()) == scene
+        True
         """
     @property
     def mold(self, /) -> Mold | None:
@@ -1423,17 +2040,29 @@ class Scene:
         """
         Reads and checks the text of a scene file.
 
-        Args:
-            text: TOML, see the guide and docs/scene.schema.json.
-            base: Folder of the files that it names.
-            name: What it is called in errors.
+        Parameters
+        ----------
+        text : str
+            TOML, see the guide and docs/scene.schema.json.
+        base : str or path, optional
+            Folder of the files that it names.
+        name : str, default "scene.toml"
+            What it is called in errors.
 
-        Raises:
-            SceneError: If it makes no sense.
+        Returns
+        -------
+        Scene
+            The scene.
 
-        Example:
-            >>> plydrape.Scene.parse(plydrape.Scene.template()).mold.kind
-            'plane'
+        Raises
+        ------
+        SceneError
+            If it makes no sense.
+
+        Examples
+        --------
+        >>> plydrape.Scene.parse(plydrape.Scene.template()).mold.kind
+        'plane'
         """
     @property
     def ply(self, /) -> Ply:
@@ -1450,12 +2079,26 @@ class Scene:
         """
         Reads and checks a scene file; files it names are relative to its folder.
 
-        Raises:
-            SceneError: If it cannot be read or makes no sense.
+        Parameters
+        ----------
+        path : str or path
+            The file.
 
-        Example:
-            >>> plydrape.Scene.read("examples/02_hanging_strip/scene.toml").ply.grippers
-            (2, 1)
+        Returns
+        -------
+        Scene
+            The scene.
+
+        Raises
+        ------
+        SceneError
+            If it cannot be read or makes no sense. Where there is no such file, or none that may be read, it is a FileNotFoundError or
+            PermissionError too.
+
+        Examples
+        --------
+        >>> plydrape.Scene.read("examples/02_hanging_strip/scene.toml").ply.grippers
+        (2, 1)
         """
     @staticmethod
     def read_book(path: str | PathLike[str]) -> list[tuple[str, Scene]]:
@@ -1463,13 +2106,60 @@ class Scene:
         Reads and checks a plybook: the name and the scene of each ply, in the order in which they are laid. The mold of a scene has
         the plies on it that the ply lies on.
 
-        Raises:
-            SceneError: If it cannot be read or makes no sense.
+        Parameters
+        ----------
+        path : str or path
+            The file.
 
-        Example:
-            >>> plies = plydrape.Scene.read_book("examples/15_plybook/plies.toml")
-            >>> [(name, scene.mold.kind) for name, scene in plies][:2]
-            [('base 0', 'mesh'), ('turned 30', 'layered')]
+        Returns
+        -------
+        list of tuple[str, Scene]
+            Name and scene of each ply.
+
+        Raises
+        ------
+        SceneError
+            If it cannot be read or makes no sense. Where there is no such file, or none that may be read, it is a FileNotFoundError or
+            PermissionError too.
+
+        Examples
+        --------
+        >>> plies = plydrape.Scene.read_book("examples/15_plybook/plies.toml")
+        >>> [(name, scene.mold.kind) for name, scene in plies][:2]
+        [('base 0', 'mesh'), ('turned 30', 'layered')]
+        """
+    def replace(self, /, **changes: typing.Any) -> Scene:
+        """
+        The same scene with other values: keyword arguments as those of a scene, in which only what changes must stand.
+
+        A dict is merged into the table of that name, key by key; None takes a table or a key away. A table with another `kind` is
+        taken whole. The scene itself stays as it is, and comments of its file are not in the `text` of the new one.
+
+        Parameters
+        ----------
+        **changes
+            Tables, `title` and `base`, as those of a new scene.
+
+        Returns
+        -------
+        Scene
+            The new scene, checked as any other.
+
+        Raises
+        ------
+        SceneError
+            If it makes no sense.
+        TypeError
+            If there is no table of a name.
+        ValueError
+            As `to_dict`.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/04_dome/scene.toml")
+        >>> higher = scene.replace(grippers={"height": "80 mm"}, title="From higher up")
+        >>> higher.title, float((higher.positions - scene.positions)[0, 0, 2].round(3))
+        ('From higher up', 0.03)
         """
     @property
     def target(self, /) -> NDArray[float64] | None:
@@ -1481,9 +2171,15 @@ class Scene:
         """
         The text of a commented scene to start from, as `plydrape new` writes it.
 
-        Example:
-            >>> plydrape.Scene.template().startswith("# A scene for plydrape")
-            True
+        Returns
+        -------
+        str
+            The text.
+
+        Examples
+        --------
+        >>> plydrape.Scene.template().startswith("# A scene for plydrape")
+        True
         """
     @property
     def text(self, /) -> str | None:
@@ -1500,6 +2196,29 @@ class Scene:
         """
         Its name for reports.
         """
+    def to_dict(self, /) -> dict[str, typing.Any]:
+        """
+        The scene as keyword arguments of plain values, which JSON and TOML can carry: `Scene(**scene.to_dict())` is the same scene.
+
+        Of a scene that was read, `base` is the folder of its file, in which the files are that it names. A motion or a mesh that was
+        given as arrays is in it as lists.
+
+        Returns
+        -------
+        dict
+            The tables of its scene file, with `title` and `base`.
+
+        Raises
+        ------
+        ValueError
+            If no tables say it: a scene `with_errors`, a ply of a book, or one on a `Mold` that is no mesh. Pickle it.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/04_dome/scene.toml")
+        >>> scene.to_dict()["mold"]["kind"]
+        'sphere'
+        """
     def with_errors(
         self, /, sample: SupportsIndex, factor: SupportsFloat | SupportsIndex = 1.0
     ) -> Scene:
@@ -1509,22 +2228,33 @@ class Scene:
         It has no `errors` of its own any more, and no `text`, as no scene file says it. Positions are those of the
         fabric points that the scene calls the grippers'.
 
-        Args:
-            sample: Its number, from 0.
-            factor: How many times as large all errors are.
+        Parameters
+        ----------
+        sample : int
+            Its number, from 0.
+        factor : float, default 1.0
+            How many times as large all errors are.
 
-        Raises:
-            ValueError: If the scene has no errors, the factor is not finite, or neighbours would stand (all but)
-                straight above each other.
+        Returns
+        -------
+        Scene
+            The new scene.
 
-        Example:
-            >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
-            >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
-            >>> frame = dict(position=dict(bound="1 mm"))
-            >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
-            >>> real = scene.with_errors(0)
-            >>> bool(abs(real.positions - scene.positions).max() <= 0.001), real.errors
-            (True, None)
+        Raises
+        ------
+        ValueError
+            If the scene has no errors, the factor is not finite, or neighbors would stand (all but)
+            straight above each other.
+
+        Examples
+        --------
+        >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+        >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+        >>> frame = dict(position=dict(bound="1 mm"))
+        >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
+        >>> real = scene.with_errors(0)
+        >>> bool(abs(real.positions - scene.positions).max() <= 0.001), real.errors
+        (True, None)
         """
     def with_motion(
         self, /, times: ArrayLike, positions: ArrayLike, *, title: str | None = None
@@ -1533,20 +2263,32 @@ class Scene:
         The same scene along another motion. It has no `text`, as no scene file says it. Where a scene file is refused
         if its start stretches the ply, this one is draped: its overstretch says by how much.
 
-        Args:
-            times: Time of each step (s), ascending, shape (steps,).
-            positions: Positions of the grippers (m), shape (steps, grippers, 3).
-            title: Name for reports, unless it stays.
+        Parameters
+        ----------
+        times : array_like
+            Time of each step (s), ascending, shape (steps,).
+        positions : array_like
+            Positions of the grippers (m), shape (steps, grippers, 3), i running fastest, or (steps, along u, along v, 3).
+        title : str, optional
+            Name for reports, unless it stays.
 
-        Raises:
-            ValueError: If the shapes do not fit, times do not ascend, a coordinate is not a number up to 10⁶ m, or
-                neighbours stand (all but) straight above each other, where the model has no solution.
+        Returns
+        -------
+        Scene
+            The new scene.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> higher = scene.with_motion(scene.times, scene.positions + [0, 0, 0.01])
-            >>> float((higher.positions - scene.positions).max().round(9))
-            0.01
+        Raises
+        ------
+        ValueError
+            If the shapes do not fit, times do not ascend, a coordinate is not a number up to 10⁶ m, or
+            neighbors stand (all but) straight above each other, where the model has no solution.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> higher = scene.with_motion(scene.times, scene.positions + [0, 0, 0.01])
+        >>> float((higher.positions - scene.positions).max().round(9))
+        0.01
         """
 
 @final
@@ -1554,15 +2296,16 @@ class Sheet:
     """
     The whole ply as a sheet: its states over the steps that were kept, what was measured, and the verdict.
 
-    Nodes stand where lines of the fabric cross; segments join two neighbours along a line, cells are between four nodes.
+    Nodes stand where lines of the fabric cross; segments join two neighbors along a line, cells are between four nodes.
     Arrays are in m, N, rad, s unless the name says otherwise. Each access reads the states of sheet.npz once, one at a time.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene, model="sheet")
-        >>> sheet = result.sheet
-        >>> sheet.positions.shape, sheet.summary["first_contact_step"]
-        ((30, 341, 3), 22)
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene, model="sheet")
+    >>> sheet = result.sheet
+    >>> sheet.positions.shape, sheet.summary["first_contact_step"]
+    ((30, 341, 3), 22)
     """
     def __repr__(self, /) -> str: ...
     @property
@@ -1606,9 +2349,9 @@ class Sheet:
         Step in which each node came to the mold and stayed, shape (nodes,); 0 of one that did not.
         """
     @property
-    def limits(self, /) -> list[dict[str, Any]]:
+    def limits(self, /) -> Limits:
         """
-        Every limit of the sheet, judged: dicts as in `Result.limits`.
+        Every limit of the sheet, judged, by its name, as in `Result.limits`.
         """
     @property
     def pad_forces(self, /) -> NDArray[float64]:
@@ -1666,30 +2409,93 @@ class Sheet:
         """
         Time of each state (s), shape (states,).
         """
+    def to_pyvista(self, /, step: SupportsIndex = ...) -> pyvista.PolyData:
+        """
+        The sheet of a step as a mesh of PyVista with its numbers: see `plydrape.view.sheet_mesh`. Needs PyVista.
+
+        Parameters
+        ----------
+        step : int, default -1
+            Which step, from 1; −1 is the last that was kept.
+
+        Returns
+        -------
+        pyvista.PolyData
+            Its cells, with numbers at nodes and in cells.
+
+        Raises
+        ------
+        ExtraError
+            If PyVista is not installed.
+        ValueError
+            If no state of such a step was kept.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> mesh = plydrape.simulate(scene).sheet.to_pyvista()
+        >>> mesh.n_points, mesh.array_names
+        (341, ['height_mm', 'contact', 'landing_step', 'shear_deg'])
+        """
+    def to_xarray(self, /) -> xarray.Dataset:
+        """
+        All states as one labeled data set. Needs xarray.
+
+        Its dimensions are `state`, `node`, `segment`, `cell`, `gripper` and `xyz`; every variable has its `units` and `long_name`.
+        Names and units are those of the properties.
+
+        Returns
+        -------
+        xarray.Dataset
+            The data set.
+
+        Raises
+        ------
+        ExtraError
+            If xarray is not installed.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> data = plydrape.simulate(scene).sheet.to_xarray()
+        >>> data["heights"].dims, data["heights"].attrs["units"]
+        (('state', 'node'), 'm')
+        """
 
 @final
 class Solver:
     """
     Finds equilibria of a hanging ply, one after another: each starts from the last one.
 
-    Args:
-        ply: What hangs.
-        slopes: How shared slopes are found: moment-balance, or "min-force" as in Krogh et al. 2018.
-        axial_stiffness: EA of a line of ply (N); infinite for an inextensible ply.
-        gravity: Acceleration of gravity (m/s²).
-        max_tilt: Limit of the ball joints (rad).
+    Plain numbers are in SI units, a str carries its unit. A copy, also one in another process, begins without a last one.
 
-    Raises:
-        ValueError: If a number makes no sense.
+    Parameters
+    ----------
+    ply : Ply
+        What hangs.
+    slopes : {"moment-balance", "min-force"}, default "moment-balance"
+        How shared slopes are found: "moment-balance", or "min-force" as in Krogh et al. 2018.
+    axial_stiffness : float or str, default 100000.0
+        EA of a line of ply (N); infinite for an inextensible ply.
+    gravity : float or str, default 9.81
+        Acceleration of gravity (m/s²).
+    max_tilt : float or str, optional
+        Limit of the ball joints (rad).
 
-    Example:
-        >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
-        >>> solver = plydrape.Solver(ply)
-        >>> equilibrium = solver.solve([[0.098 * i, 0, 0] for i in range(4)])
-        >>> equilibrium.status
-        'converged'
-        >>> bool((equilibrium.forces > 0).all())
-        True
+    Raises
+    ------
+    ValueError
+        If a number makes no sense.
+
+    Examples
+    --------
+    >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
+    >>> solver = plydrape.Solver(ply)
+    >>> equilibrium = solver.solve([[0.098 * i, 0, 0] for i in range(4)])
+    >>> equilibrium.status
+    'converged'
+    >>> bool((equilibrium.forces > 0).all())
+    True
     """
     def __new__(
         cls,
@@ -1697,89 +2503,146 @@ class Solver:
         ply: Ply,
         *,
         slopes: typing.Literal["moment-balance", "min-force"] = "moment-balance",
-        axial_stiffness: SupportsFloat | SupportsIndex = 1e5,
-        gravity: SupportsFloat | SupportsIndex = 9.81,
-        max_tilt: SupportsFloat | SupportsIndex = ...,
+        axial_stiffness: float | str = ...,
+        gravity: float | str = ...,
+        max_tilt: float | str = ...,
     ) -> Solver: ...
     def forget(self, /) -> None:
         """
         Forgets the last equilibrium: the next one starts from nothing.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> solver = plydrape.Solver.of(scene)
-            >>> first = solver.solve(scene.positions[0]).forces
-            >>> solver.forget()
-            >>> bool((solver.solve(scene.positions[0]).forces == first).all())
-            True
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> solver = plydrape.Solver.of(scene)
+        >>> first = solver.solve(scene.positions[0]).forces
+        >>> solver.forget()
+        >>> bool((solver.solve(scene.positions[0]).forces == first).all())
+        True
         """
     @staticmethod
     def of(scene: Scene) -> Solver:
         """
         A solver for the ply of a scene, by its rules.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-            >>> plydrape.Solver.of(scene).solve(scene.positions[0]).forces.shape
-            (16,)
+        Parameters
+        ----------
+        scene : Scene
+            The scene.
+
+        Returns
+        -------
+        Solver
+            The solver.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> plydrape.Solver.of(scene).solve(scene.positions[0]).forces.shape
+        (16,)
         """
     def solve(self, /, positions: ArrayLike, *, check: bool = True) -> Equilibrium:
         """
         Solves for the grippers where they are.
 
-        Args:
-            positions: Positions of the grippers (m), shape (grippers, 3), i running fastest.
-            check: Whether an equilibrium that was not found is an error, or just says so in its `status`.
+        Parameters
+        ----------
+        positions : array_like
+            Positions of the grippers (m), shape (grippers, 3), i running fastest, or of a whole array (along u, along v, 3).
+        check : bool, default True
+            Whether an equilibrium that was not found is an error, or just says so in its `status`.
 
-        Raises:
-            ValueError: If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbours stand (all
-                but) straight above each other, where the model has no solution.
-            SolveError: If no equilibrium was found.
+        Returns
+        -------
+        Equilibrium
+            The hanging ply.
 
-        Example:
-            >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-            >>> plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]]).status
-            'converged'
+        Raises
+        ------
+        ValueError
+            If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors stand (all
+            but) straight above each other, where the model has no solution.
+        SolveError
+            If no equilibrium was found.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+        >>> plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]]).status
+        'converged'
         """
 
 @final
 class Span:
     """
-    One free span of ply between two ends in a vertical plane, solved: a catenary with bending stiffness.
+    One free span of ply between two ends in a vertical plane, solved: a catenary with bending stiffness, by the theory of small
+    sag or as the exact elastica.
 
-    Args:
-        run: Horizontal distance of the ends (m).
-        rise: Height of the second end above the first (m).
-        length: Fabric length between them (m).
-        weight: Weight per length (N/m).
-        flexural_rigidity: EI (N·m²); slopes can be prescribed only if it is positive.
-        axial_stiffness: EA (N); infinite for an inextensible ply.
-        slopes: Prescribed slope at each end, None where it is free.
+    Plain numbers are in SI units, a str carries its unit.
 
-    Raises:
-        ValueError: If a number makes no sense.
-        SolveError: If no force was found.
+    Parameters
+    ----------
+    run : float or str
+        Horizontal distance of the ends (m).
+    length : float or str
+        Fabric length between them (m).
+    weight : float or str
+        Weight per length (N/m).
+    flexural_rigidity : float or str, default 0.0
+        EI (N·m²); slopes can be prescribed only if it is positive.
+    rise : float or str, default 0.0
+        Height of the second end above the first (m).
+    axial_stiffness : float or str, optional
+        EA (N); infinite for an inextensible ply. 1e5 unless given; the exact theory has no stretch.
+    slopes : tuple of float or None, float, optional
+        Prescribed slope at each end, None where it is free.
+    theory : {"small-sag", "exact"}
+        "small-sag", in closed form, or "exact", the inextensible elastica of any sag.
+    moment : tuple of sequence, optional
+        Curvatures (1/m) and moments (N·m) of a strip whose moment is no straight line, in place of flexural_rigidity;
+        for the exact theory.
 
-    Example:
-        A limp span hangs as a parabola, whose sag is nearly run·√(3/8·(length/run − 1)):
+    Raises
+    ------
+    ValueError
+        If a number makes no sense.
+    SolveError
+        If no force was found.
 
-        >>> span = plydrape.Span(run=0.1, length=0.101, weight=3.0, flexural_rigidity=1e-9)
-        >>> round(span.sag * 1e3, 2), round(1e2 * (3 / 8 * 0.01) ** 0.5, 2)
-        (6.15, 6.12)
+    Examples
+    --------
+    A limp span hangs as a parabola, whose sag is nearly run·√(3/8·(length/run − 1)):
+
+    >>> span = plydrape.Span(run=0.1, length=0.101, weight=3.0, flexural_rigidity=1e-9)
+    >>> round(span.sag * 1e3, 2), round(1e2 * (3 / 8 * 0.01) ** 0.5, 2)
+    (6.15, 6.12)
+
+    The elastica of a strip of the paper's ply, and the theory of small sag beside it:
+
+    >>> strip = dict(run=0.09, length=0.1, weight=3.08014, flexural_rigidity=9e-6)
+    >>> exact = plydrape.Span(**strip, theory="exact")
+    >>> round(exact.force, 5), round(plydrape.Span(**strip, axial_stiffness=np.inf).force, 5)
+    (0.1633, 0.15086)
     """
     def __new__(
         cls,
         /,
         *,
-        run: SupportsFloat | SupportsIndex,
-        length: SupportsFloat | SupportsIndex,
-        weight: SupportsFloat | SupportsIndex,
-        flexural_rigidity: SupportsFloat | SupportsIndex,
-        rise: SupportsFloat | SupportsIndex = 0.0,
-        axial_stiffness: SupportsFloat | SupportsIndex = 1e5,
+        run: float | str,
+        length: float | str,
+        weight: float | str,
+        flexural_rigidity: float | str = ...,
+        rise: float | str = ...,
+        axial_stiffness: float | str | None = None,
         slopes: tuple[
             SupportsFloat | SupportsIndex | None, SupportsFloat | SupportsIndex | None
         ] = ...,
+        theory: str = "small-sag",
+        moment: tuple[
+            SupportsGetItem[int, SupportsFloat | SupportsIndex],
+            SupportsGetItem[int, SupportsFloat | SupportsIndex],
+        ]
+        | None = None,
     ) -> Span: ...
     def __repr__(self, /) -> str: ...
     @property
@@ -1789,15 +2652,68 @@ class Span:
         """
     def heights(self, /, x: ArrayLike) -> NDArray[float64]:
         """
-        Height above the first end (m) at horizontal distances from it (m), shape (n,).
+        Height above the first end (m) at horizontal distances from it.
 
-        Raises:
-            ValueError: If a distance is not between 0 and `run`.
+        Parameters
+        ----------
+        x : array_like
+            Horizontal distances from the first end (m), of any shape.
 
-        Example:
-            >>> span = plydrape.Span(run=0.1, length=0.101, weight=3.0, flexural_rigidity=1e-5)
-            >>> (span.heights([0, 0.05, 0.1]) * 1e3).round(2) + 0.0
-            array([ 0.  , -6.18,  0.  ])
+        Returns
+        -------
+        ndarray
+            The heights (m), of the same shape.
+
+        Raises
+        ------
+        ValueError
+            If a distance is not between 0 and `run`, or the span bulges beyond its ends and has several heights.
+
+        Examples
+        --------
+        >>> span = plydrape.Span(run=0.1, length=0.101, weight=3.0, flexural_rigidity=1e-5)
+        >>> (span.heights([0, 0.05, 0.1]) * 1e3).round(2) + 0.0
+        array([ 0.  , -6.18,  0.  ])
+        """
+    @property
+    def length(self, /) -> float:
+        """
+        Fabric length between the ends (m).
+        """
+    def points(self, /, n: SupportsIndex = 101) -> NDArray[float64]:
+        """
+        Places: at equal lengths along the span by the exact theory, at equal distances by that of small sag.
+
+        Parameters
+        ----------
+        n : int, default 101
+            How many, 2 or more.
+
+        Returns
+        -------
+        ndarray
+            Horizontal distance and height from the first end (m), shape (n, 2).
+
+        Raises
+        ------
+        ValueError
+            If n is below 2.
+
+        Examples
+        --------
+        >>> span = plydrape.Span(run=0.02, length=0.1, weight=3.0, flexural_rigidity=1e-4, theory="exact")
+        >>> span.points(3)[1].round(4) + 0.0
+        array([ 0.01  , -0.0409])
+        """
+    @property
+    def rise(self, /) -> float:
+        """
+        Height of the second end above the first (m).
+        """
+    @property
+    def run(self, /) -> float:
+        """
+        Horizontal distance of the ends (m).
         """
     @property
     def sag(self, /) -> float:
@@ -1812,7 +2728,7 @@ class Span:
     @property
     def state(self, /) -> str:
         """
-        How it holds its length: hanging, "overstretched" or "straight".
+        How it holds its length: "hanging", "overstretched" or "straight".
         """
 
 @final
@@ -1820,11 +2736,12 @@ class Surface:
     """
     The ply of one step as a surface.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> bool((plydrape.simulate(scene).surface(1).gap > 0).all())
-        True
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene)
+    >>> bool((plydrape.simulate(scene).surface(1).gap > 0).all())
+    True
     """
     @property
     def gap(self, /) -> NDArray[float64]:
@@ -1841,11 +2758,47 @@ class Surface:
         """
         Points along u and along v.
         """
+    def to_pyvista(self, /) -> pyvista.StructuredGrid:
+        """
+        The surface as a structured grid of PyVista, of a strip as a line, with `gap_mm` at its points. Needs PyVista.
+
+        Returns
+        -------
+        pyvista.StructuredGrid
+            The grid, u running fastest.
+
+        Raises
+        ------
+        ExtraError
+            If PyVista is not installed.
+
+        Examples
+        --------
+        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+        >>> grid = plydrape.simulate(scene).surface(-1, intervals=4).to_pyvista()
+        >>> grid.dimensions, grid.array_names
+        ((13, 5, 1), ['gap_mm'])
+        """
     @property
     def triangles(self, /) -> NDArray[uint32]:
         """
         Corners of its triangles, shape (triangles, 3); none of a strip.
         """
+
+def _restore(name: str, state: str, file: bytes | None) -> Any:
+    """
+    The object of a class with a state.
+    """
+
+def _si(value: float | str, measured: str, name: str) -> float:
+    """
+    A quantity in SI units, for what is written in Python: an angle (rad) or a length (m).
+    """
+
+def _state(value: Any, whole: bool) -> tuple[str, bytes | None]:
+    """
+    The state of an object: all of it, or what it is compared by.
+    """
 
 def equilibria(
     solver: Solver,
@@ -1857,44 +2810,127 @@ def equilibria(
     """
     Solves for many places of the grippers, on all cores; each from nothing, so that none depends on another.
 
-    Args:
-        solver: The ply and its rules.
-        positions: Positions of the grippers (m), shape (n, grippers, 3).
-        threads: How many at once; one a core unless given. The results do not depend on it.
-        progress: Called with (equilibria done, equilibria, what is done), some 50 times a second.
+    Parameters
+    ----------
+    solver : Solver
+        The ply and its rules.
+    positions : array_like
+        Positions of the grippers (m), shape (n, grippers, 3), i running fastest, or of a whole array (n, along u, along v, 3).
+    threads : int, optional
+        How many at once; one a core unless given. The results do not depend on it.
+    progress : callable, optional
+        Called with (equilibria done, equilibria, what is done), some 50 times a second.
 
-    Returns:
+    Returns
+    -------
+    Equilibria
         One equilibrium a row; those not found say so in `converged`.
 
-    Raises:
-        ValueError: If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbours stand (all but)
-            straight above each other, where the model has no solution; it names the row.
+    Raises
+    ------
+    ValueError
+        If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors stand (all but)
+        straight above each other, where the model has no solution; it names the row.
 
-    Example:
-        >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
-        >>> level = np.array([[0.098 * i, 0, 0] for i in range(4)])
-        >>> batch = plydrape.batch.equilibria(plydrape.Solver(ply), [level, 1.01 * level])
-        >>> batch.forces.shape, batch.converged.all()
-        ((2, 3), np.True_)
+    Examples
+    --------
+    >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
+    >>> level = np.array([[0.098 * i, 0, 0] for i in range(4)])
+    >>> batch = plydrape.batch.equilibria(plydrape.Solver(ply), [level, 1.01 * level])
+    >>> batch.forces.shape, batch.converged.all()
+    ((2, 3), np.True_)
+    """
+
+def fit(
+    test: str,
+    warp: SupportsGetItem[int, str | PathLike[str]] = ...,
+    weft: SupportsGetItem[int, str | PathLike[str]] = ...,
+    *,
+    width: float | str | None = None,
+    length: float | str | None = None,
+    side: float | str | None = None,
+    fabric: float | str | None = None,
+    mass: float | str | None = None,
+    angle: float | str = ...,
+) -> dict[str, Any]:
+    """
+    Fits laws of a material to tables of its tests, as `plydrape fit` does.
+
+    Plain numbers are in SI units, a str carries its unit.
+
+    Parameters
+    ----------
+    test : {"bias", "frame", "overhang", "hang", "moments"}
+        What was tested.
+    warp : sequence of str or path
+        CSV files, one a specimen: of a shear test, or of strips along the warp.
+    weft : sequence of str or path
+        CSV files of strips along the weft.
+    width : float or str, optional
+        Width of bias-extension specimens (m).
+    length : float or str, optional
+        Length between the clamps, or of the overhang of hanging strips (m).
+    side : float or str, optional
+        Side of the picture frame (m).
+    fabric : float or str, optional
+        Side of the fabric that shears in it (m).
+    mass : float or str, optional
+        Mass per area (kg/m²).
+    angle : float or str, default "41.5 deg"
+        Angle of the chord of overhangs (rad).
+
+    Returns
+    -------
+    dict
+        What was fitted, with standard errors and 95 % intervals, and `toml`, the lines of a material file.
+
+    Raises
+    ------
+    SceneError
+        If a table is broken.
+    ValueError
+        If a measure is missing or the points say no law.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> file = Path(mkdtemp()) / "strips.csv"
+    >>> _ = file.write_text("overhang (mm)\\n61.5\\n63\\n60.5\\n62.5\\n62.5\\n")
+    >>> found = plydrape.fit("overhang", [file], mass="314 g/m^2")
+    >>> 'bending_rigidity_warp = "9.178e-5 N m"' in found["toml"]
+    True
     """
 
 def materials() -> list[str]:
     """
     Names of the materials that come with plydrape.
 
-    Example:
-        >>> plydrape.materials()
-        ['krogh2018', 'cao2008_plain', 'petrak2025_polyester_twill', 'petrak2025_polyester_plain', 'petrak2025_cotton_twill']
+    Returns
+    -------
+    list of str
+        The names.
+
+    Examples
+    --------
+    >>> plydrape.materials()[:4]
+    ['krogh2018', 'cao2008_plain', 'broberg2023_binder', 'broberg2022_strip']
     """
 
 def measures() -> list[Measure]:
     """
     Everything that is measured of drapes, in the order of tables.
 
-    Example:
-        >>> tilt = next(measure for measure in plydrape.measures() if measure.name == "tilt")
-        >>> tilt.key, tilt.unit, tilt.shown, tilt.sense, tilt.scope
-        ('tilt_deg', 'deg', '°', 'at-most', 'every-step')
+    Returns
+    -------
+    list of Measure
+        One for each measure.
+
+    Examples
+    --------
+    >>> tilt = next(measure for measure in plydrape.measures() if measure.name == "tilt")
+    >>> tilt.key, tilt.unit, tilt.shown, tilt.sense, tilt.scope
+    ('tilt_deg', 'deg', '°', 'at-most', 'every-step')
     """
 
 def outcome(
@@ -1903,18 +2939,29 @@ def outcome(
     """
     Drapes a scene along its motion and differentiates where the ply has come to.
 
-    Args:
-        scene: The scene.
-        progress: As that of `simulate`.
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    progress : callable, optional
+        As that of `simulate`.
 
-    Raises:
-        ValueError: If the drape has no steps, or the derivatives would take more memory than allowed.
+    Returns
+    -------
+    Outcome
+        The last step with its derivatives.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-        >>> outcome = plydrape.outcome(scene)
-        >>> outcome.overstretch.shape, outcome.overstretch_jacobian.shape
-        ((1,), (1, 2, 3))
+    Raises
+    ------
+    ValueError
+        If the drape has no steps, or the derivatives would take more memory than allowed.
+
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    >>> outcome = plydrape.outcome(scene)
+    >>> outcome.overstretch.shape, outcome.overstretch_jacobian.shape
+    ((1,), (1, 2, 3))
     """
 
 def plan(
@@ -1940,31 +2987,47 @@ def plan(
     The plan is then judged with errors: by a sample of cells where the scene has `errors`, and by the errors that it stands. That takes
     those of the sample and some forty drapes more, which `time` does not bound.
 
-    Args:
-        scene: The scene, with mold and target.
-        method: "path" or "stepwise", instead of the scene's.
-        seed: Seed of the search, instead of the scene's: the same seed, the same plan.
-        improve: Whether to go on improving a plan that keeps all limits with a margin, until the `evaluations` of the scene's
-            `plan` are used up or the time is over, instead of what the scene says.
-        time: Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
-            drape that decides on that plan may take a little longer.
-        checkpoint: Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
-        without_errors: Whether the plan is judged without errors.
-        progress: Called with (candidates draped, most, what is done), some 50 times a second.
+    Parameters
+    ----------
+    scene : Scene
+        The scene, with mold and target.
+    method : {"path", "stepwise"}, optional
+        "path" or "stepwise", instead of the scene's.
+    seed : int, optional
+        Seed of the search, instead of the scene's: the same seed, the same plan.
+    improve : bool, optional
+        Whether to go on improving a plan that keeps all limits with a margin, until the `evaluations` of the scene's
+        `plan` are used up or the time is over, instead of what the scene says.
+    time : float or str, optional
+        Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
+        drape that decides on that plan may take a little longer.
+    checkpoint : str, optional
+        Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
+    without_errors : bool, default False
+        Whether the plan is judged without errors.
+    progress : callable, optional
+        Called with (candidates draped, most, what is done), some 50 times a second.
 
-    Returns:
+    Returns
+    -------
+    Plan
         The best plan found, whether or not it is accepted.
 
-    Raises:
-        PlanError: If the scene has no mold or target, or `checkpoint` is not of its ply.
-        SceneError: If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
-        ValueError: If there is no such method, `time` is no time above zero, or `checkpoint` is no plan.json.
+    Raises
+    ------
+    PlanError
+        If the scene has no mold or target, or `checkpoint` is not of its ply.
+    SceneError
+        If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
+    ValueError
+        If there is no such method, `time` is no time above zero, or `checkpoint` is no plan.json.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> plan = plydrape.plan(scene, without_errors=True)
-        >>> plan.method, plan.result.accepted
-        ('path', True)
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> plan = plydrape.plan(scene, without_errors=True)
+    >>> plan.method, plan.result.accepted
+    ('path', True)
     """
 
 def simulate(
@@ -1979,27 +3042,39 @@ def simulate(
 
     Other threads of Python run on meanwhile, and Ctrl-C ends it. A scene with errors is judged by a sample of its cells too.
 
-    Args:
-        scene: The scene.
-        model: The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
-        without_errors: Whether the errors of the scene are left out.
-        progress: Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    model : {"sheet", "catenaries"}, optional
+        The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
+    without_errors : bool, default False
+        Whether the errors of the scene are left out.
+    progress : callable, optional
+        Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
 
-    Returns:
+    Returns
+    -------
+    Result
         The result; a drape that breaks limits is a result all the same.
 
-    Raises:
-        SceneError: If the scene has no sheet, because its material lacks a stiffness for instance.
-        OutputError: If the states of the sheet cannot be kept in the folder for temporary files.
-        ValueError: If there is no such model.
+    Raises
+    ------
+    SceneError
+        If the scene has no sheet, because its material lacks a stiffness for instance.
+    OutputError
+        If the states of the sheet cannot be kept in the folder for temporary files.
+    ValueError
+        If there is no such model.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-        >>> plydrape.simulate(scene).accepted
-        True
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> plydrape.simulate(scene, model="sheet").sheet
-        <plydrape.Sheet of 341 nodes, 30 states, not accepted>
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    >>> plydrape.simulate(scene).accepted
+    True
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> plydrape.simulate(scene, model="sheet").sheet
+    <plydrape.Sheet of 341 nodes, 30 states, not accepted>
     """
 
 def simulate_all(
@@ -2012,20 +3087,30 @@ def simulate_all(
     """
     Drapes many scenes along their motions, on all cores.
 
-    Args:
-        scenes: The scenes.
-        model: The model that decides, instead of that of each scene: "sheet" or "catenaries".
-        threads: How many at once; one a core unless given. The results do not depend on it.
-        progress: Called with (drapes done, drapes, what is done), some 50 times a second.
+    Parameters
+    ----------
+    scenes : iterable of Scene
+        The scenes.
+    model : {"sheet", "catenaries"}, optional
+        The model that decides, instead of that of each scene: "sheet" or "catenaries".
+    threads : int, optional
+        How many at once; one a core unless given. The results do not depend on it.
+    progress : callable, optional
+        Called with (drapes done, drapes, what is done), some 50 times a second.
 
-    Returns:
+    Returns
+    -------
+    list of Result
         One result a scene, in their order.
 
-    Raises:
-        SceneError, OutputError, ValueError: As `simulate`.
+    Raises
+    ------
+    SceneError, OutputError, ValueError
+        As `simulate`.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-        >>> [result.accepted for result in plydrape.batch.simulate([scene, scene])]
-        [True, True]
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    >>> [result.accepted for result in plydrape.batch.simulate([scene, scene])]
+    [True, True]
     """

@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from plydrape import Result, Sheet
 
 GRIPPER = 0.12
-"""Radius of a gripper as a share of the shorter side of a cell; it is drawn, not modelled."""
+"""Radius of a gripper as a share of the shorter side of a cell; it is drawn, not modeled."""
 
 
 class Ply(NamedTuple):
-    """The ply's surface of one step, with a value for its colour at every triangle or point."""
+    """The ply's surface of one step, with a value for its color at every triangle or point."""
 
     points: NDArray[np.float64]
     """Points (P, 3) in m."""

@@ -6,8 +6,8 @@
 
     $ python -m plydrape.cad mold.step -o mold.stl --tolerance 0.1mm
 
-Faces are read with the unit that the file says. OpenCASCADE comes with the extra:
-`pip install "plydrape[cad]"`.
+Faces are read with the unit that the file says. OpenCASCADE is installed by
+`pip install cadquery-ocp-novtk`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from plydrape import _occ
-from plydrape.errors import CadError
+from plydrape.errors import CadError, of_file
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 __all__ = ["CadError", "Triangles", "convert", "mold", "read"]
 
 UNITS = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
-"""Names of units of length, and their metres."""
+"""Names of units of length, and their meters."""
 
 FINE = 1.0 / 5000.0
 """The tolerance if none is given, as a share of the diagonal of the part's box."""
@@ -62,26 +62,37 @@ def read(
 ) -> Triangles:
     """The faces of a STEP or IGES file as one surface of triangles.
 
-    Args:
-        path: A file that ends in .step, .stp, .iges or .igs.
-        tolerance: Most distance between triangles and faces: in m, or as a str with its unit,
-            "0.1 mm". If None a 5000th of the diagonal of the part's box.
-        angle_deg: Most angle between neighbouring triangles on a curved face (deg), above 0 to 90.
-        unit: What one unit of the file is ("mm", "in", ...), where the file says it wrongly.
+    Parameters
+    ----------
+    path : str or path
+        A file that ends in .step, .stp, .iges or .igs.
+    tolerance : float or str, optional
+        Most distance between triangles and faces: in m, or as a str with its unit,
+        "0.1 mm". If None a 5000th of the diagonal of the part's box.
+    angle_deg : float, default 10.0
+        Most angle between neighboring triangles on a curved face (deg), above 0 to 90.
+    unit : str, optional
+        What one unit of the file is ("mm", "in", ...), where the file says it wrongly.
 
-    Returns:
+    Returns
+    -------
+    Triangles
         Points (P, 3) in m and triangles (T, 3). Faces that meet share their corners. Each connected
         part is turned so that it is seen from above; a closed one so that it is seen from outside.
 
-    Raises:
-        CadError: No such file, not of its kind, without a face, or a tolerance that makes no sense.
-        ImportError: OpenCASCADE is not installed.
+    Raises
+    ------
+    CadError
+        No such file, not of its kind, without a face, or a tolerance that makes no sense.
+    ImportError
+        OpenCASCADE is not installed.
 
-    Example:
-        >>> points, triangles = plydrape.cad.read("mold.step")  # doctest: +SKIP
-        >>> plydrape.cad.read("mold.dwg")
-        Traceback (most recent call last):
-        plydrape...CadError: mold.dwg: expected a file that ends in .step, .stp, .iges or .igs
+    Examples
+    --------
+    >>> points, triangles = plydrape.cad.read("mold.step")  # doctest: +SKIP
+    >>> plydrape.cad.read("mold.dwg")
+    Traceback (most recent call last):
+    plydrape...CadError: mold.dwg: expected a file that ends in .step, .stp, .iges or .igs
 
     """
     where = Path(path)
@@ -89,7 +100,7 @@ def read(
     if kind not in (".step", ".stp", ".iges", ".igs"):
         raise CadError(f"{where}: expected a file that ends in .step, .stp, .iges or .igs")
     if not where.is_file():
-        raise CadError(f"{where}: there is no such file")
+        raise of_file(CadError(f"{where}: there is no such file"), "FileNotFoundError", where)
     if not 0.0 < angle_deg <= 90.0:
         raise CadError(
             f"an angle of {angle_deg:g} deg between triangles; above 0 to 90 makes sense"
@@ -122,12 +133,31 @@ def mold(
 ) -> Mold:
     """The faces of a STEP or IGES file as a mold for a scene; arguments and errors as of `read`.
 
-    Raises:
-        ValueError: The faces are no mold: they overlap, or more than two meet at one edge.
+    Parameters
+    ----------
+    path : str or path
+        A file that ends in .step, .stp, .iges or .igs.
+    tolerance : float or str, optional
+        As of `read`.
+    angle_deg : float, default 10.0
+        As of `read`.
+    unit : str, optional
+        As of `read`.
 
-    Example:
-        >>> mold = plydrape.cad.mold("mold.step", tolerance="0.1 mm")  # doctest: +SKIP
-        >>> scene = plydrape.Scene(mold=mold, ply=ply, target={})  # doctest: +SKIP
+    Returns
+    -------
+    Mold
+        The mold.
+
+    Raises
+    ------
+    ValueError
+        The faces are no mold: they overlap, or more than two meet at one edge.
+
+    Examples
+    --------
+    >>> mold = plydrape.cad.mold("mold.step", tolerance="0.1 mm")  # doctest: +SKIP
+    >>> scene = plydrape.Scene(mold=mold, ply=ply, target={})  # doctest: +SKIP
 
     """
     from plydrape import Mold
@@ -144,29 +174,40 @@ def convert(
     angle_deg: float = 10.0,
     unit: str | None = None,
 ) -> Triangles:
-    """Writes the faces of a STEP or IGES file as triangles in millimetres; arguments as of `read`.
+    """Writes the faces of a STEP or IGES file as triangles in millimeters; arguments as of `read`.
 
     A scene takes the file: `[mold]`, `kind = "mesh"`, `file = "mold.stl"`, `unit = "mm"`. The file
     is written whole or not at all, and replaces one of that name.
 
-    Args:
-        path: The STEP or IGES file.
-        out: The file to write: a binary STL (.stl) or a Wavefront OBJ (.obj), which has all digits.
-        tolerance: See `read`.
-        angle_deg: See `read`.
-        unit: See `read`.
+    Parameters
+    ----------
+    path : str or path
+        The STEP or IGES file.
+    out : str or path
+        The file to write: a binary STL (.stl) or a Wavefront OBJ (.obj), which has all digits.
+    tolerance : float or str, optional
+        See `read`.
+    angle_deg : float, default 10.0
+        See `read`.
+    unit : str, optional
+        See `read`.
 
-    Returns:
+    Returns
+    -------
+    Triangles
         What was written, in m.
 
-    Raises:
-        CadError: As of `read`, or the ending of `out` is another, or it cannot be written.
+    Raises
+    ------
+    CadError
+        As of `read`, or the ending of `out` is another, or it cannot be written.
 
-    Example:
-        >>> plydrape.cad.convert("mold.step", "mold.stl")  # doctest: +SKIP
-        >>> plydrape.cad.convert("mold.step", "mold.ply")
-        Traceback (most recent call last):
-        plydrape...CadError: mold.ply: expected a name that ends in .stl or .obj
+    Examples
+    --------
+    >>> plydrape.cad.convert("mold.step", "mold.stl")  # doctest: +SKIP
+    >>> plydrape.cad.convert("mold.step", "mold.ply")
+    Traceback (most recent call last):
+    plydrape...CadError: mold.ply: expected a name that ends in .stl or .obj
 
     """
     target = Path(out)
@@ -193,7 +234,7 @@ def convert(
 
 
 def _length(value: float | str) -> float:
-    """A length (m) from a number of metres or a text with a unit."""
+    """A length (m) from a number of meters or a text with a unit."""
     found: float | None
     if isinstance(value, str):
         parts = re.fullmatch(r"\s*([0-9.eE+-]+)\s*([a-z]+)\s*", value)
@@ -234,7 +275,7 @@ def _stl(found: Triangles) -> bytes:
     length = np.linalg.norm(normal, axis=1, keepdims=True)
     facets["normal"] = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
     facets["corners"] = corners
-    head = b"plydrape: binary STL, millimetres".ljust(80)
+    head = b"plydrape: binary STL, millimeters".ljust(80)
     return head + len(facets).to_bytes(4, "little") + facets.tobytes()
 
 
@@ -242,7 +283,7 @@ def _obj(found: Triangles) -> bytes:
     """A Wavefront OBJ in mm."""
     places = [f"v {x!r} {y!r} {z!r}" for x, y, z in (found.points * 1e3).tolist()]
     corners = [f"f {a} {b} {c}" for a, b, c in (found.triangles + 1).tolist()]
-    return "\n".join(["# plydrape: millimetres", *places, *corners, ""]).encode()
+    return "\n".join(["# plydrape: millimeters", *places, *corners, ""]).encode()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -45,18 +45,29 @@ class Page:
 def show(result: Result, height: int = 640) -> Page:
     """The page of a result, the last value of a cell in a notebook.
 
-    Args:
-        result: The result.
-        height: Height of the frame (pixels), 200 to 4000.
+    Parameters
+    ----------
+    result : Result
+        The result.
+    height : int, default 640
+        Height of the frame (pixels), 200 to 4000.
 
-    Raises:
-        ValueError: No frame is that high.
+    Returns
+    -------
+    Page
+        The page.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> plydrape.notebook.show(result)
-        <plydrape.Page of "Flat mold, ply sheared by 20 deg": a notebook shows it; ...>
+    Raises
+    ------
+    ValueError
+        No frame is that high.
+
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene)
+    >>> plydrape.notebook.show(result)
+    <plydrape.Page of "Flat mold, ply sheared by 20 deg": a notebook shows it; ...>
 
     """
     if not LOWEST <= height <= HIGHEST:

@@ -1,6 +1,6 @@
 """A step of a result as a scene of PyVista: to turn, to cut, to add to, to take pictures of.
 
-PyVista comes with the extra: `pip install "plydrape[plot]"`. Without a display set
+PyVista is installed by `pip install pyvista`. Without a display set
 `pyvista.OFF_SCREEN = True` first; VTK 9.4 and later then draws by EGL or OSMesa, without X. VTK has
 one setting for all plotters of how it draws faces in one place; a scene sets it to polygon offset.
 """
@@ -21,18 +21,18 @@ if TYPE_CHECKING:
     import pyvista
     from numpy.typing import NDArray
 
-    from plydrape import Result
+    from plydrape import Mold, Result, Sheet, Surface
 
-__all__ = ["scene3d", "sheet3d"]
+__all__ = ["meshes", "mold_mesh", "scene3d", "sheet3d", "sheet_mesh", "surface_mesh"]
 
 RED, BLACK, MOLD, TARGET, DARK = "#d61921", "#14161a", "#d6dce4", "#586270", "#2d323a"
 FORCE = "#1a5fb4"
 TOUCHING = 0.1
-"""Gap up to which the ply counts as touching in a picture (mm): the low end of its colours."""
+"""Gap up to which the ply counts as touching in a picture (mm): the low end of its colors."""
 SIDES = 10
 """Sides of a tube."""
 CLEAR = 10.0
-"""Height from which on all of a sheet has one colour (mm): the high end of its colours."""
+"""Height from which on all of a sheet has one color (mm): the high end of its colors."""
 AIR = "#b4b9c1"
 SHEET_NAMES = {
     "height": "height over the mold (mm)",
@@ -46,7 +46,7 @@ def scene3d(
     result: Result,
     step: int = -1,
     *,
-    colour: Literal["gap", "height", "shear"] | None = None,
+    color: Literal["gap", "height", "shear"] | None = None,
     limits: tuple[float, float] | None = None,
     mold: bool = True,
     diagonals: bool = True,
@@ -59,51 +59,63 @@ def scene3d(
     "target", "grippers". Lines are tubes and grippers plates, only to be seen well. The ply holds
     "gap_mm" and "height_mm" at its points and "shear_deg" in its triangles.
 
-    Args:
-        result: The result.
-        step: The step, from 1; -1 is the last, -2 the one before.
-        colour: What the ply's colour tells; if None the gap to a curved mold, else the height. The
-            gap has a logarithmic scale from 0.1 mm on.
-        limits: Ends of the colours in the unit of the bar; if None those of this step. For pictures
-            that are to be compared.
-        mold: Whether to show the mold.
-        diagonals: Whether to show the diagonals.
-        intervals: Pieces of a cell along each side, 1 or more.
-        plotter: Where to add them; if None a new plotter that looks at them from the front left.
+    Parameters
+    ----------
+    result : Result
+        The result.
+    step : int, default -1
+        The step, from 1; -1 is the last, -2 the one before.
+    color : {"gap", "height", "shear"}, optional
+        What the ply's color tells; if None the gap to a curved mold, else the height. The
+        gap has a logarithmic scale from 0.1 mm on.
+    limits : tuple[float, float], optional
+        Ends of the colors in the unit of the bar; if None those of this step. For pictures
+        that are to be compared.
+    mold : bool, default True
+        Whether to show the mold.
+    diagonals : bool, default True
+        Whether to show the diagonals.
+    intervals : int, default 8
+        Pieces of a cell along each side, 1 or more.
+    plotter : pyvista.Plotter, optional
+        Where to add them; if None a new plotter that looks at them from the front left.
 
-    Returns:
+    Returns
+    -------
+    pyvista.Plotter
         The plotter: `.show()` opens it, `.screenshot("step.png")` writes it.
 
-    Raises:
-        ImportError: PyVista is not installed.
-        ValueError: No such step, or a colour that the result cannot have.
+    Raises
+    ------
+    ImportError
+        PyVista is not installed.
+    ValueError
+        No such step, or a color that the result cannot have.
 
-    Example:
-        >>> import pyvista
-        >>> pyvista.OFF_SCREEN = True
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> plotter = plydrape.view.scene3d(result, 26, colour="height")
-        >>> plotter.actors["ply"].mapper.dataset.n_points
-        225
-        >>> plotter.close()
+    Examples
+    --------
+    >>> import pyvista
+    >>> pyvista.OFF_SCREEN = True
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene)
+    >>> plotter = plydrape.view.scene3d(result, 26, color="height")
+    >>> plotter.actors["ply"].mapper.dataset.n_points
+    225
+    >>> plotter.close()
 
     """
-    pv = load("pyvista", extra="plot", name="PyVista")
-    last = len(result.times)
-    chosen = step if step > 0 else last + 1 + step
-    if step == 0 or not 1 <= chosen <= last:
-        raise ValueError(f"the result has no step {step}; its steps are 1 to {last}")
+    pv = load("pyvista", package="pyvista", name="PyVista")
+    last, chosen = len(result.times), _step(result, step)
     if intervals < 1:
         raise ValueError(f"{intervals} intervals in a cell; 1 or more make a surface")
     curved = result.mold is not None and result.mold.kind != "plane"
-    kind = colour or ("gap" if curved else "height")
+    kind = color or ("gap" if curved else "height")
     if kind not in NAMES:
         raise ValueError(
-            f'the ply can have the colour of its "gap", "height" or "shear", not "{kind}"'
+            f'the ply can have the color of its "gap", "height" or "shear", not "{kind}"'
         )
     if kind == "gap" and result.mold is None:
-        raise ValueError('without a mold there is no gap; choose colour="height" or "shear"')
+        raise ValueError('without a mold there is no gap; choose color="height" or "shear"')
 
     new = plotter is None
     out: Any = pv.Plotter() if plotter is None else plotter
@@ -131,7 +143,7 @@ def sheet3d(
     result: Result,
     step: int = -1,
     *,
-    colour: Literal["height", "landing", "shear"] | None = None,
+    color: Literal["height", "landing", "shear"] | None = None,
     limits: tuple[float, float] | None = None,
     mold: bool = True,
     forces: bool = True,
@@ -141,70 +153,77 @@ def sheet3d(
 
     Each is an actor of the plotter by its name: "mold", "target", "sheet", "grippers", "forces".
     The sheet holds "height_mm", "contact" and "landing_step" at its nodes, nan where there is none,
-    and "shear_deg" in its cells; with the colour of the landing its quarters of cells hold
+    and "shear_deg" in its cells; with the color of the landing its quarters of cells hold
     "landing_step". The longest arrow is 0.7 of the shorter side of a cell between grippers; the
     title says how large its force is.
 
-    Args:
-        result: The result, of a drape with the sheet.
-        step: The step, from 1; -1 is the last that was kept, -2 the one before.
-        colour: What the sheet's colour tells; if None the height over the mold, without a mold the
-            shear. The height has a logarithmic scale from 0.1 to 10 mm, the same for all results.
-        limits: Ends of the colours in the unit of the bar; if None those of this step.
-        mold: Whether to show the mold.
-        forces: Whether to show the forces of the sheet on the pads.
-        plotter: Where to add them; if None a new plotter that looks at them from the front left.
+    Parameters
+    ----------
+    result : Result
+        The result, of a drape with the sheet.
+    step : int, default -1
+        The step, from 1; -1 is the last that was kept, -2 the one before.
+    color : {"height", "landing", "shear"}, optional
+        What the sheet's color tells; if None the height over the mold, without a mold the
+        shear. The height has a logarithmic scale from 0.1 to 10 mm, the same for all results.
+    limits : tuple[float, float], optional
+        Ends of the colors in the unit of the bar; if None those of this step.
+    mold : bool, default True
+        Whether to show the mold.
+    forces : bool, default True
+        Whether to show the forces of the sheet on the pads.
+    plotter : pyvista.Plotter, optional
+        Where to add them; if None a new plotter that looks at them from the front left.
 
-    Returns:
+    Returns
+    -------
+    pyvista.Plotter
         The plotter: `.show()` opens it, `.screenshot("step.png")` writes it.
 
-    Raises:
-        ImportError: PyVista is not installed.
-        ValueError: The result has no sheet, none of that step, or a colour that it cannot have.
+    Raises
+    ------
+    ImportError
+        PyVista is not installed.
+    ValueError
+        The result has no sheet, none of that step, or a color that it cannot have.
 
-    Example:
-        >>> import pyvista
-        >>> pyvista.OFF_SCREEN = True
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene, model="sheet")
-        >>> plotter = plydrape.view.sheet3d(result)
-        >>> plotter.actors["sheet"].mapper.dataset.n_points
-        341
-        >>> plotter.close()
+    Examples
+    --------
+    >>> import pyvista
+    >>> pyvista.OFF_SCREEN = True
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene, model="sheet")
+    >>> plotter = plydrape.view.sheet3d(result)
+    >>> plotter.actors["sheet"].mapper.dataset.n_points
+    341
+    >>> plotter.close()
 
     """
-    pv = load("pyvista", extra="plot", name="PyVista")
+    pv = load("pyvista", package="pyvista", name="PyVista")
     sheet = result.sheet
     if sheet is None:
         raise ValueError('the result has no sheet; drape its scene with model="sheet"')
     state = _shapes.state(sheet, step)
     chosen = int(sheet.steps[state])
-    kind = colour or ("shear" if result.mold is None else "height")
+    kind = color or ("shear" if result.mold is None else "height")
     if kind not in SHEET_NAMES:
         raise ValueError(
-            f'the sheet can have the colour of its "height", "landing" or "shear", not "{kind}"'
+            f'the sheet can have the color of its "height", "landing" or "shear", not "{kind}"'
         )
     if kind != "shear" and result.mold is None:
-        raise ValueError(f'without a mold there is no {kind}; choose colour="shear"')
+        raise ValueError(f'without a mold there is no {kind}; choose color="shear"')
 
     new = plotter is None
     out: Any = pv.Plotter() if plotter is None else plotter
     radius = _shapes.radius(result)
     if mold:
         _mold(pv, out, result, 0.05 * radius)
-    cells = np.asarray(sheet.cells, np.int64)
-    points = np.asarray(sheet.positions)[state]
-    mesh = _quads(pv, points, cells)
-    mesh.point_data["height_mm"] = np.asarray(sheet.heights)[state] * 1e3
-    mesh.point_data["contact"] = np.asarray(sheet.contact)[state]
-    landing = np.asarray(sheet.landing_step, float)
-    landing[landing == 0.0] = np.nan
-    mesh.point_data["landing_step"] = landing
-    mesh.cell_data["shear_deg"] = np.rad2deg(np.asarray(sheet.shear)[state])
+    mesh = sheet_mesh(sheet, chosen)
     parts = None
     if kind == "landing":
         # the part of a cell that is nearest to a node has its step, as long as that is not to come
-        parts = _quads(pv, _shapes.quarters(points, cells).reshape(-1, 3))
+        cells, landing = np.asarray(sheet.cells, np.int64), mesh["landing_step"]
+        parts = _quads(pv, _shapes.quarters(np.asarray(mesh.points), cells).reshape(-1, 3))
         parts.cell_data["landing_step"] = np.where(landing <= chosen, landing, np.nan)[
             cells
         ].ravel()
@@ -233,8 +252,202 @@ def sheet3d(
     return shown
 
 
+def meshes(result: Result, step: int = -1, *, intervals: int = 8) -> pyvista.MultiBlock:
+    """Mold, ply, catenaries and grippers of a step as meshes with their numbers, in m.
+
+    "ply" has "gap_mm" and "height_mm" at its points and "shear_deg" in its triangles; "catenaries"
+    has "force_n" and "slack_mm" of each line; "grippers" are points with "tilt_deg" and the
+    "normal" of the ply; "sheet" is that of `sheet_mesh`. Numbers that are not known are nan.
+
+    Parameters
+    ----------
+    result : Result
+        The result.
+    step : int, default -1
+        The step, from 1; -1 is the last, -2 the one before.
+    intervals : int, default 8
+        Pieces of a cell along each side, 1 or more.
+
+    Returns
+    -------
+    pyvista.MultiBlock
+        The blocks by their names, as far as the result has them.
+
+    Raises
+    ------
+    ImportError
+        PyVista is not installed.
+    ValueError
+        No such step.
+
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> blocks = plydrape.view.meshes(plydrape.simulate(scene), 26)
+    >>> blocks["catenaries"].n_cells, blocks["grippers"].n_points
+    (16, 8)
+
+    """
+    pv = load("pyvista", package="pyvista", name="PyVista")
+    chosen = _step(result, step)
+    out = pv.MultiBlock()
+    surface = result.mold_surface()
+    if surface is not None and len(surface[1]) > 0:
+        out["mold"] = _triangles(pv, surface[0], surface[1].astype(np.int64))
+    ply = _shapes.ply(result, chosen, intervals)
+    if ply is not None:
+        out["ply"] = _ply_mesh(pv, ply)
+    lines = result.lines(chosen)
+    if lines:
+        catenaries = _polylines(pv, lines)
+        catenaries.cell_data["force_n"] = result.forces[chosen - 1]
+        catenaries.cell_data["slack_mm"] = result.slack_mm[chosen - 1]
+        out["catenaries"] = catenaries
+    grippers = pv.PolyData(result.positions[chosen - 1])
+    grippers.point_data["tilt_deg"] = result.tilts_deg[chosen - 1]
+    up = np.array([[0.0, 0.0, 1.0]])
+    grippers.point_data["normal"] = _shapes.turned(result.quaternions[chosen - 1], up)[:, 0]
+    out["grippers"] = grippers
+    sheet = result.sheet
+    if sheet is not None and chosen in sheet.steps:
+        out["sheet"] = sheet_mesh(sheet, chosen)
+    blocks: pyvista.MultiBlock = out
+    return blocks
+
+
+def sheet_mesh(sheet: Sheet, step: int = -1) -> pyvista.PolyData:
+    """The sheet of a step as a mesh of its cells, in m.
+
+    It has "height_mm", "contact" and "landing_step" at its nodes, nan where there is none, and
+    "shear_deg" in its cells.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        The sheet.
+    step : int, default -1
+        The step, from 1; -1 is the last that was kept, -2 the one before.
+
+    Returns
+    -------
+    pyvista.PolyData
+        The mesh.
+
+    Raises
+    ------
+    ImportError
+        PyVista is not installed.
+    ValueError
+        No state of that step was kept.
+
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> mesh = plydrape.view.sheet_mesh(plydrape.simulate(scene).sheet)
+    >>> mesh.n_points, float(mesh["height_mm"].max().round(1))
+    (341, 4.5)
+
+    """
+    pv = load("pyvista", package="pyvista", name="PyVista")
+    state = _shapes.state(sheet, step)
+    mesh = _quads(pv, sheet.positions[state], np.asarray(sheet.cells, np.int64))
+    mesh.point_data["height_mm"] = sheet.heights[state] * 1e3
+    mesh.point_data["contact"] = sheet.contact[state]
+    landing = np.asarray(sheet.landing_step, float)
+    landing[landing == 0.0] = np.nan
+    mesh.point_data["landing_step"] = landing
+    mesh.cell_data["shear_deg"] = np.rad2deg(sheet.shear[state])
+    made: pyvista.PolyData = mesh
+    return made
+
+
+def surface_mesh(surface: Surface) -> pyvista.StructuredGrid:
+    """The ply of a step as a structured grid, in m, with "gap_mm" at its points.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+
+    Returns
+    -------
+    pyvista.StructuredGrid
+        The grid: points along u, along v, and 1.
+
+    Raises
+    ------
+    ImportError
+        PyVista is not installed.
+
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/04_dome/scene.toml")
+    >>> surface = plydrape.simulate(scene, model="catenaries").surface(-1, intervals=2)
+    >>> plydrape.view.surface_mesh(surface).dimensions
+    (7, 7, 1)
+
+    """
+    pv = load("pyvista", package="pyvista", name="PyVista")
+    grid: pyvista.StructuredGrid = pv.StructuredGrid()
+    grid.points = surface.points
+    grid.dimensions = (*surface.size, 1)
+    grid.point_data["gap_mm"] = surface.gap * 1e3
+    return grid
+
+
+def mold_mesh(
+    mold: Mold,
+    low: Sequence[float | str],
+    high: Sequence[float | str],
+    most: int = 20_000,
+) -> pyvista.PolyData:
+    """A mold over a rectangle of the plan as triangles, in m.
+
+    Parameters
+    ----------
+    mold : Mold
+        The mold.
+    low : sequence of float or str
+        Lowest x and y (m, or texts with a unit).
+    high : sequence of float or str
+        Highest x and y (m, or texts with a unit).
+    most : int, default 20000
+        About how many triangles at most.
+
+    Returns
+    -------
+    pyvista.PolyData
+        The mesh.
+
+    Raises
+    ------
+    ImportError
+        PyVista is not installed.
+
+    Examples
+    --------
+    >>> mold = plydrape.Scene.read("examples/04_dome/scene.toml").mold
+    >>> plydrape.view.mold_mesh(mold, (-0.1, -0.1), (0.1, 0.1), 200).n_cells <= 200
+    True
+
+    """
+    pv = load("pyvista", package="pyvista", name="PyVista")
+    points, triangles = mold.patch(low, high, most=most)
+    made: pyvista.PolyData = _triangles(pv, points, triangles.astype(np.int64))
+    return made
+
+
+def _step(result: Result, step: int) -> int:
+    """The number of a step, from 1; -1 is the last."""
+    last = len(result.times)
+    chosen = step if step > 0 else last + 1 + step
+    if step == 0 or not 1 <= chosen <= last:
+        raise ValueError(f"the result has no step {step}; its steps are 1 to {last}")
+    return chosen
+
+
 def _sheet(out: Any, mesh: Any, parts: Any, kind: str, limits: tuple[float, float] | None) -> None:
-    """The sheet's cells and a bar of their colours; the order of landing is that of `parts`."""
+    """The sheet's cells and a bar of their colors; the order of landing is that of `parts`."""
     name = {"height": "height_mm", "landing": "landing_step", "shear": "shear_deg"}[kind]
     if kind == "height":
         low, high = TOUCHING, CLEAR
@@ -284,11 +497,8 @@ def _mold(pv: Any, out: Any, result: Result, radius: float) -> None:
 def _ply(
     pv: Any, out: Any, ply: _shapes.Ply, kind: str, limits: tuple[float, float] | None
 ) -> None:
-    """The ply with its values and a bar of its colours."""
-    mesh = _triangles(pv, ply.points, ply.triangles)
-    mesh.point_data["gap_mm"] = ply.gap * 1e3
-    mesh.point_data["height_mm"] = ply.points[:, 2] * 1e3
-    mesh.cell_data["shear_deg"] = ply.shear_deg
+    """The ply with its values and a bar of its colors."""
+    mesh = _ply_mesh(pv, ply)
     name = {"gap": "gap_mm", "height": "height_mm", "shear": "shear_deg"}[kind]
     values = mesh[name]
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
@@ -325,11 +535,24 @@ def _lines(
     kept = [line for one in lines if len(line := _apart(one)) > 1]
     if not kept:
         return
-    ends = np.cumsum([0, *(len(line) for line in kept)])
-    cells = [np.r_[b - a, np.arange(a, b)] for a, b in pairwise(ends)]
-    mesh = pv.PolyData(np.concatenate(kept), lines=np.concatenate(cells))
-    tubes = mesh.tube(radius=radius, n_sides=SIDES)
+    tubes = _polylines(pv, kept).tube(radius=radius, n_sides=SIDES)
     out.add_mesh(tubes, color=ink, lighting=False, name=name)
+
+
+def _polylines(pv: Any, lines: Sequence[NDArray[np.float64]]) -> Any:
+    """Polylines (N, 3), a cell each."""
+    ends = np.cumsum([0, *(len(line) for line in lines)])
+    cells = [np.r_[b - a, np.arange(a, b)] for a, b in pairwise(ends)]
+    return pv.PolyData(np.concatenate(lines), lines=np.concatenate(cells))
+
+
+def _ply_mesh(pv: Any, ply: _shapes.Ply) -> Any:
+    """The ply between the catenaries with its numbers."""
+    mesh = _triangles(pv, ply.points, ply.triangles)
+    mesh.point_data["gap_mm"] = ply.gap * 1e3
+    mesh.point_data["height_mm"] = ply.points[:, 2] * 1e3
+    mesh.cell_data["shear_deg"] = ply.shear_deg
+    return mesh
 
 
 def _apart(line: NDArray[np.float64]) -> NDArray[np.float64]:

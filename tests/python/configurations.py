@@ -1,7 +1,7 @@
 """Random gripper configurations, each of a known kind: the same ones in every run.
 
 A configuration is drawn until it is of its kind and no edge is longer than its fabric (the program
-refuses a ply that is torn at the start). Lengths in metres, angles in radians.
+refuses a ply that is torn at the start). Lengths in meters, angles in radians.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ def staircase(nu: int, nv: int, tread: float, riser: float) -> Real:
 
 
 def zigzag(nu: int, nv: int, spacing: float, shear: float) -> Real:
-    """Rows shifted to and fro: neighbouring cells shear in opposite senses."""
+    """Rows shifted to and fro: neighboring cells shear in opposite senses."""
     at = grid(nu, nv, (spacing, spacing * float(np.cos(shear))))
     at[..., 0] += (np.arange(nv) % 2)[:, None] * spacing * np.sin(shear)
     return at

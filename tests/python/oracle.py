@@ -3,7 +3,7 @@
 States the whole nonlinear program of Krogh et al. 2018, eq. (5), in its full space of horizontal
 forces H and shared slopes s:
 
-    minimise 1/2 |H|^2   subject to   L_i(H_i, slopes) = L_set,i (1 + H_i sec(theta_i) / EA),
+    minimize 1/2 |H|^2   subject to   L_i(H_i, slopes) = L_set,i (1 + H_i sec(theta_i) / EA),
                                       |s_j| <= tan(max_tilt)
 
 with free slopes on the ply's free boundary, one slope for colinear edges on both sides of a

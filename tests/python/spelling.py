@@ -1,10 +1,11 @@
-"""The spelling of the project's prose: that of the United States.
+"""The spelling of what a user reads: that of the United States.
 
-    python3 tests/python/spelling.py             lists other spellings in the documents
+    python3 tests/python/spelling.py             lists other spellings
     python3 tests/python/spelling.py --fix       changes them
 
-Prose is what stands in Markdown outside of code. Keys, names in programs and what the program
-prints are code: `fibre_angle` is a key of the format and stays.
+Prose is what stands in Markdown outside of code; in the blocks of the guide what the program
+prints; in programs the texts of several words and the comments that become documentation. Keys and
+names in programs are code: `fibre_angle` is a key of the format and stays.
 """
 
 from __future__ import annotations
@@ -16,6 +17,22 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FILES = ("README.md", "CHANGELOG.md", "DESIGN.md", "docs/**/*.md", "benches/*.md", "viewer/*.md")
+PROGRAMS = (
+    "crates/*/src/**/*.rs",
+    "crates/*/tests/**/*.rs",
+    "python/plydrape/**/*.py",
+    "python/plydrape/*.pyi",
+    "tests/python/**/*.py",
+    "viewer/src/**/*.ts",
+    "viewer/src/**/*.html",
+    "viewer/test/**/*.ts",
+)
+TEXTS = (
+    "crates/*/src/**/*.toml",
+    "crates/*/tests/**/*.snap",
+    "examples/**/*.toml",
+    "materials/**/*.toml",
+)
 
 # stems with all that may follow them
 STEMS = {
@@ -78,13 +95,17 @@ def like(old: str, new: str) -> str:
 
 def prose(text: str) -> Iterator[tuple[int, str, str]]:
     """Lines whose prose is spelled otherwise: number, line as it is, line as it should be."""
-    fence = ""
+    fence, console = "", False
     for number, line in enumerate(text.split("\n"), start=1):
         mark = FENCE.match(line)
         if mark:
+            console = "console" in line or "text" in line if not fence else console
             fence = "" if fence and mark[1].startswith(fence) else fence or mark[1]
             continue
         if fence:
+            # in a block of the guide, what a program prints
+            if console and not line.startswith(("$ ", "  --")) and worded(line) != line:
+                yield number, line, worded(line)
             continue
         parts = CODE.split(line)
         parts[::2] = [spelled(part) for part in parts[::2]]
@@ -94,18 +115,86 @@ def prose(text: str) -> Iterator[tuple[int, str, str]]:
             yield number, line, "".join(parts)
 
 
+# what is code within a text: code marks, values in formats, names with underscores, paths, calls,
+# keys before `=` or `:`, words in capitals and in quotes
+NAMES = re.compile(
+    r"""(`[^`]*`|\{[^{}]*\}|\w*_\w+|\w+(?:::|\.)\w+|\w+\(|\b\w+ ?=|\b[A-Z]{2,}\b"""
+    r"""|\\?["']\w+\\?["']|(?m:^\s*\w+:))"""
+)
+RUST = re.compile(
+    r"""(?P<skip>'(?:\\.[^']*|[^'\\])'|//(?![/!])[^\n]*)"""
+    r"""|(?P<text>///[^\n]*|//![^\n]*|r(?P<marks>\#*)".*?"(?P=marks)|"(?:\\.|[^"\\])*")""",
+    re.S,
+)
+PYTHON = re.compile(
+    r"""(?P<skip>\#[^\n]*)"""
+    r"""|(?P<text>\"\"\".*?\"\"\"|\'\'\'.*?\'\'\'|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*')""",
+    re.S,
+)
+SCRIPT = re.compile(
+    r"""(?P<skip>//[^\n]*)"""
+    r"""|(?P<text>/\*.*?\*/|`(?:\\.|[^`\\])*`|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'"""
+    r"""|(?<=>)[^<>{}=;]+(?=<))""",
+    re.S,
+)
+GRAMMARS = {".rs": RUST, ".py": PYTHON, ".pyi": PYTHON, ".ts": SCRIPT, ".html": SCRIPT}
+
+
+def worded(text: str) -> str:
+    """A text of several words without its names; one word alone is a name itself."""
+    if not re.search(r"\w\s+\S", text):
+        return text
+    parts = NAMES.split(text)
+    parts[::2] = [spelled(part) for part in parts[::2]]
+    return "".join(parts)
+
+
+def program(text: str, suffix: str) -> str:
+    """The source of a program with its texts spelled so."""
+
+    def ours(found: re.Match[str]) -> str:
+        return found[0] if found["skip"] else worded(found[0])
+
+    return GRAMMARS[suffix].sub(ours, text)
+
+
+def changes(path: Path, text: str) -> Iterator[tuple[int, str, str]]:
+    """Lines of a file that are spelled otherwise: number, line as it is, line as it should be."""
+    if path.suffix == ".md":
+        yield from prose(text)
+        return
+    if path.suffix in GRAMMARS:
+        new = program(text, path.suffix)
+    elif path.suffix == ".toml":
+        lines = [line.partition("#") for line in text.split("\n")]
+        new = "\n".join(code + mark + worded(said) for code, mark, said in lines)
+    else:
+        new = "\n".join(map(worded, text.split("\n")))
+    pairs = zip(text.split("\n"), new.split("\n"), strict=True)
+    for number, (old, ours) in enumerate(pairs, start=1):
+        if old != ours:
+            yield number, old, ours
+
+
 def documents() -> list[Path]:
     """All documents whose prose counts."""
     return sorted(path for name in FILES for path in ROOT.glob(name))
 
 
+def programs() -> list[Path]:
+    """All programs and texts of theirs."""
+    found = {path for name in PROGRAMS + TEXTS for path in ROOT.glob(name)}
+    own = {Path(__file__).resolve(), ROOT / "tests/python/test_spelling.py"}
+    return sorted(path for path in found - own if "node_modules" not in path.parts)
+
+
 def main(arguments: list[str]) -> int:
     """Lists or changes other spellings."""
     wrong = 0
-    for path in documents():
+    for path in documents() + programs():
         text = path.read_text(encoding="utf-8")
         lines = text.split("\n")
-        for number, line, ours in prose(text):
+        for number, line, ours in changes(path, text):
             wrong += 1
             lines[number - 1] = ours
             words = set(re.findall(r"\w+", line)) - set(re.findall(r"\w+", ours))

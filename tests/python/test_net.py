@@ -57,7 +57,7 @@ def test_vtk_reads_the_net_that_the_table_lists(folder: Path) -> None:
 
 
 def test_cells_shear_as_their_fibres_stand(folder: Path) -> None:
-    """Fibre directions are unit vectors; the angle between them is 90° less the signed shear.
+    """Fiber directions are unit vectors; the angle between them is 90° less the signed shear.
 
     Both are of the cell's middle: chords there against tangents, equal up to the square of mesh
     over radius, (5/120)² or 0.1°.
@@ -98,7 +98,7 @@ def test_the_hemisphere_has_the_nodes_of_an_independent_net(tmp_path: Path) -> N
     """The example's nodes are those of the SciPy peer, which shares no code or method with ours.
 
     The peer's generator cells come from SLSQP with a tolerance of 5e-9 on their shear, which places
-    its nodes to a micrometre on a sphere of one metre.
+    its nodes to a micrometer on a sphere of one meter.
     """
     spec = importlib.util.spec_from_file_location("peer", ROOT / "benches" / "peers" / "net.py")
     assert spec is not None and spec.loader is not None

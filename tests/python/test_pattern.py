@@ -30,7 +30,7 @@ def file(name: str) -> Path:
 
 
 def sound(path: Path) -> Drawing:
-    """A drawing in millimetres in which ezdxf finds nothing wrong and nothing to mend."""
+    """A drawing in millimeters in which ezdxf finds nothing wrong and nothing to mend."""
     document = readfile(path)
     audit = document.audit()
     assert not audit.errors and not audit.fixes
@@ -78,7 +78,7 @@ def test_the_arrow_of_a_pattern_points_along_the_warp() -> None:
 
 
 def test_a_boundary_is_lines_in_space() -> None:
-    """POLYLINE entities in space with the points of the table, in millimetres."""
+    """POLYLINE entities in space with the points of the table, in millimeters."""
     with file("boundary.csv").open(newline="") as table:
         header, *rows = csv.reader(table)
     assert header == ["polyline", "point", "x (m)", "y (m)", "z (m)"]

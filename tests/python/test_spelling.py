@@ -5,13 +5,32 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from spelling import ROOT, documents, prose, spelled
+from spelling import ROOT, changes, documents, program, programs, prose, spelled
 
 
 @pytest.mark.parametrize("path", documents(), ids=lambda path: str(path.relative_to(ROOT)))
 def test_a_document_has_one_spelling(path: Path) -> None:
     """`python3 tests/python/spelling.py --fix` changes what is found."""
     assert list(prose(path.read_text(encoding="utf-8"))) == []
+
+
+@pytest.mark.parametrize("path", programs(), ids=lambda path: str(path.relative_to(ROOT)))
+def test_what_a_program_says_has_one_spelling(path: Path) -> None:
+    """As above; keys and names in programs keep their spelling."""
+    assert list(changes(path, path.read_text(encoding="utf-8"))) == []
+
+
+def test_texts_of_a_program_are_changed_and_names_are_not() -> None:
+    """One word alone, a key, a value of a format and a comment within the code are names."""
+    rust = (
+        "/// The fibre of `centre`, in metres.\n// a neighbour\n"
+        'let fibre = format!("{colour} of a fibre, centre_line"); key("fibre_angle", "colour");\n'
+    )
+    assert program(rust, ".rs") == rust.replace("The fibre", "The fiber").replace(
+        "in metres", "in meters"
+    ).replace("a fibre,", "a fiber,")
+    python = '"""Draws.\n\n    colour: The colour of a fibre.\n"""\nx(colour="grey")\n'
+    assert program(python, ".py") == python.replace("The colour of a fibre", "The color of a fiber")
 
 
 def test_words_are_changed_and_code_is_not() -> None:

@@ -57,7 +57,7 @@ def nodes(folder: Path) -> list[dict[str, float]]:
 
 
 def tilt(net: dict[tuple[int, int], list[float]], node: tuple[int, int]) -> float:
-    """Angle of a net to the plane at a node (degrees), from the neighbours that it has."""
+    """Angle of a net to the plane at a node (degrees), from the neighbors that it has."""
     (i, j), here = node, net[node]
     along = [
         [b - a for a, b in zip(net.get(before, here), net.get(after, here), strict=True)]

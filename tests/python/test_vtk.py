@@ -212,7 +212,7 @@ def test_grippers_are_those_of_the_result(drape: Exported) -> None:
 
 
 def test_the_surface_joins_the_grippers_and_faces_up(drape: Exported) -> None:
-    """Corners of cells are the grippers; gap, fabric, fibres and shear are what they say."""
+    """Corners of cells are the grippers; gap, fabric, fibers and shear are what they say."""
     content = drape.result.content["scene"]
     (nu, nv), cell = content["ply"]["grid"].values(), content["ply"]["cell"]
     near = content["settings"]["contact"]["tolerance"]

@@ -58,6 +58,7 @@ async function open(): Promise<void> {
       other: null,
       otherIndex: 0,
       playing: false,
+      answer: 0,
       dark: systemIsDark(),
       pointer: null,
     },

@@ -12,7 +12,12 @@ import { CHROMIUM, startBrowser } from "../browser.mjs";
 
 const GUIDE = resolve(process.env.PLYDRAPE_GUIDE ?? "../build/guide");
 const PHONE = { width: 390, height: 844 };
-const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css" };
+const TYPES = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".svg": "image/svg+xml",
+};
 
 const missing =
   CHROMIUM === ""

@@ -10,6 +10,7 @@ import { join } from "node:path";
 import { deflateSync } from "node:zlib";
 import { after, before, describe, test } from "node:test";
 import { CHROMIUM, openReport, startBrowser } from "../browser.mjs";
+import { fitsScreen } from "./phone.mjs";
 import { distance, findReports, readColumns, readResult } from "./reports.mjs";
 
 const MICROMETRE = 1e-6;
@@ -510,7 +511,7 @@ async function saysSlackAndStrength(page) {
   const said = await page.locator(".limits .other-units").allTextContents();
   if (ratio !== undefined && ratio.value > 0 && !own) {
     const angle = (360 / Math.PI) * Math.sqrt(ratio.value / 100);
-    const [, shown] = /a fibre angle of ([\d.]+)°/.exec(said[0]);
+    const [, shown] = /a fiber angle of ([\d.]+)°/.exec(said[0]);
     assert.ok(Math.abs(Number(shown) / angle - 1) < 1e-3, `${shown} ${angle}`);
   }
   const { notes, warning } = data.strength;
@@ -1303,28 +1304,7 @@ async function fitsPhone(report) {
       height,
       touch: true,
     });
-    const narrow = async (state) => {
-      const wide = await page.evaluate(() => {
-        const beyond = [...document.querySelectorAll("body *")].filter((e) => {
-          const { left, right, width: w } = e.getBoundingClientRect();
-          return (
-            w > 0 && (right > innerWidth + 1 || left < -1) && !e.closest(".view, .visually-hidden, .plot")
-          );
-        });
-        const scrolls = [...document.querySelectorAll("main *")].filter(
-          (e) =>
-            e.scrollWidth > e.clientWidth + 1 &&
-            getComputedStyle(e).overflowX === "auto" &&
-            e.tagName !== "PRE",
-        );
-        return [
-          document.documentElement.scrollWidth - innerWidth,
-          ...[...beyond, ...scrolls].map((e) => `${e.tagName}.${e.className}#${e.id}`),
-        ];
-      });
-      assert.deepEqual(wide, [wide[0]], `${state} at ${width}: ${wide.join(", ")}`);
-      assert.ok(wide[0] <= 0, `${state} at ${width} is wider by ${wide[0]}`);
-    };
+    const narrow = (state) => fitsScreen(page, width, state);
     await narrow("opened");
     // fingers meet every control
     const small = await page.evaluate(() =>

@@ -35,7 +35,7 @@ if result.sheet is not None:
     kept = result.sheet.steps.tolist()
     last = len(kept) - 1
     sheet = {
-        "limits": result.sheet.limits,
+        "limits": result.summary["sheet"]["limits"],
         "landing": result.sheet.landing_step.tolist(),
         "states": {
             kept[k]: {

@@ -20,7 +20,7 @@ overwritten; all others stay.
 csv, ros2, rapid, krl and urscript drive machines: of a result that is not accepted they are only \
 written with --even-if-rejected.")]
 pub struct Arguments {
-    /// The result.json of an earlier run.
+    /// The result.json of an earlier run, or its folder.
     result: PathBuf,
 
     /// What to make.
@@ -110,8 +110,9 @@ const LARGEST_TEMPLATE: u64 = 1 << 20;
 /// Reads the result and writes the files.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let options = options(arguments)?;
-    let result = read::read(&arguments.result)?;
-    let beside = || arguments.result.parent().unwrap_or(Path::new("")).join(arguments.to.folder());
+    let file = read::file_of(&arguments.result);
+    let result = read::read(&file)?;
+    let beside = || file.parent().unwrap_or(Path::new("")).join(arguments.to.folder());
     let folder = arguments.output.clone().unwrap_or_else(beside);
     let files = export::write(&result, arguments.to.of(), &options, &folder)?;
     if !quiet {

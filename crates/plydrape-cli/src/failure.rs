@@ -139,6 +139,7 @@ impl From<SceneError> for Failure {
 impl Diagnostic for Failure {
     fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
         match self {
+            Failure::Scene(refused) if refused.0.help.is_empty() => None,
             Failure::Scene(refused) => Some(Box::new(&refused.0.help)),
             Failure::Ply { cause, .. } => cause.help(),
             Failure::Argument { help, .. }
@@ -193,11 +194,8 @@ impl fmt::Display for Shown<'_> {
     }
 }
 
-impl std::error::Error for Shown<'_> {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        self.0.source()
-    }
-}
+// Every message says its cause itself: as a source it would be printed once more below it.
+impl std::error::Error for Shown<'_> {}
 
 impl Diagnostic for Shown<'_> {
     fn help(&self) -> Option<Box<dyn fmt::Display + '_>> {
@@ -214,7 +212,7 @@ impl Diagnostic for Shown<'_> {
     }
 }
 
-/// A failure drawn by miette, with colours only on a terminal that wants them.
+/// A failure drawn by miette, with colors only on a terminal that wants them.
 struct Rendered<'a>(&'a Shown<'a>);
 
 impl fmt::Display for Rendered<'_> {

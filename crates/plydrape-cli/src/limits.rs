@@ -1,4 +1,4 @@
-//! `plydrape limits`: the presets of limits, each figure with its source, and what is published of fibre angles.
+//! `plydrape limits`: the presets of limits, each figure with its source, and what is published of fiber angles.
 
 use crate::failure::Done;
 use crate::numbers::short;
@@ -41,7 +41,7 @@ fn text() -> String {
         "A preset is a set of numbers, no standard: a drape that keeps it has not been shown to keep one.",
         "",
     );
-    text += "\nStrength that fibre angles cost, as published:\n";
+    text += "\nStrength that fiber angles cost, as published:\n";
     for note in strength::published() {
         text += &wrapped(&format!("{}: {}", note.angles, note.text), "  ");
         text += &wrapped(&note.source, "    ");

@@ -8,6 +8,7 @@ mod complete;
 mod errors;
 mod export;
 mod failure;
+mod fit;
 mod limits;
 mod net;
 mod new;
@@ -29,7 +30,7 @@ mod watch;
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// How an array of grippers must move to lay a carbon-fibre ply on a mold without wrinkles.
+/// How an array of grippers must move to lay a carbon-fiber ply on a mold without wrinkles.
 #[derive(Debug, Parser)]
 #[command(name = "plydrape", version, after_help = EXIT_CODES, max_term_width = 100)]
 struct Cli {
@@ -63,6 +64,7 @@ enum Command {
     Export(export::Arguments),
     Template(template::Arguments),
     Span(span::Arguments),
+    Fit(fit::Arguments),
     New(new::Arguments),
     Limits(limits::Arguments),
     Schema(schema::Arguments),
@@ -83,6 +85,7 @@ fn main() -> ExitCode {
         Command::Export(arguments) => export::run(&arguments, quiet),
         Command::Template(arguments) => template::run(&arguments),
         Command::Span(arguments) => span::run(&arguments),
+        Command::Fit(arguments) => fit::run(&arguments, quiet),
         Command::New(arguments) => new::run(&arguments, quiet),
         Command::Limits(arguments) => limits::run(&arguments),
         Command::Schema(arguments) => schema::run(&arguments),

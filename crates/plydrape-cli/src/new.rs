@@ -26,7 +26,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     let folder = file.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let made = !folder.exists();
     fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
-    if let Err(error) = put(&file, folder) {
+    if let Err(error) = put(&file, folder, TEMPLATE) {
         if made {
             // only an empty folder goes, and only the one made here
             let _ = fs::remove_dir(folder);
@@ -42,8 +42,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Writes the scene whole or not at all: beside its place, then moved there if nothing is in the way.
-fn put(file: &Path, folder: &Path) -> io::Result<()> {
+/// Writes a new file whole or not at all: beside its place, then moved there if nothing is in the way.
+pub fn put(file: &Path, folder: &Path, text: &str) -> io::Result<()> {
     if file.symlink_metadata().is_ok() {
         return Err(ErrorKind::AlreadyExists.into());
     }
@@ -56,7 +56,7 @@ fn put(file: &Path, folder: &Path) -> io::Result<()> {
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut new = builder.tempfile_in(folder)?;
-    new.write_all(TEMPLATE.as_bytes())?;
+    new.write_all(text.as_bytes())?;
     new.as_file().sync_all()?;
     new.persist_noclobber(file).map(drop).map_err(|fault| fault.error)
 }

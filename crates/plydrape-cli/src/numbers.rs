@@ -1,6 +1,6 @@
 //! Numbers as a user reads them.
 
-/// Millimetres, of metres.
+/// Millimeters, of meters.
 pub fn millimetres(metres: f64) -> String {
     short(without_noise(metres * 1e3))
 }

@@ -252,6 +252,7 @@ impl Arguments {
                 span: None,
                 message: format!("`{}` {message}", file.display()),
                 help: help.into(),
+                unread: None,
             })
         };
         if scene.mold.is_none() {

@@ -28,7 +28,7 @@ that the ply is turned about (the middle of the grippers at the start unless giv
 With --json and without --picked, reads objects of the same keys from standard input, one a line, and answers with one line each until the input \
 ends. A line that is refused is answered with `error` and `help`, and the next one is read. The exit code is that of the worst answer.")]
 pub struct Arguments {
-    /// The result.json of a plan.
+    /// The result.json of a plan, or its folder.
     result: PathBuf,
 
     /// Where the ply was seen.
@@ -123,7 +123,8 @@ fn once(
     quiet: bool,
 ) -> Done {
     let seen = read_offset(file, planned.tolerance())?;
-    let beside = || arguments.result.parent().unwrap_or(Path::new("")).join("replan");
+    let result_file = read::file_of(&arguments.result);
+    let beside = || result_file.parent().unwrap_or(Path::new("")).join("replan");
     let output = arguments.output.clone().unwrap_or_else(beside);
     let folder = Folder::claim(&output, "replan")?;
     let replanned = replanned(replanner, &seen)?;
@@ -137,7 +138,7 @@ fn once(
         let text = format!("{}\n\n{said}\n\n{}", result.scene.title, table::verdict(&result));
         print(&text)?;
     }
-    let files = write_into(folder, &result, &[], &[arguments.result.clone(), file.into()])?;
+    let files = write_into(folder, &result, &[], &[result_file.to_path_buf(), file.into()])?;
     if !arguments.json && !quiet {
         results::list(&files)?;
     }

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 The page is one file that any browser opens, without a network. The result must be as `plydrape \
 simulate` or `plydrape plan` wrote it, by this version.")]
 pub struct Arguments {
-    /// The result.json of an earlier run.
+    /// The result.json of an earlier run, or its folder.
     result: PathBuf,
 
     /// Folder of the page; that of the result unless given.
@@ -22,9 +22,10 @@ pub struct Arguments {
 
 /// Reads the result and writes the page.
 pub fn run(arguments: &Arguments, quiet: bool) -> Done {
-    let result = read::read(&arguments.result)?;
+    let file = read::file_of(&arguments.result);
+    let result = read::read(&file)?;
     let html = page::html(&result)?;
-    let beside = || match arguments.result.parent() {
+    let beside = || match file.parent() {
         Some(folder) if folder != Path::new("") => folder.to_path_buf(),
         _ => PathBuf::from("."),
     };

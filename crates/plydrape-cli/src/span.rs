@@ -1,4 +1,4 @@
-//! `plydrape span`: one free length of ply between two ends, solved alone.
+//! `plydrape span`: one free length of ply between two ends, solved alone, by small-sag theory or as the elastica.
 
 mod picture;
 mod text;
@@ -6,8 +6,10 @@ mod text;
 use crate::argument::{refused, value};
 use crate::failure::{Done, Failure};
 use plydrape::catenary::{EndCondition, Profile, Root, Span, SpanState, Station};
+use plydrape::elastica::{Bending, HeavyStrip, Shape};
+use plydrape::material::{MomentCurve, Section};
 use plydrape_io::json;
-use plydrape_io::scene::Measured;
+use plydrape_io::scene::{Measured, read_material};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -16,7 +18,9 @@ use std::process::ExitCode;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Plain numbers are in SI units, others carry a unit: 0.098 and \"98 mm\" are the same. A slope is rise \
-over run. A negative force is compression. The shape is that of small-sag theory.")]
+over run. A negative force is compression. The shape is that of small-sag theory, unless --theory exact asks for the \
+elastica: any sag, curvature exact, no stretch, and a moment that is a table where --material has one. A strip that bulges \
+beyond its ends has its places at equal lengths along it.")]
 pub struct Arguments {
     /// Horizontal distance of the ends.
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
@@ -31,12 +35,38 @@ pub struct Arguments {
     length: String,
 
     /// Weight per length of fabric (N/m): mass per length times gravity.
-    #[arg(long, value_name = "WEIGHT", allow_hyphen_values = true)]
-    weight: String,
+    #[arg(
+        long,
+        value_name = "WEIGHT",
+        allow_hyphen_values = true,
+        required_unless_present = "material"
+    )]
+    weight: Option<String>,
 
     /// Flexural rigidity EI (N m^2).
-    #[arg(long, value_name = "EI", allow_hyphen_values = true)]
-    rigidity: String,
+    #[arg(
+        long,
+        value_name = "EI",
+        allow_hyphen_values = true,
+        required_unless_present = "material"
+    )]
+    rigidity: Option<String>,
+
+    /// A shipped material or a material file, in place of weight and rigidity; with a mass per area it needs --width.
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["weight", "rigidity"])]
+    material: Option<String>,
+
+    /// Width of the strip of this material.
+    #[arg(long, value_name = "LENGTH", requires = "material")]
+    width: Option<String>,
+
+    /// Which way the strip of this material runs.
+    #[arg(long, value_enum, default_value_t = Along::Warp, requires = "material")]
+    along: Along,
+
+    /// Small sag in closed form, or the exact elastica.
+    #[arg(long, value_enum, default_value_t = Theory::SmallSag)]
+    theory: Theory,
 
     /// Slope held at the start, or `free`.
     #[arg(long, value_name = "SLOPE", default_value = "free", allow_hyphen_values = true)]
@@ -55,6 +85,26 @@ pub struct Arguments {
     json: bool,
 }
 
+/// Which way a strip runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Along {
+    /// Along the warp.
+    Warp,
+    /// Along the weft.
+    Weft,
+}
+
+/// How a span hangs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Theory {
+    /// Small sag, in closed form.
+    SmallSag,
+    /// The inextensible elastica.
+    Exact,
+}
+
+/// Acceleration of gravity of a strip of a material (m/s²), as in scenes.
+const GRAVITY: f64 = 9.81;
 /// Smallest and largest length (m), as in scenes.
 const LENGTHS: [f64; 2] = [1e-6, 1e4];
 /// Smallest and largest weight per length (N/m).
@@ -70,8 +120,11 @@ const STATIONS: usize = 11;
 
 /// Solves the span and prints it.
 pub fn run(arguments: &Arguments) -> Done {
-    let span = arguments.span()?;
-    let solved = Solved::new(span)?;
+    let (span, curve) = arguments.span()?;
+    let solved = match arguments.theory {
+        Theory::SmallSag => Solved::new(span, curve.is_some())?,
+        Theory::Exact => Solved::exact(span, curve)?,
+    };
     let mut out = io::stdout().lock();
     if arguments.json {
         let text = json::of(&solved.printed()).map_err(plydrape_io::OutputError::from)?;
@@ -84,8 +137,8 @@ pub fn run(arguments: &Arguments) -> Done {
 }
 
 impl Arguments {
-    /// The span, each value held against its dimension and range.
-    fn span(&self) -> Result<Span, Failure> {
+    /// The span, each value held against its dimension and range, and its moment (N·m) where that is a table.
+    fn span(&self) -> Result<(Span, Option<MomentCurve>), Failure> {
         let length = "a length from 1 um to 10 km is wanted, e.g. \"98 mm\"";
         let run = value("--run", &self.run, Measured::Length, LENGTHS, length)?;
         let steepest = STEEPEST * run;
@@ -97,25 +150,7 @@ impl Arguments {
             "small-sag theory is for ends side by side: a rise of at most 1000 runs is wanted",
         )?;
         let length = value("--length", &self.length, Measured::Length, LENGTHS, length)?;
-        let weight = value(
-            "--weight",
-            &self.weight,
-            Measured::ForcePerLength,
-            WEIGHTS,
-            "a weight per length from 1e-9 to 1e9 N/m is wanted, e.g. 3.08 or \"3.08 N/m\"",
-        )?;
-        let rigidity = "a flexural rigidity from 1e-18 to 1e12 N m^2 is wanted, or 0 for a ply \
-                        that does not resist bending";
-        let flexural_rigidity = value(
-            "--rigidity",
-            &self.rigidity,
-            Measured::FlexuralRigidity,
-            [0.0, RIGIDITIES[1]],
-            rigidity,
-        )?;
-        if flexural_rigidity > 0.0 && flexural_rigidity < RIGIDITIES[0] {
-            return Err(refused("--rigidity", &self.rigidity, "is too small", rigidity));
-        }
+        let (weight, flexural_rigidity, curve) = self.strip()?;
         let axial_stiffness = value(
             "--axial-stiffness",
             &self.axial_stiffness,
@@ -123,8 +158,16 @@ impl Arguments {
             [1e-3, f64::INFINITY],
             "a force from 1 mN is wanted, e.g. \"100 kN\", or inf for a ply that does not stretch",
         )?;
+        if self.theory == Theory::Exact && axial_stiffness.is_finite() {
+            return Err(refused(
+                "--axial-stiffness",
+                &self.axial_stiffness,
+                "is for small-sag theory: the exact strip does not stretch",
+                "leave it out with --theory exact",
+            ));
+        }
         let end = |option, text| end(option, text, flexural_rigidity);
-        Ok(Span {
+        let span = Span {
             run,
             rise,
             length,
@@ -132,7 +175,59 @@ impl Arguments {
             weight,
             flexural_rigidity,
             axial_stiffness,
-        })
+        };
+        Ok((span, curve))
+    }
+
+    /// Weight per length (N/m), flexural rigidity (N·m²) and, where it is a table, the moment (N·m) of the strip.
+    fn strip(&self) -> Result<(f64, f64, Option<MomentCurve>), Failure> {
+        if let Some(name) = &self.material {
+            return self.of_material(name);
+        }
+        let [weight, ei] =
+            [&self.weight, &self.rigidity].map(|text| text.as_deref().unwrap_or("0"));
+        let weight = value(
+            "--weight",
+            weight,
+            Measured::ForcePerLength,
+            WEIGHTS,
+            "a weight per length from 1e-9 to 1e9 N/m is wanted, e.g. 3.08 or \"3.08 N/m\"",
+        )?;
+        let rigidity = "a flexural rigidity from 1e-18 to 1e12 N m^2 is wanted, or 0 for a ply \
+                        that does not resist bending";
+        let flexural_rigidity =
+            value("--rigidity", ei, Measured::FlexuralRigidity, [0.0, RIGIDITIES[1]], rigidity)?;
+        if flexural_rigidity > 0.0 && flexural_rigidity < RIGIDITIES[0] {
+            return Err(refused("--rigidity", ei, "is too small", rigidity));
+        }
+        Ok((weight, flexural_rigidity, None))
+    }
+
+    /// The same of a strip of a material.
+    fn of_material(&self, name: &str) -> Result<(f64, f64, Option<MomentCurve>), Failure> {
+        let material = read_material(name)?;
+        let along = usize::from(self.along == Along::Weft);
+        match (material.section, &self.width) {
+            (Section::Line { mass, flexural_rigidity }, None) => {
+                Ok((GRAVITY * mass, flexural_rigidity, None))
+            }
+            (Section::Line { .. }, Some(width)) => Err(refused(
+                "--width",
+                width,
+                "is given with a material by line, which has a width of its own",
+                "leave --width out",
+            )),
+            (Section::Areal { .. }, None) => Err(Failure::Argument {
+                message: format!("the strip of {} has no width", material.name),
+                help: "add --width, as in --width \"50 mm\"".into(),
+            }),
+            (Section::Areal { mass, warp_rigidity, weft_rigidity }, Some(width)) => {
+                let help = "a width from 1 um to 10 km is wanted, e.g. \"50 mm\"";
+                let width = value("--width", width, Measured::Length, LENGTHS, help)?;
+                let curve = material.moment[along].as_ref().map(|curve| curve.times(width));
+                Ok((GRAVITY * mass * width, [warp_rigidity, weft_rigidity][along] * width, curve))
+            }
+        }
     }
 }
 
@@ -163,8 +258,20 @@ fn end(option: &str, text: &str, flexural_rigidity: f64) -> Result<EndCondition,
 struct Solved {
     span: Span,
     root: Root,
-    /// The closed form; none for a straight inextensible span, which has no force.
-    profile: Option<Profile>,
+    /// Its shape.
+    curve: Curve,
+    /// Whether the moment is a table of which only the first slope was used.
+    at_rest: bool,
+}
+
+/// The shape of a span.
+enum Curve {
+    /// A straight inextensible span, which has no force.
+    Straight,
+    /// The closed form of small sag.
+    Small(Box<Profile>),
+    /// The elastica.
+    Exact(Box<Shape>),
 }
 
 /// What `--json` prints.
@@ -182,10 +289,13 @@ struct Printed {
 
 impl Solved {
     /// Solves a span, or says that no force gives it its length.
-    fn new(span: Span) -> Result<Solved, Failure> {
+    fn new(span: Span, at_rest: bool) -> Result<Solved, Failure> {
         let root = span.solve(None);
-        let profile = root.force.map(|force| Profile::new(&span, force));
-        let solved = Solved { span, root, profile };
+        let curve = match root.force {
+            Some(force) => Curve::Small(Box::new(Profile::new(&span, force))),
+            None => Curve::Straight,
+        };
+        let solved = Solved { span, root, curve, at_rest };
         let is_finite = |s: Station| s.z.is_finite() && s.moment.is_finite();
         if root.residual <= LARGEST_RESIDUAL && solved.stations().all(is_finite) {
             return Ok(solved);
@@ -200,6 +310,30 @@ impl Solved {
         })
     }
 
+    /// Solves a span as an elastica, or says why it has no hanging solution.
+    fn exact(span: Span, curve: Option<MomentCurve>) -> Result<Solved, Failure> {
+        let state = span.state();
+        if state == SpanState::Straight {
+            return Solved::new(span, false);
+        }
+        let bending = curve.map_or(Bending::Rigidity(span.flexural_rigidity), Bending::Curve);
+        let Span { run, rise, length, ends, weight, .. } = span;
+        let strip = HeavyStrip { run, rise, length, ends, weight, bending };
+        let shape = strip.solve().map_err(|error| Failure::NoSolution {
+            message: error.to_string(),
+            help: "is a slope held the wrong way round, or the length far larger than the run? --theory small-sag may say more"
+                .into(),
+        })?;
+        let force = Some(shape.horizontal_force());
+        let root = Root { force, state, evaluations: 0, residual: 0.0 };
+        Ok(Solved { span, root, curve: Curve::Exact(Box::new(shape)), at_rest: false })
+    }
+
+    /// Whether it is straight, without a force.
+    fn is_straight(&self) -> bool {
+        matches!(self.curve, Curve::Straight)
+    }
+
     /// How the span holds its length, briefly.
     fn state(&self) -> &'static str {
         let is_longer = self.span.chord() > self.span.length * (1.0 + 1e-13);
@@ -211,25 +345,40 @@ impl Solved {
         }
     }
 
-    /// The span at a distance from its start (m); without a profile on the straight chord.
-    fn station(&self, x: f64) -> Station {
-        let slope = self.span.rise / self.span.run;
-        let straight = Station { x, z: slope * x, slope, moment: 0.0, vertical_force: 0.0 };
-        self.profile.map_or(straight, |profile| profile.station(x))
+    /// The span at a share of its run; of its length where it bulges beyond its ends.
+    fn station(&self, share: f64) -> Station {
+        let x = share * self.span.run;
+        match &self.curve {
+            Curve::Straight => {
+                let slope = self.span.rise / self.span.run;
+                Station { x, z: slope * x, slope, moment: 0.0, vertical_force: 0.0 }
+            }
+            Curve::Small(profile) => profile.station(x),
+            Curve::Exact(shape) => {
+                let s = if share == 1.0 { None } else { shape.arc(x) };
+                shape.station(s.unwrap_or(share * self.span.length))
+            }
+        }
     }
 
     fn stations(&self) -> impl Iterator<Item = Station> + '_ {
-        (0..STATIONS).map(|n| self.station(self.span.run * n as f64 / (STATIONS - 1) as f64))
+        (0..STATIONS).map(|n| self.station(n as f64 / (STATIONS - 1) as f64))
     }
 
     /// Largest vertical distance below the chord, and where (m).
     fn sag(&self) -> (f64, f64) {
-        self.profile.map_or((0.0, 0.0), |profile| profile.sag())
+        match &self.curve {
+            Curve::Straight => (0.0, 0.0),
+            Curve::Small(profile) => profile.sag(),
+            Curve::Exact(shape) => {
+                let (depth, s) = shape.sag();
+                (depth, shape.at(s)[0])
+            }
+        }
     }
 
     fn slopes(&self) -> [f64; 2] {
-        let chord = self.span.rise / self.span.run;
-        [0, 1].map(|end| self.profile.map_or(chord, |p| p.end_slope(end)))
+        [0.0, 1.0].map(|end| self.station(end).slope)
     }
 
     fn printed(&self) -> Printed {

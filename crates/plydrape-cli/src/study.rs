@@ -13,7 +13,7 @@ use std::process::{Command, ExitCode};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 The rows go to DIR/study.parquet, their distributions to DIR/summary.html. An interrupted study goes \
-on with the same command. It runs by the Python package: pip install 'plydrape[study]'; \
+on with the same command. It runs by the Python package of plydrape and its extra `study`; \
 PLYDRAPE_PYTHON names the Python that has it, python3 unless given. Exit codes: 0 done, 2 bad \
 input, 4 standard output could not be written, 130 interrupted.")]
 pub struct Arguments {
@@ -72,7 +72,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Done {
     match status.code() {
         Some(MISSING) => Err(Failure::Argument {
             message: format!("the Python `{}` has no package plydrape", python.display()),
-            help: "pip install 'plydrape[study]', or name a Python that has it in PLYDRAPE_PYTHON"
+            help: "in a clone of plydrape: python3 -m pip install '.[study]'; or name a Python that has \
+                   it in PLYDRAPE_PYTHON"
                 .into(),
         }),
         // Without a code it was ended by a signal.

@@ -7,7 +7,7 @@
 //! 3. [`csv`], [`vtk`], [`inp`], [`ros2`], [`figure`], [`page`], [`pattern`]: everything else is made from a result;
 //!    [`program`] is what a cell does over time, for the controllers of robots;
 //! 4. [`net`] does the same for an ideal drape, [`plan`] for a plan, [`replan`] for one whose ply lies elsewhere, [`comparison`] for several strategies, [`book`] for the plies of a part, [`sheet`] keeps the states of a sheet beside its result;
-//!    [`table`] prints for people, [`strength`] says what is published of fibre angles;
+//!    [`table`] prints for people, [`strength`] says what is published of fiber angles;
 //! 5. [`folder`] writes files whole or not at all, [`input`] reads regular files alone, and [`size`] refuses what would not fit
 //!    the memory.
 
@@ -17,7 +17,9 @@ pub mod csv;
 mod error;
 pub mod export;
 pub mod figure;
+mod file_kind;
 mod finite;
+pub mod fit;
 pub mod folder;
 pub mod formula;
 pub mod inp;

@@ -16,7 +16,7 @@ use plydrape::draping::record::Mount;
 use plydrape::mold::vector::sub;
 use plydrape::scene::PadSettings;
 
-/// Newtons a millimetre in a newton a metre.
+/// Newtons a millimeter in a newton a meter.
 const PER_MM: f64 = 1e-3;
 /// By how much a time may lie beyond the last step and still be at it, as a share of its own.
 const ROUNDING: f64 = 1e-9;

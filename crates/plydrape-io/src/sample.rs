@@ -243,6 +243,8 @@ fn frame(grid: Grid) -> ResultFile {
                     shear_curve: None,
                     tension: None,
                     locking_angle: None,
+                    moment: Default::default(),
+                    scatter: Default::default(),
                 },
             ),
             mold: None,

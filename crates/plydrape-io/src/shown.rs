@@ -1,4 +1,4 @@
-//! Text for a terminal: control characters, which would move the cursor or change its colours, are shown by their number.
+//! Text for a terminal: control characters, which would move the cursor or change its colors, are shown by their number.
 
 use plydrape::draping::record::PlanRecord;
 use plydrape::ply::{Direction, Grid, Ply};
@@ -53,7 +53,7 @@ pub fn blanked(text: &str) -> String {
     text.replace("\r\n", " \n").chars().map(plain).collect()
 }
 
-/// A length (m) in millimetres, with three digits after the point at most.
+/// A length (m) in millimeters, with three digits after the point at most.
 #[must_use]
 pub fn millimetres(length: f64) -> String {
     let text = format!("{:.3}", 1e3 * length);

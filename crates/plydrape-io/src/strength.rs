@@ -1,4 +1,4 @@
-//! What published data say of the strength that fibre angles cost, in words: information beside what was measured.
+//! What published data say of the strength that fiber angles cost, in words: information beside what was measured.
 
 use plydrape::draping::record::Summary;
 use plydrape::measure::{Loss, Name, Plane, Published};
@@ -7,7 +7,7 @@ use serde::Serialize;
 /// What one source says beside the angles that were found.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Note {
-    /// The angles that were found, as in `fibre angle 2.1°`.
+    /// The angles that were found, as in `fiber angle 2.1°`.
     pub angles: String,
     /// What the source says, and of what it holds.
     pub text: String,
@@ -150,7 +150,7 @@ mod tests {
         assert!(text(12.0).contains("12° is beyond 10°"));
         assert!(text(5.0).ends_with("For 5° that is 20 %."));
         let waves = &notes(&drape(&[(Name::SlackAngle, 2.6), (Name::WrinkleAngle, 9.0)]))[0];
-        assert_eq!(waves.angles, "slack as fibre angle 2.6°, wrinkle angle 9°");
+        assert_eq!(waves.angles, "slack as fiber angle 2.6°, wrinkle angle 9°");
         assert_eq!(waves.text.matches("no angle").count(), 1);
         assert!(waves.text.starts_with("Published tests found up to 36 %"), "{}", waves.text);
         assert_eq!(notes(&drape(&[])), []);
@@ -179,6 +179,6 @@ mod tests {
         (sheet.out_of_plane_deg, sheet.fibre_angle_deg) = (Some(4.0), Some(6.0));
         summary.decide_by(sheet);
         let angles: Vec<String> = notes(&summary).into_iter().map(|note| note.angles).collect();
-        assert_eq!(angles, ["fibre angle 6°", "fibre angle out of plane 4°"]);
+        assert_eq!(angles, ["fiber angle 6°", "fiber angle out of plane 4°"]);
     }
 }

@@ -141,7 +141,8 @@ pub fn contact_lines(step: &Step, curves: &[Vec<Vec<Point>>], count: usize) -> V
 }
 
 /// Points of a polyline at equal shares of its horizontal way (of its length, if it is upright).
-pub(crate) fn stations(line: &[Point], count: usize) -> Vec<Point> {
+#[must_use]
+pub fn stations(line: &[Point], count: usize) -> Vec<Point> {
     if line.len() < 2 {
         return line.to_vec();
     }
@@ -197,7 +198,7 @@ pub(crate) fn lines(
         .collect()
 }
 
-/// One cell whose sides are fibres: `(n + 1)²` points, s running fastest, from its six lines at `n + 1` stations.
+/// One cell whose sides are fibers: `(n + 1)²` points, s running fastest, from its six lines at `n + 1` stations.
 pub(crate) fn cell(graph: &Lines, cell: &LineCell, lines: &[Vec<Point>], n: usize) -> Vec<Point> {
     let [low, right, _, left] = cell.corners;
     // the sides of a cell of a whole array are there

@@ -1,7 +1,9 @@
-//! NumPy arrays of a fixed number of axes, in and out. What leaves is handed over, not copied.
+//! NumPy arrays, in and out. What leaves is handed over, not copied; what comes may be any numbers that NumPy makes an array
+//! of: lists, views that are not contiguous, integers, single precision.
 
-use numpy::{AllowTypeChange, Element, PyArray, PyArrayDyn, PyArrayLike, PyArrayMethods};
-use numpy::{Ix1, Ix2, Ix3, IxDyn};
+use numpy::{Element, IxDyn, PyArray, PyArrayDyn, PyArrayMethods};
+use plydrape::ply::Ply;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -98,80 +100,174 @@ impl<'py> IntoPyObject<'py> for Named {
     }
 }
 
-/// Numbers from Python, read in place where they are floats already: an array or nested lists.
-pub struct Numbers<'py, D: numpy::ndarray::Dimension>(
-    pub PyArrayLike<'py, f64, D, AllowTypeChange>,
-);
+/// What Python gives for an array: an array or nested lists of numbers.
+pub struct Numbers<'py>(Bound<'py, PyAny>);
 
-/// One axis.
-pub type List<'py> = Numbers<'py, Ix1>;
-/// Two axes.
-pub type Table<'py> = Numbers<'py, Ix2>;
-/// Three axes.
-pub type Block<'py> = Numbers<'py, Ix3>;
-
-impl<'a, 'py, D: numpy::ndarray::Dimension + 'py> FromPyObject<'a, 'py> for Numbers<'py, D>
-where
-    PyArrayLike<'py, f64, D, AllowTypeChange>: FromPyObject<'a, 'py, Error = PyErr>,
-{
+impl<'a, 'py> FromPyObject<'a, 'py> for Numbers<'py> {
     type Error = PyErr;
     const INPUT_TYPE: PyStaticExpr = typing("ArrayLike");
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        object.extract().map(Numbers)
+        Ok(Numbers(object.to_owned()))
     }
 }
 
-/// Points as rows of three; `what` names them in the error.
-pub fn points(table: &Table, what: &str) -> PyResult<Vec<[f64; 3]>> {
-    let view = table.0.as_array();
-    let (rows, columns) = view.dim();
-    if columns != 3 {
-        return Err(wrong_shape(what, "(n, 3)", &[rows, columns]));
-    }
-    let points: Vec<[f64; 3]> = view.rows().into_iter().map(|p| [p[0], p[1], p[2]]).collect();
-    check_finite(what, points.as_flattened())?;
-    Ok(points)
+/// Finite numbers with their shape, the last axis running fastest.
+pub struct Read {
+    pub shape: Vec<usize>,
+    pub values: Vec<f64>,
 }
 
-/// Steps of points, `(steps, points, 3)`.
-pub fn steps(block: &Block, what: &str, count: usize) -> PyResult<Vec<Vec<[f64; 3]>>> {
-    let view = block.0.as_array();
-    let (steps, rows, columns) = view.dim();
-    if rows != count || columns != 3 {
-        return Err(wrong_shape(what, &format!("(n, {count}, 3)"), &[steps, rows, columns]));
+impl Numbers<'_> {
+    /// The numbers; `what` names them in errors, `wanted` is their shape in words.
+    fn read(&self, what: &str, wanted: &str) -> PyResult<Read> {
+        let (shape, values) = self.of_type::<f64>("float64", what, wanted)?;
+        let read = Read { shape, values };
+        read.check_finite(what)?;
+        Ok(read)
     }
-    let mut out = Vec::with_capacity(steps);
-    for step in view.outer_iter() {
-        let points: Vec<[f64; 3]> = step.rows().into_iter().map(|p| [p[0], p[1], p[2]]).collect();
-        check_finite(what, points.as_flattened())?;
-        out.push(points);
+
+    /// Whole numbers of two axes, of which the second one has a length.
+    pub fn indices<const N: usize>(&self, what: &str, wanted: &str) -> PyResult<Vec<[i64; N]>> {
+        let (shape, values) = self.of_type::<i64>("int64", what, wanted)?;
+        match shape[..] {
+            [_, columns] if columns == N => Ok(values.as_chunks().0.to_vec()),
+            _ => Err(wrong_shape(what, wanted, &shape)),
+        }
     }
-    Ok(out)
+
+    fn of_type<T: Element + Copy>(
+        &self,
+        name: &str,
+        what: &str,
+        wanted: &str,
+    ) -> PyResult<(Vec<usize>, Vec<T>)> {
+        let py = self.0.py();
+        let keywords = PyDict::new(py);
+        keywords.set_item("dtype", name)?;
+        let array = py.import("numpy")?.call_method("asarray", (&self.0,), Some(&keywords));
+        let array = array.map_err(|fault| {
+            let said = fault.value(py).to_string();
+            let text = format!(
+                "{what} is no array of numbers ({said}); numbers of the shape {wanted} are wanted"
+            );
+            let made = match fault.is_instance_of::<PyTypeError>(py) {
+                true => PyTypeError::new_err(text),
+                false => PyValueError::new_err(text),
+            };
+            made.set_cause(py, Some(fault));
+            made
+        })?;
+        let array = array.cast_into::<PyArrayDyn<T>>()?.readonly();
+        let view = array.as_array();
+        Ok((view.shape().to_vec(), view.iter().copied().collect()))
+    }
+
+    /// Numbers of one axis.
+    pub fn list(&self, what: &str) -> PyResult<Vec<f64>> {
+        let read = self.read(what, "(n,)")?;
+        match read.shape.len() {
+            1 => Ok(read.values),
+            _ => Err(wrong_shape(what, "(n,)", &read.shape)),
+        }
+    }
+
+    /// Numbers of any shape.
+    pub fn any(&self, what: &str) -> PyResult<Read> {
+        self.read(what, "(…)")
+    }
+
+    /// Points of any number of axes, the last of which has their N coordinates: the other axes, and the points.
+    pub fn points<const N: usize>(&self, what: &str) -> PyResult<(Vec<usize>, Vec<[f64; N]>)> {
+        let wanted = format!("(n, {N}) or (…, {N})");
+        let mut read = self.read(what, &wanted)?;
+        match read.shape.pop() {
+            Some(last) if last == N && !read.shape.is_empty() => {
+                Ok((read.shape, read.values.as_chunks().0.to_vec()))
+            }
+            last => {
+                read.shape.extend(last);
+                Err(wrong_shape(what, &wanted, &read.shape))
+            }
+        }
+    }
+
+    /// Positions of a ply's grippers: (grippers, 3), or of a whole array (along u, along v, 3).
+    pub fn places(&self, what: &str, ply: &Ply) -> PyResult<Vec<[f64; 3]>> {
+        let wanted = shapes(ply, "");
+        let read = self.read(what, &wanted)?;
+        let places = read.steps(ply, 1).and_then(|mut steps| steps.pop());
+        places.ok_or_else(|| wrong_shape(what, &wanted, &read.shape))
+    }
+
+    /// Positions of a ply's grippers in steps: (steps, grippers, 3), or of a whole array (steps, along u, along v, 3).
+    pub fn steps(&self, what: &str, ply: &Ply) -> PyResult<Vec<Vec<[f64; 3]>>> {
+        let wanted = shapes(ply, "steps, ");
+        let Read { shape, values } = self.read(what, &wanted)?;
+        let found = match &shape[..] {
+            [steps, step @ ..] => Read { shape: step.to_vec(), values }.steps(ply, *steps),
+            [] => None,
+        };
+        found.ok_or_else(|| wrong_shape(what, &wanted, &shape))
+    }
 }
 
-/// Numbers of one axis.
-pub fn list(list: &List, what: &str) -> PyResult<Vec<f64>> {
-    let values = list.0.as_array().to_vec();
-    check_finite(what, &values)?;
-    Ok(values)
+/// Shapes that positions of a ply's grippers can have.
+fn shapes(ply: &Ply, before: &str) -> String {
+    let one = format!("({before}{}, 3)", ply.grippers());
+    let grid = ply.grid;
+    match grid.nu * grid.nv == ply.grippers() {
+        true => format!("{one} or ({before}{}, {}, 3)", grid.nu, grid.nv),
+        false => one,
+    }
+}
+
+impl Read {
+    /// The positions of a number of steps; none if the shape of a step is no other.
+    fn steps(&self, ply: &Ply, steps: usize) -> Option<Vec<Vec<[f64; 3]>>> {
+        let (count, grid) = (ply.grippers(), ply.grid);
+        let points = self.values.as_chunks::<3>().0;
+        let by_step = points.chunks_exact(count.max(1));
+        let found: Vec<Vec<[f64; 3]>> = match self.shape[..] {
+            [rows, 3] if rows == count => by_step.map(<[_]>::to_vec).collect(),
+            // i along u is the first axis here, and runs fastest there
+            [nu, nv, 3] if [nu, nv] == [grid.nu, grid.nv] && nu * nv == count => by_step
+                .map(|step| (0..count).map(|n| step[(n % nu) * nv + n / nu]).collect())
+                .collect(),
+            _ => return None,
+        };
+        (found.len() == steps).then_some(found)
+    }
+
+    fn check_finite(&self, what: &str) -> PyResult<()> {
+        let Some(at) = self.values.iter().position(|value| !value.is_finite()) else {
+            return Ok(());
+        };
+        let mut rest = at;
+        let mut place: Vec<String> = Vec::new();
+        for length in self.shape.iter().rev() {
+            place.push((rest % length).to_string());
+            rest /= length;
+        }
+        place.reverse();
+        let place = if place.is_empty() {
+            what.to_owned()
+        } else {
+            format!("{what}[{}]", place.join(", "))
+        };
+        Err(PyValueError::new_err(format!(
+            "{place} is {}; finite numbers are wanted",
+            self.values[at]
+        )))
+    }
 }
 
 /// A fault of an argument's shape.
-pub fn wrong_shape(what: &str, wanted: &str, found: &[usize]) -> PyErr {
+fn wrong_shape(what: &str, wanted: &str, found: &[usize]) -> PyErr {
     let found: Vec<String> = found.iter().map(ToString::to_string).collect();
     let comma = if found.len() == 1 { "," } else { "" };
-    pyo3::exceptions::PyValueError::new_err(format!(
+    PyValueError::new_err(format!(
         "{what} has the shape ({}{comma}); {wanted} is wanted",
         found.join(", ")
     ))
-}
-
-fn check_finite(what: &str, values: &[f64]) -> PyResult<()> {
-    match values.iter().find(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(value) => Err(pyo3::exceptions::PyValueError::new_err(format!(
-            "{what} holds {value}; finite numbers are wanted"
-        ))),
-    }
 }

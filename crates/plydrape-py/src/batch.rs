@@ -1,6 +1,6 @@
 //! Many at once, on all cores: `plydrape.batch`.
 
-use crate::arrays::{Array, Block, steps};
+use crate::arrays::{Array, Numbers};
 use crate::drape::for_model;
 use crate::error;
 use crate::result::Result;
@@ -10,7 +10,7 @@ use crate::work::run;
 use plydrape::draping;
 use plydrape::equilibrium::Status;
 use plydrape::errors::{self, Robustness};
-use plydrape::ply::{Grid, Lines};
+use plydrape::ply::{Lines, Ply};
 use plydrape_io::ResultFile;
 use plydrape_io::scene::SceneFile;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -32,22 +32,32 @@ fn pool(threads: Option<usize>) -> PyResult<ThreadPool> {
 
 /// Drapes many scenes along their motions, on all cores.
 ///
-/// Args:
-///     scenes: The scenes.
-///     model: The model that decides, instead of that of each scene: "sheet" or "catenaries".
-///     threads: How many at once; one a core unless given. The results do not depend on it.
-///     progress: Called with (drapes done, drapes, what is done), some 50 times a second.
+/// Parameters
+/// ----------
+/// scenes : iterable of Scene
+///     The scenes.
+/// model : {"sheet", "catenaries"}, optional
+///     The model that decides, instead of that of each scene: "sheet" or "catenaries".
+/// threads : int, optional
+///     How many at once; one a core unless given. The results do not depend on it.
+/// progress : callable, optional
+///     Called with (drapes done, drapes, what is done), some 50 times a second.
 ///
-/// Returns:
+/// Returns
+/// -------
+/// list of Result
 ///     One result a scene, in their order.
 ///
-/// Raises:
-///     SceneError, OutputError, ValueError: As `simulate`.
+/// Raises
+/// ------
+/// SceneError, OutputError, ValueError
+///     As `simulate`.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-///     >>> [result.accepted for result in plydrape.batch.simulate([scene, scene])]
-///     [True, True]
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+/// >>> [result.accepted for result in plydrape.batch.simulate([scene, scene])]
+/// [True, True]
 #[pyfunction]
 #[pyo3(name = "simulate_all", signature = (
     scenes: "typing.Iterable[Scene]", *,
@@ -85,29 +95,35 @@ pub fn simulate_all(
 }
 
 /// What is kept of one equilibrium of many.
-struct Found {
-    status: Status,
-    iterations: usize,
-    forces: Vec<f64>,
-    slopes: Vec<[f64; 2]>,
-    shear: Vec<f64>,
+#[derive(serde::Serialize, serde::Deserialize)]
+pub struct Found {
+    pub converged: bool,
+    pub iterations: usize,
+    #[serde(with = "crate::pickle::or_null")]
+    pub forces: Vec<f64>,
+    pub slopes: Vec<[f64; 2]>,
+    pub shear: Vec<f64>,
 }
 
 /// Many equilibria of one ply. Catenaries are counted as in `Ply`.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> batch = plydrape.batch.equilibria(plydrape.Solver.of(scene), scene.positions[:20])
-///     >>> len(batch), batch.slopes.shape
-///     (20, (20, 16, 2))
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+/// >>> batch = plydrape.batch.equilibria(plydrape.Solver.of(scene), scene.positions[:20])
+/// >>> len(batch), batch.slopes.shape
+/// (20, (20, 16, 2))
 #[pyclass(frozen, module = "plydrape")]
 pub struct Equilibria {
-    grid: Grid,
-    lines: Arc<Lines>,
-    found: Vec<Found>,
+    pub ply: Arc<Ply>,
+    pub found: Vec<Found>,
 }
 
 impl Equilibria {
+    fn lines(&self) -> Arc<Lines> {
+        self.ply.lines()
+    }
+
     fn array<const N: usize>(
         &self,
         count: usize,
@@ -124,7 +140,7 @@ impl Equilibria {
     /// Whether each was found, shape (n,).
     #[getter]
     fn converged(&self) -> Array<bool> {
-        let converged = self.found.iter().map(|found| found.status == Status::Converged);
+        let converged = self.found.iter().map(|found| found.converged);
         Array::new(&[self.found.len()], converged.collect())
     }
 
@@ -138,19 +154,19 @@ impl Equilibria {
     /// Horizontal forces (N), shape (n, catenaries); nan of stretched diagonals and straight catenaries.
     #[getter]
     fn forces(&self) -> Array<f64> {
-        self.array(self.lines.catenaries(), |found| found.forces.as_chunks::<1>().0, &[])
+        self.array(self.lines().catenaries(), |found| found.forces.as_chunks::<1>().0, &[])
     }
 
     /// Slopes at the ends of each catenary, shape (n, catenaries, 2).
     #[getter]
     fn slopes(&self) -> Array<f64> {
-        self.array(self.lines.catenaries(), |found| &found.slopes, &[2])
+        self.array(self.lines().catenaries(), |found| &found.slopes, &[2])
     }
 
     /// Shear angles (rad), shape (n, cells); 0 where no diagonal is stretched.
     #[getter]
     fn shear(&self) -> Array<f64> {
-        self.array(self.lines.cells().len(), |found| found.shear.as_chunks::<1>().0, &[])
+        self.array(self.lines().cells().len(), |found| found.shear.as_chunks::<1>().0, &[])
     }
 
     fn __len__(&self) -> usize {
@@ -161,33 +177,43 @@ impl Equilibria {
         format!(
             "<plydrape.Equilibria, {} of {} × {} grippers>",
             self.found.len(),
-            self.grid.nu,
-            self.grid.nv
+            self.ply.grid.nu,
+            self.ply.grid.nv
         )
     }
 }
 
 /// Solves for many places of the grippers, on all cores; each from nothing, so that none depends on another.
 ///
-/// Args:
-///     solver: The ply and its rules.
-///     positions: Positions of the grippers (m), shape (n, grippers, 3).
-///     threads: How many at once; one a core unless given. The results do not depend on it.
-///     progress: Called with (equilibria done, equilibria, what is done), some 50 times a second.
+/// Parameters
+/// ----------
+/// solver : Solver
+///     The ply and its rules.
+/// positions : array_like
+///     Positions of the grippers (m), shape (n, grippers, 3), i running fastest, or of a whole array (n, along u, along v, 3).
+/// threads : int, optional
+///     How many at once; one a core unless given. The results do not depend on it.
+/// progress : callable, optional
+///     Called with (equilibria done, equilibria, what is done), some 50 times a second.
 ///
-/// Returns:
+/// Returns
+/// -------
+/// Equilibria
 ///     One equilibrium a row; those not found say so in `converged`.
 ///
-/// Raises:
-///     ValueError: If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbours stand (all but)
-///         straight above each other, where the model has no solution; it names the row.
+/// Raises
+/// ------
+/// ValueError
+///     If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors stand (all but)
+///     straight above each other, where the model has no solution; it names the row.
 ///
-/// Example:
-///     >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
-///     >>> level = np.array([[0.098 * i, 0, 0] for i in range(4)])
-///     >>> batch = plydrape.batch.equilibria(plydrape.Solver(ply), [level, 1.01 * level])
-///     >>> batch.forces.shape, batch.converged.all()
-///     ((2, 3), np.True_)
+/// Examples
+/// --------
+/// >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
+/// >>> level = np.array([[0.098 * i, 0, 0] for i in range(4)])
+/// >>> batch = plydrape.batch.equilibria(plydrape.Solver(ply), [level, 1.01 * level])
+/// >>> batch.forces.shape, batch.converged.all()
+/// ((2, 3), np.True_)
 #[pyfunction]
 #[pyo3(signature = (
     solver, positions, *, threads = None,
@@ -196,32 +222,31 @@ impl Equilibria {
 pub fn equilibria(
     py: Python<'_>,
     solver: &Solver,
-    positions: Block<'_>,
+    positions: Numbers<'_>,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Equilibria> {
     let (fresh, ply) = (solver.fresh(), solver.ply());
-    let positions = steps(&positions, "positions", ply.grippers())?;
+    let positions = positions.steps("positions", &ply)?;
     for (n, places) in positions.iter().enumerate() {
         let fault = ply.check_places(places);
         fault.map_err(|fault| PyValueError::new_err(format!("positions[{n}]: {fault}")))?;
     }
     let pool = pool(threads)?;
-    let (grid, lines) = (ply.grid, ply.lines());
-    let graph = Arc::clone(&lines);
+    let (graph, solved) = (ply.lines(), Arc::clone(&ply));
     let found = run(py, progress, move |watch| {
         let contacts = vec![None; graph.catenaries()];
         let solve = |solver: &mut plydrape::equilibrium::Solver, positions: &Vec<[f64; 3]>| {
             solver.forget();
             let equilibrium = solver.solve(positions, &contacts);
             let mut found = Found {
-                status: equilibrium.status,
+                converged: equilibrium.status == Status::Converged,
                 iterations: equilibrium.iterations,
                 forces: vec![f64::NAN; graph.catenaries()],
                 slopes: (0..graph.catenaries())
                     .map(|n| [straight(&graph, positions, n); 2])
                     .collect(),
-                shear: shear_angles(&ply, solver),
+                shear: shear_angles(&solved, solver),
             };
             for (n, element) in solver.problem().elements.iter().enumerate() {
                 if let Some(force) = solver.force(n) {
@@ -250,7 +275,7 @@ pub fn equilibria(
             stretches.flatten_iter().collect()
         })
     })?;
-    Ok(Equilibria { grid, lines, found })
+    Ok(Equilibria { ply, found })
 }
 
 /// Slope of the straight line between the ends of a catenary; 0 where they are above each other.

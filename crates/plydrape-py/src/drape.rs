@@ -1,18 +1,21 @@
 //! `plydrape.simulate` and `plydrape.plan`.
 
-use crate::arrays::{Array, List, Named, list};
+use crate::arrays::{Array, Named, Numbers};
 use crate::error;
 use crate::json::Json;
+use crate::quantity::Amount;
 use crate::result::Result;
 use crate::scene::{Scene, blocks};
 use crate::work::{Watch, run};
 use plydrape::draping;
+use plydrape::draping::record::PlanRecord;
 use plydrape::errors::{self, Robustness};
-use plydrape::planner::{self, Checkpoint, Planned};
+use plydrape::motion::TimedMotion;
+use plydrape::planner::{self, Checkpoint};
 use plydrape::scene::{Model, PlanMethod};
 use plydrape_io::ResultFile;
 use plydrape_io::plan as plan_file;
-use plydrape_io::scene::{Measured, SceneFile, quantity};
+use plydrape_io::scene::{Measured, SceneFile};
 use plydrape_io::sheet::{SheetDrapeError, SheetSize};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -25,27 +28,39 @@ use std::time::{Duration, Instant};
 ///
 /// Other threads of Python run on meanwhile, and Ctrl-C ends it. A scene with errors is judged by a sample of its cells too.
 ///
-/// Args:
-///     scene: The scene.
-///     model: The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
-///     without_errors: Whether the errors of the scene are left out.
-///     progress: Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
+/// Parameters
+/// ----------
+/// scene : Scene
+///     The scene.
+/// model : {"sheet", "catenaries"}, optional
+///     The model that decides, instead of the scene's: "sheet" or "catenaries". The catenaries are always draped.
+/// without_errors : bool, default False
+///     Whether the errors of the scene are left out.
+/// progress : callable, optional
+///     Called with (steps done, steps, what is done) as the drape gets on, some 50 times a second.
 ///
-/// Returns:
+/// Returns
+/// -------
+/// Result
 ///     The result; a drape that breaks limits is a result all the same.
 ///
-/// Raises:
-///     SceneError: If the scene has no sheet, because its material lacks a stiffness for instance.
-///     OutputError: If the states of the sheet cannot be kept in the folder for temporary files.
-///     ValueError: If there is no such model.
+/// Raises
+/// ------
+/// SceneError
+///     If the scene has no sheet, because its material lacks a stiffness for instance.
+/// OutputError
+///     If the states of the sheet cannot be kept in the folder for temporary files.
+/// ValueError
+///     If there is no such model.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-///     >>> plydrape.simulate(scene).accepted
-///     True
-///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> plydrape.simulate(scene, model="sheet").sheet
-///     <plydrape.Sheet of 341 nodes, 30 states, not accepted>
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+/// >>> plydrape.simulate(scene).accepted
+/// True
+/// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+/// >>> plydrape.simulate(scene, model="sheet").sheet
+/// <plydrape.Sheet of 341 nodes, 30 states, not accepted>
 #[pyfunction]
 #[pyo3(signature = (
     scene, *, model: "typing.Literal['sheet', 'catenaries'] | None" = None, without_errors = false,
@@ -137,31 +152,47 @@ pub fn judge_errors(result: &mut ResultFile, robustness: &Robustness, watch: &Wa
 /// The plan is then judged with errors: by a sample of cells where the scene has `errors`, and by the errors that it stands. That takes
 /// those of the sample and some forty drapes more, which `time` does not bound.
 ///
-/// Args:
-///     scene: The scene, with mold and target.
-///     method: "path" or "stepwise", instead of the scene's.
-///     seed: Seed of the search, instead of the scene's: the same seed, the same plan.
-///     improve: Whether to go on improving a plan that keeps all limits with a margin, until the `evaluations` of the scene's
-///         `plan` are used up or the time is over, instead of what the scene says.
-///     time: Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
-///         drape that decides on that plan may take a little longer.
-///     checkpoint: Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
-///     without_errors: Whether the plan is judged without errors.
-///     progress: Called with (candidates draped, most, what is done), some 50 times a second.
+/// Parameters
+/// ----------
+/// scene : Scene
+///     The scene, with mold and target.
+/// method : {"path", "stepwise"}, optional
+///     "path" or "stepwise", instead of the scene's.
+/// seed : int, optional
+///     Seed of the search, instead of the scene's: the same seed, the same plan.
+/// improve : bool, optional
+///     Whether to go on improving a plan that keeps all limits with a margin, until the `evaluations` of the scene's
+///     `plan` are used up or the time is over, instead of what the scene says.
+/// time : float or str, optional
+///     Time after which the search ends with the best plan so far, in seconds or with a unit, as "5 min"; the
+///     drape that decides on that plan may take a little longer.
+/// checkpoint : str, optional
+///     Text of the plan.json of an earlier search, from which to continue: see `Plan.checkpoint`.
+/// without_errors : bool, default False
+///     Whether the plan is judged without errors.
+/// progress : callable, optional
+///     Called with (candidates draped, most, what is done), some 50 times a second.
 ///
-/// Returns:
+/// Returns
+/// -------
+/// Plan
 ///     The best plan found, whether or not it is accepted.
 ///
-/// Raises:
-///     PlanError: If the scene has no mold or target, or `checkpoint` is not of its ply.
-///     SceneError: If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
-///     ValueError: If there is no such method, `time` is no time above zero, or `checkpoint` is no plan.json.
+/// Raises
+/// ------
+/// PlanError
+///     If the scene has no mold or target, or `checkpoint` is not of its ply.
+/// SceneError
+///     If its motion has a `duration`, which a plan would ignore, or if it has no sheet where that decides.
+/// ValueError
+///     If there is no such method, `time` is no time above zero, or `checkpoint` is no plan.json.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> plan = plydrape.plan(scene, without_errors=True)
-///     >>> plan.method, plan.result.accepted
-///     ('path', True)
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+/// >>> plan = plydrape.plan(scene, without_errors=True)
+/// >>> plan.method, plan.result.accepted
+/// ('path', True)
 #[pyfunction]
 #[pyo3(signature = (
     scene, *, method: "typing.Literal['path', 'stepwise'] | None" = None, seed = None, improve = None,
@@ -175,7 +206,7 @@ pub fn plan(
     method: Option<&str>,
     seed: Option<u64>,
     improve: Option<bool>,
-    time: Option<Time>,
+    time: Option<Amount>,
     checkpoint: Option<&str>,
     without_errors: bool,
     progress: Option<&Bound<'_, PyAny>>,
@@ -192,7 +223,7 @@ pub fn plan(
     }
     scene.plan.seed = seed.unwrap_or(scene.plan.seed);
     scene.plan.improve = improve.unwrap_or(scene.plan.improve);
-    let time = time.map(Time::duration).transpose()?;
+    let time = time.map(|time| duration(&time)).transpose()?;
     let checkpoint: Option<Checkpoint> =
         checkpoint.map(plan_file::read).transpose().map_err(|fault| {
             PyValueError::new_err(format!(
@@ -219,48 +250,45 @@ pub fn plan(
             let robustness = Robustness::of_planned(&scene, planned.motion.steps());
             judge_errors(&mut result, &robustness, watch);
         }
-        Ok(kept.map(|_| Plan { planned: Arc::new(planned), result: Arc::new(result) }))
+        Ok(kept.map(|_| Plan {
+            result: Arc::new(result),
+            record: planned.record,
+            motion: planned.motion,
+            checkpoint: planned.checkpoint,
+            decisions: planned.decisions,
+            time_over: planned.interrupted,
+        }))
     })?;
     planned
         .map_err(|fault: planner::PlanError| error::plan(&fault))?
         .map_err(|fault| error::sheet(&fault))
 }
 
-/// A time as Python gives it.
-#[derive(FromPyObject)]
-pub enum Time {
-    /// In seconds.
-    Seconds(f64),
-    /// With its unit, or in seconds.
-    Text(String),
-}
-
-impl Time {
-    fn duration(self) -> PyResult<Duration> {
-        let seconds = match self {
-            Time::Seconds(seconds) => seconds,
-            Time::Text(text) => quantity(&text, Measured::Time).map_err(|refused| {
-                PyValueError::new_err(format!("time: {}; {}", refused.message, refused.help))
-            })?,
-        };
-        Duration::try_from_secs_f64(seconds).ok().filter(|time| !time.is_zero()).ok_or_else(|| {
-            let text = format!("time is {seconds} s; a time above zero is wanted, e.g. \"5 min\"");
-            PyValueError::new_err(text)
-        })
-    }
+/// A time above zero.
+fn duration(time: &Amount) -> PyResult<Duration> {
+    let seconds = time.si("time", Measured::Time)?;
+    Duration::try_from_secs_f64(seconds).ok().filter(|time| !time.is_zero()).ok_or_else(|| {
+        let text = format!("time is {seconds} s; a time above zero is wanted, e.g. \"5 min\"");
+        PyValueError::new_err(text)
+    })
 }
 
 /// A planned motion, and the drape along it.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> plan = plydrape.plan(scene, without_errors=True)
-///     >>> plan.accepted, plan.positions.shape[1:]
-///     (True, (8, 3))
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+/// >>> plan = plydrape.plan(scene, without_errors=True)
+/// >>> plan.accepted, plan.positions.shape[1:]
+/// (True, (8, 3))
 #[pyclass(frozen, module = "plydrape")]
 pub struct Plan {
-    planned: Arc<Planned>,
-    result: Arc<ResultFile>,
+    pub result: Arc<ResultFile>,
+    pub record: PlanRecord,
+    pub motion: TimedMotion,
+    pub checkpoint: Checkpoint,
+    pub decisions: usize,
+    pub time_over: bool,
 }
 
 #[pymethods]
@@ -274,7 +302,7 @@ impl Plan {
     /// The planner: "path" or "stepwise".
     #[getter]
     fn method(&self) -> &'static str {
-        match self.planned.record.method {
+        match self.record.method {
             PlanMethod::Path => "path",
             PlanMethod::Stepwise => "stepwise",
         }
@@ -283,20 +311,20 @@ impl Plan {
     /// Drapes that the search took; of the stepwise planner, steps.
     #[getter]
     fn evaluations(&self) -> usize {
-        self.planned.record.evaluations
+        self.record.evaluations
     }
 
     /// How many of these drapes decided on a plan, with the mesh of the scene where the sheet decides; the others ranked
     /// candidates.
     #[getter]
     fn decisions(&self) -> usize {
-        self.planned.decisions
+        self.decisions
     }
 
     /// Whether the search ended because its time was over.
     #[getter]
     fn time_over(&self) -> bool {
-        self.planned.interrupted
+        self.time_over
     }
 
     /// Whether every limit is kept, by the model that decides, and in enough cells of the sample where the scene has errors.
@@ -308,7 +336,7 @@ impl Plan {
     /// How long the motion takes (s).
     #[getter]
     fn duration(&self) -> f64 {
-        self.planned.motion.duration()
+        self.motion.duration()
     }
 
     /// What limits the time of the motion, that of the longest time first.
@@ -317,40 +345,45 @@ impl Plan {
     /// which it is that for the longest as [i, j], None of the frame of a tool.
     #[getter]
     fn limited_by(&self) -> PyResult<Vec<Json>> {
-        self.planned.record.limited_by.iter().map(Json::of).collect()
+        self.record.limited_by.iter().map(Json::of).collect()
     }
 
     /// Time of each planned step (s), shape (steps,).
     #[getter]
     fn times(&self) -> Array<f64> {
-        let times = self.planned.motion.times().to_vec();
+        let times = self.motion.times().to_vec();
         Array::new(&[times.len()], times)
     }
 
     /// Planned positions of the grippers (m), shape (steps, grippers, 3): control points of the smooth motion.
     #[getter]
     fn positions(&self) -> Array<f64> {
-        blocks(self.planned.motion.positions(), self.planned.motion.grippers())
+        blocks(self.motion.positions(), self.motion.grippers())
     }
 
     /// The grippers at any times of the motion.
     ///
-    /// Args:
-    ///     times: Times (s), shape (n,).
+    /// Parameters
+    /// ----------
+    /// times : array_like
+    ///     Times (s), shape (n,).
     ///
-    /// Returns:
+    /// Returns
+    /// -------
+    /// dict[str, ndarray]
     ///     "positions", "velocities", "accelerations" and "jerks" (m, s), each of shape (n, grippers, 3).
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> plan = plydrape.plan(scene, without_errors=True)
-    ///     >>> motion = plan.motion(np.linspace(0, plan.duration, 101))
-    ///     >>> speeds = np.linalg.norm(motion["velocities"], axis=2)
-    ///     >>> bool(speeds.max() < 0.25), bool(speeds[[0, -1]].max() < 1e-9)
-    ///     (True, True)
-    fn motion(&self, times: List<'_>) -> PyResult<Named> {
-        let times = list(&times, "times")?;
-        let motion = &self.planned.motion;
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> plan = plydrape.plan(scene, without_errors=True)
+    /// >>> motion = plan.motion(np.linspace(0, plan.duration, 101))
+    /// >>> speeds = np.linalg.norm(motion["velocities"], axis=2)
+    /// >>> bool(speeds.max() < 0.25), bool(speeds[[0, -1]].max() < 1e-9)
+    /// (True, True)
+    fn motion(&self, times: Numbers<'_>) -> PyResult<Named> {
+        let times = times.list("times")?;
+        let motion = &self.motion;
         let every = |at: &dyn Fn(f64) -> Vec<[f64; 3]>| {
             let steps: Vec<_> = times.iter().map(|t| at(*t)).collect();
             blocks(&steps, motion.grippers())
@@ -366,24 +399,37 @@ impl Plan {
     /// The checkpoint from which a later search continues: the text of plan.json.
     #[getter]
     fn checkpoint(&self) -> PyResult<String> {
-        plan_file::text(&self.planned.checkpoint).map_err(|fault| error::output(&fault.into()))
+        plan_file::text(&self.checkpoint).map_err(|fault| error::output(&fault.into()))
     }
 
     /// Writes result.json, steps.csv, trajectory.csv, motion.csv, figure.svg, report.html, plan.json, and of a sheet sheet.npz, into a
     /// folder, all or none, and returns their paths.
     ///
-    /// Raises:
-    ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+    /// Parameters
+    /// ----------
+    /// folder : str or path
+    ///     The folder; it is made where there is none.
     ///
-    /// Example:
-    ///     >>> import tempfile
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> plan = plydrape.plan(scene, without_errors=True)
-    ///     >>> with tempfile.TemporaryDirectory() as folder:
-    ///     ...     sorted(path.name for path in plan.write(folder))
-    ///     ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
+    /// Returns
+    /// -------
+    /// list of Path
+    ///     The paths of the files.
+    ///
+    /// Raises
+    /// ------
+    /// OutputError
+    ///     If that cannot be done; a file that plydrape did not write is never overwritten.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import tempfile
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> plan = plydrape.plan(scene, without_errors=True)
+    /// >>> with tempfile.TemporaryDirectory() as folder:
+    /// ...     sorted(path.name for path in plan.write(folder))
+    /// ['figure.svg', 'motion.csv', 'plan.json', 'report.html', 'result.json', ...]
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
-        let write = || plan_file::write_all(&self.result, &self.planned.checkpoint, &folder);
+        let write = || plan_file::write_all(&self.result, &self.checkpoint, &folder);
         py.detach(write).map_err(|fault| error::output(&fault))
     }
 

@@ -17,11 +17,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 ///
 /// Catenaries are counted as in `Ply`.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-///     >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
-///     >>> equilibrium.forces.round(4)
-///     array([0.4177])
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+/// >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+/// >>> equilibrium.forces.round(4)
+/// array([0.4177])
 #[pyclass(frozen, module = "plydrape")]
 pub struct Equilibrium {
     pub state: Mutex<State>,
@@ -126,12 +127,23 @@ impl Equilibrium {
 
     /// Points along each catenary (m) at equal parts of its run, shape (catenaries, stations, 3).
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
-    ///     >>> lowest = equilibrium.points(5)[0, 2]
-    ///     >>> (lowest * 1e3).round(1)
-    ///     array([49. ,  0. , -8.7])
+    /// Parameters
+    /// ----------
+    /// stations : int, default 17
+    ///     How many points on each catenary, 2 or more.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray
+    ///     The points (m), shape (catenaries, stations, 3).
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+    /// >>> lowest = equilibrium.points(5)[0, 2]
+    /// >>> (lowest * 1e3).round(1)
+    /// array([49. ,  0. , -8.7])
     #[pyo3(signature = (stations = 17))]
     fn points(&self, stations: usize) -> PyResult<Array<f64>> {
         let (spans, count) = (&self.shape.spans, at_least_two(stations)?);
@@ -144,20 +156,31 @@ impl Equilibrium {
     /// They hold where the equilibrium is smooth: not where a diagonal just begins to shear, or a slope just
     /// reaches its limit.
     ///
-    /// Args:
-    ///     wrt: To what: "grippers", their positions (m), axes (grippers, 3); "lengths", the fabric of a cell along
-    ///         u and v (m), axis (2,); "material", its `names`, axis (names,): mass and rigidities in SI units.
+    /// Parameters
+    /// ----------
+    /// wrt : {"grippers", "lengths", "material"}
+    ///     To what: "grippers", their positions (m), axes (grippers, 3); "lengths", the fabric of a cell along
+    ///     u and v (m), axis (2,); "material", its `names`, axis (names,): mass and rigidities in SI units.
     ///
-    /// Raises:
-    ///     ValueError: If there is no such `wrt`, or the derivatives would take more memory than allowed.
-    ///     SolveError: If the equilibrium was not found, or a rigidity is zero: it has no neighbourhood.
+    /// Returns
+    /// -------
+    /// Jacobian
+    ///     The derivatives.
     ///
-    /// Example:
-    ///     >>> ply = plydrape.Ply(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018")
-    ///     >>> equilibrium = plydrape.Solver(ply).solve([[0, 0, 0], [0.098, 0, 0]])
-    ///     >>> jacobian = equilibrium.jacobian(wrt="grippers")
-    ///     >>> jacobian.forces.shape, jacobian.points(5).shape
-    ///     ((1, 2, 3), (1, 5, 3, 2, 3))
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is no such `wrt`, or the derivatives would take more memory than allowed.
+    /// SolveError
+    ///     If the equilibrium was not found, or a rigidity is zero: it has no neighborhood.
+    ///
+    /// Examples
+    /// --------
+    /// >>> ply = plydrape.Ply(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018")
+    /// >>> equilibrium = plydrape.Solver(ply).solve([[0, 0, 0], [0.098, 0, 0]])
+    /// >>> jacobian = equilibrium.jacobian(wrt="grippers")
+    /// >>> jacobian.forces.shape, jacobian.points(5).shape
+    /// ((1, 2, 3), (1, 5, 3, 2, 3))
     #[pyo3(signature = (*, wrt: "typing.Literal['grippers', 'lengths', 'material']"))]
     fn jacobian(&self, py: Python<'_>, wrt: &str) -> PyResult<Jacobian> {
         let ply = self.ply();

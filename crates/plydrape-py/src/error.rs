@@ -2,13 +2,15 @@
 
 use plydrape_io::OutputError;
 use plydrape_io::result::read::ReadError;
-use plydrape_io::scene::SceneError;
+use plydrape_io::scene::{SceneError, Unread};
 use plydrape_io::sheet::SheetDrapeError;
 use plydrape_io::size::SizeError;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::fmt::Display;
+use std::io;
+use std::path::Path;
 
 /// An exception of `plydrape.errors` by its name, with fields.
 fn raise(py: Python<'_>, name: &str, text: &dyn Display, fields: &Bound<'_, PyDict>) -> PyErr {
@@ -19,8 +21,33 @@ fn raise(py: Python<'_>, name: &str, text: &dyn Display, fields: &Bound<'_, PyDi
     made().unwrap_or_else(|error| error)
 }
 
+/// The same about a file that the file system refused: also the exception that Python has for that.
+fn of_file(py: Python<'_>, error: PyErr, path: &Path, kind: io::ErrorKind) -> PyErr {
+    let kind = match kind {
+        io::ErrorKind::NotFound => "FileNotFoundError",
+        io::ErrorKind::PermissionDenied => "PermissionError",
+        io::ErrorKind::IsADirectory => "IsADirectoryError",
+        _ => "OSError",
+    };
+    let made = || -> PyResult<PyErr> {
+        let make = py.import("plydrape.errors")?.getattr("of_file")?;
+        Ok(PyErr::from_value(make.call1((error.value(py), kind, path))?))
+    };
+    made().unwrap_or_else(|error| error)
+}
+
 fn plain(name: &str, text: &dyn Display) -> PyErr {
     Python::attach(|py| raise(py, name, text, &PyDict::new(py)))
+}
+
+fn plain_of_file(name: &str, text: &dyn Display, path: &Path, kind: io::ErrorKind) -> PyErr {
+    Python::attach(|py| of_file(py, plain(name, text), path, kind))
+}
+
+/// A file beside the scene, such as a template, that cannot be read.
+pub fn unread(path: &Path, fault: &io::Error) -> PyErr {
+    let text = format!("{} cannot be read: {fault}", path.display());
+    plain_of_file("OutputError", &text, path, fault.kind())
 }
 
 /// A refused scene.
@@ -36,9 +63,12 @@ pub fn scene(error: &SceneError) -> PyErr {
             fields.set_item("help", &error.help)?;
             Ok(fields)
         };
-        match fields() {
-            Ok(fields) => raise(py, "SceneError", error, &fields),
-            Err(error) => error,
+        match (fields(), error.unread.as_deref()) {
+            (Ok(fields), Some(Unread { path, kind })) => {
+                of_file(py, raise(py, "SceneError", error, &fields), path, *kind)
+            }
+            (Ok(fields), None) => raise(py, "SceneError", error, &fields),
+            (Err(error), _) => error,
         }
     })
 }
@@ -53,6 +83,7 @@ pub fn sheet(fault: &SheetDrapeError) -> PyErr {
             span: None,
             message: fault.to_string(),
             help: fault.remedy().into(),
+            unread: None,
         }),
     }
 }
@@ -69,12 +100,23 @@ pub fn plan(error: &dyn Display) -> PyErr {
 
 /// A result file that is none.
 pub fn read(error: &ReadError) -> PyErr {
-    plain("ResultError", &format!("{error}; {}", error.remedy()))
+    let text = format!("{error}; {}", error.remedy());
+    match error {
+        ReadError::Unreadable { path, source } => {
+            plain_of_file("ResultError", &text, path, source.kind())
+        }
+        _ => plain("ResultError", &text),
+    }
 }
 
 /// Results that could not be written.
 pub fn output(error: &OutputError) -> PyErr {
-    plain("OutputError", error)
+    match error {
+        OutputError::Io { path, source, .. } => {
+            plain_of_file("OutputError", error, path, source.kind())
+        }
+        _ => plain("OutputError", error),
+    }
 }
 
 /// An equilibrium or a span without a solution.

@@ -10,12 +10,13 @@ use std::sync::Arc;
 
 /// Derivatives of an `Equilibrium`: each array has the axes of what is differentiated, then those of `wrt`.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-///     >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
-///     >>> jacobian = equilibrium.jacobian(wrt="lengths")
-///     >>> jacobian.names, jacobian.forces.shape, jacobian.slopes.shape
-///     (['u', 'v'], (1, 2), (1, 2, 2))
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+/// >>> equilibrium = plydrape.Solver.of(scene).solve(scene.positions[0])
+/// >>> jacobian = equilibrium.jacobian(wrt="lengths")
+/// >>> jacobian.names, jacobian.forces.shape, jacobian.slopes.shape
+/// (['u', 'v'], (1, 2), (1, 2, 2))
 #[pyclass(frozen, module = "plydrape")]
 pub struct Jacobian {
     pub axes: Vec<usize>,
@@ -93,11 +94,22 @@ impl Jacobian {
 
     /// Derivatives of the points (m) at fixed parts of the runs, shape (catenaries, stations, 3, …).
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
-    ///     >>> equilibrium.jacobian(wrt="material").points(5).shape
-    ///     (1, 5, 3, 2)
+    /// Parameters
+    /// ----------
+    /// stations : int, default 17
+    ///     How many points on each catenary, 2 or more.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray
+    ///     The derivatives, shape (catenaries, stations, 3, …).
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> equilibrium = plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]])
+    /// >>> equilibrium.jacobian(wrt="material").points(5).shape
+    /// (1, 5, 3, 2)
     #[pyo3(signature = (stations = 17))]
     fn points(&self, stations: usize) -> PyResult<Array<f64>> {
         let count = at_least_two(stations)?;

@@ -8,13 +8,17 @@ mod batch;
 mod drape;
 mod equilibrium;
 mod error;
+mod fit;
 mod jacobian;
 mod json;
+mod limits;
 mod measure;
 mod mold;
 mod net;
 mod outcome;
+mod pickle;
 mod ply;
+mod quantity;
 mod result;
 mod sample;
 mod scene;
@@ -37,6 +41,8 @@ mod _plydrape {
     #[pymodule_export]
     use crate::equilibrium::Equilibrium;
     #[pymodule_export]
+    use crate::fit::fit;
+    #[pymodule_export]
     use crate::jacobian::Jacobian;
     #[pymodule_export]
     use crate::measure::{Measure, measures};
@@ -47,7 +53,11 @@ mod _plydrape {
     #[pymodule_export]
     use crate::outcome::{Outcome, outcome};
     #[pymodule_export]
+    use crate::pickle::{restore, state};
+    #[pymodule_export]
     use crate::ply::{Material, Ply};
+    #[pymodule_export]
+    use crate::quantity::si;
     #[pymodule_export]
     use crate::result::Result;
     #[pymodule_export]

@@ -5,10 +5,11 @@ use pyo3::prelude::*;
 
 /// Something that is measured of a drape: what it is called, in which unit, and how a limit bounds it.
 ///
-/// Example:
-///     >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
-///     >>> [(measure.label, measure.shown) for measure in shares]
-///     [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm')]
+/// Examples
+/// --------
+/// >>> shares = [measure for measure in plydrape.measures() if measure.sense == "at-least"]
+/// >>> [(measure.label, measure.shown) for measure in shares]
+/// [('contact share', '%'), ('gripper distance', 'mm'), ('clearance', 'mm')]
 #[pyclass(frozen, eq, hash, module = "plydrape")]
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Measure(Name);
@@ -17,7 +18,7 @@ pub struct Measure(Name);
 impl Measure {
     /// Its key in `Result.measures` and in each step of a result, the unit at its end where it has one.
     #[getter]
-    fn key(&self) -> &'static str {
+    pub fn key(&self) -> &'static str {
         self.0.measure().key()
     }
 
@@ -81,10 +82,16 @@ impl Measure {
 
 /// Everything that is measured of drapes, in the order of tables.
 ///
-/// Example:
-///     >>> tilt = next(measure for measure in plydrape.measures() if measure.name == "tilt")
-///     >>> tilt.key, tilt.unit, tilt.shown, tilt.sense, tilt.scope
-///     ('tilt_deg', 'deg', '°', 'at-most', 'every-step')
+/// Returns
+/// -------
+/// list of Measure
+///     One for each measure.
+///
+/// Examples
+/// --------
+/// >>> tilt = next(measure for measure in plydrape.measures() if measure.name == "tilt")
+/// >>> tilt.key, tilt.unit, tilt.shown, tilt.sense, tilt.scope
+/// ('tilt_deg', 'deg', '°', 'at-most', 'every-step')
 #[pyfunction]
 pub fn measures() -> Vec<Measure> {
     Name::ALL.iter().map(|name| Measure(*name)).collect()

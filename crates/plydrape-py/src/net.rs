@@ -10,10 +10,11 @@ use std::sync::Arc;
 
 /// The ideal drape: the fabric as a pin-jointed net on the mold.
 ///
-/// Example:
-///     >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
-///     >>> net.nodes.shape
-///     (24, 24, 3)
+/// Examples
+/// --------
+/// >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
+/// >>> net.nodes.shape
+/// (24, 24, 3)
 #[pyclass(frozen, module = "plydrape")]
 #[derive(Clone)]
 pub struct Net(pub Arc<net::Net>);
@@ -23,13 +24,26 @@ impl Net {
     /// Lays the ply of a scene file on its mold, whether or not grippers could bring it there, as `plydrape net`
     /// does.
     ///
-    /// Raises:
-    ///     SceneError: If the file has no `[ply]`, `[mold]` and `[target]` that make sense.
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     The scene file.
     ///
-    /// Example:
-    ///     >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
-    ///     >>> float(net.shear_deg.max().round(3))
-    ///     38.005
+    /// Returns
+    /// -------
+    /// Net
+    ///     The ideal drape.
+    ///
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     If the file has no `[ply]`, `[mold]` and `[target]` that make sense.
+    ///
+    /// Examples
+    /// --------
+    /// >>> net = plydrape.Net.read("examples/hemisphere_net/scene.toml")
+    /// >>> float(net.shear_deg.max().round(3))
+    /// 38.005
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let drape = py.detach(|| scene::read_ideal_drape(&path));
@@ -64,7 +78,7 @@ impl Net {
         )
     }
 
-    /// Fabric between neighbouring nodes along u and v (m).
+    /// Fabric between neighboring nodes along u and v (m).
     #[getter]
     fn mesh(&self) -> (f64, f64) {
         self.0.layup.mesh.into()
@@ -76,7 +90,7 @@ impl Net {
         self.0.missing.iter().map(|m| (m.node.into(), m.to_string())).collect()
     }
 
-    /// Largest error of a length between neighbouring nodes (m).
+    /// Largest error of a length between neighboring nodes (m).
     #[getter]
     fn largest_edge_error(&self) -> f64 {
         self.0.report.largest_edge_error

@@ -9,6 +9,7 @@ use plydrape::planner::sensitivity::{self, Quantity};
 use plydrape_io::{ResultFile, size};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The last step of a drape with its derivatives to where the grippers are in it.
@@ -16,36 +17,84 @@ use std::sync::Arc;
 /// Fabric in contact by then is held: the derivatives are those of the outcome to the grippers' targets as
 /// long as a slightly different last step catches nothing more, and exact where the state is smooth.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> outcome = plydrape.outcome(scene)
-///     >>> worst = outcome.overstretch.argmax()
-///     >>> outcome.overstretch_jacobian[worst].shape
-///     (8, 3)
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+/// >>> outcome = plydrape.outcome(scene)
+/// >>> worst = outcome.overstretch.argmax()
+/// >>> outcome.overstretch_jacobian[worst].shape
+/// (8, 3)
 #[pyclass(frozen, module = "plydrape")]
 pub struct Outcome {
-    result: Result,
+    pub result: Result,
+    pub quantities: Quantities,
+}
+
+/// What is differentiated.
+#[derive(Clone, Serialize, Deserialize)]
+pub struct Quantities {
     grippers: usize,
-    overstretch: Vec<Option<Quantity>>,
-    force: Vec<Option<Quantity>>,
-    shear: Vec<Option<Quantity>>,
-    tilt: Vec<Option<Quantity>>,
+    overstretch: Rows,
+    force: Rows,
+    shear: Rows,
+    tilt: Rows,
+}
+
+/// Values with their derivatives to the positions of all grippers; nan where there is none.
+#[derive(Clone, Serialize, Deserialize)]
+struct Rows {
+    #[serde(with = "crate::pickle::or_null")]
+    values: Vec<f64>,
+    #[serde(with = "crate::pickle::or_null")]
+    gradients: Vec<f64>,
+}
+
+impl Rows {
+    fn of(quantities: &[Option<Quantity>], grippers: usize) -> Self {
+        let width = 3 * grippers;
+        let value = |quantity: &Option<Quantity>| quantity.as_ref().map_or(f64::NAN, |q| q.value);
+        let gradient = |quantity: &Option<Quantity>| match quantity {
+            Some(quantity) => quantity.gradient.dense(width),
+            None => vec![f64::NAN; width],
+        };
+        let values = quantities.iter().map(value).collect();
+        Rows { values, gradients: quantities.iter().flat_map(gradient).collect() }
+    }
+
+    fn values(&self) -> Array<f64> {
+        Array::new(&[self.values.len()], self.values.clone())
+    }
+
+    fn gradients(&self, grippers: usize) -> Array<f64> {
+        Array::new(&[self.values.len(), grippers, 3], self.gradients.clone())
+    }
 }
 
 /// Drapes a scene along its motion and differentiates where the ply has come to.
 ///
-/// Args:
-///     scene: The scene.
-///     progress: As that of `simulate`.
+/// Parameters
+/// ----------
+/// scene : Scene
+///     The scene.
+/// progress : callable, optional
+///     As that of `simulate`.
 ///
-/// Raises:
-///     ValueError: If the drape has no steps, or the derivatives would take more memory than allowed.
+/// Returns
+/// -------
+/// Outcome
+///     The last step with its derivatives.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-///     >>> outcome = plydrape.outcome(scene)
-///     >>> outcome.overstretch.shape, outcome.overstretch_jacobian.shape
-///     ((1,), (1, 2, 3))
+/// Raises
+/// ------
+/// ValueError
+///     If the drape has no steps, or the derivatives would take more memory than allowed.
+///
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+/// >>> outcome = plydrape.outcome(scene)
+/// >>> outcome.overstretch.shape, outcome.overstretch_jacobian.shape
+/// ((1,), (1, 2, 3))
 #[pyfunction]
 #[pyo3(signature = (
     scene, *, progress: "typing.Callable[[int, int, str], object] | None" = None
@@ -64,33 +113,17 @@ pub fn outcome(
         Some((found, result))
     })?;
     let (found, result) = found.ok_or_else(|| PyValueError::new_err("the motion has no steps"))?;
-    Ok(Outcome {
-        result: Result(Arc::new(result)),
+    let [overstretch, tilt] =
+        [found.overstretch, found.tilt].map(|all| all.into_iter().map(Some).collect::<Vec<_>>());
+    let rows = |quantities: &[Option<Quantity>]| Rows::of(quantities, grippers);
+    let quantities = Quantities {
         grippers,
-        overstretch: found.overstretch.into_iter().map(Some).collect(),
-        force: found.force,
-        shear: found.shear,
-        tilt: found.tilt.into_iter().map(Some).collect(),
-    })
-}
-
-fn values(quantities: &[Option<Quantity>]) -> Array<f64> {
-    let value = |q: &Option<Quantity>| q.as_ref().map_or(f64::NAN, |q| q.value);
-    Array::new(&[quantities.len()], quantities.iter().map(value).collect())
-}
-
-impl Outcome {
-    fn gradients(&self, quantities: &[Option<Quantity>]) -> Array<f64> {
-        let width = 3 * self.grippers;
-        let mut values = Vec::with_capacity(quantities.len() * width);
-        for quantity in quantities {
-            match quantity {
-                Some(quantity) => values.extend(quantity.gradient.dense(width)),
-                None => values.resize(values.len() + width, f64::NAN),
-            }
-        }
-        Array::new(&[quantities.len(), self.grippers, 3], values)
-    }
+        overstretch: rows(&overstretch),
+        force: rows(&found.force),
+        shear: rows(&found.shear),
+        tilt: rows(&tilt),
+    };
+    Ok(Outcome { result: Result(Arc::new(result)), quantities })
 }
 
 #[pymethods]
@@ -105,52 +138,52 @@ impl Outcome {
     /// (catenaries,): straight where it hangs, along the mold where it lies.
     #[getter]
     fn overstretch(&self) -> Array<f64> {
-        values(&self.overstretch)
+        self.quantities.overstretch.values()
     }
 
     /// Its derivatives to the grippers' positions, shape (catenaries, grippers, 3).
     #[getter]
     fn overstretch_jacobian(&self) -> Array<f64> {
-        self.gradients(&self.overstretch)
+        self.quantities.overstretch.gradients(self.quantities.grippers)
     }
 
     /// Horizontal force of each catenary (N), shape (catenaries,); nan where there is none.
     #[getter]
     fn forces(&self) -> Array<f64> {
-        values(&self.force)
+        self.quantities.force.values()
     }
 
     /// Its derivatives to the grippers' positions (N/m), shape (catenaries, grippers, 3).
     #[getter]
     fn forces_jacobian(&self) -> Array<f64> {
-        self.gradients(&self.force)
+        self.quantities.force.gradients(self.quantities.grippers)
     }
 
     /// Shear angle of each cell (rad), shape (cells,), those along u first; nan where it does not shear.
     #[getter]
     fn shear(&self) -> Array<f64> {
-        values(&self.shear)
+        self.quantities.shear.values()
     }
 
     /// Its derivatives to the grippers' positions (rad/m), shape (cells, grippers, 3).
     #[getter]
     fn shear_jacobian(&self) -> Array<f64> {
-        self.gradients(&self.shear)
+        self.quantities.shear.gradients(self.quantities.grippers)
     }
 
     /// Angle between the ply's normal at each gripper and the vertical (rad), shape (grippers,).
     #[getter]
     fn tilts(&self) -> Array<f64> {
-        values(&self.tilt)
+        self.quantities.tilt.values()
     }
 
     /// Its derivatives to the grippers' positions (rad/m), shape (grippers, grippers, 3); 0 at a level gripper.
     #[getter]
     fn tilts_jacobian(&self) -> Array<f64> {
-        self.gradients(&self.tilt)
+        self.quantities.tilt.gradients(self.quantities.grippers)
     }
 
     fn __repr__(&self) -> String {
-        format!("<plydrape.Outcome of {} grippers>", self.grippers)
+        format!("<plydrape.Outcome of {} grippers>", self.quantities.grippers)
     }
 }

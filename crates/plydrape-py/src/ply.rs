@@ -1,6 +1,6 @@
 //! `plydrape.Ply` and `plydrape.Material`.
 
-use crate::arrays::{Array, List};
+use crate::arrays::{Array, Numbers};
 use crate::scene::text_of;
 use crate::{error, table};
 use plydrape::material::{self, Section};
@@ -18,20 +18,29 @@ use toml::map::Map;
 /// Grippers are counted with i, along u, running fastest. Catenaries are counted: edges along u, edges along
 /// v, then two diagonals a cell, the one from `[i, j]` to `[i + 1, j + 1]` first.
 ///
-/// Args:
-///     grippers: How many there are along u and v; `[n, 1]` is a strip.
-///     cell: Fabric length between neighbours along u and v, in m or as str with a unit.
-///     material: Name of a shipped material, path of a .toml file, or a dict of its keys.
-///     warp: Grid direction of the warp, "u" or "v".
-///     base: Folder of a material file.
+/// Parameters
+/// ----------
+/// grippers : sequence of int
+///     How many there are along u and v; `[n, 1]` is a strip.
+/// cell : sequence of float or str
+///     Fabric length between neighbors along u and v, in m or as str with a unit.
+/// material : str or dict
+///     Name of a shipped material, path of a .toml file, or a dict of its keys.
+/// warp : str, default "u"
+///     Grid direction of the warp, "u" or "v".
+/// base : str or path, optional
+///     Folder of a material file.
 ///
-/// Raises:
-///     SceneError: If a value makes no sense.
+/// Raises
+/// ------
+/// SceneError
+///     If a value makes no sense.
 ///
-/// Example:
-///     >>> ply = plydrape.Ply(grippers=[4, 2], cell=["100 mm", "100 mm"], material="krogh2018")
-///     >>> len(ply.catenaries)
-///     16
+/// Examples
+/// --------
+/// >>> ply = plydrape.Ply(grippers=[4, 2], cell=["100 mm", "100 mm"], material="krogh2018")
+/// >>> len(ply.catenaries)
+/// 16
 #[pyclass(frozen, module = "plydrape")]
 #[derive(Clone)]
 pub struct Ply(pub ply::Ply);
@@ -122,10 +131,11 @@ impl Ply {
     /// Outline of a ply that is cut, fabric coordinates (m), shape (points, 2), counterclockwise; None of one that ends at its
     /// grippers or a margin beyond them.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/13_cut_ply/scene.toml")
-    ///     >>> scene.ply.outline.shape, len(scene.ply.holes), len(scene.ply.places)
-    ///     ((5, 2), 1, 15)
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/13_cut_ply/scene.toml")
+    /// >>> scene.ply.outline.shape, len(scene.ply.holes), len(scene.ply.places)
+    /// ((5, 2), 1, 15)
     #[getter]
     fn outline(&self) -> Option<Array<f64>> {
         Some(ring(self.0.cut.as_ref()?.outline.boundary()))
@@ -159,10 +169,11 @@ fn ring(points: &[[f64; 2]]) -> Array<f64> {
 
 /// What a ply is made of: mass, flexural rigidity, tension, shear curve and locking angle.
 ///
-/// Example:
-///     >>> material = plydrape.Material.shipped("krogh2018")
-///     >>> material.mass, material.flexural_rigidity
-///     (0.3143, 9e-06)
+/// Examples
+/// --------
+/// >>> material = plydrape.Material.shipped("krogh2018")
+/// >>> material.mass, material.flexural_rigidity
+/// (0.3143, 9e-06)
 #[pyclass(frozen, module = "plydrape")]
 #[derive(Clone)]
 pub struct Material(pub material::Material);
@@ -171,12 +182,25 @@ pub struct Material(pub material::Material);
 impl Material {
     /// A material that comes with plydrape, see `materials`.
     ///
-    /// Raises:
-    ///     ValueError: If there is none of that name.
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     Its name.
     ///
-    /// Example:
-    ///     >>> plydrape.Material.shipped("krogh2018").name
-    ///     'krogh2018'
+    /// Returns
+    /// -------
+    /// Material
+    ///     The material.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is none of that name.
+    ///
+    /// Examples
+    /// --------
+    /// >>> plydrape.Material.shipped("krogh2018").name
+    /// 'krogh2018'
     #[staticmethod]
     fn shipped(name: &str) -> PyResult<Self> {
         Material::text(name)?;
@@ -187,12 +211,25 @@ impl Material {
 
     /// The file of a material that comes with plydrape: TOML.
     ///
-    /// Raises:
-    ///     ValueError: If there is none of that name.
+    /// Parameters
+    /// ----------
+    /// name : str
+    ///     Its name.
     ///
-    /// Example:
-    ///     >>> "source" in plydrape.Material.text("krogh2018")
-    ///     True
+    /// Returns
+    /// -------
+    /// str
+    ///     The text of the file.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is none of that name.
+    ///
+    /// Examples
+    /// --------
+    /// >>> "source" in plydrape.Material.text("krogh2018")
+    /// True
     #[staticmethod]
     fn text(name: &str) -> PyResult<&'static str> {
         scene::shipped_material(name).ok_or_else(|| {
@@ -239,7 +276,7 @@ impl Material {
         }
     }
 
-    /// Bending rigidity per width along warp and weft (N·m); None unless `areal`.
+    /// Bending rigidity per width along warp and weft (N·m), at rest where the moment is a table; None unless `areal`.
     #[getter]
     fn bending_rigidity(&self) -> Option<(f64, f64)> {
         match self.0.section {
@@ -250,6 +287,67 @@ impl Material {
         }
     }
 
+    /// Bending moment per width at curvatures, along warp and weft; None unless `areal`.
+    ///
+    /// Parameters
+    /// ----------
+    /// curvatures : array_like
+    ///     Curvatures (1/m), shape (n,).
+    ///
+    /// Returns
+    /// -------
+    /// ndarray or None
+    ///     Moments per width (N) along warp and weft, shape (n, 2).
+    ///
+    /// Examples
+    /// --------
+    /// >>> bending = {"curvature": [0, 10, 30], "moment": [0, 0.02, 0.04]}
+    /// >>> material = {"mass": 0.3, "bending_rigidity_warp": bending, "bending_rigidity_weft": 1e-3}
+    /// >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material=material)
+    /// >>> ply.material.moment([0, 20])
+    /// array([[0.  , 0.  ],
+    ///        [0.03, 0.02]])
+    fn moment(&self, curvatures: Numbers<'_>) -> PyResult<Option<Array<f64>>> {
+        let Some((warp, weft)) = self.bending_rigidity() else { return Ok(None) };
+        let curvatures = curvatures.list("curvatures")?;
+        let row = |kappa: &f64| {
+            let curves = self.0.moment.iter().zip([warp, weft]);
+            curves
+                .map(|(curve, rigidity)| {
+                    curve.as_ref().map_or(rigidity * kappa, |curve| curve.bend(*kappa)[1])
+                })
+                .collect::<Vec<_>>()
+        };
+        let moments: Vec<f64> = curvatures.iter().flat_map(row).collect();
+        Ok(Some(Array::new(&[curvatures.len(), 2], moments)))
+    }
+
+    /// How much its properties scatter between specimens: standard deviations as shares of their values, by the keys of a
+    /// material file. Empty where nothing is said.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scatter = {"mass": 0.02, "bending_rigidity_warp": 0.08}
+    /// >>> material = {"mass": 0.3, "bending_rigidity_warp": 1e-3, "bending_rigidity_weft": 1e-3}
+    /// >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material={**material, "scatter": scatter})
+    /// >>> ply.material.scatter
+    /// {'bending_rigidity_warp': 0.08, 'mass': 0.02}
+    #[getter]
+    fn scatter(&self) -> std::collections::BTreeMap<&'static str, f64> {
+        let scatter = &self.0.scatter;
+        let warp = if self.areal() { "bending_rigidity_warp" } else { "flexural_rigidity" };
+        [
+            ("mass", scatter.mass),
+            (warp, scatter.warp_rigidity),
+            ("bending_rigidity_weft", scatter.weft_rigidity),
+            ("tension", scatter.tension),
+            ("shear_curve", scatter.shear_curve),
+        ]
+        .into_iter()
+        .filter_map(|(key, share)| Some((key, share?)))
+        .collect()
+    }
+
     /// Shear angle at which the weave locks (rad), where it is known.
     #[getter]
     fn locking_angle(&self) -> Option<f64> {
@@ -258,27 +356,55 @@ impl Material {
 
     /// Shear force per length (N/m) at shear angles (rad), shape (n,); None if the material has no shear curve.
     ///
-    /// Example:
-    ///     >>> curve = {"angle": [0, "20 deg"], "force": [0, "10 N/m"]}
-    ///     >>> material = {"mass": 0.3, "flexural_rigidity": 9e-6, "shear_curve": curve}
-    ///     >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material=material)
-    ///     >>> ply.material.shear_force(np.deg2rad([0, 10, 20]))
-    ///     array([ 0.,  5., 10.])
-    fn shear_force(&self, angles: List<'_>) -> Option<Array<f64>> {
-        let curve = self.0.shear_curve.as_ref()?;
-        let forces: Vec<f64> = angles.0.as_array().iter().map(|a| curve.force(*a).0).collect();
-        Some(Array::new(&[forces.len()], forces))
+    /// Parameters
+    /// ----------
+    /// angles : array_like
+    ///     Shear angles (rad), of any shape.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray or None
+    ///     Shear forces per length (N/m), of the same shape.
+    ///
+    /// Examples
+    /// --------
+    /// >>> curve = {"angle": [0, "20 deg"], "force": [0, "10 N/m"]}
+    /// >>> material = {"mass": 0.3, "flexural_rigidity": 9e-6, "shear_curve": curve}
+    /// >>> ply = plydrape.Ply(grippers=[4, 2], cell=[0.1, 0.1], material=material)
+    /// >>> ply.material.shear_force(np.deg2rad([0, 10, 20]))
+    /// array([ 0.,  5., 10.])
+    fn shear_force(&self, angles: Numbers<'_>) -> PyResult<Option<Array<f64>>> {
+        let angles = angles.any("angles")?;
+        let forces = |curve: &material::ShearCurve| {
+            angles.values.iter().map(|angle| curve.force(*angle).0).collect()
+        };
+        let curve = self.0.shear_curve.as_ref();
+        Ok(curve.map(|curve| Array::new(&angles.shape, forces(curve))))
     }
 
     /// Tension per width (N/m) at strains, shape (n,); None if the material does not say it.
     ///
-    /// Example:
-    ///     >>> plydrape.Material.shipped("krogh2018").tension(np.array([0, 0.001]))
-    ///     array([   0., 1000.])
-    fn tension(&self, strains: List<'_>) -> Option<Array<f64>> {
-        let law = self.0.tension.as_ref()?;
-        let forces: Vec<f64> = strains.0.as_array().iter().map(|e| law.tension(*e)[1]).collect();
-        Some(Array::new(&[forces.len()], forces))
+    /// Parameters
+    /// ----------
+    /// strains : array_like
+    ///     Strains, of any shape.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray or None
+    ///     Tensions per width (N/m), of the same shape.
+    ///
+    /// Examples
+    /// --------
+    /// >>> plydrape.Material.shipped("krogh2018").tension(np.array([0, 0.001]))
+    /// array([   0., 1000.])
+    fn tension(&self, strains: Numbers<'_>) -> PyResult<Option<Array<f64>>> {
+        let strains = strains.any("strains")?;
+        let forces = |law: &material::TensionLaw| {
+            strains.values.iter().map(|strain| law.tension(*strain)[1]).collect()
+        };
+        let law = self.0.tension.as_ref();
+        Ok(law.map(|law| Array::new(&strains.shape, forces(law))))
     }
 
     fn __repr__(&self) -> String {

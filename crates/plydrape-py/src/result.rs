@@ -3,21 +3,23 @@
 use crate::arrays::{Array, Named, or_nan};
 use crate::error;
 use crate::json::Json;
+use crate::limits::Limits;
 use crate::mold::{Mold, triangles};
 use crate::net::Net;
 use crate::ply::Ply;
+use crate::quantity::Amount;
 use crate::sample::Sample;
 use crate::sheet::Sheet;
 use crate::surface::Surface;
 use plydrape::draping::record::{CatenaryState, Step};
 use plydrape::equilibrium::Status;
 use plydrape::errors::Term;
-use plydrape::measure::{Name, Scope};
+use plydrape::measure::{Name, Scope, Subject};
 use plydrape::ply::Grid;
 use plydrape_io::mold_patch::mold_patch;
 use plydrape_io::program::{Robot, Template, Tolerance};
 use plydrape_io::replan::PlannedResult;
-use plydrape_io::scene::parse_offset;
+use plydrape_io::scene::{Measured, parse_offset};
 use plydrape_io::{ResultFile, export, figure, folder, page, read, surface};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
@@ -32,11 +34,12 @@ use std::sync::Arc;
 /// Arrays are in m, N, s unless the name says otherwise. Grippers are counted with i running fastest,
 /// catenaries as in `Ply`. Steps count from 1, the start; −1 is the last.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> result = plydrape.simulate(scene)
-///     >>> result.positions.shape, result.summary["first_contact_step"]
-///     ((30, 8, 3), 26)
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+/// >>> result = plydrape.simulate(scene)
+/// >>> result.positions.shape, result.summary["first_contact_step"]
+/// ((30, 8, 3), 26)
 #[pyclass(frozen, module = "plydrape")]
 #[derive(Clone)]
 pub struct Result(pub Arc<ResultFile>);
@@ -79,18 +82,32 @@ impl Result {
 impl Result {
     /// Reads a result.json.
     ///
-    /// Raises:
-    ///     ResultError: If it cannot be read, or is not, to the last byte, what this version writes.
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     The file.
     ///
-    /// Example:
-    ///     >>> import tempfile, pathlib
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> with tempfile.TemporaryDirectory() as folder:
-    ///     ...     path = pathlib.Path(folder) / "result.json"
-    ///     ...     _ = path.write_text(result.to_json())
-    ///     ...     plydrape.Result.read(path).title == result.title
-    ///     True
+    /// Returns
+    /// -------
+    /// Result
+    ///     The result.
+    ///
+    /// Raises
+    /// ------
+    /// ResultError
+    ///     If it cannot be read, or is not, to the last byte, what this version writes. Where there is no such file, it is a
+    ///     FileNotFoundError too.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import tempfile, pathlib
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> with tempfile.TemporaryDirectory() as folder:
+    /// ...     path = pathlib.Path(folder) / "result.json"
+    /// ...     _ = path.write_text(result.to_json())
+    /// ...     plydrape.Result.read(path).title == result.title
+    /// True
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let result = py.detach(|| read::read(&path));
@@ -99,14 +116,27 @@ impl Result {
 
     /// Reads the text of a result.json.
     ///
-    /// Raises:
-    ///     ResultError: As `read`.
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     The text.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> plydrape.Result.parse(result.to_json()).accepted
-    ///     True
+    /// Returns
+    /// -------
+    /// Result
+    ///     The result.
+    ///
+    /// Raises
+    /// ------
+    /// ResultError
+    ///     As `read`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> plydrape.Result.parse(result.to_json()).accepted
+    /// True
     #[staticmethod]
     fn parse(py: Python<'_>, text: &str) -> PyResult<Self> {
         let result = py.detach(|| read::parse(text.as_bytes(), "result.json".as_ref()));
@@ -180,15 +210,18 @@ impl Result {
     /// The whole ply as a sheet over its steps; None where the catenaries decide. Everything else here is of the
     /// catenaries.
     ///
-    /// Raises:
-    ///     ResultError: If sheet.npz is not beside the result that was read, or was changed.
+    /// Raises
+    /// ------
+    /// ResultError
+    ///     If sheet.npz is not beside the result that was read, or was changed.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> plydrape.simulate(scene, model="catenaries").sheet is None
-    ///     True
-    ///     >>> plydrape.simulate(scene, model="sheet").sheet.converged
-    ///     True
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> plydrape.simulate(scene, model="catenaries").sheet is None
+    /// True
+    /// >>> plydrape.simulate(scene, model="sheet").sheet.converged
+    /// True
     #[getter]
     fn sheet(&self, py: Python<'_>) -> PyResult<Option<Sheet>> {
         py.detach(|| Sheet::of(&self.0))
@@ -196,10 +229,11 @@ impl Result {
 
     /// The verdict over a sample of cells with the errors of the scene; None where the scene has none.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> plydrape.simulate(scene).sample is None
-    ///     True
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> plydrape.simulate(scene).sample is None
+    /// True
     #[getter]
     fn sample(&self) -> Option<Sample> {
         self.0.summary.sample.clone().map(Sample)
@@ -238,30 +272,60 @@ impl Result {
         self.0.events().iter().map(Json::of).collect()
     }
 
-    /// Every limit of the catenaries, judged: dicts with name, value, limit, unit, ok, step, where and place.
+    /// Every limit that decides on the drape, judged, by its name: of the sheet and of the motion where the sheet was draped, else of the
+    /// catenaries.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> tilt = plydrape.simulate(scene).limits["tilt"]
+    /// >>> round(tilt.value, 1), tilt.limit, tilt.unit, tilt.step, tilt.kept
+    /// (28.6, 40.0, '°', 9, True)
     #[getter]
-    fn limits(&self) -> PyResult<Vec<Json>> {
-        self.0.summary.limits.iter().map(Json::of).collect()
+    fn limits(&self) -> PyResult<Limits> {
+        let summary = &self.0.summary;
+        let Some(sheet) = &summary.sheet else { return Limits::of(&summary.limits) };
+        let motion =
+            summary.limits.iter().filter(|v| v.name.measure().subject() == Subject::Motion);
+        Limits::of(sheet.limits.iter().chain(motion))
+    }
+
+    /// Every limit of the drape by catenaries, judged, by its name; of a drape with the sheet it does not decide.
+    #[getter]
+    fn catenary_limits(&self) -> PyResult<Limits> {
+        Limits::of(&self.0.summary.limits)
     }
 
     /// The whole result.json as dicts and lists.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> sorted(result.to_dict())
-    ///     ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
+    /// Returns
+    /// -------
+    /// dict
+    ///     The keys of result.json.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> sorted(result.to_dict())
+    /// ['catenaries', 'checksum', 'format', 'plan', 'program', 'scene', 'steps', 'summary', 'version']
     fn to_dict(&self) -> PyResult<Json> {
         Json::of(&*self.0)
     }
 
     /// The text of result.json, with its check sum.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> result.to_json()[:28]
-    ///     '{"format":"plydrape-result",'
+    /// Returns
+    /// -------
+    /// str
+    ///     The text.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> result.to_json()[:28]
+    /// '{"format":"plydrape-result",'
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| ResultFile::text(&self.0)).map_err(|fault| error::output(&fault.into()))
     }
@@ -345,11 +409,22 @@ impl Result {
 
     /// Each catenary of a step as a line from gripper to gripper (m), arrays of shape (n, 3).
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
-    ///     (16, 3)
+    /// Parameters
+    /// ----------
+    /// step : int
+    ///     The step, from 1; −1 is the last.
+    ///
+    /// Returns
+    /// -------
+    /// list of ndarray
+    ///     An array of points (m), shape (n, 3), for each catenary.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> len(result.lines(-1)), result.lines(-1)[0].shape[1]
+    /// (16, 3)
     fn lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
         let (ply, step) = (&self.0.scene.ply, self.step(step)?);
         let graph = ply.lines();
@@ -365,11 +440,22 @@ impl Result {
     /// The lines in which the ply touches the mold in a step (m), one for each catenary that does, arrays of
     /// shape (n, 3).
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> len(result.contact_lines(1)), len(result.contact_lines(26))
-    ///     (0, 3)
+    /// Parameters
+    /// ----------
+    /// step : int
+    ///     The step, from 1; −1 is the last.
+    ///
+    /// Returns
+    /// -------
+    /// list of ndarray
+    ///     An array of points (m), shape (n, 3), for each catenary that touches.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> len(result.contact_lines(1)), len(result.contact_lines(26))
+    /// (0, 3)
     fn contact_lines(&self, step: isize) -> PyResult<Vec<Array<f64>>> {
         let step = self.step(step)?;
         let lines = surface::contact_lines(step, &self.0.curves(step), usize::MAX);
@@ -378,12 +464,25 @@ impl Result {
 
     /// The ply of a step as a surface with so many intervals along each side of a cell.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> surface = result.surface(1, intervals=4)
-    ///     >>> surface.size, surface.points.shape, surface.triangles.shape
-    ///     ((13, 5), (65, 3), (96, 3))
+    /// Parameters
+    /// ----------
+    /// step : int
+    ///     The step, from 1; −1 is the last.
+    /// intervals : int, default 8
+    ///     Intervals along each side of a cell, 1 to 1000.
+    ///
+    /// Returns
+    /// -------
+    /// Surface
+    ///     The surface.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> surface = result.surface(1, intervals=4)
+    /// >>> surface.size, surface.points.shape, surface.triangles.shape
+    /// ((13, 5), (65, 3), (96, 3))
     #[pyo3(signature = (step, *, intervals = 8))]
     fn surface(&self, py: Python<'_>, step: isize, intervals: usize) -> PyResult<Surface> {
         if !(1..=1000).contains(&intervals) {
@@ -397,12 +496,23 @@ impl Result {
     /// The mold under all steps and the target in about `most` triangles: points (m), shape (n, 3), and corners,
     /// shape (m, 3). None without a mold there.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> points, triangles = result.mold_surface(most=100)
-    ///     >>> points.shape[1], len(triangles) <= 100
-    ///     (3, True)
+    /// Parameters
+    /// ----------
+    /// most : int, default 20000
+    ///     About how many triangles at most.
+    ///
+    /// Returns
+    /// -------
+    /// tuple[ndarray, ndarray] or None
+    ///     Points (m), shape (n, 3), and the indices of each triangle's corners, shape (m, 3).
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> points, triangles = result.mold_surface(most=100)
+    /// >>> points.shape[1], len(triangles) <= 100
+    /// (3, True)
     #[pyo3(signature = (*, most = 20_000))]
     fn mold_surface(&self, py: Python<'_>, most: usize) -> Option<(Array<f64>, Array<u32>)> {
         py.detach(|| mold_patch(&self.0, most)).map(triangles)
@@ -413,36 +523,51 @@ impl Result {
     /// The grippers start where the ply lies, the offset is taken out in the air, and the landing is the planned one. What the motion
     /// changes is judged again, and the motion is slower where it would be too fast.
     ///
-    /// Args:
-    ///     offset: The shift x and y (m, or texts with a unit), the yaw (rad, or a text), and the point (x, y) that the ply is turned
-    ///         about, the middle of the grippers at the start unless given.
-    ///     points: Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m.
-    ///     tolerance: How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
-    ///         given.
+    /// Parameters
+    /// ----------
+    /// offset : dict, optional
+    ///     The shift x and y (m, or texts with a unit), the yaw (rad, or a text), and the point (x, y) that the ply is turned
+    ///     about, the middle of the grippers at the start unless given.
+    /// points : sequence of Any, optional
+    ///     Instead of it, pairs of where points were planned and where they were seen, two or more, each (x, y) in m.
+    /// tolerance : float or str, optional
+    ///     How far a point may be from where the others put it (m); as far as points of the ply may land from their places unless
+    ///     given.
     ///
-    /// Raises:
-    ///     SceneError: If offset or points are none.
-    ///     PlanError: If the result was not planned, or the offset cannot be taken out before the ply meets the mold.
+    /// Returns
+    /// -------
+    /// Result
+    ///     The result along the motion that was changed.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> plan = plydrape.plan(scene, without_errors=True)
-    ///     >>> moved = plan.result.replan(offset=dict(x="3 mm", y="-1.5 mm", yaw="0.8 deg"))
-    ///     >>> moved.accepted, bool((moved.positions[-1] == plan.result.positions[-1]).all())
-    ///     (True, True)
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     If offset or points are none.
+    /// PlanError
+    ///     If the result was not planned, or the offset cannot be taken out before the ply meets the mold.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> plan = plydrape.plan(scene, without_errors=True)
+    /// >>> moved = plan.result.replan(offset=dict(x="3 mm", y="-1.5 mm", yaw="0.8 deg"))
+    /// >>> moved.accepted, bool((moved.positions[-1] == plan.result.positions[-1]).all())
+    /// (True, True)
     #[pyo3(signature = (
-        *, offset: "dict[str, float | str | typing.Sequence[float]] | None" = None,
-        points: "typing.Sequence[tuple[typing.Sequence[float], typing.Sequence[float]]] | None" = None,
-        tolerance = None
+        *, offset: "dict[str, float | str | typing.Sequence[float | str]] | None" = None,
+        points: "typing.Sequence[tuple[typing.Sequence[float | str], typing.Sequence[float | str]]] | None" = None,
+        tolerance: "float | str | None" = None
     ))]
     fn replan(
         &self,
         py: Python<'_>,
-        offset: Option<BTreeMap<String, Amount>>,
-        points: Option<Vec<([f64; 2], [f64; 2])>>,
-        tolerance: Option<f64>,
+        offset: Option<BTreeMap<String, Offset>>,
+        points: Option<Vec<([Amount; 2], [Amount; 2])>>,
+        tolerance: Option<Amount>,
     ) -> PyResult<Self> {
-        let text = Amount::file(offset, points);
+        let text = Offset::file(offset, points);
+        let tolerance = tolerance.map(|length| length.si("tolerance", Measured::Length));
+        let tolerance = tolerance.transpose()?;
         let result = py.detach(|| {
             let fault = |fault: &dyn std::fmt::Display, help: &str| {
                 error::plan(&format!("{fault}; {help}"))
@@ -466,16 +591,29 @@ impl Result {
     /// Writes result.json, steps.csv, trajectory.csv, figure.svg, report.html, of a plan motion.csv, and of a sheet
     /// sheet.npz, into a folder, all or none, and returns their paths.
     ///
-    /// Raises:
-    ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+    /// Parameters
+    /// ----------
+    /// folder : str or path
+    ///     The folder; it is made where there is none.
     ///
-    /// Example:
-    ///     >>> import tempfile, pathlib
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> with tempfile.TemporaryDirectory() as folder:
-    ///     ...     sorted(path.name for path in result.write(folder))
-    ///     ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
+    /// Returns
+    /// -------
+    /// list of Path
+    ///     The paths of the files.
+    ///
+    /// Raises
+    /// ------
+    /// OutputError
+    ///     If that cannot be done; a file that plydrape did not write is never overwritten.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import tempfile, pathlib
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> with tempfile.TemporaryDirectory() as folder:
+    /// ...     sorted(path.name for path in result.write(folder))
+    /// ['figure.svg', 'report.html', 'result.json', 'steps.csv', 'trajectory.csv']
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
         py.detach(|| plydrape_io::write_all(&self.0, &folder))
             .map_err(|fault| error::output(&fault))
@@ -483,28 +621,43 @@ impl Result {
 
     /// Writes files for another program or a machine into a folder, all or none, and returns their paths.
     ///
-    /// Args:
-    ///     to: One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
-    ///     folder: Where they go; other files there stay.
-    ///     even_if_rejected: Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
-    ///         result is not accepted; the files say so in their heads.
-    ///     position_error: How far straight lines between points may be from the motion (m); 0.1 mm unless given.
-    ///     templates: Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
+    /// Parameters
+    /// ----------
+    /// to : {"vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern", "boundary"}
+    ///     One of "vtk", "inp", "ros2", "rapid", "krl", "urscript", "csv", "svg", "pattern" or "boundary".
+    /// folder : str or path
+    ///     Where they go; other files there stay.
+    /// even_if_rejected : bool, default False
+    ///     Write what drives a machine ("ros2", "rapid", "krl", "urscript" and "csv") although the
+    ///     result is not accepted; the files say so in their heads.
+    /// position_error : float or str, optional
+    ///     How far straight lines between points may be from the motion (m); 0.1 mm unless given.
+    /// templates : sequence of str or path, optional
+    ///     Files of templates in place of the shipped ones, for "rapid", "krl" and "urscript".
     ///
-    /// Raises:
-    ///     OutputError: If that cannot be done.
-    ///     ValueError: If there is no such format.
+    /// Returns
+    /// -------
+    /// list of Path
+    ///     The paths of the files.
     ///
-    /// Example:
-    ///     >>> import tempfile, pathlib
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> with tempfile.TemporaryDirectory() as folder:
-    ///     ...     sorted(path.name for path in result.export("csv", folder))
-    ///     ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
+    /// Raises
+    /// ------
+    /// OutputError
+    ///     If that cannot be done.
+    /// ValueError
+    ///     If there is no such format.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import tempfile, pathlib
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> with tempfile.TemporaryDirectory() as folder:
+    /// ...     sorted(path.name for path in result.export("csv", folder))
+    /// ['motion_wide.csv', 'steps.csv', 'trajectory.csv']
     #[pyo3(signature = (
         to: "typing.Literal['vtk', 'inp', 'ros2', 'rapid', 'krl', 'urscript', 'csv', 'svg', 'pattern', 'boundary']",
-        folder, *, even_if_rejected = false, position_error = None,
+        folder, *, even_if_rejected = false, position_error: "float | str | None" = None,
         templates: "typing.Sequence[str | PathLike[str]]" = Vec::new()
     ))]
     fn export(
@@ -513,7 +666,7 @@ impl Result {
         to: &str,
         folder: PathBuf,
         even_if_rejected: bool,
-        position_error: Option<f64>,
+        position_error: Option<Amount>,
         templates: Vec<PathBuf>,
     ) -> PyResult<Vec<PathBuf>> {
         let format = match to {
@@ -535,10 +688,15 @@ impl Result {
             }
         };
         let default = Tolerance::default();
-        let position = position_error.unwrap_or(default.position);
+        let position = match position_error {
+            Some(length) => length.si("position_error", Measured::Length)?,
+            None => default.position,
+        };
         let read = |path: &PathBuf| -> PyResult<Template> {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            Ok(Template { name, text: std::fs::read_to_string(path)? })
+            let text =
+                std::fs::read_to_string(path).map_err(|fault| error::unread(path, &fault))?;
+            Ok(Template { name, text })
         };
         let options = export::Options {
             even_if_rejected,
@@ -551,27 +709,46 @@ impl Result {
 
     /// The page of `plydrape report`: one HTML file for any browser.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> result.html()[:15]
-    ///     '<!doctype html>'
+    /// Returns
+    /// -------
+    /// str
+    ///     The text of the page.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> result.html()[:15]
+    /// '<!doctype html>'
     fn html(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| page::html(&self.0)).map_err(|fault| error::output(&fault))
     }
 
     /// Writes the page into a file and returns its path.
     ///
-    /// Raises:
-    ///     OutputError: If that cannot be done; a file that plydrape did not write is never overwritten.
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     The file.
     ///
-    /// Example:
-    ///     >>> import tempfile, pathlib
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> with tempfile.TemporaryDirectory() as folder:
-    ///     ...     result.report(pathlib.Path(folder) / "page.html").name
-    ///     'page.html'
+    /// Returns
+    /// -------
+    /// Path
+    ///     The same path.
+    ///
+    /// Raises
+    /// ------
+    /// OutputError
+    ///     If that cannot be done; a file that plydrape did not write is never overwritten.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import tempfile, pathlib
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> with tempfile.TemporaryDirectory() as folder:
+    /// ...     result.report(pathlib.Path(folder) / "page.html").name
+    /// 'page.html'
     fn report(&self, py: Python<'_>, path: PathBuf) -> PyResult<PathBuf> {
         let Some(name) = path.file_name().and_then(|name| name.to_str()) else {
             return Err(PyValueError::new_err(format!("{} names no file", path.display())));
@@ -586,11 +763,22 @@ impl Result {
 
     /// The figure of chosen steps as SVG, unless given of those that figure.svg shows.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> result.svg([1, 26, -1])[:4]
-    ///     '<svg'
+    /// Parameters
+    /// ----------
+    /// steps : SupportsGetItem[int, int], optional
+    ///     The steps, from 1; −1 is the last.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///     The text of the figure.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> result.svg([1, 26, -1])[:4]
+    /// '<svg'
     #[pyo3(signature = (steps = None))]
     fn svg(&self, py: Python<'_>, steps: Option<Vec<isize>>) -> PyResult<String> {
         let steps: Vec<usize> = match steps {
@@ -603,16 +791,25 @@ impl Result {
         py.detach(|| figure::svg(&self.0, &steps)).map_err(|fault| error::output(&fault))
     }
 
-    /// A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs `plydrape[plot]`.
+    /// A figure for a paper, by Matplotlib: see `plydrape.plot`. Needs Matplotlib.
     ///
-    /// Args:
-    ///     kind: "steps", "measures" or "shear".
-    ///     options: Those of the function of that name in `plydrape.plot`.
+    /// Parameters
+    /// ----------
+    /// kind : {"steps", "measures", "shear"}, default "steps"
+    ///     "steps", "measures" or "shear".
+    /// **options
+    ///     Those of the function of that name in `plydrape.plot`.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> figure = result.plot("measures")
+    /// Returns
+    /// -------
+    /// matplotlib.figure.Figure
+    ///     The figure.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> figure = result.plot("measures")
     #[pyo3(signature = (
         kind: "typing.Literal['steps', 'measures', 'shear']" = "steps", **options: "typing.Any"
     ) -> "matplotlib.figure.Figure")]
@@ -626,32 +823,49 @@ impl Result {
 
     /// The page of the result inside a notebook.
     ///
-    /// Args:
-    ///     height: Height of the frame (pixels).
+    /// Parameters
+    /// ----------
+    /// height : int, default 640
+    ///     Height of the frame (pixels).
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> page = result.show(height=400)
+    /// Returns
+    /// -------
+    /// Page
+    ///     The page; a notebook shows it as the last value of a cell.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> page = result.show(height=400)
     #[pyo3(signature = (*, height = 640) -> "plydrape.notebook.Page")]
     fn show<'py>(slf: &Bound<'py, Self>, height: usize) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("plydrape.notebook")?.getattr("show")?.call1((slf, height))
     }
 
-    /// A scene of PyVista: see `plydrape.view`. Needs `plydrape[plot]`.
+    /// A scene of PyVista: see `plydrape.view`. Needs PyVista.
     ///
-    /// Args:
-    ///     step: Which step.
-    ///     options: Those of `plydrape.view.scene3d`.
+    /// Parameters
+    /// ----------
+    /// step : int, optional
+    ///     Which step.
+    /// **options
+    ///     Those of `plydrape.view.scene3d`.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> result = plydrape.simulate(scene)
-    ///     >>> import pyvista
-    ///     >>> pyvista.OFF_SCREEN = True
-    ///     >>> plotter = result.scene3d(-1)
-    ///     >>> "ply" in plotter.actors
-    ///     True
+    /// Returns
+    /// -------
+    /// pyvista.Plotter
+    ///     The plotter: `.show()` opens it.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> result = plydrape.simulate(scene)
+    /// >>> import pyvista
+    /// >>> pyvista.OFF_SCREEN = True
+    /// >>> plotter = result.scene3d(-1)
+    /// >>> "ply" in plotter.actors
+    /// True
     #[pyo3(signature = (step = -1, **options: "typing.Any") -> "pyvista.Plotter")]
     fn scene3d<'py>(
         slf: &Bound<'py, Self>,
@@ -659,6 +873,99 @@ impl Result {
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("plydrape.view")?.getattr("scene3d")?.call((slf, step), options)
+    }
+
+    /// A tidy table of numbers: one row for each thing in each step. Needs pandas.
+    ///
+    /// Column names end in the unit where it is not SI, as the names of the properties do.
+    ///
+    /// Parameters
+    /// ----------
+    /// table : {"measures", "grippers", "catenaries", "limits"}, default "measures"
+    ///     "measures", one row a step; "grippers", one row a step and gripper; "catenaries", one row a step and catenary;
+    ///     "limits", one row a limit that decides.
+    ///
+    /// Returns
+    /// -------
+    /// pandas.DataFrame
+    ///     The table, with a plain index.
+    ///
+    /// Raises
+    /// ------
+    /// ExtraError
+    ///     If pandas is not installed.
+    /// ValueError
+    ///     If there is no such table.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> frame = plydrape.simulate(scene).to_pandas("grippers")
+    /// >>> list(frame.columns[:5])
+    /// ['step', 'time', 'gripper', 'i', 'j']
+    #[pyo3(signature = (
+        table: "typing.Literal['measures', 'grippers', 'catenaries', 'limits']" = "measures"
+    ) -> "pandas.DataFrame")]
+    fn to_pandas<'py>(slf: &Bound<'py, Self>, table: &str) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape._tables")?.getattr("result_frame")?.call1((slf, table))
+    }
+
+    /// Everything over the steps as one labeled data set. Needs xarray.
+    ///
+    /// Its dimensions are `step`, `u` and `v` of the grippers (or `gripper` where they are no whole array), `xyz`, `catenary` and
+    /// `cell_u`, `cell_v`; every variable has its `units` and `long_name`. Names and units are those of the properties.
+    ///
+    /// Returns
+    /// -------
+    /// xarray.Dataset
+    ///     The data set.
+    ///
+    /// Raises
+    /// ------
+    /// ExtraError
+    ///     If xarray is not installed.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> data = plydrape.simulate(scene).to_xarray()
+    /// >>> data["positions"].dims, data["positions"].attrs["units"]
+    /// (('step', 'u', 'v', 'xyz'), 'm')
+    #[pyo3(signature = () -> "xarray.Dataset")]
+    fn to_xarray<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape._tables")?.getattr("result_dataset")?.call1((slf,))
+    }
+
+    /// A step as meshes of PyVista with their numbers, without colors or a window: see `plydrape.view.meshes`. Needs PyVista.
+    ///
+    /// Parameters
+    /// ----------
+    /// step : int, default -1
+    ///     Which step; −1 is the last.
+    ///
+    /// Returns
+    /// -------
+    /// pyvista.MultiBlock
+    ///     The blocks "mold", "ply", "catenaries" and "grippers", and "sheet" where it was draped, as far as there are such.
+    ///
+    /// Raises
+    /// ------
+    /// ExtraError
+    ///     If PyVista is not installed.
+    /// ValueError
+    ///     If there is no such step.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> blocks = plydrape.simulate(scene).to_pyvista()
+    /// >>> blocks.keys()
+    /// ['mold', 'ply', 'catenaries', 'grippers', 'sheet']
+    /// >>> blocks["ply"].array_names
+    /// ['gap_mm', 'height_mm', 'shear_deg']
+    #[pyo3(signature = (step = -1) -> "pyvista.MultiBlock")]
+    fn to_pyvista<'py>(slf: &Bound<'py, Self>, step: isize) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape.view")?.getattr("meshes")?.call1((slf, step))
     }
 
     fn __repr__(&self) -> String {
@@ -669,33 +976,29 @@ impl Result {
 
 /// A value of an offset.
 #[derive(FromPyObject)]
-pub enum Amount {
-    /// In SI units.
-    Number(f64),
-    /// With its unit.
-    Text(String),
+pub enum Offset {
+    /// A shift or an angle.
+    Amount(Amount),
     /// A place.
-    Place([f64; 2]),
+    Place([Amount; 2]),
 }
 
-impl Amount {
+impl Offset {
     /// The text of an offset's file with these values.
     fn file(
-        offset: Option<BTreeMap<String, Amount>>,
-        points: Option<Vec<([f64; 2], [f64; 2])>>,
+        offset: Option<BTreeMap<String, Offset>>,
+        points: Option<Vec<([Amount; 2], [Amount; 2])>>,
     ) -> String {
-        let number = |x: &f64| format!("{x:?}").replace("NaN", "nan");
-        let place = |[x, y]: &[f64; 2]| format!("[{}, {}]", number(x), number(y));
+        let place = |[x, y]: &[Amount; 2]| format!("[{}, {}]", x.toml(), y.toml());
         let mut text = String::new();
         if let Some(offset) = offset {
             text += "[offset]\n";
             for (key, value) in offset {
                 let value = match value {
-                    Amount::Number(value) => number(&value),
-                    Amount::Text(value) => toml_text(&value),
-                    Amount::Place(value) => place(&value),
+                    Offset::Amount(value) => value.toml(),
+                    Offset::Place(value) => place(&value),
                 };
-                let _ = writeln!(text, "{} = {value}", toml_text(&key));
+                let _ = writeln!(text, "{} = {value}", Amount::Text(key).toml());
             }
         }
         for (planned, seen) in points.into_iter().flatten() {
@@ -704,9 +1007,4 @@ impl Amount {
         }
         text
     }
-}
-
-/// A text in quotes.
-fn toml_text(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
 }

@@ -2,21 +2,23 @@
 
 use crate::arrays::{Array, or_nan};
 use crate::json::Json;
+use crate::limits::Limits;
 use plydrape::errors::{CellVerdict, SampleVerdict};
 use pyo3::prelude::*;
 
 /// The verdict over a sample of cells, each with errors of its own: complete drapes along the same motion.
 ///
-/// Example:
-///     >>> tables = dict(
-///     ...     ply=dict(grippers=[2, 2], cell=["100 mm", "100 mm"], material="krogh2018"),
-///     ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
-///     ...     model=dict(kind="catenaries"),
-///     ... )
-///     >>> errors = dict(samples=8, gripper=dict(position=dict(bound="0.1 mm")))
-///     >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=errors)
-///     >>> plydrape.simulate(scene).sample
-///     <plydrape.Sample of 8 cells, 8 accepted, accepted>
+/// Examples
+/// --------
+/// >>> tables = dict(
+/// ...     ply=dict(grippers=[2, 2], cell=["100 mm", "100 mm"], material="krogh2018"),
+/// ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
+/// ...     model=dict(kind="catenaries"),
+/// ... )
+/// >>> errors = dict(samples=8, gripper=dict(position=dict(bound="0.1 mm")))
+/// >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=errors)
+/// >>> plydrape.simulate(scene).sample
+/// <plydrape.Sample of 8 cells, 8 accepted, accepted>
 #[pyclass(frozen, module = "plydrape")]
 pub struct Sample(pub SampleVerdict);
 
@@ -73,10 +75,10 @@ impl Sample {
         self.cells(|cell| cell.ratio)
     }
 
-    /// Every limit, judged by the value that the share of the cells keeps: dicts as `Result.limits`.
+    /// Every limit, judged by the value that the share of the cells keeps, by its name, as in `Result.limits`.
     #[getter]
-    fn limits(&self) -> PyResult<Vec<Json>> {
-        self.0.limits.iter().map(Json::of).collect()
+    fn limits(&self) -> PyResult<Limits> {
+        Limits::of(&self.0.limits)
     }
 
     /// Where the sheet is highest by the height that the share of the cells keeps there: a dict with height_mm, uv_mm, line and

@@ -1,6 +1,6 @@
 //! `plydrape.Scene`.
 
-use crate::arrays::{Array, Block, List, list, steps};
+use crate::arrays::{Array, Numbers};
 use crate::json::Json;
 use crate::mold::Mold;
 use crate::net::Net;
@@ -13,7 +13,8 @@ use plydrape_io::{shown, size};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::path::PathBuf;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Value;
 use toml::map::Map;
@@ -23,36 +24,80 @@ use toml::map::Map;
 /// Every argument is a dict with the keys of the table of that name in a scene file; plain numbers are in SI
 /// units, a str carries its unit. Arrays may stand for lists. `mold` may also be a `Mold`.
 ///
-/// Args:
-///     ply: What hangs between the grippers: `grippers`, `cell`, `material`, `warp`, `overhang`.
-///     mold: What the ply is laid on.
-///     grippers: Where the grippers start.
-///     target: Where the ply shall end.
-///     motion: How the grippers move.
-///     model: Which model drapes and decides, and its rules.
-///     sheet: How the ply is divided and followed as a sheet.
-///     contact: How contact is found.
-///     limits: What an accepted drape keeps to.
-///     plan: How a motion is planned.
-///     errors: How far a real cell may be from the scene.
-///     release: When the pads let go of the ply.
-///     title: Name for reports.
-///     base: Folder of files that the tables name.
+/// Parameters
+/// ----------
+/// ply : dict
+///     What hangs between the grippers: `grippers`, `cell`, `material`, `warp`, `overhang`.
+/// mold : dict or Mold, optional
+///     What the ply is laid on; also `points` and `triangles` of a mesh, as arrays.
+/// grippers : dict, optional
+///     Where the grippers start.
+/// target : dict, optional
+///     Where the ply shall end.
+/// motion : dict, optional
+///     How the grippers move; also `times` (s), shape (steps,), and `positions` (m), as `with_motion` takes them.
+/// model : dict, optional
+///     Which model drapes and decides, and its rules.
+/// sheet : dict, optional
+///     How the ply is divided and followed as a sheet.
+/// contact : dict, optional
+///     How contact is found.
+/// limits : dict, optional
+///     What an accepted drape keeps to.
+/// plan : dict, optional
+///     How a motion is planned.
+/// errors : dict, optional
+///     How far a real cell may be from the scene.
+/// release : dict, optional
+///     When the pads let go of the ply.
+/// tool : dict, optional
+///     What carries the grippers.
+/// bodies : sequence of dict, optional
+///     What moves with grippers and robot, a list of dicts.
+/// obstacles : sequence of dict, optional
+///     What stands in the cell, a list of dicts.
+/// title : str, optional
+///     Name for reports.
+/// base : str or path, optional
+///     Folder of files that the tables name.
 ///
-/// Raises:
-///     SceneError: If the scene makes no sense; it names the place, the fault and a remedy.
+/// Raises
+/// ------
+/// SceneError
+///     If the scene makes no sense; it names the place, the fault and a remedy.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene(
-///     ...     ply=dict(grippers=[4, 2], cell=[0.1, 0.1], material="krogh2018"),
-///     ...     mold=dict(kind="plane"),
-///     ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
-///     ...     target=dict(origin=[0, 0], direction="20 deg", shear="20 deg"),
-///     ... )
-///     >>> scene.positions.shape
-///     (30, 8, 3)
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene(
+/// ...     ply=dict(grippers=[4, 2], cell=[0.1, 0.1], material="krogh2018"),
+/// ...     mold=dict(kind="plane"),
+/// ...     grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"),
+/// ...     target=dict(origin=[0, 0], direction="20 deg", shear="20 deg"),
+/// ... )
+/// >>> scene.positions.shape
+/// (30, 8, 3)
 #[pyclass(frozen, module = "plydrape")]
-pub struct Scene(pub Arc<SceneFile>);
+pub struct Scene(pub Arc<SceneFile>, pub Origin);
+
+/// What a scene was made from.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Origin {
+    /// The text of its tables; none where no tables say it.
+    pub tables: Option<Arc<str>>,
+    /// Folder of the files that they name.
+    pub base: PathBuf,
+    /// Whether its mold was given beside the tables.
+    pub mold: bool,
+    /// Whether its motion was given beside the tables.
+    pub motion: bool,
+}
+
+impl Origin {
+    /// Tables with the folder of their files.
+    fn of(scene: &SceneFile, base: &Path) -> Self {
+        Origin { tables: scene.input.clone(), base: base.into(), ..Origin::default() }
+    }
+}
 
 /// The tables of a scene, as keyword arguments.
 type Table<'a, 'py> = Option<&'a Bound<'py, PyDict>>;
@@ -67,6 +112,9 @@ impl Scene {
         sheet: "dict[str, typing.Any] | None" = None, contact: "dict[str, typing.Any] | None" = None,
         limits: "dict[str, typing.Any] | None" = None, plan: "dict[str, typing.Any] | None" = None,
         errors: "dict[str, typing.Any] | None" = None, release: "dict[str, typing.Any] | None" = None,
+        tool: "dict[str, typing.Any] | None" = None,
+        bodies: "typing.Sequence[dict[str, typing.Any]] | None" = None,
+        obstacles: "typing.Sequence[dict[str, typing.Any]] | None" = None,
         title = None, base = PathBuf::new()
     ))]
     #[expect(clippy::too_many_arguments, reason = "the tables of a scene file")]
@@ -84,6 +132,9 @@ impl Scene {
         plan: Table<'_, '_>,
         errors: Table<'_, '_>,
         release: Table<'_, '_>,
+        tool: Table<'_, '_>,
+        bodies: Option<&Bound<'_, PyAny>>,
+        obstacles: Option<&Bound<'_, PyAny>>,
         title: Option<String>,
         base: PathBuf,
     ) -> PyResult<Self> {
@@ -96,6 +147,7 @@ impl Scene {
         match mold {
             None => {}
             Some(mold) => match (mold.cast::<PyDict>(), mold.cast::<Mold>()) {
+                (Ok(dict), _) if dict.contains("points")? => given = Some(of_triangles(dict)?),
                 (Ok(dict), _) => {
                     keys.insert("mold".into(), Value::Table(table::table(dict, "mold")?));
                 }
@@ -105,10 +157,15 @@ impl Scene {
                 }
             },
         }
+        let way = motion.map(Way::of).transpose()?.flatten();
+        if way.is_some() {
+            let hold = Map::from_iter([("kind".into(), Value::String("hold".into()))]);
+            keys.insert("motion".into(), Value::Table(hold));
+        }
         let others = [
             ("grippers", grippers),
             ("target", target),
-            ("motion", motion),
+            ("motion", motion.filter(|_| way.is_none())),
             ("model", model),
             ("sheet", sheet),
             ("contact", contact),
@@ -116,76 +173,261 @@ impl Scene {
             ("plan", plan),
             ("errors", errors),
             ("release", release),
+            ("tool", tool),
         ];
         for (name, dict) in others {
             if let Some(dict) = dict {
                 keys.insert(name.into(), Value::Table(table::table(dict, name)?));
             }
         }
+        for (name, list) in [("bodies", bodies), ("obstacles", obstacles)] {
+            if let Some(list) = list {
+                keys.insert(name.into(), table::value(list, name)?);
+            }
+        }
         let text = text_of(&keys)?;
+        let mold = given.is_some();
         let scene = py.detach(|| match given {
             None => scene::parse(&text, &base, "scene"),
             Some(mold) => scene::parse_on(mold, &text, &base, "scene"),
         });
-        scene.map(Scene::from).map_err(|refused| error::scene(&refused))
+        let scene = scene.map_err(|refused| error::scene(&refused))?;
+        let tables = Some(text.as_str().into());
+        let origin = Origin { tables, base, mold, motion: false };
+        let scene = Scene(Arc::new(scene), origin);
+        match way {
+            None => Ok(scene),
+            Some(Way { times, positions }) => scene.with_motion(times, positions, None),
+        }
     }
 
     /// Reads and checks a scene file; files it names are relative to its folder.
     ///
-    /// Raises:
-    ///     SceneError: If it cannot be read or makes no sense.
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     The file.
     ///
-    /// Example:
-    ///     >>> plydrape.Scene.read("examples/02_hanging_strip/scene.toml").ply.grippers
-    ///     (2, 1)
+    /// Returns
+    /// -------
+    /// Scene
+    ///     The scene.
+    ///
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     If it cannot be read or makes no sense. Where there is no such file, or none that may be read, it is a FileNotFoundError or
+    ///     PermissionError too.
+    ///
+    /// Examples
+    /// --------
+    /// >>> plydrape.Scene.read("examples/02_hanging_strip/scene.toml").ply.grippers
+    /// (2, 1)
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let scene = py.detach(|| scene::read(&path));
-        scene.map(Scene::from).map_err(|refused| error::scene(&refused))
+        let scene = py.detach(|| scene::read(&path)).map_err(|refused| error::scene(&refused))?;
+        let whole = std::path::absolute(&path).unwrap_or(path);
+        let origin = Origin::of(&scene, whole.parent().unwrap_or(Path::new("")));
+        Ok(Scene(Arc::new(scene), origin))
     }
 
     /// Reads and checks a plybook: the name and the scene of each ply, in the order in which they are laid. The mold of a scene has
     /// the plies on it that the ply lies on.
     ///
-    /// Raises:
-    ///     SceneError: If it cannot be read or makes no sense.
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     The file.
     ///
-    /// Example:
-    ///     >>> plies = plydrape.Scene.read_book("examples/15_plybook/plies.toml")
-    ///     >>> [(name, scene.mold.kind) for name, scene in plies][:2]
-    ///     [('base 0', 'mesh'), ('turned 30', 'layered')]
+    /// Returns
+    /// -------
+    /// list of tuple[str, Scene]
+    ///     Name and scene of each ply.
+    ///
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     If it cannot be read or makes no sense. Where there is no such file, or none that may be read, it is a FileNotFoundError or
+    ///     PermissionError too.
+    ///
+    /// Examples
+    /// --------
+    /// >>> plies = plydrape.Scene.read_book("examples/15_plybook/plies.toml")
+    /// >>> [(name, scene.mold.kind) for name, scene in plies][:2]
+    /// [('base 0', 'mesh'), ('turned 30', 'layered')]
     #[staticmethod]
     fn read_book(py: Python<'_>, path: PathBuf) -> PyResult<Vec<(String, Self)>> {
         let book = py.detach(|| scene::read_book(&path));
         let book = book.map_err(|refused| error::scene(&refused))?;
-        Ok(book.plies.into_iter().map(|ply| (ply.name, Scene::from(ply.scene))).collect())
+        let made = |scene| Scene(Arc::new(scene), Origin::default());
+        Ok(book.plies.into_iter().map(|ply| (ply.name, made(ply.scene))).collect())
     }
 
     /// Reads and checks the text of a scene file.
     ///
-    /// Args:
-    ///     text: TOML, see the guide and docs/scene.schema.json.
-    ///     base: Folder of the files that it names.
-    ///     name: What it is called in errors.
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     TOML, see the guide and docs/scene.schema.json.
+    /// base : str or path, optional
+    ///     Folder of the files that it names.
+    /// name : str, default "scene.toml"
+    ///     What it is called in errors.
     ///
-    /// Raises:
-    ///     SceneError: If it makes no sense.
+    /// Returns
+    /// -------
+    /// Scene
+    ///     The scene.
     ///
-    /// Example:
-    ///     >>> plydrape.Scene.parse(plydrape.Scene.template()).mold.kind
-    ///     'plane'
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     If it makes no sense.
+    ///
+    /// Examples
+    /// --------
+    /// >>> plydrape.Scene.parse(plydrape.Scene.template()).mold.kind
+    /// 'plane'
     #[staticmethod]
     #[pyo3(signature = (text, *, base = PathBuf::new(), name = "scene.toml"))]
     fn parse(py: Python<'_>, text: &str, base: PathBuf, name: &str) -> PyResult<Self> {
         let scene = py.detach(|| scene::parse(text, &base, name));
-        scene.map(Scene::from).map_err(|refused| error::scene(&refused))
+        let scene = scene.map_err(|refused| error::scene(&refused))?;
+        let origin = Origin::of(&scene, &base);
+        Ok(Scene(Arc::new(scene), origin))
+    }
+
+    /// The scene that `to_dict` wrote.
+    ///
+    /// Parameters
+    /// ----------
+    /// tables : dict
+    ///     Keyword arguments of a scene.
+    ///
+    /// Returns
+    /// -------
+    /// Scene
+    ///     The scene, checked as any other.
+    ///
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     If it makes no sense.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/04_dome/scene.toml")
+    /// >>> plydrape.Scene.from_dict(scene.to_dict()) == scene
+    /// True
+    #[staticmethod]
+    #[pyo3(signature = (tables: "typing.Mapping[str, typing.Any]") -> "Scene")]
+    fn from_dict<'py>(
+        #[pyo3(from_py_with = keywords)] tables: Bound<'py, PyDict>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        tables.py().get_type::<Scene>().call((), Some(&tables))
+    }
+
+    /// The scene as keyword arguments of plain values, which JSON and TOML can carry: `Scene(**scene.to_dict())` is the same scene.
+    ///
+    /// Of a scene that was read, `base` is the folder of its file, in which the files are that it names. A motion or a mesh that was
+    /// given as arrays is in it as lists.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     The tables of its scene file, with `title` and `base`.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If no tables say it: a scene `with_errors`, a ply of a book, or one on a `Mold` that is no mesh. Pickle it.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/04_dome/scene.toml")
+    /// >>> scene.to_dict()["mold"]["kind"]
+    /// 'sphere'
+    #[pyo3(signature = () -> "dict[str, typing.Any]")]
+    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape._scene")?.getattr("to_dict")?.call1((slf,))
+    }
+
+    /// The tables of the scene as they were given; a mold or a motion that was given beside them as objects.
+    #[pyo3(signature = () -> "dict[str, typing.Any]")]
+    fn _tables<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Some(text) = &self.1.tables else {
+            return Err(PyValueError::new_err(
+                "no tables say this scene, because it was drawn with errors or is a ply of a book: pickle it, or change the scene that it was made from",
+            ));
+        };
+        let keys: Map<String, Value> =
+            toml::from_str(text).map_err(|fault| PyValueError::new_err(fault.to_string()))?;
+        let out = table::dict(py, &keys)?;
+        out.set_item("title", &self.0.title)?;
+        if !self.1.base.as_os_str().is_empty() {
+            out.set_item("base", self.1.base.to_string_lossy())?;
+        }
+        if self.1.mold {
+            out.set_item("mold", self.mold())?;
+        }
+        if self.1.motion {
+            let motion = PyDict::new(py);
+            motion.set_item("times", self.times())?;
+            motion.set_item("positions", self.positions())?;
+            out.set_item("motion", motion)?;
+        }
+        Ok(out)
+    }
+
+    /// The same scene with other values: keyword arguments as those of a scene, in which only what changes must stand.
+    ///
+    /// A dict is merged into the table of that name, key by key; None takes a table or a key away. A table with another `kind` is
+    /// taken whole. The scene itself stays as it is, and comments of its file are not in the `text` of the new one.
+    ///
+    /// Parameters
+    /// ----------
+    /// **changes
+    ///     Tables, `title` and `base`, as those of a new scene.
+    ///
+    /// Returns
+    /// -------
+    /// Scene
+    ///     The new scene, checked as any other.
+    ///
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     If it makes no sense.
+    /// TypeError
+    ///     If there is no table of a name.
+    /// ValueError
+    ///     As `to_dict`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/04_dome/scene.toml")
+    /// >>> higher = scene.replace(grippers={"height": "80 mm"}, title="From higher up")
+    /// >>> higher.title, float((higher.positions - scene.positions)[0, 0, 2].round(3))
+    /// ('From higher up', 0.03)
+    #[pyo3(signature = (**changes: "typing.Any") -> "Scene")]
+    fn replace<'py>(
+        slf: &Bound<'py, Self>,
+        changes: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape._scene")?.getattr("replace")?.call((slf,), changes)
     }
 
     /// The text of a commented scene to start from, as `plydrape new` writes it.
     ///
-    /// Example:
-    ///     >>> plydrape.Scene.template().startswith("# A scene for plydrape")
-    ///     True
+    /// Returns
+    /// -------
+    /// str
+    ///     The text.
+    ///
+    /// Examples
+    /// --------
+    /// >>> plydrape.Scene.template().startswith("# A scene for plydrape")
+    /// True
     #[staticmethod]
     fn template() -> &'static str {
         scene::TEMPLATE
@@ -245,29 +487,41 @@ impl Scene {
     /// The same scene along another motion. It has no `text`, as no scene file says it. Where a scene file is refused
     /// if its start stretches the ply, this one is draped: its overstretch says by how much.
     ///
-    /// Args:
-    ///     times: Time of each step (s), ascending, shape (steps,).
-    ///     positions: Positions of the grippers (m), shape (steps, grippers, 3).
-    ///     title: Name for reports, unless it stays.
+    /// Parameters
+    /// ----------
+    /// times : array_like
+    ///     Time of each step (s), ascending, shape (steps,).
+    /// positions : array_like
+    ///     Positions of the grippers (m), shape (steps, grippers, 3), i running fastest, or (steps, along u, along v, 3).
+    /// title : str, optional
+    ///     Name for reports, unless it stays.
     ///
-    /// Raises:
-    ///     ValueError: If the shapes do not fit, times do not ascend, a coordinate is not a number up to 10⁶ m, or
-    ///         neighbours stand (all but) straight above each other, where the model has no solution.
+    /// Returns
+    /// -------
+    /// Scene
+    ///     The new scene.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> higher = scene.with_motion(scene.times, scene.positions + [0, 0, 0.01])
-    ///     >>> float((higher.positions - scene.positions).max().round(9))
-    ///     0.01
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the shapes do not fit, times do not ascend, a coordinate is not a number up to 10⁶ m, or
+    ///     neighbors stand (all but) straight above each other, where the model has no solution.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> higher = scene.with_motion(scene.times, scene.positions + [0, 0, 0.01])
+    /// >>> float((higher.positions - scene.positions).max().round(9))
+    /// 0.01
     #[pyo3(signature = (times, positions, *, title = None))]
     fn with_motion(
         &self,
-        times: List<'_>,
-        positions: Block<'_>,
+        times: Numbers<'_>,
+        positions: Numbers<'_>,
         title: Option<String>,
     ) -> PyResult<Scene> {
-        let times = list(&times, "times")?;
-        let positions = steps(&positions, "positions", self.0.ply.grippers())?;
+        let times = times.list("times")?;
+        let positions = positions.steps("positions", &self.0.ply)?;
         let motion = Motion { times, positions };
         let fault = self.0.ply.check_motion(&motion);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;
@@ -285,19 +539,20 @@ impl Scene {
             scene.title = title;
         }
         scene.motion = motion;
-        Ok(scene.into())
+        Ok(Scene(Arc::new(scene), Origin { motion: true, ..self.1.clone() }))
     }
 
     /// How far a real cell may be from the scene, where it says so: its `[errors]` in SI units, each term either
     /// `{"deviation": …}` or `{"bound": …}`.
     ///
-    /// Example:
-    ///     >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
-    ///     >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
-    ///     >>> gripper = dict(position=dict(deviation="0.1 mm"))
-    ///     >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(gripper=gripper))
-    ///     >>> scene.errors["gripper"]["position"]
-    ///     {'deviation': 0.0001}
+    /// Examples
+    /// --------
+    /// >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+    /// >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+    /// >>> gripper = dict(position=dict(deviation="0.1 mm"))
+    /// >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(gripper=gripper))
+    /// >>> scene.errors["gripper"]["position"]
+    /// {'deviation': 0.0001}
     #[getter]
     fn errors(&self) -> PyResult<Option<Json>> {
         self.0.errors.as_ref().map(Json::of).transpose()
@@ -307,20 +562,31 @@ impl Scene {
     ///
     /// It depends on the seed of the errors and the number of the sample only.
     ///
-    /// Args:
-    ///     sample: Its number, from 0.
-    ///     factor: How many times as large all errors are.
+    /// Parameters
+    /// ----------
+    /// sample : int
+    ///     Its number, from 0.
+    /// factor : float, default 1.0
+    ///     How many times as large all errors are.
     ///
-    /// Raises:
-    ///     ValueError: If the scene has no errors, or the factor is not finite.
+    /// Returns
+    /// -------
+    /// dict
+    ///     The errors by the names of the tables of `errors`.
     ///
-    /// Example:
-    ///     >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
-    ///     >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
-    ///     >>> frame = dict(position=dict(bound="1 mm"))
-    ///     >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
-    ///     >>> all(abs(shift) <= 0.001 for shift in scene.draw(0)["frame"]["shift"])
-    ///     True
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the scene has no errors, or the factor is not finite.
+    ///
+    /// Examples
+    /// --------
+    /// >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+    /// >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+    /// >>> frame = dict(position=dict(bound="1 mm"))
+    /// >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
+    /// >>> all(abs(shift) <= 0.001 for shift in scene.draw(0)["frame"]["shift"])
+    /// True
     #[pyo3(signature = (sample, factor = 1.0))]
     fn draw(&self, sample: usize, factor: f64) -> PyResult<Json> {
         Json::of(&self.drawn(sample, factor)?)
@@ -331,22 +597,33 @@ impl Scene {
     /// It has no `errors` of its own any more, and no `text`, as no scene file says it. Positions are those of the
     /// fabric points that the scene calls the grippers'.
     ///
-    /// Args:
-    ///     sample: Its number, from 0.
-    ///     factor: How many times as large all errors are.
+    /// Parameters
+    /// ----------
+    /// sample : int
+    ///     Its number, from 0.
+    /// factor : float, default 1.0
+    ///     How many times as large all errors are.
     ///
-    /// Raises:
-    ///     ValueError: If the scene has no errors, the factor is not finite, or neighbours would stand (all but)
-    ///         straight above each other.
+    /// Returns
+    /// -------
+    /// Scene
+    ///     The new scene.
     ///
-    /// Example:
-    ///     >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
-    ///     >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
-    ///     >>> frame = dict(position=dict(bound="1 mm"))
-    ///     >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
-    ///     >>> real = scene.with_errors(0)
-    ///     >>> bool(abs(real.positions - scene.positions).max() <= 0.001), real.errors
-    ///     (True, None)
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the scene has no errors, the factor is not finite, or neighbors would stand (all but)
+    ///     straight above each other.
+    ///
+    /// Examples
+    /// --------
+    /// >>> tables = dict(ply=dict(grippers=[2, 1], cell=[0.1, 0.1], material="krogh2018"))
+    /// >>> tables |= dict(grippers=dict(spacing=["98 mm", "98 mm"], height="75 mm"))
+    /// >>> frame = dict(position=dict(bound="1 mm"))
+    /// >>> scene = plydrape.Scene(**tables, motion=dict(kind="hold"), errors=dict(frame=frame))
+    /// >>> real = scene.with_errors(0)
+    /// >>> bool(abs(real.positions - scene.positions).max() <= 0.001), real.errors
+    /// (True, None)
     #[pyo3(signature = (sample, factor = 1.0))]
     fn with_errors(&self, py: Python<'_>, sample: usize, factor: f64) -> PyResult<Scene> {
         let draw = self.drawn(sample, factor)?;
@@ -357,7 +634,7 @@ impl Scene {
         scene.scene = real;
         scene.input = None;
         scene.plan_refusal = None;
-        Ok(scene.into())
+        Ok(Scene(Arc::new(scene), Origin::default()))
     }
 
     fn __repr__(&self) -> String {
@@ -387,10 +664,49 @@ impl Scene {
     }
 }
 
-impl From<SceneFile> for Scene {
-    fn from(scene: SceneFile) -> Self {
-        Scene(Arc::new(scene))
+/// A motion that a program has made.
+struct Way<'py> {
+    times: Numbers<'py>,
+    positions: Numbers<'py>,
+}
+
+impl<'py> Way<'py> {
+    /// The motion of a table that has positions.
+    fn of(table: &Bound<'py, PyDict>) -> PyResult<Option<Self>> {
+        if !table.contains("positions")? {
+            return Ok(None);
+        }
+        let [times, positions] = both(table, "motion", ["times", "positions"])?;
+        Ok(Some(Way { times: times.extract()?, positions: positions.extract()? }))
     }
+}
+
+/// The mesh of a table that has its points.
+fn of_triangles(table: &Bound<'_, PyDict>) -> PyResult<plydrape::mold::Mold> {
+    let [points, triangles] = both(table, "mold", ["points", "triangles"])?;
+    Ok(Mold::triangles(points.extract()?, triangles.extract()?)?.0)
+}
+
+/// The values of both keys of a table that has no other ones.
+fn both<'py>(
+    table: &Bound<'py, PyDict>,
+    name: &str,
+    keys: [&str; 2],
+) -> PyResult<[Bound<'py, PyAny>; 2]> {
+    let [a, b] = keys;
+    match (table.get_item(a)?, table.get_item(b)?, table.len()) {
+        (Some(first), Some(second), 2) => Ok([first, second]),
+        _ => Err(PyValueError::new_err(format!(
+            "{name} has the keys {}; where one of them is {a:?} or {b:?}, these two are wanted and no other one",
+            table.keys()
+        ))),
+    }
+}
+
+/// A mapping of keyword arguments.
+fn keywords<'py>(tables: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyDict>> {
+    let dict = tables.py().get_type::<PyDict>().call1((tables,))?;
+    Ok(dict.cast_into()?)
 }
 
 /// Steps of points as one block, `(steps, points, 3)`.
@@ -405,9 +721,15 @@ pub fn text_of(keys: &Map<String, Value>) -> PyResult<String> {
 
 /// Names of the materials that come with plydrape.
 ///
-/// Example:
-///     >>> plydrape.materials()
-///     ['krogh2018', 'cao2008_plain', 'petrak2025_polyester_twill', 'petrak2025_polyester_plain', 'petrak2025_cotton_twill']
+/// Returns
+/// -------
+/// list of str
+///     The names.
+///
+/// Examples
+/// --------
+/// >>> plydrape.materials()[:4]
+/// ['krogh2018', 'cao2008_plain', 'broberg2023_binder', 'broberg2022_strip']
 #[pyfunction]
 pub fn materials() -> Vec<&'static str> {
     scene::shipped_materials().collect()

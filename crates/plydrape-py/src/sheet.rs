@@ -3,6 +3,7 @@
 use crate::arrays::Array;
 use crate::error;
 use crate::json::Json;
+use crate::limits::Limits;
 use plydrape_io::ResultFile;
 use plydrape_io::sheet::{SheetState, SheetStates};
 use pyo3::prelude::*;
@@ -10,18 +11,19 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// The whole ply as a sheet: its states over the steps that were kept, what was measured, and the verdict.
 ///
-/// Nodes stand where lines of the fabric cross; segments join two neighbours along a line, cells are between four nodes.
+/// Nodes stand where lines of the fabric cross; segments join two neighbors along a line, cells are between four nodes.
 /// Arrays are in m, N, rad, s unless the name says otherwise. Each access reads the states of sheet.npz once, one at a time.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> result = plydrape.simulate(scene, model="sheet")
-///     >>> sheet = result.sheet
-///     >>> sheet.positions.shape, sheet.summary["first_contact_step"]
-///     ((30, 341, 3), 22)
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+/// >>> result = plydrape.simulate(scene, model="sheet")
+/// >>> sheet = result.sheet
+/// >>> sheet.positions.shape, sheet.summary["first_contact_step"]
+/// ((30, 341, 3), 22)
 #[pyclass(frozen, module = "plydrape")]
 pub struct Sheet {
-    result: Arc<ResultFile>,
+    pub result: Arc<ResultFile>,
     states: Mutex<SheetStates>,
 }
 
@@ -216,11 +218,11 @@ impl Sheet {
         Json::of(&self.result.summary.sheet)
     }
 
-    /// Every limit of the sheet, judged: dicts as in `Result.limits`.
+    /// Every limit of the sheet, judged, by its name, as in `Result.limits`.
     #[getter]
-    fn limits(&self) -> PyResult<Vec<Json>> {
+    fn limits(&self) -> PyResult<Limits> {
         let limits = self.result.summary.sheet.as_ref().map_or(&[][..], |sheet| &sheet.limits);
-        limits.iter().map(Json::of).collect()
+        Limits::of(limits)
     }
 
     /// Whether every limit of the sheet holds and every state was found.
@@ -233,6 +235,62 @@ impl Sheet {
     #[getter]
     fn converged(&self) -> bool {
         self.result.summary.sheet.as_ref().is_some_and(|sheet| sheet.converged)
+    }
+
+    /// All states as one labeled data set. Needs xarray.
+    ///
+    /// Its dimensions are `state`, `node`, `segment`, `cell`, `gripper` and `xyz`; every variable has its `units` and `long_name`.
+    /// Names and units are those of the properties.
+    ///
+    /// Returns
+    /// -------
+    /// xarray.Dataset
+    ///     The data set.
+    ///
+    /// Raises
+    /// ------
+    /// ExtraError
+    ///     If xarray is not installed.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> data = plydrape.simulate(scene).sheet.to_xarray()
+    /// >>> data["heights"].dims, data["heights"].attrs["units"]
+    /// (('state', 'node'), 'm')
+    #[pyo3(signature = () -> "xarray.Dataset")]
+    fn to_xarray<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape._tables")?.getattr("sheet_dataset")?.call1((slf,))
+    }
+
+    /// The sheet of a step as a mesh of PyVista with its numbers: see `plydrape.view.sheet_mesh`. Needs PyVista.
+    ///
+    /// Parameters
+    /// ----------
+    /// step : int, default -1
+    ///     Which step, from 1; −1 is the last that was kept.
+    ///
+    /// Returns
+    /// -------
+    /// pyvista.PolyData
+    ///     Its cells, with numbers at nodes and in cells.
+    ///
+    /// Raises
+    /// ------
+    /// ExtraError
+    ///     If PyVista is not installed.
+    /// ValueError
+    ///     If no state of such a step was kept.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> mesh = plydrape.simulate(scene).sheet.to_pyvista()
+    /// >>> mesh.n_points, mesh.array_names
+    /// (341, ['height_mm', 'contact', 'landing_step', 'shear_deg'])
+    #[pyo3(signature = (step = -1) -> "pyvista.PolyData")]
+    fn to_pyvista<'py>(slf: &Bound<'py, Self>, step: isize) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape.view")?.getattr("sheet_mesh")?.call1((slf, step))
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {

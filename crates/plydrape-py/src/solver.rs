@@ -2,15 +2,17 @@
 //!
 //! Without contact. What a ply does on a mold is a drape: `plydrape.simulate`.
 
-use crate::arrays::{Table, points};
+use crate::arrays::Numbers;
 use crate::equilibrium::Equilibrium;
 use crate::error;
 use crate::ply::Ply;
+use crate::quantity::Amount;
 use crate::scene::Scene;
 use plydrape::draping::spans::shape;
 use plydrape::equilibrium::{self, Status};
 use plydrape::ply::{self, ContactSegment, shear};
 use plydrape::scene::{Settings, SlopeRule};
+use plydrape_io::scene::Measured;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -18,47 +20,60 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Finds equilibria of a hanging ply, one after another: each starts from the last one.
 ///
-/// Args:
-///     ply: What hangs.
-///     slopes: How shared slopes are found: "moment-balance", or "min-force" as in Krogh et al. 2018.
-///     axial_stiffness: EA of a line of ply (N); infinite for an inextensible ply.
-///     gravity: Acceleration of gravity (m/s²).
-///     max_tilt: Limit of the ball joints (rad).
+/// Plain numbers are in SI units, a str carries its unit. A copy, also one in another process, begins without a last one.
 ///
-/// Raises:
-///     ValueError: If a number makes no sense.
+/// Parameters
+/// ----------
+/// ply : Ply
+///     What hangs.
+/// slopes : {"moment-balance", "min-force"}, default "moment-balance"
+///     How shared slopes are found: "moment-balance", or "min-force" as in Krogh et al. 2018.
+/// axial_stiffness : float or str, default 100000.0
+///     EA of a line of ply (N); infinite for an inextensible ply.
+/// gravity : float or str, default 9.81
+///     Acceleration of gravity (m/s²).
+/// max_tilt : float or str, optional
+///     Limit of the ball joints (rad).
 ///
-/// Example:
-///     >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
-///     >>> solver = plydrape.Solver(ply)
-///     >>> equilibrium = solver.solve([[0.098 * i, 0, 0] for i in range(4)])
-///     >>> equilibrium.status
-///     'converged'
-///     >>> bool((equilibrium.forces > 0).all())
-///     True
+/// Raises
+/// ------
+/// ValueError
+///     If a number makes no sense.
+///
+/// Examples
+/// --------
+/// >>> ply = plydrape.Ply(grippers=[4, 1], cell=[0.1, 0.1], material="krogh2018")
+/// >>> solver = plydrape.Solver(ply)
+/// >>> equilibrium = solver.solve([[0.098 * i, 0, 0] for i in range(4)])
+/// >>> equilibrium.status
+/// 'converged'
+/// >>> bool((equilibrium.forces > 0).all())
+/// True
 #[pyclass(frozen, module = "plydrape")]
-pub struct Solver(Mutex<State>);
+pub struct Solver(pub Mutex<State>);
 
 /// A solver with what it solves for.
 #[derive(Clone)]
 pub struct State {
     pub solver: equilibrium::Solver,
     pub ply: Arc<ply::Ply>,
+    pub settings: Settings,
     pub contacts: Arc<[Option<ContactSegment>]>,
 }
 
 impl State {
-    fn new(ply: &ply::Ply, settings: &Settings) -> Self {
+    pub fn new(ply: &ply::Ply, settings: &Settings) -> Self {
         State {
             solver: equilibrium::Solver::new(ply, settings),
             ply: Arc::new(ply.clone()),
+            settings: *settings,
             contacts: vec![None; ply.lines().catenaries()].into(),
         }
     }
 }
 
 impl Solver {
-    fn state(&self) -> std::sync::MutexGuard<'_, State> {
+    pub fn state(&self) -> std::sync::MutexGuard<'_, State> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -80,15 +95,19 @@ impl Solver {
     #[new]
     #[pyo3(signature = (
         ply, *, slopes: "typing.Literal['moment-balance', 'min-force']" = "moment-balance",
-        axial_stiffness = 1e5, gravity = 9.81, max_tilt = 40_f64.to_radians()
+        axial_stiffness: "float | str" = Amount::Number(1e5), gravity: "float | str" = Amount::Number(9.81),
+        max_tilt: "float | str" = Amount::Number(40_f64.to_radians())
     ))]
     fn new(
         ply: &Ply,
         slopes: &str,
-        axial_stiffness: f64,
-        gravity: f64,
-        max_tilt: f64,
+        axial_stiffness: Amount,
+        gravity: Amount,
+        max_tilt: Amount,
     ) -> PyResult<Self> {
+        let axial_stiffness = axial_stiffness.si("axial_stiffness", Measured::Force)?;
+        let gravity = gravity.si("gravity", Measured::Acceleration)?;
+        let max_tilt = max_tilt.si("max_tilt", Measured::Angle)?;
         let slopes = match slopes {
             "moment-balance" => SlopeRule::MomentBalance,
             "min-force" => SlopeRule::MinForce,
@@ -116,10 +135,21 @@ impl Solver {
 
     /// A solver for the ply of a scene, by its rules.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> plydrape.Solver.of(scene).solve(scene.positions[0]).forces.shape
-    ///     (16,)
+    /// Parameters
+    /// ----------
+    /// scene : Scene
+    ///     The scene.
+    ///
+    /// Returns
+    /// -------
+    /// Solver
+    ///     The solver.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> plydrape.Solver.of(scene).solve(scene.positions[0]).forces.shape
+    /// (16,)
     #[staticmethod]
     fn of(scene: &Scene) -> Self {
         Solver(Mutex::new(State::new(&scene.0.ply, &scene.0.settings)))
@@ -127,35 +157,48 @@ impl Solver {
 
     /// Forgets the last equilibrium: the next one starts from nothing.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-    ///     >>> solver = plydrape.Solver.of(scene)
-    ///     >>> first = solver.solve(scene.positions[0]).forces
-    ///     >>> solver.forget()
-    ///     >>> bool((solver.solve(scene.positions[0]).forces == first).all())
-    ///     True
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> solver = plydrape.Solver.of(scene)
+    /// >>> first = solver.solve(scene.positions[0]).forces
+    /// >>> solver.forget()
+    /// >>> bool((solver.solve(scene.positions[0]).forces == first).all())
+    /// True
     fn forget(&self) {
         self.state().solver.forget();
     }
 
     /// Solves for the grippers where they are.
     ///
-    /// Args:
-    ///     positions: Positions of the grippers (m), shape (grippers, 3), i running fastest.
-    ///     check: Whether an equilibrium that was not found is an error, or just says so in its `status`.
+    /// Parameters
+    /// ----------
+    /// positions : array_like
+    ///     Positions of the grippers (m), shape (grippers, 3), i running fastest, or of a whole array (along u, along v, 3).
+    /// check : bool, default True
+    ///     Whether an equilibrium that was not found is an error, or just says so in its `status`.
     ///
-    /// Raises:
-    ///     ValueError: If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbours stand (all
-    ///         but) straight above each other, where the model has no solution.
-    ///     SolveError: If no equilibrium was found.
+    /// Returns
+    /// -------
+    /// Equilibrium
+    ///     The hanging ply.
     ///
-    /// Example:
-    ///     >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
-    ///     >>> plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]]).status
-    ///     'converged'
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the shape does not fit, a coordinate is not a number up to 10⁶ m, or neighbors stand (all
+    ///     but) straight above each other, where the model has no solution.
+    /// SolveError
+    ///     If no equilibrium was found.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/02_hanging_strip/scene.toml")
+    /// >>> plydrape.Solver.of(scene).solve([[0, 0, 0], [0.098, 0, 0]]).status
+    /// 'converged'
     #[pyo3(signature = (positions, *, check = true))]
-    fn solve(&self, positions: Table<'_>, check: bool) -> PyResult<Equilibrium> {
-        let positions = points(&positions, "positions")?;
+    fn solve(&self, positions: Numbers<'_>, check: bool) -> PyResult<Equilibrium> {
+        let positions = positions.places("positions", &self.ply())?;
         let mut state = self.state();
         let fault = state.ply.check_places(&positions);
         fault.map_err(|fault| PyValueError::new_err(fault.to_string()))?;

@@ -6,16 +6,40 @@ use pyo3::prelude::*;
 
 /// The ply of one step as a surface.
 ///
-/// Example:
-///     >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-///     >>> result = plydrape.simulate(scene)
-///     >>> bool((plydrape.simulate(scene).surface(1).gap > 0).all())
-///     True
+/// Examples
+/// --------
+/// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+/// >>> result = plydrape.simulate(scene)
+/// >>> bool((plydrape.simulate(scene).surface(1).gap > 0).all())
+/// True
 #[pyclass(frozen, module = "plydrape")]
 pub struct Surface(pub surface::Surface);
 
 #[pymethods]
 impl Surface {
+    /// The surface as a structured grid of PyVista, of a strip as a line, with `gap_mm` at its points. Needs PyVista.
+    ///
+    /// Returns
+    /// -------
+    /// pyvista.StructuredGrid
+    ///     The grid, u running fastest.
+    ///
+    /// Raises
+    /// ------
+    /// ExtraError
+    ///     If PyVista is not installed.
+    ///
+    /// Examples
+    /// --------
+    /// >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    /// >>> grid = plydrape.simulate(scene).surface(-1, intervals=4).to_pyvista()
+    /// >>> grid.dimensions, grid.array_names
+    /// ((13, 5, 1), ['gap_mm'])
+    #[pyo3(signature = () -> "pyvista.StructuredGrid")]
+    fn to_pyvista<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("plydrape.view")?.getattr("surface_mesh")?.call1((slf,))
+    }
+
     /// Points along u and along v.
     #[getter]
     fn size(&self) -> (usize, usize) {

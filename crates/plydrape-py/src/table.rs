@@ -4,7 +4,7 @@
 
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
 use toml::Value;
 use toml::map::Map;
 
@@ -14,6 +14,36 @@ const DEEPEST: usize = 16;
 /// A dict as a TOML table; keys that are `None` are left out. `place` names it in errors.
 pub fn table(dict: &Bound<'_, PyDict>, place: &str) -> PyResult<Map<String, Value>> {
     dict_at(dict, place, DEEPEST)
+}
+
+/// Any value of a table. `place` names it in errors.
+pub fn value(value: &Bound<'_, PyAny>, place: &str) -> PyResult<Value> {
+    value_at(value, place, DEEPEST)
+}
+
+/// A TOML table as a dict.
+pub fn dict<'py>(py: Python<'py>, table: &Map<String, Value>) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    for (key, value) in table {
+        out.set_item(key, object(py, value)?)?;
+    }
+    Ok(out)
+}
+
+fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match value {
+        Value::String(text) => PyString::new(py, text).into_any(),
+        Value::Integer(number) => number.into_pyobject(py)?.into_any(),
+        Value::Float(number) => PyFloat::new(py, *number).into_any(),
+        Value::Boolean(flag) => PyBool::new(py, *flag).to_owned().into_any(),
+        // no scene has one
+        Value::Datetime(time) => PyString::new(py, &time.to_string()).into_any(),
+        Value::Array(items) => {
+            let items = items.iter().map(|item| object(py, item)).collect::<PyResult<Vec<_>>>()?;
+            PyList::new(py, items)?.into_any()
+        }
+        Value::Table(table) => dict(py, table)?.into_any(),
+    })
 }
 
 fn dict_at(dict: &Bound<'_, PyDict>, place: &str, depth: usize) -> PyResult<Map<String, Value>> {

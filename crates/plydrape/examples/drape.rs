@@ -30,6 +30,8 @@ fn main() {
             shear_curve: None,
             tension: None,
             locking_angle: None,
+            moment: Default::default(),
+            scatter: Default::default(),
         },
     );
     // 2 mm closer than the fabric and 75 mm up at the start, sheared by 20 degrees on the mold at the end

@@ -1,4 +1,4 @@
-//! How an array of grippers must move to lay a carbon-fibre ply on a curved mold without wrinkles.
+//! How an array of grippers must move to lay a carbon-fiber ply on a curved mold without wrinkles.
 //!
 //! The ply is a net of catenaries with bending stiffness hung between the grippers, with large shear and mold
 //! contact, after Krogh, Jakobsen and Sherwood 2018 (arXiv:1810.07619). A span of ply with horizontal force *H*,
@@ -39,7 +39,7 @@
 //!
 //! They follow the stages of the method, and data flows one way:
 //!
-//! 1. [`mold`], [`catenary`]: the surface, and one span of ply;
+//! 1. [`mold`], [`catenary`], [`elastica`]: the surface, and one span of ply, in closed form or exact;
 //! 2. [`net`]: the ideal drape, where every point of the fabric should end on the mold;
 //! 3. [`material`], [`ply`]: grippers, edges, diagonals and shear;
 //! 4. [`scene`], [`preset`]: everything that one drape needs, and named sets of limits;
@@ -59,8 +59,10 @@
 pub mod catenary;
 pub mod clearance;
 pub mod draping;
+pub mod elastica;
 pub mod equilibrium;
 pub mod errors;
+pub mod fit;
 pub mod material;
 pub mod measure;
 pub mod mold;
@@ -72,6 +74,7 @@ pub mod ply;
 pub mod preset;
 pub mod scene;
 pub mod sheet;
+mod stopwatch;
 pub mod tool;
 
 pub use draping::{Drape, simulate};

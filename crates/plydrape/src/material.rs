@@ -1,5 +1,11 @@
 //! What the ply is made of: mass, flexural rigidity, shear curve and locking angle.
 
+mod moment;
+mod scatter;
+
+pub use moment::MomentCurve;
+pub use scatter::Scatter;
+
 /// A woven ply, as the catenaries see it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -10,12 +16,24 @@ pub struct Material {
     pub source: String,
     /// Mass and bending, per line or per area.
     pub section: Section,
+    /// Bending moment over curvature along warp and weft where it is no straight line; the rigidity of `section`, per area
+    /// then, is its first slope, which is all that catenaries use.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "are_none"))]
+    pub moment: [Option<MomentCurve>; 2],
     /// Picture-frame shear force per length τ(γ); `None` leaves shear forces unknown.
     pub shear_curve: Option<ShearCurve>,
     /// Tension over strain of the yarns; the sheet needs it, the catenaries do not.
     pub tension: Option<TensionLaw>,
     /// Shear angle at which the weave locks (rad), with the test that found it.
     pub locking_angle: Option<f64>,
+    /// How much its properties scatter between specimens.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Scatter::is_unknown"))]
+    pub scatter: Scatter,
+}
+
+#[cfg(feature = "serde")]
+fn are_none(curves: &[Option<MomentCurve>; 2]) -> bool {
+    curves.iter().all(Option::is_none)
 }
 
 /// Mass and flexural rigidity of the ply.

@@ -16,7 +16,7 @@ pub enum Preset {
     DrapeBot,
     /// A usual tolerance of the angle of a ply, in its plane and out of it.
     PlyAngle,
-    /// No place higher than half a millimetre.
+    /// No place higher than half a millimeter.
     LowWrinkle,
 }
 
@@ -45,7 +45,7 @@ const OUT_OF_PLANE: &str =
 /// The slack of that angle.
 const SLACK: &str =
     "a choice of this program: the same angle for slack ε, as 2√ε; no source gives it";
-/// Half a millimetre.
+/// Half a millimeter.
 const HEIGHT: &str = "a choice of this program, its default limit of the sheet; no source gives it";
 /// The same of catenaries.
 const WRINKLE: &str = "as height, for the ruck that the slack of a catenary makes";
@@ -72,7 +72,7 @@ impl Preset {
     pub fn about(self) -> &'static str {
         match self {
             Preset::DrapeBot => "tolerances that the EU project DrapeBot gives for draping",
-            Preset::LowWrinkle => "nothing higher over the mold than half a millimetre",
+            Preset::LowWrinkle => "nothing higher over the mold than half a millimeter",
             Preset::PlyAngle => "a usual tolerance of ply angles, also out of the plane",
         }
     }

@@ -221,7 +221,7 @@ pub enum Model {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SheetSettings {
-    /// Largest distance between neighbouring lines of nodes (m); none for a tenth of the shorter side of a cell.
+    /// Largest distance between neighboring lines of nodes (m); none for a tenth of the shorter side of a cell.
     pub mesh: Option<f64>,
     /// Fabric beyond the outermost grippers, on all sides (m).
     pub overhang: f64,
@@ -384,7 +384,7 @@ pub struct Limits {
     pub preset: Option<Preset>,
     /// Slack of a catenary, all its free segments, as a share of its length.
     pub slack_ratio: f64,
-    /// The same slack ε as a fibre angle 2√ε (rad).
+    /// The same slack ε as a fiber angle 2√ε (rad).
     pub slack_angle: Option<f64>,
     /// Height of the ruck that the slack of a segment makes (m).
     pub wrinkle: Option<f64>,
@@ -396,7 +396,7 @@ pub struct Limits {
     pub landing_contact: f64,
     /// Distance of a gripper from its ideal place (m).
     pub landing_gripper: f64,
-    /// Angle between landed edges and the fibres of the ideal drape (rad).
+    /// Angle between landed edges and the fibers of the ideal drape (rad).
     pub fibre_angle: f64,
     /// Shear angle (rad): the scene's, else the material's locking angle, else 45 deg.
     pub shear: f64,
@@ -412,7 +412,7 @@ pub struct Limits {
     pub tilt_rate: f64,
     /// Height of the sheet over the mold at the end (m).
     pub height: f64,
-    /// Angle between the sheet's fibres and the mold at the end (rad).
+    /// Angle between the sheet's fibers and the mold at the end (rad).
     pub out_of_plane: f64,
     /// Distance of the sheet's landed points from their ideal places (m).
     pub position: f64,

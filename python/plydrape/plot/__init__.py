@@ -7,16 +7,17 @@
 
 Each function makes a new `matplotlib.figure.Figure` and touches nothing else: no figure of
 `pyplot`, no setting. A notebook shows it as the last value of a cell; `figure.savefig("steps.pdf")`
-writes it. Widths are those of a column of print, text is 8 pt. Matplotlib comes with the extra:
-`pip install "plydrape[plot]"`.
+writes it. Widths are those of a column of print, text is 8 pt. Matplotlib is installed by
+`pip install matplotlib`.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from plydrape import _extra
+from plydrape import _extra, _plydrape
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,14 +26,14 @@ if TYPE_CHECKING:
 
 __all__ = ["measures", "plot", "shear_map", "sheet", "steps"]
 
-Width = Literal["single", "double"] | float
-"""Width of a figure: "single" is 89 mm, "double" 183 mm; a number is a width in mm."""
+Width = str | float
+"""Width of a figure: "single" is 89 mm, "double" 183 mm; or a length, as "120 mm"."""
 
 Map = Literal["height", "landing", "shear", "tension"]
 """What a map of the sheet tells: height over the mold, order of landing, shear, tension."""
 
 Surface = Literal["gap", "height", "shear"]
-"""What the colour of the ply tells: gap to the mold, height z, shear angle of its cells."""
+"""What the color of the ply tells: gap to the mold, height z, shear angle of its cells."""
 
 
 def plot(
@@ -40,15 +41,18 @@ def plot(
 ) -> Figure:
     """The figure of this kind; `options` are those of `steps`, `measures`, `shear_map` or `sheet`.
 
-    Raises:
-        ValueError: There is no such kind.
+    Raises
+    ------
+    ValueError
+        There is no such kind.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> figure = plydrape.plot.plot(result, "measures", width="single")
-        >>> round(25.4 * figure.get_figwidth())
-        89
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene)
+    >>> figure = plydrape.plot.plot(result, "measures", width="single")
+    >>> round(25.4 * figure.get_figwidth())
+    89
 
     """
     if kind == "steps":
@@ -66,9 +70,9 @@ def steps(
     result: Result,
     steps: Sequence[int] | None = None,
     *,
-    colour: Surface | None = None,
-    elev: float = 28.0,
-    azim: float = -62.0,
+    color: Surface | None = None,
+    elev: float | str = "28 deg",
+    azim: float | str = "-62 deg",
     columns: int | None = None,
     width: Width = "double",
     title: str | None = None,
@@ -76,37 +80,51 @@ def steps(
     """Chosen steps in 3D, one panel each, all in one frame and one scale.
 
     Red lines are the catenaries, thick where they touch the mold, with a ring in the middle of each
-    touching part; black discs are the grippers, tilted with the ply; the grey line on the mold is
+    touching part; black discs are the grippers, tilted with the ply; the gray line on the mold is
     the outline of the ideal drape. What the mold hides from this view is left out, so choose the
     view here and not by turning the axes later.
 
-    Args:
-        result: The result.
-        steps: Steps to show, counted from 1. If None: the start, the first contact, the first
-            shear, the end, and one in the middle of the longest stretch between them.
-        colour: What the colour of the ply tells; if None the gap to a curved mold, else the height.
-        elev: Angle of the view above the xy plane (deg), -90 to 90.
-        azim: Angle of the view about z (deg).
-        columns: Panels side by side; if None as many as fit the width, at most 3.
-        width: "single" (89 mm), "double" (183 mm) or a width in mm.
-        title: A line above the panels; none by default, a paper has a caption.
+    Parameters
+    ----------
+    result : Result
+        The result.
+    steps : sequence of int, optional
+        Steps to show, counted from 1. If None: the start, the first contact, the first
+        shear, the end, and one in the middle of the longest stretch between them.
+    color : Surface, optional
+        What the color of the ply tells; if None the gap to a curved mold, else the height.
+    elev : float or str, default "28 deg"
+        Angle of the view above the xy plane (rad, or a text with a unit), -90 to 90 deg.
+    azim : float or str, default "-62 deg"
+        Angle of the view about z (rad, or a text with a unit).
+    columns : int, optional
+        Panels side by side; if None as many as fit the width, at most 3.
+    width : Width, default "double"
+        "single" (89 mm), "double" (183 mm) or a length, as "120 mm".
+    title : str, optional
+        A line above the panels; none by default, a paper has a caption.
 
-    Raises:
-        ImportError: Matplotlib is not installed.
-        ValueError: No such step, none at all, or a view or width that cannot be.
+    Raises
+    ------
+    ImportError
+        Matplotlib is not installed.
+    ValueError
+        No such step, none at all, or a view or width that cannot be.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> figure = plydrape.plot.steps(result, [1, 26, 30], width="single")
-        >>> [text.get_text() for text in figure.texts]
-        ['a  step 1, start', 'b  step 26, first contact', 'c  step 30, end']
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene)
+    >>> figure = plydrape.plot.steps(result, [1, 26, 30], width="single")
+    >>> [text.get_text() for text in figure.texts]
+    ['a  step 1, start', 'b  step 26, first contact', 'c  step 30, end']
 
     """
     _need()
     from plydrape.plot import _steps
 
-    return _steps.figure(result, steps, colour, (elev, azim), columns, width, title)
+    view = (_degrees(elev, "elev"), _degrees(azim, "azim"))
+    return _steps.figure(result, steps, color, view, columns, width, title)
 
 
 def measures(
@@ -124,25 +142,36 @@ def measures(
     step only. A dot marks the step that the limit judges, or the largest value where there is no
     limit; a cross where the limit is exceeded. The dotted line is the first contact.
 
-    Args:
-        result: The result.
-        names: Names of `result.measures` in the order wanted; if None those with a limit, then
-            slack, gap and force.
-        against: What runs to the right, the number of the step or its time (s).
-        columns: Panels side by side; if None 3 on a double column, 2 on a single one.
-        width: "single" (89 mm), "double" (183 mm) or a width in mm.
-        title: A line above the panels; none by default.
+    Parameters
+    ----------
+    result : Result
+        The result.
+    names : sequence of str, optional
+        Names of `result.measures` in the order wanted; if None those with a limit, then
+        slack, gap and force.
+    against : {"step", "time"}, default "step"
+        What runs to the right, the number of the step or its time (s).
+    columns : int, optional
+        Panels side by side; if None 3 on a double column, 2 on a single one.
+    width : Width, default "double"
+        "single" (89 mm), "double" (183 mm) or a length, as "120 mm".
+    title : str, optional
+        A line above the panels; none by default.
 
-    Raises:
-        ImportError: Matplotlib is not installed.
-        ValueError: No such measure, or one without a value at any step.
+    Raises
+    ------
+    ImportError
+        Matplotlib is not installed.
+    ValueError
+        No such measure, or one without a value at any step.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> figure = plydrape.plot.measures(result, ["tilt_deg", "slack_ratio"])
-        >>> [axes.get_ylabel() for axes in figure.axes]
-        ['deg', '%']
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene)
+    >>> figure = plydrape.plot.measures(result, ["tilt_deg", "slack_ratio"])
+    >>> [axes.get_ylabel() for axes in figure.axes]
+    ['deg', '%']
 
     """
     _need()
@@ -156,7 +185,7 @@ def shear_map(
     *,
     view: Literal["both", "fabric", "plan"] = "both",
     signed: bool = False,
-    most: float | None = None,
+    most: float | str | None = None,
     width: Width = "double",
     title: str | None = None,
 ) -> Figure:
@@ -165,32 +194,44 @@ def shear_map(
     Left on the flat fabric with the coordinates u and v of the net, right on the mold seen from
     above. The largest angle is ringed. Cells with a missing node stay white.
 
-    Args:
-        net: A net, or a result whose ideal drape has one.
-        view: Which of both to draw.
-        signed: False colours the amount from 0 on, which is what a locking angle limits; True the
-            angle with its sign, in two hues from a white zero.
-        most: End of the colours (deg); if None the largest amount. For maps that are to be
-            compared.
-        width: "single" (89 mm), "double" (183 mm) or a width in mm.
-        title: A line above the panels; none by default.
+    Parameters
+    ----------
+    net : Net or Result
+        A net, or a result whose ideal drape has one.
+    view : {"both", "fabric", "plan"}, default "both"
+        Which of both to draw.
+    signed : bool, default False
+        False colors the amount from 0 on, which is what a locking angle limits; True the
+        angle with its sign, in two hues from a white zero.
+    most : float or str, optional
+        End of the colors (rad, or a text with a unit); if None the largest amount. For
+        maps that are to be compared.
+    width : Width, default "double"
+        "single" (89 mm), "double" (183 mm) or a length, as "120 mm".
+    title : str, optional
+        A line above the panels; none by default.
 
-    Raises:
-        ImportError: Matplotlib is not installed.
-        ValueError: The result has no ideal drape, or the net has no cell with all its nodes.
+    Raises
+    ------
+    ImportError
+        Matplotlib is not installed.
+    ValueError
+        The result has no ideal drape, or the net has no cell with all its nodes.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene)
-        >>> figure = plydrape.plot.shear_map(result, view="fabric")
-        >>> figure.axes[0].get_xlabel()
-        'u (mm)'
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene)
+    >>> figure = plydrape.plot.shear_map(result, view="fabric")
+    >>> figure.axes[0].get_xlabel()
+    'u (mm)'
 
     """
     _need()
     from plydrape.plot import _shear
 
-    return _shear.figure(net, view, signed, most, width, title)
+    end = None if most is None else _degrees(most, "most")
+    return _shear.figure(net, view, signed, end, width, title)
 
 
 def sheet(
@@ -205,27 +246,37 @@ def sheet(
 
     The height over the mold has one scale for all results, by orders of size from 0.1 to 10 mm: a
     red line is the limit, a ring the highest node. The order of landing is that of the whole drape:
-    the step in which a node came to the mold and stayed; what is in the air at the end is grey.
+    the step in which a node came to the mold and stayed; what is in the air at the end is gray.
     Black discs are the grippers.
 
-    Args:
-        result: The result, of a drape with the sheet.
-        show: One map or several, up to four.
-        step: The step whose height, shear and tension are shown, from 1; -1 is the last that was
-            kept, -2 the one before.
-        width: "single" (89 mm), "double" (183 mm) or a width in mm.
-        title: A line above the panels; none by default.
+    Parameters
+    ----------
+    result : Result
+        The result, of a drape with the sheet.
+    show : Map or sequence of Map, default ("height", "landing")
+        One map or several, up to four.
+    step : int, default -1
+        The step whose height, shear and tension are shown, from 1; -1 is the last that was
+        kept, -2 the one before.
+    width : Width, default "double"
+        "single" (89 mm), "double" (183 mm) or a length, as "120 mm".
+    title : str, optional
+        A line above the panels; none by default.
 
-    Raises:
-        ImportError: Matplotlib is not installed.
-        ValueError: The result has no sheet, none of that step, or no mold for the height.
+    Raises
+    ------
+    ImportError
+        Matplotlib is not installed.
+    ValueError
+        The result has no sheet, none of that step, or no mold for the height.
 
-    Example:
-        >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
-        >>> result = plydrape.simulate(scene, model="sheet")
-        >>> figure = plydrape.plot.sheet(result)
-        >>> [axes.get_title(loc="left") for axes in figure.axes[:2]]
-        ['a  height over the mold, step 30', 'b  order of landing']
+    Examples
+    --------
+    >>> scene = plydrape.Scene.read("examples/01_flat_sheared_mold/scene.toml")
+    >>> result = plydrape.simulate(scene, model="sheet")
+    >>> figure = plydrape.plot.sheet(result)
+    >>> [axes.get_title(loc="left") for axes in figure.axes[:2]]
+    ['a  height over the mold, step 30', 'b  order of landing']
 
     """
     _need()
@@ -235,4 +286,8 @@ def sheet(
 
 
 def _need() -> None:
-    _extra.load("matplotlib", extra="plot", name="Matplotlib")
+    _extra.load("matplotlib", package="matplotlib", name="Matplotlib")
+
+
+def _degrees(angle: float | str, name: str) -> float:
+    return math.degrees(_plydrape._si(angle, "angle", name))

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from plydrape.plot import Width
 
 LOW, HIGH = 0.1, 10.0
-"""Ends of the colours of heights (mm), of every sheet."""
+"""Ends of the colors of heights (mm), of every sheet."""
 NAMES = {
     "height": "height over the mold",
     "landing": "order of landing",
@@ -89,9 +89,9 @@ def figure(
         engine.set(rect=(0, 0, 1, 1 - head / high))  # type: ignore[call-arg]
         axes = page.subplots(rows, across, squeeze=False).ravel()
         for letter, axis, name in zip("abcd", axes, shown, strict=False):
-            colours, label = draw[name](axis, sheet)
+            colors, label = draw[name](axis, sheet)
             _frame(axis, sheet)
-            bar = page.colorbar(colours, ax=axis, aspect=22, pad=0.02)
+            bar = page.colorbar(colors, ax=axis, aspect=22, pad=0.02)
             _scale(bar, name, label)
             tag = f"{letter}  " if len(shown) > 1 else ""
             at = "" if name == "landing" else f", step {sheet.step}"
@@ -127,7 +127,7 @@ def _height(axis: Axes, sheet: _Sheet) -> tuple[ScalarMappable, str]:
 
 
 def _landing(axis: Axes, sheet: _Sheet) -> tuple[ScalarMappable, str]:
-    """The part of each cell that is nearest to a node has that node's step; grey never landed."""
+    """The part of each cell that is nearest to a node has that node's step; gray never landed."""
     step = sheet.landing[sheet.cells].ravel()
     landed = step > 0
     parts = _shapes.quarters(sheet.places, sheet.cells).reshape(-1, 4, 2)
@@ -148,12 +148,12 @@ def _landing(axis: Axes, sheet: _Sheet) -> tuple[ScalarMappable, str]:
     whole.set_array(step[landed])
     whole.set_gid("landing")
     axis.add_collection(whole)
-    note = "; grey: in the air" if not landed.all() else ""
+    note = "; gray: in the air" if not landed.all() else ""
     return ScalarMappable(norm, "viridis"), f"step{note}"
 
 
 def _shear(axis: Axes, sheet: _Sheet) -> tuple[ScalarMappable, str]:
-    """The cells in the colour of their shear angle, in two hues from a white zero."""
+    """The cells in the color of their shear angle, in two hues from a white zero."""
     most = max(float(np.abs(sheet.shear).max()), 1e-3)
     norm = Normalize(-most, most)
     cells = PolyCollection(
@@ -169,7 +169,7 @@ def _shear(axis: Axes, sheet: _Sheet) -> tuple[ScalarMappable, str]:
 
 
 def _tension(axis: Axes, sheet: _Sheet) -> tuple[ScalarMappable, str]:
-    """The yarns in the colour of their tension, by orders of size; pressed ones in another hue."""
+    """The yarns in the color of their tension, by orders of size; pressed ones in another hue."""
     most = max(float(np.abs(sheet.tension).max()), 10.0)
     norm = SymLogNorm(1.0, vmin=-most, vmax=most)
     width = float(np.clip(180.0 / np.sqrt(len(sheet.segments)), 0.8, 4.0))

@@ -1,4 +1,4 @@
-"""What the marks and colours of the figure of steps mean."""
+"""What the marks and colors of the figure of steps mean."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 def key(
     sheet: Sheet, stage: Stage, chosen: list[int], rect: tuple[float, float, float, float]
 ) -> None:
-    """Marks and colours in this part of the sheet (left, bottom, width, height; shares of it).
+    """Marks and colors in this part of the sheet (left, bottom, width, height; shares of it).
 
     One below the other where there is room for it, in a free cell; else side by side, in a strip;
-    in a narrow strip in two columns, with the colours below.
+    in a narrow strip in two columns, with the colors below.
     """
     left, bottom, wide, high = rect
     tall = high * float(sheet.get_figheight()) / MM
@@ -62,12 +62,12 @@ def _marks(stage: Stage, chosen: list[int]) -> list[Line2D]:
 
 
 def _bar(sheet: Sheet, stage: Stage, rect: tuple[float, float, float, float]) -> None:
-    """The colours and what they stand for."""
+    """The colors and what they stand for."""
     axes = sheet.add_axes(rect)
-    colours = ScalarMappable(stage.scale, "viridis")
-    bar = sheet.colorbar(colours, cax=axes, orientation="horizontal")
-    bar.set_label(NAMES[stage.colour], labelpad=1.5, fontsize=7)
-    if stage.colour == "gap":
+    colors = ScalarMappable(stage.scale, "viridis")
+    bar = sheet.colorbar(colors, cax=axes, orientation="horizontal")
+    bar.set_label(NAMES[stage.color], labelpad=1.5, fontsize=7)
+    if stage.color == "gap":
         bar.locator = LogLocator(subs=(1.0,))
         bar.formatter = FuncFormatter(
             lambda value, _: f"\u2264\u2009{value:g}" if value <= 1.01 * TOUCHING else f"{value:g}"

@@ -17,7 +17,7 @@ from plydrape.plot._sheet import DARK, GRID, LINE, MM, QUIET, RED, Sheet, breadt
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from plydrape import Measure, Result
+    from plydrape import Limit, Limits, Measure, Result
     from plydrape.plot import Width
 
 ROW, LOW = 32.0, 26.0
@@ -50,7 +50,7 @@ def figure(
     if against not in ("step", "time"):
         raise ValueError(f'measures can be drawn against "step" or "time", not "{against}"')
     wide = breadth(width)
-    limits = {limit["name"]: limit for limit in result.limits}
+    limits = result.catenary_limits
     chosen = _chosen(result.measures, names, limits)
     across = columns or (3 if wide > 120.0 else 2)
     if across < 1:
@@ -101,7 +101,7 @@ def figure(
 def _chosen(
     measures: dict[str, NDArray[np.float64]],
     names: Sequence[str] | None,
-    limits: dict[str, dict[str, Any]],
+    limits: Limits,
 ) -> list[str]:
     """Keys of measures that have a value, those with a limit first."""
     meant = [name for name in MEASURES if np.isfinite(measures[name]).any()]
@@ -119,7 +119,7 @@ def _chosen(
     return list(names)
 
 
-def _wide(shown: Measure, limits: dict[str, dict[str, Any]]) -> float:
+def _wide(shown: Measure, limits: Limits) -> float:
     """How wide name and limit are beside each other (mm)."""
     limit = limits.get(shown.name)
     name = _length(shown.label, LARGE)
@@ -131,12 +131,12 @@ def _length(text: str, size: float) -> float:
     return float(TextPath((0, 0), text, size=size).get_extents().width) / 72.0 / MM
 
 
-def _bound(shown: Measure, limit: dict[str, Any]) -> str:
+def _bound(shown: Measure, limit: Limit) -> str:
     """A limit in words: when it counts, which way, how much."""
     unit = "" if shown.shown == "1" else shown.shown
     sign = "≥" if shown.sense == "at-least" else "≤"
     when = "end: " if shown.scope == "end" else ""
-    return f"{when}{sign}\u2009{limit['limit']:g}{'' if unit == '°' else chr(0x2009)}{unit}"
+    return f"{when}{sign}\u2009{limit.limit:g}{'' if unit == '°' else chr(0x2009)}{unit}"
 
 
 def _draw(
@@ -144,7 +144,7 @@ def _draw(
     x: NDArray[np.float64],
     y: NDArray[np.float64],
     shown: Measure,
-    limit: dict[str, Any] | None,
+    limit: Limit | None,
     room: float,
     *,
     narrow: bool,
@@ -164,9 +164,9 @@ def _draw(
     panel.set_ylabel("" if shown.shown == "1" else shown.shown.replace("°", "deg"), labelpad=2)
 
     # The worst is what the limit judges; without a limit it is the worst of all steps.
-    exceeded = limit is not None and not limit["ok"]
-    if limit is not None and limit["step"] is not None:
-        worst = limit["step"] - 1
+    exceeded = limit is not None and not limit.kept
+    if limit is not None and limit.step is not None:
+        worst = limit.step - 1
     else:
         worst = int(np.nanargmin(y) if shown.sense == "at-least" else np.nanargmax(y))
     if np.isfinite(y[worst]):
@@ -180,7 +180,7 @@ def _draw(
 
     values = [*y[np.isfinite(y)]]
     if limit is not None:
-        bound = float(limit["limit"])
+        bound = limit.limit
         values.append(bound)
         panel.axhline(
             bound, color=RED if exceeded else QUIET, lw=0.9, dashes=(4, 2.5), zorder=2, gid="limit"
@@ -222,9 +222,10 @@ def _legend(sheet: Sheet, room: Axes | None, *, contact: bool) -> None:
         box = room.legend(
             handles=marks, loc="center left", frameon=False, handlelength=2.4, borderpad=0
         )
+        box.set_in_layout(False)
     else:
         columns = 3 if sheet.get_figwidth() > 120 * MM else 1
-        box = sheet.legend(
+        sheet.legend(
             handles=marks,
             loc="lower center",
             ncols=columns,
@@ -232,7 +233,6 @@ def _legend(sheet: Sheet, room: Axes | None, *, contact: bool) -> None:
             handlelength=2.4,
             borderpad=0.1,
         )
-    box.set_in_layout(False)
 
 
 __all__ = ["MEASURES", "figure"]

@@ -120,12 +120,12 @@ def _lines(
 
 
 def _shade(points: NDArray[np.float64], triangles: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Colours (T, 4) of a grey surface in light from above and the left."""
+    """Colors (T, 4) of a gray surface in light from above and the left."""
     a, b, c = (points[triangles[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1, keepdims=True)
     normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)
     normal *= np.where(normal[:, 2:] < 0.0, -1.0, 1.0)
     light = normal @ (LIGHT / np.linalg.norm(LIGHT))
-    grey = LinearSegmentedColormap.from_list("mold", [MOLD_DARK, MOLD_LIGHT])
-    return np.asarray(grey(np.clip(0.15 + 0.85 * light, 0.0, 1.0)))
+    gray = LinearSegmentedColormap.from_list("mold", [MOLD_DARK, MOLD_LIGHT])
+    return np.asarray(gray(np.clip(0.15 + 0.85 * light, 0.0, 1.0)))

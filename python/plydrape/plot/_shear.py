@@ -32,10 +32,10 @@ def figure(
     value = shear if signed else np.abs(shear)
     top = float(np.nanmax(np.abs(shear))) if most is None else float(most)
     if not top >= 0.0:
-        raise ValueError(f"the colours cannot end at {top:g} deg")
+        raise ValueError(f"the colors cannot end at {top:g} deg")
     top = max(top, 1e-3)
     scale = Normalize(-top if signed else 0.0, top)
-    colours = "PuOr_r" if signed else "viridis"
+    colors = "PuOr_r" if signed else "viridis"
 
     nu, nv = shear.shape
     u, v = (np.arange(n + 1) * step * 1e3 for n, step in zip((nu, nv), mesh, strict=True))
@@ -63,7 +63,7 @@ def figure(
         axes = sheet.subplots(*shape, squeeze=False).ravel()
         names = {"fabric": "on the flat fabric", "plan": "on the mold, from above"}
         for letter, axis, (name, corners, right, up) in zip("ab", axes, panels, strict=False):
-            _cells(axis, corners, value, scale, colours)
+            _cells(axis, corners, value, scale, colors)
             _largest(axis, corners, shear, signed)
             tag = f"{letter}  " if len(panels) > 1 else ""
             even = (
@@ -73,7 +73,7 @@ def figure(
             axis.set_xlabel(f"{right} (mm)")
             axis.set_ylabel(f"{up} (mm)")
         bar = sheet.colorbar(
-            ScalarMappable(scale, colours),
+            ScalarMappable(scale, colors),
             ax=list(axes),
             aspect=22,
             shrink=0.92,
@@ -108,15 +108,15 @@ def _cells(
     corners: NDArray[np.float64],
     value: NDArray[np.float64],
     scale: Normalize,
-    colours: str,
+    colors: str,
 ) -> None:
-    """The cells as quadrilaterals in the colour of their shear."""
+    """The cells as quadrilaterals in the color of their shear."""
     quads = np.stack(
         [corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]], axis=2
     )
     whole = np.isfinite(value) & np.isfinite(quads).all(axis=(2, 3))
     cells = PolyCollection(
-        list(quads[whole]), cmap=colours, norm=scale, edgecolors="face", linewidths=0.5
+        list(quads[whole]), cmap=colors, norm=scale, edgecolors="face", linewidths=0.5
     )
     cells.set_array(value[whole])
     axis.add_collection(cells)

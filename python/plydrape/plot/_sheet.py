@@ -1,8 +1,8 @@
-"""The sheet that the figures share: its size, its type and its colours.
+"""The sheet that the figures share: its size, its type and its colors.
 
-Colours are those of the report and of `figure.svg`. Viridis grows evenly lighter, also for
-colour-blind eyes and in grey print; the scale with a sign is ColorBrewer's PuOr, safe for
-colour-blind eyes.
+Colors are those of the report and of `figure.svg`. Viridis grows evenly lighter, also for
+color-blind eyes and in gray print; the scale with a sign is ColorBrewer's PuOr, safe for
+color-blind eyes.
 """
 
 from __future__ import annotations
@@ -16,13 +16,15 @@ from cycler import cycler
 from matplotlib.figure import Figure
 from matplotlib.style import context as style_context
 
+from plydrape._plydrape import _si
+
 if TYPE_CHECKING:
     from matplotlib.colorbar import Colorbar
 
     from plydrape.plot import Width
 
 MM = 1.0 / 25.4
-"""A millimetre (inch)."""
+"""A millimeter (inch)."""
 
 DARK = "#2d323a"
 QUIET = "#59636f"
@@ -86,16 +88,20 @@ def style() -> Iterator[None]:
 def breadth(width: Width) -> float:
     """The width of a sheet (mm)."""
     if isinstance(width, str):
-        if width not in ("single", "double"):
-            raise ValueError(f'there is no width "{width}"; "single", "double" or a number of mm')
-        return 89.0 if width == "single" else 183.0
-    if not 40.0 <= width <= 1000.0:
-        raise ValueError(f"a figure can be 40 to 1000 mm wide, not {width:g} mm")
-    return float(width)
+        if width in ("single", "double"):
+            return 89.0 if width == "single" else 183.0
+        if not width[:1].isdigit():
+            raise ValueError(f'there is no width "{width}"; "single", "double" or a length')
+    wide = 1e3 * _si(width, "length", "width")
+    if not 40.0 <= wide <= 1000.0:
+        raise ValueError(
+            f'a figure can be 40 to 1000 mm wide, not {wide:g} mm; a length is wanted, as "120 mm"'
+        )
+    return wide
 
 
 def plain(bar: Colorbar) -> None:
-    """A colour bar with a thin frame, made of shapes and not of dots."""
+    """A color bar with a thin frame, made of shapes and not of dots."""
     bar.outline.set_linewidth(0.4)
     if bar.solids is not None:
         bar.solids.set(rasterized=False, edgecolor="face")

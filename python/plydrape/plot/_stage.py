@@ -1,4 +1,4 @@
-"""What the panels of steps share: the frame around the ply, the mold, the scale of colours."""
+"""What the panels of steps share: the frame around the ply, the mold, the scale of colors."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from plydrape.plot import Surface
 
 TOUCHING = 0.1
-"""Gap up to which the ply counts as touching in a picture (mm): the low end of its colours."""
+"""Gap up to which the ply counts as touching in a picture (mm): the low end of its colors."""
 DEEP = 0.35
 """How far a mold is drawn below and above the ply at most, as a share of the ply's diagonal."""
 THIN = 0.06
@@ -30,7 +30,7 @@ class Stage:
     """What all panels share; lengths in mm."""
 
     result: Result
-    colour: str
+    color: str
     view: tuple[float, float]
     intervals: int
     low: NDArray[np.float64]
@@ -49,21 +49,21 @@ class Stage:
 
 
 def stage(
-    result: Result, chosen: list[int], colour: Surface | None, view: tuple[float, float]
+    result: Result, chosen: list[int], color: Surface | None, view: tuple[float, float]
 ) -> Stage:
-    """The frame that holds all panels, and the scale of their colours."""
+    """The frame that holds all panels, and the scale of their colors."""
     nu, nv = result.grid
     cells = max(1, (nu - 1) * (nv - 1))
     intervals = int(np.clip(np.sqrt(3000.0 / cells / len(chosen) ** 0.5), 1, 8))
     mold = result.mold
     curved = mold is not None and mold.kind != "plane"
-    kind = colour or ("gap" if curved else "height")
+    kind = color or ("gap" if curved else "height")
     if kind not in ("gap", "height", "shear"):
         raise ValueError(
-            f'the ply can have the colour of its "gap", "height" or "shear", not "{kind}"'
+            f'the ply can have the color of its "gap", "height" or "shear", not "{kind}"'
         )
     if kind == "gap" and mold is None:
-        raise ValueError('without a mold there is no gap; choose colour="height" or "shear"')
+        raise ValueError('without a mold there is no gap; choose color="height" or "shear"')
 
     lines = [line for step in chosen for line in result.lines(step)]
     size = _shapes.radius(result)
@@ -104,15 +104,15 @@ def stage(
 
 
 def values(stage: Stage, step: int) -> NDArray[np.float64] | None:
-    """What colours each triangle of the ply: gap or height in mm, shear in deg."""
+    """What colors each triangle of the ply: gap or height in mm, shear in deg."""
     ply = _shapes.ply(stage.result, step, stage.intervals)
     if ply is None:
         return None
-    if stage.colour == "shear":
+    if stage.color == "shear":
         return np.abs(ply.shear_deg)
-    of = ply.gap if stage.colour == "gap" else ply.points[:, 2]
+    of = ply.gap if stage.color == "gap" else ply.points[:, 2]
     value: NDArray[np.float64] = of[ply.triangles].mean(axis=1) * 1e3
-    return np.maximum(value, TOUCHING) if stage.colour == "gap" else value
+    return np.maximum(value, TOUCHING) if stage.color == "gap" else value
 
 
 def projected(stage: Stage) -> NDArray[np.float64]:

@@ -32,7 +32,7 @@ LEFT_RIGHT, TOP_BOTTOM = (9.5, 8.0), (1.0, 8.0)
 def figure(
     result: Result,
     steps: Sequence[int] | None,
-    colour: Surface | None,
+    color: Surface | None,
     view: tuple[float, float],
     columns: int | None,
     width: Width,
@@ -43,7 +43,7 @@ def figure(
     chosen = _telling(result) if steps is None else _checked(result, steps)
     if not (np.isfinite(view).all() and abs(view[0]) <= 90.0):
         raise ValueError(f"no view has the angles elev {view[0]:g} and azim {view[1]:g} deg")
-    stage = staged(result, chosen, colour, view)
+    stage = staged(result, chosen, color, view)
     most = 1 if wide < 120.0 and len(chosen) < 4 else 2 if wide < 120.0 else 3
     across = min(len(chosen), most if columns is None else columns)
     if across < 1:

@@ -12,24 +12,25 @@ gives one row a scenario: its inputs, its measures, its version and any error.
     folder.py       what is done stands on the disk       (table.py)
     summary.py      distributions and what drives them    (page.py, figures.py)
 
-Needs the extra: `pip install 'plydrape[study]'`.
+Needs `pip install dask distributed pyarrow scipy`.
 
-Example:
-    >>> import plydrape.study
-    >>> study = plydrape.study.Study.of(
-    ...     {
-    ...         "scene": {
-    ...             "ply": {"grippers": [2, 1], "cell": [0.1, 0.1], "material": "krogh2018"},
-    ...             "grippers": {"spacing": ["98 mm", "98 mm"], "height": "75 mm"},
-    ...             "motion": {"kind": "hold"},
-    ...         },
-    ...         "samples": 8,
-    ...         "vary": {"ply.material.mass": {"relative": [0.8, 1.2]}},
-    ...     }
-    ... )
-    >>> outcome = plydrape.study.run(study, workers=1, progress=False)
-    >>> outcome.table().num_rows
-    8
+Examples
+--------
+>>> import plydrape.study
+>>> study = plydrape.study.Study.of(
+...     {
+...         "scene": {
+...             "ply": {"grippers": [2, 1], "cell": [0.1, 0.1], "material": "krogh2018"},
+...             "grippers": {"spacing": ["98 mm", "98 mm"], "height": "75 mm"},
+...             "motion": {"kind": "hold"},
+...         },
+...         "samples": 8,
+...         "vary": {"ply.material.mass": {"relative": [0.8, 1.2]}},
+...     }
+... )
+>>> outcome = plydrape.study.run(study, workers=1, progress=False)
+>>> outcome.table().num_rows
+8
 
 """
 

@@ -1,6 +1,6 @@
 """Runs a study: runs of scenarios go to workers, rows come back, none is lost.
 
-A *chunk* is a run of neighbouring scenarios that takes a worker about a second: long enough for
+A *chunk* is a run of neighboring scenarios that takes a worker about a second: long enough for
 its transport not to matter, short enough that little is lost with a worker. When a worker dies
 its chunk is divided and given out again. So a scenario that kills its worker is soon alone
 in its chunk; after `TRIES` deaths it becomes a row with an error.
@@ -73,8 +73,10 @@ class Executor(Protocol):
     def wait(self) -> Done | Lost:
         """The next chunk that ended, either way.
 
-        Raises:
-            StudyError: no chunk can be run any more.
+        Raises
+        ------
+        StudyError
+            No chunk can be run any more.
 
         """
 
@@ -92,16 +94,25 @@ def run_chunks(
 ) -> None:
     """Runs the scenarios of the ranges `todo`; each batch of rows goes to `keep` once.
 
-    Args:
-        executor: runs the chunks; it is not closed.
-        task: makes the row of a scenario that is given up.
-        values: the inputs of all scenarios.
-        todo: ranges of scenarios, first and stop.
-        keep: takes the rows.
-        every: seconds that a chunk should take.
+    Parameters
+    ----------
+    executor : Executor
+        Runs the chunks; it is not closed.
+    task : Task
+        Makes the row of a scenario that is given up.
+    values : list of Row
+        The inputs of all scenarios.
+    todo : iterable of tuple[int, int]
+        Ranges of scenarios, first and stop.
+    keep : callable
+        Takes the rows.
+    every : float
+        Seconds that a chunk should take.
 
-    Raises:
-        StudyError: from the executor.
+    Raises
+    ------
+    StudyError
+        From the executor.
 
     """
     ranges = deque(Chunk(first, stop) for first, stop in todo if first < stop)

@@ -33,16 +33,19 @@ AGAIN = "the finished rows are kept; start the study again to go on"
 class Cluster:
     """An executor on the cluster of a scheduler.
 
-    Example:
-        >>> executor = Cluster(task, "tcp://10.0.0.1:8786")  # doctest: +SKIP
+    Examples
+    --------
+    >>> executor = Cluster(task, "tcp://10.0.0.1:8786")  # doctest: +SKIP
 
     """
 
     def __init__(self, task: Task, address: str) -> None:
         """Connects.
 
-        Raises:
-            StudyError: there is no scheduler at the address, or it has no workers.
+        Raises
+        ------
+        StudyError
+            There is no scheduler at the address, or it has no workers.
 
         """
         from distributed import Client, as_completed

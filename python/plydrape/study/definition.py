@@ -38,34 +38,48 @@ KEYS = ("title", "scene", "command", "plan", "sampling", "samples", "max_scenari
 class Study:
     """Many scenes made of one.
 
-    Attributes:
-        title: for the page; that of the scene unless given.
-        tables: the scene as plain dicts and lists, its material expanded where that is varied.
-        base: folder that the scene's paths are relative to.
-        command: "simulate", "plan" or "follow".
-        sampling: "latin-hypercube", "sobol" or "grid".
-        samples: number of scenarios; of a grid it follows from its numbers.
-        seed: of the sample and of the placement errors.
-        inputs: what varies.
-        placement: how grippers err, or None.
-        motion: of "follow": times (S,) in s and positions (S, G, 3) in m.
-        files: check sums of the files that the scene names.
-        file: the study file, or None.
+    Attributes
+    ----------
+    title
+        For the page; that of the scene unless given.
+    tables
+        The scene as plain dicts and lists, its material expanded where that is varied.
+    base
+        Folder that the scene's paths are relative to.
+    command
+        "simulate", "plan" or "follow".
+    sampling
+        "latin-hypercube", "sobol" or "grid".
+    samples
+        Number of scenarios; of a grid it follows from its numbers.
+    seed
+        Of the sample and of the placement errors.
+    inputs
+        What varies.
+    placement
+        How grippers err, or None.
+    motion
+        Of "follow": times (S,) in s and positions (S, G, 3) in m.
+    files
+        Check sums of the files that the scene names.
+    file
+        The study file, or None.
 
-    Example:
-        >>> study = Study.of(
-        ...     {
-        ...         "scene": {
-        ...             "ply": {"grippers": [2, 1], "cell": [0.1, 0.1], "material": "krogh2018"},
-        ...             "grippers": {"spacing": ["98 mm", "98 mm"], "height": "75 mm"},
-        ...             "motion": {"kind": "hold"},
-        ...         },
-        ...         "samples": 8,
-        ...         "vary": {"ply.material.flexural_rigidity": {"relative": [0.8, 1.2]}},
-        ...     }
-        ... )
-        >>> len(study), study.names
-        (8, ['ply.material.flexural_rigidity'])
+    Examples
+    --------
+    >>> study = Study.of(
+    ...     {
+    ...         "scene": {
+    ...             "ply": {"grippers": [2, 1], "cell": [0.1, 0.1], "material": "krogh2018"},
+    ...             "grippers": {"spacing": ["98 mm", "98 mm"], "height": "75 mm"},
+    ...             "motion": {"kind": "hold"},
+    ...         },
+    ...         "samples": 8,
+    ...         "vary": {"ply.material.flexural_rigidity": {"relative": [0.8, 1.2]}},
+    ...     }
+    ... )
+    >>> len(study), study.names
+    (8, ['ply.material.flexural_rigidity'])
 
     """
 
@@ -86,14 +100,28 @@ class Study:
     def read(cls, path: str | os.PathLike[str]) -> Study:
         """Reads a study file; its paths are relative to it.
 
-        Raises:
-            StudyError: the file cannot be read or says what cannot be.
-            SceneError: the scene is refused.
+        Parameters
+        ----------
+        path : str or path
+            The study file.
 
-        Example:
-            >>> study = plydrape.study.Study.read("examples/study/study.toml")
-            >>> study.names
-            ['grippers.stiffness.lateral']
+        Returns
+        -------
+        Study
+            The study.
+
+        Raises
+        ------
+        StudyError
+            The file cannot be read or says what cannot be.
+        SceneError
+            The scene is refused.
+
+        Examples
+        --------
+        >>> study = plydrape.study.Study.read("examples/study/study.toml")
+        >>> study.names
+        ['grippers.stiffness.lateral']
 
         """
         path = Path(path)
@@ -106,14 +134,28 @@ class Study:
 
         `scene` may be a path, the tables of a scene as a dict, or a `plydrape.Scene` with text.
 
-        Raises:
-            As `read`.
+        Parameters
+        ----------
+        table : mapping
+            A dict with the keys of a study file.
+        base : str or path, default "."
+            Folder of the files that it names.
 
-        Example:
-            >>> scene = "examples/02_hanging_strip/scene.toml"
-            >>> vary = {"ply.material.mass": {"values": [0.3, 0.32]}}
-            >>> len(plydrape.study.Study.of({"scene": scene, "sampling": "grid", "vary": vary}))
-            2
+        Returns
+        -------
+        Study
+            The study.
+
+        Raises
+        ------
+        As `read`.
+
+        Examples
+        --------
+        >>> scene = "examples/02_hanging_strip/scene.toml"
+        >>> vary = {"ply.material.mass": {"values": [0.3, 0.32]}}
+        >>> len(plydrape.study.Study.of({"scene": scene, "sampling": "grid", "vary": vary}))
+        2
 
         """
         return _study(table, Path(base), None)
@@ -158,14 +200,28 @@ class Study:
     def scene(self, scenario: int) -> plydrape.Scene:
         """The scene of one scenario, to look at it on its own: `plydrape.simulate(it)`.
 
-        Raises:
-            SceneError: the scene is refused, as it was in the study.
-            IndexError: there is no such scenario.
+        Parameters
+        ----------
+        scenario : int
+            Number of the scenario, from 0.
 
-        Example:
-            >>> study = plydrape.study.Study.read("examples/study/study.toml")
-            >>> study.scene(0).ply.grippers
-            (3, 3)
+        Returns
+        -------
+        plydrape.Scene
+            Its scene.
+
+        Raises
+        ------
+        SceneError
+            The scene is refused, as it was in the study.
+        IndexError
+            There is no such scenario.
+
+        Examples
+        --------
+        >>> study = plydrape.study.Study.read("examples/study/study.toml")
+        >>> study.scene(0).ply.grippers
+        (3, 3)
 
         """
         return self.task.scene(range(len(self))[scenario], self.values[scenario])
@@ -179,10 +235,16 @@ class Study:
     def described(self) -> dict[str, Any]:
         """The definition as plain JSON values: strict JSON, infinite numbers as text.
 
-        Example:
-            >>> study = plydrape.study.Study.read("examples/study/study.toml")
-            >>> study.described()["seed"]
-            1
+        Returns
+        -------
+        dict
+            The study as plain values.
+
+        Examples
+        --------
+        >>> study = plydrape.study.Study.read("examples/study/study.toml")
+        >>> study.described()["seed"]
+        1
 
         """
         about = {

@@ -11,18 +11,24 @@ from plydrape.errors import ExtraError, PlydrapeError
 class StudyError(PlydrapeError, ValueError):
     """A study that cannot be run as it is written.
 
-    Attributes:
-        message: what is wrong, with the key and its value.
-        help: what would be right.
-        file: the study file, or None.
-        key: the key at fault as a dotted path, or None.
+    Attributes
+    ----------
+    message
+        What is wrong, with the key and its value.
+    help
+        What would be right.
+    file
+        The study file, or None.
+    key
+        The key at fault as a dotted path, or None.
 
-    Example:
-        >>> try:
-        ...     raise StudyError("`samples` = 0 does not count", help="write 1 or more")
-        ... except StudyError as error:
-        ...     print(error)
-        `samples` = 0 does not count; write 1 or more
+    Examples
+    --------
+    >>> try:
+    ...     raise StudyError("`samples` = 0 does not count", help="write 1 or more")
+    ... except StudyError as error:
+    ...     print(error)
+    `samples` = 0 does not count; write 1 or more
 
     """
 
@@ -46,8 +52,10 @@ class StudyError(PlydrapeError, ValueError):
 def toml() -> ModuleType:
     """The reader of TOML: the standard library's, before Python 3.11 the package tomli.
 
-    Raises:
-        ExtraError: Python is older than 3.11 and tomli is not installed.
+    Raises
+    ------
+    ExtraError
+        Python is older than 3.11 and tomli is not installed.
 
     """
     try:
@@ -56,20 +64,23 @@ def toml() -> ModuleType:
         try:
             import tomli as reader  # type: ignore[no-redef, import-not-found, unused-ignore]
         except ImportError as error:
-            raise ExtraError("tomli", "study") from error
+            raise ExtraError("tomli", "tomli") from error
     return reader
 
 
 def require(*modules: str) -> None:
-    """Reports at the start, not after an hour, that a package of the extra is missing.
+    """Reports at the start, not after an hour, that a package is missing.
 
-    Raises:
-        ExtraError: one of the modules is not installed.
+    Raises
+    ------
+    ExtraError
+        One of the modules is not installed.
 
-    Example:
-        >>> require("json")
+    Examples
+    --------
+    >>> require("json")
 
     """
-    for module in modules:
-        if find_spec(module) is None:
-            raise ExtraError(module, "study")
+    missing = [module for module in modules if find_spec(module) is None]
+    if missing:
+        raise ExtraError(missing[0], " ".join(missing))

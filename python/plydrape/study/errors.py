@@ -32,9 +32,10 @@ TERMS: dict[str, tuple[tuple[str, ...], str, tuple[str, ...]]] = {
 def terms(tables: Mapping[str, Any], varied: Iterable[str]) -> tuple[str, ...]:
     """The terms that a scene has, or gets from varied keys.
 
-    Example:
-        >>> terms({"errors": {"pick_up": {"yaw": {"bound": 0.01}}}}, ["errors.frame.angle.bound"])
-        ('frame.angle', 'pick_up.yaw')
+    Examples
+    --------
+    >>> terms({"errors": {"pick_up": {"yaw": {"bound": 0.01}}}}, ["errors.frame.angle.bound"])
+    ('frame.angle', 'pick_up.yaw')
 
     """
     table = tables.get("errors", {})
@@ -50,9 +51,10 @@ def terms(tables: Mapping[str, Any], varied: Iterable[str]) -> tuple[str, ...]:
 def names(of: Iterable[str]) -> list[str]:
     """Columns of terms.
 
-    Example:
-        >>> names(["pick_up.offset", "pick_up.yaw"])
-        ['errors.pick_up.offset.u', 'errors.pick_up.offset.v', 'errors.pick_up.yaw']
+    Examples
+    --------
+    >>> names(["pick_up.offset", "pick_up.yaw"])
+    ['errors.pick_up.offset.u', 'errors.pick_up.offset.v', 'errors.pick_up.yaw']
 
     """
     return [
@@ -70,9 +72,10 @@ def units(of: Iterable[str]) -> dict[str, str]:
 def columns(of: Iterable[str], draw: Mapping[str, Any]) -> dict[str, float]:
     """The numbers of a draw in these columns: of the grippers the root mean square distance.
 
-    Example:
-        >>> columns(["pick_up.offset"], {"pick_up": {"offset": [0.001, -0.002]}})
-        {'errors.pick_up.offset.u': 0.001, 'errors.pick_up.offset.v': -0.002}
+    Examples
+    --------
+    >>> columns(["pick_up.offset"], {"pick_up": {"offset": [0.001, -0.002]}})
+    {'errors.pick_up.offset.u': 0.001, 'errors.pick_up.offset.v': -0.002}
 
     """
     row: dict[str, float] = {}

@@ -1,4 +1,4 @@
-"""Small pictures of the summary page, as SVG that takes its colours from the page.
+"""Small pictures of the summary page, as SVG that takes its colors from the page.
 
 Plain shapes, no script; each has a text for those who do not see it. Lengths are in pixels of the
 picture's own frame, which the page scales.
@@ -26,9 +26,12 @@ POINTS = 500
 class Axis:
     """Numbers along a line of pixels.
 
-    Attributes:
-        low, high: its ends.
-        start, end: their pixels.
+    Attributes
+    ----------
+    low, high
+        Its ends.
+    start, end
+        Their pixels.
 
     """
 
@@ -49,9 +52,10 @@ class Axis:
     def ticks(self, most: int = 5) -> list[float]:
         """Round numbers on it, at most so many.
 
-        Example:
-            >>> Axis(0.0, 9.3, 0, 100).ticks()
-            [0.0, 2.0, 4.0, 6.0, 8.0]
+        Examples
+        --------
+        >>> Axis(0.0, 9.3, 0, 100).ticks()
+        [0.0, 2.0, 4.0, 6.0, 8.0]
 
         """
         rough = (self.high - self.low) / most
@@ -92,14 +96,20 @@ def edges(values: Numbers, low: float, high: float, limit: float | None) -> list
 
 
 def histogram(values: Numbers, limit: float | None, at_least: bool, unit: str, about: str) -> str:
-    """How values are distributed, those beyond the limit in its colour.
+    """How values are distributed, those beyond the limit in its color.
 
-    Args:
-        values: finite numbers, at least one.
-        limit: the limit, or None.
-        at_least: whether the limit is the least allowed.
-        unit: of both.
-        about: what it is of, for its text.
+    Parameters
+    ----------
+    values : Numbers
+        Finite numbers, at least one.
+    limit : float or None
+        The limit, or None.
+    at_least : bool
+        Whether the limit is the least allowed.
+    unit : str
+        Of both.
+    about : str
+        What it is of, for its text.
 
     """
     low, high = span(values, limit)
@@ -138,12 +148,18 @@ def scatter(
 ) -> str:
     """A measure over an input; of many scenarios some, evenly out of all.
 
-    Args:
-        x: the input.
-        y: the measure; all are finite and of one length.
-        limit: of the measure, or None.
-        kept: whether the limit is.
-        about: what it is of, for its text.
+    Parameters
+    ----------
+    x : Numbers
+        The input.
+    y : Numbers
+        The measure; all are finite and of one length.
+    limit : float or None
+        Of the measure, or None.
+    kept : Numbers
+        Whether the limit is.
+    about : str
+        What it is of, for its text.
 
     """
     chosen = np.unique(np.linspace(0, len(x) - 1, min(len(x), POINTS)).astype(int))

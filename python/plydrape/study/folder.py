@@ -48,8 +48,10 @@ class Folder:
     def begin(self, study: Study) -> None:
         """Makes the folder, or takes it up again.
 
-        Raises:
-            StudyError: it holds another study, or something else, or is in use.
+        Raises
+        ------
+        StudyError
+            It holds another study, or something else, or is in use.
 
         """
         manifest = self.path / NAME
@@ -105,8 +107,10 @@ class Folder:
     def parts(self) -> list[tuple[int, int, Path]]:
         """Finished runs of scenarios: first, stop and file, in order.
 
-        Raises:
-            StudyError: two of them hold the same scenario, or the name of one holds none.
+        Raises
+        ------
+        StudyError
+            Two of them hold the same scenario, or the name of one holds none.
 
         """
         found = sorted(_parts(self.rows))
@@ -134,8 +138,10 @@ class Folder:
     def finish(self, contents: Mapping[str, bytes]) -> list[str]:
         """Writes files of the finished study; the names of those that were not there before.
 
-        Raises:
-            StudyError: one is there, and not what the rows give.
+        Raises
+        ------
+        StudyError
+            One is there, and not what the rows give.
 
         """
         for name, content in contents.items():
@@ -173,9 +179,10 @@ def _parts(rows: Path) -> Iterator[tuple[int, int, Path]]:
 def missing(parts: list[tuple[int, int, Path]], total: int) -> list[tuple[int, int]]:
     """The ranges of scenarios, first and stop, that no part holds.
 
-    Example:
-        >>> missing([(2, 4, Path("a"))], 6)
-        [(0, 2), (4, 6)]
+    Examples
+    --------
+    >>> missing([(2, 4, Path("a"))], 6)
+    [(0, 2), (4, 6)]
 
     """
     gaps, at = [], 0
@@ -200,8 +207,10 @@ def described(study: Study) -> dict[str, Any]:
 def read_manifest(path: Path) -> dict[str, Any]:
     """The content of a folder's study.json.
 
-    Raises:
-        StudyError: there is none, or it is none of plydrape.
+    Raises
+    ------
+    StudyError
+        There is none, or it is none of plydrape.
 
     """
     try:
@@ -225,9 +234,10 @@ def read_manifest(path: Path) -> dict[str, Any]:
 def differing(earlier: Any, now: Any, path: str = "") -> list[str]:
     """The paths at which two definitions differ, at most five.
 
-    Example:
-        >>> differing({"seed": 1, "scene": {"a": 1}}, {"seed": 2, "scene": {"a": 1}})
-        ['`seed`']
+    Examples
+    --------
+    >>> differing({"seed": 1, "scene": {"a": 1}}, {"seed": 2, "scene": {"a": 1}})
+    ['`seed`']
 
     """
     if isinstance(earlier, dict) and isinstance(now, dict):
@@ -258,8 +268,10 @@ def same(path: Path, content: bytes) -> bool:
 def whole(path: Path, content: bytes) -> None:
     """Writes a file whole or not at all; it may replace an earlier one.
 
-    Raises:
-        StudyError: it cannot be written; nothing is left of it.
+    Raises
+    ------
+    StudyError
+        It cannot be written; nothing is left of it.
 
     """
     hidden = path.with_name(f".{path.name}.tmp")

@@ -80,9 +80,10 @@ ABSENT = Absent()
 def quantity(value: object) -> tuple[float, str] | None:
     """Splits a number with its unit; None for what is neither a number nor such a text.
 
-    Example:
-        >>> quantity("98 mm"), quantity(0.5), quantity("path")
-        ((98.0, 'mm'), (0.5, ''), None)
+    Examples
+    --------
+    >>> quantity("98 mm"), quantity(0.5), quantity("path")
+    ((98.0, 'mm'), (0.5, ''), None)
 
     """
     if isinstance(value, bool):
@@ -97,12 +98,15 @@ def quantity(value: object) -> tuple[float, str] | None:
 def look(tables: Tables, key: str) -> Any:
     """What the scene has at a path, or ABSENT where a table lacks its last key.
 
-    Raises:
-        StudyError: the path leads through something that is not there, with what is.
+    Raises
+    ------
+    StudyError
+        The path leads through something that is not there, with what is.
 
-    Example:
-        >>> look({"ply": {"cell": ["100 mm", 0.1]}}, "ply.cell.0")
-        '100 mm'
+    Examples
+    --------
+    >>> look({"ply": {"cell": ["100 mm", 0.1]}}, "ply.cell.0")
+    '100 mm'
 
     """
     parts = key.split(".")
@@ -146,9 +150,10 @@ def look(tables: Tables, key: str) -> Any:
 def put(tables: Tables, key: str, value: Value) -> dict[str, Any]:
     """The tables with a value at a path; a table or key that is absent is added.
 
-    Example:
-        >>> put({"ply": {"cell": [1, 2]}}, "ply.cell.1", 3)
-        {'ply': {'cell': [1, 3]}}
+    Examples
+    --------
+    >>> put({"ply": {"cell": [1, 2]}}, "ply.cell.1", 3)
+    {'ply': {'cell': [1, 3]}}
 
     """
     return _put(tables, key.split("."), value)  # type: ignore[no-any-return]

@@ -22,9 +22,10 @@ BY_KEY = {measure.key: measure for measure in measures()}
 def amount(x: float) -> str:
     """A number with four digits that say something.
 
-    Example:
-        >>> amount(0.0305123), amount(879.4521), amount(0.0), amount(9e-06)
-        ('0.03051', '879.5', '0', '9e-06')
+    Examples
+    --------
+    >>> amount(0.0305123), amount(879.4521), amount(0.0), amount(9e-06)
+    ('0.03051', '879.5', '0', '9e-06')
 
     """
     if x == 0 or not math.isfinite(x):
@@ -37,9 +38,10 @@ def amount(x: float) -> str:
 def shown(value: object) -> str:
     """A value as a message has it: as Python writes it, with the middle left out of a long one.
 
-    Example:
-        >>> shown("75 mm"), shown("9" * 5000)[:3], len(shown("9" * 5000))
-        ("'75 mm'", "'99", 80)
+    Examples
+    --------
+    >>> shown("75 mm"), shown("9" * 5000)[:3], len(shown("9" * 5000))
+    ("'75 mm'", "'99", 80)
 
     """
     try:
@@ -52,9 +54,10 @@ def shown(value: object) -> str:
 def name(key: str) -> str:
     """A column's label.
 
-    Example:
-        >>> name("value_slack_ratio"), name("worst_force_n"), name("first_contact_step")
-        ('slack ratio', 'worst horizontal force', 'first contact step')
+    Examples
+    --------
+    >>> name("value_slack_ratio"), name("worst_force_n"), name("first_contact_step")
+    ('slack ratio', 'worst horizontal force', 'first contact step')
 
     """
     part, _, rest = key.partition("_")
@@ -67,9 +70,10 @@ def name(key: str) -> str:
 def is_least(limit: str) -> bool:
     """Whether a limit of this name is the least allowed, not the most.
 
-    Example:
-        >>> is_least("contact_share"), is_least("tilt")
-        (True, False)
+    Examples
+    --------
+    >>> is_least("contact_share"), is_least("tilt")
+    (True, False)
 
     """
     return limit in BY_NAME and BY_NAME[limit].sense == "at-least"

@@ -26,9 +26,10 @@ class Uniform:
     def at(self, u: float) -> Value:
         """The number at u.
 
-        Example:
-            >>> Uniform(60.0, 90.0).at(0.5)
-            75.0
+        Examples
+        --------
+        >>> Uniform(60.0, 90.0).at(0.5)
+        75.0
 
         """
         return self.lower + (self.upper - self.lower) * u
@@ -36,9 +37,10 @@ class Uniform:
     def grid(self, points: int) -> list[Value]:
         """So many numbers, evenly from end to end.
 
-        Example:
-            >>> Uniform(60.0, 90.0).grid(3)
-            [60.0, 75.0, 90.0]
+        Examples
+        --------
+        >>> Uniform(60.0, 90.0).grid(3)
+        [60.0, 75.0, 90.0]
 
         """
         if points == 1:
@@ -56,9 +58,10 @@ class Whole:
     def at(self, u: float) -> Value:
         """The number at u.
 
-        Example:
-            >>> Whole(1, 3).at(0.5)
-            2
+        Examples
+        --------
+        >>> Whole(1, 3).at(0.5)
+        2
 
         """
         return self.lower + min(int(u * self.count), self.count - 1)
@@ -71,9 +74,10 @@ class Whole:
     def grid(self, points: int) -> list[Value]:
         """So many whole numbers from end to end, none twice.
 
-        Example:
-            >>> Whole(1, 10).grid(4)
-            [1, 4, 7, 10]
+        Examples
+        --------
+        >>> Whole(1, 10).grid(4)
+        [1, 4, 7, 10]
 
         """
         if points >= self.count:
@@ -92,9 +96,10 @@ class Normal:
     def at(self, u: float) -> Value:
         """The number at u; the ends of (0, 1) are drawn in by 1e-16.
 
-        Example:
-            >>> Normal(75.0, 2.0).at(0.5)
-            75.0
+        Examples
+        --------
+        >>> Normal(75.0, 2.0).at(0.5)
+        75.0
 
         """
         return NormalDist(self.mean, self.deviation).inv_cdf(min(max(u, 1.0 - EDGE), EDGE))
@@ -109,9 +114,10 @@ class Choice:
     def at(self, u: float) -> Value:
         """The entry at u.
 
-        Example:
-            >>> Choice(("once", "cut")).at(0.7)
-            'cut'
+        Examples
+        --------
+        >>> Choice(("once", "cut")).at(0.7)
+        'cut'
 
         """
         return self.values[min(int(u * len(self.values)), len(self.values) - 1)]
@@ -124,11 +130,16 @@ Law = Uniform | Whole | Normal | Choice
 class Input:
     """A number of the scene that varies.
 
-    Attributes:
-        key: its dotted path in the scene.
-        law: how it varies, in `unit`.
-        unit: unit of its numbers as the scene writes it; empty for plain numbers, which are SI.
-        points: on a grid, into how many numbers a range is divided.
+    Attributes
+    ----------
+    key
+        Its dotted path in the scene.
+    law
+        How it varies, in `unit`.
+    unit
+        Unit of its numbers as the scene writes it; empty for plain numbers, which are SI.
+    points
+        On a grid, into how many numbers a range is divided.
 
     """
 
@@ -161,9 +172,10 @@ class Input:
     def count(self) -> int:
         """How many numbers it has on a grid, without making them.
 
-        Example:
-            >>> Input("motion.steps", Whole(1, 10), points=4).count
-            4
+        Examples
+        --------
+        >>> Input("motion.steps", Whole(1, 10), points=4).count
+        4
 
         """
         if isinstance(self.law, Choice):
@@ -178,9 +190,10 @@ class Input:
     def written(self, value: Value) -> Value:
         """The value as it stands in the scene: with its unit, and with all its digits.
 
-        Example:
-            >>> Input("grippers.height", Uniform(60.0, 90.0), "mm").written(75.25)
-            '75.25 mm'
+        Examples
+        --------
+        >>> Input("grippers.height", Uniform(60.0, 90.0), "mm").written(75.25)
+        '75.25 mm'
 
         """
         if isinstance(value, str | bool) or not self.unit:

@@ -27,8 +27,9 @@ BEGINNINGS = 3
 class Local:
     """An executor of `workers` processes, each looked after by a thread of the client.
 
-    Example:
-        >>> executor = Local(task, workers=2)  # doctest: +SKIP
+    Examples
+    --------
+    >>> executor = Local(task, workers=2)  # doctest: +SKIP
 
     """
 
@@ -93,8 +94,10 @@ class Local:
     def _feed(self) -> None:
         """Gives chunks to one worker; a new one takes the place of a dead one.
 
-        Raises:
-            StudyError: no worker can be started.
+        Raises
+        ------
+        StudyError
+            No worker can be started.
 
         """
         process: subprocess.Popen[bytes] | None = None
@@ -120,8 +123,10 @@ class Local:
     def _begin(self) -> subprocess.Popen[bytes]:
         """A process that is ready to work.
 
-        Raises:
-            StudyError: the system starts none, or it ends before that, three times.
+        Raises
+        ------
+        StudyError
+            The system starts none, or it ends before that, three times.
 
         """
         for _ in range(BEGINNINGS):

@@ -16,15 +16,21 @@ if TYPE_CHECKING:
 class Outcome:
     """Rows of a study.
 
-    Attributes:
-        title: of the study.
-        folder: where it stands, or None if it is in memory only.
-        ran: number of scenarios that the run had left; 0 where the study was finished before.
-        written: names of the files that the run wrote there besides rows.
+    Attributes
+    ----------
+    title
+        Of the study.
+    folder
+        Where it stands, or None if it is in memory only.
+    ran
+        Number of scenarios that the run had left; 0 where the study was finished before.
+    written
+        Names of the files that the run wrote there besides rows.
 
-    Example:
-        >>> outcome = plydrape.study.read("study.results")  # doctest: +SKIP
-        >>> outcome.table().to_pandas()  # doctest: +SKIP
+    Examples
+    --------
+    >>> outcome = plydrape.study.read("study.results")  # doctest: +SKIP
+    >>> outcome.table().to_pandas()  # doctest: +SKIP
 
     """
 
@@ -48,15 +54,21 @@ class Outcome:
     def table(self) -> pa.Table:
         """All rows, one a scenario. Units are in the fields' metadata: `table.units(rows)`.
 
-        Example:
-            >>> import tempfile
-            >>> scene = "examples/02_hanging_strip/scene.toml"
-            >>> vary = {"ply.material.mass": {"values": [0.3, 0.32]}}
-            >>> table = {"scene": scene, "sampling": "grid", "vary": vary}
-            >>> with tempfile.TemporaryDirectory() as folder:
-            ...     outcome = plydrape.study.run(table, output=folder, workers=1, progress=False)
-            >>> outcome.table()["ply.material.mass"].to_pylist()
-            [0.3, 0.32]
+        Returns
+        -------
+        pa.Table
+            The rows as an Arrow table.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> scene = "examples/02_hanging_strip/scene.toml"
+        >>> vary = {"ply.material.mass": {"values": [0.3, 0.32]}}
+        >>> table = {"scene": scene, "sampling": "grid", "vary": vary}
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     outcome = plydrape.study.run(table, output=folder, workers=1, progress=False)
+        >>> outcome.table()["ply.material.mass"].to_pylist()
+        [0.3, 0.32]
 
         """
         return self._rows
@@ -98,18 +110,31 @@ LAST = ("seed", "version", "error", "error_kind")
 def read(folder: str | os.PathLike[str]) -> Outcome:
     """The rows of a study's folder, also of a study that is not finished.
 
-    Raises:
-        StudyError: it is no study's folder, or has no rows yet.
+    Parameters
+    ----------
+    folder : str or path
+        The folder of a study.
 
-    Example:
-        >>> import tempfile
-        >>> scene = "examples/02_hanging_strip/scene.toml"
-        >>> vary = {"ply.material.mass": {"values": [0.3, 0.32]}}
-        >>> table = {"scene": scene, "sampling": "grid", "vary": vary}
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     _ = plydrape.study.run(table, output=folder, workers=1, progress=False)
-        ...     plydrape.study.read(folder).accepted_share
-        1.0
+    Returns
+    -------
+    Outcome
+        Its rows.
+
+    Raises
+    ------
+    StudyError
+        It is no study's folder, or has no rows yet.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> scene = "examples/02_hanging_strip/scene.toml"
+    >>> vary = {"ply.material.mass": {"values": [0.3, 0.32]}}
+    >>> table = {"scene": scene, "sampling": "grid", "vary": vary}
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = plydrape.study.run(table, output=folder, workers=1, progress=False)
+    ...     plydrape.study.read(folder).accepted_share
+    1.0
 
     """
     require("scipy", "pyarrow")

@@ -72,9 +72,10 @@ def label(key: str) -> str:
 def percent(x: float) -> str:
     """A share in per cent, with a digit behind the point.
 
-    Example:
-        >>> percent(0.1254)
-        '12.5 %'
+    Examples
+    --------
+    >>> percent(0.1254)
+    '12.5 %'
 
     """
     return f"{100 * x:.1f} %"
@@ -173,7 +174,7 @@ def causes(about: dict[str, Any], outcome: Outcome) -> str:
             f'<td class="rho">{bar(rho, about["chance"])}</td></tr>'
         )
     note = (
-        "Rank correlations run from −1 to +1. Grey bars, up to "
+        "Rank correlations run from −1 to +1. Gray bars, up to "
         f"±{about['chance']:.2f}, are what independent numbers show by chance."
     )
     if all(accepted.get(key) is None for key in about["inputs"]):
@@ -187,7 +188,7 @@ def causes(about: dict[str, Any], outcome: Outcome) -> str:
 
 
 def bar(rho: float | None, chance: float) -> str:
-    """A correlation as a bar from the middle, grey if it is no more than chance."""
+    """A correlation as a bar from the middle, gray if it is no more than chance."""
     if rho is None:
         return '<span class="none">–</span>'
     width = abs(rho) * HALF

@@ -34,11 +34,14 @@ LARGEST = 2**63 - 1
 def bounded(table: Mapping[str, Any]) -> None:
     """Looks at every value once: nothing is nested too deep, no whole number is too large.
 
-    Raises:
-        StudyError: something is.
+    Raises
+    ------
+    StudyError
+        Something is.
 
-    Example:
-        >>> bounded({"samples": 8})
+    Examples
+    --------
+    >>> bounded({"samples": 8})
 
     """
     left: list[tuple[str, int, Any]] = [("", 0, table)]
@@ -67,8 +70,11 @@ def bounded(table: Mapping[str, Any]) -> None:
 def one_of(table: Mapping[str, Any], key: str, known: tuple[str, ...], usual: str) -> str:
     """A name out of several.
 
-    Raises:
-        StudyError: it is another.
+    Raises
+    ------
+    StudyError
+        It is another.
+
     """
     value = table.get(key, usual)
     if value not in known:
@@ -84,8 +90,11 @@ def one_of(table: Mapping[str, Any], key: str, known: tuple[str, ...], usual: st
 def whole(table: Mapping[str, Any], key: str, usual: int | None, least: int) -> int:
     """A whole number; `usual` is None where it has to be given.
 
-    Raises:
-        StudyError: it is absent, no whole number, or less than the least.
+    Raises
+    ------
+    StudyError
+        It is absent, no whole number, or less than the least.
+
     """
     value = table.get(key, usual)
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= LARGEST:
@@ -100,8 +109,11 @@ def whole(table: Mapping[str, Any], key: str, usual: int | None, least: int) -> 
 def scenarios(table: Mapping[str, Any], sampling: str, laws: tuple[Input, ...]) -> int:
     """Number of scenarios: as written, or of a grid as follows. Nothing is made yet.
 
-    Raises:
-        StudyError: none is given, or more than `max_scenarios`, with what they would take.
+    Raises
+    ------
+    StudyError
+        None is given, or more than `max_scenarios`, with what they would take.
+
     """
     most = whole(table, "max_scenarios", MOST, least=1)
     if sampling == "grid":
@@ -137,9 +149,10 @@ def scenarios(table: Mapping[str, Any], sampling: str, laws: tuple[Input, ...]) 
 def size(count: int) -> str:
     """Bytes in a unit that makes their number small.
 
-    Example:
-        >>> size(3_000), size(3 * 10**15), size(10**40)
-        ('3 kB', '3 PB', 'more than 1000 EB')
+    Examples
+    --------
+    >>> size(3_000), size(3 * 10**15), size(10**40)
+    ('3 kB', '3 PB', 'more than 1000 EB')
 
     """
     for power, unit in enumerate(("B", "kB", "MB", "GB", "TB", "PB", "EB")):
@@ -151,9 +164,13 @@ def size(count: int) -> str:
 def motion(table: Mapping[str, Any], command: str, base: Path) -> Motion | None:
     """The motion of the plan that is followed, or None with other commands.
 
-    Raises:
-        StudyError: it is absent, or given with another command.
-        ResultError: it is no result of this version.
+    Raises
+    ------
+    StudyError
+        It is absent, or given with another command.
+    ResultError
+        It is no result of this version.
+
     """
     plan = table.get("plan")
     if command != "follow":

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-# Units of length that a study may write, in metres.
+# Units of length that a study may write, in meters.
 LENGTHS = {"": 1.0, "m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "in": 0.0254}
 COLUMNS = ("placement.rms", "placement.largest")
 
@@ -23,11 +23,16 @@ COLUMNS = ("placement.rms", "placement.largest")
 class Placement:
     """How grippers err.
 
-    Attributes:
-        kind: "normal" about zero, or "uniform".
-        numbers: the deviation; or the lower and the upper end; in `unit`.
-        unit: a unit of length; empty for metres.
-        axes: the coordinates that err, such as "xyz" or "xy".
+    Attributes
+    ----------
+    kind
+        "normal" about zero, or "uniform".
+    numbers
+        The deviation; or the lower and the upper end; in `unit`.
+    unit
+        a unit of length; empty for meters.
+    axes
+        The coordinates that err, such as "xyz" or "xy".
 
     """
 
@@ -37,11 +42,12 @@ class Placement:
     axes: str = "xyz"
 
     def errors(self, seed: int, scenario: int, grippers: int) -> np.ndarray[Any, Any]:
-        """The errors of one scenario, shape (grippers, 3), in metres.
+        """The errors of one scenario, shape (grippers, 3), in meters.
 
-        Example:
-            >>> Placement("normal", (1.0,), "mm", "xy").errors(1, 0, 8)[:, 2].any()
-            np.False_
+        Examples
+        --------
+        >>> Placement("normal", (1.0,), "mm", "xy").errors(1, 0, 8)[:, 2].any()
+        np.False_
 
         """
         generator = np.random.default_rng([seed, scenario])

@@ -35,27 +35,41 @@ def run(
     The same study gives the same rows, whatever runs it and however often it was interrupted. A
     finished study is only read; `ran` of the outcome is then 0.
 
-    Args:
-        study: a study file, a dict with its keys, or a `Study`.
-        output: folder of the rows; `NAME.results` beside the file NAME.toml unless given. A study
-            without a file keeps its rows in memory.
-        scheduler: address of a Dask scheduler; processes of this machine unless given.
-        workers: number of such processes; one a core unless given.
-        progress: a bar on standard error, if that is a terminal.
-        every: seconds of work after which rows are written.
+    Parameters
+    ----------
+    study : str or path or mapping or Study
+        a study file, a dict with its keys, or a `Study`.
+    output : str or path, optional
+        Folder of the rows; `NAME.results` beside the file NAME.toml unless given. A study
+        without a file keeps its rows in memory.
+    scheduler : str, optional
+        Address of a Dask scheduler; processes of this machine unless given.
+    workers : int, optional
+        Number of such processes; one a core unless given.
+    progress : bool, default True
+        a bar on standard error, if that is a terminal.
+    every : float, default 1.0
+        Seconds of work after which rows are written.
 
-    Returns:
+    Returns
+    -------
+    Outcome
         All rows, with their summary.
 
-    Raises:
-        StudyError: the definition, the folder or the cluster is refused, or a file cannot be
-            written. Finished rows are in the folder; the same call goes on.
-        SceneError: the scene is refused.
-        KeyboardInterrupt: on Ctrl-C. Finished rows are in the folder; the same call goes on.
+    Raises
+    ------
+    StudyError
+        The definition, the folder or the cluster is refused, or a file cannot be
+        written. Finished rows are in the folder; the same call goes on.
+    SceneError
+        The scene is refused.
+    KeyboardInterrupt
+        On Ctrl-C. Finished rows are in the folder; the same call goes on.
 
-    Example:
-        >>> import plydrape.study
-        >>> plydrape.study.run("study.toml", output="rows")  # doctest: +SKIP
+    Examples
+    --------
+    >>> import plydrape.study
+    >>> plydrape.study.run("study.toml", output="rows")  # doctest: +SKIP
 
     """
     require("scipy", "pyarrow", *(["distributed"] if scheduler else []))
@@ -143,14 +157,21 @@ def _run(
 def read_part(first: int, stop: int, path: Path, columns: list[str] | None = None) -> Any:
     """The rows of a part file, which are those of the scenarios that its name says.
 
-    Args:
-        first: the first scenario.
-        stop: the one behind the last.
-        path: the file.
-        columns: those that are read, if the file has them; all unless given.
+    Parameters
+    ----------
+    first : int
+        The first scenario.
+    stop : int
+        The one behind the last.
+    path : Path
+        The file.
+    columns : list of str, optional
+        Those that are read, if the file has them; all unless given.
 
-    Raises:
-        StudyError: it is damaged, or holds other scenarios.
+    Raises
+    ------
+    StudyError
+        It is damaged, or holds other scenarios.
 
     """
     from . import table
@@ -179,9 +200,10 @@ def read_part(first: int, stop: int, path: Path, columns: list[str] | None = Non
 def ranged(held: list[int]) -> str:
     """The scenarios of a part as text.
 
-    Example:
-        >>> ranged([24, 25, 26]), ranged([7])
-        ('24 to 26', '7')
+    Examples
+    --------
+    >>> ranged([24, 25, 26]), ranged([7])
+    ('24 to 26', '7')
 
     """
     if not held or None in held:
@@ -199,8 +221,10 @@ def known(study: Study) -> list[str]:
 def compare(rows: Any, first: int, stop: int, path: Path, study: Study) -> None:
     """Compares what a part holds with what is known of its scenarios.
 
-    Raises:
-        StudyError: the part is of another study.
+    Raises
+    ------
+    StudyError
+        The part is of another study.
 
     """
     begun = [study.task.begun(k, study.values[k]) for k in range(first, stop)]

@@ -39,9 +39,10 @@ def values(study: Study) -> list[Row]:
 def cube(sampling: str, dimensions: int, samples: int, seed: int) -> np.ndarray:
     """Points in the unit cube, shape (samples, dimensions).
 
-    Example:
-        >>> sorted(int(u * 4) for (u,) in cube("latin-hypercube", 1, 4, seed=1))
-        [0, 1, 2, 3]
+    Examples
+    --------
+    >>> sorted(int(u * 4) for (u,) in cube("latin-hypercube", 1, 4, seed=1))
+    [0, 1, 2, 3]
 
     """
     from scipy.stats import qmc

@@ -52,13 +52,18 @@ class Motion:
 
 @dataclass
 class Batch:
-    """Rows of neighbouring scenarios.
+    """Rows of neighboring scenarios.
 
-    Attributes:
-        first: index of the first.
-        rows: one for each.
-        units: of those columns that have one.
-        seconds: time that the rows took.
+    Attributes
+    ----------
+    first
+        Index of the first.
+    rows
+        One for each.
+    units
+        Of those columns that have one.
+    seconds
+        Time that the rows took.
 
     """
 
@@ -85,8 +90,10 @@ class Task:
     def batch(self, first: int, values: Sequence[Sequence[Value]]) -> Batch:
         """The rows of the scenarios `first`, `first + 1`, …, given their inputs.
 
-        Raises:
-            StudyError: this process has another version of plydrape than the study's.
+        Raises
+        ------
+        StudyError
+            This process has another version of plydrape than the study's.
 
         """
         if plydrape.__version__ != self.version:
@@ -141,8 +148,10 @@ class Task:
     def scene(self, scenario: int, values: Sequence[Value]) -> plydrape.Scene:
         """The scene of one scenario.
 
-        Raises:
-            SceneError: it is refused.
+        Raises
+        ------
+        SceneError
+            It is refused.
 
         """
         scene = self.with_values(values)
@@ -195,8 +204,10 @@ class Task:
 def build(tables: Tables, base: str, mold: plydrape.Mold | None = None) -> plydrape.Scene:
     """The scene of its tables, on the mold if one is given.
 
-    Raises:
-        SceneError: it is refused.
+    Raises
+    ------
+    SceneError
+        It is refused.
 
     """
     known = {key: tables[key] for key in SCENE if key in tables}
@@ -216,7 +227,8 @@ def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
     draped, `sheet.…` are the numbers of its outcome, and `value_sheet.…` and so on its limits.
     """
     summary = result.summary
-    sound = {limit["name"]: math.isfinite(limit["value"]) for limit in result.limits}
+    limits = summary["limits"]
+    sound = {limit["name"]: math.isfinite(limit["value"]) for limit in limits}
     row: Line = {
         "accepted": result.accepted and all(sound.values()),
         "converged": result.converged,
@@ -230,7 +242,7 @@ def measures(result: plydrape.Result, units: dict[str, str]) -> Line:
             row[f"{part}_{key}"] = value
             if BY_KEY[key].unit not in ("", "1"):
                 units[f"{part}_{key}"] = BY_KEY[key].unit
-    row |= judged(result.limits, "", units)
+    row |= judged(limits, "", units)
     sheet = summary.get("sheet")
     if sheet is not None:
         for key, value in sheet.items():

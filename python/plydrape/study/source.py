@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 import plydrape
+from plydrape.errors import of_file
 
 from .error import StudyError, toml
 from .keys import SCENE, Tables, nearest
@@ -24,17 +25,18 @@ SCENE_KEY = 'name one: scene = "scene.toml"'
 def document(path: Path, kind: str) -> dict[str, Any]:
     """A TOML file as tables.
 
-    Raises:
-        StudyError: it is absent, or no TOML; the message has line and column.
+    Raises
+    ------
+    StudyError
+        It is absent, or no TOML; the message has line and column.
 
     """
     reader = toml()
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError as error:
-        raise StudyError(
-            f"there is no {kind} `{path}`", help="check its name and folder"
-        ) from error
+        fault = StudyError(f"there is no {kind} `{path}`", help="check its name and folder")
+        raise of_file(fault, "FileNotFoundError", path) from error
     except (OSError, UnicodeDecodeError) as error:
         raise StudyError(
             f"the {kind} `{path}` cannot be read: {error}",
@@ -78,9 +80,10 @@ def brackets(text: str) -> str:
 def place(text: str, at: int) -> str:
     r"""A place as the reader of TOML says it.
 
-    Example:
-        >>> place("a = 1\nb = 22", 10)
-        ' (at line 2, column 5)'
+    Examples
+    --------
+    >>> place("a = 1\nb = 22", 10)
+    ' (at line 2, column 5)'
 
     """
     return f" (at line {text.count(chr(10), 0, at) + 1}, column {at - text.rfind(chr(10), 0, at)})"
@@ -89,9 +92,12 @@ def place(text: str, at: int) -> str:
 def scene(choice: object, base: Path) -> tuple[dict[str, Any], Path]:
     """The tables of the scene, and the folder that its paths are relative to.
 
-    Raises:
-        StudyError: there is no scene, or no way to vary it.
-        SceneError: the scene file is refused.
+    Raises
+    ------
+    StudyError
+        There is no scene, or no way to vary it.
+    SceneError
+        The scene file is refused.
 
     """
     if isinstance(choice, Mapping):
@@ -141,8 +147,10 @@ def native(value: Any) -> Any:
 def expanded(tables: Tables, home: Path, varied: Mapping[str, Any]) -> dict[str, Any]:
     """The scene with its material in place of the material's name, if a number of it varies.
 
-    Raises:
-        StudyError: the material is neither shipped nor a file that can be read.
+    Raises
+    ------
+    StudyError
+        The material is neither shipped nor a file that can be read.
 
     """
     name = tables.get("ply", {}).get("material")

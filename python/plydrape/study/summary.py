@@ -27,9 +27,10 @@ ASIDE = ("scenario", "seed", "version", "error", "error_kind")
 def wilson(hits: int, of: int) -> tuple[float, float] | None:
     """Wilson's 95 % interval of a share; None of nothing.
 
-    Example:
-        >>> [round(x, 4) for x in wilson(5, 10)]
-        [0.2366, 0.7634]
+    Examples
+    --------
+    >>> [round(x, 4) for x in wilson(5, 10)]
+    [0.2366, 0.7634]
 
     """
     if of == 0:
@@ -44,9 +45,12 @@ def wilson(hits: int, of: int) -> tuple[float, float] | None:
 def summary(rows: pa.Table, inputs: list[str]) -> dict[str, Any]:
     """All figures of the page as plain JSON values.
 
-    Args:
-        rows: rows of a study.
-        inputs: its columns that are inputs.
+    Parameters
+    ----------
+    rows : pa.Table
+        Rows of a study.
+    inputs : list of str
+        Its columns that are inputs.
 
     """
     count = rows.num_rows
@@ -128,10 +132,11 @@ def verdicts(draped: pa.Table) -> np.ndarray[Any, Any]:
 def kept_limit(draped: pa.Table, limit: str) -> list[bool | None]:
     """Whether each drape keeps a limit: not with a value that is not finite; None where not judged.
 
-    Example:
-        >>> rows = {"value_slack": [0.1, math.nan, None], "ok_slack": [True, True, None]}
-        >>> kept_limit(pa.table(rows), "slack")
-        [True, False, None]
+    Examples
+    --------
+    >>> rows = {"value_slack": [0.1, math.nan, None], "ok_slack": [True, True, None]}
+    >>> kept_limit(pa.table(rows), "slack")
+    [True, False, None]
 
     """
     values = draped[f"value_{limit}"].to_pylist()
@@ -145,9 +150,10 @@ def kept_limit(draped: pa.Table, limit: str) -> list[bool | None]:
 def correlation(x: np.ndarray[Any, Any], y: np.ndarray[Any, Any]) -> float | None:
     """Spearman's rank correlation; None where a column is constant or has under 3 numbers.
 
-    Example:
-        >>> correlation(np.array([1.0, 2.0, 3.0]), np.array([1.0, 8.0, 27.0]))
-        1.0
+    Examples
+    --------
+    >>> correlation(np.array([1.0, 2.0, 3.0]), np.array([1.0, 8.0, 27.0]))
+    1.0
 
     """
     from scipy.stats import spearmanr
@@ -197,9 +203,10 @@ def spread(values: np.ndarray[Any, Any] | None) -> dict[str, Any]:
 def pattern(text: str) -> str:
     """An error's text without its numbers, so that the same trouble counts as one.
 
-    Example:
-        >>> pattern("grippers g0_0 and g1_0 are 100.2 mm apart")
-        'grippers g·_· and g·_· are · mm apart'
+    Examples
+    --------
+    >>> pattern("grippers g0_0 and g1_0 are 100.2 mm apart")
+    'grippers g·_· and g·_· are · mm apart'
 
     """
     import re

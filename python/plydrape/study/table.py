@@ -37,9 +37,10 @@ LAST = ("seed", "version", "error", "error_kind")
 def column_type(name: str, inputs: Iterable[Input]) -> pa.DataType:
     """The type of a column.
 
-    Example:
-        >>> column_type("accepted", ()), column_type("worst_slack_mm", ())
-        (DataType(bool), DataType(double))
+    Examples
+    --------
+    >>> column_type("accepted", ()), column_type("worst_slack_mm", ())
+    (DataType(bool), DataType(double))
 
     """
     for x in inputs:
@@ -75,8 +76,10 @@ def joined(tables: list[pa.Table]) -> pa.Table:
 
     A part whose scenarios all failed lacks the measures; they are empty there.
 
-    Raises:
-        StudyError: a column has different types in them.
+    Raises
+    ------
+    StudyError
+        a column has different types in them.
 
     """
     tables = sorted(tables, key=lambda part: part["scenario"][0].as_py())
@@ -112,9 +115,12 @@ def content(rows: pa.Table) -> bytes:
 def read(path: Any, columns: list[str] | None = None) -> pa.Table:
     """A table of a Parquet file, or some of its columns.
 
-    Raises:
-        OSError: it cannot be read.
-        pyarrow.ArrowInvalid: it is no Parquet.
+    Raises
+    ------
+    OSError
+        It cannot be read.
+    pyarrow.ArrowInvalid
+        It is no Parquet.
 
     """
     return pq.ParquetFile(path).read(columns)

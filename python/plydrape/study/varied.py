@@ -29,8 +29,10 @@ def inputs(
 ) -> tuple[Input, ...]:
     """The inputs of a study, in the order in which they are written.
 
-    Raises:
-        StudyError: a key that the scene has not, or a law that cannot be.
+    Raises
+    ------
+    StudyError
+        a key that the scene has not, or a law that cannot be.
 
     """
     found = []
@@ -53,8 +55,10 @@ def inputs(
 def placement(varied: Mapping[str, Any], command: str, sampling: str) -> Placement | None:
     """How grippers err, or None where the table has no such key.
 
-    Raises:
-        StudyError: it cannot be, or not with this command or sampling.
+    Raises
+    ------
+    StudyError
+        It cannot be, or not with this command or sampling.
 
     """
     if "placement" not in varied:

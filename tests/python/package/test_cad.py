@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-pytest.importorskip("OCP", reason="NOT TESTED: pip install plydrape[cad]")
+pytest.importorskip("OCP", reason="NOT TESTED: pip install cadquery-ocp-novtk")
 
 import plydrape
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Fuse
@@ -349,7 +349,7 @@ def test_the_command_converts(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     assert capsys.readouterr().err.startswith("error: ")
 
 
-def test_the_extra_is_named_where_it_is_missing(
+def test_a_package_is_named_where_it_is_missing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Not before it is used: the module itself can be imported without OpenCASCADE."""
@@ -357,5 +357,5 @@ def test_the_extra_is_named_where_it_is_missing(
     for name in [name for name in sys.modules if name.split(".")[0] == "OCP"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "OCP", None)
-    with pytest.raises(ImportError, match=r'pip install "plydrape\[cad\]"'):
+    with pytest.raises(ImportError, match=r"pip install cadquery-ocp-novtk"):
         cad.read(path)

@@ -251,7 +251,7 @@ def test_an_outcome_has_the_drapes_own_numbers() -> None:
 
 @pytest.mark.parametrize("name", ["01_flat_sheared_mold", "04_dome"])
 def test_a_landed_outcome_changes_with_its_targets_as_it_says(name: str) -> None:
-    """Lying rests as well: against whole drapes whose last step ends a micrometre aside."""
+    """Lying rests as well: against whole drapes whose last step ends a micrometer aside."""
     scene = plydrape.Scene.read(FLAT.parents[1] / name / "scene.toml")
     middle = plydrape.outcome(scene)
     worst = int(middle.overstretch.argmax())

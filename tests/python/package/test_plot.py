@@ -44,7 +44,7 @@ def corners(figure: Any, gid: str, panel: int = 0) -> NDArray[np.float64]:
 
 
 def cells(figure: Figure, panel: int = 0) -> Any:
-    """The coloured cells of a shear map."""
+    """The colored cells of a shear map."""
     return figure.axes[panel].collections[0]
 
 
@@ -68,7 +68,7 @@ def texts(figure: Figure) -> list[str]:
 
 def test_catenaries_are_drawn_where_they_hang(flat: plydrape.Result) -> None:
     """Every point of every line, in mm; edges first, then diagonals."""
-    figure = plot.steps(flat, [1, 26], elev=60.0)
+    figure = plot.steps(flat, [1, 26], elev="60 deg")
     for panel, step in enumerate((1, 26)):
         lines = flat.lines(step)
         shown = segments(figure, "edges", panel) + segments(figure, "diagonals", panel)
@@ -79,7 +79,7 @@ def test_catenaries_are_drawn_where_they_hang(flat: plydrape.Result) -> None:
 
 def test_grippers_are_discs_about_their_places(flat: plydrape.Result) -> None:
     """The middle is the position, the normal makes the tilt with the vertical."""
-    figure = plot.steps(flat, [4], elev=60.0)
+    figure = plot.steps(flat, [4], elev="60 deg")
     discs = corners(figure, "grippers")
     assert discs.mean(axis=1) == pytest.approx(flat.positions[3] * 1e3)
     radius = np.linalg.norm(discs - discs.mean(axis=1, keepdims=True), axis=2)
@@ -96,22 +96,22 @@ def test_grippers_are_discs_about_their_places(flat: plydrape.Result) -> None:
     assert flat.tilts_deg[3].max() > 30.0
 
 
-@pytest.mark.parametrize("colour", ["height", "gap", "shear"])
-def test_the_ply_has_the_colour_of_its_values(shallow: plydrape.Result, colour: str) -> None:
-    """Triangles are the surface's; their colours are viridis of what the colour bar says."""
-    kind, step = cast(Any, colour), 30 if colour == "shear" else 27
-    figure = plot.steps(shallow, [step], colour=kind, elev=89.0)
+@pytest.mark.parametrize("color", ["height", "gap", "shear"])
+def test_the_ply_has_the_color_of_its_values(shallow: plydrape.Result, color: str) -> None:
+    """Triangles are the surface's; their colors are viridis of what the color bar says."""
+    kind, step = cast(Any, color), 30 if color == "shear" else 27
+    figure = plot.steps(shallow, [step], color=kind, elev="89 deg")
     faces, surface = corners(figure, "ply"), shallow.surface(step, intervals=8)
     assert faces == pytest.approx(surface.points[surface.triangles] * 1e3)
     low, high = figure.axes[-1].get_xlim()
     middles = surface.points[surface.triangles].mean(axis=1)
-    if colour == "shear":
+    if color == "shear":
         # the cell that a triangle is in, by its number along u and v
         j, i = np.divmod(surface.triangles.astype(int), surface.size[0])
         i, j = (np.floor(n.mean(axis=1) / 8).astype(int) for n in (i, j))
         share = np.abs(shallow.shear_deg[step - 1][j, i]) / high
         assert low == 0.0 and high == pytest.approx(np.abs(shallow.shear_deg[step - 1]).max())
-    elif colour == "height":
+    elif color == "height":
         share = (middles[:, 2] * 1e3 - low) / (high - low)
     else:
         gap = np.maximum(surface.gap[surface.triangles].mean(axis=1) * 1e3, 0.1)
@@ -189,8 +189,10 @@ def test_panels_share_frame_and_scale(dome: plydrape.Result) -> None:
         assert box / box[0] == pytest.approx(spans / spans[0])
 
 
-@pytest.mark.parametrize(("elev", "width"), [(5.0, "double"), (28.0, "single"), (75.0, 120.0)])
-def test_nothing_leaves_the_sheet(dome: plydrape.Result, elev: float, width: Any) -> None:
+@pytest.mark.parametrize(
+    ("elev", "width"), [("5 deg", "double"), (0.5, "single"), ("75 deg", "120 mm")]
+)
+def test_nothing_leaves_the_sheet(dome: plydrape.Result, elev: Any, width: Any) -> None:
     """Every text and every panel's box is inside; texts of the first panel do not overlap."""
     figure = plot.steps(dome, [1, 15, 30], elev=elev, width=width)
     renderer = painter(figure)
@@ -204,7 +206,9 @@ def test_nothing_leaves_the_sheet(dome: plydrape.Result, elev: float, width: Any
         assert not legend.overlaps(text.get_window_extent(renderer)), text.get_text()
 
 
-@pytest.mark.parametrize(("width", "mm"), [("single", 89.0), ("double", 183.0), (120.0, 120.0)])
+@pytest.mark.parametrize(
+    ("width", "mm"), [("single", 89.0), ("double", 183.0), (0.12, 120.0), ("120 mm", 120.0)]
+)
 def test_widths_are_those_of_print(flat: plydrape.Result, width: Any, mm: float) -> None:
     """Of each kind of figure; the text is 8 pt or a little smaller."""
     for kind in ("steps", "measures", "shear"):
@@ -219,7 +223,7 @@ def test_widths_are_those_of_print(flat: plydrape.Result, width: Any, mm: float)
 def test_measures_are_those_of_the_result(flat: plydrape.Result) -> None:
     """Values, limits and judged steps of all that have a meaning, in the unit of the limit."""
     figure = plot.measures(flat)
-    limits = {limit["name"]: limit for limit in flat.limits}
+    limits = flat.limits
     panels = {axes.get_title(loc="left"): k for k, axes in enumerate(figure.axes)}
     assert "outside workspace" not in panels and "force" not in panels
     cases = [
@@ -244,15 +248,13 @@ def test_measures_are_those_of_the_result(flat: plydrape.Result) -> None:
             assert value[0] == np.nanmax(y) and named(figure, "limit", panel) is None
             continue
         judged = limits[limit]
-        assert (at[0], value[0]) == (judged["step"], pytest.approx(judged["value"]))
-        assert named(figure, "limit", panel).get_ydata() == [judged["limit"]] * 2
+        assert (at[0], value[0]) == (judged.step, pytest.approx(judged.value))
+        assert named(figure, "limit", panel).get_ydata() == [judged.limit] * 2
         marker = named(figure, "worst", panel).get_marker()
-        assert marker == ("o" if judged["ok"] else "X")
+        assert marker == ("o" if judged.kept else "X")
         low, high = figure.axes[panel].get_ylim()
-        assert low <= min(judged["limit"], np.nanmin(y)) and high >= max(
-            judged["limit"], np.nanmax(y)
-        )
-    assert not limits["overstretch"]["ok"] and limits["tilt"]["ok"]
+        assert low <= min(judged.limit, np.nanmin(y)) and high >= max(judged.limit, np.nanmax(y))
+    assert not limits["overstretch"].kept and limits["tilt"].kept
 
 
 def test_measures_with_a_limit_come_first(flat: plydrape.Result) -> None:
@@ -263,7 +265,7 @@ def test_measures_with_a_limit_come_first(flat: plydrape.Result) -> None:
     assert bounded == sorted(bounded, reverse=True)
     label = {measure.name: measure.label for measure in plydrape.measures()}
     assert titles[sum(bounded) :] == ["horizontal force", "slack", "gap"]
-    assert {label[limit["name"]] for limit in flat.limits} == set(titles[: sum(bounded)])
+    assert {label[name] for name in flat.limits} == set(titles[: sum(bounded)])
 
 
 def test_measures_run_over_time(dome: plydrape.Result) -> None:
@@ -278,7 +280,7 @@ def test_measures_run_over_time(dome: plydrape.Result) -> None:
 
 def test_measure_titles_do_not_overlap(flat: plydrape.Result) -> None:
     """Name and limit stand beside each other, or above each other if they are too long."""
-    for width in ("single", 120.0, "double", 300.0):
+    for width in ("single", 0.12, "double", "30 cm"):
         figure = plot.measures(flat, width=cast(Any, width))
         renderer = painter(figure)
         for panel, axes in enumerate(figure.axes):
@@ -289,7 +291,7 @@ def test_measure_titles_do_not_overlap(flat: plydrape.Result) -> None:
                 assert not name.overlaps(bound.get_window_extent(renderer)), bound.get_text()
 
 
-def test_the_shear_map_colours_each_cell(shallow: plydrape.Result) -> None:
+def test_the_shear_map_colors_each_cell(shallow: plydrape.Result) -> None:
     """On the fabric at its u and v, from above at x and y; the ring is at the largest amount."""
     net = shallow.net
     assert net is not None
@@ -314,7 +316,7 @@ def test_a_signed_shear_map_has_white_at_zero(dome: plydrape.Result) -> None:
     """Both ends at the same amount, the values with their sign."""
     net = dome.net
     assert net is not None
-    shown = cells(plot.shear_map(net, signed=True, view="plan", most=5.0))
+    shown = cells(plot.shear_map(net, signed=True, view="plan", most="5 deg"))
     assert np.asarray(shown.get_array()) == pytest.approx(net.shear_deg.ravel())
     assert net.shear_deg.min() < 0.0 < net.shear_deg.max()
     assert shown.get_clim() == (-5.0, 5.0)
@@ -322,7 +324,7 @@ def test_a_signed_shear_map_has_white_at_zero(dome: plydrape.Result) -> None:
 
 
 def test_cells_without_a_node_stay_white() -> None:
-    """A net with a missing corner: its cell is left out, the others keep their colours."""
+    """A net with a missing corner: its cell is left out, the others keep their colors."""
     u, v = np.meshgrid(np.arange(4) * 0.1, np.arange(3) * 0.2, indexing="ij")
     nodes = np.stack([u, v, 0 * u], axis=-1)
     nodes[3, 2] = np.nan
@@ -334,14 +336,14 @@ def test_cells_without_a_node_stay_white() -> None:
 
 
 def test_a_strip_without_mold_is_drawn(strip: plydrape.Result) -> None:
-    """Lines and grippers; no surface, no colours, no shear to map."""
+    """Lines and grippers; no surface, no colors, no shear to map."""
     figure = plot.steps(strip)
     assert named(figure, "ply") is None and named(figure, "mold") is None
     assert len(segments(figure, "edges")) == strip.grid[0] - 1
     drawn(figure)
     drawn(plot.measures(strip))
     with pytest.raises(ValueError, match="without a mold there is no gap"):
-        plot.steps(strip, colour="gap")
+        plot.steps(strip, color="gap")
     with pytest.raises(ValueError, match="no ideal drape"):
         plot.shear_map(strip)
 
@@ -353,8 +355,8 @@ def test_bad_wishes_are_refused(flat: plydrape.Result) -> None:
         ("steps", {"steps": [31]}, "no step 31"),
         ("steps", {"steps": []}, "at least one step"),
         ("steps", {"steps": list(range(1, 20))}, "too many"),
-        ("steps", {"colour": "speed"}, '"gap", "height" or "shear"'),
-        ("steps", {"elev": 91.0}, "no view"),
+        ("steps", {"color": "speed"}, '"gap", "height" or "shear"'),
+        ("steps", {"elev": "91 deg"}, "no view"),
         ("steps", {"columns": 0}, "columns"),
         ("steps", {"width": "triple"}, '"single", "double"'),
         ("measures", {"width": 3.0}, "40 to 1000 mm"),
@@ -411,7 +413,7 @@ def test_figures_are_vectors(dome: plydrape.Result) -> None:
         assert len(page.getvalue()) < 2_000_000, (kind, form, len(page.getvalue()))
 
 
-def test_the_extra_is_named_where_it_is_missing(
+def test_a_package_is_named_where_it_is_missing(
     flat: plydrape.Result, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """One line that says what to install."""
@@ -420,12 +422,12 @@ def test_the_extra_is_named_where_it_is_missing(
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     for kind in ("steps", "measures", "shear"):
-        with pytest.raises(ImportError, match=r'Matplotlib is missing.*"plydrape\[plot\]"'):
+        with pytest.raises(ImportError, match=r"Matplotlib is missing.*pip install matplotlib"):
             flat.plot(kind)
 
 
 def test_maps_of_the_sheet_hold_its_nodes_cells_and_yarns(sheet: plydrape.Result) -> None:
-    """Colours of cells, steps of landing and yarns are those of the result's arrays."""
+    """Colors of cells, steps of landing and yarns are those of the result's arrays."""
     held = sheet.sheet
     assert held is not None
     figure = plot.sheet(sheet, ["height", "landing", "shear", "tension"])
@@ -454,3 +456,13 @@ def test_a_map_of_no_sheet_or_no_state_is_refused(
         plot.sheet(sheet, step=2)
     with pytest.raises(ValueError, match='maps "height"'):
         plot.sheet(sheet, cast(Any, "slack"))
+
+
+def test_a_notebook_crops_a_figure_around_its_legend(flat: plydrape.Result) -> None:
+    """It saves by the box of what is drawn: what lies beyond would be moved onto the axes."""
+    names = ["slack_ratio", "overstretch", "landing_error_mm", "tilt_deg", "force_n", "shear_deg"]
+    sheet = flat.plot("measures", names=names)
+    sheet.canvas.draw()
+    (legend,) = sheet.legends
+    box = sheet.get_tightbbox()
+    assert box.y0 * sheet.dpi <= legend.get_window_extent().y0

@@ -88,13 +88,14 @@ def test_the_sheet_decides(scene: plydrape.Scene, result: plydrape.Result) -> No
     alone = plydrape.simulate(scene)
     assert alone.sheet is None and "sheet" not in alone.summary
     assert np.array_equal(alone.positions, result.positions)
-    assert alone.limits == result.limits
+    assert alone.limits == result.catenary_limits != result.limits
+    assert set(sheet_of(result).limits) < set(result.limits)
     slippery = plydrape.Scene.parse(COARSE + "friction = 0.3\n")
     flat = plydrape.simulate(slippery, model="sheet")
     assert flat.accepted and flat.converged and sheet_of(flat).accepted
     assert not result.accepted and not sheet_of(result).accepted
     assert not plydrape.simulate(slippery, model="catenaries").accepted
-    assert sheet_of(flat).limits == flat.summary["sheet"]["limits"]
+    assert sheet_of(flat).limits == plydrape.Limits.of(flat.summary["sheet"]["limits"])
 
 
 def test_a_folder_gives_the_same_sheet(result: plydrape.Result, tmp_path: Path) -> None:
@@ -139,7 +140,7 @@ def test_a_study_has_columns_of_the_sheet() -> None:
             "vary": {
                 "model.kind": {"values": ["sheet"]},
                 "sheet.mesh": {"values": ["25 mm"]},
-                "contact.friction": {"values": [0.3, 30]},
+                "contact.friction": {"values": ["30 %", "3000 %"]},
             },
         }
     )

@@ -249,7 +249,7 @@ def test_a_plan_in_a_folder_of_two_runs_or_changed_since_is_not_followed(tmp_pat
     whole = files.read_text()
     files.write_text(whole.replace('"sealed":true', '"sealed":false'))
     with pytest.raises(
-        plydrape.ResultError, match=r"are of two runs.*cut off.*run the scene again"
+        plydrape.ResultError, match=r"are of two runs.*cut off.*run `plydrape simulate`"
     ):
         study(**keys)
     files.write_text(whole)
@@ -278,5 +278,5 @@ def test_the_check_sum_is_of_what_rows_depend_on(tmp_path: Path) -> None:
 def test_a_missing_package_is_told_before_anything_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     """In one message, with what to type."""
     monkeypatch.setitem(sys.modules, "pyarrow", None)
-    with pytest.raises(plydrape.ExtraError, match=r'pyarrow is missing.*"plydrape\[study\]"'):
+    with pytest.raises(plydrape.ExtraError, match=r"pyarrow is missing.*pip install pyarrow"):
         plydrape.study.run(table(4))

@@ -80,8 +80,12 @@ def test_a_row_with_a_value_that_is_not_finite_is_not_accepted(value: float) -> 
         result = SimpleNamespace(
             accepted=True,
             converged=True,
-            summary={"stopped": None, "worst": {}, "final": {}},
-            limits=[limit | {"value": given}],
+            summary={
+                "stopped": None,
+                "worst": {},
+                "final": {},
+                "limits": [limit | {"value": given}],
+            },
         )
         row = measures(result, {})  # type: ignore[arg-type]
         assert row["ok_tilt"] is wanted and row["accepted"] is wanted

@@ -91,7 +91,7 @@ def test_the_mold_is_the_molds_surface(dome: plydrape.Result) -> None:
 
 
 def test_a_scene_is_seen(dome: plydrape.Result, tmp_path: Path) -> None:
-    """The picture has the red of lines, the black of grippers, the grey of the mold, viridis."""
+    """The picture has the red of lines, the black of grippers, the gray of the mold, viridis."""
     plotter = view.scene3d(dome, 25)
     picture = np.asarray(plotter.screenshot(str(tmp_path / "step.png"), return_img=True))
     assert (tmp_path / "step.png").stat().st_size > 5000
@@ -99,16 +99,16 @@ def test_a_scene_is_seen(dome: plydrape.Result, tmp_path: Path) -> None:
     share = {
         "red": ((r > 150) & (g < 80) & (b < 80)).mean(),
         "black": ((r < 40) & (g < 40) & (b < 40)).mean(),
-        "grey": ((abs(r - b) < 25) & (r > 90) & (r < 235) & (abs(r - g) < 25)).mean(),
+        "gray": ((abs(r - b) < 25) & (r > 90) & (r < 235) & (abs(r - g) < 25)).mean(),
         "viridis": ((abs(r - g) > 40) & (r < 200) & (g > 60)).mean(),
     }
     assert all(found > 0.002 for found in share.values()), share
     assert (picture == 255).all(axis=2).mean() < 0.9
 
 
-def test_colours_and_steps(dome: plydrape.Result, flat: plydrape.Result) -> None:
+def test_colors_and_steps(dome: plydrape.Result, flat: plydrape.Result) -> None:
     """The range of the bar, a step counted from the end, a plotter of one's own."""
-    plotter = view.scene3d(dome, -1, colour="shear", limits=(0.0, 2.0))
+    plotter = view.scene3d(dome, -1, color="shear", limits=(0.0, 2.0))
     mapper = cast(Any, plotter.actors["ply"]).mapper
     assert tuple(mapper.scalar_range) == (0.0, 2.0)
     assert mapper.array_name == "shear_deg"
@@ -120,7 +120,7 @@ def test_colours_and_steps(dome: plydrape.Result, flat: plydrape.Result) -> None
         (dome, {"step": 0}, "no step 0"),
         (dome, {"step": 31}, "no step 31; its steps are 1 to 30"),
         (dome, {"step": -31}, "no step -31"),
-        (dome, {"colour": "speed"}, '"gap", "height" or "shear"'),
+        (dome, {"color": "speed"}, '"gap", "height" or "shear"'),
         (dome, {"intervals": 0}, "intervals"),
     ]
     for result, options, message in wishes:
@@ -129,12 +129,12 @@ def test_colours_and_steps(dome: plydrape.Result, flat: plydrape.Result) -> None
 
 
 def test_a_strip_without_mold_is_a_scene(strip: plydrape.Result) -> None:
-    """Lines and grippers; there is no surface to colour."""
+    """Lines and grippers; there is no surface to color."""
     plotter = strip.scene3d(1)
     assert {"edges", "grippers"} <= set(plotter.actors)
     assert not {"ply", "mold"} & set(plotter.actors)
     with pytest.raises(ValueError, match="without a mold there is no gap"):
-        view.scene3d(strip, colour="gap")
+        view.scene3d(strip, color="gap")
 
 
 def test_the_extra_is_named_where_it_is_missing() -> None:
@@ -152,7 +152,7 @@ except ImportError as fault:
     scene = str(EXAMPLES / "01_flat_sheared_mold/scene.toml")
     command = [sys.executable, "-c", program, scene]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
-    line = 'PyVista is missing; install it with: pip install "plydrape[plot]"'
+    line = "PyVista is missing; install it with: pip install pyvista"
     assert done.stdout.strip() == line
 
 
@@ -168,7 +168,7 @@ def test_the_sheet_has_its_nodes_and_the_forces_on_its_pads(sheet: plydrape.Resu
     assert cells["shear_deg"] == pytest.approx(np.rad2deg(held.shear[-1]))
     assert {"mold", "grippers", "forces"} <= set(plotter.actors)
     # a quarter of a cell has the step of its node, as long as that is not to come
-    parts = mesh(view.sheet3d(sheet, 1, colour="landing"), "sheet")
+    parts = mesh(view.sheet3d(sheet, 1, color="landing"), "sheet")
     assert parts.n_cells == 4 * len(held.cells)
     assert np.isnan(parts["landing_step"]).all()
 

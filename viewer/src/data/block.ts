@@ -28,6 +28,8 @@ export async function unpack(block: Block, name: string): Promise<Frames> {
   const { steps, count, components } = block;
   const total = steps * count * components;
   if (total === 0) return new Frames(steps, count, components, new Int32Array(0));
+  if (typeof block.data !== "string")
+    return new Frames(steps, count, components, Int32Array.from(block.data));
   let bytes: Uint8Array;
   try {
     bytes = await inflate(fromBase64(block.data));
@@ -42,14 +44,14 @@ export async function unpack(block: Block, name: string): Promise<Frames> {
   return new Frames(steps, count, components, integrate(bytes, total, count * components, components));
 }
 
-function fromBase64(text: string): Uint8Array<ArrayBuffer> {
+export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
   const binary = atob(text);
   const bytes = new Uint8Array(binary.length);
   for (let k = 0; k < binary.length; k++) bytes[k] = binary.charCodeAt(k);
   return bytes;
 }
 
-async function inflate(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
+export async function inflate(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array<ArrayBuffer>> {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }

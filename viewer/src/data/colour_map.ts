@@ -1,5 +1,5 @@
 /**
- * Colour maps: lightness grows evenly with the value, also for colour-blind eyes and in grey print.
+ * Color maps: lightness grows evenly with the value, also for color-blind eyes and in gray print.
  *
  * Lengths are shown in viridis (S. van der Walt and N. Smith, matplotlib, CC0), angles in cividis
  * (Nuñez, Anderton and Renslow 2018, doi 10.1371/journal.pone.0199239).
@@ -21,15 +21,15 @@ function hex(text: string): Rgb[] {
   return text.split(" ").map((c) => [0, 2, 4].map((k) => parseInt(c.slice(k, k + 2), 16)) as Rgb);
 }
 
-/** Colour modes that tell lengths, or the order of landing. */
+/** Color modes that tell lengths, or the order of landing. */
 const LENGTHS = ["height", "gap", "over_mold", "spread", "landing"];
 
-/** The map that a colour mode is shown with. */
+/** The map that a color mode is shown with. */
 export function mapOf(field: Field): Rgb[] {
   return LENGTHS.includes(field.key) ? VIRIDIS : CIVIDIS;
 }
 
-/** The colour at a share of the range, 0 to 1; beyond it the end's colour. */
+/** The color at a share of the range, 0 to 1; beyond it the end's color. */
 export function colourAt(map: Rgb[], share: number): Rgb {
   const last = map.length - 1;
   const place = Math.min(Math.max(share, 0), 1) * last;
@@ -38,7 +38,7 @@ export function colourAt(map: Rgb[], share: number): Rgb {
   return [0, 1, 2].map((c) => Math.round(a[c]! + (place - low) * (b[c]! - a[c]!))) as Rgb;
 }
 
-/** Where a value stands in the range of its colour mode, 0 to 1; on a scale of orders its amount counts. */
+/** Where a value stands in the range of its color mode, 0 to 1; on a scale of orders its amount counts. */
 export function shareOf(field: Field, value: number): number {
   if (field.scale === "orders") {
     const share = Math.log(Math.max(Math.abs(value), 1e-300) / field.low) / Math.log(field.high / field.low);
@@ -48,7 +48,7 @@ export function shareOf(field: Field, value: number): number {
   return span > 0 ? (value - field.low) / span : 0.5;
 }
 
-/** The map as the colours of a CSS gradient, the lowest first. */
+/** The map as the colors of a CSS gradient, the lowest first. */
 export function gradient(map: Rgb[]): string {
   return map.map((c) => `rgb(${c.join(" ")})`).join(", ");
 }

@@ -1,2 +1,2 @@
-/** Micrometres in a metre; positions are packed in micrometres. */
+/** Micrometers in a meter; positions are packed in micrometers. */
 export const MICRO = 1e-6;

@@ -1,5 +1,5 @@
 /**
- * The motion as it is drawn: everything of the geometry, unpacked, and the values of the colour modes.
+ * The motion as it is drawn: everything of the geometry, unpacked, and the values of the color modes.
  */
 
 import { unpack, type Frames } from "./block";
@@ -16,7 +16,7 @@ export interface CellFrames {
 }
 
 export class Motion {
-  /** The smallest distance of neighbouring grippers in the first step (m): the scale for what is drawn. */
+  /** The smallest distance of neighboring grippers in the first step (m): the scale for what is drawn. */
   readonly spacing: number;
 
   private constructor(
@@ -63,7 +63,12 @@ export class Motion {
     );
   }
 
-  /** Contact points of a step, three micrometres each. */
+  /** Becomes another motion of the same ply: the live page has a new one in every frame. */
+  become(other: Motion): void {
+    Object.assign(this, other);
+  }
+
+  /** Contact points of a step, three micrometers each. */
   contacts(index: number): Int32Array {
     const [from, to] = [this.contactStarts[index]!, this.contactStarts[index + 1]!];
     return this.contactPoints.values.subarray(3 * from, 3 * to);
@@ -80,7 +85,7 @@ export class Motion {
     return index < 0 ? null : index;
   }
 
-  /** The value of a colour mode at a vertex or cell, in the mode's unit. */
+  /** The value of a color mode at a vertex or cell, in the mode's unit. */
   value(field: Field, index: number, item: number): number {
     switch (field.key) {
       case "height":

@@ -62,7 +62,7 @@ function ofResult(text: string): Other {
   }
   // names are those of files: gripper_load
   const named = (list: OtherLimit[]) =>
-    list.map((limit) => ({ ...limit, name: limit.name.replaceAll("_", " ") }));
+    list.map((limit) => ({ ...limit, name: limit.name.replaceAll("_", " ").replace("fibre", "fiber") }));
   const times = given.steps.map(({ time }) => time);
   const sheet = given.summary?.sheet?.limits;
   return {

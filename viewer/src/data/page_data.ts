@@ -13,12 +13,12 @@ export type FieldKey =
 /** The two models of the ply. */
 export type Model = "sheet" | "catenaries";
 
-/** Integers [steps][count][components], packed; see `block.ts`. */
+/** Integers [steps][count][components], packed (see `block.ts`) or, of a live solver, as they are. */
 export interface Block {
   steps: number;
   count: number;
   components: number;
-  data: string;
+  data: string | number[];
 }
 
 /** One line of the table of limits. */
@@ -62,13 +62,13 @@ export interface Measure {
   least: boolean;
 }
 
-/** A colour mode: what it shows, on vertices or on cells, and its range over all steps. */
+/** A color mode: what it shows, on vertices or on cells, and its range over all steps. */
 export interface Field {
   key: FieldKey;
   label: string;
   unit: string;
   on: "vertex" | "cell";
-  /** On a scale of orders equal ratios are equally far apart; what lies beyond its ends has their colours. */
+  /** On a scale of orders equal ratios are equally far apart; what lies beyond its ends has their colors. */
   scale: "even" | "orders";
   low: number;
   high: number;
@@ -78,7 +78,7 @@ export interface Field {
 export interface Geometry {
   surface: Block;
   gap: Block | null;
-  /** Fibre lines where they are no lines of a surface: the grid is zero, and cups hold that are no whole array. */
+  /** Fiber lines where they are no lines of a surface: the grid is zero, and cups hold that are no whole array. */
   fibres: Block | null;
   diagonals: Block;
   grippers: Block;
@@ -103,7 +103,7 @@ export interface CellData {
   obstacles: Solid[];
   /** Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange; null without a tool. */
   mounts: number[] | null;
-  /** The pads, the stems, and of a tool the flange: a place in micrometres and a quaternion in millionths. */
+  /** The pads, the stems, and of a tool the flange: a place in micrometers and a quaternion in millionths. */
   origins: Block;
 }
 
@@ -114,7 +114,7 @@ export interface VacuumEvent {
   grippers: string[];
 }
 
-/** The ply as a sheet. Micrometres, hundredths of a degree, millionths of strain, mN/m and micronewtons. */
+/** The ply as a sheet. Micrometers, hundredths of a degree, millionths of strain, mN/m and micronewtons. */
 export interface SheetData {
   /** All of its own limits hold, and it is at rest. */
   accepted: boolean;
@@ -200,7 +200,7 @@ export interface PageData {
   times: number[];
   /** Grippers along u and v; zeros where catenaries make no surface. */
   grid: [number, number];
-  /** Fabric between neighbouring grippers along u and v (mm). */
+  /** Fabric between neighboring grippers along u and v (mm). */
   pitch: [number, number];
   /** Column and row of each gripper. */
   ids: GripperId[];
@@ -252,13 +252,16 @@ const VERSION = 2;
 
 /** The page's data from its text, checked as far as a wrong file would show. */
 export function readPageData(text: string): PageData {
-  let data: PageData;
   try {
-    data = JSON.parse(text) as PageData;
-  } catch {
+    return checked(JSON.parse(text) as Partial<PageData> | null);
+  } catch (error) {
+    if (error instanceof BrokenData) throw error;
     throw new BrokenData("its data is cut off or damaged");
   }
-  const found = data as Partial<PageData> | null;
+}
+
+/** The same data, if it is that of a page and whole as far as can be seen. */
+export function checked(found: Partial<PageData> | null): PageData {
   if (typeof found !== "object" || found?.format !== "plydrape-page") {
     throw new BrokenData("its data is not that of a results page");
   }
@@ -273,6 +276,7 @@ export function readPageData(text: string): PageData {
   if (!Array.isArray(found.strength?.notes)) {
     throw new BrokenData("what is published of strength is missing in its data");
   }
+  const data = found as PageData;
   checkLengths(data);
   checkGeometry(data);
   if (data.cell !== null) checkCell(data, data.cell);
@@ -304,8 +308,7 @@ function checkGeometry(data: PageData): void {
   const geometry = data.geometry as Partial<Geometry> | undefined;
   if (typeof geometry !== "object") throw new BrokenData("its geometry is missing");
   for (const name of BLOCKS) {
-    if (typeof geometry[name]?.data !== "string")
-      throw new BrokenData(`the ${name} of its geometry is missing`);
+    if (geometry[name]?.data === undefined) throw new BrokenData(`the ${name} of its geometry is missing`);
   }
   if (!Array.isArray(geometry.contacts?.counts))
     throw new BrokenData("the contacts of its geometry are missing");
@@ -391,7 +394,7 @@ export function nearest(steps: number[], step: number | null): number {
   return away.indexOf(Math.min(...away));
 }
 
-/** What colours can tell of a model. */
+/** What colors can tell of a model. */
 export function fieldsOf(data: PageData, model: Model): Field[] {
   return model === "sheet" && data.sheet !== null ? data.sheet.fields : data.fields;
 }

@@ -1,5 +1,5 @@
 /**
- * The range and scale that colours have: as the reader chose them, and the same for two results that are compared.
+ * The range and scale that colors have: as the reader chose them, and the same for two results that are compared.
  *
  * Heights and strains have a scale of orders unless the reader wants an even one. Its ends are the same on all pages, so that
  * pictures can be compared; those of an even scale are the least and the largest value of all steps. Either can span the step in
@@ -16,26 +16,26 @@ export interface Ranging {
   model: Model;
   colour: FieldKey;
   stepRange: boolean;
-  /** Scales of orders, where a colour mode can have one. */
+  /** Scales of orders, where a color mode can have one. */
   orders: boolean;
   /** A second result beside this one, and the index of the step that is shown of it. */
   other: Motion | null;
   otherIndex: number;
 }
 
-/** Ends of the colours of heights on a scale of orders (mm): what touches, and what lies clear of the mold. */
+/** Ends of the colors of heights on a scale of orders (mm): what touches, and what lies clear of the mold. */
 const HEIGHTS: [number, number] = [0.1, 10];
 /** Over so many orders a scale spans the values of one step, down from the largest. */
 const ORDERS = 100;
 /** No value on a scale of orders is smaller: heights in mm, strains in %. */
 const LEAST = 1e-3;
 
-/** Whether a colour mode can have a scale of orders. */
+/** Whether a color mode can have a scale of orders. */
 export function hasOrders(field: Field): boolean {
   return field.scale === "orders" || field.key === "gap";
 }
 
-/** The colour mode in force, with the scale and range in force. */
+/** The color mode in force, with the scale and range in force. */
 export function fieldInForce(motion: Motion, now: Ranging): Field | undefined {
   const own = fieldsOf(motion.data, now.model).find(({ key }) => key === now.colour);
   if (own === undefined) return undefined;
@@ -102,7 +102,7 @@ function countOf(motion: Motion, model: Model, field: Field): number {
   return field.on === "cell" ? motion.shear.count : motion.surface.count;
 }
 
-/** The value of a colour mode at a vertex or cell of a model, in the mode's unit; null where there is none. */
+/** The value of a color mode at a vertex or cell of a model, in the mode's unit; null where there is none. */
 export function valueOf(
   motion: Motion,
   model: Model,

@@ -66,7 +66,7 @@ export class SheetStates {
     return index < 0 ? null : index;
   }
 
-  /** The value of a colour mode at a node or cell in a step of the page, in the mode's unit; null where there is none. */
+  /** The value of a color mode at a node or cell in a step of the page, in the mode's unit; null where there is none. */
   value(field: Field, index: number, item: number): number | null {
     const state = this.stateOf(index);
     if (state === null) return null;
@@ -90,7 +90,7 @@ export class SheetStates {
     }
   }
 
-  /** How many values a colour mode has in a step. */
+  /** How many values a color mode has in a step. */
   countOf(field: Field): number {
     return field.on === "cell" ? this.shear.count : this.positions.count;
   }

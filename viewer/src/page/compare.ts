@@ -1,5 +1,5 @@
 /**
- * A second result beside this one: both pictures in the same colours and from the same side, or one after the other by a key, at
+ * A second result beside this one: both pictures in the same colors and from the same side, or one after the other by a key, at
  * the same share of their motions or in the same step; both lines in the charts; and a table of what differs.
  */
 

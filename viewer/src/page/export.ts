@@ -1,5 +1,5 @@
 /**
- * The picture as it is, as PNG, and the whole motion as a video: with title, verdict, step, and the scale of the colours.
+ * The picture as it is, as PNG, and the whole motion as a video: with title, verdict, step, and the scale of the colors.
  */
 
 import { colourAt, mapOf, shareOf } from "../data/colour_map";
@@ -11,6 +11,7 @@ import { tell, type Comparison } from "./compare";
 import { byId, themeColour } from "./dom";
 import { beyond, legendOf } from "./legend";
 import type { Player } from "./player";
+import { save } from "./save";
 import type { State } from "./state";
 
 const FONT = "system-ui, -apple-system, 'Segoe UI', 'Liberation Sans', Arial, sans-serif";
@@ -135,7 +136,7 @@ export class Exporter {
     return pictures + scale;
   }
 
-  /** The colours that are shown, if any are. */
+  /** The colors that are shown, if any are. */
   private field(): Field | null {
     const { now } = this.state;
     if (now.model === "catenaries" && !hasSurface(this.motion.data)) return null;
@@ -246,13 +247,4 @@ export class Exporter {
 
 async function wait(milliseconds: number): Promise<void> {
   await new Promise((done) => setTimeout(done, milliseconds));
-}
-
-/** Gives the reader a file. */
-function save(blob: Blob, name: string): void {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

@@ -39,7 +39,7 @@ export interface FullHandle extends Handle {
   fabric(number: number): [number, number] | null;
   /** Where a place is on the picture (CSS pixels from its top left), or null without a picture. */
   onScreen(place: Place): [number, number] | null;
-  /** Colour mode; can be set. */
+  /** Color mode; can be set. */
   colour: FieldKey;
   readonly colours: FieldKey[];
   legend(): LegendFacts;

@@ -14,7 +14,7 @@ const AWAY = 16;
 /** A press that moves no farther (CSS pixels) and lasts no longer (ms) is a tap. */
 const TAP = { away: 8, time: 500 };
 
-/** A line of the plate; the one that the colours show stands out. */
+/** A line of the plate; the one that the colors show stands out. */
 interface Row {
   label: string;
   value: string;
@@ -114,7 +114,7 @@ function isEmpty(motion: Motion, { model, index }: Choice): boolean {
   return model === "sheet" && motion.sheet !== null && motion.sheet.stateOf(index) === null;
 }
 
-/** Where something is, in millimetres. */
+/** Where something is, in millimeters. */
 function position(place: Place): Row {
   const [x, y, z] = place.map((c) => short(round(c * 1000)));
   return { label: "x, y, z", value: `${x!}, ${y!}, ${z!}\u00a0mm` };
@@ -246,7 +246,7 @@ function tilt(motion: Motion, index: number, gripper: number, normal: Place): nu
   return (Math.atan2(Math.hypot(...cross), dot) * 180) / Math.PI;
 }
 
-/** Whole micrometres, and no zero with a sign. */
+/** Whole micrometers, and no zero with a sign. */
 function round(value: number): number {
   return Math.round(value * 1000) / 1000 + 0;
 }

@@ -13,14 +13,14 @@ const HELP: [string, string][] = [
   ["← →", "step back, step on"],
   ["Home, End", "first step, last step"],
   ["Space", "play, pause"],
-  ["1 – 5", "the colours in their order"],
+  ["1 – 5", "the colors in their order"],
   ["C", "sheet or catenaries"],
   ["T F S I", "view from top, front, side, iso"],
   ["0", "fit into the picture"],
   ["+ −", "nearer, farther"],
   ["Shift + arrows", "turn the view"],
   ["O", "scale by orders of size, or an even one"],
-  ["R", "colours over the range of this step, or of all steps"],
+  ["R", "colors over the range of this step, or of all steps"],
   [
     "D, M, B, P, G",
     "diagonals, mold, bodies of the cell, forces on the pads, paths of the grippers on or off",
@@ -43,7 +43,59 @@ export function linkKeyboard(
   section: Section,
   comparison: Comparison,
 ): void {
-  linkHelp();
+  linkKeys(HELP, state, data, eye, () => {
+    const { index, cell, forces, paths, model } = state.now;
+    return {
+      ArrowLeft: () => state.goto(index - 1),
+      ArrowRight: () => state.goto(index + 1),
+      Home: () => state.goto(0),
+      End: () => state.goto(state.count - 1),
+      " ": () => player.toggle(),
+      g: () => state.set({ paths: !paths }),
+      w: () => byId("worst").click(),
+      x: () => section.toggle(),
+      a: () => comparison.change(),
+      b: () => state.set({ cell: !cell }),
+      p: () => state.set({ forces: !forces }),
+      c: () => {
+        if (data.sheet !== null && hasCatenaries(data))
+          chooseModel(state, data, model === "sheet" ? "catenaries" : "sheet");
+      },
+      Escape: () => state.set({ pointer: null }),
+    };
+  });
+}
+
+/** Keys that every picture of a ply has, `more` of a page's own, and the list of them. */
+export function linkKeys(
+  help: [string, string][],
+  state: State,
+  data: PageData,
+  eye: Eye | null,
+  more: () => Record<string, () => void>,
+): void {
+  linkHelp(help);
+  const find = (key: string): (() => void) | undefined => {
+    const { stepRange, orders, diagonals, mold, model } = state.now;
+    const mode = modes(data, model)[Number(key) - 1];
+    if (mode !== undefined) return () => state.set({ colour: mode[0] });
+    const view = VIEWS[key.toLowerCase()];
+    if (view !== undefined) return () => eye?.look(view);
+    const acts: Record<string, () => void> = {
+      "0": () => eye?.fit(),
+      "+": () => eye?.zoomBy(1.2),
+      "=": () => eye?.zoomBy(1.2),
+      "-": () => eye?.zoomBy(1 / 1.2),
+      r: () => state.set({ stepRange: !stepRange }),
+      o: () => state.set({ orders: !orders }),
+      d: () => state.set({ diagonals: !diagonals }),
+      m: () => state.set({ mold: !mold }),
+      l: () => byId("theme").click(),
+      "?": () => byId<HTMLDialogElement>("help").showModal(),
+      ...more(),
+    };
+    return acts[key.length === 1 ? key.toLowerCase() : key];
+  };
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (byId<HTMLDialogElement>("help").open) return;
@@ -53,43 +105,6 @@ export function linkKeyboard(
     event.preventDefault();
     act();
   });
-
-  const find = (key: string): (() => void) | undefined => {
-    const { index, stepRange, orders, diagonals, mold, cell, forces, paths, model } = state.now;
-    const mode = modes(data, model)[Number(key) - 1];
-    if (mode !== undefined) return () => state.set({ colour: mode[0] });
-    const view = VIEWS[key.toLowerCase()];
-    if (view !== undefined) return () => eye?.look(view);
-    const acts: Record<string, () => void> = {
-      ArrowLeft: () => state.goto(index - 1),
-      ArrowRight: () => state.goto(index + 1),
-      Home: () => state.goto(0),
-      End: () => state.goto(state.count - 1),
-      " ": () => player.toggle(),
-      "0": () => eye?.fit(),
-      "+": () => eye?.zoomBy(1.2),
-      "=": () => eye?.zoomBy(1.2),
-      "-": () => eye?.zoomBy(1 / 1.2),
-      r: () => state.set({ stepRange: !stepRange }),
-      o: () => state.set({ orders: !orders }),
-      g: () => state.set({ paths: !paths }),
-      w: () => byId("worst").click(),
-      x: () => section.toggle(),
-      a: () => comparison.change(),
-      d: () => state.set({ diagonals: !diagonals }),
-      m: () => state.set({ mold: !mold }),
-      b: () => state.set({ cell: !cell }),
-      p: () => state.set({ forces: !forces }),
-      c: () => {
-        if (data.sheet !== null && hasCatenaries(data))
-          chooseModel(state, data, model === "sheet" ? "catenaries" : "sheet");
-      },
-      l: () => byId("theme").click(),
-      Escape: () => state.set({ pointer: null }),
-      "?": () => byId<HTMLDialogElement>("help").showModal(),
-    };
-    return acts[key.length === 1 ? key.toLowerCase() : key];
-  };
 }
 
 function turn(key: string, eye: Eye | null): (() => void) | undefined {
@@ -117,10 +132,10 @@ function ownKeys(event: KeyboardEvent): boolean {
   return false;
 }
 
-function linkHelp(): void {
+function linkHelp(help: [string, string][]): void {
   const dialog = byId<HTMLDialogElement>("help");
   const list = make("dl");
-  for (const [keys, act] of HELP) list.append(make("dt", {}, make("kbd", {}, keys)), make("dd", {}, act));
+  for (const [keys, act] of help) list.append(make("dt", {}, make("kbd", {}, keys)), make("dd", {}, act));
   dialog.querySelector("h2")!.after(list);
   byId("help-open").addEventListener("click", () => dialog.showModal());
   dialog.addEventListener("click", (event) => {

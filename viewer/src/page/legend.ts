@@ -1,4 +1,4 @@
-/** The colour bar over the picture: title, unit, round ticks, and the limit where there is one. */
+/** The color bar over the picture: title, unit, round ticks, and the limit where there is one. */
 
 import { gradient, mapOf, shareOf } from "../data/colour_map";
 import { bracketed, full, quantity, short, ticks, ticksOfOrders } from "../data/number";
@@ -38,7 +38,7 @@ export function linkLegend(state: State, motion: Motion): void {
   orders.addEventListener("change", () => state.set({ orders: orders.checked }));
   state.listen((now, before) => {
     showForceScale(motion, now);
-    const keys = ["colour", "model", "stepRange", "orders", "other"] as const;
+    const keys = ["colour", "model", "stepRange", "orders", "other", "answer"] as const;
     const changed = now === before || keys.some((key) => now[key] !== before[key]);
     const moved = now.index !== before.index || now.otherIndex !== before.otherIndex;
     if (!changed && !(now.stepRange && moved)) return;
@@ -104,7 +104,7 @@ function draw(field: Field): HTMLElement[] {
   const range = make("p", { class: "visually-hidden" });
   range.textContent = `from ${full(field.low)} to ${full(field.high)} ${field.unit}`;
   const parts = [title, scale, range];
-  if (field.key === "landing") parts.push(make("p", { class: "quiet" }, "grey: in the air"));
+  if (field.key === "landing") parts.push(make("p", { class: "quiet" }, "gray: in the air"));
   if (limit !== null && (limit < field.low || limit > field.high)) {
     parts.push(make("p", { class: "legend-note" }, `limit ${short(limit)}`));
   }

@@ -102,19 +102,23 @@ export function limitsTable(state: State, data: PageData, model: Model, limits: 
   return make("table", { class: "limits" }, make("thead", {}, head), body);
 }
 
-function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTableRowElement {
+/** Name, verdict, value and bound of a limit, and where it is worst. */
+export function limitCells(limit: Limit): HTMLElement[] {
   const value = quantity(limit.value, limit.unit);
   const bound = `${limit.least ? "≥" : "≤"}\u202f${quantity(limit.limit, limit.unit)}`;
-  const index = nearest(data.steps, limit.step);
-  const word = limit.ok ? "pass" : "fail";
-  const cells = [
+  return [
     make("th", { scope: "row" }, limit.name),
-    make("td", { class: "word" }, sign(limit.ok), word),
+    make("td", { class: "word" }, sign(limit.ok), limit.ok ? "pass" : "fail"),
     make("td", { class: "number", title: withUnit(full(limit.value), limit.unit) }, value),
     make("td", { class: "number", title: withUnit(full(limit.limit), limit.unit) }, bound),
-    make("td", { class: "number" }, limit.step === null ? "–" : String(limit.step)),
     make("td", { class: "where", title: limit.where }, limit.where),
   ];
+}
+
+function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTableRowElement {
+  const index = nearest(data.steps, limit.step);
+  const cells = limitCells(limit);
+  cells.splice(4, 0, make("td", { class: "number" }, limit.step === null ? "–" : String(limit.step)));
   if (limit.note !== null) cells[0]!.append(make("span", { class: "other-units" }, limit.note));
   const tr = make("tr", { class: limit.ok ? "pass" : "fail" }, ...cells);
   if (index < 0) return tr;
@@ -137,7 +141,7 @@ function row(state: State, data: PageData, model: Model, limit: Limit): HTMLTabl
   return tr;
 }
 
-/** Goes to the step of a limit, in the colours that it is about, and marks its place. */
+/** Goes to the step of a limit, in the colors that it is about, and marks its place. */
 export function showLimit(
   state: State,
   data: PageData,
@@ -164,7 +168,7 @@ export function showStrength(data: PageData): void {
     make(
       "details",
       { class: "strength" },
-      make("summary", {}, "Strength: what is published of such fibre angles"),
+      make("summary", {}, "Strength: what is published of such fiber angles"),
       list,
       make("p", { class: "quiet" }, warning),
     ),

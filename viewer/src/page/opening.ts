@@ -15,7 +15,7 @@ import {
 } from "../data/page_data";
 import type { Pointer } from "./state";
 
-/** The colour mode that shows what a limit is about. */
+/** The color mode that shows what a limit is about. */
 const COLOURS: Record<string, FieldKey> = {
   height: "over_mold",
   gap: "gap",
@@ -23,7 +23,7 @@ const COLOURS: Record<string, FieldKey> = {
   strain: "strain",
 };
 
-/** The colour mode of a model that shows what a limit is about; null if none does. */
+/** The color mode of a model that shows what a limit is about; null if none does. */
 export function colourOf(data: PageData, model: Model, limit: Limit): FieldKey | null {
   const key = COLOURS[limit.name] ?? null;
   return fieldsOf(data, model).some((field) => field.key === key) ? key : null;

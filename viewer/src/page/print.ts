@@ -1,5 +1,5 @@
 /**
- * Print: light colours, the 3D picture of the step in view as an image, all charts at the width of the
+ * Print: light colors, the 3D picture of the step in view as an image, all charts at the width of the
  * paper; afterwards everything as before. What is hidden on paper is said in the style sheet.
  */
 

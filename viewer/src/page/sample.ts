@@ -181,7 +181,7 @@ function pointerOf(motion: Motion): Pointer | null {
   return { index, place: motion.sheet!.node(at, node), label };
 }
 
-/** The colours of the spread are about the end: choosing them goes there and marks the highest place. */
+/** The colors of the spread are about the end: choosing them goes there and marks the highest place. */
 function followColour(state: State, pointer: Pointer): void {
   const spread = (choice: Choice) => choice.model === "sheet" && choice.colour === "spread";
   state.listen((now, before) => {

@@ -1,5 +1,5 @@
 /**
- * What the reader has chosen: the step, the colour mode, what is shown, and a place that is pointed at.
+ * What the reader has chosen: the step, the color mode, what is shown, and a place that is pointed at.
  * Every part of the page listens here, so that none needs to know another.
  */
 
@@ -20,9 +20,9 @@ export interface Choice {
   /** The model of the ply that is shown. */
   model: Model;
   colour: FieldKey;
-  /** Colours span the values of the step in view, not those of all steps. */
+  /** Colors span the values of the step in view, not those of all steps. */
   stepRange: boolean;
-  /** Scales of orders, where a colour mode can have one. */
+  /** Scales of orders, where a color mode can have one. */
   orders: boolean;
   diagonals: boolean;
   mold: boolean;
@@ -38,6 +38,8 @@ export interface Choice {
   other: Motion | null;
   otherIndex: number;
   playing: boolean;
+  /** Counts the answers of the solver of a live page; that of a result has one. */
+  answer: number;
   dark: boolean;
   pointer: Pointer | null;
 }

@@ -12,7 +12,7 @@ export function systemIsDark(): boolean {
   return system.matches;
 }
 
-/** Puts the theme on the document at once, so that colours read afterwards are the new ones. */
+/** Puts the theme on the document at once, so that colors read afterwards are the new ones. */
 export function applyTheme(dark: boolean): void {
   document.documentElement.dataset.theme = dark ? "dark" : "light";
 }

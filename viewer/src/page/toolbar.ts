@@ -1,4 +1,4 @@
-/** The bar over the picture: colour modes, standard views, what is shown. */
+/** The bar over the picture: color modes, standard views, what is shown. */
 
 import {
   fieldsOf,
@@ -19,7 +19,7 @@ const MODES: [FieldKey, string][] = [
   ["gap", "Gap"],
   ["shear", "Shear"],
   ["strain", "Strain"],
-  ["direction", "Fibre direction"],
+  ["direction", "Fiber direction"],
   ["landing", "Landing"],
 ];
 const MODELS: [Model, string][] = [
@@ -33,13 +33,13 @@ const VIEWS: [StandardView, string, string][] = [
   ["side", "Side", "S"],
 ];
 
-/** The colour modes of a model, in the order of their keys. */
+/** The color modes of a model, in the order of their keys. */
 export function modes(data: PageData, model: Model): [FieldKey, string][] {
   const fields = fieldsOf(data, model);
   return MODES.filter(([key]) => fields.some((field) => field.key === key));
 }
 
-/** Shows a model, in the same colour mode if it has it. */
+/** Shows a model, in the same color mode if it has it. */
 export function chooseModel(state: State, data: PageData, model: Model): void {
   const known = modes(data, model);
   const colour = known.find(([key]) => key === state.now.colour)?.[0] ?? known[0]?.[0] ?? state.now.colour;

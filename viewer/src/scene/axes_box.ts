@@ -1,6 +1,6 @@
 /**
  * A box with round numbers around everything, as in the paper's figure: lines on the sides that lie behind,
- * and millimetres along three of its edges.
+ * and millimeters along three of its edges.
  */
 
 import { Group, Vector3, type Box3 } from "three";
@@ -68,6 +68,16 @@ export class AxesBox {
     lines.points.set(segments);
     lines.changed();
     return lines;
+  }
+
+  /** Gives its memory of the graphics card back. */
+  free(): void {
+    for (const { lines } of this.sides) lines.free();
+  }
+
+  /** Lowest and highest x, y and z (m). */
+  get extent(): number[] {
+    return [...this.low, ...this.high];
   }
 
   ink(colour: string): void {

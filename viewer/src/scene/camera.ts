@@ -1,7 +1,7 @@
 /**
  * The eye: parallel projection, z up, orbit, pan and zoom, standard views, and fitting a box into the picture.
  *
- * The frustum is measured in CSS pixels, so the camera's zoom is pixels per metre.
+ * The frustum is measured in CSS pixels, so the camera's zoom is pixels per meter.
  */
 
 import { Box3, OrthographicCamera, Vector3 } from "three";
@@ -37,7 +37,7 @@ export class Eye {
 
   constructor(
     element: HTMLElement,
-    private readonly box: Box3,
+    private box: Box3,
     private readonly redraw: () => void,
   ) {
     this.reach = 4 * box.getSize(new Vector3()).length();
@@ -55,6 +55,12 @@ export class Eye {
     this.controls.addEventListener("change", () => this.changed());
     // one finger across the picture turns it; up and down it scrolls the page, where that is all there is
     element.style.touchAction = "";
+  }
+
+  /** Takes another box as the whole, and shows it from the standard view that was chosen last if it shall `fit`. */
+  show(box: Box3, fit: boolean): void {
+    this.box = box;
+    if (fit) this.look(this.view === null || this.view instanceof Box3 ? "iso" : this.view, false);
   }
 
   private changed(): void {

@@ -1,6 +1,6 @@
 /**
- * The catenaries: edges between neighbouring grippers, which are lines of the surface's grid where there is one, and the
- * diagonals of every cell, or its sides where its diagonals are the fibres. Diagonals hang below the surface drawn between the edges; they are pulled towards
+ * The catenaries: edges between neighboring grippers, which are lines of the surface's grid where there is one, and the
+ * diagonals of every cell, or its sides where its diagonals are the fibers. Diagonals hang below the surface drawn between the edges; they are pulled towards
  * the eye by as much as that, so that they are seen through it.
  */
 
@@ -46,7 +46,7 @@ export class Catenaries {
     this.diagonals.ink(colour, 0.9);
   }
 
-  /** Draws finer lines where neighbouring grippers are less than so many CSS pixels apart. */
+  /** Draws finer lines where neighboring grippers are less than so many CSS pixels apart. */
   suit(apart: number): void {
     const weight = Math.min(Math.max(apart / 55, 0.5), 1);
     this.edges.weight = weight;

@@ -45,7 +45,7 @@ const FRAGMENT = /* glsl */ `
 const SHARP = 30;
 const OPACITY = { moving: 0.28, standing: 0.55 };
 
-/** Seven integers: a place in micrometres, and a quaternion in millionths. */
+/** Seven integers: a place in micrometers, and a quaternion in millionths. */
 type Origin = Int32Array;
 const STANDS: Origin = Int32Array.from([0, 0, 0, 0, 0, 0, 1e6]);
 

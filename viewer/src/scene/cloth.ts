@@ -1,8 +1,8 @@
 /**
- * How the ply is painted, by both models: colours looked up in a map, fabric lines, and a mild shade.
+ * How the ply is painted, by both models: colors looked up in a map, fabric lines, and a mild shade.
  *
- * The geometry gives `share`, the place of each vertex in the colour map, or `corners`, those of all four corners of
- * its cell; below zero there is no value, and the ply is grey. `thread` counts fabric lines: one is drawn at every
+ * The geometry gives `share`, the place of each vertex in the color map, or `corners`, those of all four corners of
+ * its cell; below zero there is no value, and the ply is gray. `thread` counts fabric lines: one is drawn at every
  * whole number.
  */
 
@@ -72,10 +72,10 @@ const FRAGMENT = /* glsl */ `
   }
 `;
 
-/** Colours in the map: so many that none need be mixed, which is dear in software. */
+/** Colors in the map: so many that none need be mixed, which is dear in software. */
 const TEXELS = 512;
 
-/** The grey of a ply without a value. */
+/** The gray of a ply without a value. */
 const UNKNOWN = new Color(0.68, 0.7, 0.73);
 
 /** The material of a ply that is pushed back by `push` (m), with values at vertices or at the corners of cells. */
@@ -94,7 +94,7 @@ export function clothMaterial(push: number, on: "vertices" | "corners" = "vertic
   });
 }
 
-/** Loads the colour map of a field. */
+/** Loads the color map of a field. */
 export function useMap(material: ShaderMaterial, field: Field): void {
   const map = mapOf(field);
   const texels = new Uint8Array(4 * TEXELS);

@@ -34,17 +34,15 @@ const LINE = 1.3;
 
 export class Contacts {
   readonly points: Points<BufferGeometry, ShaderMaterial>;
-  private readonly position: BufferAttribute;
+  private position: BufferAttribute;
   private size = LARGEST;
 
   constructor(
     private readonly motion: Motion,
     push: number,
   ) {
-    const room = Math.max(1, motion.mostContacts);
-    this.position = new BufferAttribute(new Float32Array(3 * room), 3).setUsage(DynamicDrawUsage);
     const geometry = new BufferGeometry();
-    geometry.setAttribute("position", this.position);
+    this.position = makeRoom(geometry, motion.mostContacts);
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
@@ -70,16 +68,25 @@ export class Contacts {
     (this.points.material.uniforms.colour!.value as Color).copy(screenColour(colour));
   }
 
-  /** Smaller circles where neighbouring grippers are less than so many CSS pixels apart. */
+  /** Smaller circles where neighboring grippers are less than so many CSS pixels apart. */
   suit(apart: number): void {
     this.size = Math.min(Math.max(apart / 15, SMALLEST), LARGEST);
   }
 
   moveTo(step: number): void {
     const points = this.motion.contacts(step);
+    if (points.length > this.position.array.length)
+      this.position = makeRoom(this.points.geometry, points.length / 3);
     const { array } = this.position;
     for (let k = 0; k < points.length; k++) array[k] = points[k]! * MICRO;
     this.position.needsUpdate = true;
     this.points.geometry.setDrawRange(0, points.length / 3);
   }
+}
+
+/** Gives a geometry positions for so many points. */
+function makeRoom(geometry: BufferGeometry, points: number): BufferAttribute {
+  const position = new BufferAttribute(new Float32Array(3 * Math.max(1, points)), 3);
+  geometry.setAttribute("position", position.setUsage(DynamicDrawUsage));
+  return position;
 }

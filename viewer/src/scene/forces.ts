@@ -1,6 +1,6 @@
 /**
  * Loads of the sheet on the grippers: arrows from the middle of each pad, in front of everything, one along the ply and one
- * across it, each in the colour of how much of what the gripper holds it uses.
+ * across it, each in the color of how much of what the gripper holds it uses.
  *
  * The longest arrow of each step has the same length, so that small loads of the air and large ones of the end can both be
  * read; the legend says what it stands for.
@@ -19,7 +19,7 @@ const LEAST = 0.02;
 /** Width of an arrow (CSS pixels). */
 const WIDTH = 2.4;
 
-/** How much of what a gripper holds is used: the colours of the arrows, with their names in the style sheet. */
+/** How much of what a gripper holds is used: the colors of the arrows, with their names in the style sheet. */
 export const USES = [
   { upTo: 0.5, colour: "load-low", text: "≤ ½ of limit" },
   { upTo: 1, colour: "load-near", text: "≤ limit" },
@@ -41,7 +41,7 @@ export class Forces {
     for (const { shafts, heads } of this.arrows) this.group.add(shafts.mesh, heads.mesh);
   }
 
-  /** Takes the colours of the uses, in their order. */
+  /** Takes the colors of the uses, in their order. */
   ink(colours: string[]): void {
     this.arrows.forEach((arrows, n) => {
       arrows.shafts.ink(colours[n]!);
@@ -71,7 +71,7 @@ export class Forces {
   }
 }
 
-/** Arrows of one colour. */
+/** Arrows of one color. */
 class Arrows {
   readonly shafts: Lines;
   readonly heads: Lines;

@@ -2,7 +2,7 @@
  * Grippers: flat black discs with a light rim, tilted with the ply.
  *
  * A disc is two quads, cut round and smoothed by the shader, and a short wall between them, so that it can
- * also be seen edge-on. Every vertex knows its disc's centre and axis, which are written in place.
+ * also be seen edge-on. Every vertex knows its disc's center and axis, which are written in place.
  */
 
 import {
@@ -112,7 +112,7 @@ export class Grippers {
     (uniforms.rim!.value as Color).copy(screenColour(rim));
   }
 
-  /** Leaves the walls out where they would be less than a pixel high, at so many CSS pixels a metre. */
+  /** Leaves the walls out where they would be less than a pixel high, at so many CSS pixels a meter. */
   showWalls(zoom: number): void {
     this.mesh.geometry.setDrawRange(0, this.radius * zoom * 2 * HALF < 1 ? this.quads : Infinity);
   }

@@ -82,8 +82,8 @@ export class Lines {
   private readonly tangent: BufferAttribute;
 
   /**
-   * Curves with so many points each, `width` CSS pixels wide, pushed back by `push` metres. With `times`, one for each point,
-   * what is later than `now` has a colour of its own.
+   * Curves with so many points each, `width` CSS pixels wide, pushed back by `push` meters. With `times`, one for each point,
+   * what is later than `now` has a color of its own.
    */
   constructor(
     private readonly lengths: number[],
@@ -160,6 +160,12 @@ export class Lines {
     this.tangent.needsUpdate = true;
   }
 
+  /** Gives its memory of the graphics card back. */
+  free(): void {
+    this.mesh.geometry.dispose();
+    this.mesh.material.dispose();
+  }
+
   ink(colour: string, opacity = 1, later = colour): void {
     const { uniforms } = this.mesh.material;
     (uniforms.colour!.value as Color).copy(screenColour(colour));
@@ -188,7 +194,7 @@ function quads(lengths: number[], stride: number): Uint32Array {
   return Uint32Array.from(index);
 }
 
-/** A CSS colour as the shaders write it: as it is on the screen, not linear. */
+/** A CSS color as the shaders write it: as it is on the screen, not linear. */
 export function screenColour(colour: string): Color {
   return new Color().setStyle(colour, "srgb-linear");
 }

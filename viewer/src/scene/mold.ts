@@ -71,6 +71,13 @@ export class Mold {
     }
   }
 
+  /** Gives its memory of the graphics card back. */
+  free(): void {
+    this.surface.geometry.dispose();
+    this.surface.material.dispose();
+    this.outline?.free();
+  }
+
   ink(colour: string, line: string): void {
     (this.surface.material.uniforms.colour!.value as Color).copy(screenColour(colour));
     this.outline?.ink(line);

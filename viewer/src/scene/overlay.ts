@@ -2,6 +2,7 @@
 
 import { Vector3 } from "three";
 import { themeColour } from "../page/dom";
+import type { Place } from "../data/page_data";
 import type { Pointer } from "../page/state";
 import type { AxesBox } from "./axes_box";
 import type { Eye } from "./camera";
@@ -13,14 +14,22 @@ const LEGEND = 126;
 /** In a picture narrower than this it stands elsewhere. */
 const NARROW = 560;
 
+/** A text at a place of the picture, or a ring around it. */
+export interface Mark {
+  place: Place;
+  text: string | null;
+}
+
 export class Overlay {
+  /** What is written over the picture beside the axes box. */
+  marks: Mark[] = [];
   private readonly context: CanvasRenderingContext2D | null;
   /** What the text on the picture depends on, when it was drawn last. */
   private drawn = "";
 
   constructor(
     readonly canvas: HTMLCanvasElement,
-    private readonly box: AxesBox,
+    public box: AxesBox,
     private readonly eye: Eye,
   ) {
     this.context = canvas.getContext("2d");
@@ -36,6 +45,8 @@ export class Overlay {
       ratio,
       themeColour("text"),
       pointer?.label,
+      ...this.marks.map(({ place, text }) => `${String(text)} ${place.join(" ")}`),
+      ...this.box.extent,
       camera.zoom,
       ...camera.matrixWorld.elements,
     ].join();
@@ -56,16 +67,27 @@ export class Overlay {
       // Moved in if it is cut off by a little; one that is far outside stays there.
       pen.fillText(label.text, Math.abs(inside - label.x) < 24 ? inside : label.x, label.y);
     }
+    for (const { place, text } of this.marks) {
+      if (text === null) this.ring(pen, place);
+      else this.write(pen, place, text);
+    }
     if (pointer !== null) this.point(pen, pointer, width, height);
   }
 
-  /** A ring around the place and a plate with its label beside it. */
-  private point(
-    pen: CanvasRenderingContext2D,
-    { place, label }: Pointer,
-    width: number,
-    height: number,
-  ): void {
+  /** A text with a halo, so that it can be read on the ply. */
+  private write(pen: CanvasRenderingContext2D, place: Place, text: string): void {
+    const [x, y] = this.eye.project(new Vector3(...place));
+    pen.font = `600 11.5px ${FONT}`;
+    pen.lineJoin = "round";
+    pen.lineWidth = 3.5;
+    pen.strokeStyle = themeColour("surface");
+    pen.strokeText(text, x, y);
+    pen.fillStyle = themeColour("text");
+    pen.fillText(text, x, y);
+  }
+
+  /** A ring around a place; where it is on the picture. */
+  private ring(pen: CanvasRenderingContext2D, place: Place): [number, number] {
     const [x, y] = this.eye.project(new Vector3(...place));
     for (const [colour, line] of [
       [themeColour("surface"), 5],
@@ -77,6 +99,17 @@ export class Overlay {
       pen.arc(x, y, 13, 0, 2 * Math.PI);
       pen.stroke();
     }
+    return [x, y];
+  }
+
+  /** A ring around the place and a plate with its label beside it. */
+  private point(
+    pen: CanvasRenderingContext2D,
+    { place, label }: Pointer,
+    width: number,
+    height: number,
+  ): void {
+    const [x, y] = this.ring(pen, place);
     pen.font = `600 12.5px ${FONT}`;
     const lines = label.split("\n");
     const plate = Math.max(...lines.map((line) => pen.measureText(line).width)) + 18;

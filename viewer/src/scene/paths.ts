@@ -1,4 +1,4 @@
-/** Paths of the grippers over the whole motion: what they have passed in full colour, what comes in a quiet one. */
+/** Paths of the grippers over the whole motion: what they have passed in full color, what comes in a quiet one. */
 
 import { MICRO, type Motion } from "../data/motion";
 import type { Model } from "../data/page_data";

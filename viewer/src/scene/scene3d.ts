@@ -41,6 +41,10 @@ const MOST_PIXELS = 2;
 const SLOW = 40;
 const REST = 300;
 
+/** How far mold and axes box are pushed back, as shares of the size of the scene. */
+const MOLD = 0.02;
+const BOX = 0.03;
+
 export class Scene3d {
   private readonly surface: PlySurface;
   readonly eye: Eye;
@@ -49,13 +53,14 @@ export class Scene3d {
   private readonly catenaries: Catenaries;
   private readonly grippers: Grippers;
   private readonly contacts: Contacts;
-  private readonly mold: Mold | null;
+  private mold: Mold | null;
   private readonly cell: Cell | null;
   readonly sheet: SheetPicture | null;
   private readonly paths: Paths;
   private readonly line: SectionLine;
-  private readonly box: AxesBox;
-  private readonly overlay: Overlay;
+  private bounds: Box3;
+  private box: AxesBox;
+  readonly overlay: Overlay;
   private waiting = false;
   private coarse = false;
   private lastDrawn = 0;
@@ -79,6 +84,7 @@ export class Scene3d {
       powerPreference: "high-performance",
     });
     const bounds = sceneBox(motion);
+    this.bounds = bounds;
     const size = bounds.getSize(new Vector3()).length();
     this.size = size;
     const { mold } = motion.data.geometry;
@@ -87,13 +93,13 @@ export class Scene3d {
     this.catenaries = new Catenaries(motion, 0.0005 * size, 0.02 * size);
     this.grippers = new Grippers(motion, Math.min(0.1 * motion.spacing, 0.03 * size), -0.004 * size);
     this.contacts = new Contacts(motion, -0.003 * size);
-    this.mold = mold === null ? null : new Mold(mold, 0.02 * size);
+    this.mold = mold === null ? null : new Mold(mold, MOLD * size);
     const { sheet, cell } = motion;
     this.cell = cell === null ? null : new Cell(cell, motion.grippers.count, 0.001 * size);
     this.sheet = sheet === null ? null : new SheetPicture(sheet, size, motion.spacing);
     this.paths = new Paths(motion, -0.001 * size);
     this.line = new SectionLine(-0.006 * size);
-    this.box = new AxesBox(bounds, 0.03 * size);
+    this.box = new AxesBox(bounds, BOX * size);
     this.catenaries.order = 3;
     this.contacts.points.renderOrder = 4;
     this.grippers.mesh.renderOrder = 5;
@@ -120,7 +126,7 @@ export class Scene3d {
     state.listen((now, before) => this.follow(now, before));
   }
 
-  /** The colour mode in force, with the range in force. */
+  /** The color mode in force, with the range in force. */
   private field(now: Choice): Field {
     return fieldInForce(this.motion, now) ?? fieldsOf(this.motion.data, now.model)[0]!;
   }
@@ -132,8 +138,8 @@ export class Scene3d {
     if (changed("dark")) this.ink();
     if (changed("model")) this.showModel(sheet !== null);
     if (changed("colour", "model")) (sheet ?? this.surface).useMap(this.field(now));
-    if (changed("index", "model")) this.moveTo(now.index, sheet);
-    if (changed("index", "model", "stepRange", "orders", "colour", "other", "otherIndex")) {
+    if (changed("index", "model", "answer")) this.moveTo(now.index, sheet);
+    if (changed("index", "model", "answer", "stepRange", "orders", "colour", "other", "otherIndex")) {
       (sheet ?? this.surface).colour(this.field(now), now.index);
     }
     this.paths.lines.mesh.visible = now.paths;
@@ -171,7 +177,28 @@ export class Scene3d {
     );
   }
 
-  /** Takes the colours of the theme in force. */
+  /** Shows the mold that the motion has now, and a box around everything, which the eye looks at anew if it shall `fit`. */
+  renew(fit: boolean): void {
+    const { mold } = this.motion.data.geometry;
+    if (this.mold !== null) this.scene.remove(this.mold.group);
+    this.mold?.free();
+    this.mold = mold === null ? null : new Mold(mold, MOLD * this.size);
+    if (this.mold !== null) this.scene.add(this.mold.group);
+    const bounds = sceneBox(this.motion);
+    // a box that only grows stays where it is while the ply moves in it
+    if (!fit) bounds.union(this.bounds);
+    this.bounds = bounds;
+    this.scene.remove(this.box.group);
+    this.box.free();
+    this.box = new AxesBox(bounds, BOX * this.size);
+    this.scene.add(this.box.group);
+    this.overlay.box = this.box;
+    this.eye.show(bounds, fit);
+    this.ink();
+    this.draw();
+  }
+
+  /** Takes the colors of the theme in force. */
   ink(): void {
     this.catenaries.ink(themeColour("red"));
     this.contacts.ink(themeColour("red"));
@@ -305,7 +332,7 @@ export class Scene3d {
     return this.still(2).toDataURL("image/png");
   }
 
-  /** Nodes of the sheet or vertices of the surface, and the grippers, as they are shown now; three micrometres each. */
+  /** Nodes of the sheet or vertices of the surface, and the grippers, as they are shown now; three micrometers each. */
   shown(): { points: Int32Array; pads: Int32Array } {
     const { index, model } = this.state.now;
     const { sheet } = this.motion;
@@ -327,8 +354,17 @@ export class Scene3d {
   }
 
   /** The node or gripper nearest to a place on the picture (CSS pixels) of those that no other one hides by far. */
-  under([x, y]: [number, number]): Found | null {
-    const { points, pads } = this.shown();
+  under(at: [number, number]): Found | null {
+    return this.nearest(at, this.shown().points, REACH);
+  }
+
+  /** The gripper that is nearest to a place on the picture, at most so far away (CSS pixels). */
+  gripperUnder(at: [number, number], reach = REACH): Found | null {
+    return this.nearest(at, new Int32Array(0), reach);
+  }
+
+  private nearest([x, y]: [number, number], points: Int32Array, near: number): Found | null {
+    const { pads } = this.shown();
     const towards = this.eye.direction();
     // in the middle of a cell that is drawn large something is found too
     const reach = Math.max(REACH, 0.8 * this.eye.camera.zoom * this.fineness());
@@ -346,11 +382,11 @@ export class Scene3d {
       }
     };
     look("node", points, reach, 0);
-    look("gripper", pads, REACH, REACH / 3);
+    look("gripper", pads, near, REACH / 3);
     return found;
   }
 
-  /** Distance of neighbouring nodes of what is shown (m), about. */
+  /** Distance of neighboring nodes of what is shown (m), about. */
   private fineness(): number {
     const { sheet, data, spacing, grippers } = this.motion;
     if (this.state.now.model === "catenaries" || sheet === null) return spacing / data.divisions;

@@ -3,10 +3,10 @@
  *
  * Parallel projection, so a shift along the line of sight moves nothing on the screen and only decides what
  * lies in front: the mold is pushed back a little, the ply less, and lines and discs are pulled forward.
- * Shading is mild, so that colours stay close to those of the legend.
+ * Shading is mild, so that colors stay close to those of the legend.
  */
 
-/** View position and clip position of a point in metres; `push` (m) shifts it away from the eye. */
+/** View position and clip position of a point in meters; `push` (m) shifts it away from the eye. */
 export const PROJECT = /* glsl */ `
   uniform float push;
   vec4 project(vec3 point) {

@@ -12,7 +12,7 @@ export class SheetPicture {
   private readonly forces: Forces;
   private state: number | null = null;
 
-  /** `size` is that of the scene, `spacing` the distance of neighbouring grippers (m). */
+  /** `size` is that of the scene, `spacing` the distance of neighboring grippers (m). */
   constructor(
     private readonly sheet: SheetStates,
     size: number,
@@ -24,7 +24,7 @@ export class SheetPicture {
     this.group.add(this.surface.mesh, this.forces.group);
   }
 
-  /** Takes the colours of the arrows. */
+  /** Takes the colors of the arrows. */
   ink(colours: string[]): void {
     this.forces.ink(colours);
   }
@@ -58,7 +58,7 @@ export class SheetPicture {
     this.forces.group.visible = shown && this.state !== null;
   }
 
-  /** Draws fabric lines where they are far enough apart, at so many CSS pixels a metre. */
+  /** Draws fabric lines where they are far enough apart, at so many CSS pixels a meter. */
   suit(zoom: number): void {
     const along = Math.sqrt(this.sheet.data.cells.length / 4 / Math.max(1, this.sheet.grippers.count));
     this.surface.showThreads((zoom * this.spacing) / Math.max(1, along));

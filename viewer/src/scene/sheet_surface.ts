@@ -1,5 +1,5 @@
 /**
- * The sheet: its cells, coloured by the chosen field.
+ * The sheet: its cells, colored by the chosen field.
  *
  * Each cell has its own vertices, each of which knows the values at all four corners, so that a field given on cells has
  * sharp borders and one given on nodes can be unknown at some of them. Whole cells have vertices at their corners; those
@@ -113,7 +113,7 @@ export class SheetSurface {
     this.normal.needsUpdate = true;
   }
 
-  /** Colours the sheet by a field in a step of the page. */
+  /** Colors the sheet by a field in a step of the page. */
   colour(field: Field, index: number): void {
     const share = this.share.array;
     const at = (item: number) => {

@@ -1,9 +1,9 @@
 /**
- * The ply surface, coloured by the chosen field.
+ * The ply surface, colored by the chosen field.
  *
  * Each cell has its own (n+1)² vertices, so that a field given on cells has sharp borders. Positions and
  * normals are computed once a step on the shared grid and copied to the cells; all buffers are written in
- * place. The value goes to the shader as a share of its range and is looked up in the colour map there.
+ * place. The value goes to the shader as a share of its range and is looked up in the color map there.
  */
 
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type ShaderMaterial } from "three";
@@ -108,7 +108,7 @@ export class PlySurface {
     this.normal.needsUpdate = true;
   }
 
-  /** Colours the surface by a field in a step. */
+  /** Colors the surface by a field in a step. */
   colour(field: Field, step: number): void {
     const item = field.on === "cell" ? this.cell : this.source;
     const share = this.share.array;
@@ -118,7 +118,7 @@ export class PlySurface {
     this.share.needsUpdate = true;
   }
 
-  /** Loads the colour map of a field. */
+  /** Loads the color map of a field. */
   useMap(field: Field): void {
     useMap(this.mesh.material, field);
   }
@@ -135,7 +135,7 @@ export class PlySurface {
     return k < 0 ? null : [array[k]!, array[k + 1]!, array[k + 2]!];
   }
 
-  /** Normals from the two diagonals through the neighbours of every vertex (their scale does not matter). */
+  /** Normals from the two diagonals through the neighbors of every vertex (their scale does not matter). */
   private findNormals(points: Int32Array): void {
     const { columns, rows, normals } = this;
     for (let row = 0; row < rows; row++) {

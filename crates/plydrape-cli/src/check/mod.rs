@@ -23,7 +23,7 @@ type Line = (&'static str, String);
 /// Read a scene or a plybook, and say what was understood or what is wrong.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-What is possible but hardly meant, such as a start kilometres off, is warned of on standard error, \
+What is possible but hardly meant, such as a start kilometers off, is warned of on standard error, \
 with exit code 0.")]
 pub struct Arguments {
     /// The scene file, or the file of a plybook.
@@ -82,6 +82,19 @@ fn material(material: &Material) -> String {
             short(weft_rigidity)
         ),
     };
+    let moments = match &material.moment {
+        [None, None] => String::new(),
+        curves => {
+            let along = curves.iter().zip(["warp", "weft"]).filter_map(|(curve, along)| {
+                Some(format!("{} points along the {along}", curve.as_ref()?.curvature.len()))
+            });
+            let along: Vec<String> = along.collect();
+            format!(
+                " at rest, moment over curvature of {} (catenaries take the rigidity at rest)",
+                along.join(", ")
+            )
+        }
+    };
     let shear = match &material.shear_curve {
         Some(ShearCurve::Table { angle, .. }) => format!("shear curve of {} points", angle.len()),
         Some(ShearCurve::Polynomial { coefficients }) if coefficients.len() == 1 => {
@@ -99,5 +112,5 @@ fn material(material: &Material) -> String {
         Some(TensionLaw::Table { strain, .. }) => format!(", tension of {} points", strain.len()),
         None => String::new(),
     };
-    format!("{}: {section}; {shear}{tension}{locking}", material.name)
+    format!("{}: {section}{moments}; {shear}{tension}{locking}", material.name)
 }

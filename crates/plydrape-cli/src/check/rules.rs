@@ -66,7 +66,7 @@ pub(super) fn rules(scene: &Scene) -> [Line; 7] {
         (
             "",
             format!(
-                "landing within {} mm (contact), {} mm (grippers), fibres within {} deg, {} % in contact",
+                "landing within {} mm (contact), {} mm (grippers), fibers within {} deg, {} % in contact",
                 millimetres(limits.landing_contact),
                 millimetres(limits.landing_gripper),
                 degrees(limits.fibre_angle),
@@ -94,7 +94,7 @@ fn slack(scene: &Scene) -> String {
     let preset = limits.preset.map(|preset| format!("preset {}; ", preset.name()));
     let wrinkle = limits.wrinkle.map(|height| format!(", {} mm high", millimetres(height)));
     format!(
-        "{}slack {} % (as fibre angle {} deg{})",
+        "{}slack {} % (as fiber angle {} deg{})",
         preset.unwrap_or_default(),
         short(limits.slack_ratio * 100.0),
         rounded(angle),

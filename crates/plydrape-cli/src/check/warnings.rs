@@ -3,9 +3,10 @@
 use super::way::longest;
 use crate::numbers::{millimetres, short};
 use plydrape::material::Section;
-use plydrape::mold::Mold;
+use plydrape::mold::{Mesh, Mold};
 use plydrape::ply::gripper_name;
 use plydrape::scene::Scene;
+use plydrape_io::scene::SceneFile;
 
 /// Straight way of a gripper, in diagonals of the ply, beyond which a place must be a slip: even a table on the other
 /// side of a cell is a few of them away.
@@ -13,12 +14,61 @@ const FAR: f64 = 20.0;
 /// Mass of plies (kg/m²): the lightest woven ones, of spread tow, weigh some 0.05; the heaviest, rovings, 3D weaves
 /// and stitched stacks with their resin, stay below 10.
 const PLIES: [f64; 2] = [0.05, 10.0];
+/// Relief of a flat side and of a shaped one, as shares of the size of a mold.
+const FLAT: f64 = 1e-4;
+const SHAPED: f64 = 0.02;
+/// Share of a triangle's normal along z below which it is a wall.
+const WALL: f64 = 0.1;
 /// Most places of grippers that are looked at in a motion.
 const LOOKS: usize = 100_000;
 
 /// Every warning, in a sentence.
-pub(super) fn warnings(scene: &Scene) -> Vec<String> {
-    far(scene).into_iter().chain(mass(scene)).chain(below(scene)).collect()
+pub(super) fn warnings(scene: &SceneFile) -> Vec<String> {
+    let mesh = upside_down(scene);
+    far(scene).into_iter().chain(mass(scene)).chain(mesh).chain(below(scene)).collect()
+}
+
+/// A mesh that seems to lie upside down: an open one whose file says that its other side is the outer one, or a solid that is
+/// flat from above and shaped from below.
+fn upside_down(scene: &SceneFile) -> Option<String> {
+    let (Some(Mold::Mesh(mesh)), Some(report)) = (&scene.mold, &scene.mesh) else {
+        return None;
+    };
+    let turn = "turn it with rotation = [\"180 deg\", 0, 0] in [mold]";
+    if report.closed == 0 && 2 * report.flipped.count > report.triangles {
+        return Some(format!(
+            "{} of {} triangles of the mold face down in its file, and the ply comes from above onto their other side; if the mold is upside down, {turn}",
+            report.flipped.count, report.triangles
+        ));
+    }
+    if report.closed < report.surfaces {
+        return None;
+    }
+    let [low, high] = mesh.bounds();
+    let size = [0, 1, 2].map(|n| high[n] - low[n]).into_iter().fold(0.0, f64::hypot);
+    let [above, below] = [1.0, -1.0].map(|side| relief(mesh, side));
+    (above < FLAT * size && below > SHAPED * size).then(|| {
+        format!(
+            "the mold is flat from above and shaped from below; if it is upside down, {turn}; if it is meant, kind = \"plane\" says the same"
+        )
+    })
+}
+
+/// Height over which the triangles of a mesh go that face up (side 1) or down (side −1) (m).
+fn relief(mesh: &Mesh, side: f64) -> f64 {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for corners in mesh.triangles() {
+        let [a, b, c] = corners.map(|n| mesh.vertices()[n as usize]);
+        let [p, q] = [b, c].map(|end| [0, 1, 2].map(|n| end[n] - a[n]));
+        let normal =
+            [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+        let area = normal.into_iter().fold(0.0, f64::hypot);
+        if side * normal[2] > WALL * area {
+            low = [a, b, c].into_iter().fold(low, |low, corner| low.min(corner[2]));
+            high = [a, b, c].into_iter().fold(high, |high, corner| high.max(corner[2]));
+        }
+    }
+    (high - low).max(0.0)
 }
 
 /// A way many times longer than the ply.

@@ -1,6 +1,6 @@
 //! A solved span as text: what holds it, a table of places along it, and its shape.
 
-use super::{Solved, picture};
+use super::{Curve, Solved, picture};
 use crate::numbers::{millimetres, short};
 use plydrape::catenary::EndCondition;
 use std::fmt::Write;
@@ -26,7 +26,7 @@ pub fn of(solved: &Solved) -> String {
         let _ = writeln!(text, "  {noun:<17} {value}");
     }
     let _ = write!(text, "\n{}\n", table(solved));
-    let at = |n: usize| solved.station(span.run * n as f64 / POINTS as f64);
+    let at = |n: usize| solved.station(n as f64 / POINTS as f64);
     let points: Vec<[f64; 2]> = (0..=POINTS).map(at).map(|s| [s.x, s.z]).collect();
     text + &picture::curve(&points)
 }
@@ -51,14 +51,14 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
     };
     let slopes = solved.slopes();
     let held = |end: usize| match span.ends[end] {
-        _ if solved.profile.is_none() => "the chord's",
+        _ if solved.is_straight() => "the chord's",
         EndCondition::Free => "free",
         EndCondition::Slope(_) => "held",
     };
     // zero by definition at a free end, up to rounding by the closed form
     let moment = |end: usize| match span.ends[end] {
         EndCondition::Free => 0.0,
-        EndCondition::Slope(_) => solved.station(end as f64 * span.run).moment,
+        EndCondition::Slope(_) => solved.station(end as f64).moment,
     };
     let ends = [0, 1].map(|end| short(moment(end) * 1e3));
     let mut lines = vec![
@@ -76,6 +76,11 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
         ),
         ("moments", format!("{} N·mm at the start, {} N·mm at the end", ends[0], ends[1])),
     ];
+    if solved.at_rest {
+        let text =
+            "small-sag theory takes the first slope of the moment; --theory exact takes all of it";
+        lines.push(("moment table", text.into()));
+    }
     let beyond = span.chord() - span.length;
     if solved.state() == "overstretched" {
         lines.push((
@@ -88,7 +93,7 @@ fn summary(solved: &Solved) -> Vec<(&'static str, String)> {
             ),
         ));
     }
-    if solved.profile.is_none() {
+    if solved.is_straight() {
         if span.ends != [EndCondition::Free; 2] {
             lines.push(("", "a straight span cannot take the slopes asked for".into()));
         }
@@ -110,8 +115,8 @@ fn table(solved: &Solved) -> String {
     });
     let mut rows = vec![head.map(str::to_string)];
     rows.extend(values.iter().map(|row| {
-        [0, 1, 2, 3, 4].map(|column| match solved.profile {
-            None if column == 4 => "–".to_string(),
+        [0, 1, 2, 3, 4].map(|column| match solved.curve {
+            Curve::Straight if column == 4 => "–".to_string(),
             _ => without_sign_of_zero(format!("{:.*}", decimals[column], row[column])),
         })
     }));

@@ -1,5 +1,5 @@
 //! Every scene under `plydrape-io/tests/it/broken` is refused with exit code 2, and its message, as a user
-//! sees it on a terminal of 80 columns without colour, stands in the snapshot: read it aloud.
+//! sees it on a terminal of 80 columns without color, stands in the snapshot: read it aloud.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,9 @@ fn every_broken_scene_is_refused_with_place_and_remedy() {
 
 #[test]
 fn a_folder_and_a_missing_file_are_refused() {
-    assert!(refusal(Path::new("tables")).contains("`tables` is a folder, not a file"));
+    let folder = refusal(Path::new("tables"));
+    assert!(folder.contains("`tables` is a folder, not a file"), "{folder}");
+    assert!(folder.contains("give the .toml file of a scene"), "{folder}");
     assert!(refusal(Path::new("nowhere.toml")).contains("there is no such file"));
 }
 
@@ -92,4 +94,152 @@ fn a_long_line_is_cut_around_the_fault() {
         assert_eq!(output.status.code(), Some(2));
         assert!(output.stderr.len() < 2000, "{}", output.stderr.len());
     }
+}
+
+/// Runs the command in a folder, and gives its exit code, what it prints and its messages on one line.
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_plydrape"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("NO_COLOR", "1")
+        .env("LC_ALL", "C.UTF-8")
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    // lines are broken anywhere, behind a bar on the left
+    let message = text(output.stderr).replace('│', " ");
+    let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
+    (output.status.code(), text(output.stdout), message)
+}
+
+/// A folder with one of each file that is taken for a scene or a result.
+fn desk() -> tempfile::TempDir {
+    let desk = tempfile::tempdir().unwrap();
+    let mut binary = vec![0; 84 + 50];
+    binary[80] = 1;
+    let files: [(&str, &[u8]); 11] = [
+        ("binary.stl", &binary),
+        ("text.stl", b"solid x\nfacet normal 0 0 1\nouter loop\n"),
+        ("mold.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("part.step", b"ISO-10303-21;\nHEADER;\n"),
+        ("start.csv", b"i,j,x,y,z\n0,0,0,0,0\n"),
+        ("photo.png", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"),
+        ("ply.dxf", b"  0\nSECTION\n  2\nHEADER\n"),
+        ("wide.toml", b"\xff\xfe[\0p\0l\0y\0]\0"),
+        ("empty.json", b""),
+        ("other.json", b"{\"a\": 1}"),
+        (
+            "old.json",
+            b"{\"format\":\"plydrape-result\",\"version\":1,\"program\":\"plydrape 0.0.1\"}",
+        ),
+    ];
+    for (name, bytes) in files {
+        std::fs::write(desk.path().join(name), bytes).unwrap();
+    }
+    desk
+}
+
+#[test]
+fn another_file_given_as_a_scene_is_called_by_its_name() {
+    let desk = desk();
+    for (file, name, remedy) in [
+        ("binary.stl", "a mesh (STL)", "kind = \"mesh\", file = \"binary.stl\""),
+        ("text.stl", "a mesh (STL)", "file = \"text.stl\", unit = \"mm\""),
+        ("mold.obj", "a mesh (OBJ)", "file = \"mold.obj\""),
+        ("part.step", "a CAD model (STEP)", "as an STL or OBJ file"),
+        ("start.csv", "a table (CSV)", "as `positions` in [grippers]"),
+        ("photo.png", "a picture", "`plydrape new NAME`"),
+        ("ply.dxf", "a drawing (DXF)", "[ply] outline = \"ply.dxf\""),
+        ("old.json", "a result of plydrape", "`plydrape report old.json`"),
+    ] {
+        let (code, printed, message) = run(desk.path(), &["check", file]);
+        assert_eq!((code, printed.as_str()), (Some(2), ""), "{file}");
+        assert!(message.contains(&format!("`{file}` is {name}, not a scene")), "{message}");
+        assert!(message.contains(remedy), "{message}");
+        assert!(!message.contains("TOML:"), "{message}");
+    }
+    let (_, _, message) = run(desk.path(), &["check", "wide.toml"]);
+    assert!(message.contains("`wide.toml` is UTF-16 text"), "{message}");
+}
+
+#[test]
+fn a_name_that_is_nearly_right_is_answered_with_the_right_one() {
+    let desk = desk();
+    assert_eq!(run(desk.path(), &["new", "part"]).0, Some(0));
+    let (_, _, message) = run(desk.path(), &["check", "part/scene.tml"]);
+    assert!(message.contains("did you mean `part/scene.toml`?"), "{message}");
+    let (_, _, message) = run(desk.path(), &["plan", "part"]);
+    assert!(message.contains("`part` is a folder, not a file"), "{message}");
+    assert!(message.contains("did you mean `part/scene.toml`?"), "{message}");
+    let (_, _, message) = run(desk.path(), &["report", "othr.json"]);
+    assert!(message.contains("did you mean `other.json`?"), "{message}");
+}
+
+#[test]
+fn another_file_given_as_a_result_is_called_by_its_name() {
+    let desk = desk();
+    assert_eq!(run(desk.path(), &["new", "part"]).0, Some(0));
+    for (file, said) in [
+        ("part/scene.toml", "is a scene or another TOML file, not a result of plydrape"),
+        ("text.stl", "is a mesh (STL), not a result of plydrape"),
+        ("empty.json", "is empty, not a result of plydrape"),
+        ("other.json", "is not a result of plydrape: it has no `format`"),
+        ("part", "it is a folder, not a file help: it holds no result.json"),
+    ] {
+        for command in [&["export", file, "--to", "vtk"][..], &["report", file]] {
+            let (code, printed, message) = run(desk.path(), command);
+            assert_eq!((code, printed.as_str()), (Some(2), ""), "{file}");
+            assert!(message.contains(said), "{message}");
+            assert!(message.contains("give the result.json of `plydrape simulate`"), "{message}");
+        }
+    }
+}
+
+/// The folder of a run says which scene it was made from, and how.
+#[test]
+fn a_result_of_an_old_version_says_how_to_make_it_anew() {
+    let desk = desk();
+    let old = std::fs::read(desk.path().join("old.json")).unwrap();
+    for (folder, scene, command) in [
+        ("a.plan", Some("a.toml"), "run `plydrape plan a.toml` again with this version"),
+        ("b.results", None, "run `plydrape simulate` again with its scene with this version"),
+        ("c", None, "run `plydrape simulate` or `plydrape plan` again with this version"),
+    ] {
+        let folder = desk.path().join(folder);
+        std::fs::create_dir(&folder).unwrap();
+        std::fs::write(folder.join("result.json"), &old).unwrap();
+        if let Some(scene) = scene {
+            std::fs::write(desk.path().join(scene), "").unwrap();
+        }
+        let name = folder.file_name().unwrap().to_str().unwrap();
+        // the folder stands for the result in it
+        let (code, _, message) = run(desk.path(), &["report", name]);
+        assert_eq!(code, Some(2));
+        assert!(message.contains("written by plydrape 0.0.1"), "{message}");
+        assert!(message.contains(command), "{message}");
+    }
+}
+
+/// The help of a message tells what to do, and neither repeats the message nor itself.
+#[test]
+fn nothing_is_said_twice() {
+    let snapshot = include_str!(
+        "snapshots/it__broken_scenes__every_broken_scene_is_refused_with_place_and_remedy.snap"
+    );
+    let mut seen = 0;
+    for block in snapshot.split("\n\n") {
+        let Some((message, help)) = block.split_once("\n  help: ") else { continue };
+        let words =
+            |text: &str| text.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        let (message, help) = (words(message), words(help));
+        seen += 1;
+        let mut parts: Vec<&str> = help.split(['?', ';', ':']).map(str::trim).collect();
+        parts.retain(|part| part.split(' ').count() > 3);
+        for (n, part) in parts.iter().enumerate() {
+            assert!(!message.contains(part), "{message}\n{help}");
+            assert!(!parts[..n].contains(part), "{help}");
+        }
+    }
+    assert!(seen >= 200, "{seen}");
 }

@@ -115,7 +115,7 @@ fn a_held_ply_has_no_way() {
     assert!(!shown.contains("straight line"), "{shown}");
 }
 
-/// Nineteen diagonals are a long way, twenty-one a slip, in a cell of micrometres as in one of metres.
+/// Nineteen diagonals are a long way, twenty-one a slip, in a cell of micrometers as in one of meters.
 #[test]
 fn a_start_many_plies_off_is_warned_of_at_any_scale() {
     // diagonal of 3 × 1 cells of 100
@@ -127,18 +127,18 @@ fn a_start_many_plies_off_is_warned_of_at_any_scale() {
         let far = warning(&at(21.0));
         assert!(far.contains("gripper g3_1 starts") && far.contains("21 times"), "{far}");
     }
-    let kilometres = warning(&in_unit("mm").replace("\"10 mm\"", "5000"));
-    assert!(kilometres.contains("5000 m from its target"), "{kilometres}");
+    let kilometers = warning(&in_unit("mm").replace("\"10 mm\"", "\"5000 m\""));
+    assert!(kilometers.contains("5000 m from its target"), "{kilometers}");
 }
 
-/// 370 g/m² without its unit is 370 kg/m²; a line of the same mass counts as a strip one cell wide.
+/// 370 kg/m² are a slip also where the unit is written; a line of the same mass counts as a strip one cell wide.
 #[test]
 fn a_mass_that_no_ply_has_is_warned_of_with_the_likely_unit() {
     let areal = |mass: &str| in_unit("mm").replace("\"314 g/m^2\"", mass);
     for sound in ["0.05", "10", "\"314 g/m^2\""] {
         assert!(warnings(&areal(sound)).is_empty(), "{sound}");
     }
-    let heavy = warning(&areal("370"));
+    let heavy = warning(&areal("\"370 kg/m^2\""));
     assert!(heavy.contains("370 kg/m²") && heavy.contains("did you mean mass = \"370 g/m^2\"?"));
     let light = warning(&areal("\"314 mg/m^2\""));
     assert!(light.contains("less than plies have"), "{light}");
@@ -158,6 +158,39 @@ fn a_mass_that_no_ply_has_is_warned_of_with_the_likely_unit() {
     let heavy = warning(&line("37"));
     assert!(heavy.contains("makes 370 kg/m²") && heavy.contains("\"37 g/m\""), "{heavy}");
     assert!(warning(&line("\"4.9 g/m\"")).contains("0.049 kg/m²"));
+}
+
+/// A roof, ridge downwards, is flat from above; turned over it is a mold, and no side of it is in doubt.
+#[test]
+fn a_mold_that_seems_to_be_upside_down_is_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let corners = "v 0 0 0\nv 400 0 0\nv 400 400 0\nv 0 400 0\nv 0 200 -50\nv 400 200 -50\n";
+    let roof = "f 1 2 3 4\nf 1 5 6 2\nf 4 3 6 5\nf 1 4 5\nf 2 6 3\n";
+    // clockwise from above
+    let sheet = "f 1 4 3 2\n";
+    let warned = |name: &str, faces: &str, more: &str| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, format!("{corners}{faces}")).unwrap();
+        let mold = format!(
+            "[mold]\nkind = \"mesh\"\nfile = '{}'\nunit = \"mm\"\n{more}\n[grippers]",
+            file.display()
+        );
+        warnings(&format!(
+            "[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n{mold}\nspacing = [0.098, 0.098]\nheight = 0.2\n\
+             origin = [0.1, 0.2]\n"
+        ))
+    };
+    let turn = "rotation = [\"180 deg\", 0, 0]\nposition = [0, 0.4, 0]";
+    let solid = warned("roof.obj", roof, "");
+    assert!(
+        solid.len() == 1 && solid[0].contains("flat from above and shaped from below"),
+        "{solid:?}"
+    );
+    assert!(solid[0].contains("rotation = [\"180 deg\", 0, 0] in [mold]"), "{solid:?}");
+    assert_eq!(warned("turned.obj", roof, turn), Vec::<String>::new());
+    let open = warned("sheet.obj", sheet, "");
+    assert!(open.len() == 1 && open[0].contains("triangles of the mold face down"), "{open:?}");
+    assert_eq!(warned("turned_sheet.obj", sheet, turn), Vec::<String>::new());
 }
 
 /// Each once: of a target in the mold the steps before it are not reported as well.

@@ -26,7 +26,7 @@ fn strategy<'a>(printed: &'a Value, name: &str) -> &'a Value {
     all.iter().find(|row| row["strategy"] == name).unwrap()
 }
 
-/// Straight paths leave ridges of millimetres, as `simulate` measures them on another way through the program; a front that
+/// Straight paths leave ridges of millimeters, as `simulate` measures them on another way through the program; a front that
 /// spreads from a point leaves none. All limits of straight are the same to the last digit.
 #[test]
 fn on_the_papers_example_straight_is_refused_for_its_height_and_a_front_accepted() {
@@ -87,7 +87,7 @@ fn table_and_picture_have_every_strategy() {
     assert_eq!(std::fs::read_to_string(folder.join("comparison.svg")).unwrap(), svg);
 }
 
-/// Grippers on neighbouring corners of a cell are never 10 m apart: each strategy fails by that, and so would any plan.
+/// Grippers on neighboring corners of a cell are never 10 m apart: each strategy fails by that, and so would any plan.
 #[test]
 fn without_an_accepted_strategy_the_exit_code_is_one() {
     let home = tempfile::tempdir().unwrap();

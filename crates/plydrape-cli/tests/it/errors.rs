@@ -87,7 +87,7 @@ fn a_plan_that_is_not_accepted_stands_no_errors() {
     assert!(shown.contains("\nstands no errors: it is not accepted without any\n"), "{shown}");
 }
 
-/// Errors of a micrometre are kept by a plan, those of 20 mm by none; the verdict, the exit code and the files agree.
+/// Errors of a micrometer are kept by a plan, those of 20 mm by none; the verdict, the exit code and the files agree.
 #[test]
 fn a_sample_decides_with_the_errors_of_the_scene() {
     let home = tempfile::tempdir().unwrap();

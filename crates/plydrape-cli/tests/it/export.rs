@@ -87,9 +87,14 @@ fn other_files_are_refused_with_a_remedy() {
         ("cut", sound[..sound.len() / 2].to_owned(), "ends in the middle", "copy it again"),
         ("edited", sound.replacen("0.098", "0.097", 1), "was changed", "put the file back"),
         ("newer", versioned(version + 1), "in version", "update plydrape"),
-        ("older", versioned(version - 1), "in version", "run the scene again"),
+        (
+            "older",
+            versioned(version - 1),
+            "in version",
+            "run `plydrape simulate` or `plydrape plan` again",
+        ),
         ("foreign", "{\"format\":\"mesh\",\"version\":1}".into(), "is not a result", "give the"),
-        ("text", "step,t (s)\n".into(), "it is not JSON", "give the"),
+        ("text", "step,t (s)\n".into(), "is a table (CSV), not a result", "give the"),
     ];
     for (name, content, reason, remedy) in cases {
         assert_ne!(content, sound, "{name}");

@@ -52,7 +52,8 @@ fn standard_error_that_is_full_is_no_panic() {
     let written = std::fs::read_to_string(example("02_hanging_strip")).unwrap();
     std::fs::write(
         &scene,
-        written.replace("\"krogh2018\"", "{ mass = \"1000 kg/m\", flexural_rigidity = 1 }"),
+        written
+            .replace("\"krogh2018\"", "{ mass = \"1000 kg/m\", flexural_rigidity = \"1 N m^2\" }"),
     )
     .unwrap();
     let check = |stderr| command().arg("check").arg(&scene).stderr(stderr).output().unwrap();

@@ -380,7 +380,7 @@ fn a_search_ends_when_its_time_is_over() {
     assert_eq!(files(&folder.path().join("flat.plan")), FILES);
 }
 
-/// A search that improves its plan for a dome a million times; by the catenaries the ply never lands within a micrometre.
+/// A search that improves its plan for a dome a million times; by the catenaries the ply never lands within a micrometer.
 fn long() -> String {
     let dome = "kind = \"sphere\"\nradius = \"1 m\"\nposition = [0.05, 0.05, -1]";
     let limits = "\n[limits]\nlanding_contact = \"1 um\"\nheight = \"1 um\"\n";

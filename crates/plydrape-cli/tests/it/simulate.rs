@@ -295,7 +295,7 @@ fn a_step_without_a_solution_exits_with_three() {
         let row = |j: usize| (0..4).map(|i| place(i, j)).collect::<Vec<_>>().join(", ");
         let written = format!(
             "[ply]\ngrippers = [4, 2]\ncell = [0.1, 0.1]\n[ply.material]\nname = \"stiff\"\nmass = 0.3143\n\
-             flexural_rigidity = 1e6\n[grippers]\npositions = [[{}], [{}]]\n\
+             flexural_rigidity = \"1e6 N m^2\"\n[grippers]\npositions = [[{}], [{}]]\n\
              [model]\nkind = \"catenaries\"\nslopes = \"min-force\"\naxial_stiffness = inf\n",
             row(0),
             row(1)

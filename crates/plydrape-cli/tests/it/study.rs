@@ -25,7 +25,7 @@ fn a_missing_package_is_one_message_with_the_remedy() {
     let output = study(&python(home.path(), "exit 97"), &["study.toml"]);
     assert_eq!(output.status.code(), Some(2));
     let message = one_line(&output.stderr);
-    for part in ["has no package plydrape", "pip install 'plydrape[study]'", "PLYDRAPE_PYTHON"] {
+    for part in ["has no package plydrape", "pip install '.[study]'", "PLYDRAPE_PYTHON"] {
         assert!(message.contains(part), "{message}");
     }
     assert!(output.stdout.is_empty());

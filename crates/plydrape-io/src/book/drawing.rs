@@ -21,7 +21,7 @@ const YARNS: [usize; 2] = [12, 48];
 struct Plan {
     low: [f64; 2],
     high: [f64; 2],
-    /// Pixels for a metre.
+    /// Pixels for a meter.
     scale: f64,
 }
 
@@ -96,7 +96,7 @@ pub(super) fn all(book: &Book, plies: &[PlyRecord]) -> String {
     plan.svg("all plies on the mold, seen from above", "all", &body)
 }
 
-/// Number of colours of plies in the page.
+/// Number of colors of plies in the page.
 pub(super) const COLOURS: usize = 6;
 
 /// One ply with its yarns, over those that it lies on.

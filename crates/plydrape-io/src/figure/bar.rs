@@ -1,4 +1,4 @@
-//! The colour bar: what value every colour stands for.
+//! The color bar: what value every color stands for.
 
 use super::FigureError;
 use super::axes::{self, plain};

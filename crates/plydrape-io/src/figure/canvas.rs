@@ -18,7 +18,7 @@ const FONT: f64 = 1.24;
 /// A place on the sheet: right and down (picture points).
 pub(super) type Px = [f64; 2];
 
-/// A colour and how much it covers, 0 to 1.
+/// A color and how much it covers, 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Ink(pub [u8; 3], pub f64);
 

@@ -1,7 +1,7 @@
-//! Colours of the figure, and the scale that turns a height into one.
+//! Colors of the figure, and the scale that turns a height into one.
 //!
 //! The scale is viridis (S. van der Walt and N. Smith, matplotlib, CC0): lightness grows evenly with
-//! the value, also for colour-blind eyes and in grey print.
+//! the value, also for color-blind eyes and in gray print.
 
 use super::canvas::Ink;
 
@@ -50,7 +50,7 @@ const VIRIDIS: [[u8; 3]; 17] = [
     [253, 231, 37],
 ];
 
-/// The colour at a share of the range, 0 to 1; beyond it the end's colour.
+/// The color at a share of the range, 0 to 1; beyond it the end's color.
 pub(super) fn viridis(share: f64) -> Ink {
     let last = VIRIDIS.len() - 1;
     let place = share.clamp(0.0, 1.0) * last as f64;
@@ -63,7 +63,7 @@ pub(super) fn viridis(share: f64) -> Ink {
     Ink([mix(0), mix(1), mix(2)], 1.0)
 }
 
-/// The same colour as red, green and blue.
+/// The same color as red, green and blue.
 pub(crate) fn viridis_rgb(share: f64) -> [u8; 3] {
     viridis(share).0
 }
@@ -72,7 +72,7 @@ pub(crate) fn viridis_rgb(share: f64) -> [u8; 3] {
 mod tests {
     use super::*;
 
-    /// Lightness (relative luminance) grows all along, so order survives in grey print.
+    /// Lightness (relative luminance) grows all along, so order survives in gray print.
     #[test]
     fn the_scale_grows_lighter_all_along() {
         let luminance = |k: usize| {

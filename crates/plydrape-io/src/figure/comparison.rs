@@ -1,4 +1,4 @@
-//! How the strategies of a comparison end: small multiples in one view, one frame and one scale of colours.
+//! How the strategies of a comparison end: small multiples in one view, one frame and one scale of colors.
 
 use super::axes::{self, Frame, ROOM, plain};
 use super::bar::bar;
@@ -109,7 +109,7 @@ fn head(canvas: &mut Canvas, row: &Row, [x, y]: Px) -> Result<(), OutputError> {
     Ok(())
 }
 
-/// Colour bar, legend, and by how much z is exaggerated.
+/// Color bar, legend, and by how much z is exaggerated.
 fn key(
     canvas: &mut Canvas,
     stage: &Stage,

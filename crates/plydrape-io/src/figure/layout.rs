@@ -1,4 +1,4 @@
-//! The page: title, panels one above the other, colour bar, legend.
+//! The page: title, panels one above the other, color bar, legend.
 
 use super::axes::{self, Frame, ROOM, plain};
 use super::bar::bar;
@@ -18,7 +18,7 @@ use plydrape::mold::Mold;
 
 /// Width of the sheet (picture points).
 pub(super) const WIDTH: f64 = 900.0;
-/// Where the panels end and the colour bar begins (picture points).
+/// Where the panels end and the color bar begins (picture points).
 pub(super) const PANELS: f64 = 800.0;
 /// Most height of a box on the sheet, of one panel and of one of several (picture points).
 const HEIGHT: [f64; 2] = [430.0, 285.0];
@@ -29,7 +29,7 @@ pub(super) const LEGEND: f64 = 42.0;
 /// How far a curved mold is drawn beyond the ply, and at most below and above it, as shares of the width.
 const MARGIN: f64 = 0.1;
 const DEEP: f64 = 0.35;
-/// Gap up to which the ply counts as touching in a picture (m): the low end of its colours.
+/// Gap up to which the ply counts as touching in a picture (m): the low end of its colors.
 const TOUCHING: f64 = 1e-4;
 
 /// Draws the whole page.
@@ -78,7 +78,7 @@ pub(super) fn page(
     Ok(canvas::at_size(&text, size))
 }
 
-/// What the colours tell.
+/// What the colors tell.
 pub(super) fn colour_name(stage: &Stage) -> &'static str {
     match stage.is_over_mold() {
         true => "height (mm)",
@@ -147,7 +147,7 @@ pub(super) fn shown(
     }
 }
 
-/// Box, colour scale and mold patch that hold all shown points; `of_sheet` is the scale of a sheet, if one is shown.
+/// Box, color scale and mold patch that hold all shown points; `of_sheet` is the scale of a sheet, if one is shown.
 pub(super) fn stage<'a>(
     result: &'a ResultFile,
     shown: &[Point],

@@ -1,10 +1,10 @@
 //! The paper's figure as one SVG: chosen steps in 3D, one above the other, in one frame and one scale.
 //!
 //! After Krogh et al. 2018, the figure of the numerical example: catenaries are red lines, a surface
-//! inside each cell is coloured by z, grippers are black discs tilted with the ply, contact is marked by
+//! inside each cell is colored by z, grippers are black discs tilted with the ply, contact is marked by
 //! red circles. Horizontal lengths have equal scale, z too unless its label says by how much it is
 //! exaggerated. A curved mold is drawn as a shaded surface, never exaggerated, and the ply over it is
-//! coloured by its gap to the mold. Where the sheet was draped, the figure shows the sheet instead. Same
+//! colored by its gap to the mold. Where the sheet was draped, the figure shows the sheet instead. Same
 //! result, same bytes.
 
 mod axes;

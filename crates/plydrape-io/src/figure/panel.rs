@@ -60,7 +60,7 @@ pub(super) struct Stage<'a> {
     pub frame: Frame,
     /// Panels on the sheet.
     pub panels: usize,
-    /// What the ply's colours stand for (m).
+    /// What the ply's colors stand for (m).
     pub scale: Scale,
     /// The patch of mold that is shown.
     pub mold: Option<MoldPicture>,
@@ -91,7 +91,7 @@ pub(super) fn curved(result: &ResultFile) -> Option<&Mold> {
     result.scene.mold.as_ref().filter(|mold| !matches!(mold, Mold::Plane(_)))
 }
 
-/// What the ply's colour tells at a place (m): its gap to a curved mold, else its height.
+/// What the ply's color tells at a place (m): its gap to a curved mold, else its height.
 pub(crate) fn colour_value(result: &ResultFile, p: Point) -> f64 {
     curved(result).map_or(p[2], |mold| mold.signed_distance(p).max(0.0))
 }
@@ -141,7 +141,7 @@ impl Stage<'_> {
         self.frame.front(canvas, view)
     }
 
-    /// Whether colours tell heights over the mold.
+    /// Whether colors tell heights over the mold.
     pub(super) fn is_over_mold(&self) -> bool {
         self.sheet.as_ref().is_some_and(|sheet| sheet.scale().is_some())
     }
@@ -253,7 +253,7 @@ impl Stage<'_> {
         }
     }
 
-    /// A piece of surface in the colour of its middle, grown by a hair so that no seam shows.
+    /// A piece of surface in the color of its middle, grown by a hair so that no seam shows.
     fn square(&self, view: &View, corners: [Point; 4]) -> Piece {
         let mean = |of: &dyn Fn(Point) -> f64| corners.iter().map(|p| of(*p)).sum::<f64>() / 4.0;
         let place = [0, 1, 2].map(|c| mean(&|p| p[c]));

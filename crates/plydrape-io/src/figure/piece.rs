@@ -12,7 +12,7 @@ pub(super) struct Piece {
     pub(super) place: Point,
     /// Its corners.
     pub(super) points: Vec<Px>,
-    /// Its colour.
+    /// Its color.
     pub(super) ink: Ink,
     /// What it is.
     pub(super) form: Form,
@@ -70,7 +70,7 @@ fn overlapped(a: Px, b: Px) -> Vec<Px> {
     vec![[a[0] - hair * dx, a[1] - hair * dy], [b[0] + hair * dx, b[1] + hair * dy]]
 }
 
-/// A polygon grown by a hair, so that no seam shows beside its neighbours.
+/// A polygon grown by a hair, so that no seam shows beside its neighbors.
 pub(super) fn grown(corners: &[Px]) -> Vec<Px> {
     let count = corners.len() as f64;
     let center = [0, 1].map(|c| corners.iter().map(|p| p[c]).sum::<f64>() / count);

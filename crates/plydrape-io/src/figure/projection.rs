@@ -23,7 +23,7 @@ pub(super) struct View {
     near: Point,
     /// Exaggeration of z.
     stretch: f64,
-    /// Picture points per metre.
+    /// Picture points per meter.
     scale: f64,
     /// Where the origin of space falls on the sheet.
     origin: Px,
@@ -34,7 +34,7 @@ fn dot(a: Point, b: Point) -> f64 {
 }
 
 impl View {
-    /// The view of a box (m), z stretched, at one picture point per metre.
+    /// The view of a box (m), z stretched, at one picture point per meter.
     pub(super) fn of(low: Point, high: Point, stretch: f64) -> Self {
         // what is all but square counts as wide, so that drapes of one scene are seen from one side
         let wide = high[0] - low[0] >= (high[1] - low[1]) * SQUARE;
@@ -56,7 +56,7 @@ impl View {
         View { scale, origin, ..self }
     }
 
-    /// Picture points per metre.
+    /// Picture points per meter.
     pub(super) fn scale(&self) -> f64 {
         self.scale
     }

@@ -204,7 +204,7 @@ impl Quad {
     }
 }
 
-/// Grey of a quad and how much it covers: lighter towards the light, thin where its back is seen.
+/// Gray of a quad and how much it covers: lighter towards the light, thin where its back is seen.
 fn shade(view: &View, outline: &[Point]) -> ([u8; 3], f64) {
     let (mut normal, first) = ([0.0; 3], outline[0]);
     for pair in outline[1..].windows(2) {
@@ -256,7 +256,7 @@ mod tests {
             assert_eq!(
                 relief.hides(&view, [x, y, z - 1e-3]),
                 hidden,
-                "{share}, a millimetre inside"
+                "{share}, a millimeter inside"
             );
         }
         let [x, y, z] = on(-limit - 0.2);

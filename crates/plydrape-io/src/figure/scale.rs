@@ -1,11 +1,11 @@
-//! What a colour stands for: heights evenly, gaps by their order of size.
+//! What a color stands for: heights evenly, gaps by their order of size.
 //!
-//! A ply comes in a hundred millimetres above its mold and ends within a few tenths. On an even scale the end
-//! would be one colour; by orders of size a bridge of a millimetre shows beside the start.
+//! A ply comes in a hundred millimeters above its mold and ends within a few tenths. On an even scale the end
+//! would be one color; by orders of size a bridge of a millimeter shows beside the start.
 
 use super::axes;
 
-/// Values of a colour scale's ends, and how values in between are spaced.
+/// Values of a color scale's ends, and how values in between are spaced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Scale {
     /// Equal differences are equally far apart.
@@ -23,7 +23,7 @@ impl Scale {
         }
     }
 
-    /// The scale in a unit of so many of its values, such as 1e3 for millimetres.
+    /// The scale in a unit of so many of its values, such as 1e3 for millimeters.
     pub fn times(self, factor: f64) -> Self {
         match self {
             Scale::Even(ends) => Scale::Even(ends.map(|end| end * factor)),

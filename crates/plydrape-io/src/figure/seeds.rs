@@ -19,7 +19,7 @@ const PLY: f64 = 300.0;
 const HEADINGS: f64 = 150.0;
 /// Half the side of a seed's square (picture points).
 const HALF: f64 = 7.0;
-/// The colour scale spans at least so much (°), so that rounding errors have no colour.
+/// The color scale spans at least so much (°), so that rounding errors have no color.
 const LEAST: f64 = 0.05;
 
 /// The picture of a search, as an SVG 640 points wide.

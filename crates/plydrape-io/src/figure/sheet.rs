@@ -1,6 +1,6 @@
-//! The sheet in a panel: its cells, coloured by their height over the mold, fabric lines, and its pads.
+//! The sheet in a panel: its cells, colored by their height over the mold, fabric lines, and its pads.
 //!
-//! The scale is the same in all figures, by orders of size from a tenth of a millimetre to ten, so that pictures can be
+//! The scale is the same in all figures, by orders of size from a tenth of a millimeter to ten, so that pictures can be
 //! compared.
 
 use super::colour::{FRAME, WEAVE, viridis};
@@ -14,7 +14,7 @@ use crate::sheet::{CutCell, SheetState};
 
 use std::collections::HashSet;
 
-/// Heights at the ends of the colours (m).
+/// Heights at the ends of the colors (m).
 const HEIGHTS: [f64; 2] = [1e-4, 1e-2];
 /// Squares of all panels, about, and cells up to which fabric lines are drawn.
 const SQUARES: usize = 8000;
@@ -54,7 +54,7 @@ impl SheetPicture {
         self.states.iter().find(|state| state.step as usize == step)
     }
 
-    /// What its colours stand for (m); none without a mold.
+    /// What its colors stand for (m); none without a mold.
     pub fn scale(&self) -> Option<Scale> {
         let known = self.states.iter().flat_map(|state| state.height.iter()).any(|h| h.is_finite());
         known.then_some(Scale::Orders(HEIGHTS))
@@ -109,7 +109,7 @@ impl Stage<'_> {
         }
     }
 
-    /// A part of the sheet between corners, with the colour of its middle, a point and its height (m).
+    /// A part of the sheet between corners, with the color of its middle, a point and its height (m).
     fn part(&self, view: &View, corners: &[Point], (place, height): (Point, f64)) -> Piece {
         let value = if self.is_over_mold() { height } else { place[2] };
         let ink = match value.is_finite() {

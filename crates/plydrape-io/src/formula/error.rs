@@ -63,14 +63,14 @@ impl FormulaFault {
     pub fn help(&self) -> String {
         match self {
             FormulaFault::Empty | FormulaFault::Value(_) | FormulaFault::ValueBefore(_) => {
-                "write a height over x and y in metres, as in 0.1*x^2 - y^2".into()
+                "write a height over x and y in meters, as in 0.1*x^2 - y^2".into()
             }
             FormulaFault::Name(name) => {
                 let names: Vec<&str> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
                 let hint = match name.as_str() {
                     "log" => "write `ln` or `log10`: ",
                     unit if LENGTHS.contains(&unit) => {
-                        "a formula holds no units, all of it is in metres: "
+                        "a formula holds no units, all of it is in meters: "
                     }
                     "deg" => "a formula holds no units, angles are in radians: ",
                     "abs" | "min" | "max" => "a mold has no kinks: ",
@@ -90,7 +90,7 @@ impl FormulaFault {
             }
             FormulaFault::Number(_) => "write numbers as 0.05 or 5e-2".into(),
             FormulaFault::Operator(word) if LENGTHS.contains(&word.as_str()) => {
-                "a formula holds no units: write all of it in metres, as in 0.01*x".into()
+                "a formula holds no units: write all of it in meters, as in 0.01*x".into()
             }
             FormulaFault::Operator(_) => "write products with a star, as in 2*x".into(),
             FormulaFault::Bracket => "open and close as many round brackets".into(),

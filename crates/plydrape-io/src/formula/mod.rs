@@ -10,7 +10,7 @@ pub use error::{FormulaError, FormulaFault};
 
 use plydrape::mold::formula::Formula;
 
-/// Reads a height z = f(x, y), all in metres.
+/// Reads a height z = f(x, y), all in meters.
 ///
 /// Known are numbers, `x`, `y`, `pi`, `+ - * / ^`, brackets and the functions `sqrt`, `exp`, `ln`, `log10`,
 /// `sin`, `cos`, `tan`, `asin`, `acos`, `atan`, `sinh`, `cosh` and `tanh`. Powers come first and from the right:

@@ -134,7 +134,7 @@ fn middles(result: &ResultFile, mesh: &Mesh, deck: &mut Deck) {
     }
 }
 
-/// Fibre directions, moduli, density and thickness.
+/// Fiber directions, moduli, density and thickness.
 fn material(section: &ShellSection, warp: plydrape::ply::Direction, pose: &Pose, deck: &mut Deck) {
     deck.line("*ORIENTATION, NAME=FIBRES, SYSTEM=RECTANGULAR");
     deck.numbers(axes(warp).into_iter().flat_map(|axis| pose.turn(axis)));

@@ -4,7 +4,7 @@
 //! the grippers hold the flat ply, then they go to where the result begins. In this order the ply is in tension
 //! throughout. Were both to begin at once, the first push would find a ply still flat, and a solver may then follow it
 //! straight into compression, which is an equilibrium but none that lasts. In the second step they follow the result's steps in its own time. Each
-//! gripper has a table (`*AMPLITUDE`) for each direction in which it moves, in metres over the total time, and its
+//! gripper has a table (`*AMPLITUDE`) for each direction in which it moves, in meters over the total time, and its
 //! node set is moved by it: `x = flat place + table`. Rotations are free, as in the ball joints of the grippers.
 
 use super::mesh::Mesh;

@@ -1,7 +1,7 @@
 //! The shell section: one homogeneous layer that bends, stretches and weighs as the model's ply does.
 //!
-//! A fabric is no plate. Its fibres slide when it bends, so that it bends far more easily than its thickness and its
-//! fibres' stiffness would have it. A homogeneous shell of thickness h has, per width,
+//! A fabric is no plate. Its fibers slide when it bends, so that it bends far more easily than its thickness and its
+//! fibers' stiffness would have it. A homogeneous shell of thickness h has, per width,
 //!
 //! ```text
 //! membrane  A = E h        bending  D = E h³/12        so that  h = √(12 D/A),  E = A/h
@@ -9,13 +9,13 @@
 //!
 //! A and D are known: D is the material's flexural rigidity per width and A the model's axial stiffness per width.
 //! So h and E follow, and neither is the ply's: h is an *effective* thickness (33 µm for the paper's ply, whose true
-//! one is tenths of a millimetre), E an effective modulus, and the density is the areal mass over h. With different
+//! one is tenths of a millimeter), E an effective modulus, and the density is the areal mass over h. With different
 //! rigidities in warp and weft one h cannot meet both membranes: both rigidities are exact, and the geometric mean of the
 //! membranes is.
 //!
 //! In shear G h = dτ/dγ of the material's curve at small angle. Without a curve the model leaves the shear free; a shell
-//! needs some. Poisson's ratios are zero: crossing fibres do not know of each other. Transverse shear is as stiff as
-//! half the fibres, which leaves bending to be bending.
+//! needs some. Poisson's ratios are zero: crossing fibers do not know of each other. Transverse shear is as stiff as
+//! half the fibers, which leaves bending to be bending.
 //!
 //! Where mass and rigidity are given per catenary, the ply is that of strips √(ab) wide, of a single strip b wide. The
 //! shape depends on EI/m alone, forces on the width.
@@ -25,7 +25,7 @@ use crate::shown::millimetres;
 use plydrape::material::Section;
 use plydrape::ply::Direction;
 
-/// Shear stiffness where the material has no shear curve (N/m per rad): small beside the fibres', and enough to solve.
+/// Shear stiffness where the material has no shear curve (N/m per rad): small beside the fibers', and enough to solve.
 const SHEAR: f64 = 100.0;
 /// Least shear stiffness (N/m per rad) that a solver takes.
 const LEAST_SHEAR: f64 = 10.0;
@@ -72,6 +72,13 @@ impl ShellSection {
             }
         };
 
+        if scene.ply.material.moment.iter().any(Option::is_some) {
+            assumed.push(
+                "The ply's moment over curvature is a table; the shells have its rigidity at rest, its first slope."
+                    .into(),
+            );
+        }
+
         // what a solver cannot do: no bending, no stretch
         let weight = areal_mass * scene.settings.gravity.abs().max(1.0);
         let side = a.min(b);
@@ -88,7 +95,7 @@ impl ShellSection {
         let given = scene.settings.axial_stiffness / width;
         if given > stiffest {
             assumed.push(format!(
-                "The model's fibres are stiffer; {stiffest:.3e} N/m strains less than 1e-5 under the ply's weight and can be solved."
+                "The model's fibers are stiffer; {stiffest:.3e} N/m strains less than 1e-5 under the ply's weight and can be solved."
             ));
         }
         let membrane = given.min(stiffest);
@@ -120,7 +127,7 @@ impl ShellSection {
         ShellSection { areal_mass, rigidity, membrane, shear, thickness, assumed }
     }
 
-    /// Young's moduli E₁, E₂, E₃ (Pa); across the ply the mean of the fibres'.
+    /// Young's moduli E₁, E₂, E₃ (Pa); across the ply the mean of the fibers'.
     pub fn young(&self) -> [f64; 3] {
         let [first, second] = self.rigidity.map(|d| 12.0 * d / self.thickness.powi(3));
         [first, second, (first * second).sqrt()]

@@ -3,7 +3,7 @@
 use crate::size::SizeError;
 use plydrape::mold::MeshError;
 
-/// Why a mesh file cannot serve as a mold. Lines and numbers count from 1, places are in metres.
+/// Why a mesh file cannot serve as a mold. Lines and numbers count from 1, places are in meters.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFileError {
     /// The file cannot be opened or read.

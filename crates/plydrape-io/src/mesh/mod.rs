@@ -18,7 +18,7 @@ use std::path::Path;
 /// Largest mesh file that is read (bytes).
 pub(crate) const LARGEST: u64 = 1 << 30;
 
-/// Reads a mesh from an STL, OBJ or Abaqus file, recognised by the end of its name.
+/// Reads a mesh from an STL, OBJ or Abaqus file, recognized by the end of its name.
 ///
 /// Coordinates are multiplied by `scale` (m per unit of the file), then placed by `pose`.
 ///

@@ -24,7 +24,7 @@ pub fn table(boundary: &Boundary) -> Result<String, Error> {
     text(table)
 }
 
-/// The same lines in space as DXF, in millimetres.
+/// The same lines in space as DXF, in millimeters.
 #[must_use]
 pub fn dxf(boundary: &Boundary) -> String {
     let line = |(line, part): (&plydrape::net::Line, usize)| pattern::Line {

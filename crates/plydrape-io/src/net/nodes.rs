@@ -1,4 +1,4 @@
-//! The table `nodes.csv`: where every node of the net lies; lengths in metres, shear in degrees.
+//! The table `nodes.csv`: where every node of the net lies; lengths in meters, shear in degrees.
 //!
 //! Numbers are in the shortest form that reads back to the same double. A node without a place on the mold
 //! has empty cells for what is not known.

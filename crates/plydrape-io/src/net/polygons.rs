@@ -12,7 +12,7 @@ type Point = [f64; 3];
 
 /// The net. At points: fabric coordinates `u`, `v` (m), grid indices `i`, `j`, `shear_deg` as in
 /// `nodes.csv`, and `has_shear`, 1 where that is known; else both 0. In cells: `shear_deg`, the magnitude; `signed_shear_deg`, positive where u and v stand at
-/// less than 90°; `fibre_u`, `fibre_v`, unit vectors along the two fibre directions in the cell's middle.
+/// less than 90°; `fibre_u`, `fibre_v`, unit vectors along the two fiber directions in the cell's middle.
 #[must_use]
 pub fn net(net: &Net) -> Vec<u8> {
     let [nu, nv] = net.layup.nodes;

@@ -21,7 +21,7 @@ pub struct Summary {
     pub mesh: [f64; 2],
     /// How the generators run.
     pub generators: Generators,
-    /// How the fabric between neighbouring nodes is measured.
+    /// How the fabric between neighboring nodes is measured.
     pub edges: EdgeRule,
     /// The node that is placed first.
     pub seed: [usize; 2],
@@ -409,22 +409,22 @@ fn missing_text(count: usize, first: &Missing) -> String {
     }
 }
 
-/// Millimetres, to a thousandth.
+/// Millimeters, to a thousandth.
 fn mm(metres: f64) -> String {
     format!("{}", (metres * 1e6).round() / 1e3 + 0.0)
 }
 
-/// Millimetres, to a tenth.
+/// Millimeters, to a tenth.
 fn tenths(metres: f64) -> String {
     format!("{}", (metres * 1e4).round() / 10.0 + 0.0)
 }
 
-/// Square millimetres, whole ones.
+/// Square millimeters, whole ones.
 fn square_millimetres(area: f64) -> String {
     format!("{:.0}", area * 1e6)
 }
 
-/// A place in millimetres, to a tenth.
+/// A place in millimeters, to a tenth.
 fn at(place: [f64; 3]) -> String {
     let [x, y, z] = place.map(|c| (c * 1e4).round() / 10.0 + 0.0);
     format!("({x}, {y}, {z})")

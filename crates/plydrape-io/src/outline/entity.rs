@@ -1,4 +1,4 @@
-//! The curves of a drawing: its entities, blocks placed, as polygons in metres.
+//! The curves of a drawing: its entities, blocks placed, as polygons in meters.
 
 use super::Options;
 use super::error::{OutlineFault, Place};
@@ -46,7 +46,7 @@ pub struct Curves {
     pub others: BTreeSet<String>,
 }
 
-/// All curves of a drawing; a unit of the drawing in metres.
+/// All curves of a drawing; a unit of the drawing in meters.
 pub fn curves(drawing: &Drawing, unit: f64, options: &Options) -> Result<Curves, OutlineFault> {
     let hidden = drawing.layers().filter(|layer| !layer.is_layer_on);
     let mut reader = Reader {

@@ -31,7 +31,7 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// Why a drawing is no outline of a ply. Lines of the file count from 1, places are in metres.
+/// Why a drawing is no outline of a ply. Lines of the file count from 1, places are in meters.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum OutlineFault {

@@ -30,10 +30,10 @@ fn lines(sweep: f64, radius: f64, limit: Limit) -> Result<usize, TooMany> {
     if lines <= limit.points as f64 { Ok(lines as usize) } else { Err(TooMany) }
 }
 
-/// An arc of an ellipse, of its centre, two conjugate half axes p and q and angles: `c + p cos t + q sin t`.
+/// An arc of an ellipse, of its center, two conjugate half axes p and q and angles: `c + p cos t + q sin t`.
 #[derive(Debug, Clone, Copy)]
 pub struct Arc {
-    /// Centre c.
+    /// Center c.
     pub centre: [f64; 2],
     /// Half axis p, where t = 0.
     pub p: [f64; 2],
@@ -66,7 +66,7 @@ pub fn stretch(p: [f64; 2], q: [f64; 2]) -> f64 {
 
 /// The points of a bulge, the arc between two points that spans the angle `4 atan(bulge)`, without its two ends.
 ///
-/// They are computed from the chord and not from the centre, which is far away where a bulge is almost straight.
+/// They are computed from the chord and not from the center, which is far away where a bulge is almost straight.
 pub fn bulge(a: [f64; 2], b: [f64; 2], bulge: f64, limit: Limit) -> Result<Vec<[f64; 2]>, TooMany> {
     let half = 2.0 * bulge.atan();
     let way = [b[0] - a[0], b[1] - a[1]];

@@ -24,7 +24,7 @@ use plydrape::ply::{Outline, Ring};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Ends of curves that are this close join, as a share of the size of all curves: 10 µm of a metre.
+/// Ends of curves that are this close join, as a share of the size of all curves: 10 µm of a meter.
 pub const JOIN: f64 = 1e-5;
 /// A boundary that is smaller than this many tolerances is refused: it would be no more than a rough picture.
 const SMALLEST: f64 = 10.0;

@@ -132,7 +132,7 @@ fn a_bulge_is_an_arc_to_the_side_of_its_sign() {
     assert!(moon.bounds()[0][1] > -1e-12);
 }
 
-/// However flat a bulge is, it rises by half of its chord times the bulge: also where its centre is a light year away.
+/// However flat a bulge is, it rises by half of its chord times the bulge: also where its center is a light year away.
 #[test]
 fn an_almost_straight_bulge_keeps_its_rise() {
     for bulge in [1e-3, 1e-6, 1e-10, 1e-15] {
@@ -406,7 +406,7 @@ fn a_tiny_outline_is_refused_with_its_size() {
     assert_eq!(remedy, "is the unit of the drawing right?");
 }
 
-/// A table of layers, each with flags and colour.
+/// A table of layers, each with flags and color.
 fn with_layers(layers: &[(&str, i32, i32)], entities: &str) -> String {
     let mut table = "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n9\n".to_owned();
     for (name, flags, colour) in layers {

@@ -2,7 +2,8 @@
 //!
 //! Numbers of one step after the other become differences, first from the item before, then from the step before;
 //! these are small and alike. Signs go to the lowest bit, the four bytes of all numbers into four planes, and
-//! what is left is deflated and written in 64 letters. The page undoes it in the opposite order.
+//! what is left is deflated and written in 64 letters. The page undoes it in the opposite order. The live page is given the
+//! integers as they are: they do not stand in its file, and it needs them at once.
 
 use base64::{Engine, engine::general_purpose::STANDARD};
 use miniz_oxide::deflate::compress_to_vec_zlib;
@@ -17,11 +18,25 @@ pub(super) struct Block {
     steps: usize,
     count: usize,
     components: usize,
-    data: String,
+    data: Data,
+}
+
+/// The integers of a block.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(untagged)]
+enum Data {
+    Packed(String),
+    Plain(Vec<i32>),
 }
 
 impl Block {
-    /// Packs integers, those of a step side by side, those of an item side by side in them.
+    /// Integers as they are, those of a step side by side, those of an item side by side in them.
+    pub fn plain(steps: usize, components: usize, values: Vec<i32>) -> Self {
+        let count = values.len() / steps.max(1) / components.max(1);
+        Block { steps, count, components, data: Data::Plain(values) }
+    }
+
+    /// The same, packed.
     pub fn new(steps: usize, components: usize, values: &[i32]) -> Self {
         let row = values.len() / steps.max(1);
         let before = |n: usize| match n {
@@ -36,7 +51,7 @@ impl Block {
         let folded: Vec<u32> = folded.collect();
         let planes = (0..4).flat_map(|byte| folded.iter().map(move |v| (v >> (8 * byte)) as u8));
         let bytes: Vec<u8> = planes.collect();
-        let data = STANDARD.encode(compress_to_vec_zlib(&bytes, LEVEL));
+        let data = Data::Packed(STANDARD.encode(compress_to_vec_zlib(&bytes, LEVEL)));
         Block { steps, count: row / components.max(1), components, data }
     }
 }
@@ -48,7 +63,8 @@ mod tests {
 
     /// The way back, as the page goes it.
     fn unpacked(block: &Block) -> Vec<i32> {
-        let bytes = decompress_to_vec_zlib(&STANDARD.decode(&block.data).unwrap()).unwrap();
+        let Data::Packed(text) = &block.data else { panic!("not packed") };
+        let bytes = decompress_to_vec_zlib(&STANDARD.decode(text).unwrap()).unwrap();
         let row = block.count * block.components;
         let size = block.steps * row;
         assert_eq!(bytes.len(), 4 * size);
@@ -86,7 +102,7 @@ mod tests {
         let place = |s: usize, n: usize| 1e5 * (0.02 * s as f64 + 0.01 * n as f64).sin();
         let values: Vec<i32> =
             (0..50).flat_map(|s| (0..2000).map(move |n| place(s, n) as i32)).collect();
-        let size = Block::new(50, 1, &values).data.len();
+        let size = serde_json::to_string(&Block::new(50, 1, &values)).unwrap().len();
         assert!(size < 2 * values.len(), "{size}");
     }
 }

@@ -22,7 +22,7 @@ pub(super) struct Cell<'a> {
     obstacles: Vec<Solid<'a>>,
     /// Where the tool holds each gripper with its strokes at zero, in the coordinates of the flange (m); none without a tool.
     mounts: Option<Vec<f64>>,
-    /// In each step the pads, the stems, and of a tool its flange: a place in micrometres and a quaternion in millionths.
+    /// In each step the pads, the stems, and of a tool its flange: a place in micrometers and a quaternion in millionths.
     origins: Block,
 }
 
@@ -110,7 +110,7 @@ pub(super) fn cell<'a>(result: &'a ResultFile, steps: &[&Step]) -> Option<Cell<'
     })
 }
 
-/// The nearest micrometre, in few digits.
+/// The nearest micrometer, in few digits.
 fn short(c: f64) -> f64 {
     (c * MICRO).round() / MICRO
 }

@@ -61,7 +61,12 @@ fn material(result: &ResultFile) -> String {
             shown(weft_rigidity * 1e3),
         ),
     };
-    format!("{}: {section} ({})", material.name, material.source)
+    let bends = if material.moment.iter().any(Option::is_some) {
+        " at rest, moment over curvature from a table"
+    } else {
+        ""
+    };
+    format!("{}: {section}{bends} ({})", material.name, material.source)
 }
 
 fn mold(mold: &Mold) -> String {

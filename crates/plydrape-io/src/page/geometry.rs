@@ -1,5 +1,6 @@
-//! What the page draws: ply, grippers, contact and mold, in micrometres and hundredths of a degree.
+//! What the page draws: ply, grippers, contact and mold, in micrometers and hundredths of a degree.
 
+use super::Form;
 use super::block::Block;
 use crate::mold_patch::mold_patch;
 use crate::result::ResultFile;
@@ -13,14 +14,12 @@ use serde::Serialize;
 const MOST_POINTS: usize = 3_000_000;
 /// Intervals along each side of a cell, from fine to coarse.
 const INTERVALS: [usize; 6] = [12, 10, 8, 6, 4, 2];
-/// Triangles of the mold at most.
-const MOST_TRIANGLES: usize = 8000;
 /// Contact marks along a cell of a small array.
 const MARKS: f64 = 8.0;
 /// Cells up to which an array is small.
 const SMALL: usize = 64;
 
-/// Micrometres in a metre.
+/// Micrometers in a meter.
 pub(super) const MICRO: f64 = 1e6;
 
 /// How finely a result is drawn, and what is left out for it.
@@ -74,7 +73,7 @@ impl Detail {
 pub(super) struct Geometry {
     surface: Block,
     gap: Option<Block>,
-    /// Fibre lines where they are no lines of a surface.
+    /// Fiber lines where they are no lines of a surface.
     fibres: Option<Block>,
     diagonals: Block,
     grippers: Block,
@@ -97,7 +96,7 @@ struct Mold {
     triangles: Vec<u32>,
 }
 
-/// Lowest and highest values over all steps: height and gap (mm), shear and fibre direction (°).
+/// Lowest and highest values over all steps: height and gap (mm), shear and fiber direction (°).
 pub(super) struct Ranges {
     pub height: [f64; 2],
     pub gap: Option<[f64; 2]>,
@@ -119,8 +118,8 @@ fn range(values: impl Iterator<Item = i32> + Clone, unit: f64) -> [f64; 2] {
 }
 
 impl Geometry {
-    /// Everything that is drawn, and the ranges of what its colours tell.
-    pub fn of(result: &ResultFile, detail: &Detail) -> (Self, Ranges) {
+    /// Everything that is drawn, and the ranges of what its colors tell.
+    pub fn of(result: &ResultFile, detail: &Detail, form: Form) -> (Self, Ranges) {
         let (graph, n) = (result.scene.ply.lines(), detail.intervals);
         let grid = graph.surface();
         let steps: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
@@ -172,27 +171,31 @@ impl Geometry {
             shear: range(shear.iter().copied(), 1e2),
             direction: range(direction.iter().copied(), 1e2),
         };
+        let block = |steps: usize, components: usize, values: Vec<i32>| match form.packed {
+            true => Block::new(steps, components, &values),
+            false => Block::plain(steps, components, values),
+        };
         let geometry = Geometry {
-            surface: Block::new(count, 3, &surface),
-            gap: gap.map(|gap| Block::new(count, 1, &gap)),
-            fibres: alone.then(|| Block::new(count, 3, &fibres)),
-            diagonals: Block::new(count, 3, &diagonals),
-            grippers: Block::new(count, 3, &grippers),
-            normals: Block::new(count, 3, &normals),
-            shear: Block::new(count, 1, &shear),
-            direction: Block::new(count, 1, &direction),
+            surface: block(count, 3, surface),
+            gap: gap.map(|gap| block(count, 1, gap)),
+            fibres: alone.then(|| block(count, 3, fibres)),
+            diagonals: block(count, 3, diagonals),
+            grippers: block(count, 3, grippers),
+            normals: block(count, 3, normals),
+            shear: block(count, 1, shear),
+            direction: block(count, 1, direction),
             contacts: Contacts {
                 counts: marks.iter().map(Vec::len).collect(),
-                points: Block::new(1, 3, &points(&mut marks.into_iter().flatten())),
+                points: block(1, 3, points(&mut marks.into_iter().flatten())),
             },
-            mold: mold(result),
+            mold: form.triangles.and_then(|most| mold(result, most)),
         };
         (geometry, ranges)
     }
 }
 
 /// Angle of the warp in each cell from the x axis, as seen from above (°): the mean of its two edges along the
-/// warp. A fibre has no sign; angles stay within 90° of the warp at the first gripper of the first step.
+/// warp. A fiber has no sign; angles stay within 90° of the warp at the first gripper of the first step.
 fn directions(result: &ResultFile, step: &Step) -> Vec<f64> {
     let grid = result.scene.ply.lines().surface();
     let [[a, b], [c, d]] = match result.scene.ply.warp {
@@ -233,8 +236,8 @@ fn contacts(result: &ResultFile, step: &Step, curves: &[Vec<Vec<[f64; 3]>>]) -> 
 }
 
 /// The mold around the ply.
-fn mold(result: &ResultFile) -> Option<Mold> {
-    let found = mold_patch(result, MOST_TRIANGLES)?;
+fn mold(result: &ResultFile, most: usize) -> Option<Mold> {
+    let found = mold_patch(result, most)?;
     // the nearest micrometre in the fewest digits
     let short = |c: &f64| (c * MICRO).round() / MICRO;
     Some(Mold {

@@ -52,7 +52,7 @@ struct Page<'a> {
     times: Vec<f64>,
     /// Grippers along u and v; zeros where catenaries make no surface: they are no whole array, or lines are missing.
     grid: [usize; 2],
-    /// Fabric between neighbouring grippers along u and v (mm).
+    /// Fabric between neighboring grippers along u and v (mm).
     pitch: [f64; 2],
     /// Column and row of each gripper.
     ids: Vec<GripperId>,
@@ -120,14 +120,14 @@ struct Course<'a> {
     least: bool,
 }
 
-/// What the ply's colour can tell.
+/// What the ply's color can tell.
 #[derive(Serialize)]
 struct Field {
     key: &'static str,
     label: String,
     unit: &'static str,
     on: &'static str,
-    /// `even`, or `orders` where equal ratios are equally far apart; what lies beyond the ends has their colours.
+    /// `even`, or `orders` where equal ratios are equally far apart; what lies beyond the ends has their colors.
     scale: &'static str,
     low: f64,
     high: f64,
@@ -160,12 +160,34 @@ impl Field {
     }
 }
 
+/// How a page is given what it draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Form {
+    /// Triangles of the mold at most; none leaves it out.
+    pub triangles: Option<usize>,
+    /// Positions are packed: smaller, and slower to write and to read.
+    pub packed: bool,
+}
+
+impl Form {
+    /// That of a page that stands in a file.
+    pub const FILE: Form = Form { triangles: Some(8000), packed: true };
+}
+
+/// What the page of a result is given, as JSON.
+///
+/// # Errors
+/// As [`html`].
+pub fn data(result: &ResultFile, form: Form) -> Result<String, OutputError> {
+    Ok(super::json::of(&page(result, form)?)?)
+}
+
 /// The page of a result. Same result, same bytes.
 ///
 /// # Errors
 /// [`OutputError`] if a number is not finite, or the states of the sheet cannot be read.
 pub fn html(result: &ResultFile) -> Result<String, OutputError> {
-    let data = super::json::of(&page(result)?)?.replace('<', "\\u003c");
+    let data = data(result, Form::FILE)?.replace('<', "\\u003c");
     let title = result.scene.title.replace('&', "&amp;").replace('<', "&lt;");
     let whole =
         PAGE.split_once(TITLE).and_then(|(head, rest)| Some((head, rest.split_once(DATA)?)));
@@ -173,7 +195,7 @@ pub fn html(result: &ResultFile) -> Result<String, OutputError> {
     Ok([head, &title, body, data.trim_end(), tail].concat())
 }
 
-fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
+fn page(result: &ResultFile, form: Form) -> Result<Page<'_>, OutputError> {
     let (scene, summary) = (&result.scene, &result.summary);
     let mut detail = Detail::of(result);
     let kept = Shown::of(result)?;
@@ -183,7 +205,7 @@ fn page(result: &ResultFile) -> Result<Page<'_>, OutputError> {
     }
     let shown: Vec<&Step> = detail.steps.iter().map(|k| &result.steps[*k]).collect();
     let steps: Vec<usize> = shown.iter().map(|step| step.step).collect();
-    let (geometry, ranges) = Geometry::of(result, &detail);
+    let (geometry, ranges) = Geometry::of(result, &detail, form);
     let sample = sample(result, kept.as_ref().map(Shown::mesh));
     let sheet = match (kept, &summary.sheet) {
         (Some(kept), Some(outcome)) => Some(sheet(result, outcome, kept, &steps)?),
@@ -282,7 +304,7 @@ fn as_shown(value: f64, unit: Unit) -> f64 {
     if unit.factor == 1.0 { value } else { value * unit.factor }
 }
 
-/// What colours can tell of this result.
+/// What colors can tell of this result.
 fn fields(result: &ResultFile, ranges: &Ranges) -> Vec<Field> {
     let mut out = vec![Field::even("height", "height", "mm", "vertex", ranges.height, None)];
     if let Some(range) = ranges.gap {
@@ -319,7 +341,7 @@ mod tests {
     #[test]
     fn limits_know_their_measures() {
         let result = sample::draped(4, 2, 3);
-        let page = page(&result).unwrap();
+        let page = page(&result, Form::FILE).unwrap();
         let tilt = page.limits.iter().find(|limit| limit.name == "tilt").unwrap();
         assert_eq!(tilt.measure, Some("tilt_deg"));
         for course in &page.measures {

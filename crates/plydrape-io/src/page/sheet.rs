@@ -1,6 +1,6 @@
-//! What the page shows of the sheet: its cells over the steps, what colours tell of them, forces, its limits.
+//! What the page shows of the sheet: its cells over the steps, what colors tell of them, forces, its limits.
 //!
-//! Lengths are packed in micrometres, shear in hundredths of a degree, strain in millionths, tension in mN/m, forces in
+//! Lengths are packed in micrometers, shear in hundredths of a degree, strain in millionths, tension in mN/m, forces in
 //! a unit of their own, because a yarn that cannot stretch pulls with thousands of newtons. States are read one at a time.
 
 use super::block::Block;
@@ -19,9 +19,9 @@ use serde::Serialize;
 const MOST_NODES: usize = 400_000;
 /// What stands for a height that is not known.
 const UNKNOWN: i32 = i32::MIN;
-/// Ends of the colours of heights (mm), of every sheet: what touches, and what lies clear of the mold.
+/// Ends of the colors of heights (mm), of every sheet: what touches, and what lies clear of the mold.
 const HEIGHTS: [f64; 2] = [0.1, 10.0];
-/// Ends of the colours of strains (%), of every sheet.
+/// Ends of the colors of strains (%), of every sheet.
 const STRAINS: [f64; 2] = [1e-3, 1.0];
 
 /// The sheet of a result.
@@ -211,7 +211,7 @@ fn spread<'a>(result: &'a ResultFile, mesh: &SheetMesh) -> Option<&'a SampleVerd
     sample.filter(|sample| sample.spread_mm.len() == mesh.places.len())
 }
 
-/// What colours can tell of the sheet.
+/// What colors can tell of the sheet.
 fn fields(
     result: &ResultFile,
     packed: &Packed,

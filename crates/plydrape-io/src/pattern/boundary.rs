@@ -22,7 +22,7 @@ pub fn csv(lines: &[Line]) -> Result<String, Error> {
     text(table)
 }
 
-/// The lines as polylines in space on the layer `BOUNDARY` of a DXF text, in millimetres and in their order. Same lines, same
+/// The lines as polylines in space on the layer `BOUNDARY` of a DXF text, in millimeters and in their order. Same lines, same
 /// bytes.
 #[must_use]
 pub fn dxf(lines: &[Line]) -> String {

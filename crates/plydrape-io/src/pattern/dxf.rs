@@ -1,4 +1,4 @@
-//! The flat pattern as DXF, in millimetres.
+//! The flat pattern as DXF, in millimeters.
 //!
 //! Layers: `CUT` is the boundary and `HOLES` are the holes, which a cutter follows; `GRIPPERS` has a circle and a name for each
 //! gripper, `FIBRE` the arrow of the warp, and `TITLE` the title.
@@ -6,7 +6,7 @@
 use super::dxf_text::Text;
 use super::{Pattern, arrow};
 
-/// Layers and their colours: red, blue, green, magenta and the colour of the page.
+/// Layers and their colors: red, blue, green, magenta and the color of the page.
 const LAYERS: [(&str, u8); 5] =
     [("CUT", 1), ("HOLES", 5), ("GRIPPERS", 3), ("FIBRE", 6), ("TITLE", 7)];
 

@@ -1,4 +1,4 @@
-//! A DXF text of AutoCAD 2010 (AC1024) with layers, in millimetres.
+//! A DXF text of AutoCAD 2010 (AC1024) with layers, in millimeters.
 //!
 //! What every program expects is there: the tables, the two blocks of model space and paper space, the root dictionary, and a
 //! handle and an owner for everything. Text is UTF-8; layers and entities keep their order.
@@ -21,7 +21,7 @@ pub struct Text {
 }
 
 impl Text {
-    /// A text with layers, each with its colour of the AutoCAD colour index.
+    /// A text with layers, each with its color of the AutoCAD color index.
     pub fn new(layers: &[(&'static str, u8)]) -> Self {
         let bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         Text { layers: layers.to_vec(), entities: String::new(), handles: FIRST, bounds }
@@ -219,7 +219,7 @@ impl Text {
     }
 }
 
-/// A length in millimetres, to a picometre, which leaves out the rounding of the unit.
+/// A length in millimeters, to a picometer, which leaves out the rounding of the unit.
 fn mm(length: f64) -> String {
     let shown = format!("{:?}", round(length * 1e3));
     // DXF knows no sign of zero

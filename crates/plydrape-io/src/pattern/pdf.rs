@@ -1,4 +1,4 @@
-//! The flat pattern as PDF, one page at full size: a millimetre of the ply is a millimetre of the page.
+//! The flat pattern as PDF, one page at full size: a millimeter of the ply is a millimeter of the page.
 //!
 //! The page is as large as the pattern and its margins. A PDF page of more than 200 inches has a unit of its own, which PDF 1.6
 //! and newer know. A bar of 100 mm shows whether the page was printed at full size.
@@ -6,7 +6,7 @@
 use super::{Pattern, arrow, bounds};
 use pdf_writer::{Content, Name, Pdf, Rect, Ref, Str, TextStr};
 
-/// Points of PDF in a metre.
+/// Points of PDF in a meter.
 const POINTS: f64 = 72.0 / 0.0254;
 /// Margin around the pattern (mm), with room for the title above and the bar below.
 const MARGIN: f64 = 25.0;
@@ -54,7 +54,7 @@ pub fn bytes(pattern: &Pattern) -> Vec<u8> {
 struct Page {
     /// Width and height (mm).
     size: [f64; 2],
-    /// Units of the page in a millimetre.
+    /// Units of the page in a millimeter.
     scale: f64,
     /// Points in a unit of the page.
     unit: f64,

@@ -1,4 +1,4 @@
-//! The variables that a template sees. All lengths are in metres, times in seconds and angles in radians; filters change units.
+//! The variables that a template sees. All lengths are in meters, times in seconds and angles in radians; filters change units.
 
 use super::blocks::{Block, Blocks, Passed};
 use super::pose::{angle, euler_zyx, quaternion, rotation_vector};
@@ -42,7 +42,7 @@ pub(super) struct Context {
     pub start_output: usize,
     /// The vacuum of each gripper.
     pub grippers: Vec<Signal>,
-    /// Largest speed of the tool's centre (m/s).
+    /// Largest speed of the tool's center (m/s).
     pub speed: f64,
     /// Largest rate of turning (rad/s).
     pub turn_rate: f64,
@@ -116,7 +116,7 @@ pub(super) struct PointOf {
     pub pose: PoseOf,
     /// Values of the external axes.
     pub axes: Vec<f64>,
-    /// Mean speeds on the way here: of the centre, of turning, of the fastest axis.
+    /// Mean speeds on the way here: of the center, of turning, of the fastest axis.
     pub speed: f64,
     pub turn_rate: f64,
     pub axis_speed: f64,

@@ -84,7 +84,7 @@ pub struct Pad {
 pub struct Frames {
     /// The mold's frame, which is the scene's, in the world.
     pub mold: Pose,
-    /// The centre of the tool in the frame of the flange.
+    /// The center of the tool in the frame of the flange.
     pub tool: Pose,
 }
 

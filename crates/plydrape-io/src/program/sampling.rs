@@ -3,7 +3,7 @@
 //! Controllers go from point to point on straight lines, turn on the shortest way, and move external axes along with it. From
 //! one point that is kept the next is the farthest for which all samples between them are met at their own times:
 //!
-//! - the position error is that of the tool's centre and of every pad. A pad that the error turns with the tool is
+//! - the position error is that of the tool's center and of every pad. A pad that the error turns with the tool is
 //!   displaced by its lever arm, so far pads need more points; the errors of its own axes, which are at right angles, are added;
 //! - the angle error is that of the tool.
 //!
@@ -18,12 +18,12 @@ use plydrape::ply::gripper_name;
 /// How far interpolated poses may be from the program's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
-    /// Of the tool's centre and of the pads (m). As a default 0.1 mm: large robots come back to a point to within 0.05 mm to
+    /// Of the tool's center and of the pads (m). As a default 0.1 mm: large robots come back to a point to within 0.05 mm to
     /// 0.1 mm (the repeatability of ISO 9283 in their data sheets), so that less could not be told from it, and it is a
     /// small share of the error of 0.5 mm or so that a plan has to stand in any cell.
     pub position: f64,
     /// Of the tool's orientation (rad). As a default 0.1°: what it does to the pads counts in the position already, so
-    /// this matters only for a tool without pads far from its centre.
+    /// this matters only for a tool without pads far from its center.
     pub angle: f64,
 }
 
@@ -84,13 +84,13 @@ pub struct Sampling {
 /// A movement this small, as a share of the tolerance, is none: the cell rests.
 const REST: f64 = 1e-6;
 
-/// A program by what a controller interpolates: the centre of the tool and the axes.
+/// A program by what a controller interpolates: the center of the tool and the axes.
 #[derive(Debug)]
 pub(crate) struct Track<'a> {
     pub program: &'a Program,
     /// Whether the controller moves the axes too.
     pub moves_axes: bool,
-    /// The centre of the tool in the frame of the mold, if there is a flange.
+    /// The center of the tool in the frame of the mold, if there is a flange.
     pub centre: Option<Vec<Pose>>,
     /// For each gripper its pad, if it has one, and its axes.
     grippers: Vec<(Option<usize>, Vec<usize>)>,
@@ -146,7 +146,7 @@ impl<'a> Track<'a> {
         self.grippers.iter().map(|(_, own)| length(own, &of_axis)).fold(0.0, f64::max)
     }
 
-    /// The largest movement from sample a to sample b: of the centre or an axis (m), and the turn (rad).
+    /// The largest movement from sample a to sample b: of the center or an axis (m), and the turn (rad).
     pub fn movement(&self, a: usize, b: usize) -> Deviation {
         let own = self.program.axes.iter().filter(|_| self.moves_axes);
         let axes = own.map(|axis| (axis.values[b] - axis.values[a]).abs());

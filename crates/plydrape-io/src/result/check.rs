@@ -5,7 +5,7 @@ use crate::json::JsonError;
 use crate::shown;
 use plydrape::clearance::{Bodies, Shape};
 use plydrape::draping::record::CatenaryState;
-use plydrape::material::{Section, TensionLaw};
+use plydrape::material::{MomentCurve, Section, TensionLaw};
 use plydrape::ply::{FARTHEST, Grid, GripperId, Ply, gripper_name, is_near};
 use plydrape::scene::{Friction, Settings};
 
@@ -62,6 +62,9 @@ pub(super) fn of_ply(scene: &SceneEcho) -> Option<String> {
             mass > 0.0 && warp_rigidity >= 0.0 && weft_rigidity >= 0.0
         }
     };
+    if !scene.ply.material.moment.iter().flatten().all(MomentCurve::is_sound) {
+        return Some("the bending of its material is no table of moment over curvature".into());
+    }
     if let Some(TensionLaw::Table { strain, force }) = &scene.ply.material.tension
         && (strain.len() != force.len() || strain.len() < 2 || !strain.is_sorted_by(|a, b| a < b))
     {

@@ -40,7 +40,7 @@ pub(super) struct Document<'a, S, C> {
     pub checksum: C,
 }
 
-/// The catenaries of the ply: fibre lines along u, along v, then bias lines.
+/// The catenaries of the ply: fiber lines along u, along v, then bias lines.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Catenaries {

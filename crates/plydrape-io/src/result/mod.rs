@@ -1,6 +1,6 @@
 //! The result file: the scene as it was understood, and every force, slope, contact and measure of every step.
 //!
-//! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise. All other outputs can be made
+//! Lengths in meters, forces in newtons, angles in radians, unless the name says otherwise. All other outputs can be made
 //! from it. What a [`ResultFile`] is in memory has the physics' own types; as a file it has columns, see [`document`].
 
 mod check;
@@ -8,7 +8,7 @@ mod check_errors;
 mod check_tool;
 mod contact;
 pub mod document;
-mod mold;
+pub mod mold;
 pub mod read;
 mod step;
 

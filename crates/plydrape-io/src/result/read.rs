@@ -9,13 +9,15 @@ use super::check::fault;
 use super::document::{Document, shown};
 use super::step::StepColumns;
 use super::{FORMAT, ResultFile, VERSION};
+use crate::file_kind::{self, FileKind};
 use crate::sheet::SheetKept;
-use crate::shown::excerpt;
+use crate::shown::{excerpt, name};
 use crate::size::{self, SizeError};
 use crate::{folder, input};
 use plydrape::ply::{Grid, Ply};
 use serde::Deserialize;
 use serde_json::error::Category;
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
 use std::path::{Path, PathBuf};
@@ -49,12 +51,12 @@ pub enum ReadError {
         /// Column of the end, from 1.
         column: usize,
     },
-    /// Something else, not written by plydrape.
-    #[error("`{}` is not a result of plydrape: {reason}", path.display())]
+    /// Something else, not a result that plydrape wrote.
+    #[error("`{}` is {reason}", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
-        /// How that shows.
+        /// What it is, or how it shows that it is none.
         reason: String,
     },
     /// Written in a later format.
@@ -96,10 +98,10 @@ pub enum ReadError {
 impl ReadError {
     /// What would help where the states of a result's sheet are the file.
     #[must_use]
-    pub fn states_remedy(&self) -> &'static str {
+    pub fn states_remedy(&self) -> String {
         match self {
             ReadError::Unreadable { .. } => {
-                "put `sheet.npz` beside its result.json, or run the scene again"
+                "put `sheet.npz` beside its result.json, or run the scene again".into()
             }
             _ => self.remedy(),
         }
@@ -107,24 +109,54 @@ impl ReadError {
 
     /// What would help.
     #[must_use]
-    pub fn remedy(&self) -> &'static str {
+    pub fn remedy(&self) -> String {
         match self {
-            ReadError::Unreadable { .. } => "give the path of a result.json that you may read",
-            ReadError::TooLarge { source, .. } => source.remedy(),
-            ReadError::Truncated { .. } => {
-                "copy it again, or run `plydrape simulate` or `plydrape plan` again"
-            }
-            ReadError::Foreign { .. } => {
-                "give the result.json of `plydrape simulate` or `plydrape plan`"
-            }
-            ReadError::Newer { .. } => "update plydrape, or run the scene again with this version",
-            ReadError::Mixed { .. } => "run the scene again into that folder",
-            ReadError::Older { .. } => "run the scene again with this version",
-            ReadError::Changed { .. } => {
-                "put the file back as it was, or run `plydrape simulate` or `plydrape plan` again"
+            ReadError::Unreadable { path, source } => match source.kind() {
+                io::ErrorKind::NotFound => match file_kind::nearest_name(path) {
+                    Some(near) => format!("did you mean `{}`?", name(&near)),
+                    None => format!("give {GIVEN}"),
+                },
+                io::ErrorKind::IsADirectory => format!("it holds no result.json: give {GIVEN}"),
+                _ => "give the path of a result.json that you may read".into(),
+            },
+            ReadError::TooLarge { source, .. } => source.remedy().into(),
+            ReadError::Truncated { path, .. } => format!("copy it again, or {}", again(path)),
+            ReadError::Foreign { .. } => format!("give {GIVEN}"),
+            ReadError::Newer { path, .. } => format!("update plydrape, or {}", again(path)),
+            ReadError::Mixed { path } => again(&path.join(FILE)),
+            ReadError::Older { path, .. } => format!("{} with this version", again(path)),
+            ReadError::Changed { path, .. } => {
+                format!("put the file back as it was, or {}", again(path))
             }
         }
     }
+}
+
+/// The file of a result in its folder.
+const FILE: &str = "result.json";
+/// What is wanted.
+const GIVEN: &str = "the result.json of `plydrape simulate` or `plydrape plan`, or its folder";
+
+/// How to make a result anew: with its scene, where the folder's name says which one that is and how it was run.
+fn again(path: &Path) -> String {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let command = match folder.extension().and_then(|extension| extension.to_str()) {
+        Some("plan") => "plan",
+        Some("results") => "simulate",
+        _ => return "run `plydrape simulate` or `plydrape plan` again".into(),
+    };
+    let scene = folder.with_extension("toml");
+    if scene.is_file() {
+        return format!("run `plydrape {command} {}` again", name(&scene.to_string_lossy()));
+    }
+    format!("run `plydrape {command}` again with its scene")
+}
+
+/// The result file that a path means: the one in it, if it is a folder.
+#[must_use]
+pub fn file_of(path: &Path) -> Cow<'_, Path> {
+    let inside = path.join(FILE);
+    if path.is_dir() && inside.is_file() { inside.into() } else { path.into() }
 }
 
 /// What tells a result file before all of it is understood.
@@ -138,11 +170,12 @@ struct Head {
 /// A file that was read.
 type ReadDocument = Document<'static, Vec<StepColumns>, String>;
 
-/// Reads a result file.
+/// Reads a result file, or that in a folder.
 ///
 /// # Errors
 /// [`ReadError`] if it cannot be read, or is not, to the last byte, what this version writes.
 pub fn read(path: &Path) -> Result<ResultFile, ReadError> {
+    let path = &*file_of(path);
     let fault = |source| ReadError::Unreadable { path: path.into(), source };
     let size = input::size(path).map_err(fault)?;
     size::result(size).map_err(|source| ReadError::TooLarge { path: path.into(), source })?;
@@ -200,8 +233,12 @@ fn read_from<R: BufRead + Seek>(
                     ReadError::Truncated { path, line, column }
                 }
                 _ if ours => changed(reason(&error)),
-                Category::Data => foreign(format!("it has no `format` \"{FORMAT}\"")),
-                _ => foreign(format!("it is not JSON, {}", reason(&error))),
+                Category::Data => {
+                    foreign(format!("not a result of plydrape: it has no `format` \"{FORMAT}\""))
+                }
+                _ => foreign(
+                    other_file(file.all().map_err(unreadable)?, &error).map_err(unreadable)?,
+                ),
             });
         }
     };
@@ -209,7 +246,11 @@ fn read_from<R: BufRead + Seek>(
         Head { format: Some(format), version: Some(version), program } if format == FORMAT => {
             (version, program.unwrap_or_else(|| "an unknown program".into()))
         }
-        _ => return Err(foreign(format!("it has no `format` \"{FORMAT}\" with a `version`"))),
+        _ => {
+            return Err(foreign(format!(
+                "not a result of plydrape: it has no `format` \"{FORMAT}\" with a `version`"
+            )));
+        }
     };
     match found.cmp(&u64::from(VERSION)) {
         std::cmp::Ordering::Less => return Err(ReadError::Older { path, found, program }),
@@ -229,6 +270,17 @@ fn read_from<R: BufRead + Seek>(
         Some(found) if found == sum => Ok(result),
         _ => Err(changed("its check sum does not match its contents".into())),
     }
+}
+
+/// What a file is that is no JSON.
+fn other_file(file: impl BufRead, error: &serde_json::Error) -> io::Result<String> {
+    let mut start = Vec::new();
+    file.take(1 << 16).read_to_end(&mut start)?;
+    Ok(match FileKind::of(&start).filter(|kind| *kind != FileKind::Json) {
+        _ if start.trim_ascii().is_empty() => "empty, not a result of plydrape".into(),
+        Some(kind) => format!("{}, not a result of plydrape", kind.name()),
+        None => format!("not a result of plydrape: it is not JSON, {}", reason(error)),
+    })
 }
 
 /// Longest reason that is shown whole (characters): it may quote a key of the file.

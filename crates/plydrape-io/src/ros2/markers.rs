@@ -35,14 +35,14 @@ const MOLD_TRIANGLES: usize = 8000;
 /// Pieces of a cell's side, at most.
 const DIVISIONS: usize = 8;
 
-/// What all steps share: pieces of a cell's side, and the range of what colours the ply (m).
+/// What all steps share: pieces of a cell's side, and the range of what colors the ply (m).
 pub(super) struct Paint {
     divisions: usize,
     range: [f64; 2],
 }
 
 impl Paint {
-    /// Fine enough to look round, coarse enough to play; one range of colours for the whole drape.
+    /// Fine enough to look round, coarse enough to play; one range of colors for the whole drape.
     pub fn of(result: &ResultFile) -> Self {
         let cells = result.scene.ply.lines().surface().cells().max(1);
         let divisions = (TRIANGLES / (2 * cells)).isqrt().clamp(1, DIVISIONS);

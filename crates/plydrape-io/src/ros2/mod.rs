@@ -20,7 +20,7 @@
 //! | [`MOLD`] | `visualization_msgs/msg/MarkerArray`, the mold | once, at the start, if there is a mold |
 //! | [`PLY`] | `visualization_msgs/msg/MarkerArray`: surface, catenaries, contact, grippers | every step, at its time |
 //!
-//! Metres, seconds, radians; z up; the frame [`FRAME`] is that of the scene. `message` holds the messages as
+//! Meters, seconds, radians; z up; the frame [`FRAME`] is that of the scene. `message` holds the messages as
 //! Rust types, `cdr` and `bag` their bytes, `schema` their definitions; `trajectory`, `poses` and `vacuum` fill them from a
 //! program, `loads` and `markers` from a result.
 
@@ -51,7 +51,7 @@ pub const FRAME: &str = "mold";
 pub const WORLD: &str = "world";
 /// The frame of the flange.
 pub const FLANGE: &str = "flange";
-/// The frame of the tool's centre.
+/// The frame of the tool's center.
 pub const TOOL: &str = "tool";
 /// Topic of the trajectory of the axes.
 pub const TRAJECTORY: &str = "/plydrape/trajectory";

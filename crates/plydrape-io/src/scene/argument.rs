@@ -3,7 +3,8 @@
 use super::error::{Document, SceneError};
 use super::located::Located;
 use super::quantity::{
-    FlexuralRigidity, Force, ForcePerLength, Length, Measure, Quantity, Ratio, Time, Unchecked,
+    Acceleration, Angle, ArealMass, FlexuralRigidity, Force, ForcePerLength, Length, Measure,
+    Quantity, Ratio, Time, Unchecked,
 };
 
 /// What a value measures.
@@ -21,6 +22,12 @@ pub enum Measured {
     Ratio,
     /// A time (s).
     Time,
+    /// An angle (rad).
+    Angle,
+    /// A mass per area (kg/m²).
+    ArealMass,
+    /// An acceleration (m/s²).
+    Acceleration,
 }
 
 /// Reads a value in SI units, written as in a scene but without quotes: a plain number is SI, a unit
@@ -36,6 +43,9 @@ pub fn quantity(text: &str, measured: Measured) -> Result<f64, SceneError> {
         Measured::FlexuralRigidity => read::<FlexuralRigidity>(text),
         Measured::Ratio => read::<Ratio>(text),
         Measured::Time => read::<Time>(text),
+        Measured::Angle => read::<Angle>(text),
+        Measured::ArealMass => read::<ArealMass>(text),
+        Measured::Acceleration => read::<Acceleration>(text),
     }
 }
 

@@ -6,6 +6,7 @@ use super::file::{BodyTable, BoxTable, CylinderTable, MountKey, ObstacleTable, S
 use super::heading::{coordinates, pose};
 use super::located::Located;
 use super::mold::mesh_file;
+use super::usual;
 use plydrape::clearance::{Bodies, Body, Obstacle, Shape};
 use plydrape::mold::Pose;
 use std::ops::Range;
@@ -143,12 +144,12 @@ impl Reader<'_> {
     }
 
     fn cylinder(&self, table: &CylinderTable) -> Result<Shape, SceneError> {
-        let radius = table.radius.size(self.document)?;
+        let radius = table.radius.size(self.document, &usual::BODY)?;
         let from = match &table.from {
-            Some(from) => from.coordinate(self.document)?,
+            Some(from) => from.coordinate(self.document, &usual::COORDINATE)?,
             None => 0.0,
         };
-        let to = table.to.coordinate(self.document)?;
+        let to = table.to.coordinate(self.document, &usual::COORDINATE)?;
         if to <= from {
             return Err(self.document.error(
                 table.to.span.clone(),
@@ -165,7 +166,7 @@ impl Reader<'_> {
     fn cuboid(&self, table: &BoxTable) -> Result<Shape, SceneError> {
         let mut size = [0.0; 3];
         for (size, side) in size.iter_mut().zip(&table.size.0) {
-            *size = side.size(self.document)?;
+            *size = side.size(self.document, &usual::BODY)?;
         }
         let at = match &table.at {
             Some(at) => coordinates(at, self.document)?,

@@ -369,8 +369,8 @@ fn of_file<'a>(
         if error.span.is_some() {
             return error;
         }
-        let help = format!("paths are relative to the book's folder; {}", error.help);
-        book.error(file.span.clone(), error.message, help)
+        let help = read::beside("book", &error.help);
+        book.error(file.span.clone(), error.message, help).of_file(error.unread)
     })?;
     let keys = super::keys(&document)?;
     if let Some(mold) = &keys.mold {

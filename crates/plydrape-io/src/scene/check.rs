@@ -13,7 +13,7 @@ use super::plan::plan;
 use super::release::release;
 use super::settings::settings;
 use super::trajectory::trajectory;
-use super::{SceneFile, cut, material, mold, named, sheet, start, target, tool};
+use super::{SceneFile, cut, material, mold, named, sheet, start, target, tool, usual};
 use crate::shown;
 use crate::size::{self, SizeError};
 use plydrape::mold::Mold;
@@ -80,8 +80,13 @@ pub(super) fn scene(
     let steps = file.plan.steps.as_ref().map_or(file.grippers_span(), |steps| &steps.span);
     let fits = places.allowed(steps, size::plan(&ply, &plan, sheets));
     let title = title(file.title.as_ref(), document, base)?;
-    let thickness =
-        file.ply.value.thickness.as_ref().map(|thickness| thickness.size(document)).transpose()?;
+    let thickness = file
+        .ply
+        .value
+        .thickness
+        .as_ref()
+        .map(|thickness| thickness.size(document, &usual::THICKNESS))
+        .transpose()?;
     Ok(SceneFile {
         scene: Scene {
             title,
@@ -170,7 +175,7 @@ pub(super) fn ply(
     let material = material::material(&table.material, document, base)?;
     if cut::is_cut(table) {
         let radius = match grippers.and_then(|grippers| grippers.pad_radius.as_ref()) {
-            Some(radius) => radius.size_or_zero(document)?,
+            Some(radius) => radius.size_or_zero(document, &usual::PAD)?,
             None => 0.0,
         };
         let cut::Shape { grid, cell, warp, cut } = cut::shape(ply, radius, document, base)?;
@@ -198,7 +203,7 @@ pub(super) fn ply(
     };
     Ok(Ply {
         grid: grid(ply, document)?,
-        cell: [a.size(document)?, b.size(document)?],
+        cell: [a.size(document, &usual::CELL)?, b.size(document, &usual::CELL)?],
         material,
         warp,
         length_factor: 1.0,

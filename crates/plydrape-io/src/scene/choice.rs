@@ -203,15 +203,21 @@ impl JsonSchema for Positions {
 pub(super) trait Keyword {
     /// The keyword.
     const KEYWORD: &'static str;
+    /// Other words for it.
+    const ALIASES: &'static [&'static str];
     /// The place by its coordinates.
     const PAIR: &'static str;
 }
+
+/// Words for the middle; a key takes all of them and documents one.
+pub(super) const MIDDLE: &[&str] = &["middle", "center", "centre", "centered", "centred"];
 
 /// Above the middle of the target.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Centred;
 impl Keyword for Centred {
-    const KEYWORD: &'static str = "centred";
+    const KEYWORD: &'static str = "centered";
+    const ALIASES: &'static [&'static str] = &["centred", "center", "centre", "middle"];
     const PAIR: &'static str = "a place [x, y]";
 }
 
@@ -231,7 +237,7 @@ impl<'de, W: Keyword> Deserialize<'de> for Place<W> {
                 write!(f, "{} or \"{}\"", W::PAIR, W::KEYWORD)
             }
             fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
-                if word == W::KEYWORD {
+                if word == W::KEYWORD || W::ALIASES.contains(&word) {
                     return Ok(Place::Keyword(PhantomData));
                 }
                 Err(E::invalid_value(Unexpected::Str(word), &self))
@@ -253,7 +259,8 @@ impl<W: Keyword> JsonSchema for Place<W> {
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let pair = generator.subschema_for::<Fixed<Quantity<Length>, 2>>();
-        json_schema!({ "anyOf": [{ "const": W::KEYWORD }, pair] })
+        let words: Vec<&str> = [W::KEYWORD].iter().chain(W::ALIASES).copied().collect();
+        json_schema!({ "anyOf": [{ "enum": words }, pair] })
     }
 }
 
@@ -280,7 +287,7 @@ impl<'de> Deserialize<'de> for SeedChoice {
             }
             fn visit_str<E: Error>(self, word: &str) -> Result<Self::Value, E> {
                 match word {
-                    "middle" => Ok(SeedChoice::Middle),
+                    word if MIDDLE.contains(&word) => Ok(SeedChoice::Middle),
                     BEST => Ok(SeedChoice::Best),
                     _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
                 }
@@ -302,7 +309,8 @@ impl JsonSchema for SeedChoice {
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let pair = generator.subschema_for::<Fixed<Quantity<Length>, 2>>();
-        json_schema!({ "anyOf": [{ "enum": ["middle", BEST] }, pair] })
+        let words: Vec<&str> = MIDDLE.iter().chain([&BEST]).copied().collect();
+        json_schema!({ "anyOf": [{ "enum": words }, pair] })
     }
 }
 

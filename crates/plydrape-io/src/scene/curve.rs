@@ -1,16 +1,86 @@
-//! Curves of force of a material: tension over strain, shear force over the shear angle.
+//! Curves of force of a material: moment over curvature, tension over strain, shear force over the shear angle.
 
 use super::choice::Curve;
 use super::error::{Document, SceneError};
-use super::file::{ShearCurveTable, TensionTable};
+use super::file::{MomentTable, ShearCurveTable, TensionTable};
 use super::located::Located;
 use super::quantity::{Measure, Quantity, ShearSlope, TensileStiffness};
-use plydrape::material::{ShearCurve, TensionLaw};
+use super::usual;
+use plydrape::material::{MomentCurve, ShearCurve, TensionLaw};
 
 /// Largest shear force per length, or its slope (N/m).
 const SHEAR: f64 = 1e6;
+/// Largest moment per width (N).
+const RIGIDITY: f64 = 1e6;
 /// Smallest and largest tensile stiffness per width (N/m).
 const TENSION: [f64; 2] = [1.0, 1e10];
+
+/// Largest curvature (1/m): a radius of 10 µm.
+const CURVATURE: f64 = 1e5;
+
+/// Measured moments over curvatures.
+pub(super) fn moment(table: &MomentTable, document: &Document) -> Result<MomentCurve, SceneError> {
+    let MomentTable { curvature, moment } = table;
+    if curvature.value.len() != moment.value.len() || curvature.value.len() < 2 {
+        return Err(document.error(
+            moment.span.clone(),
+            format!(
+                "the bending has {} curvatures and {} moments",
+                curvature.value.len(),
+                moment.value.len()
+            ),
+            "give as many moments as curvatures, two or more",
+        ));
+    }
+    let curve = MomentCurve {
+        curvature: climbing(&curvature.value, "curvature", CURVATURE, document)?,
+        moment: climbing(&moment.value, "moment", RIGIDITY, document)?,
+    };
+    if curve.least_slope() >= LEAST_SLOPE * curve.rigidity() {
+        return Ok(curve);
+    }
+    Err(document.error(
+        moment.span.clone(),
+        format!("the moment hardly rises somewhere: its slope falls below {LEAST_SLOPE:e} of the first one"),
+        "leave points out where the moment stays as it is: the ply creased or slipped there",
+    ))
+}
+
+/// Smallest slope of a moment as a share of its first: below it a fold would have no size.
+const LEAST_SLOPE: f64 = 1e-6;
+
+/// Values that rise from 0, up to a largest one.
+fn climbing<M: Measure>(
+    list: &[Quantity<M>],
+    what: &str,
+    most: f64,
+    document: &Document,
+) -> Result<Vec<f64>, SceneError> {
+    let mut values: Vec<f64> = Vec::with_capacity(list.len());
+    for item in list {
+        let value = item.not_negative(document)?;
+        let (fault, help) = match values.last() {
+            None if value > 0.0 => (
+                format!("the {what}s of the bending do not start at 0"),
+                "a flat ply has no moment: give 0 there, and the means of both bending directions from there on",
+            ),
+            Some(last) if value <= *last => (
+                format!("the {what} of the bending does not rise here"),
+                "give curvatures and moments that rise from point to point, as in { curvature = [0, 10, 30], moment = [0, \"0.02 N\", \"0.04 N\"] }; where a test shows less, the ply creased or slipped, and the table ends before",
+            ),
+            _ if value > most => (
+                format!("{} is too large for a ply", document.quoted(&item.span)),
+                "curvatures up to 1e5 1/m and moments up to 1e6 N are wanted",
+            ),
+            _ => {
+                values.push(value);
+                continue;
+            }
+        };
+        return Err(document.error(item.span.clone(), fault, help));
+    }
+    Ok(values)
+}
 
 /// A tensile stiffness, or a measured table.
 pub(super) fn tension(
@@ -20,7 +90,9 @@ pub(super) fn tension(
     match &law.value {
         Curve::Slope(stiffness) => {
             let stiffness = Located { value: stiffness.clone(), span: law.span.clone() };
-            Ok(TensionLaw::Linear { stiffness: stiffness.within(document, TENSION)? })
+            Ok(TensionLaw::Linear {
+                stiffness: stiffness.within(document, TENSION, &usual::TENSION)?,
+            })
         }
         Curve::Table(TensionTable { strain, force }) => {
             same_length("the tension", "strains", [strain.value.len(), force.value.len()])
@@ -55,7 +127,12 @@ pub(super) fn shear(
         Curve::Slope(slope) => {
             let slope = Located { value: slope.clone(), span: curve.span.clone() };
             let value = slope.not_negative(document)?;
-            let slope = if value > SHEAR { slope.within(document, [0.0, SHEAR])? } else { value };
+            slope.believed(document, &usual::SHEAR)?;
+            let slope = if value > SHEAR {
+                slope.within_for(document, [0.0, SHEAR], "a ply")?
+            } else {
+                value
+            };
             return Ok(ShearCurve::Polynomial { coefficients: vec![slope] });
         }
         Curve::Table(table) => table,
@@ -70,6 +147,13 @@ pub(super) fn shear(
             })
         }
         (None, None, Some(polynomial)) => {
+            if polynomial.value.is_empty() {
+                return Err(document.error(
+                    polynomial.span.clone(),
+                    "the polynomial has no coefficients",
+                    "give those of γ, γ², … in N/m, or shear_curve = 0 for a ply that shears without force",
+                ));
+            }
             let mut coefficients = Vec::with_capacity(polynomial.value.len());
             for coefficient in &polynomial.value {
                 coefficients.push(coefficient.si(document)?);

@@ -9,6 +9,7 @@ use super::error::{Document, SceneError};
 use super::file::{ArrayTable, CircleTable, PartlyKey, PlyTable};
 use super::heading::{coordinates, heading};
 use super::located::{Fixed, Located};
+use super::usual;
 use crate::shown::millimetres;
 use plydrape::ply::{
     Cut, Direction, Grid, Held, Outline, OutlineError, Ring, RingId, gripper_name,
@@ -19,7 +20,7 @@ use std::path::Path;
 
 /// Sides of the polygon that stands for a circle: it is a thousandth of the radius off at most.
 const SIDES: usize = 72;
-/// Directions that differ by less (rad) are the same: a millionth of a metre over a ply of a kilometre.
+/// Directions that differ by less (rad) are the same: a millionth of a meter over a ply of a kilometer.
 const SAME: f64 = 1e-9;
 /// Most cups of a list.
 const MOST_POINTS: usize = 10_000;
@@ -97,7 +98,7 @@ fn outline(
         }
         (None, Some(size)) => {
             let [a, b] = &size.value.0;
-            let (a, b) = (a.size(document)?, b.size(document)?);
+            let (a, b) = (a.size(document, &usual::PLY)?, b.size(document, &usual::PLY)?);
             (vec![[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]], Vec::new(), size.span.clone())
         }
         (Some(_), Some(size)) => {
@@ -163,7 +164,7 @@ fn polygon(points: &Polygon, document: &Document) -> Result<Ring, SceneError> {
 
 fn disc(circle: &CircleTable, document: &Document) -> Result<Ring, SceneError> {
     let [x, y] = coordinates(&circle.middle.value, document)?;
-    let radius = 0.5 * circle.diameter.size(document)?;
+    let radius = 0.5 * circle.diameter.size(document, &usual::HOLE)?;
     let point = |n: usize| {
         let (sin, cos) = (TAU * n as f64 / SIDES as f64).sin_cos();
         [x + radius * cos, y + radius * sin]
@@ -182,7 +183,7 @@ fn array(
     let table = &ply.value;
     let Grid { nu, nv } = grid(ply, document)?;
     let Some(Fixed([a, b])) = &table.cell else { return Err(missing("cell", ply, document)) };
-    let cell = [a.size(document)?, b.size(document)?];
+    let cell = [a.size(document, &usual::CELL)?, b.size(document, &usual::CELL)?];
     let none = ArrayTable::default();
     let (keys, span) = match &table.array {
         Some(array) => (&array.value, &array.span),
@@ -198,7 +199,7 @@ fn array(
         None => [0, 1].map(|n| 0.5 * (low[n] + high[n])),
     };
     let margin = match &keys.margin {
-        Some(margin) => margin.size_or_zero(document)?,
+        Some(margin) => margin.size_or_zero(document, &usual::OVERHANG)?,
         None => 0.0,
     };
     let (sin, cos) = direction.sin_cos();

@@ -1,11 +1,13 @@
 //! The outline of a ply from a drawing that the scene names.
 
 use super::drawing::OutlineChoice;
-use super::error::{Document, SceneError};
+use super::error::{Document, SceneError, Unread};
 use super::file::DrawingTable;
 use super::located::Located;
+use super::read;
 use super::units::{self, Dimension};
-use crate::outline::{self, Options};
+use super::usual;
+use crate::outline::{self, Options, OutlineFault};
 use plydrape::ply::Outline;
 use std::path::Path;
 
@@ -25,7 +27,14 @@ pub(super) fn outline(
             (&table.file.value, &table.file.span, options(table, document)?)
         }
     };
-    outline::read(&base.join(name), &options).map(Some).map_err(|error| {
+    let path = base.join(name);
+    outline::read(&path, &options).map(Some).map_err(|error| {
+        if let OutlineFault::Unreadable(source) = &error.fault {
+            let [message, help] = read::unreadable(&path, name, source);
+            let unread = Some(Box::new(Unread { path: path.clone(), kind: source.kind() }));
+            let help = read::beside("scene", &help);
+            return document.error(span.clone(), message, help).of_file(unread);
+        }
         document.error(span.clone(), format!("{name}: {}", error.fault), error.remedy())
     })
 }
@@ -33,7 +42,7 @@ pub(super) fn outline(
 fn options(table: &DrawingTable, document: &Document) -> Result<Options, SceneError> {
     let names = |layers: &Vec<Located<String>>| layers.iter().map(|l| l.value.clone()).collect();
     let tolerance = match &table.tolerance {
-        Some(tolerance) => tolerance.size(document)?,
+        Some(tolerance) => tolerance.size(document, &usual::DRAWN)?,
         None => TOLERANCE,
     };
     let unit = match &table.unit {

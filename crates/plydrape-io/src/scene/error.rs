@@ -2,7 +2,9 @@
 
 use crate::shown;
 use std::fmt;
+use std::io::ErrorKind;
 use std::ops::Range;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A refused scene, or a file it names.
@@ -18,11 +20,28 @@ pub struct SceneError {
     pub span: Option<Range<usize>>,
     /// What is wrong.
     pub message: String,
-    /// What would be right.
+    /// What would be right; empty where the message says all.
     pub help: String,
+    /// The file that could not be read, where that is what is wrong.
+    pub unread: Option<Box<Unread>>,
+}
+
+/// A file that could not be read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unread {
+    /// Where it was looked for.
+    pub path: PathBuf,
+    /// What the file system answers.
+    pub kind: ErrorKind,
 }
 
 impl SceneError {
+    /// The same about a file that could not be read.
+    #[must_use]
+    pub(super) fn of_file(self, unread: Option<Box<Unread>>) -> Self {
+        SceneError { unread, ..self }
+    }
+
     /// Line and column of the fault, both counted from 1, the column in characters.
     #[must_use]
     pub fn line_column(&self) -> Option<(usize, usize)> {
@@ -40,7 +59,8 @@ impl fmt::Display for SceneError {
         if let Some((line, column)) = self.line_column() {
             write!(f, ":{line}:{column}")?;
         }
-        write!(f, ": {}; {}", self.message, self.help)
+        write!(f, ": {}", self.message)?;
+        if self.help.is_empty() { Ok(()) } else { write!(f, "; {}", self.help) }
     }
 }
 
@@ -80,6 +100,7 @@ impl Document {
             span: None,
             message: message.into(),
             help: help.into(),
+            unread: None,
         }
     }
 

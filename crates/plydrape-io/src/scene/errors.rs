@@ -4,6 +4,7 @@ use super::error::{Document, SceneError};
 use super::file::{ErrorsTable, MoldErrorsTable, Term};
 use super::located::{CountOrNone, Located, Whole};
 use super::quantity::{Angle, Length, Measure, Quantity, Ratio};
+use super::usual;
 use crate::shown::millimetres;
 use plydrape::errors::{
     self, Errors, FrameErrors, GripperErrors, MaterialErrors, MoldErrors, PickUpErrors,
@@ -162,7 +163,7 @@ impl Reader<'_> {
     fn mold(&self, table: &MoldErrorsTable) -> Result<MoldErrors, SceneError> {
         let offset = self.shift(&table.offset)?;
         let wavelength = match &table.wavelength {
-            Some(length) => length.size(self.document)?,
+            Some(length) => length.size(self.document, &usual::WAVES)?,
             None => 0.0,
         };
         let largest = STEEPEST_WAVES * wavelength;

@@ -3,6 +3,7 @@
 use super::error::{Document, SceneError};
 use super::located::{Fixed, Located};
 use super::quantity::{Angle, Length, Quantity};
+use super::usual;
 use plydrape::mold::Pose;
 
 /// A heading of at most one turn to either side (rad).
@@ -44,7 +45,7 @@ pub(super) fn coordinates<const N: usize>(
 ) -> Result<[f64; N], SceneError> {
     let mut numbers = [0.0; N];
     for (number, value) in numbers.iter_mut().zip(&values.0) {
-        *number = value.coordinate(document)?;
+        *number = value.coordinate(document, &usual::COORDINATE)?;
     }
     Ok(numbers)
 }

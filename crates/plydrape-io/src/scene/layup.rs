@@ -9,6 +9,7 @@ use super::file::{EdgesKey, GeneratorsKey, TargetTable};
 use super::heading::{coordinates, heading};
 use super::located::Located;
 use super::quantity::{Angle, Length, Quantity, rounded};
+use super::usual;
 use plydrape::mold::Mold;
 use plydrape::net::{EdgeRule, Free, Generators, Layup};
 use plydrape::ply::{Cut, Ply};
@@ -160,7 +161,7 @@ fn nodes_of_cut(
     };
     let mesh = match &keys.mesh {
         Some(width) => {
-            let mesh = width.size(document)?;
+            let mesh = width.size(document, &usual::MESH)?;
             if size / mesh > MOST_NODES as f64 || number(mesh) > MOST_NODES {
                 return Err(document.error(
                     width.span.clone(),
@@ -266,7 +267,7 @@ fn given_divisions(
     seed: &Seed,
     document: &Document,
 ) -> Result<[usize; 2], SceneError> {
-    let value = width.size(document)?;
+    let value = width.size(document, &usual::MESH)?;
     let counts = [0, 1].map(|n| ply.cell[n] / value);
     // a strip has no cells along v to be divided
     let cells = [ply.grid.nu, ply.grid.nv].map(|grippers| grippers > 1);

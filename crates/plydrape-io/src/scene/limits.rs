@@ -6,6 +6,7 @@ use super::heading::coordinates;
 use super::located::Fixed;
 use super::motion::DURATIONS;
 use super::quantity::{Angle, AngularRate, Force, Length, Measure, Quantity, Ratio};
+use super::usual::{self, Usual};
 use plydrape::measure::slack_of_angle;
 use plydrape::ply::{Kind, Ply};
 use plydrape::preset::Preset;
@@ -43,7 +44,7 @@ pub(super) fn limits(
         None => Ok(None),
     };
     let length = |key: &Option<Quantity<_>>, default: f64| match key {
-        Some(value) => value.not_negative(document),
+        Some(value) => value.limit(document, &usual::LIMIT),
         None => Ok(default),
     };
     let slack_angle = match &table.slack_angle {
@@ -67,7 +68,7 @@ pub(super) fn limits(
         landing_shear: angle(&table.landing_shear, usual.landing_shear)?,
         strain: share(table.strain.as_ref(), usual.strain, document)?,
         penetration: match &table.penetration {
-            Some(depth) => depth.size(document)?,
+            Some(depth) => depth.size(document, &usual::LIMIT)?,
             None => usual.penetration,
         },
         tilt: angle(&table.tilt, usual.tilt)?,
@@ -88,25 +89,26 @@ pub(super) fn limits(
         },
         contact_share: share(table.contact_share.as_ref(), usual.contact_share, document)?,
         gripper_distance: match &table.gripper_distance {
-            Some(distance) => distance.size(document)?,
+            Some(distance) => distance.size(document, &usual::DISTANCE)?,
             None => usual.gripper_distance,
         },
         clearance: match &table.clearance {
-            Some(distance) => distance.size(document)?,
+            Some(distance) => distance.size(document, &usual::DISTANCE)?,
             None => usual.clearance,
         },
         workspace: match &table.workspace {
             Some(sides) => Some(workspace(sides, document)?),
             None => None,
         },
-        speed: rate(table.speed.as_ref(), usual.speed, SPEEDS, document)?,
+        speed: rate(table.speed.as_ref(), usual.speed, SPEEDS, &usual::SPEED, document)?,
         acceleration: rate(
             table.acceleration.as_ref(),
             usual.acceleration,
             ACCELERATIONS,
+            &usual::ACCELERATION,
             document,
         )?,
-        jerk: rate(table.jerk.as_ref(), usual.jerk, JERKS, document)?,
+        jerk: rate(table.jerk.as_ref(), usual.jerk, JERKS, &usual::JERK, document)?,
         duration: match &table.duration {
             Some(duration) => Some(duration.within_for(document, DURATIONS, "a motion")?),
             None => None,
@@ -122,7 +124,7 @@ fn wrinkle(
     document: &Document,
 ) -> Result<Option<f64>, SceneError> {
     let height = match &table.wrinkle {
-        Some(height) => Some(height.not_negative(document)?),
+        Some(height) => Some(height.limit(document, &usual::LIMIT)?),
         None => usual,
     };
     let said = table.wrinkle.as_ref().map(|height| &height.span);
@@ -142,6 +144,7 @@ fn wrinkle(
 
 /// Angular rate of a ball joint (rad/s).
 fn tilt_rate(rate: &Quantity<AngularRate>, document: &Document) -> Result<f64, SceneError> {
+    rate.believed(document, &usual::TURN)?;
     rate.within_for(document, TILT_RATES, "a gripper's joint")
 }
 
@@ -150,9 +153,12 @@ fn rate<M: Measure>(
     key: Option<&Quantity<M>>,
     default: f64,
     bounds: [f64; 2],
+    usual: &Usual,
     document: &Document,
 ) -> Result<f64, SceneError> {
-    key.map_or(Ok(default), |rate| rate.within_for(document, bounds, "a gripper"))
+    let Some(rate) = key else { return Ok(default) };
+    rate.believed(document, usual)?;
+    rate.within_for(document, bounds, "a gripper")
 }
 
 /// A box (m); refuses sides that are empty or run backwards.

@@ -1,23 +1,29 @@
 //! A material by name, by file or in place.
 
 use super::check::line;
-use super::choice::MaterialChoice;
+use super::choice::{Curve, MaterialChoice};
 use super::error::{Document, SceneError, excerpt};
-use super::file::{FabricKey, MaterialTable};
+use super::file::{FabricKey, MaterialTable, MomentTable};
 use super::located::Located;
-use super::quantity::{Measure, Quantity};
+use super::quantity::{BendingRigidity, Measure, Quantity, Ratio};
 use super::units::Dimension;
+use super::usual::{self, Usual};
 use super::{curve, read};
 use crate::shown;
-use plydrape::material::{Material, Section};
+use plydrape::material::{Material, MomentCurve, Scatter, Section};
 use std::ops::Range;
 use std::path::Path;
 
 /// The materials that come with the program: name and file.
-const SHIPPED: [(&str, &str); 5] = [
+const SHIPPED: [(&str, &str); 10] = [
     ("krogh2018", include_str!("../../materials/krogh2018.toml")),
     ("cao2008_plain", include_str!("../../materials/cao2008_plain.toml")),
+    ("broberg2023_binder", include_str!("../../materials/broberg2023_binder.toml")),
+    ("broberg2022_strip", include_str!("../../materials/broberg2022_strip.toml")),
     ("petrak2025_polyester_twill", include_str!("../../materials/petrak2025_polyester_twill.toml")),
+    ("petrak2025_polyester_light", include_str!("../../materials/petrak2025_polyester_light.toml")),
+    ("petrak2025_wool_twill", include_str!("../../materials/petrak2025_wool_twill.toml")),
+    ("petrak2025_viscose_twill", include_str!("../../materials/petrak2025_viscose_twill.toml")),
     ("petrak2025_polyester_plain", include_str!("../../materials/petrak2025_polyester_plain.toml")),
     ("petrak2025_cotton_twill", include_str!("../../materials/petrak2025_cotton_twill.toml")),
 ];
@@ -36,6 +42,14 @@ pub fn shipped_materials() -> impl Iterator<Item = &'static str> {
 #[must_use]
 pub fn shipped_material(name: &str) -> Option<&'static str> {
     SHIPPED.iter().find(|(shipped, _)| *shipped == name).map(|(_, text)| *text)
+}
+
+/// A shipped material by its name, or one from a file.
+///
+/// # Errors
+/// The first fault found, with its place and a remedy; an unknown name lists the shipped ones.
+pub fn read_material(name: &str) -> Result<Material, SceneError> {
+    named(name, &(0..name.len()), &Document::new("the name of the material", name), Path::new(""))
 }
 
 /// The material that a scene chose; files are relative to `base`.
@@ -79,8 +93,8 @@ fn named(
         if error.span.is_some() {
             return error;
         }
-        let help = format!("paths are relative to the scene's folder; {}", error.help);
-        scene.error(span.clone(), error.message, help)
+        let help = read::beside("scene", &error.help);
+        scene.error(span.clone(), error.message, help).of_file(error.unread)
     })?;
     if document.text == scene.text {
         return Err(scene.error(
@@ -116,7 +130,7 @@ fn from_table(
     if let Some(Located { value: FabricKey::Unidirectional, span }) = &table.fabric {
         return Err(document.error(
             span.clone(),
-            "a unidirectional ply does not shear as a trellis: nothing holds its fibres at the points where a weft would cross them, so the ideal drape and the sheet of woven plies are not its own",
+            "a unidirectional ply does not shear as a trellis: nothing holds its fibers at the points where a weft would cross them, so the ideal drape and the sheet of woven plies are not its own",
             "plydrape drapes woven plies so far, fabric = \"woven\"; for a unidirectional ply that is stitched to a weft and shears about it, that is the nearest",
         ));
     }
@@ -142,25 +156,59 @@ fn from_table(
         }
         (None, _) => None,
     };
+    if let Some(test) = text_of(&table.test)? {
+        source = format!("{source}; test: {test}");
+    }
+    let (section, moment) = section(table, document, place)?;
     Ok(Material {
         name: text_of(&table.name)?.unwrap_or_else(|| shown::name(name)),
         source,
-        section: section(table, document, place)?,
+        section,
+        moment,
         shear_curve,
         tension,
         locking_angle,
+        scatter: scatter(table, document)?,
     })
 }
 
-/// Mass and rigidity: both by line, or both by area.
+/// How much the properties scatter.
+fn scatter(table: &MaterialTable, document: &Document) -> Result<Scatter, SceneError> {
+    let Some(given) = &table.scatter else { return Ok(Scatter::default()) };
+    let share = |share: &Option<Quantity<Ratio>>| {
+        let Some(share) = share else { return Ok(None) };
+        let value = share.not_negative(document)?;
+        if value <= 1.0 {
+            return Ok(Some(value));
+        }
+        Err(document.error(
+            share.span.clone(),
+            format!("{} scatters by more than the value itself", document.quoted(&share.span)),
+            "give the standard deviation as a share of the value, as in \"8 %\" or 0.08",
+        ))
+    };
+    let warp = given.bending_rigidity_warp.as_ref().or(given.flexural_rigidity.as_ref());
+    Ok(Scatter {
+        mass: share(&given.mass)?,
+        warp_rigidity: share(&warp.cloned())?,
+        weft_rigidity: share(&given.bending_rigidity_weft)?,
+        tension: share(&given.tension)?,
+        shear_curve: share(&given.shear_curve)?,
+    })
+}
+
+/// Mass and rigidity, both by line or both by area, and the moments that are no straight lines.
 fn section(
     table: &MaterialTable,
     document: &Document,
     place: &Range<usize>,
-) -> Result<Section, SceneError> {
+) -> Result<(Section, [Option<MomentCurve>; 2]), SceneError> {
     let (_, dimension) = table.mass.with_dimension(document)?;
-    let mass = table.mass.within(document, MASSES)?;
     let by_area = table.bending_rigidity_warp.is_some() || table.bending_rigidity_weft.is_some();
+    let per_length = dimension == Some(Dimension::LINE_MASS)
+        || dimension.is_none() && table.flexural_rigidity.is_some();
+    let usual = if per_length { &usual::LINE_MASS } else { &usual::AREAL_MASS };
+    let mass = table.mass.within(document, MASSES, usual)?;
     let mismatch = |rigidity: &str| {
         document.error(
             table.mass.span.clone(),
@@ -176,18 +224,18 @@ fn section(
         (Some(_), None, None) if dimension == Some(Dimension::AREAL_MASS) => {
             Err(mismatch("flexural_rigidity"))
         }
-        (Some(rigidity), None, None) => Ok(Section::Line {
-            mass,
-            flexural_rigidity: bounded_rigidity(rigidity, document)?,
-        }),
+        (Some(rigidity), None, None) => {
+            let flexural_rigidity = bounded_rigidity(rigidity, document, &usual::FLEXURAL)?;
+            Ok((Section::Line { mass, flexural_rigidity }, [None, None]))
+        }
         (None, ..) if by_area && dimension == Some(Dimension::LINE_MASS) => {
             Err(mismatch("bending_rigidity_warp"))
         }
-        (None, Some(warp), Some(weft)) => Ok(Section::Areal {
-            mass,
-            warp_rigidity: bounded_rigidity(warp, document)?,
-            weft_rigidity: bounded_rigidity(weft, document)?,
-        }),
+        (None, Some(warp), Some(weft)) => {
+            let (warp_rigidity, warp) = bending(warp, document)?;
+            let (weft_rigidity, weft) = bending(weft, document)?;
+            Ok((Section::Areal { mass, warp_rigidity, weft_rigidity }, [warp, weft]))
+        }
         (Some(rigidity), ..) => Err(document.error(
             rigidity.span.clone(),
             "the material has a `flexural_rigidity` and a `bending_rigidity`",
@@ -206,13 +254,31 @@ fn section(
     }
 }
 
+/// A rigidity, or the moment over the curvature and its first slope.
+fn bending(
+    given: &Located<Curve<BendingRigidity, MomentTable>>,
+    document: &Document,
+) -> Result<(f64, Option<MomentCurve>), SceneError> {
+    match &given.value {
+        Curve::Slope(rigidity) => {
+            let rigidity = Located { value: rigidity.clone(), span: given.span.clone() };
+            Ok((bounded_rigidity(&rigidity, document, &usual::BENDING)?, None))
+        }
+        Curve::Table(table) => {
+            let curve = curve::moment(table, document)?;
+            Ok((curve.rigidity(), Some(curve)))
+        }
+    }
+}
+
 fn bounded_rigidity<M: Measure>(
     rigidity: &Quantity<M>,
     document: &Document,
+    usual: &Usual,
 ) -> Result<f64, SceneError> {
     let value = rigidity.not_negative(document)?;
     if value == 0.0 {
         return Ok(value);
     }
-    rigidity.within(document, [f64::MIN_POSITIVE, RIGIDITY])
+    rigidity.within(document, [f64::MIN_POSITIVE, RIGIDITY], usual)
 }

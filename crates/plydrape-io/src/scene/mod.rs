@@ -24,6 +24,7 @@ mod dxf;
 mod error;
 mod errors;
 mod file;
+mod fit;
 mod heading;
 mod ideal;
 mod layup;
@@ -47,15 +48,19 @@ mod target;
 mod tool;
 mod trajectory;
 mod units;
+mod usual;
 
 pub use argument::{Measured, quantity};
 pub use book::{Book, BookPly, is_book, parse_book, read_book};
-pub use error::SceneError;
+pub use error::{SceneError, Unread};
+pub use fit::{Reading, Table as FitTable, read_fit};
 pub use ideal::IdealDrape;
-pub use material::{shipped_material, shipped_materials};
+pub use material::{read_material, shipped_material, shipped_materials};
 pub use offset::{SeenOffset, json_offset, parse_offset, read_offset};
 pub use schema::schema;
 
+use crate::file_kind::FileKind;
+use crate::{input, shown};
 use plydrape::mold::{MeshReport, Mold};
 use plydrape::ply::Ply;
 use plydrape::scene::{Model, Scene};
@@ -100,12 +105,45 @@ pub fn read_ideal_drape(path: &Path) -> Result<IdealDrape, SceneError> {
 /// The text of a scene file, and the folder of the files it names.
 fn open(path: &Path) -> Result<(error::Document, &Path), SceneError> {
     let mut document = read::text(path, &path.to_string_lossy(), read::LARGEST_TOML);
-    if let Err(error) = &mut document
-        && !path.exists()
-    {
-        error.help += "; `plydrape new NAME` writes a scene to start from";
+    if let Err(error) = &mut document {
+        if path.is_dir() {
+            error.help = in_folder(path);
+        } else if !path.exists() {
+            let new = "`plydrape new NAME` writes a scene to start from";
+            error.help = match error.help.is_empty() {
+                true => new.into(),
+                false => format!("{}; {new}", error.help),
+            };
+        } else if let Ok(bytes) = input::bytes(path, read::LARGEST_TOML)
+            && let Some(other) = taken_for_a_scene(&bytes, &error.file)
+        {
+            return Err(other);
+        }
     }
     Ok((document?, path.parent().unwrap_or(Path::new(""))))
+}
+
+/// What to give in place of a folder: a scene in it, or what else is there.
+fn in_folder(path: &Path) -> String {
+    let inside =
+        |name: &str| Some(shown::path(&path.join(name))).filter(|_| path.join(name).is_file());
+    match (inside("scene.toml"), inside("result.json")) {
+        (Some(scene), _) => format!("did you mean `{scene}`?"),
+        (None, Some(result)) => format!(
+            "it holds a result, {result}, which `plydrape report` and `plydrape export` take; a scene is a .toml file"
+        ),
+        (None, None) => {
+            "give the .toml file of a scene; `plydrape new NAME` writes one to start from".into()
+        }
+    }
+}
+
+/// The refusal of a file that is something else than a scene, if its bytes tell.
+fn taken_for_a_scene(bytes: &[u8], name: &str) -> Option<SceneError> {
+    let kind = FileKind::of(bytes).filter(|kind| *kind != FileKind::Scene)?;
+    let file = shown::name(name);
+    let message = format!("`{file}` is {}, not a scene", kind.name());
+    Some(error::Document::new(name, "").error_anywhere(message, kind.in_place_of_a_scene(&file)))
 }
 
 /// Reads and checks the text of a scene; files it names are relative to `base`, and `name` stands
@@ -179,7 +217,9 @@ fn keys(document: &error::Document) -> Result<file::SceneKeys, SceneError> {
     if book::has_plies(document) {
         return Err(book::refused_as_scene(document));
     }
-    read::keys(document)
+    read::keys(document).map_err(|error| {
+        taken_for_a_scene(document.text.as_bytes(), &document.file).unwrap_or(error)
+    })
 }
 
 /// A scene with what its file says beside it.

@@ -54,7 +54,7 @@ pub(super) fn motion(
     };
     let last = (steps - 1) as f64;
     let duration = match keys.and_then(|k| k.duration.as_ref()) {
-        Some(duration) => duration.within(document, DURATIONS)?,
+        Some(duration) => duration.within_for(document, DURATIONS, "a motion")?,
         None => last,
     };
     let motion = Motion {

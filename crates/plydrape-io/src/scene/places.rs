@@ -3,6 +3,7 @@
 use super::choice::{Positions, PositionsRow};
 use super::csv::{Column, Csv, Row};
 use super::error::{Document, SceneError};
+use super::heading::coordinates;
 use super::located::Located;
 use super::quantity::rounded;
 use super::read;
@@ -13,6 +14,8 @@ use std::path::Path;
 
 /// Largest coordinate of a gripper (m).
 const FARTHEST: f64 = 1e4;
+/// Distance over length of fabric from which a unit is more likely wrong than a distance.
+const OTHER_UNIT: f64 = 300.0;
 /// A chord this much longer than its fabric, as a share, is taut and not too long.
 const TAUT: f64 = 1e-9;
 
@@ -68,7 +71,7 @@ impl Places {
         }
     }
 
-    /// Refuses neighbours further apart than the ply between them.
+    /// Refuses neighbors further apart than the ply between them.
     pub fn check_reach(&self, ply: &Ply) -> Result<(), SceneError> {
         // a line across the yarns may be longer than flat: the ply shears
         let fibres = ply.neighbours().into_iter().filter(|pair| pair.fibre.is_some());
@@ -88,12 +91,16 @@ impl Places {
                     distance * 1e3,
                     length * 1e3
                 ),
-                "bring the grippers closer together, or give the ply a longer `cell`",
+                if distance > OTHER_UNIT * length {
+                    "is their unit right? a number without a unit is in meters: write \"98 mm\", and in the header of a table `x (mm)`"
+                } else {
+                    "bring the grippers closer together, or give the ply a longer `cell`"
+                },
             ))
         })
     }
 
-    /// Refuses what [`Ply::check_places`] does, neighbours (all but) straight above each other above all.
+    /// Refuses what [`Ply::check_places`] does, neighbors (all but) straight above each other above all.
     pub fn check_run(&self, ply: &Ply, when: &str) -> Result<(), SceneError> {
         ply.check_places(&self.points).map_err(|fault| match fault {
             PlaceError::Steep { a, b, run, length, .. } => self.error(
@@ -135,8 +142,8 @@ pub(super) fn csv_file(
         if error.span.is_some() {
             return error;
         }
-        let help = format!("paths are relative to the scene's folder; {}", error.help);
-        scene.error(span.clone(), error.message, help)
+        let help = read::beside("scene", &error.help);
+        scene.error(span.clone(), error.message, help).of_file(error.unread)
     })
 }
 
@@ -179,8 +186,7 @@ fn from_table(
             return Err(scene.error(row.span.clone(), message, help));
         }
         for position in &row.value {
-            let [x, y, z] = &position.value.0;
-            places.points.push([x.coordinate(scene)?, y.coordinate(scene)?, z.coordinate(scene)?]);
+            places.points.push(coordinates(&position.value, scene)?);
             places.spans.push(position.span.clone());
         }
     }
@@ -253,7 +259,7 @@ pub(super) fn point(row: &Row, columns: [usize; 3]) -> Result<[f64; 3], SceneErr
             return Err(row.fault(
                 column,
                 format!("this is {} m, out of all scale for a ply", rounded(*coordinate)),
-                "a column without a unit is in metres: did you mean a header such as `x (mm)`?",
+                "a column without a unit is in meters: did you mean a header such as `x (mm)`?",
             ));
         }
     }

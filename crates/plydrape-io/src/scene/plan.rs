@@ -3,6 +3,7 @@
 use super::error::{Document, SceneError};
 use super::file::{MethodKey, PlanTable};
 use super::located::{Count, Located, Seed, Whole};
+use super::usual;
 use plydrape::motion::MOST_POSITIONS;
 use plydrape::scene::{Plan, PlanMethod};
 
@@ -32,7 +33,7 @@ pub(super) fn plan(
             None => default.steps.min(most_steps),
         },
         move_limit: match &table.move_limit {
-            Some(limit) => Some(limit.size(document)?),
+            Some(limit) => Some(limit.size(document, &usual::MOVE)?),
             None => None,
         },
         seed: match &table.seed {

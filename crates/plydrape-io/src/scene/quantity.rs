@@ -2,7 +2,8 @@
 
 use super::error::{Document, SceneError};
 use super::located::Located;
-use super::units::{self, Dimension};
+use super::units::{self, Dimension, UnitError};
+use super::usual::Usual;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Visitor};
 use std::borrow::Cow;
@@ -62,10 +63,16 @@ measures! {
     Coefficient: [NONE], "a coefficient of friction", "", "0.3";
     /// Mass per length (kg/m) or per area (kg/m²).
     Mass: [LINE_MASS, AREAL_MASS], "a mass per length or per area", "kg/m or kg/m^2", "314 g/m^2";
+    /// Mass per area (kg/m²).
+    ArealMass: [AREAL_MASS], "a mass per area", "kg/m^2", "314 g/m^2";
     /// Flexural rigidity EI of a line of ply (N·m²).
-    FlexuralRigidity: [FLEXURAL_RIGIDITY], "a flexural rigidity", "N m^2", "9e-6 N m^2";
+    FlexuralRigidity: [FLEXURAL_RIGIDITY, WEIGHED_RIGIDITY], "a flexural rigidity", "N m^2", "9e-6 N m^2";
     /// Bending rigidity per width (N·m).
-    BendingRigidity: [MOMENT], "a bending rigidity per width", "N m", "2e-4 N m";
+    BendingRigidity: [MOMENT, WEIGHED_MOMENT], "a bending rigidity per width", "N m", "2e-4 N m";
+    /// Curvature (1/m).
+    Curvature: [CURVATURE], "a curvature", "1/m", "20 1/m";
+    /// Bending moment per width (N).
+    MomentPerWidth: [FORCE], "a moment per width", "N", "0.02 N m/m";
     /// Shear force per length (N/m).
     ForcePerLength: [FORCE_PER_LENGTH], "a force per length", "N/m", "50 N/m";
     /// Tensile stiffness per width EA′ (N/m).
@@ -147,10 +154,17 @@ impl<M: Measure> Quantity<M> {
         };
         let shown = document.excerpt(&self.span);
         let (value, dimension) = units::quantity(text).map_err(|fault| {
-            error(format!("{shown} cannot be read: {fault}"), format!("{remedy}; {}", fault.help()))
+            let help = match fault {
+                UnitError::NoNumber => remedy.clone(),
+                UnitError::DecimalComma => fault.help(),
+                _ => format!("{remedy}; {}", fault.help()),
+            };
+            error(format!("{shown} cannot be read: {fault}"), help)
         })?;
         match dimension {
-            Some(found) if M::DIMENSIONS.contains(&found) => Ok((value, Some(found))),
+            Some(found) if M::DIMENSIONS.contains(&found) => {
+                Ok((si::<M>(value, found).unwrap_or(value), Some(found)))
+            }
             Some(found) => Err(error(format!("{shown} is {found}"), remedy)),
             None if M::DIMENSIONS.contains(&Dimension::NONE) || value.is_infinite() => {
                 Ok((value, None))
@@ -176,12 +190,51 @@ impl<M: Measure> Quantity<M> {
         ))
     }
 
-    /// A value above zero and within bounds, both in SI units.
-    pub fn within(&self, document: &Document, bounds: [f64; 2]) -> Result<f64, SceneError> {
+    /// A value above zero, a plain number near what is found in practice, and within bounds, both in SI units.
+    pub fn within(
+        &self,
+        document: &Document,
+        bounds: [f64; 2],
+        usual: &Usual,
+    ) -> Result<f64, SceneError> {
+        self.positive(document)?;
+        self.believed(document, usual)?;
         self.within_for(document, bounds, "a ply")
     }
 
-    /// The same, of something else than the ply.
+    /// Refuses a plain number that is far from what is found in practice.
+    pub fn believed(&self, document: &Document, usual: &Usual) -> Result<(), SceneError> {
+        let number = match self.value.raw {
+            Raw::Number(number) if number != 0.0 && number.is_finite() && !usual.holds(number) => {
+                number
+            }
+            _ => return Ok(()),
+        };
+        let (written, unit) = (document.excerpt(&self.span), usual.unit);
+        let meant = usual.meant(number, si::<M>);
+        let meant: Vec<String> = meant.iter().map(|unit| format!("\"{written} {unit}\"")).collect();
+        let question = match meant.is_empty() {
+            true => String::new(),
+            false => format!("did you mean {}? ", meant.join(" or ")),
+        };
+        Err(document.error(
+            self.span.clone(),
+            format!("`{written}` would make {} {} {unit}", usual.what, plain(number)).trim_end(),
+            match units::unit(unit) {
+                _ if unit.is_empty() => format!("{question}{}", usual.range),
+                Ok(_) => format!(
+                    "{question}plain numbers are in {unit}, and {}; write \"{written} {unit}\" if you mean that",
+                    usual.range
+                ),
+                Err(_) => format!(
+                    "{question}plain numbers are in {unit}, and {}; write it with its unit if you mean that",
+                    usual.range
+                ),
+            },
+        ))
+    }
+
+    /// A value above zero and within bounds, both in SI units, of something else than the ply.
     pub fn within_for(
         &self,
         document: &Document,
@@ -214,13 +267,31 @@ impl<M: Measure> Quantity<M> {
     }
 }
 
+/// A value of a dimension that fits in SI units: a weight in place of a force is that on Earth.
+fn si<M: Measure>(value: f64, dimension: Dimension) -> Option<f64> {
+    let fits = |dimension| M::DIMENSIONS.contains(&dimension);
+    if fits(dimension.times(Dimension::ACCELERATION, 1)) {
+        return Some(value * units::STANDARD_GRAVITY);
+    }
+    fits(dimension).then_some(value)
+}
+
+/// A number as one writes it, without more digits than it needs.
+fn plain(number: f64) -> String {
+    match number.abs() {
+        0.001..1e6 => format!("{number}"),
+        _ => format!("{number:e}"),
+    }
+}
+
 /// Smallest and largest size of anything in a scene (m).
 const SIZES: [f64; 2] = [1e-6, 1e4];
 
 impl Quantity<Length> {
     /// A size between 1 µm and 10 km (m).
-    pub fn size(&self, document: &Document) -> Result<f64, SceneError> {
+    pub fn size(&self, document: &Document, usual: &Usual) -> Result<f64, SceneError> {
         let value = self.positive(document)?;
+        self.believed(document, usual)?;
         if (SIZES[0]..=SIZES[1]).contains(&value) {
             return Ok(value);
         }
@@ -228,14 +299,22 @@ impl Quantity<Length> {
     }
 
     /// A size that may be zero, up to 10 km (m).
-    pub fn size_or_zero(&self, document: &Document) -> Result<f64, SceneError> {
+    pub fn size_or_zero(&self, document: &Document, usual: &Usual) -> Result<f64, SceneError> {
         let value = self.not_negative(document)?;
-        if value == 0.0 { Ok(value) } else { self.size(document) }
+        if value == 0.0 { Ok(value) } else { self.size(document, usual) }
+    }
+
+    /// A limit of zero or more (m).
+    pub fn limit(&self, document: &Document, usual: &Usual) -> Result<f64, SceneError> {
+        let value = self.not_negative(document)?;
+        self.believed(document, usual)?;
+        Ok(value)
     }
 
     /// A coordinate of at most 10 km to either side (m).
-    pub fn coordinate(&self, document: &Document) -> Result<f64, SceneError> {
+    pub fn coordinate(&self, document: &Document, usual: &Usual) -> Result<f64, SceneError> {
         let value = self.si(document)?;
+        self.believed(document, usual)?;
         if value.abs() <= SIZES[1] {
             return Ok(value);
         }
@@ -243,12 +322,6 @@ impl Quantity<Length> {
     }
 
     fn out_of_scale(&self, document: &Document, value: f64) -> SceneError {
-        let remedy = match &self.value.raw {
-            Raw::Number(number) => format!(
-                "plain numbers are metres: did you mean \"{number} mm\"? sizes go from 1 um to 10 km"
-            ),
-            Raw::Text(_) => "sizes go from 1 um to 10 km: is the unit right?".into(),
-        };
         document.error(
             self.span.clone(),
             format!(
@@ -256,7 +329,7 @@ impl Quantity<Length> {
                 document.quoted(&self.span),
                 rounded(value)
             ),
-            remedy,
+            "sizes go from 1 um to 10 km: is the unit right?",
         )
     }
 }
@@ -335,5 +408,28 @@ impl<M: Measure> JsonSchema for Unchecked<M> {
                 { "type": "string", "description": format!("{} with its unit", M::NAME), "examples": [M::EXAMPLE] }
             ]
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read<M: Measure>(text: &str) -> Result<f64, SceneError> {
+        let document = Document::new("", text);
+        Located { value: Unchecked::<M>::of_argument(text), span: 0..text.len() }.si(&document)
+    }
+
+    /// Peirce's flexural rigidity of a width is a mass per area in mg/cm² times the cube of a bending length in cm, so in
+    /// mg·cm: the weight of it is 9.80665e-6 N/mg × 0.01 m/cm per mg·cm.
+    #[test]
+    fn a_rigidity_in_units_of_mass_is_that_of_the_weight_on_earth() {
+        let rigidity = read::<BendingRigidity>("2000 mg cm").unwrap();
+        assert!((rigidity - 2000.0 * 9.806_65e-8).abs() < 1e-18, "{rigidity}");
+        let rigidity = read::<FlexuralRigidity>("500 g cm^2").unwrap();
+        assert!((rigidity - 500.0 * 9.806_65e-7).abs() < 1e-15, "{rigidity}");
+        assert_eq!(read::<BendingRigidity>("2e-4 N m"), Ok(2e-4));
+        assert!(read::<Force>("2 kg").is_err());
+        assert!(read::<Length>("2 g m").is_err());
     }
 }

@@ -1,7 +1,8 @@
 //! From bytes to a text, and from a text to the keys of a file.
 
 use super::diagnostic;
-use super::error::{Document, SceneError};
+use super::error::{Document, SceneError, Unread};
+use crate::file_kind::{self, FileKind};
 use crate::{input, shown};
 use serde::de::DeserializeOwned;
 use std::io::ErrorKind;
@@ -20,28 +21,94 @@ pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, Sc
     let nothing = Document::new(name, "");
     let name = shown::excerpt(name, LONGEST_PATH);
     if path.is_dir() {
-        return Err(nothing.error_anywhere(
-            format!("`{name}` is a folder, not a file"),
-            "name the file inside it, e.g. scene.toml",
-        ));
+        return Err(nothing
+            .error_anywhere(format!("`{name}` is a folder, not a file"), "name a file inside it"));
     }
     input::bytes(path, largest).map_err(|error| match error.kind() {
         ErrorKind::FileTooLarge => nothing.error_anywhere(
             format!("`{name}` is larger than {} MiB", largest >> 20),
             "is it the right file? large tables of gripper positions belong into a CSV file",
         ),
-        _ => nothing.error_anywhere(
-            format!("`{name}` cannot be read: {}", reason(&error)),
-            format!("looked for {}", shown::excerpt(&path.to_string_lossy(), LONGEST_PATH)),
-        ),
+        kind => {
+            let unread = Some(Box::new(Unread { path: path.into(), kind }));
+            let [message, help] = unreadable(path, &name, &error);
+            nothing.error_anywhere(message, help).of_file(unread)
+        }
     })
 }
+
+/// Why a file, named `name`, cannot be read, and what to do; nothing where the message says all.
+pub(super) fn unreadable(path: &Path, name: &str, error: &std::io::Error) -> [String; 2] {
+    let help = not_found(path, error).or_else(|| {
+        let written = path.to_string_lossy();
+        (written != name).then(|| format!("looked for {}", short(&written)))
+    });
+    [format!("`{}` cannot be read: {}", short(name), reason(error)), help.unwrap_or_default()]
+}
+
+/// What helps with a file that a scene or a book names.
+pub(super) fn beside(what: &str, help: &str) -> String {
+    let relative = format!("paths are relative to the {what}'s folder");
+    if help.is_empty() { relative } else { format!("{relative}; {help}") }
+}
+
+/// A path as messages show it.
+fn short(name: &str) -> String {
+    shown::name(&shown::excerpt(name, LONGEST_PATH))
+}
+
+/// What to do about a file that is not there, if that can be told.
+fn not_found(path: &Path, error: &std::io::Error) -> Option<String> {
+    if error.kind() != ErrorKind::NotFound {
+        return None;
+    }
+    let written = path.to_string_lossy();
+    if shown::control(&written).is_some() {
+        return Some(format!("{BACKSLASHES} in single quotes, as in 'C:\\molds\\new.stl'"));
+    }
+    if cfg!(not(windows)) {
+        if written.contains('\\') {
+            return Some(format!(
+                "this system separates folders by forward slashes: write `{}`",
+                short(&written.replace('\\', "/"))
+            ));
+        }
+        let drive = written.split('/').find(|part| {
+            part.len() == 2
+                && part.ends_with(':')
+                && part.starts_with(|c: char| c.is_ascii_alphabetic())
+        });
+        if let Some(drive) = drive {
+            return Some(format!(
+                "`{drive}` is a drive of Windows, which this system does not have"
+            ));
+        }
+    }
+    file_kind::nearest_name(path).map(|near| format!("did you mean `{}`?", short(&near)))
+}
+
+/// What a path of Windows in double quotes needs.
+pub(super) const BACKSLASHES: &str =
+    "in double quotes a backslash begins an escape: write a path with forward slashes, or";
 
 /// Reads a text file, named `name` in messages.
 pub(super) fn text(path: &Path, name: &str, largest: u64) -> Result<Document, SceneError> {
     match String::from_utf8(bytes(path, name, largest)?) {
         // Spreadsheets and some editors put a byte order mark first.
         Ok(text) => Ok(Document::new(name, text.trim_start_matches('\u{feff}'))),
+        Err(error) if [b"\xff\xfe", b"\xfe\xff"].iter().any(|mark| error.as_bytes().starts_with(*mark)) => {
+            Err(Document::new(name, "").error_anywhere(
+                format!("`{name}` is UTF-16 text"),
+                "save the file with the encoding UTF-8, which Windows' Notepad and PowerShell offer too",
+            ))
+        }
+        Err(error) if FileKind::of(error.as_bytes()).is_some_and(|kind| kind != FileKind::Scene) => {
+            let kind = FileKind::of(error.as_bytes()).map_or("", FileKind::name);
+            Err(Document::new(name, "").error_anywhere(
+                format!("`{name}` is {kind}, not a text"),
+                "save a table as CSV, with the encoding UTF-8",
+            ))
+        }
         Err(error) => {
             let at = error.utf8_error().valid_up_to();
             let byte = error.as_bytes().get(at).copied().unwrap_or_default();

@@ -28,7 +28,7 @@ impl Rectangle {
         Rectangle { origin: [x, y, z], along_u, along_v: cross(plane.normal, along_u) }
     }
 
-    /// Places (m) of all grippers of a ply, neighbours in its array closer to each other than in the fabric by these shares
+    /// Places (m) of all grippers of a ply, neighbors in its array closer to each other than in the fabric by these shares
     /// along u and v, from the first gripper at the corner.
     pub fn grippers(&self, ply: &Ply, spacing: [f64; 2]) -> Vec<[f64; 3]> {
         let (sin, cos) = ply.cut.as_ref().map_or(0.0, |cut| cut.turn).sin_cos();

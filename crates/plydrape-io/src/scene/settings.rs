@@ -3,11 +3,12 @@
 use super::choice::FrictionChoice;
 use super::error::{Document, SceneError};
 use super::file::{
-    EndKey, GrippersTable, ModelKey, SceneKeys, SheetTable, Slopes, SteppingKey, TimeKey,
+    EndKey, GrippersTable, ModelKey, SceneKeys, SheetTable, Slopes, SteppingKey, TheoryKey, TimeKey,
 };
 use super::limits::acute;
 use super::located::{Located, Whole};
 use super::quantity::{Force, Quantity, Stiffness};
+use super::usual;
 use plydrape::ply::Ply;
 use plydrape::scene::{
     ContactEnd, ContactSettings, Friction, Model, PadSettings, Settings, SheetSettings, SheetTime,
@@ -34,16 +35,23 @@ pub(super) fn settings(
     let (model, usual) = (&file.model, Settings::default());
     let axial_stiffness = match &model.axial_stiffness {
         Some(stiffness) if stiffness.si_or_infinite(document)? == f64::INFINITY => f64::INFINITY,
-        Some(stiffness) => stiffness.within(document, AXIAL_STIFFNESS)?,
+        Some(stiffness) => stiffness.within_for(document, AXIAL_STIFFNESS, "a ply")?,
         None => usual.axial_stiffness,
     };
     let gravity = match &model.gravity {
-        Some(gravity) => gravity.within(document, GRAVITY)?,
+        Some(gravity) => gravity.within(document, GRAVITY, &usual::GRAVITY)?,
         None => usual.gravity,
     };
+    if let Some(Located { value: TheoryKey::Exact, span }) = &model.theory {
+        return Err(document.error(
+            span.clone(),
+            "a net hangs by the theory of small sag: its equilibrium needs the length of every span with exact derivatives to forces and slopes thousands of times a drape, which the closed form gives and the elastica does not",
+            "leave `theory` out; `plydrape span --theory exact` solves one span, and the sheet (kind = \"sheet\") bends by the curvature that it has, also with a measured moment",
+        ));
+    }
     let grippers = file.grippers.as_ref().map(|table| &table.value);
     let overhang = match &file.ply.value.overhang {
-        Some(overhang) => overhang.size_or_zero(document)?,
+        Some(overhang) => overhang.size_or_zero(document, &usual::OVERHANG)?,
         None => usual.sheet.overhang,
     };
     Ok(Settings {
@@ -79,7 +87,7 @@ fn contact(
     let (contact, usual) = (&file.contact, ContactSettings::default());
     let tolerance = match &contact.tolerance {
         Some(tolerance) => {
-            let value = tolerance.size(document)?;
+            let value = tolerance.size(document, &usual::TOLERANCE)?;
             let cell = ply.cell[0].min(ply.cell[1]);
             if value > 0.1 * cell {
                 return Err(document.error(
@@ -107,7 +115,9 @@ fn contact(
             Some(Located { value: FrictionChoice::StickForEver, .. }) => Friction::StickForEver,
             Some(Located { value: FrictionChoice::Coefficient(coefficient), span }) => {
                 let coefficient = Located { value: coefficient.clone(), span: span.clone() };
-                Friction::Coulomb(coefficient.not_negative(document)?)
+                let value = coefficient.not_negative(document)?;
+                coefficient.believed(document, &usual::FRICTION)?;
+                Friction::Coulomb(value)
             }
             None => usual.friction,
         },
@@ -125,7 +135,7 @@ fn sheet(
 ) -> Result<SheetSettings, SceneError> {
     let usual = SheetSettings::default();
     Ok(SheetSettings {
-        mesh: table.mesh.as_ref().map(|mesh| mesh.size(document)).transpose()?,
+        mesh: table.mesh.as_ref().map(|mesh| mesh.size(document, &usual::MESH)).transpose()?,
         overhang,
         time: match table.time {
             Some(TimeKey::Real) => SheetTime::Real,
@@ -155,14 +165,18 @@ fn sheet(
 fn pad(table: &GrippersTable, document: &Document) -> Result<PadSettings, SceneError> {
     let usual = PadSettings::default();
     let mount = |key: Option<&Quantity<Stiffness>>| {
-        key.map(|key| key.within_for(document, MOUNTS, "a gripper's mount")).transpose()
+        key.map(|key| {
+            key.believed(document, &usual::MOUNT)?;
+            key.within_for(document, MOUNTS, "a gripper's mount")
+        })
+        .transpose()
     };
     let force = |key: &Option<Quantity<Force>>| {
         key.as_ref().map(|key| key.within_for(document, PAD_FORCES, "a pad")).transpose()
     };
     Ok(PadSettings {
         radius: match &table.pad_radius {
-            Some(radius) => radius.size_or_zero(document)?,
+            Some(radius) => radius.size_or_zero(document, &usual::PAD)?,
             None => usual.radius,
         },
         lateral_stiffness: mount(table.stiffness.as_ref().and_then(|keys| keys.lateral.as_ref()))?,

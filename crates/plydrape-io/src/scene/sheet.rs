@@ -146,7 +146,7 @@ impl Around<'_> {
         if mesh <= most * (1.0 + ROUNDING) {
             return Ok(mesh);
         }
-        let between = format!("{} mm of fabric between neighbouring pads", millimetres(2.0 * most));
+        let between = format!("{} mm of fabric between neighboring pads", millimetres(2.0 * most));
         let Some(span) = self.mesh_span() else {
             let span = self.pad_span().unwrap_or_else(|| self.file.grippers_span().clone());
             return Err(self.document.error(

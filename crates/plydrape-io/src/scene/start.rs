@@ -9,13 +9,14 @@ use super::located::{Fixed, Located};
 use super::places::Places;
 use super::quantity::{Length, Quantity};
 use super::rectangle::Rectangle;
+use super::usual;
 use plydrape::mold::{Mold, Plane};
 use plydrape::net::Net;
 use plydrape::ply::{Grid, Ply, directions, gripper_name};
 use plydrape::scene::Target;
 use std::ops::Range;
 
-/// Distance of neighbours at the start as a share of the fabric between them, unless given: that of Krogh
+/// Distance of neighbors at the start as a share of the fabric between them, unless given: that of Krogh
 /// et al. 2018.
 const CLOSER: f64 = 0.98;
 /// Height of the start above the drape's highest point, in cells, unless given.
@@ -102,8 +103,9 @@ fn rectangle(
 ) -> Result<Places, SceneError> {
     let &Surroundings { ply, document, .. } = around;
     let place = spacing.0[0].span.start..spacing.0[1].span.end;
-    let distances = [spacing.0[0].size(document)?, spacing.0[1].size(document)?];
-    let lift = height.coordinate(document)?;
+    let distance = |n: usize| spacing.0[n].size(document, &usual::SPACING);
+    let distances = [distance(0)?, distance(1)?];
+    let lift = height.coordinate(document, &usual::HEIGHT)?;
     let plane = ground(keys, around)?;
     let direction = match (&keys.direction, target.filter(|_| is_centred(keys))) {
         (Some(direction), _) => heading(direction, document)?,
@@ -135,7 +137,7 @@ fn rectangle(
             (Place::Keyword(_), None) => {
                 return Err(document.error(
                     origin.span.clone(),
-                    "the start shall be centred above the target, and the scene has no target",
+                    "the start shall be centered above the target, and the scene has no target",
                     "add [target], or give the place [x, y] of gripper g0_0",
                 ));
             }

@@ -5,6 +5,7 @@ use super::file::{AxisKey, AxisTable, JointsKey, PlacedTable, ToolTable};
 use super::heading::{coordinates, pose};
 use super::layup::round;
 use super::located::Located;
+use super::usual;
 use plydrape::mold::Pose;
 use plydrape::ply::Ply;
 use plydrape::scene::{Limits, Settings};
@@ -41,7 +42,10 @@ pub(super) fn tool(
     let usual = Tool::new(start, axes);
     Ok(Tool {
         turn_rate: match &table.turn_rate {
-            Some(rate) => rate.within_for(document, TURNS, "a frame")?,
+            Some(rate) => {
+                rate.believed(document, &usual::TURN)?;
+                rate.within_for(document, TURNS, "a frame")?
+            }
             None => usual.turn_rate,
         },
         turn_acceleration: match &table.turn_acceleration {
@@ -49,7 +53,11 @@ pub(super) fn tool(
             None => usual.turn_acceleration,
         },
         fixed_pads: fixed_pads(table, ply, start, settings, document)?,
-        residual: table.residual.as_ref().map(|limit| limit.size(document)).transpose()?,
+        residual: table
+            .residual
+            .as_ref()
+            .map(|limit| limit.size(document, &usual::LIMIT))
+            .transpose()?,
         flange: placed(table.flange.as_ref(), document)?,
         world: placed(table.world.as_ref(), document)?,
         ..usual
@@ -112,7 +120,7 @@ fn axis(
                 round(length),
                 round(across)
             ),
-            "plain numbers are metres: write millimetres with their unit, as in stroke = [\"-20 mm\", \"120 mm\"]",
+            "plain numbers are meters: write millimeters with their unit, as in stroke = [\"-20 mm\", \"120 mm\"]",
         ));
     }
     let (name, direction) = match table.direction.value {
@@ -121,7 +129,10 @@ fn axis(
         AxisKey::Z => ("z", [0.0, 0.0, 1.0]),
     };
     let speed = match &table.speed {
-        Some(speed) => speed.within_for(document, SPEEDS, "an axis")?,
+        Some(speed) => {
+            speed.believed(document, &usual::SPEED)?;
+            speed.within_for(document, SPEEDS, "an axis")?
+        }
         None => limits.speed,
     };
     Ok(Axis { name: name.into(), direction, stroke, speed })

@@ -1,4 +1,5 @@
-//! Numbers with a unit: `"98 mm"`, `"314 g/m^2"`, `"9e-6 N·m²"`.
+//! Numbers with a unit: `"98 mm"`, `"314 g/m^2"`, `"9e-6 N·m²"`, and as data sheets write them: `"314 gsm"`, `"9.2 oz/yd2"`,
+//! `"2e-4 Nm"`, `"4 N.m"`.
 //!
 //! A unit is a product and quotient of symbols with whole powers, read from left to right; a slash
 //! divides by the next symbol only, so that `N/m/s` is N/(m·s). Values come out in SI base units.
@@ -7,7 +8,7 @@
 use super::error::excerpt;
 use std::fmt;
 
-/// Powers of metre, kilogram, second and radian.
+/// Powers of meter, kilogram, second and radian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Dimension(pub [i32; 4]);
 
@@ -30,10 +31,15 @@ impl Dimension {
     pub const FLEXURAL_RIGIDITY: Self = Dimension([3, 1, -2, 0]);
     pub const MOMENT: Self = Dimension([2, 1, -2, 0]);
     pub const FORCE_PER_LENGTH: Self = Dimension([0, 1, -2, 0]);
+    pub const CURVATURE: Self = Dimension([-1, 0, 0, 0]);
     pub const SHEAR_SLOPE: Self = Dimension([0, 1, -2, -1]);
 
+    /// Mass in place of weight: of a bending rigidity per width, and of a flexural rigidity.
+    pub const WEIGHED_MOMENT: Self = Dimension([1, 1, 0, 0]);
+    pub const WEIGHED_RIGIDITY: Self = Dimension([2, 1, 0, 0]);
+
     /// Multiplies by another dimension's power.
-    fn times(self, other: Dimension, power: i32) -> Self {
+    pub fn times(self, other: Dimension, power: i32) -> Self {
         let mut sum = self.0;
         for (s, o) in sum.iter_mut().zip(other.0) {
             *s = s.saturating_add(o.saturating_mul(power));
@@ -43,7 +49,7 @@ impl Dimension {
 }
 
 /// The dimensions with a name of their own.
-const NAMES: [(Dimension, &str); 21] = [
+const NAMES: [(Dimension, &str); 22] = [
     (Dimension::NONE, "a number without a unit"),
     (Dimension::LENGTH, "a length"),
     (Dimension::MASS, "a mass"),
@@ -63,6 +69,7 @@ const NAMES: [(Dimension, &str); 21] = [
     (Dimension::MOMENT, "a moment"),
     (Dimension::FORCE_PER_LENGTH, "a force per length"),
     (Dimension::SHEAR_SLOPE, "a force per length and angle"),
+    (Dimension::CURVATURE, "a curvature"),
     (Dimension([2, 0, 0, 0]), "an area"),
     (Dimension([-3, 1, 0, 0]), "a density"),
 ];
@@ -84,21 +91,35 @@ impl fmt::Display for Dimension {
     }
 }
 
+/// Standard gravity (m/s²): what makes a weight of a mass.
+pub(super) const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// The pound (kg) and the foot (m) of the international agreement of 1959.
+const POUND: f64 = 0.453_592_37;
+const FOOT: f64 = 0.3048;
+
 /// Symbols of units, their size in SI base units and their dimension.
-const UNITS: [(&str, f64, Dimension); 27] = [
+const UNITS: [(&str, f64, Dimension); 47] = [
     ("m", 1.0, Dimension::LENGTH),
     ("cm", 1e-2, Dimension::LENGTH),
     ("mm", 1e-3, Dimension::LENGTH),
     ("um", 1e-6, Dimension::LENGTH),
     ("µm", 1e-6, Dimension::LENGTH),
     ("μm", 1e-6, Dimension::LENGTH),
-    ("in", 0.0254, Dimension::LENGTH),
+    ("in", FOOT / 12.0, Dimension::LENGTH),
+    ("ft", FOOT, Dimension::LENGTH),
+    ("yd", 3.0 * FOOT, Dimension::LENGTH),
     ("rad", 1.0, Dimension::ANGLE),
     ("deg", std::f64::consts::PI / 180.0, Dimension::ANGLE),
     ("°", std::f64::consts::PI / 180.0, Dimension::ANGLE),
     ("kg", 1.0, Dimension::MASS),
     ("g", 1e-3, Dimension::MASS),
     ("mg", 1e-6, Dimension::MASS),
+    ("lb", POUND, Dimension::MASS),
+    ("oz", POUND / 16.0, Dimension::MASS),
+    ("sqm", 1.0, Dimension([2, 0, 0, 0])),
+    ("gsm", 1e-3, Dimension::AREAL_MASS),
+    ("osy", POUND / 16.0 / (9.0 * FOOT * FOOT), Dimension::AREAL_MASS),
     ("s", 1.0, Dimension::TIME),
     ("ms", 1e-3, Dimension::TIME),
     ("min", 60.0, Dimension::TIME),
@@ -106,8 +127,21 @@ const UNITS: [(&str, f64, Dimension); 27] = [
     ("Hz", 1.0, Dimension::FREQUENCY),
     ("kHz", 1e3, Dimension::FREQUENCY),
     ("N", 1.0, Dimension::FORCE),
+    ("uN", 1e-6, Dimension::FORCE),
+    ("µN", 1e-6, Dimension::FORCE),
+    ("μN", 1e-6, Dimension::FORCE),
     ("mN", 1e-3, Dimension::FORCE),
+    ("cN", 1e-2, Dimension::FORCE),
     ("kN", 1e3, Dimension::FORCE),
+    ("MN", 1e6, Dimension::FORCE),
+    ("gf", 1e-3 * STANDARD_GRAVITY, Dimension::FORCE),
+    ("kgf", STANDARD_GRAVITY, Dimension::FORCE),
+    ("lbf", POUND * STANDARD_GRAVITY, Dimension::FORCE),
+    ("Nm", 1.0, Dimension::MOMENT),
+    ("Nmm", 1e-3, Dimension::MOMENT),
+    ("mNm", 1e-3, Dimension::MOMENT),
+    ("µNm", 1e-6, Dimension::MOMENT),
+    ("μNm", 1e-6, Dimension::MOMENT),
     ("Pa", 1.0, Dimension::PRESSURE),
     ("kPa", 1e3, Dimension::PRESSURE),
     ("MPa", 1e6, Dimension::PRESSURE),
@@ -137,7 +171,7 @@ impl UnitError {
             UnitError::NoNumber => "write a number and a unit, as in \"98 mm\"".into(),
             UnitError::DecimalComma => "write a decimal point, as in \"98.5 mm\"".into(),
             UnitError::Unknown(symbol) => match nearest_unit(symbol) {
-                Some(unit) => format!("did you mean `{unit}`? {}", known_units()),
+                Some(unit) => format!("did you mean `{unit}`?"),
                 None => known_units(),
             },
             UnitError::Power(_) => "write powers as in m^2, m², or s^-2".into(),
@@ -148,15 +182,26 @@ impl UnitError {
     }
 }
 
+/// The symbols, each once: without those that are another way to type µ, or a product of two.
 fn known_units() -> String {
-    let symbols: Vec<&str> = UNITS.iter().map(|(symbol, ..)| *symbol).collect();
-    format!("the units known here are {}", symbols.join(" "))
+    let symbols = UNITS.iter().map(|(symbol, ..)| *symbol);
+    let once = |symbol: &&str| !symbol.starts_with(['u', 'μ']) && !symbol.contains("Nm");
+    let symbols: Vec<&str> = symbols.filter(once).collect();
+    format!("the units known here, and their products, are {}", symbols.join(" "))
 }
 
 /// The unit that differs from a symbol in its letters' case only, or by a usual long name.
 fn nearest_unit(symbol: &str) -> Option<&'static str> {
     let long = match symbol.to_lowercase().as_str() {
         "millimeter" | "millimetre" | "millimeters" | "millimetres" => "mm",
+        "centimeter" | "centimetre" | "centimeters" | "centimetres" => "cm",
+        "micron" | "microns" | "micrometer" | "micrometre" => "um",
+        "foot" | "feet" | "'" => "ft",
+        "yard" | "yards" => "yd",
+        "pound" | "pounds" | "lbs" => "lb",
+        "ounce" | "ounces" => "oz",
+        "p" | "pond" | "gramforce" => "gf",
+        "kp" | "kilopond" => "kgf",
         "meter" | "metre" | "meters" | "metres" => "m",
         "inch" | "inches" | "\"" => "in",
         "degree" | "degrees" | "grad" => "deg",
@@ -197,6 +242,9 @@ pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
     let mut rest = text.trim();
     let mut sign = 1;
     let mut operator = None;
+    if let Some(tail) = rest.strip_prefix("1/") {
+        (rest, sign, operator) = (tail.trim_start(), -1, Some('/'));
+    }
     while !rest.is_empty() {
         // One symbol, up to an operator, a power or a space.
         let end = rest.find(|c: char| is_separator(c) || is_power(c));
@@ -219,7 +267,7 @@ pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
         total.1 = total.1.times(*dimension, sign * power);
         rest = tail.trim_start();
         (sign, operator) = (1, None);
-        if let Some(c) = rest.chars().next().filter(|c| "*·⋅/".contains(*c)) {
+        if let Some(c) = rest.chars().next().filter(|c| OPERATORS.contains(*c)) {
             sign = if c == '/' { -1 } else { 1 };
             operator = Some(c);
             rest = rest[c.len_utf8()..].trim_start();
@@ -231,27 +279,34 @@ pub(super) fn unit(text: &str) -> Result<(f64, Dimension), UnitError> {
     }
 }
 
+/// What stands between symbols: products, and the quotient.
+const OPERATORS: &str = "*·⋅∙×./";
+/// Digits of a power above the line, by value, and its sign.
+const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+const RAISED_MINUS: char = '⁻';
+
 fn is_separator(c: char) -> bool {
-    c.is_whitespace() || "*·⋅/".contains(c)
+    c.is_whitespace() || OPERATORS.contains(c)
 }
 
 fn is_power(c: char) -> bool {
-    c == '^' || "²³⁴".contains(c) || c.is_ascii_digit() || c == '-'
+    matches!(c, '^' | '-' | RAISED_MINUS) || RAISED.contains(&c) || c.is_ascii_digit()
 }
 
 /// The power at the head of a text, 1 if there is none, and what follows it.
 fn power(text: &str) -> Result<(i32, &str), UnitError> {
-    for (sign, value) in [('²', 2), ('³', 3), ('⁴', 4)] {
-        if let Some(tail) = text.strip_prefix(sign) {
-            return Ok((value, tail));
-        }
-    }
     let end = text.find(is_separator).unwrap_or(text.len());
     let (written, tail) = text.split_at(end);
     if written.is_empty() {
         return Ok((1, tail));
     }
-    let digits = written.strip_prefix('^').unwrap_or(written);
+    let lowered = |c: char| match RAISED.iter().zip('0'..).find(|(raised, _)| **raised == c) {
+        Some((_, digit)) => digit,
+        None if c == RAISED_MINUS => '-',
+        None => c,
+    };
+    let digits: String =
+        written.strip_prefix('^').unwrap_or(written).chars().map(lowered).collect();
     match digits.parse::<i32>() {
         Ok(value) if value.abs() <= 9 => Ok((value, tail)),
         _ => Err(UnitError::Power(written.to_string())),
@@ -310,6 +365,10 @@ mod tests {
             ("100 s^-1", 100.0, Dimension::FREQUENCY),
             ("180°", std::f64::consts::PI, Dimension::ANGLE),
             ("0.05 %", 0.0005, Dimension::NONE),
+            ("9.81 m s⁻²", 9.81, Dimension::ACCELERATION),
+            ("20 1/m", 20.0, Dimension::CURVATURE),
+            ("0.02 1/mm", 20.0, Dimension::CURVATURE),
+            ("0.02 N m/m", 0.02, Dimension::FORCE),
         ];
         for (text, value, dimension) in cases {
             let (v, d) = quantity(text).unwrap_or_else(|e| panic!("{text}: {e}"));
@@ -318,6 +377,39 @@ mod tests {
         }
         assert_eq!(quantity("98"), Ok((98.0, None)));
         assert_eq!(quantity("inf"), Ok((f64::INFINITY, None)));
+    }
+
+    /// The ounce has 28.349523125 g and the yard 0.9144 m, by the agreement of 1959; a gram-force is a gram under
+    /// 9.80665 m/s².
+    #[test]
+    fn units_of_data_sheets_are_read() {
+        let osy = 0.028_349_523_125 / (0.9144 * 0.9144);
+        let cases = [
+            ("314 gsm", 0.314, Dimension::AREAL_MASS),
+            ("314 g/m2", 0.314, Dimension::AREAL_MASS),
+            ("314 g/m²", 0.314, Dimension::AREAL_MASS),
+            ("314 g/sqm", 0.314, Dimension::AREAL_MASS),
+            ("9.3 oz/yd2", 9.3 * osy, Dimension::AREAL_MASS),
+            ("9.3 osy", 9.3 * osy, Dimension::AREAL_MASS),
+            ("2e-4 Nm", 2e-4, Dimension::MOMENT),
+            ("2e-4 N*m", 2e-4, Dimension::MOMENT),
+            ("2e-4 N.m", 2e-4, Dimension::MOMENT),
+            ("200 µN·m", 2e-4, Dimension::MOMENT),
+            ("200 µNm", 2e-4, Dimension::MOMENT),
+            ("0.2 mNm", 2e-4, Dimension::MOMENT),
+            ("20 mN cm", 2e-4, Dimension::MOMENT),
+            ("2000 mg cm", 2e-5, Dimension::WEIGHED_MOMENT),
+            ("2000 mg·cm", 2e-5, Dimension::WEIGHED_MOMENT),
+            ("2 gf cm^2/cm", 2.0 * 9.806_65e-5, Dimension::MOMENT),
+            ("2 lbf", 8.896_443_230_521, Dimension::FORCE),
+            ("45°", std::f64::consts::FRAC_PI_4, Dimension::ANGLE),
+            ("90 °/s", std::f64::consts::FRAC_PI_2, Dimension::ANGULAR_RATE),
+        ];
+        for (text, value, dimension) in cases {
+            let (v, d) = quantity(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+            assert!((v - value).abs() <= 1e-14 * value.abs(), "{text}: {v}");
+            assert_eq!(d, Some(dimension), "{text}");
+        }
     }
 
     #[test]

@@ -61,7 +61,7 @@ pub struct SheetDrape {
 pub struct SheetSize {
     /// Nodes.
     pub nodes: usize,
-    /// Largest distance between neighbouring lines of nodes (m).
+    /// Largest distance between neighboring lines of nodes (m).
     pub mesh: f64,
     /// Memory that its drape takes (bytes), estimated.
     pub memory: f64,

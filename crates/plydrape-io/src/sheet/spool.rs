@@ -127,6 +127,17 @@ pub struct SheetFile {
 }
 
 impl SheetFile {
+    /// A file with these bytes, in a hidden folder that is made in `dir`.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn of_bytes(bytes: &[u8], dir: &Path) -> io::Result<Self> {
+        let hidden = tempfile::Builder::new().prefix(".sheet-").tempdir_in(dir)?;
+        let path = hidden.path().join(NAME);
+        fs::write(&path, bytes)?;
+        Ok(SheetFile { path, seal: SheetSeal::of(bytes)?, _dir: hidden })
+    }
+
     /// What `result.json` has to say of it.
     #[must_use]
     pub fn seal(&self) -> &SheetSeal {

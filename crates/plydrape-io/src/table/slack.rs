@@ -1,4 +1,4 @@
-//! The slack at the end in the currencies of an engineer: as an angle of the fibres and as the height of a wrinkle.
+//! The slack at the end in the currencies of an engineer: as an angle of the fibers and as the height of a wrinkle.
 
 use super::significant;
 use plydrape::draping::record::{Summary, Verdict};
@@ -14,7 +14,7 @@ pub(crate) fn slack_in_words(summary: &Summary) -> Option<String> {
     let mut said = Vec::new();
     if let (None, Some(angle)) = (judged(Name::SlackAngle), value(Name::SlackAngle)) {
         let (angle, limit) = (significant(angle), significant(limit_as_angle(ratio)));
-        said.push(format!("a fibre angle of {angle}° (allowed {limit}°)"));
+        said.push(format!("a fiber angle of {angle}° (allowed {limit}°)"));
     }
     if let (None, Some(height)) = (judged(Name::Wrinkle), value(Name::Wrinkle)) {
         said.push(format!("a wrinkle {} mm high", significant(height)));
@@ -22,7 +22,7 @@ pub(crate) fn slack_in_words(summary: &Summary) -> Option<String> {
     (!said.is_empty()).then(|| said.join(", "))
 }
 
-/// The limit of a slack ratio as a fibre angle (°).
+/// The limit of a slack ratio as a fiber angle (°).
 fn limit_as_angle(ratio: &Verdict) -> f64 {
     angle_of_slack(ratio.limit / Name::SlackRatio.measure().unit().factor).to_degrees()
 }
@@ -47,7 +47,7 @@ mod tests {
         summary.last = last.into_iter().collect();
         assert_eq!(
             slack_in_words(&summary).as_deref(),
-            Some("a fibre angle of 8.103° (allowed 2.562°), a wrinkle 2.7 mm high")
+            Some("a fiber angle of 8.103° (allowed 2.562°), a wrinkle 2.7 mm high")
         );
         summary.limits.push(verdict(Name::SlackAngle, 8.10285, 3.0));
         assert_eq!(slack_in_words(&summary).as_deref(), Some("a wrinkle 2.7 mm high"));

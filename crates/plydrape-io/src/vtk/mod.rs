@@ -10,7 +10,7 @@
 //! | `mold.vtp` | the mold under the drape (`mold`), if there is one |
 //! | `drape.pvd` | all of them as parts of one series |
 //!
-//! A number in a file's name is that of its step. Points are in metres, z up; arrays say their unit in their
+//! A number in a file's name is that of its step. Points are in meters, z up; arrays say their unit in their
 //! names (`slack_mm`). No array holds NaN: what is not known is 0, and an array beside it says so
 //! (`has_force`). `polydata` and `collection` write the formats.
 

@@ -5,7 +5,7 @@
 //! | `u_m`, `v_m` | place in the fabric (m), from the gripper `[0, 0]` |
 //! | `z_m` | height (m) |
 //! | `gap_mm` | distance from the mold (mm), negative inside it; only with a mold |
-//! | `warp`, `weft` | unit vectors along the fibres |
+//! | `warp`, `weft` | unit vectors along the fibers |
 //!
 //! | cell data | |
 //! |---|---|

@@ -46,6 +46,8 @@ pub fn paper_ply(nu: usize, nv: usize) -> Ply {
             shear_curve: None,
             tension: None,
             locking_angle: None,
+            moment: Default::default(),
+            scatter: Default::default(),
         },
     )
 }

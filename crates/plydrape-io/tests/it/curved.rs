@@ -313,7 +313,7 @@ fn edge_off(result: &ResultFile, edge: usize) -> (f64, f64) {
 /// The dome of the examples, landed as a front that spreads from its middle: ahead of the front the ply
 /// curves away from the mold by 2 m⁻¹·(r − front)², and the net on that surface gives the grippers. A trial of the
 /// model left 0.046 mm so, and 1.04 mm on straight paths. What is left on the outer edges is the model's
-/// own: an edge hangs and lands in a vertical plane, but fibres 150 mm off the middle bow sideways with the
+/// own: an edge hangs and lands in a vertical plane, but fibers 150 mm off the middle bow sideways with the
 /// geodesic curvature of a parallel of the sphere, tan(0.15/R)/R, so that their middles lie a²/8 of it aside.
 #[test]
 fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it() {
@@ -363,7 +363,7 @@ fn a_ply_rolled_on_a_dome_from_its_middle_lies_where_a_vertical_plane_can_lay_it
 
 /// A cell of geodesic sides a, b on a unit sphere, its half diagonals p, q crossing at φ, has
 /// cos a, b = cos p cos q ± sin p sin q cos φ; on a saddle the same with hyperbolic functions. The scale is the root of
-/// (d₁² + d₂²)/2(a² + b²), and on a plane 1 by the parallelogram law. Where the diagonals are the fibres, that of the sides is the
+/// (d₁² + d₂²)/2(a² + b²), and on a plane 1 by the parallelogram law. Where the diagonals are the fibers, that of the sides is the
 /// root of (a² + b²)/2(p² + q²).
 #[test]
 fn a_cell_has_the_scale_of_its_bias_lines() {

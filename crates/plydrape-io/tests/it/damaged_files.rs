@@ -319,7 +319,7 @@ fn control_characters_in_titles_are_refused_and_those_of_names_are_escaped() {
         format!("title = \"a\\u001b[31mred\"\n{SCENE}"),
         SCENE.replace(
             "\"krogh2018\"",
-            "{ name = \"\\u0007\", mass = \"1 kg/m\", flexural_rigidity = 1 }",
+            "{ name = \"\\u0007\", mass = \"1 kg/m\", flexural_rigidity = \"1 N m^2\" }",
         ),
     ] {
         let refused = parse(&text).unwrap_err();

@@ -70,7 +70,7 @@ fn molds() -> Vec<(&'static str, Grid, Mold, f64)> {
     ]
 }
 
-/// On a curved mold the ply is coloured by its gap, the mold is there, and heights are true.
+/// On a curved mold the ply is colored by its gap, the mold is there, and heights are true.
 #[test]
 fn a_drape_on_a_curved_mold_has_a_picture_with_gaps() {
     for (name, grid, mold, spacing) in molds() {

@@ -112,7 +112,7 @@ fn a_trajectory_goes_from_start_to_target_in_its_steps() {
 }
 
 /// A scene scaled by 10 has the scaled trajectory, because no constant of a front is a length. 1e-5 of a cell is room
-/// for the net on the lifted mold, which differs by 2e-6; a height of landing in metres makes 1.5e-4.
+/// for the net on the lifted mold, which differs by 2e-6; a height of landing in meters makes 1.5e-4.
 #[test]
 fn a_scaled_scene_has_the_scaled_trajectory() {
     let planned = |s: f64| {

@@ -17,7 +17,7 @@ fn scatter(n: usize, prime: f64) -> f64 {
     (n as f64 * prime.sqrt()).fract()
 }
 
-/// Curved like the molds of the examples, over half a metre square, `scale` times as large.
+/// Curved like the molds of the examples, over half a meter square, `scale` times as large.
 fn height(scale: f64, x: f64, y: f64) -> f64 {
     let (x, y) = (x / scale, y / scale);
     scale * (0.08 * (7.0 * x).sin() * (5.0 * y).cos() + 0.2 * x * y)

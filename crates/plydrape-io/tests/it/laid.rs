@@ -93,7 +93,7 @@ position = [0, 0, "-0.25 m"]
 }
 
 /// A rectangle of 320 mm × 220 mm on a cylinder whose axis is along x, against a boundary 5 mm outside along the axis and 3 mm
-/// inside around it: lengths unrolled, in a file in millimetres.
+/// inside around it: lengths unrolled, in a file in millimeters.
 #[test]
 fn trim_of_a_scene_is_measured_from_its_file() {
     let home = tempfile::tempdir().unwrap();

@@ -70,7 +70,7 @@ fn solved(scene: &Scene, spacing: f64) -> (Solver, Vec<[f64; 3]>) {
     (solver, positions)
 }
 
-/// Vertical forces of all fibre lines on the cups (N), each with the share that is the ply's.
+/// Vertical forces of all fiber lines on the cups (N), each with the share that is the ply's.
 fn borne(ply: &Ply, solver: &Solver) -> f64 {
     let lines = ply.lines();
     let elements = solver.problem().elements.iter().enumerate();
@@ -143,8 +143,8 @@ fn contact_and_free_lengths_add_up_to_the_set_lengths() {
     }
 }
 
-/// A square of 3 × 3 cups at 45° to the yarns, drawn out along its rows in a plane: the fibres keep their length, so the
-/// columns' set length is √(d² − s₁²), and the shear angle is that between the fibres' directions.
+/// A square of 3 × 3 cups at 45° to the yarns, drawn out along its rows in a plane: the fibers keep their length, so the
+/// columns' set length is √(d² − s₁²), and the shear angle is that between the fibers' directions.
 #[test]
 fn a_ply_at_45_degrees_shears_by_the_trellis_rule() {
     for (warp, slopes) in [("45 deg", SlopeRule::MinForce), ("-45 deg", SlopeRule::MomentBalance)] {
@@ -187,7 +187,7 @@ fn a_ply_at_45_degrees_shears_by_the_trellis_rule() {
     }
 }
 
-/// A cylinder can be unrolled: a ply at 45° to its axis that lies on it has fibres of their length along the mold, and no shear.
+/// A cylinder can be unrolled: a ply at 45° to its axis that lies on it has fibers of their length along the mold, and no shear.
 #[test]
 fn a_ply_at_45_degrees_rolls_on_a_cylinder_without_shear() {
     let rest = CYLINDER.replace("seed = \"middle\"", "seed = \"middle\"\ndirection = \"45 deg\"");
@@ -211,7 +211,7 @@ fn a_ply_at_45_degrees_rolls_on_a_cylinder_without_shear() {
     }
 }
 
-/// A level sheet of 45° that is slack in all directions hangs in all of its lines, and its fibre lines bear its weight.
+/// A level sheet of 45° that is slack in all directions hangs in all of its lines, and its fiber lines bear its weight.
 #[test]
 fn a_slack_ply_at_45_degrees_hangs_in_all_of_its_lines() {
     let scene = parse(&array([4, 3], "warp = \"45 deg\""), "");

@@ -383,7 +383,7 @@ fn dot(a: &Quaternion, b: &Quaternion) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Signs of the steps are turned at random; the samples are unit and close to their neighbours, and between
+/// Signs of the steps are turned at random; the samples are unit and close to their neighbors, and between
 /// steps the angle from one sample to the next is the same.
 #[test]
 fn attitudes_are_unit_continuous_and_turn_steadily_between_steps() {

@@ -45,7 +45,7 @@ fn written_files_are_those_that_other_programs_read() {
     assert_eq!(pdf::bytes(&pattern), pdf::bytes(&pattern));
 }
 
-/// What is written for a cutter is the outline again, to a picometre.
+/// What is written for a cutter is the outline again, to a picometer.
 #[test]
 fn a_pattern_is_read_back_as_its_outline() {
     let (outline, grippers) = (ply(), grippers());

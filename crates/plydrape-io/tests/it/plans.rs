@@ -248,7 +248,7 @@ fn a_saddle_is_draped_and_a_turned_one_too() {
     example_is_draped(&example, POSITION[0]);
     let turned = example
         .with("rotation = [0, 0, \"90 deg\"]", "rotation = [0, 0, \"125 deg\"]")
-        .with("origin = \"centred\"", "origin = \"centred\"\ndirection = \"35 deg\"")
+        .with("origin = \"centered\"", "origin = \"centered\"\ndirection = \"35 deg\"")
         .with("seed = \"middle\"", "seed = \"middle\"\ndirection = \"35 deg\"");
     is_draped(&turned.scene(), 1.0, None, POSITION[0], "the saddle turned");
 }

@@ -1,7 +1,7 @@
 //! Scenes that pass: the template, the examples, and the same positions written in other ways.
 
 use plydrape::errors::{Errors, GripperErrors, Term};
-use plydrape::material::{ShearCurve, TensionLaw};
+use plydrape::material::{Section, ShearCurve, TensionLaw};
 use plydrape::scene::{
     Friction, Limits, Model, PadSettings, Scene, Settings, SheetSettings, SheetTime,
 };
@@ -236,6 +236,88 @@ fn every_limit_of_the_ply_and_the_joints_is_read_in_si_or_has_its_default() {
         (limits.gripper_load, limits.gripper_pull, limits.duration),
         (0.5, Some(4.0), Some(120.0))
     );
+}
+
+/// Words for the middle are one: where they have a meaning, all of them are taken.
+#[test]
+fn every_word_for_the_middle_is_taken() {
+    let scene = |origin: &str, seed: &str| {
+        parse(&format!(
+            "[ply]\ngrippers = [4, 2]\ncell = [0.1, 0.1]\nmaterial = \"krogh2018\"\n[mold]\nkind = \"plane\"\n[grippers]\n\
+             spacing = [0.098, 0.098]\nheight = 0.05\norigin = \"{origin}\"\n[target]\nseed = \"{seed}\"\n"
+        ))
+        .unwrap_or_else(|e| panic!("{e}"))
+        .scene
+    };
+    let usual = scene("centered", "middle");
+    for word in ["centred", "center", "centre", "middle", "centered"] {
+        let other = scene(word, word);
+        assert_eq!(other.motion, usual.motion, "{word}");
+        assert_eq!(other.target, usual.target, "{word}");
+    }
+}
+
+/// A plain number far from what is found in practice is refused; the same value with its unit is believed.
+#[test]
+fn a_value_with_its_unit_is_believed_where_a_plain_number_is_not() {
+    let scene = |cell: &str, height: &str| {
+        parse(&format!(
+            "[ply]\ngrippers = [2, 1]\ncell = [{cell}, {cell}]\nmaterial = \"krogh2018\"\n[grippers]\n\
+             spacing = [{cell}, {cell}]\nheight = {height}\n"
+        ))
+    };
+    let error = scene("100", "1").unwrap_err();
+    assert_eq!(error.message, "`100` would make cells of 100 m");
+    assert!(error.help.starts_with("did you mean \"100 mm\"?"), "{error}");
+    assert_eq!(scene("\"100 m\"", "1").unwrap().ply.cell, [100.0; 2]);
+    assert!(scene("0.1", "75").unwrap_err().help.starts_with("did you mean \"75 mm\"?"));
+    assert!(scene("0.1", "\"75 m\"").is_ok());
+    // a table of positions is read as one is
+    assert!(scene("1", "0").is_ok());
+}
+
+/// What data sheets say of one cloth, in their units: 9.26 oz/yd² are 314 g/m², and 918 mg·cm are 9e-5 N·m.
+#[test]
+fn a_material_is_read_from_the_units_of_its_data_sheet() {
+    let section = |mass: &str, rigidity: &str| {
+        let text = format!(
+            "[model]\nkind = \"catenaries\"\n[ply]\ngrippers = [2, 1]\ncell = [0.1, 0.1]\n[ply.material]\nmass = \"{mass}\"\nbending_rigidity_warp = \"{rigidity}\"\n\
+             bending_rigidity_weft = 0\n[grippers]\nspacing = [0.098, 0.098]\nheight = 0.05\n"
+        );
+        match parse(&text).unwrap_or_else(|e| panic!("{e}")).ply.material.section {
+            Section::Areal { mass, warp_rigidity, .. } => [mass, warp_rigidity],
+            Section::Line { .. } => panic!("{text}"),
+        }
+    };
+    for mass in
+        ["314 gsm", "314 g/m2", "314 g/m²", "314 g/sqm", "9.26 oz/yd2", "9.26 osy", "0.314 kg/m^2"]
+    {
+        for rigidity in [
+            "9e-5 Nm",
+            "9e-5 N*m",
+            "9e-5 N.m",
+            "90 µN·m",
+            "90 uN m",
+            "918 mg cm",
+            "918 mg·cm",
+            "0.918 gf cm^2/cm",
+        ] {
+            let [found, stiff] = section(mass, rigidity);
+            assert!((found - 0.314).abs() < 2e-4, "{mass}: {found}");
+            assert!((stiff - 9e-5).abs() < 1e-7, "{rigidity}: {stiff}");
+        }
+    }
+}
+
+/// A mark at the beginning and the line ends of Windows change nothing.
+#[test]
+fn a_file_saved_on_windows_is_read_as_any_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.toml");
+    std::fs::write(&file, format!("\u{feff}{}", scene::TEMPLATE.replace('\n', "\r\n"))).unwrap();
+    let read = scene::read(&file).unwrap_or_else(|e| panic!("{e}"));
+    let template = parse(scene::TEMPLATE).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(read.motion, template.motion);
 }
 
 /// Every key of the sheet in a unit of its own.

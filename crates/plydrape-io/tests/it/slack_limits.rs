@@ -1,4 +1,4 @@
-//! Limits in the currency of an engineer: slack as a fibre angle and as the height of a wrinkle, and presets of limits.
+//! Limits in the currency of an engineer: slack as a fiber angle and as the height of a wrinkle, and presets of limits.
 
 use crate::common::{drape, example};
 use plydrape::measure::{Name, Verdict};
@@ -25,7 +25,7 @@ fn near(found: f64, expected: f64, tolerance: f64) {
 }
 
 /// Straight paths leave slack in single edges of 100 mm; its angle is 2√ε of the slack ratio, its height 1.3256 l^(3/7) s^(4/7) of the
-/// slack in millimetres. Without a limit there is no verdict; with one it is that of the end alone, though there is more slack before.
+/// slack in millimeters. Without a limit there is no verdict; with one it is that of the end alone, though there is more slack before.
 #[test]
 fn slack_as_an_angle_and_as_a_height_has_verdicts_of_its_own() {
     let mut scene = example("01_flat_sheared_mold");

@@ -88,7 +88,7 @@ fn centre(places: &[Point]) -> Point {
     [0, 1, 2].map(|n| places.iter().map(|p| p[n]).sum::<f64>() / places.len() as f64)
 }
 
-/// A pick-up a metre beside the dome, turned by 45° or more: all distances between grippers stay within 0.01 % while it is carried,
+/// A pick-up a meter beside the dome, turned by 45° or more: all distances between grippers stay within 0.01 % while it is carried,
 /// also where the spline of the motion passes its knots; straight ways of the grippers change them by 8 %.
 #[test]
 fn a_carried_array_is_rigid() {
@@ -148,7 +148,7 @@ const BOWL: &str = "kind = \"sphere\"\nradius = 0.7\nposition = [0, 0, 0.3]\nsid
 /// A saddle with a square boundary, 0.3 m from the z axis.
 const SADDLE: &str = "kind = \"saddle\"\nradii = [0.6, 0.5]\nposition = [0, 0, -0.1]\nx = [-0.3, 0.3]\ny = [-0.3, 0.3]";
 
-/// Places of the boundary of one of these molds (m), one to two millimetres apart.
+/// Places of the boundary of one of these molds (m), one to two millimeters apart.
 fn boundary(scene: &Scene, mold: &str) -> Vec<Point> {
     if ![BOWL, SADDLE].contains(&mold) {
         return Vec::new();
@@ -375,7 +375,7 @@ fn a_transport_is_scaled_and_turned_with_its_scene() {
     }
 }
 
-/// A pick-up a metre beside the dome, turned by 45°: the drape along the transport keeps the limit of the tilt, no edge is
+/// A pick-up a meter beside the dome, turned by 45°: the drape along the transport keeps the limit of the tilt, no edge is
 /// stretched, and while the array is carried the ply hangs as it did at the start. With straight ways of the grippers they tilt by more than the 40° of the limit.
 #[test]
 fn a_drape_from_a_pick_up_beside_the_mold_keeps_its_tilt() {

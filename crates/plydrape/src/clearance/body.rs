@@ -70,6 +70,29 @@ impl Shape {
         };
         (middle, reach)
     }
+
+    /// A segment along the longest side of the box around it (m), and the farthest distance of its points from there (m): of long bodies
+    /// far less than the radius of the ball.
+    #[must_use]
+    pub fn capsule(&self) -> ([[f64; 3]; 2], f64) {
+        let [low, high] = self.bounds();
+        let half = [0, 1, 2].map(|n| 0.5 * (high[n] - low[n]));
+        let long = match self {
+            Shape::Cylinder { .. } => 2,
+            _ => (0..3).max_by(|a, b| half[*a].total_cmp(&half[*b])).unwrap_or(2),
+        };
+        let radius = match self {
+            Shape::Cylinder { radius, .. } => *radius,
+            _ => half[(long + 1) % 3].hypot(half[(long + 2) % 3]),
+        };
+        let middle = self.ball().0;
+        let end = |side: f64| {
+            let mut end = middle;
+            end[long] += side * half[long];
+            end
+        };
+        ([end(-1.0), end(1.0)], radius)
+    }
 }
 
 /// What a body moves with.

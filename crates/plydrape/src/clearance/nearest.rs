@@ -3,13 +3,13 @@
 //! Between two times the distance d of two bodies changes by no more than L, what a point of one of them can go as seen from the
 //! other ([`Moves::change`]). So in between `d ≥ (d₀ + d₁ − L)/2`, and intervals in which that could be nearer than the nearest pair
 //! are halved: first from sample to sample of the motion, with L the sum over the samples between, then between two samples. Balls
-//! around the bodies give the first bounds, and the pairs that are nearest at a few times the first distance to compare with.
+//! and capsules around the bodies give the first bounds, and the pairs that are nearest at a few times the first distance to compare with.
 
 use super::body::{Mount, Solids};
 use super::moves::{Legs, Moves, Origin, Planned, Reach, Straight};
 use super::over_mold::OverMold;
 use super::poses::Poses;
-use super::solid::Apart;
+use super::solid::{Apart, Solid, between_segments};
 use super::tuning::TUNING;
 use crate::draping::spans::Point;
 use crate::mold::vector::norm;
@@ -116,12 +116,12 @@ pub(crate) fn along_positions(scene: &Scene, positions: &[Vec<Point>]) -> Option
 pub(crate) fn from_obstacles(scene: &Scene, poses: &Poses, least: f64) -> Option<f64> {
     let moves = Straight::new(poses, poses);
     let mut search = Search::among(scene, &moves, None);
-    let balls = search.balls(0.0);
+    let hulls = search.hulls(0.0);
     let mut found = least;
-    for body in 0..balls.len() {
+    for body in 0..hulls.len() {
         for obstacle in 0..search.obstacles.len() {
             let pair = (body, Other::Obstacle(obstacle));
-            if search.gap(pair, &balls) < found {
+            if search.gap(pair, &hulls, found) < found {
                 found = found.min(search.distance(pair, 0.0));
             }
         }
@@ -190,8 +190,8 @@ pub(crate) fn along(
     }
     let mut search = Search::new(scene, moves);
     search.below = below;
-    let balls: Vec<Balls> = times.iter().map(|time| search.balls(*time)).collect();
-    let samples = Samples { times, balls: &balls, ways: search.ways(times) };
+    let hulls: Vec<Hulls> = times.iter().map(|time| search.hulls(*time)).collect();
+    let samples = Samples { times, hulls: &hulls, ways: search.ways(times) };
     let pairs = search.pairs();
     // the nearest at a few times first, so that the search can drop most intervals at once
     search.sample(&pairs, &samples);
@@ -207,7 +207,7 @@ pub(crate) fn along(
 struct Samples<'a> {
     /// When they are (s).
     times: &'a [f64],
-    balls: &'a [Balls],
+    hulls: &'a [Hulls],
     /// How far any point of a body goes at most from each to the next (m).
     ways: Vec<f64>,
 }
@@ -229,6 +229,8 @@ struct Judged {
     mount: Mount,
     /// Middle of a ball around it in the coordinates of its origin (m), and the ball's radius (m).
     ball: (Point, f64),
+    /// Axis of a capsule around it in these coordinates (m), and the capsule's radius (m).
+    capsule: ([Point; 2], f64),
     /// Distance of its farthest point from its origin at most (m).
     reach: f64,
 }
@@ -265,8 +267,8 @@ enum Other {
     Mold,
 }
 
-/// Where the balls of all bodies are at one time.
-type Balls = Vec<Point>;
+/// What is around all bodies at one time: the middle of each ball and the axis of each capsule (m).
+type Hulls = Vec<(Point, [Point; 2])>;
 
 impl<'a> Search<'a> {
     fn new(scene: &'a Scene, moves: &'a dyn Moves) -> Self {
@@ -281,11 +283,11 @@ impl<'a> Search<'a> {
         let solids = scene.bodies.made();
         let mut judged = Vec::new();
         for (n, body) in scene.bodies.bodies().iter().enumerate() {
-            let ball = solids.bodies[n].ball;
+            let Solid { ball, capsule, .. } = solids.bodies[n];
             let mut add = |gripper: Option<usize>, origin: Origin| {
                 let part = Part { body: n, gripper };
                 let reach = norm(ball.0) + ball.1;
-                judged.push(Judged { part, origin, mount: body.on, ball, reach });
+                judged.push(Judged { part, origin, mount: body.on, ball, capsule, reach });
             };
             let grippers = 0..scene.ply.grippers();
             match body.on {
@@ -326,8 +328,11 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn balls(&self, time: f64) -> Balls {
-        let place = |body: &Judged| self.moves.pose(body.origin, time).place(body.ball.0);
+    fn hulls(&self, time: f64) -> Hulls {
+        let place = |body: &Judged| {
+            let pose = self.moves.pose(body.origin, time);
+            (pose.place(body.ball.0), body.capsule.0.map(|end| pose.place(end)))
+        };
         self.judged.iter().map(place).collect()
     }
 
@@ -349,7 +354,7 @@ impl<'a> Search<'a> {
         pairs
     }
 
-    /// How far any point of a body goes at most between neighbouring times (m).
+    /// How far any point of a body goes at most between neighboring times (m).
     fn ways(&self, times: &[f64]) -> Vec<f64> {
         let farthest = |times: &[f64]| {
             let one = |body: &Judged| self.moves.change(body.reach(), None, [times[0], times[1]]);
@@ -358,16 +363,16 @@ impl<'a> Search<'a> {
         times.windows(2).map(farthest).collect()
     }
 
-    /// The nearest pairs at a few times, those with the nearest balls first.
+    /// The nearest pairs at a few times, those that could be nearest first.
     fn sample(&mut self, pairs: &[Pair], samples: &Samples) {
         let last = samples.times.len() - 1;
         let mut few: Vec<usize> =
             (0..=TUNING.first).map(|n| last * n / TUNING.first.max(1)).collect();
         few.dedup();
-        let mut open: Vec<(f64, Pair, usize)> = Vec::with_capacity(few.len() * pairs.len());
+        let mut open: Vec<(f64, Pair, usize)> = Vec::new();
         for n in few {
-            let gap = |pair: &Pair| (self.gap(*pair, &samples.balls[n]), *pair, n);
-            open.extend(pairs.iter().map(gap));
+            let gap = |pair: &Pair| (self.gap(*pair, &samples.hulls[n], self.below), *pair, n);
+            open.extend(pairs.iter().map(gap).filter(|(gap, ..)| *gap < self.below));
         }
         open.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (gap, pair, n) in open {
@@ -378,15 +383,15 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether two bodies are too far from each other at all times by their balls alone.
+    /// Whether two bodies are too far from each other at all times by what is around them alone.
     fn stays_apart(&self, pair: Pair, samples: &Samples) -> bool {
         let Other::Body(_) = pair.1 else { return false };
         let least = self.least();
-        samples.balls.iter().enumerate().all(|(n, balls)| {
+        samples.hulls.iter().enumerate().all(|(n, hulls)| {
             // both go no farther than that
             let around = [n.checked_sub(1), Some(n)].into_iter().flatten();
             let way = around.filter_map(|n| samples.ways.get(n)).copied().fold(0.0, f64::max);
-            self.gap(pair, balls) - way >= least
+            self.gap(pair, hulls, least + way) - way >= least
         })
     }
 
@@ -407,7 +412,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The distance of a pair at a sample, unless its balls are too far from each other.
+    /// The distance of a pair at a sample, unless what is around them is too far apart.
     fn meet(&mut self, course: &mut Course, n: usize) {
         if self.known(course, n) < self.least() {
             self.found(course, n);
@@ -428,7 +433,8 @@ impl<'a> Search<'a> {
 
     /// A distance that a pair does not fall short of at a sample (m).
     fn known(&self, course: &Course, n: usize) -> f64 {
-        course.found[n].unwrap_or_else(|| self.gap(course.pair, &course.samples.balls[n]))
+        let gap = || self.gap(course.pair, &course.samples.hulls[n], f64::INFINITY);
+        course.found[n].unwrap_or_else(gap)
     }
 
     /// The nearest two of a pair between two samples.
@@ -457,18 +463,28 @@ impl<'a> Search<'a> {
         self.samples(course, [middle, to]);
     }
 
-    /// A distance (m) that two do not fall short of, by the balls around bodies and the boxes around obstacles.
-    fn gap(&self, (body, other): Pair, balls: &Balls) -> f64 {
+    /// A distance (m) that two do not fall short of, by the balls around bodies and the boxes around obstacles; unless that is `enough`
+    /// (m), by the capsules around bodies.
+    fn gap(&self, (body, other): Pair, hulls: &Hulls, enough: f64) -> f64 {
         let own = self.judged[body].ball.1;
         match other {
-            Other::Body(b) => distance(balls[body], balls[b]) - own - self.judged[b].ball.1,
+            Other::Body(b) => {
+                let ((middle, axis), (its_middle, its_axis)) = (&hulls[body], &hulls[b]);
+                let (one, other) = (&self.judged[body], &self.judged[b]);
+                let balls = distance(*middle, *its_middle) - own - other.ball.1;
+                if balls >= enough {
+                    return balls;
+                }
+                let capsules = between_segments(axis, its_axis) - one.capsule.1 - other.capsule.1;
+                balls.max(capsules)
+            }
             Other::Obstacle(n) => {
                 let [low, high] = self.solids.obstacles[n].bounds;
-                let p = self.obstacles[n].local(balls[body]);
+                let p = self.obstacles[n].local(hulls[body].0);
                 norm([0, 1, 2].map(|c| (low[c] - p[c]).max(p[c] - high[c]).max(0.0))) - own
             }
             Other::Mold => {
-                self.mold.as_ref().map_or(f64::INFINITY, |mold| mold.gap(balls[body], own))
+                self.mold.as_ref().map_or(f64::INFINITY, |mold| mold.gap(hulls[body].0, own))
             }
         }
     }

@@ -46,7 +46,7 @@ impl Poses {
         Poses { stems, flange: Some(frame.compose(&tool.flange)), ..free }
     }
 
-    /// Of grippers with rigid mounts (m), whose pads are turned by the lines to their neighbours, or with the frame where they have no
+    /// Of grippers with rigid mounts (m), whose pads are turned by the lines to their neighbors, or with the frame where they have no
     /// joints: before any drape.
     #[must_use]
     pub(crate) fn by_neighbours(

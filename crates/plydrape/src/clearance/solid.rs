@@ -8,8 +8,8 @@
 use super::body::Shape;
 use crate::mold::Pose;
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
-use parry3d_f64::query::{self, ClosestPoints};
-use parry3d_f64::shape::{Cylinder, SharedShape, TriMesh, TriMeshFlags};
+use parry3d_f64::query::{self, ClosestPoints, details};
+use parry3d_f64::shape::{Cylinder, Segment, SharedShape, TriMesh, TriMeshFlags};
 use std::fmt;
 
 /// A shape that distances can be taken from.
@@ -20,6 +20,8 @@ pub(super) struct Solid {
     local: ParryPose,
     /// Middle of a ball around it (m), and the ball's radius (m).
     pub ball: ([f64; 3], f64),
+    /// A segment (m), and the farthest distance of its points from there (m).
+    pub capsule: ([[f64; 3]; 2], f64),
     /// The box around it: lowest and highest coordinates (m).
     pub bounds: [[f64; 3]; 2],
     /// A point of it (m), of which one asks whether it is inside a closed mesh.
@@ -74,7 +76,8 @@ impl Solid {
             }
             _ => (ball.0, false),
         };
-        Solid { shape: parry, local, ball, bounds: shape.bounds(), point, closed }
+        let (capsule, bounds) = (shape.capsule(), shape.bounds());
+        Solid { shape: parry, local, ball, capsule, bounds, point, closed }
     }
 
     /// How far this shape, placed by a pose, is from another one.
@@ -110,6 +113,14 @@ impl Solid {
     fn contains(&self, own: &Pose, point: [f64; 3]) -> bool {
         self.shape.contains_point(&(parry_pose(own) * self.local), vector(point))
     }
+}
+
+/// The distance of two segments (m).
+pub(super) fn between_segments(one: &[[f64; 3]; 2], other: &[[f64; 3]; 2]) -> f64 {
+    let [a, b] = [one, other].map(|[from, to]| Segment::new(vector(*from), vector(*to)));
+    let (on_a, on_b) =
+        details::closest_points_segment_segment_with_locations(&ParryPose::IDENTITY, &a, &b);
+    (a.point_at(&on_a) - b.point_at(&on_b)).length()
 }
 
 /// Whether every edge of a mesh has one triangle on each of its sides.

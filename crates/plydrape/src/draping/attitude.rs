@@ -70,7 +70,7 @@ pub fn attitude(
     across(tangent(u, slope[0]), tangent(v, slope[1]), slope, before)
 }
 
-/// How each gripper is turned (x, y, z, w) by the lines to its neighbours, whatever the ply between them does.
+/// How each gripper is turned (x, y, z, w) by the lines to its neighbors, whatever the ply between them does.
 #[must_use]
 pub fn by_neighbours(ply: &Ply, neighbours: &[Neighbours], positions: &[Point]) -> Vec<[f64; 4]> {
     let one = |n: usize| {

@@ -22,13 +22,13 @@ use crate::scene::ContactSettings;
 
 /// A diagonal about to land, and its cell at that moment.
 ///
-/// A diagonal is no fibre. When it lands its cell keeps the shear that it has: its length is the one that this shear gives on the mold,
+/// A diagonal is no fiber. When it lands its cell keeps the shear that it has: its length is the one that this shear gives on the mold,
 /// √(a² + b² ± 2ab sin γ) times [`shear::curved_scale`], on a plane the length that it hangs with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Diagonal {
     /// Sides a, b (m) of the trellis of its cell.
     pub sides: [f64; 2],
-    /// Which lines of the cell are fibres.
+    /// Which lines of the cell are fibers.
     pub fibres: Fibres,
     /// Its shear angle γ (rad), positive where the rising diagonal is the longer one.
     pub shear: f64,

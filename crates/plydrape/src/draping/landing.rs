@@ -1,4 +1,4 @@
-//! Landing errors: how far contact points are from the place of the same fabric in the ideal drape, and the angle of their fibres.
+//! Landing errors: how far contact points are from the place of the same fabric in the ideal drape, and the angle of their fibers.
 
 use super::spans::Point;
 use super::tuning::TUNING;

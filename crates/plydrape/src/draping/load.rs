@@ -18,7 +18,7 @@ pub struct Load {
 /// The loads of all grippers, in the order of [`crate::ply::Ply::index`].
 ///
 /// A span between two grippers pulls with its forces. Where the mold holds a segment at its other end, the tension is an
-/// artefact of the axial stiffness; half of its weight counts. Mounts that yield bound such a tension, and their forces count.
+/// artifact of the axial stiffness; half of its weight counts. Mounts that yield bound such a tension, and their forces count.
 #[must_use]
 pub fn loads(scene: &Scene, snapshot: &Snapshot) -> Vec<Load> {
     let (ply, lines) = (&scene.ply, scene.ply.lines());

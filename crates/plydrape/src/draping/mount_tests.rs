@@ -23,6 +23,8 @@ fn scene(grid: Grid, pad: PadSettings, heights: &[f64], [first, last]: [f64; 2])
         shear_curve: None,
         tension: None,
         locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
     };
     let ply = Ply::of_array(grid, [0.1; 2], material);
     let settings = Settings { model: Model::Catenaries, pad, ..Settings::default() };

@@ -9,7 +9,7 @@
 //!
 //! where a ball of radius r around q is known to hold nothing of the mold and to lie outside of it
 //! ([`Mold::clear`]). Each station keeps such a q from an earlier step, or takes that of its
-//! neighbour, and is evaluated again only where both bounds leave a decision open. The samples that matter are
+//! neighbor, and is evaluated again only where both bounds leave a decision open. The samples that matter are
 //! therefore the same with and without the cache.
 
 use super::bracket::minimum;

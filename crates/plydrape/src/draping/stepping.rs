@@ -13,9 +13,10 @@ use super::{CellShear, ContactStatus, Drape, Snapshot};
 use crate::equilibrium::{Continuation, Equilibrium, MountedSolver, Solver, Status};
 use crate::ply::{ContactSegment, Kind, Lines, shear};
 use crate::scene::{Scene, Stepping};
+use crate::stopwatch::Stopwatch;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A drape under way.
 #[derive(Clone)]
@@ -86,7 +87,7 @@ impl<'a> Draping<'a> {
 
     /// Solves the equilibrium at gripper positions; where mounts are hard to balance, by all means or only by a direct search.
     fn solve(&mut self, positions: &[Point], continuation: Continuation) -> Shape {
-        let start = Instant::now();
+        let watch = Stopwatch::start();
         let equilibrium: Equilibrium = match &mut self.mounts {
             None => self.solver.solve(positions, &self.contacts),
             Some(mounts) => {
@@ -96,7 +97,7 @@ impl<'a> Draping<'a> {
                 mounts.solve(&mut self.solver, positions, &self.contacts, continuation)
             }
         };
-        self.solving += start.elapsed();
+        self.solving += watch.elapsed();
         self.equilibria += 1;
         if equilibrium.status != Status::Converged {
             self.unsolved.get_or_insert(equilibrium);
@@ -281,7 +282,7 @@ impl<'a> Draping<'a> {
 
     /// The catenary of the first span with a new contact that is deeper below the mold than the tolerance. Depths that no contact would
     /// change are left out: those of the grippers, and second touches. Diagonals that have landed are left out too, because they
-    /// are no fibres, and jump where the slopes at their grippers do.
+    /// are no fibers, and jump where the slopes at their grippers do.
     fn deep(&self, shape: &Shape, gaps: &[GapSamples]) -> Option<usize> {
         let mold = self.scene.mold.as_ref()?;
         let tolerance = self.scene.settings.contact.tolerance;

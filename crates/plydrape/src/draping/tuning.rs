@@ -9,7 +9,7 @@ pub(crate) struct Tuning {
     /// Stretch that a new contact may add to the free segment beside it, as a share of that segment. 1e-4: a tenth of
     /// the overstretch that a scene allows by default.
     pub contact_stretch: f64,
-    /// Smallest share of a step to which a step is cut. 1/256: a fibre that still jumps farther than the tolerance then is
+    /// Smallest share of a step to which a step is cut. 1/256: a fiber that still jumps farther than the tolerance then is
     /// reported as penetration.
     pub smallest_cut: f64,
     /// Rounds of contact and equilibrium at one place of the grippers before the step counts as unsolved. 50: regular
@@ -48,7 +48,7 @@ pub(crate) struct Tuning {
     pub lifting_force: f64,
     /// Least vertical part of the mold's normal with which a pad is led up or down to the mold.
     pub upright_pad: f64,
-    /// Stretch of an edge, as a share of its length, beyond which a drape ends. 0.1: carbon fibre breaks at 1.5 to
+    /// Stretch of an edge, as a share of its length, beyond which a drape ends. 0.1: carbon fiber breaks at 1.5 to
     /// 2 %, and the crimp of a woven ply adds some per cent.
     pub breaking_stretch: f64,
     /// Landing error of the first contact, as a share of the ply's longer side, that explains such a stretch.

@@ -2,7 +2,7 @@
 //!
 //! What a gripper does to the ply decays within a few cells, by a factor of 10 to 100 a cell. So grippers that are far
 //! apart are moved together, and each element's change is put down to the one of them that is near: so many directions are
-//! enough as a neighbourhood has grippers, whatever the array's size (Curtis, Powell and Reid 1974).
+//! enough as a neighborhood has grippers, whatever the array's size (Curtis, Powell and Reid 1974).
 
 use crate::ply::{Grid, GripperId, Ply};
 

@@ -93,7 +93,7 @@ impl Direction {
         Some(direction)
     }
 
-    /// One metre more of fabric in every cell along u (0) or v (1): derivatives along it are per metre.
+    /// One meter more of fabric in every cell along u (0) or v (1): derivatives along it are per meter.
     ///
     /// A diagonal √(a²+b²) grows by a/√(a²+b²) with a. A line of a material by area stands for a strip that is
     /// one cell wide: it widens with the other side, and a diagonal with the mean of both.
@@ -112,7 +112,7 @@ impl Direction {
         direction
     }
 
-    /// Metres of a gripper along an axis.
+    /// Meters of a gripper along an axis.
     #[must_use]
     pub fn gripper(ply: &Ply, gripper: usize, axis: usize) -> Direction {
         let mut direction = Direction::none(ply.grippers());

@@ -122,7 +122,7 @@ pub struct Tuning {
     /// line is its axial stiffness times the error of its length.
     pub mount_length_margin: f64,
     /// Distance that a mount without stiffness yields before the fabric slides, as a share of a cell's shorter side.
-    /// 1e-6: a tenth of a micrometre of 100 mm.
+    /// 1e-6: a tenth of a micrometer of 100 mm.
     pub rigid_yield: f64,
     /// Rounds of refinement of a derivative with mounts; a regular one takes two to five.
     pub refinements: usize,

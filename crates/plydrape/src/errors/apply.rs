@@ -6,7 +6,7 @@
 //! 2. tool frame: turned about the mean of all grippers of the step, then shifted;
 //! 3. mold: moved by the inverse of the mold's motion about the middle of the target;
 //! 4. pick-up: less δ_u e_u + δ_v e_v, because the gripper holds the fabric point δ away from where it should. δ is the offset, and
-//!    the yaw times the distance from the middle of the array at a right angle. e_u and e_v are the unit chords between neighbours.
+//!    the yaw times the distance from the middle of the array at a right angle. e_u and e_v are the unit chords between neighbors.
 //!
 //! The motion is moved and not the mold, because the ideal drape belongs to the mold: positions are judged against it
 //! where the mold really is. Seen from the mold, gravity would be inclined by the mold's tilt; that is neglected, because it
@@ -164,6 +164,7 @@ impl MaterialError {
             }
         };
         let shear_curve = material.shear_curve.as_ref().map(curve);
-        Material { section, shear_curve, ..material.clone() }
+        let moment = material.moment.clone().map(|curve| curve.map(|curve| curve.times(bending)));
+        Material { section, moment, shear_curve, ..material.clone() }
     }
 }

@@ -344,7 +344,7 @@ fn off_line([u, v]: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
     (off[0] - t * way[0]).hypot(off[1] - t * way[1])
 }
 
-/// The highest node, with the two neighbouring grippers whose line, and the gripper that, is nearest in the fabric.
+/// The highest node, with the two neighboring grippers whose line, and the gripper that, is nearest in the fabric.
 fn highest(scene: &Scene, places: &[[f64; 2]], spread: &[f64]) -> Option<Highest> {
     let (node, height) = spread.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
     let (place, ply) = (places[node], &scene.ply);

@@ -47,6 +47,8 @@ pub(super) fn scene(nu: usize, nv: usize) -> Scene {
         shear_curve: Some(ShearCurve::Polynomial { coefficients: vec![5.0, 2.0] }),
         tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
         locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
     };
     let ply = Ply::of_array(grid, [0.1, 0.08], material);
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };

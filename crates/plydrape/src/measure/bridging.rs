@@ -1,6 +1,6 @@
 //! Bridging: the gap between ply and mold between two touches of one edge, of which the model follows one.
 //!
-//! A diagonal is no fibre: one that landed in another shear than its cell ends with is too short or too long for its place, and spans hollows that
+//! A diagonal is no fiber: one that landed in another shear than its cell ends with is too short or too long for its place, and spans hollows that
 //! the fabric lies in. Its gaps stand in its record.
 
 use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};

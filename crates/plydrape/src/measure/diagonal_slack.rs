@@ -1,6 +1,6 @@
 //! Slack of diagonals: fabric of a segment of a diagonal beyond its way, as the paper prints it of its example.
 //!
-//! A diagonal is no fibre and this is no wrinkle: what counts is the shear that its cell landed with
+//! A diagonal is no fiber and this is no wrinkle: what counts is the shear that its cell landed with
 //! (`landing_shear.rs`).
 
 use super::{Description, Found, Measure, Most, Site, State, Unit};

@@ -1,16 +1,16 @@
-//! Fibre angle: the angle between a landed edge, from end to end, and the same fabric in the ideal drape.
+//! Fiber angle: the angle between a landed edge, from end to end, and the same fabric in the ideal drape.
 
 use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};
 use crate::scene::Scene;
 
-/// Fibre angle; see the head of this file.
+/// Fiber angle; see the head of this file.
 pub struct FibreAngle;
 
 impl Measure for FibreAngle {
     fn description(&self) -> Description {
         Description {
             scope: Scope::End,
-            ..Description::new("fibre_angle", "fibre_angle_deg", "fibre angle", Unit::DEGREE)
+            ..Description::new("fibre_angle", "fibre_angle_deg", "fiber angle", Unit::DEGREE)
         }
     }
 

@@ -1,7 +1,7 @@
 //! Force: the largest horizontal force of an edge that hangs from gripper to gripper, as the model has it for its line.
 //!
 //! Segments that the mold holds are left out: their force is that of the axial stiffness, and so are diagonals, which
-//! are no fibres.
+//! are no fibers.
 
 use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
 use crate::scene::Scene;

@@ -2,7 +2,7 @@
 //!
 //! Both families of edges have the weight of the whole ply in the model, so each counts half here, and the boundary lines of a family, which
 //! stand for half a strip, half of that. A span between two grippers pulls with its vertical force; of a free segment that the mold
-//! holds at its other end, the tension is an artefact of the axial stiffness, and half of its weight counts.
+//! holds at its other end, the tension is an artifact of the axial stiffness, and half of its weight counts.
 
 use super::{Description, Found, Measure, Most, Site, State, Unit, Worth};
 use crate::draping::load::loads;

@@ -1,6 +1,6 @@
-//! Landing of contact points: how far the fibres that have landed are from where the ideal drape has the same fabric.
+//! Landing of contact points: how far the fibers that have landed are from where the ideal drape has the same fabric.
 //!
-//! A diagonal is no fibre. Where its points land follows from the shear that its cell lands with, which is judged by itself
+//! A diagonal is no fiber. Where its points land follows from the shear that its cell lands with, which is judged by itself
 //! (`landing_shear.rs`); their distances stand in the record of the diagonal.
 
 use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};

@@ -1,7 +1,7 @@
 //! Landing shear error |γ_end − γ_l|: how much the shear of a cell at the end differs from the one that it had when a diagonal of it
 //! landed.
 //!
-//! A diagonal is no fibre: a cell that lands with a shear other than its last one is in the wrong shape, whichever of its diagonals
+//! A diagonal is no fiber: a cell that lands with a shear other than its last one is in the wrong shape, whichever of its diagonals
 //! that leaves too long or too short. γ_end is that of the four grippers, along the mold where both ends of a diagonal stand on it.
 
 use super::{Description, Found, Measure, Most, Scope, Site, State, Unit};

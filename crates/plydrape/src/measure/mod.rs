@@ -259,10 +259,10 @@ measures! {
 }
 
 impl Name {
-    /// Its name as tables have it, `landing shear`.
+    /// Its name as tables have it, `landing shear`: that of files in words, in their spelling.
     #[must_use]
     pub fn title(self) -> String {
-        self.measure().name().replace('_', " ")
+        self.measure().name().replace('_', " ").replace("fibre", "fiber")
     }
 }
 

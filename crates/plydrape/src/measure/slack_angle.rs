@@ -1,4 +1,4 @@
-//! Slack angle: the slack ratio of an edge as an angle of its fibres.
+//! Slack angle: the slack ratio of an edge as an angle of its fibers.
 //!
 //! A line that is longer than its chord by the share ε and lies in waves `A sin kx` of small slope has ε = A²k²/4. Its
 //! steepest angle is Ak = 2√ε, whatever the number of waves. So the slack of an edge, if it is spread over the edge, has this angle; gathered in one
@@ -16,7 +16,7 @@ impl Measure for SlackAngle {
         let own = Description::new(
             "slack_angle",
             "slack_angle_deg",
-            "slack as fibre angle",
+            "slack as fiber angle",
             Unit::DEGREE,
         );
         Description { scope: Scope::End, ..own }
@@ -33,13 +33,13 @@ impl Measure for SlackAngle {
     }
 }
 
-/// The fibre angle 2√ε (rad) of a slack ratio ε.
+/// The fiber angle 2√ε (rad) of a slack ratio ε.
 #[must_use]
 pub fn angle_of_slack(ratio: f64) -> f64 {
     2.0 * ratio.sqrt()
 }
 
-/// The slack ratio ε of a fibre angle 2√ε (rad).
+/// The slack ratio ε of a fiber angle 2√ε (rad).
 #[must_use]
 pub fn slack_of_angle(angle: f64) -> f64 {
     0.25 * angle * angle

@@ -190,7 +190,7 @@ impl<'a> State<'a> {
         })
     }
 
-    /// The misfits of edges; diagonals are no fibres.
+    /// The misfits of edges; diagonals are no fibers.
     pub(crate) fn edge_misfits(&self) -> impl Iterator<Item = &Misfit> {
         let edges = self.edges();
         self.misfits().iter().filter(move |misfit| misfit.catenary < edges)

@@ -1,4 +1,4 @@
-//! What published data say of the strength that an angle of the fibres costs. It is information beside a measured angle: no limit, and no prediction for any laminate.
+//! What published data say of the strength that an angle of the fibers costs. It is information beside a measured angle: no limit, and no prediction for any laminate.
 //!
 //! | plane | source | angle | loss of strength | of what |
 //! |---|---|---|---|---|
@@ -11,7 +11,7 @@
 
 use super::Name;
 
-/// Which way fibres are turned from where they should be.
+/// Which way fibers are turned from where they should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Plane {
     /// In the plane of the ply: its direction.
@@ -23,7 +23,7 @@ pub enum Plane {
 /// Published losses of strength over an angle.
 #[derive(Debug, Clone, Copy)]
 pub struct Published {
-    /// Which way the fibres are turned.
+    /// Which way the fibers are turned.
     pub plane: Plane,
     /// What it says, from its subject to the loss.
     pub says: &'static str,
@@ -103,7 +103,7 @@ impl Published {
 }
 
 impl Plane {
-    /// Which way fibres are turned by the angle that a measure gives, if it is one.
+    /// Which way fibers are turned by the angle that a measure gives, if it is one.
     #[must_use]
     pub fn of(name: Name) -> Option<Plane> {
         match name {

@@ -1,6 +1,6 @@
 //! A mold measured at the nodes of a grid, with a smooth surface through them.
 //!
-//! The surface is the tensor product of cubic splines: along each grid line a cubic between neighbouring
+//! The surface is the tensor product of cubic splines: along each grid line a cubic between neighboring
 //! nodes, slope and curvature continuous, and the third derivative too at the first and last node
 //! inside ("not a knot"). So it reproduces every cubic in x and y, and its error falls with the fourth power
 //! of the node distance. A cubic between two nodes follows from heights z and second derivatives m at both,

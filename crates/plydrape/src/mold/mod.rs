@@ -2,7 +2,7 @@
 //!
 //! What contact and the ideal drape ask of a mold: how far a point is from it, its closest point, normal
 //! and curvatures, and where a length of fabric lies that is laid along it in a vertical plane. Distances
-//! in metres, positive outside; normals are unit vectors out of the mold, towards the ply.
+//! in meters, positive outside; normals are unit vectors out of the mold, towards the ply.
 
 pub mod formula;
 mod front_surface;

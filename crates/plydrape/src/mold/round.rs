@@ -31,7 +31,7 @@ pub struct Cylinder {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sphere {
-    /// Its centre is the local origin.
+    /// Its center is the local origin.
     pub pose: Pose,
     /// Radius (m).
     pub radius: f64,

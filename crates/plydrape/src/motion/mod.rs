@@ -70,7 +70,7 @@ impl TimedMotion {
     /// the target.
     ///
     /// A step that moves no gripper by more than a hundredth of the mean step is merged with the one
-    /// before. One position, or none a nanometre from the first, gives a motion of duration 0 at the target.
+    /// before. One position, or none a nanometer from the first, gives a motion of duration 0 at the target.
     ///
     /// # Errors
     /// [`MotionError`] if there is no position, a step lacks grippers, a coordinate is not a number up to
@@ -185,7 +185,7 @@ impl TimedMotion {
     }
 
     /// Where the path of other positions (m), one list of all grippers for each of [`Self::times`], is at these times (m): each of its places
-    /// is a mean of neighbouring positions.
+    /// is a mean of neighboring positions.
     #[must_use]
     pub(crate) fn means(&self, planned: &[Vec<[f64; 3]>]) -> Vec<Vec<[f64; 3]>> {
         let steps: Vec<&[Vector]> = planned.iter().map(Vec::as_slice).collect();

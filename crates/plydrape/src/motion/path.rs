@@ -4,7 +4,7 @@
 //! one by one. A further control point in the first and in the last leg
 //! makes the numbers match and the end curvature vanish:
 //! `Q = P_0, Q_1, P_1, P_2, …, P_{n−2}, Q_n, P_{n−1}` with `Q_1 = P_0 + h_0/(2h_0 + h_1) (P_1 − P_0)`.
-//! Any point of the path is a mean of four neighbouring control points: a gripper that stands there
+//! Any point of the path is a mean of four neighboring control points: a gripper that stands there
 //! stands, and none leaves the hull of what was planned (de Boor 1978).
 
 use crate::mold::vector::{along, sub};
@@ -53,7 +53,7 @@ impl Path {
         Path { knots, spacing: spacing.to_vec(), grippers, pieces, target }
     }
 
-    /// The path of other positions with the same knots: where four neighbours are the same, so is the path between, to the last bit.
+    /// The path of other positions with the same knots: where four neighbors are the same, so is the path between, to the last bit.
     pub fn through(&self, planned: &[&[Vector]]) -> Self {
         Path::new(planned, &self.spacing)
     }

@@ -71,7 +71,7 @@ fn factors(planned: &[&[Vector]], spacing: &[f64], cruise: &Bounds) -> Vec<f64> 
     (0..spacing.len()).map(factor).collect()
 }
 
-/// Draws every value a share of the way to the mean of its neighbours.
+/// Draws every value a share of the way to the mean of its neighbors.
 fn smooth(values: &mut [f64], share: f64) {
     let Some(mut before) = values.first().copied() else { return };
     for k in 0..values.len() {

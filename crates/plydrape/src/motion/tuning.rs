@@ -11,15 +11,15 @@ pub struct Tuning {
     pub last_sample: f64,
     /// Rounds of the iteration of the knots.
     pub rounds: usize,
-    /// Power of ρ that is applied in a round; 1 would overshoot, because neighbours change too.
+    /// Power of ρ that is applied in a round; 1 would overshoot, because neighbors change too.
     pub damping: f64,
     /// Least and largest factor of a spacing in a round.
     pub change: [f64; 2],
-    /// Share of its neighbours in a smoothed spacing in the first round; it falls to 0 with the third power.
+    /// Share of its neighbors in a smoothed spacing in the first round; it falls to 0 with the third power.
     pub smoothing: f64,
     /// Passes of smoothing in a round.
     pub passes: usize,
-    /// Largest ratio of neighbouring spacings at the start.
+    /// Largest ratio of neighboring spacings at the start.
     pub growth: f64,
     /// Cruising speeds that are tried, as shares of the limit of speed.
     pub cruise: [f64; 5],

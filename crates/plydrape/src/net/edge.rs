@@ -14,7 +14,7 @@
 use super::surface_point::SurfacePoint;
 use crate::mold::vector::{along, cross, dot, norm, sub, unit};
 
-/// How the fabric between two neighbouring nodes is measured.
+/// How the fabric between two neighboring nodes is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]

@@ -23,7 +23,7 @@ pub enum Generators {
 pub struct Layup {
     /// Nodes along u and v.
     pub nodes: [usize; 2],
-    /// Mesh widths: fabric between neighbouring nodes along u and v (m).
+    /// Mesh widths: fabric between neighboring nodes along u and v (m).
     pub mesh: [f64; 2],
     /// Fabric coordinates of node [0, 0] (m).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
@@ -38,7 +38,7 @@ pub struct Layup {
     pub shear: f64,
     /// How the generators run.
     pub generators: Generators,
-    /// How the fabric between neighbouring nodes is measured.
+    /// How the fabric between neighboring nodes is measured.
     pub edges: EdgeRule,
 }
 

@@ -1,15 +1,15 @@
 //! The ideal drape: a pin-jointed net of warp and weft on the mold.
 //!
-//! Fibres do not stretch, cells shear freely, and every node lies on the mold (Mack and Taylor 1956). So
+//! Fibers do not stretch, cells shear freely, and every node lies on the mold (Mack and Taylor 1956). So
 //! two lines of nodes determine all others: a node is the common end of two known edges of fabric. The
 //! generators run straight over the mold, or cell by cell with the least shear (Krogh et al. 2021,
 //! KinDrape). The result is X*(u, v), the place where each point of the fabric should end.
 //!
-//! Fabric coordinates u and v are metres of fabric along the two fibre directions.
+//! Fabric coordinates u and v are meters of fabric along the two fiber directions.
 //! Arrays hold node [i, j] at j·nu + i, and the cell whose lowest node is [i, j] at j·(nu − 1) + i.
 //!
 //! The net's error falls with the square of the mesh width: between two nodes the fabric is taken for
-//! the straightest line on the mold, but fibres turn sideways where the shear changes along them.
+//! the straightest line on the mold, but fibers turn sideways where the shear changes along them.
 
 mod boundary;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Between the nodes: where any point of the fabric lies, and which way its fibres run there.
+//! Between the nodes: where any point of the fabric lies, and which way its fibers run there.
 //!
 //! Places come from the tensor product of cubics through 4 × 4 nodes around the point's cell, moved to
 //! their closest point on the mold; near the boundary of the net, or beside missing nodes, the 4 × 4 nodes lie more to

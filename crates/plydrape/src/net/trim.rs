@@ -115,7 +115,7 @@ impl Wanted {
     }
 }
 
-/// Points between two others, so close that the mold is within a share of the mesh width of the line between neighbours, and
+/// Points between two others, so close that the mold is within a share of the mesh width of the line between neighbors, and
 /// no farther apart than a mesh width.
 fn follow(
     surface: &ExtendedSurface,
@@ -212,7 +212,7 @@ fn point(line: &Line, n: usize) -> SurfacePoint {
     SurfacePoint { point: line.points[n].place, normal: line.normals[n], beyond: 0.0 }
 }
 
-/// The lines between neighbouring points.
+/// The lines between neighboring points.
 fn pieces(line: &Line) -> Vec<[SurfacePoint; 2]> {
     let count = line.points.len();
     let last = if line.closed { count } else { count - 1 };

@@ -137,7 +137,7 @@ impl ComparedDrape {
         evaluation::score(&self.with_motion())
     }
 
-    /// The judgement with the limits of the motion.
+    /// The judgment with the limits of the motion.
     fn with_motion(&self) -> Judged {
         let limits = self.limits().into_iter().cloned().collect();
         Judged { limits, accepted: self.is_accepted(), ..self.judged }

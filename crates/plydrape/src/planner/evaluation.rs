@@ -208,7 +208,7 @@ impl Bias {
         }
     }
 
-    /// Whether nothing was learnt.
+    /// Whether nothing was learned.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -1,6 +1,6 @@
 //! Limits that no plan that ends at the target can keep, found before any search.
 //!
-//! Start, target and ideal drape are compared with the limits of the scene. Neighbours that are further apart at the
+//! Start, target and ideal drape are compared with the limits of the scene. Neighbors that are further apart at the
 //! start than the ply between them is long, and a start inside the mold, are not checked here, because reading the
 //! scene refuses them.
 
@@ -86,7 +86,7 @@ fn fabric(scene: &Scene, a: [f64; 3], b: [f64; 3]) -> f64 {
     }
 }
 
-/// Neighbours whose targets are further apart than the ply between them is long; targets of the net never are.
+/// Neighbors whose targets are further apart than the ply between them is long; targets of the net never are.
 fn overstretch(scene: &Scene, target: &Target) -> Option<Verdict> {
     if target.drape.is_some() {
         return None;

@@ -13,7 +13,7 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, S
 
 /// The program, as it is put together.
 pub struct Program {
-    /// The program's units of length in a metre.
+    /// The program's units of length in a meter.
     pub scale: f64,
     /// Upper triangle of the normal matrix of the least squares, column by column.
     matrix: Vec<Row>,

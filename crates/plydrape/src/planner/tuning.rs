@@ -13,7 +13,7 @@ pub struct Tuning {
     pub sensitivity: Sensitivity,
     /// Iterations of the interior point method for a quadratic program; it needs ten to thirty.
     pub program_iterations: u32,
-    /// Unit of length of a quadratic program (cells): a millimetre for cells of 100 mm, the size of what grippers have left
+    /// Unit of length of a quadratic program (cells): a millimeter for cells of 100 mm, the size of what grippers have left
     /// to correct, so that its residuals are neither tiny nor large.
     pub program_unit: f64,
 }
@@ -21,7 +21,7 @@ pub struct Tuning {
 /// Constants of the evaluation of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evaluation {
-    /// Largest distance between neighbouring lines of the sheet that ranks candidates (of the pitch of the grippers). A
+    /// Largest distance between neighboring lines of the sheet that ranks candidates (of the pitch of the grippers). A
     /// fifth: cell middles hang and land as in a finer one, and a drape takes a tenth of the time.
     pub mesh: f64,
     /// Weight of the mean of all ratios of measures to limits beside the largest. 0.1, so that it decides only among

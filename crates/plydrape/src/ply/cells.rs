@@ -1,11 +1,11 @@
-//! The cells between fibre lines, from the places of the cups in the fabric.
+//! The cells between fiber lines, from the places of the cups in the fabric.
 
 use super::Outline;
 use super::lines::{Fibres, Pair, Quad, fibre_quad};
 use super::tuning::TUNING;
 use std::collections::BTreeMap;
 
-/// Cells with straight fibre sides: four lines that close, with no cup inside and fabric along both diagonals.
+/// Cells with straight fiber sides: four lines that close, with no cup inside and fabric along both diagonals.
 pub(super) fn fibre_cells(
     places: &[[f64; 2]],
     outline: &Outline,
@@ -36,7 +36,7 @@ pub(super) fn fibre_cells(
     cells
 }
 
-/// Cells with fibres as diagonals: a line along u and one along v that cross in their middles, and sides that are no longer than
+/// Cells with fibers as diagonals: a line along u and one along v that cross in their middles, and sides that are no longer than
 /// `side` (m), the pitch of the array, and lie in the fabric.
 pub(super) fn bias_cells(
     places: &[[f64; 2]],

@@ -31,7 +31,7 @@ pub struct Held {
     pub place: [f64; 2],
 }
 
-/// Two neighbouring grippers.
+/// Two neighboring grippers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Neighbours {
     /// Their indices.
@@ -181,7 +181,7 @@ impl Ply {
     }
 }
 
-/// Unit tangents of u and v at a gripper, from the ways to its neighbours at positions (m), by least squares; across a
+/// Unit tangents of u and v at a gripper, from the ways to its neighbors at positions (m), by least squares; across a
 /// single line of grippers the horizontal direction at a right angle to it.
 #[must_use]
 pub fn tangents(
@@ -205,7 +205,7 @@ pub fn tangents(
     }
 }
 
-/// The neighbours of a gripper, each with the share of the way to it in the tangent of u, and the same of v: [`tangents`] are
+/// The neighbors of a gripper, each with the share of the way to it in the tangent of u, and the same of v: [`tangents`] are
 /// along the sums. None across a single line of grippers.
 #[must_use]
 pub fn tangent_shares(
@@ -301,7 +301,7 @@ mod tests {
         ids.filter(|id| holds(*id)).map(held).collect()
     }
 
-    /// Where the cup in the middle is off, its row and its column go on to the next one; where all hold, neighbours are
+    /// Where the cup in the middle is off, its row and its column go on to the next one; where all hold, neighbors are
     /// those of the grid, in its order.
     #[test]
     fn neighbours_are_the_next_cups_that_hold() {
@@ -318,7 +318,7 @@ mod tests {
         assert_eq!(pairs(&holed).len(), 10);
     }
 
-    /// A list of places in rows and columns has the same neighbours as the array, whatever their order.
+    /// A list of places in rows and columns has the same neighbors as the array, whatever their order.
     #[test]
     fn a_list_in_rows_and_columns_has_the_neighbours_of_the_array() {
         let mut list = array(4, 3, |_| true);

@@ -18,9 +18,9 @@ pub struct Grid {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum Kind {
-    /// Fibre line along u: in a whole array from `[i, j]` to `[i+1, j]`.
+    /// Fiber line along u: in a whole array from `[i, j]` to `[i+1, j]`.
     EdgeU,
-    /// Fibre line along v: from `[i, j]` to `[i, j+1]`.
+    /// Fiber line along v: from `[i, j]` to `[i, j+1]`.
     EdgeV,
     /// Bias line that goes on along u and along v: from `[i, j]` to `[i+1, j+1]`.
     Rising,
@@ -40,7 +40,7 @@ pub struct Catenary {
 }
 
 impl Kind {
-    /// True for fibre lines, false for bias lines.
+    /// True for fiber lines, false for bias lines.
     #[must_use]
     pub fn is_edge(self) -> bool {
         matches!(self, Kind::EdgeU | Kind::EdgeV)

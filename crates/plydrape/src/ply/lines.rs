@@ -1,13 +1,13 @@
 //! The lines of fabric between the cups, as a graph that follows from where cups hold the fabric.
 //!
-//! A *fibre line* joins two cups on one yarn with no cup between them, one or two pitches apart. A *bias line* runs across
-//! the yarns. Fibres and bias lines meet in cells, of which there are two arrangements:
+//! A *fiber line* joins two cups on one yarn with no cup between them, one or two pitches apart. A *bias line* runs across
+//! the yarns. Fibers and bias lines meet in cells, of which there are two arrangements:
 //!
-//! - four fibre lines are the sides, and two bias lines the diagonals (cups in rows along the yarns);
-//! - two fibre lines that cross in their middles are the diagonals, and four bias lines the sides (rows at 45° to the yarns).
+//! - four fiber lines are the sides, and two bias lines the diagonals (cups in rows along the yarns);
+//! - two fiber lines that cross in their middles are the diagonals, and four bias lines the sides (rows at 45° to the yarns).
 //!
-//! In both, each bias line is the diagonal of a trellis of fibres: of the cell itself, or of the parallelogram of half
-//! fibres around the bias line. So one set of formulas, that of [`super::shear`], holds for both.
+//! In both, each bias line is the diagonal of a trellis of fibers: of the cell itself, or of the parallelogram of half
+//! fibers around the bias line. So one set of formulas, that of [`super::shear`], holds for both.
 
 use super::cells::{bias_cells, fibre_cells};
 use super::tuning::TUNING;
@@ -24,9 +24,9 @@ pub struct Lines {
     lines: Vec<FabricLine>,
     fibres: usize,
     cells: Vec<LineCell>,
-    /// The fibre lines at each gripper: `[direction][before, after]`.
+    /// The fiber lines at each gripper: `[direction][before, after]`.
     beside: Vec<[[Option<usize>; 2]; 2]>,
-    /// Grippers on one yarn that fibre lines join: direction and grippers in order.
+    /// Grippers on one yarn that fiber lines join: direction and grippers in order.
     chains: Vec<(usize, Vec<usize>)>,
     /// The cells of each bias line.
     cells_of: Vec<[Option<usize>; 2]>,
@@ -52,15 +52,15 @@ pub struct LineCell {
     /// Its corners in order around it.
     pub corners: [usize; 4],
     /// Sides along u and along v (m) of the trellis whose diagonals its bias lines are, of the nominal ply: the cell's own sides,
-    /// or half of each fibre that is its diagonal.
+    /// or half of each fiber that is its diagonal.
     pub trellis: [f64; 2],
-    /// Which of its lines are fibres.
+    /// Which of its lines are fibers.
     pub fibres: Fibres,
     /// Its bias lines: the rising ones, and the falling ones.
     pub bias: [BiasLines; 2],
 }
 
-/// Which lines of a cell are fibres.
+/// Which lines of a cell are fibers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fibres {
     /// Its four sides; bias lines are its diagonals.
@@ -199,7 +199,7 @@ impl Lines {
         own
     }
 
-    /// Joins grippers by fibre lines and cells; `at` gives a gripper's name and its place in pitches.
+    /// Joins grippers by fiber lines and cells; `at` gives a gripper's name and its place in pitches.
     fn join(
         &mut self,
         edges: [Vec<Pair>; 2],
@@ -274,13 +274,13 @@ impl Lines {
         self.grippers
     }
 
-    /// Number of lines: fibre lines along u, along v, then bias lines. A catenary hangs in each.
+    /// Number of lines: fiber lines along u, along v, then bias lines. A catenary hangs in each.
     #[must_use]
     pub fn catenaries(&self) -> usize {
         self.lines.len()
     }
 
-    /// Number of fibre lines; they come first.
+    /// Number of fiber lines; they come first.
     #[must_use]
     pub fn edges(&self) -> usize {
         self.fibres
@@ -304,7 +304,7 @@ impl Lines {
         &self.cells
     }
 
-    /// The cells of a bias line, one or two; none of a fibre line.
+    /// The cells of a bias line, one or two; none of a fiber line.
     pub fn cells_of(&self, index: usize) -> impl Iterator<Item = usize> + Clone + use<> {
         let cells = index.checked_sub(self.fibres).map_or([None; 2], |n| self.cells_of[n]);
         cells.into_iter().flatten()
@@ -334,16 +334,16 @@ impl Lines {
         [0, 1].map(|d| self.pitch[d] * (start[d] + share * way[d]))
     }
 
-    /// Share of a fibre line's forces that is the ply's.
+    /// Share of a fiber line's forces that is the ply's.
     ///
-    /// Each family of fibre lines has the weight of the whole ply, so where there are two families each counts half. A line
+    /// Each family of fiber lines has the weight of the whole ply, so where there are two families each counts half. A line
     /// stands for a strip half-way to the next one of its family on each side.
     #[must_use]
     pub fn tributary(&self, index: usize) -> f64 {
         self.lines[index].tributary
     }
 
-    /// The fibre lines at a gripper along a direction (0: u, 1: v): the one before it, and the one behind it.
+    /// The fiber lines at a gripper along a direction (0: u, 1: v): the one before it, and the one behind it.
     #[must_use]
     pub fn beside(&self, gripper: usize, direction: usize) -> [Option<usize>; 2] {
         self.beside[gripper][direction]
@@ -359,13 +359,13 @@ impl Lines {
         ]
     }
 
-    /// Grippers that fibre lines join along one yarn: those along u (0) first, then those along v (1), each in ascending order.
+    /// Grippers that fiber lines join along one yarn: those along u (0) first, then those along v (1), each in ascending order.
     pub fn chains(&self) -> impl Iterator<Item = (usize, &[usize])> {
         self.chains.iter().map(|(direction, grippers)| (*direction, grippers.as_slice()))
     }
 }
 
-/// A cell whose sides are fibres, from its corners in order around it.
+/// A cell whose sides are fibers, from its corners in order around it.
 pub(super) fn fibre_quad(corners: [usize; 4], trellis: [f64; 2]) -> Quad {
     let [low, right, top, left] = corners;
     let [a, b] = trellis;
@@ -375,7 +375,7 @@ pub(super) fn fibre_quad(corners: [usize; 4], trellis: [f64; 2]) -> Quad {
     Quad { name, corners, trellis, fibres: Fibres::Sides, bias }
 }
 
-/// The fibre lines along a direction between cups on one yarn, in ascending order of v, then u of their first ends.
+/// The fiber lines along a direction between cups on one yarn, in ascending order of v, then u of their first ends.
 fn fibre_lines(
     places: &[[f64; 2]],
     outline: &Outline,
@@ -408,7 +408,7 @@ fn fibre_lines(
     pairs
 }
 
-/// Share of each fibre line along a direction: the fabric from half-way to the next line on one side to half-way to that on
+/// Share of each fiber line along a direction: the fabric from half-way to the next line on one side to half-way to that on
 /// the other, over a strip of a width (m) along the line, and halved where there are two families.
 fn tributaries(
     places: &[[f64; 2]],

@@ -82,7 +82,7 @@ fn a_missing_cup_leaves_lines_of_two_pitches_and_no_cells() {
     assert!((wide.flat_length(4, 1.0) - f64::hypot(0.2, 0.1)).abs() < 1e-15);
 }
 
-/// The strips of each family of fibre lines cover the ply between its cups once, whether cups are missing or not.
+/// The strips of each family of fiber lines cover the ply between its cups once, whether cups are missing or not.
 #[test]
 fn the_strips_of_the_lines_cover_the_ply_between_its_cups() {
     for holds in [|_: GripperId| true, |id: GripperId| id != [1, 1], |id: GripperId| id != [1, 0]] {
@@ -110,7 +110,7 @@ fn lines_run_where_the_fabric_is() {
     assert_eq!(counts(&lines(square(0.5, 0.2, 0.1))), [12, 8, 4]);
 }
 
-/// At 45° each cell has two fibres from corner to corner, which cross in its middle, and four bias lines as its sides; a side
+/// At 45° each cell has two fibers from corner to corner, which cross in its middle, and four bias lines as its sides; a side
 /// inside the array belongs to two cells.
 #[test]
 fn rows_at_45_degrees_are_bias_lines() {
@@ -153,8 +153,8 @@ fn rows_at_other_angles_have_no_lines() {
     }
 }
 
-/// The rectangle whose diagonals are two fibres that cross at 90° + γ: its sides keep s₁² + s₂² = d², and the formulas of the
-/// trellis of half fibres give back γ and the other side.
+/// The rectangle whose diagonals are two fibers that cross at 90° + γ: its sides keep s₁² + s₂² = d², and the formulas of the
+/// trellis of half fibers give back γ and the other side.
 #[test]
 fn sides_of_a_cell_of_fibre_diagonals_obey_the_trellis_rule() {
     let d: f64 = 0.14;

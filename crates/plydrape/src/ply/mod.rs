@@ -29,7 +29,7 @@ use crate::material::{Line, Material, Section};
 
 /// A woven ply held by grippers: a rectangle that ends at its array of grippers, or as it is cut.
 ///
-/// Fabric coordinates (u, v) are metres along its two families of yarns, from the first gripper.
+/// Fabric coordinates (u, v) are meters along its two families of yarns, from the first gripper.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -37,7 +37,7 @@ pub struct Ply {
     /// Grippers along u and v; [`Grid::NONE`] where grippers are no whole array along the yarns.
     pub grid: Grid,
     /// Fabric length of a cell along u and along v: a, b (m); where grippers are no array along the yarns, the pitch of the
-    /// array, or the distance of neighbours.
+    /// array, or the distance of neighbors.
     pub cell: [f64; 2],
     /// What it is made of.
     pub material: Material,
@@ -115,7 +115,7 @@ impl Ply {
         self.cut.as_ref().is_some_and(|cut| cut.turn != 0.0)
     }
 
-    /// Width of the strip that a fibre line along u or v stands for (m): from one line to the next; of the nominal ply.
+    /// Width of the strip that a fiber line along u or v stands for (m): from one line to the next; of the nominal ply.
     pub(crate) fn line_widths(&self) -> [f64; 2] {
         let [a, b] = self.cell;
         if self.is_turned() { [0.5 * a.hypot(b); 2] } else { [b, a] }
@@ -123,7 +123,7 @@ impl Ply {
 
     /// Mass per length and flexural rigidity of a catenary.
     ///
-    /// With areal properties each fibre line stands for a strip as wide as it is to the next one: `b` for the lines along
+    /// With areal properties each fiber line stands for a strip as wide as it is to the next one: `b` for the lines along
     /// u, `a` for those along v. A bias line is no tow; it takes the mean of the array's pitches, and of both rigidities.
     #[must_use]
     pub fn line(&self, kind: Kind) -> Line {
@@ -157,6 +157,8 @@ pub(crate) fn cloth(grid: Grid) -> Ply {
         tension: None,
         shear_curve: None,
         locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
     };
     Ply::of_array(grid, [0.1; 2], material)
 }

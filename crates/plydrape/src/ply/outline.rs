@@ -224,7 +224,7 @@ impl Outline {
         clipped.filter(|part| area(part) != 0.0).collect()
     }
 
-    /// Centre of the ply's area in a rectangle between two corners (m); none where there is none.
+    /// Center of the ply's area in a rectangle between two corners (m); none where there is none.
     #[must_use]
     pub fn centre_in(&self, low: [f64; 2], high: [f64; 2]) -> Option<[f64; 2]> {
         let (mut total, mut moment) = (0.0, [0.0; 2]);
@@ -397,7 +397,7 @@ fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     Some([0, 1].map(|n| c[n] + t * q[n]))
 }
 
-/// The common end of two neighbouring lines of a ring of which one goes back along the other.
+/// The common end of two neighboring lines of a ring of which one goes back along the other.
 fn folded_back([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     let (p, q, at) = if b == c { (sub(b, a), sub(d, c), b) } else { (sub(d, c), sub(b, a), d) };
     let back = dot(p, q) < 0.0 && cross(p, q).abs() <= 1e-12 * p[0].hypot(p[1]) * q[0].hypot(q[1]);

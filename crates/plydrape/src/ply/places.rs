@@ -1,13 +1,13 @@
 //! Whether gripper positions are such that the model has a solution, and times such that a motion has them.
 //!
-//! Scene files, tables and programs are held to the same: coordinates are finite and up to [`FARTHEST`], neighbours stand a
+//! Scene files, tables and programs are held to the same: coordinates are finite and up to [`FARTHEST`], neighbors stand a
 //! horizontal distance apart, because a span straight up has no horizontal force, and times ascend.
 
 use super::{Catenary, GripperId, Ply, gripper_name};
 
 /// Largest coordinate of a gripper (m): far beyond any robot, and far from where squares of distances overflow.
 pub const FARTHEST: f64 = 1e6;
-/// Least horizontal distance of neighbours as a share of the fabric between them: a span has no solution straight up.
+/// Least horizontal distance of neighbors as a share of the fabric between them: a span has no solution straight up.
 pub const STEEPEST: f64 = 0.01;
 
 /// Why gripper positions or their times are refused.
@@ -34,7 +34,7 @@ pub enum PlaceError {
         /// Where it was put (m).
         position: [f64; 3],
     },
-    /// Neighbours are (all but) straight above each other, or at one place.
+    /// Neighbors are (all but) straight above each other, or at one place.
     #[error(
         "grippers {} and {} are only {:.3} mm apart in plan{}; the ply between them is {:.2} mm: move them apart, because a span needs a horizontal distance of 1 % of its fabric or more",
         gripper_name(*a), gripper_name(*b), run * 1e3, in_step(.step), length * 1e3
@@ -105,7 +105,7 @@ impl Ply {
     /// Refuses gripper positions (m, in the order of [`super::Ply::index`]) for which the model has no solution.
     ///
     /// # Errors
-    /// [`PlaceError`]: the first gripper, or pair of neighbours, that cannot be where it is.
+    /// [`PlaceError`]: the first gripper, or pair of neighbors, that cannot be where it is.
     pub fn check_places(&self, positions: &[[f64; 3]]) -> Result<(), PlaceError> {
         let (found, expected) = (positions.len(), self.grippers());
         if found != expected {

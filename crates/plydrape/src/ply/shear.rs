@@ -89,7 +89,7 @@ pub(crate) fn diagonal([a, b]: [f64; 2], shear: f64, sign: f64) -> f64 {
 /// (m) and shear angle γ (rad): diagonals √(1 + K A²/6(a² + b²)), sides √(1 − K A²/3(a² + b²)), A = ab cos γ. 1 on a plane.
 ///
 /// With half diagonals p, q that cross at φ on a sphere of radius 1, cos a + cos b = 2 cos p cos q; to fourth order
-/// d₁² + d₂² = 2(a² + b²) + A²/3. Two half fibres a, b at an angle of π/2 ± γ have s² = a² + b² ± 2ab sin γ − A²/3 between
+/// d₁² + d₂² = 2(a² + b²) + A²/3. Two half fibers a, b at an angle of π/2 ± γ have s² = a² + b² ± 2ab sin γ − A²/3 between
 /// their ends. Ours.
 #[must_use]
 pub fn curved_scale([a, b]: [f64; 2], fibres: Fibres, shear: f64, gaussian_curvature: f64) -> f64 {

@@ -18,7 +18,7 @@ pub(crate) struct Tuning {
     /// Cosine of the shear angle up to which a cell counts as folded and its angle has no derivative.
     pub folded_cosine: f64,
     /// How far cups may be off one yarn and still be on it, as a share of their pitch. 1e-3: places that are rounded to a tenth of a
-    /// millimetre; the fabric between them is then longer than along the yarn by less than a millionth.
+    /// millimeter; the fabric between them is then longer than along the yarn by less than a millionth.
     pub same_yarn: f64,
     /// Largest share that the mold's curvature may add to the square of a diagonal. Beyond one half a cell is no small part
     /// of its mold, and the series does not hold.

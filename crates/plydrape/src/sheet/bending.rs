@@ -1,23 +1,34 @@
-//! Bending along each line: ½ D′ · width · |κ|² over half the spacing to each side, κ the second difference of three
-//! neighbouring nodes. It is quadratic, so that its second derivative is constant.
+//! Bending along each line: W(|κ|) · width over half the spacing to each side, κ the second difference of three
+//! neighboring nodes and W the integral of the moment, eq. (19d) of `docs/theory/sheet.md`.
+//!
+//! Where the moment is D′ κ the energy is ½ D′ |κ|², quadratic in the positions, and its second derivative constant. Where it
+//! is a measured curve, the second derivative to κ is W″ along κ and M/|κ| across: neither is negative, because the moment
+//! rises.
 
 use super::fabric::Bend;
+use super::matrix3::{Matrix3, outer, plus, scaled};
 use super::system::{Pair, System, add};
+use crate::material::MomentCurve;
 
 /// Bending of all lines.
 #[derive(Debug)]
 pub struct Bending {
     bends: Vec<Element>,
+    /// Moment over curvature along u and v, where it is no straight line.
+    curves: [Option<MomentCurve>; 2],
 }
 
 #[derive(Debug)]
 struct Element {
     nodes: [usize; 3],
     pairs: [Pair; 3],
-    /// κ = Σ weight · x (1/m²).
+    /// κ = Σ weight · x (1/m).
     weights: [f64; 3],
-    /// D′ · width · length (N·m³).
-    stiffness: f64,
+    direction: usize,
+    /// D′ (N·m).
+    rigidity: f64,
+    /// Width · length (m²).
+    area: f64,
 }
 
 /// Weights of the second difference over uneven spacings (1/m²).
@@ -28,24 +39,36 @@ pub fn weights([before, after]: [f64; 2]) -> [f64; 3] {
 }
 
 impl Bending {
-    /// Of lines with a flexural rigidity per width D′ along u and v (N·m).
-    pub fn new(bends: &[Bend], rigidity: [f64; 2], system: &System) -> Self {
+    /// Of lines with a flexural rigidity per width D′ along u and v (N·m), or a curve of the moment in its place.
+    pub fn new(
+        bends: &[Bend],
+        rigidity: [f64; 2],
+        curves: &[Option<MomentCurve>; 2],
+        system: &System,
+    ) -> Self {
         let element = |b: &Bend| {
             let [i, j, k] = b.nodes;
             Element {
                 nodes: b.nodes.map(|node| node as usize),
                 pairs: [[i, j], [j, k], [i, k]].map(|nodes| system.pair(nodes)),
                 weights: weights(b.spacing),
-                stiffness: rigidity[b.direction] * b.width * 0.5 * (b.spacing[0] + b.spacing[1]),
+                direction: b.direction,
+                rigidity: rigidity[b.direction],
+                area: b.width * 0.5 * (b.spacing[0] + b.spacing[1]),
             }
         };
-        Bending { bends: bends.iter().map(element).collect() }
+        Bending { bends: bends.iter().map(element).collect(), curves: curves.clone() }
     }
 
     /// Energy (J).
     pub fn energy(&self, x: &[[f64; 3]]) -> f64 {
-        let one =
-            |e: &Element| 0.5 * e.stiffness * e.curvature(x).iter().map(|c| c * c).sum::<f64>();
+        let one = |e: &Element| {
+            let squared = e.curvature(x).iter().map(|c| c * c).sum::<f64>();
+            match &self.curves[e.direction] {
+                None => 0.5 * e.rigidity * e.area * squared,
+                Some(curve) => curve.bend(squared.sqrt())[0] * e.area,
+            }
+        };
         self.bends.iter().map(one).sum()
     }
 
@@ -56,13 +79,19 @@ impl Bending {
                 continue;
             }
             let curvature = e.curvature(x);
-            for (node, weight) in e.nodes.into_iter().zip(e.weights) {
-                add(&mut system.gradient[node], e.stiffness * weight, curvature);
-                system.stiffen_scalar(node, e.stiffness * weight * weight);
-            }
-            let [a, b, c] = e.weights;
-            for (pair, product) in e.pairs.into_iter().zip([a * b, b * c, a * c]) {
-                system.couple_scalar(pair, e.stiffness * product);
+            match &self.curves[e.direction] {
+                None => e.add(e.rigidity * e.area, None, curvature, system),
+                Some(curve) => {
+                    let size = curvature.iter().map(|c| c * c).sum::<f64>().sqrt();
+                    let [_, moment, slope] = curve.bend(size);
+                    if size > 0.0 {
+                        let (secant, unit) = (moment / size, curvature.map(|c| c / size));
+                        let softer = scaled((slope - secant) * e.area, &outer(unit, unit));
+                        e.add(secant * e.area, Some(&softer), curvature, system);
+                    } else {
+                        e.add(slope * e.area, None, curvature, system);
+                    }
+                }
             }
         }
     }
@@ -73,5 +102,36 @@ impl Element {
         let [a, b, c] = self.nodes.map(|node| x[node]);
         let [p, q, r] = self.weights;
         [0, 1, 2].map(|n| p * a[n] + q * b[n] + r * c[n])
+    }
+
+    /// Adds the gradient `stiffness` · κ and the second derivative `stiffness` · I + `more` to κ (N·m³).
+    fn add(
+        &self,
+        stiffness: f64,
+        more: Option<&Matrix3>,
+        curvature: [f64; 3],
+        system: &mut System,
+    ) {
+        let [a, b, c] = self.weights;
+        for (node, weight) in self.nodes.into_iter().zip(self.weights) {
+            add(&mut system.gradient[node], stiffness * weight, curvature);
+        }
+        let couplings = self.pairs.into_iter().zip([a * b, b * c, a * c]);
+        let Some(more) = more else {
+            for (node, weight) in self.nodes.into_iter().zip(self.weights) {
+                system.stiffen_scalar(node, stiffness * weight * weight);
+            }
+            for (pair, product) in couplings {
+                system.couple_scalar(pair, stiffness * product);
+            }
+            return;
+        };
+        let whole = plus(more, stiffness, &super::matrix3::IDENTITY);
+        for (node, weight) in self.nodes.into_iter().zip(self.weights) {
+            system.stiffen(node, &scaled(weight * weight, &whole));
+        }
+        for (pair, product) in couplings {
+            system.couple(pair, &scaled(product, &whole));
+        }
     }
 }

@@ -177,7 +177,7 @@ impl<'a> Cloth<'a> {
         Cloth {
             stretch: Stretch::new(&fabric.segments, sheet.tension.clone(), &system),
             shear: Shear::new(&fabric.cells, sheet.shear.clone(), &system),
-            bending: Bending::new(&fabric.bends, sheet.rigidity, &system),
+            bending: Bending::new(&fabric.bends, sheet.rigidity, &sheet.moment, &system),
             contact,
             masses: fabric.areas.iter().map(|area| area * sheet.areal_mass).collect(),
             gripped,

@@ -293,7 +293,7 @@ impl<'a> Contact<'a> {
         !matches!(self.friction, Friction::Coulomb(_))
     }
 
-    /// The nodes that stay on the mold by themselves, if all of their neighbours stay: those that are anchored and pressed,
+    /// The nodes that stay on the mold by themselves, if all of their neighbors stay: those that are anchored and pressed,
     /// and which the forces on them, whose gradient is given (N), neither lift nor move by more than `most` (m).
     pub fn lying(
         &self,

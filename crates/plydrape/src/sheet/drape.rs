@@ -15,8 +15,9 @@ use super::tuning::Tuning;
 use crate::mold::vector::{between, distance};
 use crate::ply::flat_axes;
 use crate::scene::{Scene, SheetTime};
+use crate::stopwatch::Stopwatch;
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How a drape of the sheet ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,7 +62,7 @@ pub fn drape(
     stop: &dyn Fn() -> bool,
     mut see: impl FnMut(&State) -> ControlFlow<()>,
 ) -> Result<Drape, SheetError> {
-    let began = Instant::now();
+    let watch = Stopwatch::start();
     let (carried, _) = scene.carried();
     let scene = &*carried;
     let sheet = Sheet::new(scene)?;
@@ -98,7 +99,7 @@ pub fn drape(
     let mut summary = Summary::new(scene, &sheet, clear, &run.extremes, &last, status, effort);
     let Run { landing_step, landing_shear, releases, .. } = run;
     summary.events = releases.map(Releases::events).unwrap_or_default();
-    Ok(Drape { sheet, summary, landing_step, landing_shear, last, duration: began.elapsed() })
+    Ok(Drape { sheet, summary, landing_step, landing_shear, last, duration: watch.elapsed() })
 }
 
 /// Whether a step of so many is among the `keep` states that are kept, evenly over the steps, the first and the last with

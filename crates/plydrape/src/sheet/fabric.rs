@@ -7,7 +7,7 @@
 use crate::ply::Outline;
 use std::collections::HashMap;
 
-/// A yarn segment between two neighbouring nodes of a line.
+/// A yarn segment between two neighboring nodes of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
     /// Its nodes.
@@ -50,14 +50,14 @@ pub struct Rim {
     pub weights: [f64; 4],
 }
 
-/// Three neighbouring nodes of a line, at whose middle one the line bends.
+/// Three neighboring nodes of a line, at whose middle one the line bends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bend {
     /// Its nodes.
     pub nodes: [u32; 3],
     /// The direction along which the line runs: 0 along u, 1 along v.
     pub direction: usize,
-    /// Distance of the neighbours in the flat (m).
+    /// Distance of the neighbors in the flat (m).
     pub spacing: [f64; 2],
     /// Width of fabric that it stands for (m).
     pub width: f64,
@@ -157,7 +157,7 @@ impl Fabric {
     ///
     /// Cells that the boundary cuts keep their four nodes, also those beyond it, and count with the share of them that is
     /// ply: their shear with its area, the yarns along their sides with the width of what is beside them, their mass at the
-    /// four nodes so that its centre is where it is. So the boundary may run anywhere between the lines. Cells with less
+    /// four nodes so that its center is where it is. So the boundary may run anywhere between the lines. Cells with less
     /// than `least` of them in the ply are left out, and their mass goes to the cells beside them.
     #[must_use]
     pub fn cut(lines: [Vec<f64>; 2], outline: &Outline, least: f64) -> Self {
@@ -463,7 +463,7 @@ mod tests {
         }
     }
 
-    /// A disc with a hole, at no whole number of meshes: mass, its centre and its moments of inertia, and the area of the
+    /// A disc with a hole, at no whole number of meshes: mass, its center and its moments of inertia, and the area of the
     /// yarns along u and along v, are those of the ring to a share of a mesh; the mass is the polygon's but for slivers.
     #[test]
     fn a_ring_has_its_mass_where_it_is() {

@@ -1,12 +1,12 @@
 //! The whole ply as a sheet of yarn segments and cells, between and beyond the grippers.
 //!
 //! The catenaries are right along the lines between grippers and blind inside the cells, where a woven ply hangs lower
-//! and touches first. The sheet has nodes where the fabric's own lines cross; between neighbours along a line are yarn
+//! and touches first. The sheet has nodes where the fabric's own lines cross; between neighbors along a line are yarn
 //! segments that stretch (`stretch`), three in a row bend (`bending`), and four around a cell shear (`shear`). Pads
 //! hold their nodes (`gripper`) until they let go (`release`, `event`), the mold carries what touches it and friction holds it (`contact`). Implicit
 //! time steps with real mass (`cloth`) follow the motion of the grippers (`drape`).
 //!
-//! What is measured of it is in [`measure`]. Lengths in metres, forces in newtons, angles in radians.
+//! What is measured of it is in [`measure`]. Lengths in meters, forces in newtons, angles in radians.
 
 mod bending;
 pub mod cholesky;
@@ -36,4 +36,4 @@ pub use state::State;
 pub use tuning::Tuning;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

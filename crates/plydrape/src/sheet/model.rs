@@ -2,14 +2,14 @@
 
 use super::fabric::{Fabric, lines};
 use super::gripper::Gripper;
-use crate::material::{Section, ShearCurve, TensionLaw};
+use crate::material::{MomentCurve, Section, ShearCurve, TensionLaw};
 use crate::mold::Mold;
 use crate::ply::{Direction, Grid, GripperId, Neighbours, Outline, Ply, gripper_name};
 use crate::scene::{Friction, PadSettings, Scene, Settings};
 use crate::tool::Tool;
 
 /// Share of a cell that must be ply for the cell to count. Less of it is a sliver of fabric whose nodes hardly have a mass:
-/// with a mesh of 10 mm the boundary is half a millimetre off at most where slivers are left out.
+/// with a mesh of 10 mm the boundary is half a millimeter off at most where slivers are left out.
 const LEAST_SHARE: f64 = 0.05;
 /// Distance of two lines, as a share of the mesh, below which the less important one is not met.
 const CLOSE: f64 = 0.3;
@@ -27,6 +27,8 @@ pub struct Sheet {
     pub areal_mass: f64,
     /// Flexural rigidity per width D′ along u and v (N·m).
     pub rigidity: [f64; 2],
+    /// Bending moment per width over the curvature along u and v, where it is not D′ κ.
+    pub moment: [Option<MomentCurve>; 2],
     /// Tension per width of the yarns.
     pub tension: TensionLaw,
     /// Shear force per length of the cells.
@@ -37,9 +39,9 @@ pub struct Sheet {
     pub friction: Friction,
     /// Shear stress of its tack τ₀ (Pa).
     pub tack: f64,
-    /// Shortest distance between neighbouring grippers in the fabric (m), the length that tolerances scale with.
+    /// Shortest distance between neighboring grippers in the fabric (m), the length that tolerances scale with.
     pub pitch: f64,
-    /// Largest distance of neighbouring lines (m).
+    /// Largest distance of neighboring lines (m).
     pub mesh: f64,
     /// What carries the grippers, if they do not move by themselves.
     pub tool: Option<Tool>,
@@ -66,7 +68,7 @@ pub enum SheetError {
     },
     /// No line of nodes between two pads.
     #[error(
-        "a mesh of {mesh_mm:.3} mm puts no line of nodes into the {between_mm:.3} mm of fabric between neighbouring pads; at most {most_mm:.3} mm does"
+        "a mesh of {mesh_mm:.3} mm puts no line of nodes into the {between_mm:.3} mm of fabric between neighboring pads; at most {most_mm:.3} mm does"
     )]
     Coarse {
         /// The mesh (mm).
@@ -147,6 +149,14 @@ pub enum SheetError {
         /// Its name.
         material: String,
     },
+    /// A moment–curvature table that is none.
+    #[error(
+        "the moment table of material {material} needs as many curvatures as moments, at least two, both ascending from zero"
+    )]
+    MomentTable {
+        /// Its name.
+        material: String,
+    },
     /// The motion has no steps, or steps with another number of grippers.
     #[error("the motion has no steps for {grippers} grippers")]
     NoMotion {
@@ -179,6 +189,10 @@ impl Sheet {
             if !table || strain.len() != force.len() || strain.len() < 2 {
                 return Err(SheetError::TensionTable { material: name() });
             }
+        }
+
+        if !material.moment.iter().flatten().all(MomentCurve::is_sound) {
+            return Err(SheetError::MomentTable { material: name() });
         }
 
         let [a, b] = ply.cell;
@@ -221,6 +235,11 @@ impl Sheet {
                 Direction::V => (mass, [weft_rigidity, warp_rigidity]),
             },
         };
+        let [warp, weft] = material.moment.clone();
+        let moment = match ply.warp {
+            Direction::U => [warp, weft],
+            Direction::V => [weft, warp],
+        };
         positive("the areal mass", areal_mass)?;
         positive("the gravity", settings.gravity)?;
         for rigidity in rigidity {
@@ -238,6 +257,7 @@ impl Sheet {
             mold: scene.mold.clone(),
             areal_mass,
             rigidity,
+            moment,
             tension,
             shear,
             gravity: settings.gravity,
@@ -389,7 +409,7 @@ pub fn coarsest_mesh(pitch: f64, radius: f64) -> f64 {
     0.5 * pitch - radius
 }
 
-/// Shortest distance between neighbouring grippers in the fabric (m).
+/// Shortest distance between neighboring grippers in the fabric (m).
 #[must_use]
 pub fn pitch(ply: &Ply) -> f64 {
     let [a, b] = ply.cell;

@@ -1,6 +1,6 @@
 //! When pads let go: the rule of the scene, applied to the ply as it comes to lie.
 //!
-//! A pad's *surroundings* are the nodes of ply no farther from its middle, in the fabric, than neighbouring grippers stand
+//! A pad's *surroundings* are the nodes of ply no farther from its middle, in the fabric, than neighboring grippers stand
 //! apart, those that it holds among them. They lie when the height of each over the mold is one that the scene accepts at
 //! the end; ply that hangs beyond the mold never does. With [`ReleaseOrder::Landed`] a pad whose surroundings have lain
 //! for the dwell, in the time of the motion, lets go. After the motion all pads that still hold press for the dwell, lying
@@ -137,7 +137,7 @@ impl<'a> Releases<'a> {
     }
 }
 
-/// The nodes of ply around a gripper, as far as its nearest neighbour may stand, and those that it holds; the farthest first.
+/// The nodes of ply around a gripper, as far as its nearest neighbor may stand, and those that it holds; the farthest first.
 fn surroundings(sheet: &Sheet, gripper: usize) -> Vec<usize> {
     let [u, v] = sheet.grippers[gripper].place;
     let reach = sheet.pitch * (1.0 + 1e-9);

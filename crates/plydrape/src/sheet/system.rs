@@ -141,7 +141,7 @@ impl System {
     }
 
     /// Begins a system. `arm` gives a pad node's arm from its gripper (m); with `predicts`, the movement of held nodes
-    /// ([`System::moved`]) adds to the gradient of their neighbours; with `skips`, terms of nodes alone that stay where they are
+    /// ([`System::moved`]) adds to the gradient of their neighbors; with `skips`, terms of nodes alone that stay where they are
     /// are left out.
     pub fn begin(&mut self, predicts: bool, skips: bool, arm: impl Fn(usize, u32) -> [f64; 3]) {
         self.matrix.clear();

@@ -193,7 +193,7 @@ proptest! {
     }
 }
 
-/// A vertical plane through the centre of a sphere, or across a cylinder, cuts a circle: the chord of an
+/// A vertical plane through the center of a sphere, or across a cylinder, cuts a circle: the chord of an
 /// arc s is 2R sin(s/2R).
 #[test]
 fn fabric_laid_over_a_circle_spans_its_chord() {

@@ -14,6 +14,8 @@ fn ply() -> Ply {
         shear_curve: None,
         tension: None,
         locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
     };
     Ply::of_array(Grid { nu: 3, nv: 2 }, [0.1, 0.1], material)
 }

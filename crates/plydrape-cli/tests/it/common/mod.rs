@@ -11,7 +11,7 @@ pub fn example(name: &str) -> PathBuf {
     examples.join(name).join("scene.toml")
 }
 
-/// `plydrape`, without colours and without anything to read.
+/// `plydrape`, without colors and without anything to read.
 pub fn command() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_plydrape"));
     command.env("NO_COLOR", "1").stdin(Stdio::null());

@@ -1,13 +1,13 @@
-//! Shear by block of cells: what has which colour, and lines of equal shear.
+//! Shear by block of cells: what has which color, and lines of equal shear.
 
 use crate::figure::axes;
 use crate::figure::canvas::Ink;
 use crate::figure::colour::viridis;
 use plydrape::net::Net;
 
-/// Most blocks that have a colour of their own.
+/// Most blocks that have a color of their own.
 const BLOCKS: f64 = 6000.0;
-/// The colour scale reaches at least to here (°), so that rounding errors have no colour.
+/// The color scale reaches at least to here (°), so that rounding errors have no color.
 const LEAST: f64 = 0.5;
 
 /// Shear by block of cells, in degrees.
@@ -49,12 +49,12 @@ impl<'a> Blocks<'a> {
         [low, [0, 1].map(|c| (low[c] + self.side).min(nodes[c] - 1))]
     }
 
-    /// Upper end of the colour scale (°): the largest shear of a cell.
+    /// Upper end of the color scale (°): the largest shear of a cell.
     pub fn top(&self) -> f64 {
         self.net.report.largest_shear.map_or(LEAST, |(s, _)| s.to_degrees().max(LEAST))
     }
 
-    /// What has a colour: whole blocks, and the whole cells of the others; lowest node, highest node, ink.
+    /// What has a color: whole blocks, and the whole cells of the others; lowest node, highest node, ink.
     pub fn tiles(&self) -> Vec<([[usize; 2]; 2], Ink)> {
         let top = self.top();
         let mut tiles = Vec::new();
@@ -106,7 +106,7 @@ impl<'a> Blocks<'a> {
         pieces
     }
 
-    /// The levels of the colour bar's ticks (°) that the map shows as lines.
+    /// The levels of the color bar's ticks (°) that the map shows as lines.
     pub fn levels(&self) -> Vec<f64> {
         let found = || self.shear.iter().flatten();
         let low = found().copied().fold(f64::INFINITY, f64::min);

@@ -11,7 +11,7 @@ use crate::figure::colour::{DARK, FRAME};
 pub(super) struct Flat {
     pub left: f64,
     pub bottom: f64,
-    /// Picture points per metre.
+    /// Picture points per meter.
     pub scale: f64,
     /// Lowest and highest fabric coordinates (m).
     pub bounds: [[f64; 2]; 2],

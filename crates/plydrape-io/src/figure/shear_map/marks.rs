@@ -30,7 +30,7 @@ pub(super) fn marked(net: &Net) -> Option<(f64, [usize; 2])> {
     net.report.largest_shear.map(|(s, cell)| (s.to_degrees(), cell)).filter(|(s, _)| *s > alike)
 }
 
-/// A line with a head at its end and its name beyond it, readable on every colour.
+/// A line with a head at its end and its name beyond it, readable on every color.
 pub(super) fn arrow(canvas: &mut Canvas, path: &[Px], name: &str) -> Result<(), FigureError> {
     let [.., before, tip] = path else { return Ok(()) };
     let size = (tip[0] - before[0]).hypot(tip[1] - before[1]).max(1e-9);

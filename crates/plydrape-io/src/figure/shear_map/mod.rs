@@ -1,6 +1,6 @@
 //! The shear map of a net: on the mold in 3D, and on the flat fabric with lines of equal shear.
 //!
-//! A cell has the colour of its shear magnitude. Of large nets, blocks of cells share a colour, their
+//! A cell has the color of its shear magnitude. Of large nets, blocks of cells share a color, their
 //! mean. Where the net has no nodes, and beside a ply that is cut, nothing is drawn.
 
 mod blocks;
@@ -24,7 +24,7 @@ use marks::{dot, marked};
 use plydrape::mold::Mold;
 use plydrape::net::Net;
 
-/// Width of the sheet, and where the panels end and the colour bar begins (picture points).
+/// Width of the sheet, and where the panels end and the color bar begins (picture points).
 const WIDTH: f64 = 900.0;
 const PANELS: f64 = 800.0;
 /// Most height of the box in 3D and of the flat fabric, most width of the latter (picture points).

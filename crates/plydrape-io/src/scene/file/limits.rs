@@ -18,7 +18,7 @@ pub(in crate::scene) struct LimitsTable {
     pub preset: Option<Located<PresetKey>>,
     /// Slack of a catenary, all its segments, as a share of its length, 0.0005 unless given.
     pub slack_ratio: Option<Quantity<Ratio>>,
-    /// The same slack as a fibre angle (rad), 2√ε of the share ε; none unless given. Without a `slack_ratio` of its own
+    /// The same slack as a fiber angle (rad), 2√ε of the share ε; none unless given. Without a `slack_ratio` of its own
     /// the scene has the one of this angle.
     pub slack_angle: Option<Quantity<Angle>>,
     /// The slack of a segment as the height of the ruck that it makes (m); none unless given.
@@ -31,7 +31,7 @@ pub(in crate::scene) struct LimitsTable {
     pub landing_contact: Option<Quantity<Length>>,
     /// Distance of a gripper from its ideal place (m), 0.5 mm unless given.
     pub landing_gripper: Option<Quantity<Length>>,
-    /// Angle between landed edges and the fibres of the ideal drape (rad), 3 deg unless given.
+    /// Angle between landed edges and the fibers of the ideal drape (rad), 3 deg unless given.
     pub fibre_angle: Option<Quantity<Angle>>,
     /// Shear angle (rad); the material's locking angle unless given, 45 deg where it has none.
     pub shear: Option<Quantity<Angle>>,
@@ -47,7 +47,7 @@ pub(in crate::scene) struct LimitsTable {
     pub tilt_rate: Option<Quantity<AngularRate>>,
     /// Height of the sheet over the mold at the end (m), 0.5 mm unless given.
     pub height: Option<Quantity<Length>>,
-    /// Angle between the sheet's fibres and the mold at the end (rad), 3 deg unless given.
+    /// Angle between the sheet's fibers and the mold at the end (rad), 3 deg unless given.
     pub out_of_plane: Option<Quantity<Angle>>,
     /// Distance of the sheet's landed points from their ideal places (m), 2 mm unless given.
     pub position: Option<Quantity<Length>>,
@@ -85,7 +85,7 @@ pub(in crate::scene) struct LimitsTable {
 #[serde(rename_all = "kebab-case")]
 #[schemars(rename = "Preset")]
 pub(in crate::scene) enum PresetKey {
-    /// Position 2 mm and fibre angle 3 deg, which the project DrapeBot gives for draping.
+    /// Position 2 mm and fiber angle 3 deg, which the project DrapeBot gives for draping.
     #[serde(rename = "drapebot")]
     DrapeBot,
     /// Nothing higher over the mold than 0.5 mm.

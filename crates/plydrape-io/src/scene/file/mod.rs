@@ -27,8 +27,8 @@ use super::choice::{Centred, Curve, FrictionChoice, MaterialChoice, Place, Posit
 use super::drawing::{HoleChoice, OutlineChoice, Polygon, WarpChoice};
 use super::located::{Count, Fixed, Located};
 use super::quantity::{
-    Acceleration, Angle, BendingRigidity, FlexuralRigidity, Force, ForcePerLength, Length, Mass,
-    Pressure, Quantity, Ratio, ShearSlope, TensileStiffness, Time,
+    Acceleration, Angle, BendingRigidity, Curvature, FlexuralRigidity, Force, ForcePerLength,
+    Length, Mass, MomentPerWidth, Pressure, Quantity, Ratio, ShearSlope, TensileStiffness, Time,
 };
 use plydrape::scene::Model;
 use schemars::JsonSchema;
@@ -99,7 +99,7 @@ pub(super) struct PlyTable {
     /// Number of grippers along u and along v; [n, 1] is a strip. Of a ply that is cut, the columns and rows of the array of
     /// cups.
     pub grippers: Option<Located<Fixed<Located<Count>, 2>>>,
-    /// Fabric length between neighbouring grippers along u and along v (m); of a ply that is cut, the pitch of the array.
+    /// Fabric length between neighboring grippers along u and along v (m); of a ply that is cut, the pitch of the array.
     pub cell: Option<Fixed<Quantity<Length>, 2>>,
     /// Its boundary: points [x, y] of a drawing (m), or a DXF file. Unless given, the ply is the rectangle between its
     /// outermost grippers and its `overhang`.
@@ -188,14 +188,20 @@ pub(super) struct MaterialTable {
     pub name: Option<Located<String>>,
     /// Where the numbers come from; wanted in a material file.
     pub source: Option<Located<String>>,
+    /// The tests that gave them, and of how many specimens.
+    pub test: Option<Located<String>>,
+    /// How much they scatter between specimens.
+    pub scatter: Option<ScatterTable>,
     /// Mass per length (kg/m) or per area (kg/m²).
     pub mass: Quantity<Mass>,
     /// Flexural rigidity EI of a line of ply (N·m²); goes with a mass per length.
     pub flexural_rigidity: Option<Quantity<FlexuralRigidity>>,
-    /// Bending rigidity per width along the warp (N·m); goes with a mass per area.
-    pub bending_rigidity_warp: Option<Quantity<BendingRigidity>>,
-    /// Bending rigidity per width along the weft (N·m); goes with a mass per area.
-    pub bending_rigidity_weft: Option<Quantity<BendingRigidity>>,
+    /// Bending rigidity per width along the warp (N·m), or the moment over the curvature as a table; goes with a mass per
+    /// area.
+    pub bending_rigidity_warp: Option<Located<Curve<BendingRigidity, MomentTable>>>,
+    /// Bending rigidity per width along the weft (N·m), or the moment over the curvature as a table; goes with a mass per
+    /// area.
+    pub bending_rigidity_weft: Option<Located<Curve<BendingRigidity, MomentTable>>>,
     /// Tension per width over the strain of the yarns: a stiffness (N/m) or a table. The sheet needs it.
     pub tension: Option<Located<Curve<TensileStiffness, TensionTable>>>,
     /// Picture-frame shear force per length over the shear angle: a slope (N/m per rad) or a table. The sheet needs it.
@@ -204,19 +210,49 @@ pub(super) struct MaterialTable {
     pub locking_angle: Option<Quantity<Angle>>,
     /// The test that found the locking angle.
     pub locking_test: Option<Located<String>>,
-    /// How its fibres are held together: "woven" (the default), or "unidirectional", which is refused so far.
+    /// How its fibers are held together: "woven" (the default), or "unidirectional", which is refused so far.
     pub fabric: Option<Located<FabricKey>>,
 }
 
-/// How the fibres of a ply are held together.
+/// How the fibers of a ply are held together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "Fabric")]
 pub(super) enum FabricKey {
     /// Two families of yarns that cross: it shears as a trellis.
     Woven,
-    /// One family of fibres in a resin or a stitching: it shears along them.
+    /// One family of fibers in a resin or a stitching: it shears along them.
     Unidirectional,
+}
+
+/// Measured points of a bending test, the same to either side.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Moment")]
+pub(super) struct MomentTable {
+    /// Curvatures, ascending from 0 (1/m).
+    pub curvature: Located<Vec<Quantity<Curvature>>>,
+    /// Bending moment per width at each curvature, rising from 0 (N, that is N m per m). Its first slope is the rigidity at rest.
+    pub moment: Located<Vec<Quantity<MomentPerWidth>>>,
+}
+
+/// Standard deviation of measured properties between specimens, as a share of their value.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a table of keys and values")]
+#[schemars(rename = "Scatter")]
+pub(super) struct ScatterTable {
+    /// Of the mass.
+    pub mass: Option<Quantity<Ratio>>,
+    /// Of the flexural rigidity of a line.
+    pub flexural_rigidity: Option<Quantity<Ratio>>,
+    /// Of the bending rigidity or moment along the warp.
+    pub bending_rigidity_warp: Option<Quantity<Ratio>>,
+    /// Of the bending rigidity or moment along the weft.
+    pub bending_rigidity_weft: Option<Quantity<Ratio>>,
+    /// Of the tension.
+    pub tension: Option<Quantity<Ratio>>,
+    /// Of the shear force.
+    pub shear_curve: Option<Quantity<Ratio>>,
 }
 
 /// Measured points (`angle` and `force`), or a `polynomial`.
@@ -239,17 +275,17 @@ pub(super) struct ShearCurveTable {
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Grippers")]
 pub(super) struct GrippersTable {
-    /// Distance of neighbours along u and along v (m).
+    /// Distance of neighbors along u and along v (m).
     pub spacing: Option<Fixed<Quantity<Length>, 2>>,
     /// Height z of all grippers; above the mold, with `parallel_to_mold` (m).
     pub height: Option<Quantity<Length>>,
     /// Place x, y of gripper g0_0 (m), the origin unless given; with `parallel_to_mold`, of the mold point
-    /// below it. Or "centred": the rectangle's middle is above the middle of the target.
+    /// below it. Or "centered": the rectangle's middle is above the middle of the target.
     pub origin: Option<Located<Place<Centred>>>,
     /// Place x, y of the middle of all grippers (m), instead of the `origin`: where the ply is picked up.
     pub middle: Option<Located<Fixed<Quantity<Length>, 2>>>,
     /// Heading of u at the start (rad), from x towards y, 0 unless given; that of the target where the origin is
-    /// "centred".
+    /// "centered".
     pub direction: Option<Quantity<Angle>>,
     /// True turns the rectangle parallel to the mold, `height` along its normal.
     pub parallel_to_mold: Option<Located<bool>>,
@@ -305,6 +341,9 @@ pub(super) struct ModelTable {
     pub kind: Option<ModelKey>,
     /// How shared slopes are found, "moment-balance" unless given.
     pub slopes: Option<Slopes>,
+    /// How one span hangs, "small-sag" unless given. "exact" is refused so far: nets have the closed form of small sag, and
+    /// `plydrape span --theory exact` solves one span.
+    pub theory: Option<Located<TheoryKey>>,
     /// Axial stiffness EA of a line of ply (N), 100 kN unless given; inf for an inextensible ply.
     pub axial_stiffness: Option<Quantity<Force>>,
     /// Acceleration of gravity (m/s²), 9.81 unless given.
@@ -329,6 +368,17 @@ impl From<Model> for ModelKey {
             Model::Catenaries => ModelKey::Catenaries,
         }
     }
+}
+
+/// How one span hangs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[schemars(rename = "Theory")]
+pub(super) enum TheoryKey {
+    /// Small sag, in closed form, as in Krogh et al. 2018.
+    SmallSag,
+    /// The inextensible elastica.
+    Exact,
 }
 
 /// How shared slopes are found.

@@ -34,7 +34,7 @@ pub(in crate::scene) struct MoldTable {
     pub side: Option<Located<SideKey>>,
     /// Of a saddle: radii of curvature at its middle, upwards along x and downwards along y (m).
     pub radii: Option<Located<Fixed<Quantity<Length>, 2>>>,
-    /// Of a formula: the height over x and y, all in metres, as in "0.1*x^2 - y^2".
+    /// Of a formula: the height over x and y, all in meters, as in "0.1*x^2 - y^2".
     pub z: Option<Located<String>>,
     /// Of a saddle or a formula: from where to where it reaches along its x axis (m); goes with `y`.
     pub x: Option<Located<Fixed<Quantity<Length>, 2>>>,

@@ -10,7 +10,7 @@ use serde::Deserialize;
 #[serde(deny_unknown_fields, expecting = "a table of keys and values")]
 #[schemars(rename = "Sheet")]
 pub(in crate::scene) struct SheetTable {
-    /// Largest distance between neighbouring lines of nodes (m), a tenth of the shorter side of a cell unless given.
+    /// Largest distance between neighboring lines of nodes (m), a tenth of the shorter side of a cell unless given.
     pub mesh: Option<Quantity<Length>>,
     /// Which time the motion takes, "quasi-static" unless given.
     pub time: Option<TimeKey>,

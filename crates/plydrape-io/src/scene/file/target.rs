@@ -26,7 +26,7 @@ pub(in crate::scene) struct TargetTable {
     pub mesh: Option<Quantity<Length>>,
     /// How the first two yarns run, "geodesic" unless given.
     pub generators: Option<Located<GeneratorsKey>>,
-    /// How the fabric between neighbouring nodes of the net is measured, "along" unless given.
+    /// How the fabric between neighboring nodes of the net is measured, "along" unless given.
     pub edges: Option<Located<EdgesKey>>,
     /// The boundary that is wanted, for `plydrape net`: a CSV file (x, y, z) of points on the mold in turn around the ply.
     pub trim: Option<Located<String>>,
@@ -45,7 +45,7 @@ pub(in crate::scene) enum GeneratorsKey {
     LeastShear,
 }
 
-/// How the fabric between neighbouring nodes of the net is measured.
+/// How the fabric between neighboring nodes of the net is measured.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 #[schemars(rename = "Edges")]

@@ -7,6 +7,8 @@ use crate::scene::error::{Document, SceneError};
 use crate::scene::heading::coordinates;
 use crate::scene::layup::extent;
 use crate::scene::located::Located;
+use crate::scene::quantity::{Length, Quantity};
+use crate::scene::usual;
 use plydrape::mold::{Graph, Mold, Saddle, Surface};
 use plydrape::ply::Ply;
 use std::ops::Range;
@@ -16,7 +18,8 @@ use std::path::Path;
 pub(super) fn saddle(keys: &Keys) -> Result<Mold, SceneError> {
     let radii = keys.required(&keys.table.radii, "radii", "[\"800 mm\", \"500 mm\"]")?;
     let [along, across] = &radii.value.0;
-    let radii = [along.size(keys.document)?, across.size(keys.document)?];
+    let radius = |side: &Quantity<Length>| side.size(keys.document, &usual::RADIUS);
+    let radii = [radius(along)?, radius(across)?];
     let domain = range(keys)?;
     let pose = keys.upward_pose()?;
     Ok(Mold::Graph(Graph { pose, surface: Surface::Saddle(Saddle { radii }), domain }))

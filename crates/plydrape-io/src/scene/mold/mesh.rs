@@ -8,16 +8,66 @@ use crate::scene::located::Located;
 use crate::scene::read;
 use crate::scene::units::{self, Dimension};
 use plydrape::mold::{Mesh, MeshReport, Mold, Pose};
+use plydrape::ply::Ply;
 use std::path::Path;
 use std::sync::Arc;
 
 /// Checks the keys of a mesh, and reads its file.
-pub(super) fn mesh(keys: &Keys, base: &Path) -> Result<(Mold, MeshReport), SceneError> {
+pub(super) fn mesh(keys: &Keys, ply: &Ply, base: &Path) -> Result<(Mold, MeshReport), SceneError> {
     let file =
         keys.required(&keys.table.file, "file", "\"mold.stl\", an .stl, .obj or .inp file")?;
     let unit = keys.table.unit.as_ref();
     let (mesh, report) = mesh_file(file, unit, "mold", &keys.pose()?, keys.document, base)?;
+    if let Some(unit) = unit {
+        of_the_size_of_plies(&mesh, unit, ply, keys.document)?;
+    }
     Ok((Mold::Mesh(Arc::new(mesh)), report))
+}
+
+/// Smallest and largest mold, in diagonals of its ply: on a smaller one no ply can lie. A larger one does not exist: a thousand
+/// times a ply of 200 mm are twice the longest blade of a wind turbine.
+const OF_PLIES: [f64; 2] = [0.1, 1000.0];
+/// Units that meshes are written in.
+const MESH_UNITS: [&str; 4] = ["mm", "cm", "in", "m"];
+
+/// Refuses a mold that its ply cannot be meant for, with the sizes of both.
+fn of_the_size_of_plies(
+    mesh: &Mesh,
+    unit: &Located<String>,
+    ply: &Ply,
+    document: &Document,
+) -> Result<(), SceneError> {
+    let ([low, high], [from, to]) = (mesh.bounds(), ply.bounds(0.0));
+    let sides = [0, 1, 2].map(|n| high[n] - low[n]);
+    let of_ply = [0, 1].map(|n| to[n] - from[n]);
+    let ratio = sides[0].hypot(sides[1]).hypot(sides[2]) / of_ply[0].hypot(of_ply[1]);
+    let [least, most] = OF_PLIES;
+    if (least..=most).contains(&ratio) {
+        return Ok(());
+    }
+    let length = |unit: &str| units::unit(unit).map_or(1.0, |(length, _)| length);
+    let own = length(&unit.value);
+    // nearest to the size of the ply, on which molds are larger
+    let fits = |unit: &&str| (1.0..0.1 * most).contains(&(ratio * length(unit) / own));
+    let other = MESH_UNITS.into_iter().find(fits);
+    let side = if ratio < least { "small" } else { "large" };
+    let millimeters = |side: f64| round(1e3 * side);
+    let [x, y, z] = sides.map(millimeters);
+    let [u, v] = of_ply.map(millimeters);
+    Err(document.error(
+        unit.span.clone(),
+        format!(
+            "in {} the mold measures {x} × {y} × {z} mm, too {side} for a ply of {u} × {v} mm",
+            document.quoted(&unit.span)
+        ),
+        match other {
+            Some(other) => {
+                let [x, y, z] = sides.map(|side| millimeters(side * length(other) / own));
+                format!("did you mean unit = \"{other}\"? the mold then measures {x} × {y} × {z} mm")
+            }
+            None => "give the unit that the file is written in, and see whether the sizes in [ply] have theirs".into(),
+        },
+    ))
 }
 
 /// Reads a mesh file, whose coordinates are in a unit, and places it; `what` is what the mesh is of.
@@ -33,8 +83,8 @@ pub(in crate::scene) fn mesh_file(
         |error: MeshFileError| document.error(file.span.clone(), error.to_string(), error.remedy());
     let path = base.join(&file.value);
     let bytes = read::bytes(&path, &file.value, mesh::LARGEST).map_err(|error| {
-        let help = format!("paths are relative to the scene's folder; {}", error.help);
-        document.error(file.span.clone(), error.message, help)
+        let help = read::beside("scene", &error.help);
+        document.error(file.span.clone(), error.message, help).of_file(error.unread)
     })?;
     let parse = |scale: f64, pose: &Pose| mesh::parse(&file.value, &bytes, scale, pose);
     let Some(unit) = unit else {
@@ -47,7 +97,7 @@ pub(in crate::scene) fn mesh_file(
             file.span.clone(),
             format!("a mesh file does not say its unit, and `{}` needs one", file.value),
             format!(
-                "add unit = \"mm\" if the {what} measures {x} × {y} × {z} mm, or unit = \"m\" if these are metres"
+                "add unit = \"mm\" if the {what} measures {x} × {y} × {z} mm, or unit = \"m\" if these are meters"
             ),
         ));
     };

@@ -45,7 +45,7 @@ pub(super) fn mold(
         MoldKind::Formula => graph::formula(&keys, ply),
         MoldKind::HeightGrid => graph::height_grid(&keys, base),
         MoldKind::Mesh => {
-            let (mesh, report) = mesh::mesh(&keys, base)?;
+            let (mesh, report) = mesh::mesh(&keys, ply, base)?;
             return Ok((mesh, Some(report)));
         }
     };

@@ -115,7 +115,7 @@ pub fn stated(files: &Files) -> Deviation {
 #[derive(Debug, Clone)]
 pub struct Point {
     pub time: f64,
-    /// The centre of the tool in the frame of the mold.
+    /// The center of the tool in the frame of the mold.
     pub pose: Pose,
     pub axes: Vec<f64>,
 }

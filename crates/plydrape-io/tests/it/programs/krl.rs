@@ -116,7 +116,7 @@ fn data(name: &str, text: &str) -> Data {
     data
 }
 
-/// `X 1.0,Y 2.0, …` in millimetres and degrees.
+/// `X 1.0,Y 2.0, …` in millimeters and degrees.
 fn aggregate(line: &mut Reader) -> (Pose, Vec<f64>) {
     let mut values = [0.0; 6];
     for (n, name) in ["X", "Y", "Z", "A", "B", "C"].iter().enumerate() {

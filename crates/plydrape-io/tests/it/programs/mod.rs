@@ -1,6 +1,6 @@
 //! Programs for controllers, read back by readers that know the languages and not the templates.
 //!
-//! Each reader refuses whatever it does not know, and plays what it has read: where the centre of the tool, the external
+//! Each reader refuses whatever it does not know, and plays what it has read: where the center of the tool, the external
 //! axes and the vacuum are at which time. What is played is compared with the program at every sample.
 
 mod cell;

@@ -97,7 +97,7 @@ fn identifier(reader: &mut Reader) -> String {
     word
 }
 
-/// `[[x,y,z],[w,x,y,z]]` in millimetres.
+/// `[[x,y,z],[w,x,y,z]]` in millimeters.
 fn pose(reader: &mut Reader) -> Pose {
     reader.expect(&["["]);
     let pose = parts(reader);

@@ -1,7 +1,7 @@
 //! The record of a drape: every force, slope, contact and measure of every step; shapes are made from it by
 //! [`crate::draping::curves`].
 //!
-//! Lengths in metres, forces in newtons, angles in radians, unless the name says otherwise.
+//! Lengths in meters, forces in newtons, angles in radians, unless the name says otherwise.
 
 mod catenary;
 mod outcome;

@@ -2,7 +2,7 @@
 //!
 //! A span pulls at its ends with its horizontal force and with its vertical end forces: with w the weight per length, c the
 //! chord and M = EI z'' the end moments, `V₀ = (H h + M₀ − M₁)/ℓ − w c/2` and `V₁ = V₀ + w c`. Each edge counts with its
-//! tributary share, so that the loads of a hanging ply add up to its weight. Diagonals are no fibres; what a cell's shear
+//! tributary share, so that the loads of a hanging ply add up to its weight. Diagonals are no fibers; what a cell's shear
 //! takes acts along both of its diagonals.
 
 use super::super::direction::Direction;
@@ -26,7 +26,7 @@ pub(super) struct Held<'a> {
     pub contacts: &'a [Option<ContactSegment>],
 }
 
-/// An end of a fibre line, or of a bias line, at a pad.
+/// An end of a fiber line, or of a bias line, at a pad.
 struct Pull {
     /// The gripper.
     gripper: usize,
@@ -310,7 +310,7 @@ impl ShearResistance {
         self.bias.iter().enumerate().flat_map(|(n, bias)| bias.list().map(move |line| (n, line)))
     }
 
-    /// Tension (N) in a bias line, the derivative of the cell's energy to it. A cell of fibre sides has the area ab, one of fibre
+    /// Tension (N) in a bias line, the derivative of the cell's energy to it. A cell of fiber sides has the area ab, one of fiber
     /// diagonals 2ab and two sides in each direction; in both it is ∂(area ∫τ dγ)/∂d = ±τ d/(2 cos γ). Infinite where the cell has
     /// folded.
     fn force(&self, direction: usize, line: &BiasLine) -> f64 {

@@ -1,7 +1,7 @@
 //! Derivatives of the balanced state of ply and mounts, eq. (11d) of `docs/theory/equilibrium.md`.
 //!
 //! With r(d, p) = f + m the implicit function theorem gives `K dd/dp = ∂r/∂p`. The right side follows from the tangent
-//! of the ply with pads that follow the robot; another tangent, along the pads' own way, gives the state. The matrix of the search knows a gripper's neighbourhood only, so its solution is refined with the
+//! of the ply with pads that follow the robot; another tangent, along the pads' own way, gives the state. The matrix of the search knows a gripper's neighborhood only, so its solution is refined with the
 //! exact derivative along it until nothing is left.
 
 use super::super::direction::Direction;

@@ -20,6 +20,8 @@ fn ply(nu: usize, nv: usize) -> Ply {
             shear_curve: None,
             tension: None,
             locking_angle: None,
+            moment: Default::default(),
+            scatter: Default::default(),
         },
     )
 }
@@ -51,7 +53,7 @@ fn level(grid: Grid, spacing: f64) -> Vec<[f64; 3]> {
     (0..grid.grippers()).map(place).collect()
 }
 
-/// Places without any symmetry, some millimetres from level ones.
+/// Places without any symmetry, some millimeters from level ones.
 fn uneven(grid: Grid, spacing: f64) -> Vec<[f64; 3]> {
     let mut places = turned(grid, spacing);
     for (n, place) in places.iter_mut().enumerate() {
@@ -447,7 +449,7 @@ fn taut_and_slack_arrays_are_balanced_by_soft_and_stiff_mounts() {
     }
 }
 
-/// Beyond its first four grippers the matrix knows neighbours alone; the balance is that of the whole all the same.
+/// Beyond its first four grippers the matrix knows neighbors alone; the balance is that of the whole all the same.
 #[test]
 fn a_long_array_is_balanced_to_the_same_tolerance() {
     let ply = ply(9, 6);

@@ -31,7 +31,7 @@ pub struct Problem<T> {
     pub shearing: Vec<Stretched<T>>,
     /// Taut path of each bias line that is stretched.
     stretched: Vec<Option<T>>,
-    /// Number of fibre lines.
+    /// Number of fiber lines.
     edges: usize,
     /// The plane that shearing cells prescribe at each gripper, where they do.
     pub constraints: Vec<Option<Constraint<T>>>,
@@ -78,7 +78,7 @@ impl<T: Number> Problem<T> {
     }
 
     /// Which bias lines of each cell are stretched. The two sides of a cell that run in one direction shear it together, by the
-    /// mean of their squares: that holds whatever the sides are, as the fibres are straight and cross in their middles.
+    /// mean of their squares: that holds whatever the sides are, as the fibers are straight and cross in their middles.
     fn shear(&mut self, around: &Circumstances<T>) {
         self.shearing.clear();
         self.stretched.clear();

@@ -1,4 +1,4 @@
-//! A mold given by a formula: z = f(x, y), all in metres.
+//! A mold given by a formula: z = f(x, y), all in meters.
 //!
 //! A formula is a list of operations in the order in which a pocket calculator with a stack would
 //! do them. Each is done on the height together with its derivatives, so that slope and curvature of the

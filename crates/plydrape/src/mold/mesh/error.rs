@@ -1,6 +1,6 @@
 //! Why triangles are no mold.
 
-/// Why a mesh cannot serve as a mold. Numbers count from 1, places are in metres.
+/// Why a mesh cannot serve as a mold. Numbers count from 1, places are in meters.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// The file is in order and has no surface.
@@ -24,13 +24,13 @@ pub enum MeshError {
     Size {
         /// Diagonal of the box around all vertices (m).
         size: f64,
-        /// Metres per unit of the file.
+        /// Meters per unit of the file.
         scale: f64,
     },
     /// The scale is no positive number.
     #[error("a scale of {scale} m per unit, expected a positive number such as 0.001 for mm")]
     Scale {
-        /// Metres per unit of the file.
+        /// Meters per unit of the file.
         scale: f64,
     },
     /// Three or more triangles share an edge.
@@ -83,7 +83,7 @@ impl MeshError {
             MeshError::Empty { .. } => "export the mold as a surface mesh".into(),
             MeshError::NoArea { .. } => "check the coordinates".into(),
             MeshError::Size { .. } => "state the unit that the file is written in".into(),
-            MeshError::Scale { .. } => "give the metres of one unit of the file".into(),
+            MeshError::Scale { .. } => "give the meters of one unit of the file".into(),
             MeshError::Branching { noun, .. } => {
                 format!("a mold is one skin: two {noun}s at an edge, or one at its boundary")
             }

@@ -12,7 +12,7 @@ use crate::mold::vector::{cross, dot, norm, sub};
 
 /// No triangle: a boundary.
 pub(super) const NONE: u32 = u32::MAX;
-/// For each triangle its neighbours across the edges from corner k to corner k + 1.
+/// For each triangle its neighbors across the edges from corner k to corner k + 1.
 pub(super) type Neighbours = Vec<[u32; 3]>;
 
 /// One connected surface.
@@ -21,7 +21,7 @@ pub(super) struct Component {
     pub closed: bool,
 }
 
-/// Finds the neighbours of all triangles; refuses edges of three triangles or more.
+/// Finds the neighbors of all triangles; refuses edges of three triangles or more.
 pub(super) fn neighbours(mesh: &Joined, noun: &'static str) -> Result<Neighbours, MeshError> {
     let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * mesh.triangles.len());
     for (corners, n) in mesh.triangles.iter().zip(0u32..) {

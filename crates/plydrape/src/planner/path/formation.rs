@@ -1,7 +1,7 @@
 //! Positions of the grippers while a front passes over the mold: the net on the mold that is lifted ahead of the front.
 //!
 //! Inside the front the net is the ideal drape, outside it the fabric curves away from the mold. Because it is a net
-//! at every moment, fibre lengths are right at every moment. Then its lines are made taut, see `taut`. A pretension
+//! at every moment, fiber lengths are right at every moment. Then its lines are made taut, see `taut`. A pretension
 //! stretches what is ahead of the front a little.
 
 use super::strategy::Strategy;

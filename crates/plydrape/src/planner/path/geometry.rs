@@ -7,7 +7,7 @@ use crate::ply::{Neighbours, Ply, tangents};
 use crate::scene::Scene;
 
 /// The largest ratio of a measure to its limit: tilt, workspace, and distance of the grippers. Above 1 no drape keeps
-/// them all, but for the tilt, which is that of the lines between neighbours and not of the ply itself.
+/// them all, but for the tilt, which is that of the lines between neighbors and not of the ply itself.
 #[must_use]
 pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
     let limits = &scene.limits;
@@ -22,7 +22,7 @@ pub fn excess(scene: &Scene, positions: &[Vec<Point>]) -> f64 {
     positions.iter().map(one).fold(0.0, f64::max)
 }
 
-/// Largest angle (rad) between the stems (unit vector) and the normal of the lines to neighbouring grippers.
+/// Largest angle (rad) between the stems (unit vector) and the normal of the lines to neighboring grippers.
 fn tilt(ply: &Ply, neighbours: &[Neighbours], positions: &[Point], stem: Point) -> f64 {
     let one = |n: usize| {
         let [u, v] = tangents(ply, neighbours, positions, n);

@@ -1,4 +1,4 @@
-//! Taut lines of the ply between neighbouring grippers, while a front passes over the mold.
+//! Taut lines of the ply between neighboring grippers, while a front passes over the mold.
 //!
 //! The net on the lifted mold follows its curvature, but a free line hangs from gripper to gripper along a chord, so the
 //! net leaves slack. Here grippers are moved sideways, at the height that they have, until every free line is as long as
@@ -13,7 +13,7 @@ use crate::mold::vector::{between, distance};
 use crate::ply::Neighbours;
 use crate::scene::Scene;
 
-/// The lines between neighbouring grippers of a scene, as they shall lie on the mold.
+/// The lines between neighboring grippers of a scene, as they shall lie on the mold.
 #[derive(Debug, Clone)]
 pub struct Lines(Vec<Line>);
 

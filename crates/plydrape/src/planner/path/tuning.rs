@@ -144,7 +144,7 @@ pub struct Search {
     /// because of that error.
     pub promising: [f64; 2],
     /// Ratio of a measure to its limit by the grippers alone beyond which a candidate is not draped: above 1, because the
-    /// ply tilts a gripper less or more than the lines to its neighbours.
+    /// ply tilts a gripper less or more than the lines to its neighbors.
     pub excess: f64,
     /// Score of such a candidate, as a multiple of the ratio: worse than that of one that is draped.
     pub not_draped: f64,

@@ -59,7 +59,7 @@ pub fn corrected(
     path.iter().zip(&shifts).map(add).collect()
 }
 
-/// Refuses a motion that changes the distance of neighbouring grippers in the steps up to `last_free`.
+/// Refuses a motion that changes the distance of neighboring grippers in the steps up to `last_free`.
 pub fn rigid(
     scene: &Scene,
     planned: &TimedMotion,

@@ -243,7 +243,7 @@ fn a_drape_along_the_corrected_motion_finds_the_moved_record() {
 }
 
 /// The sheet of a coarse mesh lands along the corrected motion as along the planned one: the height at the end within a hundredth
-/// of a millimetre, and at the same step.
+/// of a millimeter, and at the same step.
 #[test]
 fn a_sheet_along_the_corrected_motion_lands_alike() {
     let found = dome();

@@ -8,7 +8,7 @@ pub struct Tuning {
     pub rounds: usize,
     /// What is left (of the largest displacement) at which the rounds end: below what any robot resolves.
     pub passed: f64,
-    /// Largest change of the distance of two neighbouring grippers in a step, as a share of it: a tenth of the usual limit of overstretch.
+    /// Largest change of the distance of two neighboring grippers in a step, as a share of it: a tenth of the usual limit of overstretch.
     pub rigid: f64,
     /// Share of the smallest distance found along a straight way that is good enough as a bound of what no point of it falls short
     /// of: the search for a better one costs more than it saves.

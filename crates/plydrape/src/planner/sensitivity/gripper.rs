@@ -67,7 +67,7 @@ impl Sensitivity<'_> {
         Quantity { value, gradient }
     }
 
-    /// What says how a gripper is tilted along u and v where no fibre line runs through it in one of them; see
+    /// What says how a gripper is tilted along u and v where no fiber line runs through it in one of them; see
     /// [`crate::draping::attitude::attitude`].
     fn neighbour_shares(&self, gripper: usize) -> Option<[Vec<(usize, f64)>; 2]> {
         let ply = &self.scene.ply;

@@ -72,7 +72,7 @@ impl Front {
 
     /// How high a gripper should be above the mold (m).
     ///
-    /// A gripper goes down the last millimetre in one step: an edge that is in contact up to a gripper is held at the
+    /// A gripper goes down the last millimeter in one step: an edge that is in contact up to a gripper is held at the
     /// closest point of the gripper, and would be stretched by the height of the gripper above it.
     pub fn height(&self, gripper: usize) -> f64 {
         let height = self.base + self.lift(gripper, self.radius);

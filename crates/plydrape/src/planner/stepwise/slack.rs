@@ -1,7 +1,7 @@
 //! The last moves: the grippers remove the slack of free segments beside them.
 //!
 //! Contacts stay, so the fabric between a gripper and the contact next to it keeps the position errors of the
-//! landing, a few hundredths of a millimetre. A gripper may end as far from its target as
+//! landing, a few hundredths of a millimeter. A gripper may end as far from its target as
 //! `limits.landing_gripper`; within a share of that it removes the slack: least squares of the moves, with segments
 //! that would be slack stretched a little beyond their length, and none stretched beyond its limit.
 

@@ -19,6 +19,8 @@ pub fn scene(count: usize) -> Scene {
         shear_curve: None,
         tension: None,
         locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
     };
     let ply = Ply::of_array(grid, [0.1; 2], material);
     let settings = Settings { model: Model::Catenaries, ..Settings::default() };
@@ -68,7 +70,7 @@ fn size(count: usize) -> usize {
 }
 
 /// With nine times the grippers there are nine times the numbers in a step's program, but for the boundary, where grippers
-/// have fewer neighbours.
+/// have fewer neighbors.
 #[test]
 fn a_step_grows_linearly_with_the_grippers() {
     let per_gripper = [10, 20, 30].map(|count| size(count) as f64 / (count * count) as f64);

@@ -64,7 +64,7 @@ pub struct Tuning {
 pub struct Weights {
     /// Height of a gripper.
     pub height: f64,
-    /// Stretch of an edge; large, because its residuals are micrometres and those of heights millimetres.
+    /// Stretch of an edge; large, because its residuals are micrometers and those of heights millimeters.
     pub stretch: f64,
     /// Position error of a gripper anywhere.
     pub place: f64,

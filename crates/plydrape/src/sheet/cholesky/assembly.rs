@@ -94,7 +94,7 @@ impl WithSimd for Addition<'_> {
     }
 }
 
-/// Rows that are neighbours in a panel of the child and in one of the front.
+/// Rows that are neighbors in a panel of the child and in one of the front.
 #[derive(Clone, Copy)]
 struct Run {
     /// First of them in the child's panel.

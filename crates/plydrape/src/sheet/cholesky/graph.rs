@@ -1,11 +1,11 @@
 //! Which nodes are coupled.
 
-/// The neighbours of every node.
+/// The neighbors of every node.
 #[derive(Debug, Clone)]
 pub struct Graph {
-    /// Where the neighbours of each node begin; n + 1 entries.
+    /// Where the neighbors of each node begin; n + 1 entries.
     starts: Vec<usize>,
-    /// Neighbours, ascending for each node.
+    /// Neighbors, ascending for each node.
     neighbours: Vec<u32>,
 }
 

@@ -24,7 +24,7 @@ impl Random {
     }
 }
 
-/// The couplings of a woven ply of `across × along` nodes: eight neighbours, and two along each line for the bending.
+/// The couplings of a woven ply of `across × along` nodes: eight neighbors, and two along each line for the bending.
 fn woven(across: usize, along: usize) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for j in 0..along {

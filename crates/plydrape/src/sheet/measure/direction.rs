@@ -1,4 +1,4 @@
-//! Directions of the fibres at the end: out of the mold's plane, and along it against the ideal drape.
+//! Directions of the fibers at the end: out of the mold's plane, and along it against the ideal drape.
 
 use super::super::fabric::Fabric;
 use super::{Most, middle};
@@ -7,7 +7,7 @@ use crate::mold::vector::{along, cross, dot, norm, sub, unit};
 use crate::net::Net;
 
 /// The largest angles (rad) between a cell's mid-lines and the mold's tangent plane, and, along the mold, between them and
-/// the fibres of the ideal drape.
+/// the fibers of the ideal drape.
 pub fn directions(
     fabric: &Fabric,
     mold: &Mold,

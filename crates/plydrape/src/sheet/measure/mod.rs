@@ -1,6 +1,6 @@
 //! What is measured of a sheet, each value with its place in the fabric, in space and its step.
 //!
-//! The extremes of strain, shear, force, depth and tilt are those of all steps (`extremes`); height (`height`), fibre
+//! The extremes of strain, shear, force, depth and tilt are those of all steps (`extremes`); height (`height`), fiber
 //! directions (`direction`) and positions (`position`) are those of the end.
 
 mod direction;

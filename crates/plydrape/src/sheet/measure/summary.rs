@@ -13,7 +13,7 @@ use super::{Most, Place};
 use crate::measure::Verdict;
 use crate::scene::Scene;
 
-/// Height (m) whose share of the area is reported; half a millimetre, the limit unless a scene sets another.
+/// Height (m) whose share of the area is reported; half a millimeter, the limit unless a scene sets another.
 const HEIGHT_OF_SHARE: f64 = 5e-4;
 
 /// The outcome of a drape of the sheet. Values that need a mold or an ideal drape are none without it.
@@ -35,15 +35,15 @@ pub struct Summary {
     pub height_max_mm: Option<f64>,
     /// Root mean square of the height over the area (mm).
     pub height_rms_mm: Option<f64>,
-    /// Share of the area that is higher than half a millimetre.
+    /// Share of the area that is higher than half a millimeter.
     pub height_share_above_half_mm: Option<f64>,
     /// Largest height of a ridge, where excess length is caught (mm).
     pub ridge_max_mm: Option<f64>,
     /// Largest height of a bridge, where the fabric is taut over a hollow (mm).
     pub bridge_max_mm: Option<f64>,
-    /// Largest angle of a fibre out of the mold's plane (°).
+    /// Largest angle of a fiber out of the mold's plane (°).
     pub out_of_plane_deg: Option<f64>,
-    /// Largest angle of a fibre along the mold against the ideal drape (°).
+    /// Largest angle of a fiber along the mold against the ideal drape (°).
     pub fibre_angle_deg: Option<f64>,
     /// Largest distance of a landed point from its ideal place (mm).
     pub position_max_mm: Option<f64>,
@@ -62,7 +62,7 @@ pub struct Summary {
     pub slip_max_mm: Option<f64>,
     /// Largest tilt of a pad, or of the ply at a gripper without one, in any step (°).
     pub tilt_max_deg: f64,
-    /// Sharpest turn between neighbouring segments in the air in any step (°).
+    /// Sharpest turn between neighboring segments in the air in any step (°).
     pub fold_max_deg: f64,
     /// Largest depth of ply and grippers in the mold in any step (mm).
     pub penetration_mm: Option<f64>,

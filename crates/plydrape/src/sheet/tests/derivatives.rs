@@ -1,7 +1,7 @@
 //! Gradients and second derivatives against central differences, and invariance.
 
 use super::*;
-use crate::material::ShearCurve;
+use crate::material::{MomentCurve, ShearCurve};
 use crate::sheet::matrix3::rotation;
 
 /// A crumpled sheet: every node off its place by a pseudo-random share of a spacing.
@@ -21,6 +21,11 @@ fn uneven() -> [Vec<f64>; 2] {
     [vec![0.0, 0.01, 0.024, 0.03, 0.045], vec![0.0, 0.012, 0.02, 0.033]]
 }
 
+/// A moment that rises less and less; crumpled sheets reach all of its lines.
+fn softening() -> MomentCurve {
+    MomentCurve { curvature: vec![0.0, 8.0, 20.0, 40.0], moment: vec![0.0, 0.8, 1.2, 1.3] }
+}
+
 /// The gradient of all energies is what central differences of the energy give, within their error.
 #[test]
 fn the_gradient_is_that_of_the_energy() {
@@ -28,6 +33,7 @@ fn the_gradient_is_that_of_the_energy() {
     sheet.mold = Some(plane(0.3));
     sheet.tension = TensionLaw::Table { strain: vec![0.0, 0.01, 0.1], force: vec![0.0, 10.0, 1e3] };
     sheet.shear = ShearCurve::Polynomial { coefficients: vec![5.0, 3.0] };
+    sheet.moment[1] = Some(softening());
     let mut cloth = crumpled(&sheet);
     for x in &mut cloth.now.x {
         x[2] -= 0.05;
@@ -55,6 +61,7 @@ fn the_second_derivative_is_that_of_the_gradient() {
     let mut sheet = sheet(uneven(), &[]);
     sheet.tension = TensionLaw::Linear { stiffness: 300.0 };
     sheet.shear = ShearCurve::Polynomial { coefficients: vec![50.0, 30.0] };
+    sheet.moment = [Some(softening()), None];
     let mut cloth = crumpled(&sheet);
     let direction: Vec<[f64; 3]> =
         (0..cloth.now.x.len()).map(|n| [(n as f64).sin(), (2.0 * n as f64).cos(), 0.7]).collect();
@@ -100,5 +107,26 @@ fn rigid_motions_cost_nothing() {
         let own = [g[0], g[1], g[2] - weight * area];
         // stiffness times rounding of the positions
         assert!(own.iter().all(|c| c.abs() < 1e6 * 0.01 * 1e-13), "{own:?}");
+    }
+}
+
+/// A curve of the moment with one slope is the rigidity: energy, gradient and second derivative are the same.
+#[test]
+fn a_straight_curve_of_the_moment_is_its_rigidity() {
+    let plain = sheet(uneven(), &[]);
+    let mut curved = plain.clone();
+    let straight = MomentCurve { curvature: vec![0.0, 5.0, 40.0], moment: vec![0.0, 45e-5, 36e-4] };
+    curved.moment = [Some(straight.clone()), Some(straight)];
+    let (mut a, mut b) = (crumpled(&plain), crumpled(&curved));
+    assert!((a.energy() - b.energy()).abs() < 1e-12 * a.energy().abs());
+    let direction: Vec<[f64; 3]> =
+        (0..a.now.x.len()).map(|n| [(n as f64).sin(), 0.3, (2.0 * n as f64).cos()]).collect();
+    let products = [&mut a, &mut b].map(|cloth| cloth.second_derivative_times(&direction));
+    let gradients = [&mut a, &mut b].map(|cloth| cloth.gradient());
+    for pair in [products, gradients] {
+        let largest = pair[0].iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()));
+        for (a, b) in pair[0].iter().flatten().zip(pair[1].iter().flatten()) {
+            assert!((a - b).abs() < 1e-12 * largest);
+        }
     }
 }

@@ -2,6 +2,8 @@
 
 use super::super::measure::{TILT_REACH, tilt};
 use super::*;
+use crate::elastica::{Bending, Cantilever};
+use crate::material::MomentCurve;
 
 /// 4 × 2 pins 98 mm apart hold cells of 100 mm: heights of the cells' middles, of the middles of the outer edges along u,
 /// and of the edges along v (mm), by an independent cloth simulator (issue of 2026; shear 0.2 and 2 N/m per rad).
@@ -83,7 +85,7 @@ fn a_strip_hangs_as_the_elastica() {
 
 /// Tip (m) of a heavy inextensible cantilever that leaves its clamp level: θ'' = (w/EI) (L − s) cos θ, θ(0) = 0,
 /// θ'(L) = 0, by Runge–Kutta steps and bisection of θ'(0).
-pub(super) fn cantilever(length: f64, load_per_rigidity: f64) -> [f64; 2] {
+pub(crate) fn cantilever(length: f64, load_per_rigidity: f64) -> [f64; 2] {
     let shoot = |start: f64| {
         let steps = 2000;
         let h = length / steps as f64;
@@ -130,6 +132,59 @@ fn a_cantilever_is_the_elastica() {
     assert!(off.iter().all(|c| c.abs() < 5e-3 * free), "{tip:?} {x} {z}");
     // it hangs by more than a third of its length, where a linear beam would be wrong by more than this
     assert!(z < -0.3 * free);
+}
+
+/// A moment that rises less and less, of a strip one cell of 100 mm wide per width.
+fn softening() -> MomentCurve {
+    MomentCurve { curvature: vec![0.0, 5.0, 20.0, 60.0], moment: vec![0.0, 4.5e-4, 9e-4, 1.2e-3] }
+}
+
+/// A strip whose moment is a table hangs as the exact elastica of the same table, far lower than with its rigidity at rest.
+#[test]
+fn a_softening_cantilever_is_the_exact_elastica() {
+    let (length, spacings) = (0.03, 48);
+    let h = length / spacings as f64;
+    let lines = (0..=spacings + 1).map(|n| h * n as f64).collect();
+    let mut sheet = sheet([lines, vec![0.0]], &[[0.0, 0.0], [h, 0.0]]);
+    sheet.mesh = h;
+    sheet.moment = [Some(softening()), None];
+    let mut cloth = flat(&sheet, 0.0);
+    let held: Vec<[f64; 3]> = cloth.now.pads.iter().map(|pad| pad.position).collect();
+    rest(&mut cloth, &held);
+    let tip = cloth.now.x[spacings + 1];
+    let free = length + 0.5 * h;
+    let weight = 3.143 * G;
+    let strip =
+        Cantilever { length: free, angle: 0.0, weight, bending: Bending::Curve(softening()) };
+    let [x, z] = strip.solve().expect("a cantilever").at(free);
+    let off = [tip[0] - 0.5 * h - x, tip[2] - z];
+    assert!(off.iter().all(|c| c.abs() < 5e-3 * free), "{tip:?} {x} {z}");
+    let [_, stiff] = cantilever(free, weight / 9e-5);
+    assert!(z < 1.1 * stiff, "{z} {stiff}");
+}
+
+/// What the grippers do to a strip whose moment is a table is stored: slowly brought together, the energy of bending and
+/// weight changes by the work of their forces.
+#[test]
+fn a_softening_strip_stores_the_work_of_its_grippers() {
+    let mut sheet = sheet([even(0.1, 20), vec![0.0]], &[[0.0, 0.0], [0.1, 0.0]]);
+    sheet.mesh = 0.005;
+    sheet.moment = [Some(softening()), None];
+    let mut cloth = flat(&sheet, 0.0);
+    let at = |share: f64| [[0.01 * share, 0.0, 0.0], [0.1 - 0.01 * share, 0.0, 0.0]];
+    bring(&mut cloth, &at(0.2), 10, 0.1);
+    let (start, mut work) = (cloth.energy(), 0.0);
+    let mut before = cloth.forces();
+    for step in 1..=40 {
+        bring(&mut cloth, &at(0.2 + 0.02 * f64::from(step)), 1, 0.1);
+        let forces = cloth.forces();
+        // both move by 0.2 mm, the first one along x and the second one against it
+        let along = |forces: &[[f64; 3]]| forces[0][0] - forces[1][0];
+        work += 0.5 * (along(&before) + along(&forces)) * 2e-4;
+        before = forces;
+    }
+    let stored = cloth.energy() - start;
+    assert!((stored.abs() / work.abs() - 1.0).abs() < 0.01, "{stored} {work}");
 }
 
 /// A cell whose frame is sheared stores area · ∫ τ dγ, and its frame is loaded as virtual work has it.

@@ -2,7 +2,7 @@
 
 mod derivatives;
 mod fixed_pads;
-mod hanging;
+pub(crate) mod hanging;
 mod mounts;
 mod on_mold;
 mod random;
@@ -39,6 +39,7 @@ fn sheet(lines: [Vec<f64>; 2], held: &[[f64; 2]]) -> Sheet {
         mold: None,
         areal_mass: 3.143,
         rigidity: [9e-5; 2],
+        moment: Default::default(),
         tension: TensionLaw::Linear { stiffness: 1e6 },
         shear: linear(5.0),
         gravity: G,

@@ -52,6 +52,8 @@ fn scene(seed: u64) -> Scene {
         shear_curve: Some(linear(slope)),
         tension: Some(r.one(&[TensionLaw::Linear { stiffness: 1e6 }, table])),
         locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
     };
     let ply = Ply::of_array(grid, cell, material);
     let side = cell[0].min(cell[1]);

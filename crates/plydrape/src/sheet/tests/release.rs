@@ -22,6 +22,8 @@ pub(super) fn scene(positions: Vec<Vec<[f64; 3]>>, release: Option<Release>) -> 
         shear_curve: Some(linear(5.0)),
         tension: Some(TensionLaw::Linear { stiffness: 1e6 }),
         locking_angle: None,
+        moment: Default::default(),
+        scatter: Default::default(),
     };
     let ply = Ply::of_array(GRID, [0.1; 2], material);
     let mut settings = Settings { model: Model::Sheet, ..Settings::default() };

@@ -20,11 +20,11 @@ use crate::scene::Scene;
 pub struct Carriage<'a> {
     clearance: Clearance<'a>,
     turn: Turn,
-    /// Centre of the array at its start and where it is formed (m).
+    /// Center of the array at its start and where it is formed (m).
     ends: [Point; 2],
-    /// The start, from its centre (m).
+    /// The start, from its center (m).
     array: Vec<Point>,
-    /// Lowest height of the centre over the place where the array is formed (m).
+    /// Lowest height of the center over the place where the array is formed (m).
     lowest: f64,
     /// Length of the way at one height (m), of the gripper that goes farthest.
     level: f64,
@@ -34,7 +34,7 @@ pub struct Carriage<'a> {
     cell: f64,
 }
 
-/// Control points of the way: the centre (m), and the share of the turn.
+/// Control points of the way: the center (m), and the share of the turn.
 type Control = (Point, f64);
 
 impl<'a> Carriage<'a> {
@@ -197,7 +197,7 @@ impl<'a> Carriage<'a> {
     }
 }
 
-/// An array (m) turned, with its centre at a place.
+/// An array (m) turned, with its center at a place.
 fn placed(array: &[Point], centre: Point, rotation: &Rotation) -> Vec<Point> {
     array.iter().map(|p| along(centre, 1.0, turned(rotation, *p))).collect()
 }

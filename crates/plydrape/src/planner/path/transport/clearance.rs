@@ -14,12 +14,12 @@ use crate::scene::Scene;
 #[derive(Debug)]
 pub struct Clearance<'a> {
     mold: &'a Mold,
-    /// Points of the ply at the start, from the centre of the grippers (m): the grippers, and so many between them and
+    /// Points of the ply at the start, from the center of the grippers (m): the grippers, and so many between them and
     /// on the overhang.
     points: Vec<Point>,
     /// So many of them in a line along u.
     line: usize,
-    /// Centre of the grippers at the start (m).
+    /// Center of the grippers at the start (m).
     start: Point,
     /// How far the ply hangs below these points (m).
     hang: f64,
@@ -68,8 +68,8 @@ impl<'a> Carried<'a> {
         Some(Carried { scene, start: poses, wanted, own, highest })
     }
 
-    /// By how much the array must be higher at most to keep the distance (m), with its centre at a place (m) and turned; `from` is
-    /// its centre at the start (m), and it has `moved` so far (m).
+    /// By how much the array must be higher at most to keep the distance (m), with its center at a place (m) and turned; `from` is
+    /// its center at the start (m), and it has `moved` so far (m).
     fn shortfall(&self, from: Point, centre: Point, rotation: &Rotation, moved: f64) -> f64 {
         let wanted = self.wanted.min(self.own + moved);
         let poses = self.start.carried(from, centre, rotation);
@@ -86,7 +86,7 @@ impl<'a> Carried<'a> {
 }
 
 impl<'a> Clearance<'a> {
-    /// For the array of a scene that is carried from its start to another place of its centre (m).
+    /// For the array of a scene that is carried from its start to another place of its center (m).
     pub fn new(scene: &'a Scene, mold: &'a Mold, start: &[Point], end: Point) -> Self {
         let ply = &scene.ply;
         let overhang = scene.settings.sheet.overhang;
@@ -123,7 +123,7 @@ impl<'a> Clearance<'a> {
         clearance
     }
 
-    /// By how much the array, with its centre at a place (m) and turned, is too low over the mold and the table (m).
+    /// By how much the array, with its center at a place (m) and turned, is too low over the mold and the table (m).
     pub fn shortfall(&self, centre: Point, rotation: &Rotation) -> f64 {
         let lowest = self.points.iter().map(|p| along(centre, 1.0, turned(rotation, *p))[2]);
         let lowest = lowest.fold(f64::INFINITY, f64::min) - self.hang;

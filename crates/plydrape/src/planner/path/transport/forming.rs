@@ -1,7 +1,7 @@
 //! How an array changes its shape: every edge turns and grows from what it was to what it shall be.
 //!
 //! Straight ways of the grippers would not do: where a cell shears, its edges turn, and half-way on straight ways they are
-//! shorter by the cosine of half the angle. So the edges between neighbouring grippers are changed, and the grippers go
+//! shorter by the cosine of half the angle. So the edges between neighboring grippers are changed, and the grippers go
 //! where they fit these edges best (least squares, by conjugate gradients on the grid). Edges of a curved array that turn
 //! each by themselves do not quite close; what is left is taken from them one after the other until all have their
 //! lengths (Müller et al. 2007, "Position based dynamics").

@@ -1,0 +1,182 @@
+//! `plydrape fit`: laws of a material from tables of its tests.
+
+use crate::argument::value;
+use crate::failure::{Done, Failure};
+use crate::new::put;
+use plydrape_io::fit::{FitFault, Request, Test, fit};
+use plydrape_io::scene::Measured;
+use plydrape_io::shown;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Fit laws of a material to tables of its tests: shear, bending, with how sure they are.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+A table is a CSV file whose first line names its columns with their units, as in `displacement (mm),force (N)`. Lines such as \
+`# width = 100 mm` above it may state what the options state.
+
+The answer is the lines of a material file, on standard output or in a new file.")]
+pub struct Arguments {
+    #[command(subcommand)]
+    test: Kind,
+
+    /// A new file for the lines; what exists is not overwritten.
+    #[arg(short, long, value_name = "FILE", global = true)]
+    output: Option<PathBuf>,
+
+    /// Print one JSON object on standard output instead of text.
+    #[arg(long, global = true)]
+    json: bool,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Kind {
+    /// A shear curve from bias extension: displacement and force, one file a specimen.
+    Bias {
+        /// The tables, one a specimen.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// Width of the specimens.
+        #[arg(long, value_name = "LENGTH")]
+        width: Option<String>,
+        /// Length between the clamps, two widths or more.
+        #[arg(long, value_name = "LENGTH")]
+        length: Option<String>,
+    },
+    /// A shear curve from a picture frame: displacement and force, one file a specimen.
+    Frame {
+        /// The tables, one a specimen.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// Side of the frame from hinge to hinge.
+        #[arg(long, value_name = "LENGTH")]
+        side: Option<String>,
+        /// Side of the fabric that shears in it; that of the frame unless given.
+        #[arg(long, value_name = "LENGTH")]
+        fabric: Option<String>,
+    },
+    /// Bending rigidities from overhangs at 41.5 deg (Peirce): a column `overhang`, one row a specimen.
+    Overhang {
+        #[command(flatten)]
+        strips: Strips,
+        /// Mass per area.
+        #[arg(long, value_name = "MASS")]
+        mass: Option<String>,
+        /// Angle of the chord from edge to tip below the level.
+        #[arg(long, value_name = "ANGLE", default_value = "41.5 deg")]
+        angle: String,
+    },
+    /// Bending rigidities from points x, z of strips that hang over an edge, one file a strip.
+    Hang {
+        #[command(flatten)]
+        strips: Strips,
+        /// Mass per area.
+        #[arg(long, value_name = "MASS")]
+        mass: Option<String>,
+        /// Length of the overhang.
+        #[arg(long, value_name = "LENGTH")]
+        length: Option<String>,
+    },
+    /// Moment over curvature from bending tests: curvature and moment per width, one file a specimen.
+    Moments {
+        #[command(flatten)]
+        strips: Strips,
+    },
+}
+
+/// Tables of strips of both directions.
+#[derive(Debug, clap::Args)]
+struct Strips {
+    /// Tables of strips along the warp.
+    #[arg(long, value_name = "FILE", num_args = 1.., required_unless_present = "weft")]
+    warp: Vec<PathBuf>,
+    /// Tables of strips along the weft.
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    weft: Vec<PathBuf>,
+}
+
+/// Smallest and largest length (m), as in scenes.
+const LENGTHS: [f64; 2] = [1e-6, 1e4];
+
+/// Fits and prints.
+pub fn run(arguments: &Arguments, quiet: bool) -> Done {
+    let request = arguments.test.request()?;
+    let fitted = fit(&request).map_err(failure)?;
+    let mut out = io::stdout().lock();
+    let toml = fitted.toml();
+    let mut files = Vec::new();
+    if let Some(file) = &arguments.output {
+        let folder = file.parent().filter(|f| *f != Path::new("")).unwrap_or(Path::new("."));
+        put(file, folder, &toml).map_err(|error| Failure::output(file, &error))?;
+        files.push(file.clone());
+    }
+    let text = match &arguments.output {
+        _ if arguments.json => format!("{:#}\n", fitted.json()),
+        Some(_) if quiet => String::new(),
+        Some(file) => format!("{} is written\n", shown::path(file)),
+        None => toml,
+    };
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(|error| Failure::stdout(&error, &files))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+impl Kind {
+    fn request(&self) -> Result<Request, Failure> {
+        let length = |option: &str, text: &Option<String>| {
+            let help = "a length from 1 um to 10 km is wanted, e.g. \"100 mm\"";
+            text.as_ref()
+                .map(|text| value(option, text, Measured::Length, LENGTHS, help))
+                .transpose()
+        };
+        let areal = |text: &Option<String>| {
+            let help = "a mass per area from 1 mg/m^2 to 1000 kg/m^2 is wanted, e.g. \"314 g/m^2\"";
+            text.as_ref()
+                .map(|text| value("--mass", text, Measured::ArealMass, [1e-6, 1e3], help))
+                .transpose()
+        };
+        Ok(match self {
+            Kind::Bias { files, width, length: l } => Request {
+                test: Test::Bias {
+                    width: length("--width", width)?,
+                    length: length("--length", l)?,
+                },
+                warp: files.clone(),
+                weft: Vec::new(),
+            },
+            Kind::Frame { files, side, fabric } => Request {
+                test: Test::Frame {
+                    side: length("--side", side)?,
+                    fabric: length("--fabric", fabric)?,
+                },
+                warp: files.clone(),
+                weft: Vec::new(),
+            },
+            Kind::Overhang { strips, mass, angle } => {
+                let help = "an angle from 1 to 89 deg is wanted, e.g. \"41.5 deg\"";
+                let range = [1.0_f64, 89.0].map(f64::to_radians);
+                let angle = value("--angle", angle, Measured::Angle, range, help)?;
+                strips.request(Test::Overhang { mass: areal(mass)?, angle })
+            }
+            Kind::Hang { strips, mass, length: l } => {
+                strips.request(Test::Hang { mass: areal(mass)?, length: length("--length", l)? })
+            }
+            Kind::Moments { strips } => strips.request(Test::Moments),
+        })
+    }
+}
+
+impl Strips {
+    fn request(&self, test: Test) -> Request {
+        Request { test, warp: self.warp.clone(), weft: self.weft.clone() }
+    }
+}
+
+fn failure(fault: FitFault) -> Failure {
+    match fault {
+        FitFault::Table(error) => (*error).into(),
+        fault => Failure::Argument { help: fault.help(), message: fault.to_string() },
+    }
+}

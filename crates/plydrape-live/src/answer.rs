@@ -1,0 +1,134 @@
+//! The answer to a scene: the ply as it hangs, or why there is none.
+
+use plydrape::draping::record::{Hold, Step};
+use plydrape::ply::{GripperId, Kind};
+use plydrape::scene::Model;
+use plydrape_io::page::{self, Form};
+use plydrape_io::scene::{SceneError, parse};
+use plydrape_io::surface::{shape, stations};
+use plydrape_io::{OutputError, PROGRAM, ResultFile, json};
+use serde::Serialize;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// Triangles of a mold that is bent while the page looks on, at most: a quarter of those of a report.
+const TRIANGLES: usize = 2000;
+
+/// Whether the answer brings the mold along, which takes longer than the ply.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mold {
+    /// In triangles, under the grippers and a little beyond.
+    Drawn,
+    /// The page has it already.
+    Known,
+}
+
+/// What the page is told.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Answer {
+    /// The ply was solved: JSON with `program`, `found`, `status`, `catenaries` and, as `page`, the data of a results page with one step.
+    Ply(String),
+    /// The scene was refused: JSON with `refused`, what is wrong, and `help`, what would be right.
+    Refused(String),
+}
+
+impl Answer {
+    /// Its JSON text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        match self {
+            Answer::Ply(text) | Answer::Refused(text) => text,
+        }
+    }
+}
+
+/// What a results page does not say of a step.
+#[derive(Debug, Serialize)]
+struct Hanging {
+    /// Name and version of the program.
+    program: &'static str,
+    /// Whether equilibrium and contact were found.
+    found: bool,
+    /// How the equilibrium ended, and the search for contact.
+    status: [&'static str; 2],
+    /// Edges along u, edges along v, then the diagonals.
+    catenaries: Vec<Catenary>,
+}
+
+/// One catenary.
+#[derive(Debug, Serialize)]
+struct Catenary {
+    kind: Kind,
+    from: GripperId,
+    to: GripperId,
+    /// Horizontal force of each of its spans (N); null where the model gives none.
+    forces: Vec<Option<f64>>,
+    /// What holds each of its spans.
+    holds: Vec<Hold>,
+    /// Whether it is straight because its cell shears.
+    shearing: bool,
+    /// Whether the mold holds a part of it: its force is then that of its axial stiffness.
+    touches: bool,
+    /// Its middle (m).
+    middle: [f64; 3],
+}
+
+/// Why a scene has no ply.
+#[derive(Debug, Serialize)]
+struct Refused<'a> {
+    /// What is wrong.
+    refused: &'a str,
+    /// What would be right.
+    help: &'a str,
+}
+
+/// Solves a scene whose grippers are held, by the catenaries, whatever its model is.
+#[must_use]
+pub fn answer(scene: &str, mold: Mold) -> Answer {
+    match parse(scene, Path::new(""), "the scene") {
+        Ok(mut file) => {
+            file.scene.settings.model = Model::Catenaries;
+            let drape = plydrape::simulate(&file.scene, |_| ControlFlow::Continue(()));
+            let result = ResultFile::new(&file.scene, file.input.clone(), drape);
+            let triangles = (mold == Mold::Drawn).then_some(TRIANGLES);
+            let form = Form { triangles, packed: false };
+            hanging(&result, form).map_or_else(|e| refused(&e.to_string(), ""), Answer::Ply)
+        }
+        Err(SceneError { message, help, .. }) => refused(&message, &help),
+    }
+}
+
+fn refused(message: &str, help: &str) -> Answer {
+    Answer::Refused(json::of(&Refused { refused: message, help }).unwrap_or_default())
+}
+
+fn hanging(result: &ResultFile, form: Form) -> Result<String, OutputError> {
+    let data = page::data(result, form)?;
+    let step = &result.steps[0];
+    let curves = result.curves(step);
+    let count = step.catenaries.len();
+    let own = json::of(&Hanging {
+        program: PROGRAM,
+        found: step.solver.found(),
+        status: [step.solver.status.name(), step.solver.contact.name()],
+        catenaries: (0..count).map(|n| catenary(result, step, n, &curves[n])).collect(),
+    })?;
+    let own = own.trim_end().trim_end_matches('}');
+    Ok([own, ",\"page\":", data.trim_end(), "}"].concat())
+}
+
+fn catenary(result: &ResultFile, step: &Step, n: usize, curves: &[Vec<[f64; 3]>]) -> Catenary {
+    let state = &step.catenaries[n];
+    let ends = result.scene.ply.lines().ends(n).map(|gripper| step.grippers[gripper].position);
+    let line = shape(state, curves, ends);
+    Catenary {
+        kind: state.kind,
+        from: state.from,
+        to: state.to,
+        forces: state.spans.iter().map(|span| span.force).collect(),
+        holds: state.spans.iter().map(|span| span.hold).collect(),
+        shearing: state.shearing,
+        touches: state.contact.is_some(),
+        middle: stations(&line, 2)[1],
+    }
+}

@@ -1,0 +1,104 @@
+//! `plydrape.fit`.
+
+use crate::error;
+use crate::json::Json;
+use crate::quantity::Amount;
+use plydrape_io::fit::{FitFault, Request, Test};
+use plydrape_io::scene::Measured;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+
+/// Fits laws of a material to tables of its tests, as `plydrape fit` does.
+///
+/// Plain numbers are in SI units, a str carries its unit.
+///
+/// Parameters
+/// ----------
+/// test : {"bias", "frame", "overhang", "hang", "moments"}
+///     What was tested.
+/// warp : sequence of str or path
+///     CSV files, one a specimen: of a shear test, or of strips along the warp.
+/// weft : sequence of str or path
+///     CSV files of strips along the weft.
+/// width : float or str, optional
+///     Width of bias-extension specimens (m).
+/// length : float or str, optional
+///     Length between the clamps, or of the overhang of hanging strips (m).
+/// side : float or str, optional
+///     Side of the picture frame (m).
+/// fabric : float or str, optional
+///     Side of the fabric that shears in it (m).
+/// mass : float or str, optional
+///     Mass per area (kg/m²).
+/// angle : float or str, default "41.5 deg"
+///     Angle of the chord of overhangs (rad).
+///
+/// Returns
+/// -------
+/// dict
+///     What was fitted, with standard errors and 95 % intervals, and `toml`, the lines of a material file.
+///
+/// Raises
+/// ------
+/// SceneError
+///     If a table is broken.
+/// ValueError
+///     If a measure is missing or the points say no law.
+///
+/// Examples
+/// --------
+/// >>> from pathlib import Path
+/// >>> from tempfile import mkdtemp
+/// >>> file = Path(mkdtemp()) / "strips.csv"
+/// >>> _ = file.write_text("overhang (mm)\n61.5\n63\n60.5\n62.5\n62.5\n")
+/// >>> found = plydrape.fit("overhang", [file], mass="314 g/m^2")
+/// >>> 'bending_rigidity_warp = "9.178e-5 N m"' in found["toml"]
+/// True
+#[pyfunction]
+#[pyo3(signature = (
+    test, warp = Vec::new(), weft = Vec::new(), *, width: "float | str | None" = None,
+    length: "float | str | None" = None, side: "float | str | None" = None,
+    fabric: "float | str | None" = None, mass: "float | str | None" = None,
+    angle: "float | str" = Amount::Text("41.5 deg".into())
+))]
+#[allow(clippy::too_many_arguments)]
+pub fn fit(
+    test: &str,
+    warp: Vec<PathBuf>,
+    weft: Vec<PathBuf>,
+    width: Option<Amount>,
+    length: Option<Amount>,
+    side: Option<Amount>,
+    fabric: Option<Amount>,
+    mass: Option<Amount>,
+    angle: Amount,
+) -> PyResult<Json> {
+    let given = |amount: Option<Amount>, name: &str, measured: Measured| {
+        amount.map(|amount| amount.si(name, measured)).transpose()
+    };
+    let width = given(width, "width", Measured::Length)?;
+    let length = given(length, "length", Measured::Length)?;
+    let side = given(side, "side", Measured::Length)?;
+    let fabric = given(fabric, "fabric", Measured::Length)?;
+    let mass = given(mass, "mass", Measured::ArealMass)?;
+    let angle = angle.si("angle", Measured::Angle)?;
+    let test = match test {
+        "bias" => Test::Bias { width, length },
+        "frame" => Test::Frame { side, fabric },
+        "overhang" => Test::Overhang { mass, angle },
+        "hang" => Test::Hang { mass, length },
+        "moments" => Test::Moments,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "test is {other:?}; bias, frame, overhang, hang or moments is wanted"
+            )));
+        }
+    };
+    let fitted =
+        plydrape_io::fit::fit(&Request { test, warp, weft }).map_err(|fault| match fault {
+            FitFault::Table(fault) => error::scene(&fault),
+            fault => PyValueError::new_err(format!("{fault}; {}", fault.help())),
+        })?;
+    Json::of(&fitted.json())
+}

@@ -1,0 +1,45 @@
+//! Quantities as arguments: a plain number is in SI units, a text carries its unit.
+
+use plydrape_io::scene::{Measured, quantity};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// A quantity as Python gives it.
+#[derive(FromPyObject, Clone)]
+pub enum Amount {
+    /// In SI units.
+    Number(f64),
+    /// With its unit.
+    Text(String),
+}
+
+impl Amount {
+    /// The value in SI units, infinity included; `name` is that of the argument.
+    pub fn si(&self, name: &str, measured: Measured) -> PyResult<f64> {
+        match self {
+            Amount::Number(value) => Ok(*value),
+            Amount::Text(text) => quantity(text, measured).map_err(|refused| {
+                PyValueError::new_err(format!("{name}: {}; {}", refused.message, refused.help))
+            }),
+        }
+    }
+
+    /// As a scene file has it.
+    pub fn toml(&self) -> String {
+        match self {
+            Amount::Number(value) => format!("{value:?}").replace("NaN", "nan"),
+            Amount::Text(text) => serde_json::Value::from(text.as_str()).to_string(),
+        }
+    }
+}
+
+/// A quantity in SI units, for what is written in Python: an angle (rad) or a length (m).
+#[pyfunction]
+#[pyo3(name = "_si", signature = (value: "float | str", measured: "str", name: "str"))]
+pub fn si(value: Amount, measured: &str, name: &str) -> PyResult<f64> {
+    let measured = match measured {
+        "angle" => Measured::Angle,
+        _ => Measured::Length,
+    };
+    value.si(name, measured)
+}

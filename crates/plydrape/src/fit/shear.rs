@@ -1,0 +1,271 @@
+//! Shear force per length τ(γ) from a bias-extension or a picture-frame test.
+//!
+//! Both follow from the power of the machine, F δ' = Σ area · τ γ', eq. (21) of `docs/theory/fit.md`. τ is the force that works on
+//! the shear angle; the normalized force along the sides of Cao et al. 2008 (Composites Part A 39:1037) is τ/cos γ, and with it the
+//! formula here is theirs for the bias extension.
+
+use super::statistics::{between, mean_and_deviation, rising};
+use super::{FitError, positive};
+use crate::material::ShearCurve;
+use nalgebra::{DMatrix, DVector};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, SQRT_2};
+
+/// Spacing of the table (rad): 5°.
+const SPACING: f64 = 5.0 * std::f64::consts::PI / 180.0;
+/// Largest shear angle of a table (rad): beyond it no weave is a trellis.
+const LARGEST: f64 = 65.0 * std::f64::consts::PI / 180.0;
+/// How many times steeper the second of two straight lines must be for their corner to be called locking.
+const STEEPER: f64 = 2.0;
+/// Powers of the polynomial.
+const POWERS: usize = 3;
+
+/// A strip cut at 45° to the yarns and pulled along its length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BiasExtension {
+    /// Width W (m).
+    pub width: f64,
+    /// Length between the clamps H (m), at least two widths.
+    pub length: f64,
+}
+
+/// A frame of four hinged sides, pulled at two corners.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PictureFrame {
+    /// Length of a side L (m).
+    pub side: f64,
+    /// Length of the fabric along a side (m); that of the side unless the arms are longer.
+    pub fabric: f64,
+}
+
+/// A shear test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ShearTest {
+    /// Bias extension.
+    Bias(BiasExtension),
+    /// Picture frame.
+    Frame(PictureFrame),
+}
+
+/// A fitted shear law.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShearFit {
+    /// Shear angles, ascending from 0 (rad).
+    pub angle: Vec<f64>,
+    /// Mean shear force per length τ, never falling (N/m).
+    pub force: Vec<f64>,
+    /// Standard deviation between specimens (N/m); none from one specimen.
+    pub deviation: Option<Vec<f64>>,
+    /// Scatter between specimens as a share of the force, root mean square over the angles.
+    pub scatter: Option<f64>,
+    /// Coefficients of γ, γ², γ³ (N/m) by least squares, and their standard errors from the residuals.
+    pub polynomial: [[f64; 2]; POWERS],
+    /// Where the curve turns up (rad): the corner of the best two straight lines; none where it does not.
+    pub locking: Option<f64>,
+    /// Number of specimens.
+    pub specimens: usize,
+}
+
+impl ShearTest {
+    /// Checks the specimen's measures.
+    ///
+    /// # Errors
+    /// If one is not positive, or a bias specimen is shorter than two widths.
+    pub fn check(&self) -> Result<(), FitError> {
+        match self {
+            ShearTest::Bias(BiasExtension { width, length }) => {
+                positive("the width", *width)?;
+                positive("the length", *length)?;
+                if *length >= 2.0 * width {
+                    return Ok(());
+                }
+                let (what, range) = (
+                    "the length",
+                    "two widths or more: shorter strips have no middle that shears alone",
+                );
+                Err(FitError::Range { what, value: *length, range })
+            }
+            ShearTest::Frame(PictureFrame { side, fabric }) => {
+                positive("the side", *side)?;
+                positive("the side of the fabric", *fabric)?;
+                if fabric <= side {
+                    return Ok(());
+                }
+                let (what, range) = ("the side of the fabric", "at most that of the frame");
+                Err(FitError::Range { what, value: *fabric, range })
+            }
+        }
+    }
+
+    /// Shear angle γ (rad) at a displacement δ of the machine (m); none beyond what the kinematics allow.
+    #[must_use]
+    pub fn angle(&self, displacement: f64) -> Option<f64> {
+        let cosine = match self {
+            ShearTest::Bias(BiasExtension { width, length }) => {
+                let d = length - width;
+                (d + displacement) / (SQRT_2 * d)
+            }
+            ShearTest::Frame(PictureFrame { side, .. }) => {
+                FRAC_1_SQRT_2 + displacement / (2.0 * side)
+            }
+        };
+        (cosine.abs() < 1.0).then(|| FRAC_PI_2 - 2.0 * cosine.acos())
+    }
+
+    /// The curve τ(γ) of one specimen's points (displacement in m, force in N): angles (rad) ascending from 0, forces (N/m).
+    ///
+    /// # Errors
+    /// If measures make no sense or fewer than three points have an angle above zero.
+    pub fn curve(&self, points: &[[f64; 2]]) -> Result<[Vec<f64>; 2], FitError> {
+        self.check()?;
+        let mut known: Vec<[f64; 2]> = points
+            .iter()
+            .filter_map(|[displacement, force]| Some([self.angle(*displacement)?, *force]))
+            .filter(|[angle, _]| *angle > 0.0 && *angle <= LARGEST)
+            .collect();
+        known.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        known.dedup_by(|b, a| b[0] - a[0] < 1e-12);
+        if known.len() < 3 {
+            let what = "the test, between no shear and 65 deg,".to_string();
+            return Err(FitError::Few { what, found: known.len(), wanted: 3 });
+        }
+        let (mut angles, mut forces) = (vec![0.0], vec![0.0]);
+        for [angle, force] in known {
+            let tau = match self {
+                ShearTest::Frame(PictureFrame { side, fabric }) => {
+                    let half = 0.5 * (FRAC_PI_2 - angle);
+                    force * half.sin() * side / (fabric * fabric)
+                }
+                ShearTest::Bias(BiasExtension { width, length }) => {
+                    // the corners shear by half the angle; their law is known up to there, or all but so at the first points
+                    let ratio = length / width - 1.0;
+                    let pulled = force * ratio * ((0.5 * angle).cos() - (0.5 * angle).sin());
+                    let middle = 2.0 * length - 3.0 * width;
+                    let last = angles[angles.len() - 1];
+                    if angles.len() > 1 && 0.5 * angle <= last {
+                        (pulled - width * between(&angles, &forces, 0.5 * angle)) / middle
+                    } else {
+                        // τ in proportion to γ from 0: τ(γ/2) = τ(γ)/2
+                        pulled / (middle + 0.5 * width)
+                    }
+                }
+            };
+            angles.push(angle);
+            forces.push(tau);
+        }
+        Ok([angles, forces])
+    }
+
+    /// The law of all specimens.
+    ///
+    /// # Errors
+    /// As [`ShearTest::curve`], or if the specimens share less than 10° of shear.
+    pub fn fit(&self, specimens: &[Vec<[f64; 2]>]) -> Result<ShearFit, FitError> {
+        let curves: Result<Vec<_>, _> = specimens.iter().map(|points| self.curve(points)).collect();
+        let curves = curves?;
+        let reach = |[angles, _]: &[Vec<f64>; 2]| angles.last().copied().unwrap_or(0.0);
+        let shared = curves.iter().map(reach).fold(f64::INFINITY, f64::min);
+        let whole = (shared / SPACING + 1e-9).floor() as usize;
+        if whole < 2 || curves.is_empty() {
+            let what = "the shear that all specimens reach, in points every 5 deg,".to_string();
+            return Err(FitError::Few { what, found: whole.min(100), wanted: 2 });
+        }
+        let mut angle: Vec<f64> = (0..=whole).map(|n| n as f64 * SPACING).collect();
+        if shared > angle[whole] + 0.2 * SPACING {
+            angle.push(shared);
+        }
+        let at = |n: usize| -> Vec<f64> {
+            curves.iter().map(|[x, y]| smoothed(x, y, angle[n])).collect()
+        };
+        let rows: Vec<_> = (1..angle.len()).map(|n| mean_and_deviation(&at(n))).collect();
+        let mut means = vec![0.0];
+        means.extend(rows.iter().map(|(mean, _)| mean.max(0.0)));
+        let force = rising(&means);
+        let deviation: Option<Vec<f64>> = rows.iter().map(|(_, deviation)| *deviation).collect();
+        let scatter = deviation.as_ref().map(|deviation| {
+            let shares = deviation.iter().zip(&force[1..]).filter(|(_, force)| **force > 0.0);
+            let squares: Vec<f64> = shares.map(|(d, force)| (d / force).powi(2)).collect();
+            (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+        });
+        let deviation = deviation.map(|mut deviation| {
+            deviation.insert(0, 0.0);
+            deviation
+        });
+        let points: Vec<[f64; 2]> = curves
+            .iter()
+            .flat_map(|[x, y]| x.iter().zip(y).skip(1).map(|(x, y)| [*x, *y]))
+            .filter(|[x, _]| *x <= shared)
+            .collect();
+        Ok(ShearFit {
+            polynomial: polynomial(&points),
+            locking: corner(&angle, &force),
+            angle,
+            force,
+            deviation,
+            scatter,
+            specimens: curves.len(),
+        })
+    }
+}
+
+impl ShearFit {
+    /// The table as a material has it.
+    #[must_use]
+    pub fn curve(&self) -> ShearCurve {
+        ShearCurve::Table { angle: self.angle.clone(), force: self.force.clone() }
+    }
+}
+
+/// The value at an angle of a straight line through the points within half a spacing of it, which takes noise out; between the two
+/// points beside it where there are fewer than three.
+fn smoothed(x: &[f64], y: &[f64], at: f64) -> f64 {
+    let near: Vec<[f64; 2]> = x
+        .iter()
+        .zip(y)
+        .filter(|(x, _)| (**x - at).abs() <= 0.5 * SPACING)
+        .map(|(x, y)| [*x - at, *y])
+        .collect();
+    let both = near.iter().any(|p| p[0] <= 0.0) && near.iter().any(|p| p[0] >= 0.0);
+    if near.len() < 3 || !both {
+        return between(x, y, at);
+    }
+    let count = near.len() as f64;
+    let sum = |f: fn(&[f64; 2]) -> f64| near.iter().map(f).sum::<f64>();
+    let (x, y) = (sum(|p| p[0]) / count, sum(|p| p[1]) / count);
+    let (xx, xy) = (sum(|p| p[0] * p[0]) / count - x * x, sum(|p| p[0] * p[1]) / count - x * y);
+    if xx > 0.0 { y - xy / xx * x } else { y }
+}
+
+/// Coefficients of γ, γ², γ³ by least squares, and their standard errors.
+fn polynomial(points: &[[f64; 2]]) -> [[f64; 2]; POWERS] {
+    let rows = points.len();
+    let matrix = DMatrix::from_fn(rows, POWERS, |i, j| points[i][0].powi(j as i32 + 1));
+    let right = DVector::from_fn(rows, |i, _| points[i][1]);
+    let normal = matrix.transpose() * &matrix;
+    let Some(inverse) = normal.try_inverse() else { return [[f64::NAN; 2]; POWERS] };
+    let solution = &inverse * (matrix.transpose() * &right);
+    let residual = (&matrix * &solution - right).norm_squared();
+    let variance = residual / (rows.saturating_sub(POWERS).max(1)) as f64;
+    std::array::from_fn(|n| [solution[n], (variance * inverse[(n, n)]).sqrt()])
+}
+
+/// The corner of the two straight lines, one from 0, that are nearest to the table; none where the second is not much steeper.
+fn corner(x: &[f64], y: &[f64]) -> Option<f64> {
+    let mut best: Option<(f64, f64, f64)> = None;
+    for k in 2..x.len().checked_sub(2)? {
+        // y = a x up to the knot, y = a x + b (x − knot) beyond it
+        let knot = x[k];
+        let beyond = |x: f64| (x - knot).max(0.0);
+        let sum =
+            |f: &dyn Fn(f64, f64) -> f64| x.iter().zip(y).map(|(x, y)| f(*x, *y)).sum::<f64>();
+        let (xx, xb, bb) =
+            (sum(&|x, _| x * x), sum(&|x, _| x * beyond(x)), sum(&|x, _| beyond(x).powi(2)));
+        let (xy, by) = (sum(&|x, y| x * y), sum(&|x, y| beyond(x) * y));
+        let determinant = xx * bb - xb * xb;
+        let (a, b) = ((xy * bb - by * xb) / determinant, (by * xx - xy * xb) / determinant);
+        let squares = sum(&|x, y| (y - a * x - b * beyond(x)).powi(2));
+        if best.is_none_or(|(least, ..)| squares < least) {
+            best = Some((squares, knot, (a + b) / a));
+        }
+    }
+    best.filter(|(_, _, steeper)| *steeper >= STEEPER).map(|(_, knot, _)| knot)
+}

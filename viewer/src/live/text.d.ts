@@ -1,0 +1,5 @@
+/** Files that the build puts into the script as text. */
+declare module "*.toml" {
+  const text: string;
+  export default text;
+}

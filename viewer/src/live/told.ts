@@ -1,0 +1,111 @@
+/** What the page says of a ply: the verdict, the limits, numbers, and what the solver refused. */
+
+import { quantity } from "../data/number";
+import type { GripperId, Limit, PageData, Place } from "../data/page_data";
+import { byId, make } from "../page/dom";
+import { limitCells, sign } from "../page/limits";
+import type { Mark } from "../scene/overlay";
+import type { Scene3d } from "../scene/scene3d";
+import type { Hanging, Refused } from "./solver";
+
+/** Measures that are told beside the limits, the forces first. */
+const MEASURES = ["force_n", "gripper_load_n", "gripper_pull_n", "sag_ratio", "slack_mm", "gap_mm"];
+
+/** The limits of a ply that is held: rates are those of a motion, and here is none. */
+const limitsOf = ({ limits }: PageData): Limit[] =>
+  limits.filter(({ measure }) => measure !== "tilt_rate_deg_s");
+
+/** The limit that is exceeded most; null if all are kept. */
+function worst(limits: Limit[]): Limit | null {
+  const failed = limits.filter(({ ok }) => !ok);
+  return failed.reduce<Limit | null>(
+    (most, limit) => (most !== null && most.ratio >= limit.ratio ? most : limit),
+    null,
+  );
+}
+
+/** The verdict in the head. */
+export function showVerdict({ page, found }: Hanging): void {
+  const badge = byId("verdict");
+  const limits = limitsOf(page);
+  const most = worst(limits);
+  const ok = found && most === null;
+  badge.className = ok ? "verdict pass" : "verdict fail";
+  const text = !found
+    ? "No equilibrium found"
+    : most === null
+      ? `All ${limits.length} limits kept`
+      : `${most.name}: ${quantity(most.value, most.unit)}, ${most.least ? "at least" : "at most"} ${quantity(most.limit, most.unit)} allowed`;
+  badge.replaceChildren(sign(ok), text);
+}
+
+/** The table of limits, and some numbers. */
+export function showNumbers({ page }: Hanging): void {
+  const rows = limitsOf(page).map((limit) =>
+    make("tr", { class: limit.ok ? "pass" : "fail" }, ...limitCells(limit)),
+  );
+  byId("limits-body").replaceChildren(...rows);
+  const told = MEASURES.flatMap((key) => page.measures.filter((measure) => measure.key === key)).flatMap(
+    ({ label, unit, values: [value = null], where: [at = null] }) =>
+      value === null
+        ? []
+        : [make("dt", {}, label), make("dd", {}, `${quantity(value, unit)}, ${at ?? "nowhere"}`)],
+  );
+  byId("numbers").replaceChildren(...told);
+}
+
+/** How the search ended where it found no equilibrium. */
+const ENDS: Record<string, string> = {
+  stalled: "no step improves it any further",
+  "iteration-limit": "the limit of iterations came first",
+  "length-not-met": "no force gives a span its length",
+  "round-limit": "the contact with the mold goes on changing",
+};
+
+/** Says over the picture why the ply is not where it was wanted, or that its numbers do not count; nothing if neither. */
+export function say(refused: Refused | null, hanging: Hanging | null): void {
+  const note = byId("live-said");
+  const parts: (Node | string)[] = [];
+  if (refused !== null) {
+    // the scene says where grippers start, the page where they are
+    const why = refused.refused
+      .replace(/\bare (.*) apart at the start/, "would be $1 apart")
+      .replace(" starts ", " would be ");
+    parts.push(
+      `${why.charAt(0).toUpperCase()}${why.slice(1)}. `,
+      make("b", {}, "Shown is the last ply that hangs."),
+    );
+  } else if (hanging?.found === false) {
+    const why =
+      hanging.status.map((status) => ENDS[status]).find((text) => text !== undefined) ??
+      hanging.status.join(", ");
+    parts.push(
+      make("b", {}, "No equilibrium was found"),
+      `: ${why}. The last state of the search is shown, and its numbers do not count.`,
+    );
+  }
+  note.hidden = parts.length === 0;
+  note.replaceChildren(...parts);
+}
+
+/** Between grippers that are less than so far apart on the picture there is no room for a force (CSS pixels). */
+const ROOM = 64;
+
+/**
+ * The forces of the edges as texts in the picture, where there is room for them. What the mold holds has none: it would be that of
+ * the axial stiffness.
+ */
+export function forceMarks({ catenaries, page }: Hanging, grippers: Place[], scene: Scene3d): Mark[] {
+  const screen = scene.eye.screen();
+  const at = (id: GripperId) => grippers[id[1] * page.grid[0] + id[0]]!;
+  return catenaries
+    .filter(({ kind }) => kind.startsWith("edge"))
+    .filter(({ from, to }) => {
+      const [a, b] = [at(from), at(to)];
+      return Math.hypot(screen(a, 0) - screen(b, 0), screen(a, 1) - screen(b, 1)) > ROOM;
+    })
+    .map(({ forces: [force = null], holds, touches, middle }) => {
+      const text = touches ? (holds.every((hold) => hold === "lying") ? "lies" : "touches") : null;
+      return { place: middle, text: text ?? (force === null ? "taut" : `${force.toPrecision(3)}\u00a0N`) };
+    });
+}
