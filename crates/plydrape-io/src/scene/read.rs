@@ -39,7 +39,7 @@ pub(super) fn bytes(path: &Path, name: &str, largest: u64) -> Result<Vec<u8>, Sc
 
 /// Why a file, named `name`, cannot be read, and what to do; nothing where the message says all.
 pub(super) fn unreadable(path: &Path, name: &str, error: &std::io::Error) -> [String; 2] {
-    let help = not_found(path, error).or_else(|| {
+    let help = not_found(path, error).or_else(|| not_readable(path, error)).or_else(|| {
         let written = path.to_string_lossy();
         (written != name).then(|| format!("looked for {}", short(&written)))
     });
@@ -85,6 +85,17 @@ fn not_found(path: &Path, error: &std::io::Error) -> Option<String> {
         }
     }
     file_kind::nearest_name(path).map(|near| format!("did you mean `{}`?", short(&near)))
+}
+
+/// What to do about a pipe or a device, of which nothing is read, and about a file that is closed to this user.
+fn not_readable(path: &Path, error: &std::io::Error) -> Option<String> {
+    match error.kind() {
+        ErrorKind::InvalidInput if path.exists() => {
+            Some("save what it gives as a file, and name that".into())
+        }
+        ErrorKind::PermissionDenied => Some("allow this user to read it".into()),
+        _ => None,
+    }
 }
 
 /// What a path of Windows in double quotes needs.

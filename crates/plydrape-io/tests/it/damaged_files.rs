@@ -160,7 +160,9 @@ fn what_is_no_regular_file_is_refused_before_it_is_opened() {
         no_file(input::bytes(&path, 1 << 20).unwrap_err().to_string());
         no_file(read::read(&path).unwrap_err().to_string());
     }
-    no_file(scene::read(&pipe("scene.toml")).unwrap_err().to_string());
+    let scene = scene::read(&pipe("scene.toml")).unwrap_err();
+    assert!(scene.help.contains("as a file"), "{}", scene.help);
+    no_file(scene.to_string());
     let pose = plydrape::mold::Pose::new([0.0; 3], [0.0; 3]);
     no_file(mesh::read(&pipe("mold.stl"), 1.0, &pose).unwrap_err().to_string());
     for (old, new) in [
