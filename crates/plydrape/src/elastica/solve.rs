@@ -112,8 +112,8 @@ impl Cantilever {
         positive("the length", self.length)?;
         positive("the weight per length", self.weight)?;
         sound(&self.bending)?;
-        let steep = self.angle.abs() < std::f64::consts::FRAC_PI_2;
-        if !steep {
+        let below_upright = self.angle.abs() < std::f64::consts::FRAC_PI_2;
+        if !below_upright {
             let (what, range) = ("the angle of the clamp", "less than a right angle");
             return Err(ElasticaError::Range { what, value: self.angle, range });
         }
