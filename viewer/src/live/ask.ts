@@ -66,13 +66,14 @@ export class Asker {
 
   private async run(): Promise<void> {
     while (this.wanted !== null) {
-      const wanted = this.wanted;
+      // pointers are heard at the start of a frame, before this: what they want is drawn in the same frame
+      await new Promise(requestAnimationFrame);
+      const { wanted } = this;
       this.wanted = null;
       const told = { ...(await this.follow(wanted)), again: wanted.again };
       this.setup = told.setup;
       await this.tell(told);
       keep(this.shown, performance.now());
-      await new Promise(requestAnimationFrame);
     }
   }
 
