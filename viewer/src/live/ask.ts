@@ -94,7 +94,8 @@ export class Asker {
     const answer = await this.solve(wanted, false);
     if (!("refused" in answer)) {
       const away = Math.hypot(...to.map((c, n) => c - place(wanted)[n]!));
-      const taut = away > SEEN ? { refused: tautTo(wanted.grippers, gripper), help: "" } : null;
+      const taut =
+        away > SEEN ? { refused: tautTo(wanted.grippers, gripper), help: "", reached: true } : null;
       return { setup: wanted, hanging: answer, refused: taut, mold: false };
     }
     // level beside the mold, or else as far towards the place as there is a ply

@@ -159,7 +159,8 @@ async function open(): Promise<void> {
   let verdict = "";
   const words = new Paced(() => {
     verdict = verdictOf(hanging).name;
-    controls.show(wanted);
+    // sliders stand where the reader holds them, and grippers where they have come
+    controls.show({ ...wanted, grippers: setup.grippers });
     showVerdict(hanging);
     showNumbers(hanging);
     showScene();
@@ -217,7 +218,7 @@ async function open(): Promise<void> {
     const moving = apart.length > 5 && Math.max(...apart) < 250;
     const rate = (1000 * apart.length) / Math.max(1, (frames.at(-1) ?? 0) - (frames[0] ?? 0));
     byId("pace").textContent =
-      `solved in ${mean.toFixed(1)} ms` + (moving ? `, ${rate.toFixed(0)} answers a second` : "");
+      `solved in ${mean.toFixed(1)} ms` + (moving ? `, ${rate.toFixed(0)} a second` : "");
   };
 
   let way: Way = "screen";
@@ -230,6 +231,7 @@ async function open(): Promise<void> {
     place: (gripper) => setup.grippers[gripper]!,
     taken: (gripper) => {
       held = gripper;
+      byId("hint").hidden = true;
       byId<HTMLSelectElement>("gripper").value = String(gripper);
       marks();
     },

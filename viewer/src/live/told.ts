@@ -30,9 +30,10 @@ export function verdictOf({ page, found }: Hanging): { ok: boolean; name: string
   const limits = limitsOf(page);
   const most = worst(limits);
   if (most === null) return { ok: true, name: "kept", text: `All ${limits.length} limits kept` };
-  const { name, value, unit, least, limit } = most;
+  const { name, value, unit, least, limit, where } = most;
   const allowed = `${least ? "at least" : "at most"} ${quantity(limit, unit)} allowed`;
-  return { ok: false, name, text: `${name}: ${quantity(value, unit)}, ${allowed}` };
+  const Name = name.charAt(0).toUpperCase() + name.slice(1);
+  return { ok: false, name, text: `${Name} ${quantity(value, unit)}, ${allowed} (${where})` };
 }
 
 /** The verdict in the head. */
@@ -75,10 +76,9 @@ export function say(refused: Refused | null, hanging: Hanging | null): void {
     const why = refused.refused
       .replace(/\bare (.*) apart at the start/, "would be $1 apart")
       .replace(" starts ", " would be ");
-    parts.push(
-      `${why.charAt(0).toUpperCase()}${why.slice(1)}. `,
-      make("b", {}, "Shown is the last ply that hangs."),
-    );
+    parts.push(`${why.charAt(0).toUpperCase()}${why.slice(1)}.`);
+    // a gripper at the end of its reach is where the picture shows it
+    if (!refused.reached) parts.push(make("b", {}, " Shown is the last ply that hangs."));
   } else if (hanging?.found === false) {
     const why =
       hanging.status.map((status) => ENDS[status]).find((text) => text !== undefined) ??
