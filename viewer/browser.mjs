@@ -31,10 +31,11 @@ export async function startBrowser({ webgl = true } = {}) {
 export async function openReport(
   browser,
   file,
-  { width = 1280, height = 720, dark = false, wait = true, touch = false, hash = "" } = {},
+  { width = 1280, height = 720, dark = false, wait = true, touch = false, hash = "", pixels = 1 } = {},
 ) {
   const context = await browser.newContext({
     viewport: { width, height },
+    deviceScaleFactor: pixels,
     colorScheme: dark ? "dark" : "light",
     hasTouch: touch,
     isMobile: touch,

@@ -50,11 +50,22 @@ describe("live page", { skip: missing ?? false, concurrency: 1 }, () => {
   test("a changed material stands in the saved scene", materialIsSaved);
   test("where no ply can follow the gripper stays, and a sentence says why", overstretchIsSaid);
   test("an address brings back what was set, and a broken one the start", addressesLead);
+  test("an answer is drawn in the frame in which it was asked for", drawnInTheSameFrame);
+  test(
+    "a slow picture is coarser while it moves, hits the gripper all the same, and is fine again at rest",
+    finerAtRest,
+  );
+  test(
+    "numbers beside the picture are those of the last answer, and a drag moves nothing but the ply",
+    numbersFollow,
+  );
+  test("on a phone the picture stays in view while the mold is bent", pictureStays);
   test("on a phone nothing is wider than the screen, and a finger drags", fingerDrags);
 });
 
-async function open({ width = 1000, height = 700, touch = false, hash = "" } = {}) {
-  const opened = await openReport(browser, PAGE, { width, height, touch, hash: `#${hash}`, wait: false });
+async function open({ hash = "", ...options } = {}) {
+  const size = { width: 1000, height: 700 };
+  const opened = await openReport(browser, PAGE, { ...size, ...options, hash: `#${hash}`, wait: false });
   await opened.page.evaluate(() => window.live.ready);
   return opened;
 }
@@ -307,9 +318,154 @@ async function fingerDrags() {
   await touch("touchEnd", []);
   await settled(page);
   const now = await page.evaluate(() => window.live.setup().grippers[6]);
-  assert.ok(now[2] < before[2] - 0.005, `${now} from ${before}`);
+  assert.ok(now[2] < before[2] - 0.003, `${now} from ${before}`);
   assert.equal(await page.evaluate(() => window.scrollY), 0);
   await agrees(page, "finger");
   assert.deepEqual(complaints, []);
+  await context.close();
+}
+
+/** A slider is moved twice; later in the frame that follows, the canvas holds the new picture, and not an empty one. */
+async function drawnInTheSameFrame() {
+  const { page, context } = await open();
+  const [first, second, blank] = await page.evaluate(async () => {
+    const canvas = document.querySelector("#picture");
+    const slider = document.querySelector("#height");
+    const pictures = [];
+    for (const value of ["240", "300"]) {
+      await window.live.idle();
+      slider.value = value;
+      slider.dispatchEvent(new Event("input", { bubbles: true }));
+      // asked for after the page has asked for the frame, and so called after it
+      await new Promise(requestAnimationFrame);
+      pictures.push(canvas.toDataURL());
+    }
+    const empty = document.createElement("canvas");
+    [empty.width, empty.height] = [canvas.width, canvas.height];
+    return [...pictures, empty.toDataURL()];
+  });
+  assert.ok(first !== blank && second !== blank, "neither is empty");
+  assert.ok(first !== second, "the second is another one");
+  await context.close();
+}
+
+async function finerAtRest() {
+  const { page, context, complaints } = await open({ pixels: 2 });
+  const ratio = () =>
+    page.evaluate(() => {
+      const canvas = document.querySelector("#picture");
+      return canvas.width / canvas.clientWidth;
+    });
+  /** The picture after it was drawn `times` times, as text. */
+  const drawn = (times) =>
+    page.evaluate(async (times) => {
+      for (let k = 0; k < times; k++) {
+        // off and on again
+        for (let n = 0; n < 2; n++) document.querySelector("#show-mold").click();
+        await new Promise(requestAnimationFrame);
+      }
+      return document.querySelector("#picture").toDataURL();
+    }, times);
+  const fine = () =>
+    page.waitForFunction(() => {
+      const canvas = document.querySelector("#picture");
+      return canvas.width === 2 * canvas.clientWidth;
+    });
+  assert.equal(await ratio(), 2);
+  const first = await drawn(1);
+
+  // a machine on which every frame takes long
+  await page.evaluate(() => {
+    const slow = () => {
+      const from = performance.now();
+      while (performance.now() - from < 60);
+      window.slow = requestAnimationFrame(slow);
+    };
+    slow();
+  });
+  const coarse = await drawn(8);
+  assert.equal(await ratio(), 1);
+  assert.ok(coarse !== first);
+  await fine();
+  assert.ok((await drawn(1)) === first, "the picture at rest is the one before");
+
+  const before = await page.evaluate(() => window.live.setup().grippers[6]);
+  const [x, y] = await gripperAt(page, 6);
+  const at = (k) => [x - 0.25 * k, y + 0.75 * k];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= 12; k++) await page.mouse.move(...at(k));
+  assert.equal(await ratio(), 1);
+  await page.evaluate(() => window.live.idle());
+  const there = await gripperAt(page, 6);
+  assert.ok(
+    Math.hypot(there[0] - at(12)[0], there[1] - at(12)[1]) < 1,
+    `under the pointer: ${there}, ${at(12)}`,
+  );
+  // it is let go and taken hold of again where it is seen, while the picture is coarse
+  await page.mouse.up();
+  await page.mouse.down();
+  for (let k = 11; k >= 0; k--) await page.mouse.move(...at(k));
+  assert.equal(await ratio(), 1);
+  await page.mouse.up();
+  await settled(page);
+  const after = await page.evaluate(() => window.live.setup().grippers[6]);
+  assert.ok(Math.hypot(...after.map((c, n) => c - before[n])) < 0.001, `${after} from ${before}`);
+  await page.evaluate(() => cancelAnimationFrame(window.slow));
+  await fine();
+  assert.deepEqual(complaints, []);
+  await context.close();
+}
+
+async function numbersFollow() {
+  const { page, context } = await open({ width: 1280, height: 760 });
+  const view = await page.locator("#view").boundingBox();
+  assert.ok(await page.locator("#hint").isVisible());
+  const [x, y] = await gripperAt(page, 2);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  // a machine so fast that all answers come at once
+  await page.evaluate(() => {
+    const now = performance.now();
+    performance.now = () => now;
+  });
+  await page.mouse.move(x - 4, y - 30, { steps: 25 });
+  assert.ok(await page.locator("#hint").isHidden());
+  // the pointer stands, and the button is held: nothing more is asked for
+  await page.waitForFunction(() => {
+    const { grippers } = window.live.setup();
+    const z = Number(document.querySelector("#gripper-z").value);
+    return Math.abs(z - 1000 * grippers[2][2]) < 0.006;
+  });
+  const tilt = await page.evaluate(() => {
+    const { value } = window.live.hanging().page.limits.find(({ name }) => name === "tilt");
+    const row = [...document.querySelectorAll("#limits-body tr")].find((tr) => /^tilt/i.test(tr.textContent));
+    return [value, parseFloat(row.querySelector("td.number").textContent)];
+  });
+  assert.ok(Math.abs(tilt[0] - tilt[1]) < 0.006, tilt.join(", "));
+  assert.deepEqual(await page.locator("#view").boundingBox(), view, "the picture keeps its place and size");
+  await page.mouse.up();
+  await settled(page);
+  // a limit is exceeded: its name, its place and its bound
+  assert.match(
+    await page.locator("#verdict").textContent(),
+    /Tilt \d+(\.\d+)?°, at most 40° allowed \(gripper g\d_\d\)|All 7 limits kept/,
+  );
+  await context.close();
+}
+
+async function pictureStays() {
+  const { page, context } = await open({ width: 390, height: 844, touch: true });
+  await page.locator("#rigidity").scrollIntoViewIfNeeded();
+  await page.evaluate(() => document.querySelector("#mold-name").scrollIntoView({ block: "center" }));
+  assert.ok((await page.evaluate(() => window.scrollY)) > 100);
+  const [view, slider] = [
+    await page.locator("#view").boundingBox(),
+    await page.locator("#height").boundingBox(),
+  ];
+  assert.ok(
+    view.y >= -1 && view.y + view.height <= slider.y,
+    `${view.y} + ${view.height}, the slider at ${slider.y}`,
+  );
   await context.close();
 }

@@ -66,13 +66,14 @@ export class Asker {
 
   private async run(): Promise<void> {
     while (this.wanted !== null) {
-      const wanted = this.wanted;
+      // pointers are heard at the start of a frame, before this: what they want is drawn in the same frame
+      await new Promise(requestAnimationFrame);
+      const { wanted } = this;
       this.wanted = null;
       const told = { ...(await this.follow(wanted)), again: wanted.again };
       this.setup = told.setup;
       await this.tell(told);
       keep(this.shown, performance.now());
-      await new Promise(requestAnimationFrame);
     }
   }
 
@@ -93,7 +94,8 @@ export class Asker {
     const answer = await this.solve(wanted, false);
     if (!("refused" in answer)) {
       const away = Math.hypot(...to.map((c, n) => c - place(wanted)[n]!));
-      const taut = away > SEEN ? { refused: tautTo(wanted.grippers, gripper), help: "" } : null;
+      const taut =
+        away > SEEN ? { refused: tautTo(wanted.grippers, gripper), help: "", reached: true } : null;
       return { setup: wanted, hanging: answer, refused: taut, mold: false };
     }
     // level beside the mold, or else as far towards the place as there is a ply

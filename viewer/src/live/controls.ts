@@ -80,6 +80,7 @@ export function linkControls(
       const [share, text] = shown(setup);
       if (document.activeElement !== input || !input.matches(":active"))
         input.value = String(Math.round(share * STOPS));
+      if (output.textContent === text) return;
       output.textContent = text;
       input.setAttribute("aria-valuetext", text);
     });

@@ -17,9 +17,10 @@ import { Scene3d } from "../scene/scene3d";
 import { Asker, type Told, type Wanted } from "./ask";
 import { linkControls } from "./controls";
 import { linkDrag, WAYS, type Way } from "./drag";
+import { Paced } from "./paced";
 import { hashOf, moved, ofHash, sameMold, sceneOf, start, type Setup } from "./setup";
 import { Solver, type Hanging } from "./solver";
-import { forceMarks, say, showNumbers, showVerdict } from "./told";
+import { forceMarks, say, showNumbers, showVerdict, verdictOf } from "./told";
 
 /** For scripts and tests. */
 export interface LiveHandle {
@@ -64,6 +65,9 @@ const HELP: [string, string][] = [
 
 /** Below this height of an even scale (in its unit) colors would show rounding. */
 const LEAST_RANGE = 0.5;
+
+/** Words and numbers beside the picture are written once in so many milliseconds: the browser lays the page out anew each time. */
+const WRITTEN = 200;
 
 /** Ranges that grow with what was seen, so that colors stay while a gripper moves. */
 class Ranges {
@@ -151,13 +155,18 @@ async function open(): Promise<void> {
     if (written.open) byId("scene-text").textContent = sceneOf(setup);
   };
   written.addEventListener("toggle", showScene);
-  const show = () => {
-    controls.show(wanted);
+  let said: Pick<Told, "refused" | "hanging"> = { refused, hanging };
+  let verdict = "";
+  const words = new Paced(() => {
+    verdict = verdictOf(hanging).name;
+    // sliders stand where the reader holds them, and grippers where they have come
+    controls.show({ ...wanted, grippers: setup.grippers });
     showVerdict(hanging);
     showNumbers(hanging);
     showScene();
-    marks();
-  };
+    say(said.refused, said.hanging);
+    pace();
+  }, WRITTEN);
 
   let fit = false;
   const asker = new Asker(solver, setup, async (told: Told) => {
@@ -172,9 +181,12 @@ async function open(): Promise<void> {
       if (told.mold) scene.renew(fit);
       fit &&= !told.mold;
     }
-    if (!told.again) say(told.refused, hanging);
-    show();
-    pace();
+    if (!told.again) said = { refused: told.refused, hanging };
+    marks();
+    scene.flush();
+    // that a limit is exceeded, or kept again, is said at once
+    if (verdictOf(hanging).name === verdict) words.want();
+    else words.now();
   });
   const want = (next: Setup, dragged: Wanted["dragged"]) => {
     const mold = !sameMold(next, setup);
@@ -191,6 +203,7 @@ async function open(): Promise<void> {
     wanted = setup;
     asker.ask({ setup, dragged: null, mold: true, again: true });
     await asker.idle();
+    words.now();
     const hash = hashOf(setup);
     history.replaceState(null, "", hash === "" ? location.pathname + location.search : `#${hash}`);
   };
@@ -205,7 +218,7 @@ async function open(): Promise<void> {
     const moving = apart.length > 5 && Math.max(...apart) < 250;
     const rate = (1000 * apart.length) / Math.max(1, (frames.at(-1) ?? 0) - (frames[0] ?? 0));
     byId("pace").textContent =
-      `solved in ${mean.toFixed(1)} ms` + (moving ? `, ${rate.toFixed(0)} answers a second` : "");
+      `solved in ${mean.toFixed(1)} ms` + (moving ? `, ${rate.toFixed(0)} a second` : "");
   };
 
   let way: Way = "screen";
@@ -218,6 +231,7 @@ async function open(): Promise<void> {
     place: (gripper) => setup.grippers[gripper]!,
     taken: (gripper) => {
       held = gripper;
+      byId("hint").hidden = true;
       byId<HTMLSelectElement>("gripper").value = String(gripper);
       marks();
     },
@@ -251,14 +265,17 @@ async function open(): Promise<void> {
     ? "guide/sheet.md"
     : "guide/sheet.html";
   byId("program").textContent = hanging.program;
-  say(refused, hanging);
-  show();
+  marks();
+  words.now();
   window.live = {
     ready,
     setup: () => setup,
     scene: () => sceneOf(setup),
     hanging: () => hanging,
-    idle: () => asker.idle(),
+    idle: async () => {
+      await asker.idle();
+      words.now();
+    },
     solves: asker.solves,
     shown: asker.shown,
     onScreen: (place) => {

@@ -32,6 +32,8 @@ export interface Hanging {
 export interface Refused {
   refused: string;
   help: string;
+  /** The ply is shown all the same, with the gripper as near to its place as it comes. */
+  reached?: boolean;
 }
 
 interface Exports {

@@ -2,7 +2,7 @@
 
 import { quantity } from "../data/number";
 import type { GripperId, Limit, PageData, Place } from "../data/page_data";
-import { byId, make } from "../page/dom";
+import { byId, make, renew } from "../page/dom";
 import { limitCells, sign } from "../page/limits";
 import type { Mark } from "../scene/overlay";
 import type { Scene3d } from "../scene/scene3d";
@@ -24,19 +24,24 @@ function worst(limits: Limit[]): Limit | null {
   );
 }
 
-/** The verdict in the head. */
-export function showVerdict({ page, found }: Hanging): void {
-  const badge = byId("verdict");
+/** Whether the ply is as it should be, a name for what is wrong with it, and the sentence that says so. */
+export function verdictOf({ page, found }: Hanging): { ok: boolean; name: string; text: string } {
+  if (!found) return { ok: false, name: "no equilibrium", text: "No equilibrium found" };
   const limits = limitsOf(page);
   const most = worst(limits);
-  const ok = found && most === null;
+  if (most === null) return { ok: true, name: "kept", text: `All ${limits.length} limits kept` };
+  const { name, value, unit, least, limit, where } = most;
+  const allowed = `${least ? "at least" : "at most"} ${quantity(limit, unit)} allowed`;
+  const Name = name.charAt(0).toUpperCase() + name.slice(1);
+  return { ok: false, name, text: `${Name} ${quantity(value, unit)}, ${allowed} (${where})` };
+}
+
+/** The verdict in the head. */
+export function showVerdict(hanging: Hanging): void {
+  const badge = byId("verdict");
+  const { ok, text } = verdictOf(hanging);
   badge.className = ok ? "verdict pass" : "verdict fail";
-  const text = !found
-    ? "No equilibrium found"
-    : most === null
-      ? `All ${limits.length} limits kept`
-      : `${most.name}: ${quantity(most.value, most.unit)}, ${most.least ? "at least" : "at most"} ${quantity(most.limit, most.unit)} allowed`;
-  badge.replaceChildren(sign(ok), text);
+  renew(badge, [sign(ok), text]);
 }
 
 /** The table of limits, and some numbers. */
@@ -44,14 +49,14 @@ export function showNumbers({ page }: Hanging): void {
   const rows = limitsOf(page).map((limit) =>
     make("tr", { class: limit.ok ? "pass" : "fail" }, ...limitCells(limit)),
   );
-  byId("limits-body").replaceChildren(...rows);
+  renew(byId("limits-body"), rows);
   const told = MEASURES.flatMap((key) => page.measures.filter((measure) => measure.key === key)).flatMap(
     ({ label, unit, values: [value = null], where: [at = null] }) =>
       value === null
         ? []
         : [make("dt", {}, label), make("dd", {}, `${quantity(value, unit)}, ${at ?? "nowhere"}`)],
   );
-  byId("numbers").replaceChildren(...told);
+  renew(byId("numbers"), told);
 }
 
 /** How the search ended where it found no equilibrium. */
@@ -71,10 +76,9 @@ export function say(refused: Refused | null, hanging: Hanging | null): void {
     const why = refused.refused
       .replace(/\bare (.*) apart at the start/, "would be $1 apart")
       .replace(" starts ", " would be ");
-    parts.push(
-      `${why.charAt(0).toUpperCase()}${why.slice(1)}. `,
-      make("b", {}, "Shown is the last ply that hangs."),
-    );
+    parts.push(`${why.charAt(0).toUpperCase()}${why.slice(1)}.`);
+    // a gripper at the end of its reach is where the picture shows it
+    if (!refused.reached) parts.push(make("b", {}, " Shown is the last ply that hangs."));
   } else if (hanging?.found === false) {
     const why =
       hanging.status.map((status) => ENDS[status]).find((text) => text !== undefined) ??
@@ -85,7 +89,7 @@ export function say(refused: Refused | null, hanging: Hanging | null): void {
     );
   }
   note.hidden = parts.length === 0;
-  note.replaceChildren(...parts);
+  renew(note, parts);
 }
 
 /** Between grippers that are less than so far apart on the picture there is no room for a force (CSS pixels). */

@@ -158,7 +158,6 @@ export class Comparison {
         "div",
         { class: "view", id: "view-b", role: "img", "aria-label": `3D picture of ${this.other!.title}` },
         make("canvas", { class: "picture" }),
-        make("canvas", { class: "labels", "aria-hidden": "true" }),
         make("b", { class: "letter letter-b" }, "B"),
       );
       byId("pictures").append(view);

@@ -14,6 +14,17 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** Gives an element these children; one that is there already as it shall be stays, and the browser need not lay it out anew. */
+export function renew(element: HTMLElement, children: Child[]): void {
+  children.forEach((child, k) => {
+    const now = element.childNodes[k];
+    const next = typeof child === "string" ? document.createTextNode(child) : child;
+    if (now === undefined) element.append(next);
+    else if (!now.isEqualNode(next)) now.replaceWith(next);
+  });
+  while (element.childNodes.length > children.length) element.lastChild!.remove();
+}
+
 /** The element with an id; the template holds it. */
 // eslint-disable-next-line @typescript-eslint/no-unnecessary-type-parameters -- the template holds the type
 export function byId<T extends HTMLElement = HTMLElement>(id: string): T {

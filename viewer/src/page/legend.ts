@@ -6,7 +6,7 @@ import type { Motion } from "../data/motion";
 import { USES } from "../scene/forces";
 import { fieldsOf, hasSurface, type Field } from "../data/page_data";
 import { fieldInForce, hasOrders } from "../data/ranges";
-import { byId, make } from "./dom";
+import { byId, make, renew } from "./dom";
 import type { Choice, State } from "./state";
 
 /** What the legend says, for scripts. */
@@ -49,7 +49,7 @@ export function linkLegend(state: State, motion: Motion): void {
     orders.checked = now.orders;
     const given = fieldsOf(motion.data, now.model).find(({ key }) => key === now.colour);
     orders.parentElement!.hidden = given === undefined || !hasOrders(given);
-    if (field !== undefined) bar.replaceChildren(...draw(field));
+    if (field !== undefined) renew(bar, draw(field));
   });
 }
 

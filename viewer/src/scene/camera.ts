@@ -21,7 +21,7 @@ const DIRECTIONS: Record<StandardView, Place> = {
 /** Room kept free around the fitted box (CSS pixels): the legend stands on the right, labels below. */
 const MARGIN = { left: 84, right: 156, top: 30, bottom: 48 };
 /** In a narrow picture the legend stands elsewhere. */
-const NARROW = { below: 560, left: 48, right: 30, top: 16, bottom: 40 };
+const NARROW = { below: 560, left: 70, right: 30, top: 16, bottom: 40 };
 
 const stillness = matchMedia("(prefers-reduced-motion: reduce)");
 

@@ -39,7 +39,9 @@ export interface Found {
 const MOST_PIXELS = 2;
 /** A moving picture with slower frames (ms) gets coarser; one that rests this long (ms) is drawn finely again. */
 const SLOW = 40;
-const REST = 300;
+const REST = 250;
+/** A ply with fewer vertices is drawn with all of them: leaving some out would save nothing. */
+const MANY = 20_000;
 
 /** How far mold and axes box are pushed back, as shares of the size of the scene. */
 const MOLD = 0.02;
@@ -61,7 +63,7 @@ export class Scene3d {
   private bounds: Box3;
   private box: AxesBox;
   readonly overlay: Overlay;
-  private waiting = false;
+  private waiting: number | null = null;
   private coarse = false;
   private lastDrawn = 0;
   private slowFrames = 0;
@@ -116,9 +118,10 @@ export class Scene3d {
     if (this.cell !== null) this.scene.add(this.cell.group);
     if (this.sheet !== null) this.scene.add(this.sheet.group);
 
-    const overlay = host.querySelector<HTMLCanvasElement>("canvas.labels")!;
     this.eye = new Eye(canvas, bounds, () => this.draw());
-    this.overlay = new Overlay(overlay, this.box, this.eye);
+    this.overlay = new Overlay(this.box, this.eye);
+    this.overlay.mesh.renderOrder = 8;
+    this.scene.add(this.overlay.mesh);
     new ResizeObserver(() => this.resize()).observe(host);
     canvas.addEventListener("webglcontextrestored", () => this.draw());
     this.resize();
@@ -209,6 +212,7 @@ export class Scene3d {
     this.mold?.ink(themeColour("mold"), themeColour("mold-line"));
     this.cell?.ink(themeColour("cell"), themeColour("cell-line"));
     this.box.ink(themeColour("box-line"));
+    this.overlay.ink();
     this.renderer.setClearColor(new Color(themeColour("surface")));
   }
 
@@ -232,8 +236,9 @@ export class Scene3d {
   private render(): void {
     const ratio = this.renderer.getPixelRatio();
     pixelRatio.value = ratio;
-    resolution.set(this.width * ratio, this.height * ratio);
+    resolution.set(Math.floor(this.width * ratio), Math.floor(this.height * ratio));
     this.box.turn(this.eye);
+    this.overlay.suit(this.width, this.height, ratio, this.state.now.pointer);
     this.renderer.render(this.scene, this.eye.camera);
   }
 
@@ -245,13 +250,16 @@ export class Scene3d {
 
   /** Draws before the next repaint. */
   draw(): void {
-    if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame((now) => {
-      this.waiting = false;
-      this.adapt(now);
-      this.drawNow();
-    });
+    this.waiting ??= requestAnimationFrame(() => this.flush());
+  }
+
+  /** Draws at once what waits to be drawn, for one who is called as a frame begins. */
+  flush(): void {
+    if (this.waiting === null) return;
+    cancelAnimationFrame(this.waiting);
+    this.waiting = null;
+    this.adapt(performance.now());
+    this.drawNow();
   }
 
   private drawNow(): void {
@@ -263,8 +271,6 @@ export class Scene3d {
     this.contacts.suit(apart);
     this.grippers.showWalls(zoom);
     this.render();
-    const ratio = Math.min(devicePixelRatio, MOST_PIXELS);
-    this.overlay.draw(this.width, this.height, ratio, this.state.now.pointer);
   }
 
   /** Fewer triangles and pixels while a moving picture is too slow for this machine. */
@@ -290,7 +296,7 @@ export class Scene3d {
   /** Every second vertex is left out; where cells are small on the screen, all but two or three pieces a side. */
   private stride(): number {
     const n = this.motion.data.divisions;
-    if (n % 2 !== 0) return 1;
+    if (n % 2 !== 0 || this.motion.surface.count < MANY) return 1;
     const small = this.eye.camera.zoom * this.motion.spacing < 60;
     return small ? (n % 3 === 0 ? n / 3 : n / 2) : 2;
   }
@@ -307,10 +313,7 @@ export class Scene3d {
     const sheet = document.createElement("canvas");
     sheet.width = Math.round(this.width * ratio);
     sheet.height = Math.round(this.height * ratio);
-    const pen = sheet.getContext("2d");
-    pen?.drawImage(this.renderer.domElement, 0, 0, sheet.width, sheet.height);
-    this.overlay.draw(this.width, this.height, ratio, this.state.now.pointer);
-    pen?.drawImage(this.overlay.canvas, 0, 0, sheet.width, sheet.height);
+    sheet.getContext("2d")?.drawImage(this.renderer.domElement, 0, 0, sheet.width, sheet.height);
     this.setPixels(before);
     this.drawNow();
     return sheet;
@@ -323,6 +326,7 @@ export class Scene3d {
 
   /** Gives its memory of the graphics card back. */
   free(): void {
+    this.overlay.free();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
   }
