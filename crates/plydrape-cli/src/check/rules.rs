@@ -181,8 +181,20 @@ pub(super) fn tool(scene: &Scene) -> Option<Line> {
     let axes = if axes.is_empty() { "no axes".into() } else { format!("axes {}", axes.join(", ")) };
     let [rate, acceleration] = [tool.turn_rate, tool.turn_acceleration].map(degrees);
     let joints = if scene.tilts() { "" } else { ", pads without joints" };
+    let residual = tool.residual.map_or(String::new(), |most| {
+        format!("; brings grippers to within {} mm", millimetres(most))
+    });
+    let place = |pose: &plydrape::mold::Pose, axis: usize| {
+        let [x, y, z] = pose.position.map(millimetres);
+        // 0.0 takes the sign off a zero
+        let [a, b, c] = pose.axes[axis].map(|c| short((c * 1e4).round() / 1e4 + 0.0));
+        format!("({x}, {y}, {z}) mm, its {} along ({a}, {b}, {c})", ["x", "y", "z"][axis])
+    };
+    let (flange, world) = (place(&tool.flange, 2), place(&tool.world, 0));
     Some((
         "tool",
-        format!("one frame, {axes}{joints}; turns by {rate} deg/s, {acceleration} deg/s²"),
+        format!(
+            "one frame, {axes}{joints}; turns by {rate} deg/s, {acceleration} deg/s²{residual}\nflange in the frame at {flange}\nscene in the robot's world at {world}"
+        ),
     ))
 }
