@@ -171,8 +171,8 @@ pub(super) fn release(scene: &Scene) -> Option<Line> {
 }
 
 /// What carries the grippers, if they do not move by themselves.
-pub(super) fn tool(scene: &Scene) -> Option<Line> {
-    let tool = scene.tool.as_ref()?;
+pub(super) fn tool(scene: &Scene) -> Vec<Line> {
+    let Some(tool) = &scene.tool else { return Vec::new() };
     let axis = |axis: &plydrape::tool::Axis| {
         let [least, most] = axis.stroke.map(millimetres);
         format!("{} {least} to {most} mm", axis.name)
@@ -190,11 +190,10 @@ pub(super) fn tool(scene: &Scene) -> Option<Line> {
         let [a, b, c] = pose.axes[axis].map(|c| short((c * 1e4).round() / 1e4 + 0.0));
         format!("({x}, {y}, {z}) mm, its {} along ({a}, {b}, {c})", ["x", "y", "z"][axis])
     };
-    let (flange, world) = (place(&tool.flange, 2), place(&tool.world, 0));
-    Some((
-        "tool",
-        format!(
-            "one frame, {axes}{joints}; turns by {rate} deg/s, {acceleration} deg/s²{residual}\nflange in the frame at {flange}\nscene in the robot's world at {world}"
-        ),
-    ))
+    let turns = format!("turns by {rate} deg/s, {acceleration} deg/s²{residual}");
+    vec![
+        ("tool", format!("one frame, {axes}{joints}; {turns}")),
+        ("", format!("flange in the frame at {}", place(&tool.flange, 2))),
+        ("", format!("scene in the robot's world at {}", place(&tool.world, 0))),
+    ]
 }

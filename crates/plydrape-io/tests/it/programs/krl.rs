@@ -276,7 +276,10 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
             "WAIT" => {
                 line.expect(&["FOR"]);
                 assert!(data.signals[&word(&mut line)].starts_with("IN"));
-                assert!(played.start_is_off, "an array that is still told to start is not waited for");
+                assert!(
+                    played.start_is_off,
+                    "an array that is still told to start is not waited for"
+                );
             }
             other if line.takes("=") => {
                 assert!(block.is_none() && data.signals[other].starts_with("OUT"), "{other}");
