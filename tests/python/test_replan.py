@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import numpy as np
@@ -51,14 +50,3 @@ def test_what_cannot_be_replanned_is_refused_with_a_remedy(planned: Plan) -> Non
         planned.result.replan(offset={"x": "3"})
     with pytest.raises(PlanError, match="plan"):
         simulate(Scene.read(DOME), model="catenaries").replan(offset=OFFSET)
-
-
-def test_sixteen_grippers_are_corrected_in_a_tenth_of_a_second(planned: Plan) -> None:
-    """Time of all processors together, which does not grow with what else the machine does."""
-    assert planned.result.positions[0].size == 3 * 16
-    needed = []
-    for _ in range(5):
-        begun = time.process_time()
-        planned.result.replan(offset=OFFSET)
-        needed.append(time.process_time() - begun)
-    assert min(needed) < 0.1, needed
