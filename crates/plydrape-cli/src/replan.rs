@@ -5,7 +5,9 @@ use crate::numbers::{degrees, millimetres, short};
 use crate::outcome::{code, is_unsolved};
 use crate::results;
 use plydrape::measure::{Subject, Verdict};
+use plydrape::mold::Pose;
 use plydrape::planner::replan::{Replanned, Replanner};
+use plydrape::tool::Posture;
 use plydrape_io::replan::{PlannedResult, ReplanFault};
 use plydrape_io::scene::{SceneError, SeenOffset, json_offset, read_offset};
 use plydrape_io::{Folder, OutputError, json, read, table, write_into};
@@ -255,13 +257,16 @@ impl<'a> Answer<'a> {
             }
         };
         let flange = planned.scene().tool.as_ref().map(|tool| {
-            let flange = |places: &Vec<[f64; 3]>| {
-                let posture = tool.posture(places);
-                let pose = tool.world.compose(&posture.frame.compose(&tool.flange));
-                let (position, quaternion) = (pose.position, pose.quaternion());
-                Flange { position, quaternion, strokes: posture.strokes }
+            let postures: Vec<_> = positions.iter().map(|places| tool.posture(places)).collect();
+            let pose = |posture: &Posture| tool.world.compose(&posture.frame.compose(&tool.flange));
+            let poses: Vec<Pose> = postures.iter().map(pose).collect();
+            let turns = Pose::quaternions(&poses);
+            let flange = |((posture, pose), quaternion): ((Posture, &Pose), [f64; 4])| Flange {
+                position: pose.position,
+                quaternion,
+                strokes: posture.strokes,
             };
-            positions.iter().map(flange).collect()
+            postures.into_iter().zip(&poses).zip(turns).map(flange).collect()
         });
         let picked_up = replanned.record.picked_up.as_ref();
         let (offset, residual) =

@@ -30,7 +30,7 @@ pub struct Offset {
 #[non_exhaustive]
 pub enum OffsetError {
     /// One point, or none.
-    #[error("{found} points do not say how the ply is turned: give two or more")]
+    #[error("how the ply is turned takes two points or more, and their number is {found}")]
     TooFew {
         /// How many there are.
         found: usize,

@@ -171,8 +171,8 @@ pub(super) fn release(scene: &Scene) -> Option<Line> {
 }
 
 /// What carries the grippers, if they do not move by themselves.
-pub(super) fn tool(scene: &Scene) -> Option<Line> {
-    let tool = scene.tool.as_ref()?;
+pub(super) fn tool(scene: &Scene) -> Vec<Line> {
+    let Some(tool) = &scene.tool else { return Vec::new() };
     let axis = |axis: &plydrape::tool::Axis| {
         let [least, most] = axis.stroke.map(millimetres);
         format!("{} {least} to {most} mm", axis.name)
@@ -181,8 +181,19 @@ pub(super) fn tool(scene: &Scene) -> Option<Line> {
     let axes = if axes.is_empty() { "no axes".into() } else { format!("axes {}", axes.join(", ")) };
     let [rate, acceleration] = [tool.turn_rate, tool.turn_acceleration].map(degrees);
     let joints = if scene.tilts() { "" } else { ", pads without joints" };
-    Some((
-        "tool",
-        format!("one frame, {axes}{joints}; turns by {rate} deg/s, {acceleration} deg/s²"),
-    ))
+    let residual = tool.residual.map_or(String::new(), |most| {
+        format!("; brings grippers to within {} mm", millimetres(most))
+    });
+    let place = |pose: &plydrape::mold::Pose, axis: usize| {
+        let [x, y, z] = pose.position.map(millimetres);
+        // 0.0 takes the sign off a zero
+        let [a, b, c] = pose.axes[axis].map(|c| short((c * 1e4).round() / 1e4 + 0.0));
+        format!("({x}, {y}, {z}) mm, its {} along ({a}, {b}, {c})", ["x", "y", "z"][axis])
+    };
+    let turns = format!("turns by {rate} deg/s, {acceleration} deg/s²{residual}");
+    vec![
+        ("tool", format!("one frame, {axes}{joints}; {turns}")),
+        ("", format!("flange in the frame at {}", place(&tool.flange, 2))),
+        ("", format!("scene in the robot's world at {}", place(&tool.world, 0))),
+    ]
 }

@@ -258,3 +258,24 @@ fn a_duration_that_a_plan_would_ignore_is_refused_by_it() {
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
+
+/// The lines of a tool say where its flange is and where the scene is in the robot's world, because both go into its programs.
+#[test]
+fn the_lines_of_a_tool_say_where_flange_and_world_are() {
+    let tool = "[tool]\naxes = [{ direction = \"z\", stroke = [\"-40 mm\", \"60 mm\"] }]\nresidual = \"2 mm\"\n\
+                flange = { position = [0, 0, \"300 mm\"], rotation = [\"180 deg\", 0, 0] }\n\
+                world = { position = [\"1.4 m\", 0, \"0.5 m\"], rotation = [0, 0, \"90 deg\"] }\n";
+    let output = check(&format!("{}{tool}", in_unit("mm")), &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    let lines: Vec<&str> = shown.lines().skip_while(|line| !line.starts_with("  tool")).collect();
+    assert!(lines[0].ends_with("deg/s²; brings grippers to within 2 mm"), "{shown}");
+    assert_eq!(
+        lines[1..3],
+        [
+            "            flange in the frame at (0, 0, 300) mm, its z along (0, 0, -1)",
+            "            scene in the robot's world at (1400, 0, 500) mm, its x along (0, 1, 0)",
+        ],
+        "{shown}"
+    );
+}

@@ -181,7 +181,7 @@ fn what_cannot_be_replanned_is_refused_with_a_remedy() {
         ("[offset]\ny = \"3 deg\"\n", "is an angle"),
         ("[offset]\nz = 1\n", "is no key here"),
         ("[offset]\nx = nan\n", "is no"),
-        (alone, "do not say how the ply is turned"),
+        (alone, "takes two points or more, and their number is 1"),
         ("[offset]\nx = 3,5\n", "not TOML"),
         (swapped, "from where the others put it"),
     ] {

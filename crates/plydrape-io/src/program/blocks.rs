@@ -105,6 +105,18 @@ impl Blocks {
         self.blocks.iter().map(|block| block.points.len()).sum()
     }
 
+    /// The shortest time between two points (s), if there are any.
+    pub fn shortest(&self) -> Option<f64> {
+        let points = self.blocks.iter().flat_map(|block| &block.points);
+        points.map(|point| point.duration).reduce(f64::min)
+    }
+
+    /// Whether the cell stops where the motion does not, at an event on the way: it goes on later than planned then.
+    pub fn stops_on_the_way(&self) -> bool {
+        let moving = self.blocks.iter().rposition(|block| !block.points.is_empty()).unwrap_or(0);
+        self.blocks[..moving].iter().any(|block| block.wait == 0.0 && !block.events.is_empty())
+    }
+
     /// In parts of so many points at most. A block that is longer than that is cut, and the cell stops there.
     pub fn parts(&self, most: usize) -> Vec<Vec<Block>> {
         let mut parts: Vec<Vec<Block>> = vec![Vec::new()];

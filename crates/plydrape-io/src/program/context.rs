@@ -275,6 +275,11 @@ fn head(track: &Track, blocks: &Blocks, robot: Robot, [part, parts]: [usize; 2])
         blocks.error.position * 1e3,
         blocks.error.angle.to_degrees(),
     ));
+    if let Some(least) = blocks.shortest() {
+        lines.push(format!(
+            "Points are {least:.4} s apart or more: see whether your controller keeps up"
+        ));
+    }
     if limits.zones {
         lines.push(format!(
             "Zones pass points at {:.4} mm or less; the robot stops where the vacuum switches",

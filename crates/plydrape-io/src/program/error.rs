@@ -58,6 +58,18 @@ pub enum ProgramError {
         /// How many are needed.
         needed: usize,
     },
+    /// The arm stops on the way while the axes go on.
+    #[error(
+        "the arm stops on the way, {why}, and the {axes} axes of the array, which another controller moves, would go on without it: let all pads let go at the end (order = \"end\" in [release]), let one controller move arm and axes (--to ros2), or hold the two together in a copy of the template, with --template (plydrape template {format} prints it)"
+    )]
+    ApartOnTheWay {
+        /// The format.
+        format: &'static str,
+        /// Why it stops.
+        why: String,
+        /// How many axes.
+        axes: usize,
+    },
     /// A template that is none, or that asks for what is not there.
     #[error("the template {name} cannot be used: {reason}")]
     Template {

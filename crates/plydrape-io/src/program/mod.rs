@@ -24,6 +24,7 @@ use crate::result::ResultFile;
 use crate::{OutputError, csv};
 use crate::{shown, table};
 use plydrape::mold::Pose;
+use plydrape::mold::vector::{cross, dot, norm};
 use plydrape::motion::MotionError;
 use plydrape::ply::{GripperId, gripper_name};
 pub use plydrape::sheet::{Event, EventKind};
@@ -77,6 +78,9 @@ pub struct Pad {
     pub name: String,
     /// Where the robot holds it in the frame of the mold at each time, turned as the ply turns it.
     pub poses: Vec<Pose>,
+    /// How far its passive joint is tilted at each time (rad): from the direction of the tool, without one from upright. Zero
+    /// without joints.
+    pub tilts: Vec<f64>,
 }
 
 /// The frames of a cell.
@@ -102,19 +106,24 @@ impl Program {
     pub fn of(result: &ResultFile) -> Result<Self, OutputError> {
         let ply = &result.scene.ply;
         let rate = result.plan.as_ref().map(|plan| plan.rate);
-        let (times, pads) = pads(result)?;
+        let (times, mut pads) = pads(result)?;
         let end = times.last().copied().unwrap_or_default();
         let all: Vec<GripperId> = (0..ply.grippers()).map(|n| ply.id(n)).collect();
         let event = |time, kind| Event { time, kind, grippers: all.clone() };
 
         let (flange, axes, frames) = match &result.scene.tool {
             Some(tool) => {
-                let (flange, axes) = carried(tool, &pads, &all);
+                let (flange, axes) = carried(tool, &mut pads, &all);
                 let frames = Frames { mold: tool.world, tool: tool.flange.inverse() };
                 (Some(flange), axes, frames)
             }
             // every gripper is a gantry of its own
-            None => (None, gantries(&pads, &all, result.scene.limits.speed), Frames::default()),
+            None => {
+                for pad in &mut pads {
+                    pad.tilts = pad.poses.iter().map(|pose| tilt(pose, [0.0, 0.0, 1.0])).collect();
+                }
+                (None, gantries(&pads, &all, result.scene.limits.speed), Frames::default())
+            }
         };
         let events = match result.events() {
             [] => vec![event(0.0, EventKind::Grip), event(end, EventKind::Release)],
@@ -167,9 +176,16 @@ impl Program {
         let numbers = |axis: &Axis| {
             axis.values.len() == count && axis.values.iter().all(|value| value.is_finite())
         };
+        let tilts =
+            |pad: &Pad| pad.tilts.len() == count && pad.tilts.iter().all(|tilt| tilt.is_finite());
         let wrong = (self.flange.iter().find(|flange| !poses(flange)).map(|_| "flange"))
             .or_else(|| self.axes.iter().find(|axis| !numbers(axis)).map(|axis| &*axis.name))
-            .or_else(|| self.pads.iter().find(|pad| !poses(&pad.poses)).map(|pad| &*pad.name));
+            .or_else(|| {
+                self.pads
+                    .iter()
+                    .find(|pad| !(poses(&pad.poses) && tilts(pad)))
+                    .map(|pad| &*pad.name)
+            });
         wrong.map_or(Ok(()), |what| Err(ProgramError::Values { what: what.into() }))
     }
 
@@ -183,7 +199,7 @@ impl Program {
 fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), OutputError> {
     let ply = &result.scene.ply;
     let mut pads: Vec<Pad> = (0..ply.grippers())
-        .map(|n| Pad { name: gripper_name(ply.id(n)), poses: Vec::new() })
+        .map(|n| Pad { name: gripper_name(ply.id(n)), poses: Vec::new(), tilts: Vec::new() })
         .collect();
     let mut add = |places: Vec<[f64; 3]>, quaternions: Vec<[f64; 4]>| {
         for ((pad, place), quaternion) in pads.iter_mut().zip(places).zip(quaternions) {
@@ -214,10 +230,17 @@ fn pads(result: &ResultFile) -> Result<(Vec<f64>, Vec<Pad>), OutputError> {
 }
 
 /// The flange and the strokes of a tool that brings the pads to their places.
-fn carried(tool: &Tool, pads: &[Pad], ids: &[GripperId]) -> (Vec<Pose>, Vec<Axis>) {
+fn carried(tool: &Tool, pads: &mut [Pad], ids: &[GripperId]) -> (Vec<Pose>, Vec<Axis>) {
     let count = pads.first().map_or(0, |pad| pad.poses.len());
     let places = |k: usize| pads.iter().map(|pad| pad.poses[k].position).collect::<Vec<_>>();
     let postures: Vec<Posture> = (0..count).map(|k| tool.posture(&places(k))).collect();
+    for pad in pads.iter_mut() {
+        let of = |(pose, posture): (&Pose, &Posture)| match tool.fixed_pads {
+            Some(_) => 0.0,
+            None => tilt(pose, posture.frame.axes[2]),
+        };
+        pad.tilts = pad.poses.iter().zip(&postures).map(of).collect();
+    }
     let flange = postures.iter().map(|posture| posture.frame.compose(&tool.flange)).collect();
     let axis = |n: usize, a: usize| Axis {
         name: format!("{}_{}", pads[n].name, tool.axes[a].name),
@@ -228,6 +251,11 @@ fn carried(tool: &Tool, pads: &[Pad], ids: &[GripperId]) -> (Vec<Pose>, Vec<Axis
     };
     let each = (0..pads.len()).flat_map(|n| (0..tool.axes.len()).map(move |a| (n, a)));
     (flange, each.map(|(n, a)| axis(n, a)).collect())
+}
+
+/// The angle between the normal of a pad and a direction (unit vector, rad).
+fn tilt(pad: &Pose, from: [f64; 3]) -> f64 {
+    norm(cross(pad.axes[2], from)).atan2(dot(pad.axes[2], from))
 }
 
 /// Three axes a gripper, along the axes of the mold's frame.

@@ -144,7 +144,7 @@ impl Robot {
 ///
 /// # Errors
 /// [`ProgramError`] if there is no flange, a tolerance is none, there are more signals than outputs, or a template cannot be
-/// used.
+/// used, or the arm would stop on the way without the axes of another controller.
 pub fn files(
     program: &Program,
     robot: Robot,
@@ -166,6 +166,15 @@ pub fn files(
 
     let track = Track::new(program, !separate);
     let blocks = Blocks::new(&track, tolerance, limits.radii);
+    let parts = blocks.parts(limits.points).len();
+    if separate && templates.is_empty() && (parts > 1 || blocks.stops_on_the_way()) {
+        let why = match parts {
+            1 => "where the vacuum switches".into(),
+            _ => format!("between the {parts} parts of its program"),
+        };
+        let (format, axes) = (robot.name(), program.axes.len());
+        return Err(ProgramError::ApartOnTheWay { format, why, axes }.into());
+    }
     let environment = environment();
     let mut files = Vec::new();
     for context in contexts(&track, &blocks, robot) {

@@ -6,15 +6,16 @@
 //! | `flange x (m)`, `y`, `z`, `qx`, `qy`, `qz`, `qw` | the flange in the frame of the mold, if one arm holds the array |
 //! | `g2_0_z (m)` | an axis |
 //! | `g2_0 vacuum` | 1 while the vacuum of a gripper is on, else 0 |
+//! | `g2_0 tilt (deg)` | the angle of a passive joint; no axis moves it |
 //!
 //! Numbers are in the shortest form that reads back to the same double.
 
 use super::context::rejected;
-use super::pose::quaternion;
 use super::sampling::nearest;
 use super::{Event, EventKind, Program};
 use crate::csv::{number, text as text_of};
 use ::csv::{Error, Writer};
+use plydrape::mold::Pose;
 use plydrape::ply::gripper_name;
 
 /// Name of the file.
@@ -33,17 +34,20 @@ pub fn text(program: &Program) -> Result<String, Error> {
     }
     header.extend(program.axes.iter().map(|axis| format!("{} (m)", axis.name)));
     header.extend(program.grippers().iter().map(|name| format!("{name} vacuum")));
+    header.extend(program.grippers().iter().map(|name| format!("{name} tilt (deg)")));
     let mut table = Writer::from_writer(Vec::new());
     table.write_record(&header)?;
     let vacuum = vacuum(program);
+    let turns = Pose::quaternions(program.flange.iter().flatten());
     for (k, time) in program.times.iter().enumerate() {
         let mut row = vec![number(*time)];
         if let Some(flange) = &program.flange {
             row.extend(flange[k].position.map(number));
-            row.extend(quaternion(&flange[k]).map(number));
+            row.extend(turns[k].map(number));
         }
         row.extend(program.axes.iter().map(|axis| number(axis.values[k])));
         row.extend(vacuum[k].iter().map(|on| u8::from(*on).to_string()));
+        row.extend(program.pads.iter().map(|pad| number(pad.tilts[k].to_degrees())));
         table.write_record(&row)?;
     }
     Ok(head(program) + &text_of(table)?)

@@ -36,12 +36,12 @@ pub(super) fn sampling(program: &Program, tolerance: &Tolerance) -> Sampling {
 /// [`Ros2Error`] if a time is none that ROS 2 can say.
 pub(super) fn flange(program: &Program, kept: &[usize]) -> Result<Option<Path>, Ros2Error> {
     let Some(flange) = &program.flange else { return Ok(None) };
-    let pose = |k: &usize| {
-        let position = flange[*k].position.into();
-        let pose = Pose { position, orientation: quaternion(&flange[*k]).into() };
+    let turns = mold::Pose::quaternions(kept.iter().map(|k| &flange[*k]));
+    let pose = |(k, turn): (&usize, [f64; 4])| {
+        let pose = Pose { position: flange[*k].position.into(), orientation: turn.into() };
         Ok(PoseStamped { header: header(*k, program.times[*k], FRAME)?, pose })
     };
-    let poses = kept.iter().map(pose).collect::<Result<_, Ros2Error>>()?;
+    let poses = kept.iter().zip(turns).map(pose).collect::<Result<_, Ros2Error>>()?;
     Ok(Some(Path { header: header(0, 0.0, FRAME)?, poses }))
 }
 

@@ -126,6 +126,7 @@ fn pads_without_joints_are_turned_as_the_frame() {
                 (0.0, with_joints.grippers[n].position)
             );
             assert!(apart(gripper.normal(), frame.axes[2]) < 1e-9);
+            assert_eq!(program.pads[n].tilts[k], 0.0);
             let pad = &program.pads[n].poses[k];
             assert!((0..3).all(|axis| apart(pad.axes[axis], frame.axes[axis]) < 1e-9), "{pad:?}");
         }
@@ -167,11 +168,20 @@ fn flange_and_strokes_of_a_program_bring_the_pads_to_their_places() {
     let scene = closing(
         "[tool]\naxes = [{ direction = \"z\", stroke = [-0.1, 0.1] }]\nflange = { position = [0, 0, 0.2], rotation = [\"180 deg\", 0, 0.3] }\nworld = { position = [1, 0, 0.5] }",
     );
-    let program = Program::of(&draped(&scene)).unwrap();
+    let result = draped(&scene);
+    let program = Program::of(&result).unwrap();
     assert_eq!(program.frames.mold.position, [1.0, 0.0, 0.5]);
     let names: Vec<&str> = program.axes.iter().map(|axis| axis.name.as_str()).collect();
     assert_eq!(names, ["g0_0_z", "g1_0_z", "g0_1_z", "g1_1_z"]);
     let (flange, mounts) = (program.flange.as_ref().unwrap(), &scene.tool.as_ref().unwrap().mounts);
+    // passive joints, apart from what the tool does
+    let tilts = result.steps.iter().map(|step| step.grippers.iter().map(|g| g.tilt_deg));
+    for (k, step) in tilts.enumerate() {
+        for (pad, tilt_deg) in program.pads.iter().zip(step) {
+            assert!((pad.tilts[k].to_degrees() - tilt_deg).abs() < 1e-6, "{} {k}", pad.name);
+        }
+    }
+    assert!(program.pads.iter().any(|pad| pad.tilts.iter().any(|tilt| *tilt > 0.01)));
     for k in 0..program.times.len() {
         // the flange looks down
         assert!(flange[k].axes[2][2] < -0.9);

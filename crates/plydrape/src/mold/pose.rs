@@ -71,6 +71,20 @@ impl Pose {
         quaternion(self.axes)
     }
 
+    /// The turns of poses that follow each other as unit quaternions (x, y, z, w): the first with w ≥ 0, each other one with the sign
+    /// that is nearer to the one before, so that who interpolates the four numbers gets no jump.
+    #[must_use]
+    pub fn quaternions<'a>(poses: impl IntoIterator<Item = &'a Pose>) -> Vec<[f64; 4]> {
+        let mut before = [0.0, 0.0, 0.0, 1.0];
+        let signed = |pose: &Pose| {
+            let next = pose.quaternion();
+            let cosine: f64 = before.iter().zip(next).map(|(a, b)| a * b).sum();
+            before = if cosine < 0.0 { next.map(|q| -q) } else { next };
+            before
+        };
+        poses.into_iter().map(signed).collect()
+    }
+
     /// A local point in space (m).
     #[must_use]
     pub fn place(&self, local: [f64; 3]) -> [f64; 3] {

@@ -46,10 +46,11 @@ pub fn cell(axes: usize, samples: usize) -> Program {
     };
     let height = |n: usize, t: f64| 0.05 * (3.0 * way(t) + n as f64).sin();
     let place = |n: usize| [0.1 * (n % 2) as f64 - 0.05, 0.1 * (n / 2) as f64 - 0.05, 0.12];
+    let lean = |t: f64| 0.1 * way(t);
     let pad = |n: usize, t: f64| {
         let [x, y, z] = place(n);
         let own = if n < axes { height(n, t) } else { 0.0 };
-        let tilt = Pose::new([x, y, z + own], [0.1 * way(t), 0.0, 0.0]);
+        let tilt = Pose::new([x, y, z + own], [lean(t), 0.0, 0.0]);
         product(&flange(t), &tilt)
     };
     let event = |time, kind, ids: &[[usize; 2]]| Event { time, kind, grippers: ids.to_vec() };
@@ -71,6 +72,7 @@ pub fn cell(axes: usize, samples: usize) -> Program {
             .map(|n| Pad {
                 name: gripper_name(IDS[n]),
                 poses: times.iter().map(|t| pad(n, *t)).collect(),
+                tilts: times.iter().map(|t| lean(*t)).collect(),
             })
             .collect(),
         events: vec![
@@ -88,6 +90,13 @@ pub fn cell(axes: usize, samples: usize) -> Program {
         rate: Some((samples - 1) as f64 / DURATION),
         times,
     }
+}
+
+/// The same without a release while the arm moves.
+pub fn still(program: Program) -> Program {
+    let mut events = program.events;
+    events[3].time = events[2].time;
+    Program { events, ..program }
 }
 
 pub fn rejected(program: Program) -> Program {
@@ -128,6 +137,8 @@ pub struct Played {
     pub vacuum: Vec<(f64, String, bool)>,
     pub frames: Option<Frames>,
     pub starts_array: bool,
+    /// Whether the signal that starts the array was set off at last.
+    pub start_is_off: bool,
 }
 
 /// The angle of the turn from one orientation to another (rad), by its trace and its axis.
@@ -155,6 +166,12 @@ fn towards(from: &Pose, to: &Pose, share: f64) -> Pose {
 const ROUNDING: Deviation = Deviation { position: 2e-7, angle: 2e-7 };
 
 impl Played {
+    /// The signal that starts the array.
+    pub fn start_signal(&mut self, on: bool) {
+        self.starts_array |= on;
+        self.start_is_off = !on;
+    }
+
     /// Compares with a program at all of its samples.
     pub fn compare(&self, program: &Program, stated: Deviation) {
         let frames = self.frames.expect("frames");
@@ -244,13 +261,16 @@ pub fn compare_wide(text: &str, program: &Program) {
             assert_eq!(number(&format!("{} (m)", axis.name)), axis.values[k]);
         }
         let on = IDS.map(|id| number(&format!("{} vacuum", gripper_name(id))));
-        let due = match program.times[k] {
-            t if t < 4.8 - 1e-9 => [1.0; 4],
-            t if t < 7.0 - 1e-9 => [0.0, 1.0, 1.0, 1.0],
-            t if t < DURATION => [0.0, 0.0, 1.0, 1.0],
-            _ => [0.0; 4],
+        let released = |id: [usize; 2]| {
+            let past = program.events.iter().filter(|e| e.time <= program.times[k] + 1e-9);
+            past.filter(|e| e.kind == EventKind::Release).any(|e| e.grippers.contains(&id))
         };
+        let due = IDS.map(|id| if released(id) { 0.0 } else { 1.0 });
         assert_eq!(on, due, "{}", program.times[k]);
+        for pad in &program.pads {
+            let found = number(&format!("{} tilt (deg)", pad.name));
+            assert_eq!(found, pad.tilts[k].to_degrees());
+        }
         count += 1;
     }
     assert_eq!(count, program.times.len());

@@ -154,6 +154,7 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
 
     let mut used: BTreeSet<String> = BTreeSet::new();
     let mut set: BTreeSet<String> = BTreeSet::new();
+    let mut percents: BTreeMap<String, f64> = BTreeMap::new();
     let (mut loops, mut ended) = (0, false);
     let mut block: Option<Spline> = None;
     for mut line in lines {
@@ -172,9 +173,12 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
                 "IPO_MODE" => line.expect(&["#", "BASE"]),
                 "BASE" => line.expect(&["PLY_MOLD"]),
                 "TOOL" => line.expect(&["PLY_TOOL"]),
-                "VEL_AXIS" | "ACC_AXIS" => {
+                // slow up to the start, and as fast as they go behind it
+                "VEL_AXIS" | "ACC_AXIS" | "VEL_EXTAX" | "ACC_EXTAX" => {
                     let percent = line.number();
-                    assert!(loops == 1 && percent > 0.0 && percent <= 20.0);
+                    let most = if played.points.is_empty() { 20.0 } else { 100.0 };
+                    assert!(loops == 1 && percent > 0.0 && percent <= most);
+                    percents.insert(name.clone(), percent);
                 }
                 "VEL.CP" | "VEL.ORI1" | "VEL.ORI2" => assert!(line.number() > 0.0),
                 other => panic!("{other}"),
@@ -204,7 +208,8 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
             }
             "FOR" => {
                 line.expect(&["I", "="]);
-                assert_eq!((line.number(), line.takes("TO"), line.number()), (1.0, true, 6.0));
+                assert_eq!((line.number(), line.takes("TO")), (1.0, true));
+                assert!((1.0..=6.0).contains(&line.number()));
                 loops += 1;
             }
             "ENDFOR" => loops -= 1,
@@ -216,10 +221,17 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
                 let point = word(&mut line);
                 let (pose, axes) = data.points[&point].clone();
                 assert!(played.points.is_empty() && used.insert(point));
+                assert_eq!(
+                    axes.is_empty(),
+                    !set.contains("VEL_EXTAX"),
+                    "external axes start slowly too"
+                );
                 played.points.push(Point { time: *time, pose, axes });
             }
             "SPLINE" => {
                 assert!(block.is_none() && set.contains("VEL.CP"));
+                // a time cannot be kept by axes that are held back
+                assert!(percents.values().all(|percent| *percent == 100.0), "{percents:?}");
                 block = Some((Vec::new(), None));
             }
             "TIME_BLOCK" => {
@@ -264,6 +276,10 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
             "WAIT" => {
                 line.expect(&["FOR"]);
                 assert!(data.signals[&word(&mut line)].starts_with("IN"));
+                assert!(
+                    played.start_is_off,
+                    "an array that is still told to start is not waited for"
+                );
             }
             other if line.takes("=") => {
                 assert!(block.is_none() && data.signals[other].starts_with("OUT"), "{other}");
@@ -273,7 +289,7 @@ fn run(name: &str, all: &BTreeMap<String, (String, Data)>, played: &mut Played, 
                 }
                 match other.strip_prefix("VAC_") {
                     Some(gripper) => played.vacuum.push((*time, gripper.to_lowercase(), on)),
-                    None => played.starts_array |= on,
+                    None => played.start_signal(on),
                 }
             }
             other => {

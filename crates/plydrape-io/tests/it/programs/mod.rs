@@ -11,8 +11,9 @@ mod tokens;
 mod urscript;
 
 use cell::{Played, cell, rejected, text};
+use plydrape::mold::Pose;
 use plydrape_io::export::Files;
-use plydrape_io::program::{Program, Robot, Template, Tolerance, template, wide};
+use plydrape_io::program::{Pad, Program, Robot, Template, Tolerance, template, wide};
 
 fn files(program: &Program, robot: Robot, position: f64) -> Files {
     let tolerance = Tolerance { position, ..Tolerance::default() };
@@ -56,7 +57,7 @@ fn what_a_controller_reads_is_the_program_within_the_stated_error() {
 #[test]
 fn axes_beyond_a_controllers_own_go_to_a_table_beside_it() {
     for (robot, axes) in [(Robot::Rapid, 7), (Robot::Krl, 12), (Robot::Urscript, 4)] {
-        let program = cell(axes, 1001);
+        let program = cell::still(cell(axes, 1001));
         let files = files(&program, robot, 1e-4);
         assert_eq!(names(&files).last(), Some(&wide::FILE));
         let head = text(&files, 0);
@@ -66,6 +67,89 @@ fn axes_beyond_a_controllers_own_go_to_a_table_beside_it() {
         assert!(played.starts_array);
         played.compare(&program, cell::stated(&files));
         cell::compare_wide(&text(&files, files.len() - 1), &program);
+    }
+}
+
+/// An arm that stops at a release on the way leaves axes behind that another controller moves: refused, unless the user's own
+/// template holds the two together.
+#[test]
+fn axes_of_another_controller_are_not_left_to_run_on_while_the_arm_stops() {
+    for (robot, axes) in [(Robot::Rapid, 7), (Robot::Krl, 7), (Robot::Urscript, 1)] {
+        let program = cell(axes, 1001);
+        let fault = refused(&program, robot, &[]);
+        assert!(fault.contains("stops on the way, where the vacuum switches"), "{fault}");
+        assert!(fault.contains("order = \"end\"") && fault.contains("--template"), "{fault}");
+        let (ending, text) = robot.shipped()[0];
+        let own = Template { name: format!("cell.{ending}.j2"), text: text.into() };
+        template::files(&program, robot, &[own], &Tolerance::default()).unwrap();
+    }
+    let long = cell::still(cell(7, 20_001));
+    let fine = Tolerance { position: 1e-8, ..Tolerance::default() };
+    let fault = template::files(&long, Robot::Rapid, &[], &fine).unwrap_err().to_string();
+    assert!(fault.contains("between the") && fault.contains("parts of its program"), "{fault}");
+}
+
+/// The head states the shortest time between two points, which a controller must keep up with.
+#[test]
+fn a_head_says_how_close_its_points_are_in_time() {
+    for position in [1e-3, 1e-5] {
+        let files = files(&cell(6, 1001), Robot::Rapid, position);
+        let head = text(&files, 0);
+        let line = head.lines().find(|line| line.contains("apart or more")).unwrap();
+        let stated: f64 = line.split_whitespace().nth(3).unwrap().parse().unwrap();
+        let played = played(Robot::Rapid, &files);
+        let gaps = played.points.windows(2).filter(|pair| !pair[1].pose.eq(&pair[0].pose));
+        let least = gaps.map(|pair| pair[1].time - pair[0].time).fold(f64::INFINITY, f64::min);
+        assert!((stated - least).abs() < 1e-4, "{stated} {least}");
+    }
+}
+
+/// 18 grippers of a UR use its eight standard, eight configurable and two outputs at the tool, each by its own function: the
+/// old `set_digital_out` switches the tool's at 8 and 9.
+#[test]
+fn a_ur_switches_each_output_by_the_function_of_its_kind() {
+    let mut program = cell(0, 101);
+    let pad = program.pads[0].clone();
+    for n in program.pads.len()..18 {
+        program.pads.push(Pad { name: format!("g{n}_5"), ..pad.clone() });
+    }
+    let all = (0..18).map(|n| if n < 4 { cell::IDS[n] } else { [n, 5] }).collect();
+    program.events.truncate(1);
+    program.events[0].grippers = all;
+    let text = text(&files(&program, Robot::Urscript, 1e-3), 0);
+    for line in [
+        "set_standard_digital_out(7, True)",
+        "set_configurable_digital_out(0, True)",
+        "set_configurable_digital_out(7, True)",
+        "set_tool_digital_out(0, True)",
+        "set_tool_digital_out(1, True)",
+        "# configurable output 1: vacuum of g9_5",
+    ] {
+        assert!(text.contains(line), "{line}");
+    }
+}
+
+/// Who interpolates the four numbers of a row gets no jump where the flange turns through half a turn.
+#[test]
+fn quaternions_of_a_table_keep_their_sign() {
+    let mut program = cell(0, 1001);
+    // about half a turn about x, as a flange that looks down, a little to this side and that
+    let flange = program.times.iter().map(|t| {
+        Pose::new([0.0; 3], [std::f64::consts::PI + 0.01 * (9.0 * t).sin(), 0.0, 0.1 * t])
+    });
+    program.flange = Some(flange.collect());
+    let table = wide::text(&program).unwrap();
+    let rows: Vec<[f64; 4]> = table
+        .lines()
+        .skip(1)
+        .map(|row| {
+            let row: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+            [row[4], row[5], row[6], row[7]]
+        })
+        .collect();
+    for pair in rows.windows(2) {
+        let cosine: f64 = pair[0].iter().zip(pair[1]).map(|(a, b)| a * b).sum();
+        assert!(cosine > 0.99, "{pair:?}");
     }
 }
 
@@ -108,7 +192,7 @@ fn a_rejected_motion_says_so_in_its_head() {
 /// Same program, same bytes.
 #[test]
 fn a_program_is_written_alike_every_time() {
-    let program = cell(6, 1001);
+    let program = cell::still(cell(6, 1001));
     for robot in Robot::ALL {
         assert!(files(&program, robot, 1e-4) == files(&program, robot, 1e-4));
     }

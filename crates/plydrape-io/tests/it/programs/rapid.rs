@@ -15,11 +15,19 @@ const ZONES: [&str; 15] = [
 
 #[derive(Debug)]
 enum Statement {
-    Move { linear: bool, pose: Pose, axes: Vec<f64>, duration: Option<f64>, fine: bool },
+    Move {
+        linear: bool,
+        pose: Pose,
+        axes: Vec<f64>,
+        duration: Option<f64>,
+        fine: bool,
+    },
     Output(String, bool),
     Wait(f64),
     WaitInput(String),
     Call(String),
+    /// Whether configurations of the arm are watched.
+    Monitor(bool),
 }
 
 /// Reads all modules and plays the procedure that calls the others, or the only one.
@@ -59,7 +67,7 @@ pub fn play(files: &Files) -> Played {
 
 fn run(name: &str, all: &BTreeMap<String, Vec<Statement>>, played: &mut Played, time: &mut f64) {
     // outputs are switched where the arm stands
-    let mut stands = true;
+    let (mut stands, mut monitored) = (true, true);
     for statement in &all[name] {
         match statement {
             Statement::Move { linear, pose, axes, duration, fine } => {
@@ -74,7 +82,7 @@ fn run(name: &str, all: &BTreeMap<String, Vec<Statement>>, played: &mut Played, 
                     Some(gripper) => played.vacuum.push((*time, gripper.into(), *on)),
                     None => {
                         assert_eq!(signal, "array_start");
-                        played.starts_array |= *on;
+                        played.start_signal(*on);
                     }
                 }
             }
@@ -84,11 +92,19 @@ fn run(name: &str, all: &BTreeMap<String, Vec<Statement>>, played: &mut Played, 
                 let last = played.points.last().unwrap().clone();
                 played.points.push(Point { time: *time, ..last });
             }
-            Statement::WaitInput(signal) => assert_eq!(signal, "array_ready"),
+            Statement::WaitInput(signal) => {
+                assert_eq!(signal, "array_ready");
+                assert!(
+                    played.start_is_off,
+                    "an array that is still told to start is not waited for"
+                );
+            }
+            Statement::Monitor(on) => monitored = *on,
             Statement::Call(other) => run(other, all, played, time),
         }
     }
     assert!(stands, "it ends at rest");
+    assert!(monitored, "what runs next has its arm configurations watched again");
 }
 
 fn identifier(reader: &mut Reader) -> String {
@@ -150,8 +166,12 @@ fn statement(reader: &mut Reader) -> Option<Statement> {
     let word = identifier(reader);
     let statement = match word.as_str() {
         "ConfJ" | "ConfL" => {
-            reader.expect(&["\\", "Off", ";"]);
-            return None;
+            reader.expect(&["\\"]);
+            let on = reader.takes("On");
+            if !on {
+                reader.expect(&["Off"]);
+            }
+            Statement::Monitor(on)
         }
         "MoveJ" | "MoveL" => return Some(movement(reader, word == "MoveL")),
         "SetDO" => {
@@ -196,7 +216,8 @@ fn movement(reader: &mut Reader, linear: bool) -> Statement {
         assert!(seconds > 0.0);
         duration = Some(seconds);
     } else {
-        assert_eq!(identifier(reader), "v50");
+        // the axes come to the start as slowly as the arm
+        assert_eq!(reader.list::<4>(), [50.0, 30.0, 50.0, 30.0]);
     }
     reader.expect(&[","]);
     let zone = identifier(reader);

@@ -9,7 +9,7 @@ use plydrape_io::program::Frames;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The functions of the language that may be called.
-const FUNCTIONS: [&str; 13] = [
+const FUNCTIONS: [&str; 15] = [
     "set_tcp",
     "get_steptime",
     "floor",
@@ -20,8 +20,10 @@ const FUNCTIONS: [&str; 13] = [
     "stopj",
     "movel",
     "sync",
-    "get_digital_in",
-    "set_digital_out",
+    "get_standard_digital_in",
+    "set_standard_digital_out",
+    "set_configurable_digital_out",
+    "set_tool_digital_out",
     "sleep",
 ];
 
@@ -45,12 +47,12 @@ fn pose(reader: &mut Reader) -> Pose {
     Pose { position: [x, y, z], axes: unit.map(|e| turned(vector, e)) }
 }
 
-/// The outputs of the vacuum, by the comments that name them.
-fn outputs(text: &str) -> BTreeMap<usize, String> {
+/// The outputs of the vacuum, by the comments that name them: the kind, the number among its kind, the gripper.
+fn outputs(text: &str) -> BTreeMap<(String, usize), String> {
     let named = text.lines().filter_map(|line| {
-        let (output, gripper) =
-            line.trim().strip_prefix("# output ")?.split_once(": vacuum of ")?;
-        Some((output.parse().unwrap(), gripper.to_owned()))
+        let (output, gripper) = line.trim().strip_prefix("# ")?.split_once(": vacuum of ")?;
+        let (kind, number) = output.split_once(" output ")?;
+        Some(((kind.to_owned(), number.parse().unwrap()), gripper.to_owned()))
     });
     named.collect()
 }
@@ -157,19 +159,23 @@ fn script(name: &str, text: &str, played: &mut Played) {
                 let last = played.points.last().unwrap().clone();
                 played.points.push(Point { time, ..last });
             }
-            "set_digital_out" => {
+            "set_standard_digital_out"
+            | "set_configurable_digital_out"
+            | "set_tool_digital_out" => {
+                let kind = first.trim_start_matches("set_").trim_end_matches("_digital_out");
                 reader.expect(&["("]);
                 let output = reader.number();
-                assert!((0.0..18.0).contains(&output) && output.fract() == 0.0);
+                let most = if kind == "tool" { 2.0 } else { 8.0 };
+                assert!((0.0..most).contains(&output) && output.fract() == 0.0, "{kind} {output}");
                 reader.expect(&[","]);
                 let on = reader.takes("True");
                 if !on {
                     reader.expect(&["False"]);
                 }
                 reader.expect(&[")"]);
-                match outputs.get(&(output as usize)) {
+                match outputs.get(&(kind.to_owned(), output as usize)) {
                     Some(gripper) => played.vacuum.push((time, gripper.clone(), on)),
-                    None => played.starts_array |= on,
+                    None => played.start_signal(on),
                 }
             }
             other => panic!("line {number}: {other}"),
