@@ -12,6 +12,7 @@ use super::diagnostic;
 use super::error::{Document, SceneError, excerpt};
 use super::file::{MoldTable, SceneKeys};
 use super::located::Located;
+use super::tree::{Fault, read_table};
 use super::{SceneFile, mold, named, open, read};
 use plydrape::mold::{Layer, Layers, MeshReport, Mold, Raised, overlap};
 use serde::Deserialize;
@@ -137,8 +138,8 @@ pub(super) fn refused_as_scene(document: &Document) -> SceneError {
 }
 
 fn book(document: &Document, base: &Path) -> Result<Book, SceneError> {
-    let fault = |error: toml::de::Error| diagnostic::scene_error(document, &error);
-    let root = DeTable::parse(&document.text).map_err(fault)?;
+    let fault = |fault: Fault| diagnostic::scene_error(document, fault);
+    let root = DeTable::parse(&document.text).map_err(|error| fault(error.into()))?;
     let whole = root.span();
     let mut shared = root.into_inner();
     let entries = entries(&mut shared, document)?;
@@ -156,7 +157,7 @@ fn book(document: &Document, base: &Path) -> Result<Book, SceneError> {
                 "add [mold] with kind = \"plane\", or another one; all plies share it",
             ));
         }
-        of_table(table, 0..0).map_err(fault)?
+        read_table(table, 0..0).map_err(fault)?
     };
     let title = check::title(head.title.as_ref(), document, base)?;
     shared.remove("title");
@@ -246,13 +247,6 @@ fn entries<'i>(
     Ok(tables)
 }
 
-fn of_table<'i, T: Deserialize<'i>>(
-    table: DeTable<'i>,
-    span: Range<usize>,
-) -> Result<T, toml::de::Error> {
-    T::deserialize(toml::de::Deserializer::from(Spanned::new(span, table)))
-}
-
 /// One of `[[plies]]` as the keys of a scene.
 fn reading<'a>(
     mut entry: DeTable<'_>,
@@ -262,7 +256,7 @@ fn reading<'a>(
     document: &'a Document,
     base: &Path,
 ) -> Result<Reading<'a>, SceneError> {
-    let fault = |error: toml::de::Error| diagnostic::scene_error(document, &error);
+    let fault = |fault: Fault| diagnostic::scene_error(document, fault);
     let text = document.text.get(span.clone()).unwrap_or_default();
     let header = span.start..span.start + text.find('\n').unwrap_or(text.len());
     let refused =
@@ -287,7 +281,7 @@ fn reading<'a>(
             Some((k, entry.remove(key)?))
         })
         .collect();
-    let own: Entry = of_table(own, span.clone()).map_err(fault)?;
+    let own: Entry = read_table(own, span.clone()).map_err(fault)?;
     let name = match (&own.name, &own.scene) {
         (Some(name), _) if name.value.trim().is_empty() => {
             return refused(
@@ -330,7 +324,7 @@ fn reading<'a>(
             "add [ply] to the book for what all plies share, and ply = { size = [\"300 mm\", \"200 mm\"] } or the like here",
         );
     }
-    let keys: SceneKeys = of_table(keys, whole.clone()).map_err(fault)?;
+    let keys: SceneKeys = read_table(keys, whole.clone()).map_err(fault)?;
     Ok(Reading {
         name,
         keys,

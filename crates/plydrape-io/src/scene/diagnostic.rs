@@ -3,13 +3,15 @@
 use super::choice::MIDDLE;
 use super::error::{Document, SceneError, excerpt};
 use super::read::BACKSLASHES;
+use super::tree::{Fault, WORD_WANTED};
 use crate::file_kind::edits;
 use std::ops::Range;
 
 /// A diagnostic of the TOML reader or of serde as a [`SceneError`].
-pub(super) fn scene_error(document: &Document, error: &toml::de::Error) -> SceneError {
-    let mut span = error.span().unwrap_or(0..0);
-    let text = error.message().trim();
+pub(super) fn scene_error(document: &Document, fault: impl Into<Fault>) -> SceneError {
+    let Fault { message, span } = fault.into();
+    let mut span = span.unwrap_or(0..0);
+    let text = message.trim();
     let (head, expected) = match text.split_once(", expected ") {
         Some((head, expected)) => (head, expected),
         None => (text, ""),
@@ -42,7 +44,7 @@ pub(super) fn scene_error(document: &Document, error: &toml::de::Error) -> Scene
         )
     } else if head.starts_with("invalid value: string") {
         (format!("{} is no choice here", document.quoted(&span)), remedy(expected))
-    } else if text == "wanted string or table" {
+    } else if text == WORD_WANTED {
         let remedy = "a choice in double quotes is wanted, as in kind = \"plane\"";
         (format!("{} is {}", document.quoted(&span), kind_of(document, &span)), remedy.into())
     } else if head.starts_with("invalid type") || head.starts_with("invalid value") {

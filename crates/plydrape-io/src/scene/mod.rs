@@ -3,7 +3,7 @@
 //! A file becomes a scene in three stages, each refusing what it cannot pass on with the place in
 //! the file, what is wrong there and what would be right ([`SceneError`]):
 //!
-//! 1. `read`, `diagnostic`: bytes become a text, a text the keys of `file`;
+//! 1. `read`, `tree`, `diagnostic`: bytes become a text, a text the keys of `file`;
 //! 2. `quantity`, `units`: values with a unit become SI numbers of the expected dimension;
 //! 3. `check` with `bodies`, `cut`, `dxf`, `material`, `curve`, `mold`, `settings`, `layup`, `target`, `start`, `motion`, `trajectory`, `limits`,
 //!    `sheet`, `plan`, `errors`, `tool`, `release`: numbers become a [`Scene`], with what else the file says a [`SceneFile`].
@@ -47,6 +47,7 @@ mod start;
 mod target;
 mod tool;
 mod trajectory;
+mod tree;
 mod units;
 mod usual;
 
@@ -67,6 +68,7 @@ use plydrape::scene::{Model, Scene};
 use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use toml::de::{DeTable, DeValue};
 
 /// A commented scene to start from.
 pub const TEMPLATE: &str = include_str!("template.toml");
@@ -188,21 +190,23 @@ fn scene(document: &error::Document, base: &Path) -> Result<SceneFile, SceneErro
 
 /// Files that a text may name: every value that is the path of one, relative to `base`.
 fn named(document: &error::Document, base: &Path) -> Vec<PathBuf> {
-    fn search(value: &toml::Value, base: &Path, out: &mut Vec<PathBuf>) {
+    fn search(value: &DeValue, base: &Path, out: &mut Vec<PathBuf>) {
         match value {
-            toml::Value::String(name) => {
-                out.extend(Some(base.join(name)).filter(|path| path.is_file()));
+            DeValue::String(name) => {
+                out.extend(Some(base.join(&**name)).filter(|path| path.is_file()));
             }
-            toml::Value::Array(values) => values.iter().for_each(|value| search(value, base, out)),
-            toml::Value::Table(table) => {
-                table.values().for_each(|value| search(value, base, out));
+            DeValue::Array(values) => {
+                values.iter().for_each(|value| search(value.get_ref(), base, out));
+            }
+            DeValue::Table(table) => {
+                table.values().for_each(|value| search(value.get_ref(), base, out));
             }
             _ => {}
         }
     }
     let mut out = Vec::new();
-    if let Ok(table) = document.text.parse::<toml::Table>() {
-        search(&toml::Value::Table(table), base, &mut out);
+    if let Ok(table) = DeTable::parse(&document.text) {
+        search(&DeValue::Table(table.into_inner()), base, &mut out);
     }
     out
 }

@@ -1,7 +1,7 @@
 //! From bytes to a text, and from a text to the keys of a file.
 
-use super::diagnostic;
 use super::error::{Document, SceneError, Unread};
+use super::{diagnostic, tree};
 use crate::file_kind::{self, FileKind};
 use crate::{input, shown};
 use serde::de::DeserializeOwned;
@@ -143,5 +143,5 @@ fn reason(error: &std::io::Error) -> String {
 
 /// Reads the keys of a TOML text.
 pub(super) fn keys<T: DeserializeOwned>(document: &Document) -> Result<T, SceneError> {
-    toml::from_str(&document.text).map_err(|error| diagnostic::scene_error(document, &error))
+    tree::read(&document.text).map_err(|fault| diagnostic::scene_error(document, fault))
 }
