@@ -27,6 +27,7 @@ mod file;
 mod fit;
 mod heading;
 mod ideal;
+mod lab_table;
 mod layup;
 mod limits;
 mod located;
